@@ -15,10 +15,10 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 /// Maximum scoring time (requirement).
-const MAX_TIME: Duration = Duration::from_millis(500);
+const MAX_SCORING_TIME: Duration = Duration::from_millis(500);
 /// Maximum time from a telemetry sample to the cue that it changes (requirement).
 const MAX_CUE_LATENCY: Duration = Duration::from_millis(100);
-const FLIGHT_S: f64 = 1500.0;
+const FLIGHT_DURATION_S: f64 = 1500.0;
 const ROUNDS: usize = 7;
 
 /// Generates a long flight with typical message rates of a busy link: 340 frames per second, including `clearance` at
@@ -27,7 +27,7 @@ fn long_flight() -> Vec<Vec<u8>> {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     let mut legs = 0;
-    while f64::from(tape.now_ms) < (FLIGHT_S - 60.0) * 1000.0 {
+    while f64::from(tape.now_ms) < (FLIGHT_DURATION_S - 60.0) * 1000.0 {
         let north = f64::from(legs % 4) * 20.0;
         tape.fly((200.0, north, 10.0), 4.0);
         tape.snapshot(legs);
@@ -98,7 +98,7 @@ fn main() -> ExitCode {
     let scenario = scenario(tasks.collect());
     let datagrams = long_flight();
     let log = job::log_of(&datagrams, 0);
-    let grade = || assess_log(&log, &scenario, &vehicle(), test_survey).map(|graded| graded.frames.len());
+    let grade = || assess_log(&log, &scenario, &vehicle(), test_survey).map(|assessed_session| assessed_session.frames.len());
     let frames = grade();
     let assess = best(ROUNDS, grade);
     let read = best(ROUNDS, || log.iter().fold(0u64, |sum, byte| sum.wrapping_mul(31).wrapping_add(u64::from(*byte))));
@@ -107,10 +107,10 @@ fn main() -> ExitCode {
     println!(
         "scoring: {:.3} s ({:.0} x real time, {:.1} x the time to hash the log once); limit {:.1} s: {}",
         assess.as_secs_f64(),
-        FLIGHT_S / assess.as_secs_f64(),
+        FLIGHT_DURATION_S / assess.as_secs_f64(),
         assess.as_secs_f64() / read.as_secs_f64(),
-        MAX_TIME.as_secs_f64(),
-        if assess <= MAX_TIME { "ok" } else { "EXCEEDED" },
+        MAX_SCORING_TIME.as_secs_f64(),
+        if assess <= MAX_SCORING_TIME { "ok" } else { "EXCEEDED" },
     );
     let (slowest, change) = cue_latency(&scenario, &datagrams);
     println!(
@@ -120,5 +120,5 @@ fn main() -> ExitCode {
         MAX_CUE_LATENCY.as_millis(),
         if slowest <= MAX_CUE_LATENCY { "ok" } else { "EXCEEDED" },
     );
-    ExitCode::from(u8::from(frames.is_err() || assess > MAX_TIME || slowest > MAX_CUE_LATENCY))
+    ExitCode::from(u8::from(frames.is_err() || assess > MAX_SCORING_TIME || slowest > MAX_CUE_LATENCY))
 }

@@ -13,12 +13,12 @@ use spandrel_testkit::shipped::vehicle;
 use std::hint::black_box;
 use std::time::Duration;
 
-const SECONDS: f64 = 60.0;
-const TICK: SimTime = SimTime::from_us(2500);
+const SIMULATED_SECONDS: f64 = 60.0;
+const TICK_DURATION: SimTime = SimTime::from_us(2500);
 const ROUNDS: usize = 5;
 
 fn print_cost(what: &str, taken: Duration) {
-    let per_second_us = taken.as_secs_f64() * 1e6 / SECONDS;
+    let per_second_us = taken.as_secs_f64() * 1e6 / SIMULATED_SECONDS;
     println!("{what:<40} {per_second_us:>9.1} us per simulated second {:>9.0} x real time", 1e6 / per_second_us);
 }
 
@@ -29,10 +29,10 @@ fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };
     let truth = SensorInputs { rigid: &start.state.rigid, battery, lamp_on: false };
     let mut now = start.now;
-    (0..(SECONDS * 400.0) as usize)
+    (0..(SIMULATED_SECONDS * 400.0) as usize)
         .map(|_| {
-            sensors.integrate_imu(&start.state.rigid, start.state.specific_force_m_s2, TICK);
-            now += TICK;
+            sensors.integrate_imu(&start.state.rigid, start.state.specific_force_m_s2, TICK_DURATION);
+            now += TICK_DURATION;
             (now, sensors.sample(&truth, &start.site, now))
         })
         .collect()
@@ -67,5 +67,5 @@ fn main() {
         }),
     );
     let mut whole = Bench::airborne(&vehicle("phantom2"), 1, 6.0);
-    print_cost("complete simulation", best(ROUNDS, || whole.run(SECONDS, |_| ())));
+    print_cost("complete simulation", best(ROUNDS, || whole.run(SIMULATED_SECONDS, |_| ())));
 }

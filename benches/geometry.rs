@@ -12,7 +12,7 @@ use spandrel_model::site::HullProbe;
 use spandrel_model::site::geometry::Geometry;
 use std::hint::black_box;
 
-const POINTS: usize = 4000;
+const POINT_COUNT: usize = 4000;
 const ROUNDS: usize = 9;
 
 fn print_cost<T>(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>) -> T) {
@@ -28,7 +28,7 @@ fn print_cost<T>(what: &str, points: &[Vec3<Enu>], ask: impl Fn(Vec3<Enu>) -> T)
 fn around(path: &[Vec3<Enu>], spread_m: f64, seed: u64) -> Vec<Vec3<Enu>> {
     let mut random = RandomStream::new(seed, "bench");
     let mut jitter = || random.range(-spread_m, spread_m);
-    (0..POINTS).map(|k| path[k % path.len()] + Vec3::new(jitter(), jitter(), jitter())).collect()
+    (0..POINT_COUNT).map(|k| path[k % path.len()] + Vec3::new(jitter(), jitter(), jitter())).collect()
 }
 
 fn main() {

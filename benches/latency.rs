@@ -14,28 +14,28 @@ use std::time::{Duration, Instant};
 
 const TICK_MS: f64 = 2.5;
 /// Target for the 99th percentile: two control ticks (requirement).
-const TARGET_MS: f64 = 2.0 * TICK_MS;
+const TARGET_LATENCY_MS: f64 = 2.0 * TICK_MS;
 const ROUNDS: usize = 1_000;
 /// Pause between measurements. It is not a multiple of any period in the vehicle, so the measurements sample every
 /// phase of each period.
 const MEASUREMENT_PAUSE: Duration = Duration::from_micros(7_310);
 /// Message rate and duration of the flood.
-const FLOOD_HZ: u64 = 50_000;
+const FLOOD_RATE_HZ: u64 = 50_000;
 const FLOOD_DURATION: Duration = Duration::from_secs(5);
 /// Minimum ratio of simulation time to wall time during the flood.
 const MIN_SPEED_FACTOR: f64 = 0.99;
 
 /// Number of stick steps in flight, and the time with a centered stick before each step, which lets the vehicle settle.
-const STEPS: usize = 150;
+const STICK_STEP_COUNT: usize = 150;
 const CENTERED_DURATION: Duration = Duration::from_millis(400);
 /// Interval between stick samples in flight.
 const STICK_INTERVAL: Duration = Duration::from_millis(20);
 /// Minimum deviation of the roll rate from its mean at rest that counts as a response, in standard deviations.
-const NOISE_SIGMAS: f64 = 6.0;
+const RESPONSE_THRESHOLD_SIGMAS: f64 = 6.0;
 /// PX4 mode numbers for automatic takeoff, hold, and altitude mode.
-const TAKE_OFF: [f32; 3] = [1.0, 4.0, 2.0];
-const HOLD: u32 = 4 << 16 | 3 << 24;
-const ALTITUDE: [f32; 3] = [1.0, 2.0, 0.0];
+const TAKEOFF_MODE: [f32; 3] = [1.0, 4.0, 2.0];
+const HOLD_MODE: u32 = 4 << 16 | 3 << 24;
+const ALTITUDE_MODE: [f32; 3] = [1.0, 2.0, 0.0];
 
 fn command_long(command: MavCmd, p: [f32; 3]) -> MavMessage {
     MavMessage::COMMAND_LONG(COMMAND_LONG_DATA {
@@ -120,11 +120,11 @@ fn rest_roll_rates(client: &mut Client, time: Duration) -> Vec<f64> {
 fn rates(client: &mut Client) -> (f64, f64) {
     command_and_wait(client, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [30.0, 2_500.0, 0.0]);
     rest_roll_rates(client, CENTERED_DURATION);
-    command_and_wait(client, MavCmd::MAV_CMD_DO_SET_MODE, TAKE_OFF);
+    command_and_wait(client, MavCmd::MAV_CMD_DO_SET_MODE, TAKEOFF_MODE);
     command_and_wait(client, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]);
-    client.wait(|m| if let MavMessage::HEARTBEAT(beat) = m { (beat.custom_mode == HOLD).then_some(()) } else { None });
+    client.wait(|m| if let MavMessage::HEARTBEAT(beat) = m { (beat.custom_mode == HOLD_MODE).then_some(()) } else { None });
     rest_roll_rates(client, CENTERED_DURATION);
-    command_and_wait(client, MavCmd::MAV_CMD_DO_SET_MODE, ALTITUDE);
+    command_and_wait(client, MavCmd::MAV_CMD_DO_SET_MODE, ALTITUDE_MODE);
     let calm = rest_roll_rates(client, FLOOD_DURATION);
     let mean = calm.iter().sum::<f64>() / calm.len() as f64;
     let deviation = (calm.iter().map(|rate| (rate - mean) * (rate - mean)).sum::<f64>() / calm.len() as f64).sqrt();
@@ -133,10 +133,10 @@ fn rates(client: &mut Client) -> (f64, f64) {
         std::thread::sleep(MEASUREMENT_PAUSE);
         let begin = now();
         client.send(&stick(if k.is_multiple_of(2) { 500 } else { -500 }));
-        while (roll_rate(client) - mean).abs() < NOISE_SIGMAS * deviation {}
+        while (roll_rate(client) - mean).abs() < RESPONSE_THRESHOLD_SIGMAS * deviation {}
         ms(begin)
     };
-    let spread = median_and_p99((0..STEPS).map(one).collect());
+    let spread = median_and_p99((0..STICK_STEP_COUNT).map(one).collect());
     println!("roll rate noise with a centered stick: {deviation:.4} rad/s (1 sigma)");
     spread
 }
@@ -153,7 +153,7 @@ fn speed_factor_under_flood(client: &mut Client, port: u16) -> (f64, f64) {
                 rude.encoder.encode(&MavMessage::STATUSTEXT(STATUSTEXT_DATA { text: "flood".into(), ..Default::default() }));
             let begin = now();
             while !stop.load(Ordering::Relaxed) {
-                let due = (begin.elapsed().as_secs_f64() * FLOOD_HZ as f64) as u64;
+                let due = (begin.elapsed().as_secs_f64() * FLOOD_RATE_HZ as f64) as u64;
                 let before = sent.load(Ordering::Relaxed);
                 for _ in before..due {
                     // A full system buffer drops the message, as a network would.
@@ -185,7 +185,7 @@ fn main() {
             median / TICK_MS,
             p99 / TICK_MS
         );
-        good &= p99 <= TARGET_MS;
+        good &= p99 <= TARGET_LATENCY_MS;
     }
     let (median, p99) = rates(&mut client);
     println!(

@@ -15,23 +15,23 @@ use std::process::ExitCode;
 
 const STEP: SimTime = SimTime::from_ms(1);
 /// Number of steps per sample. Every sample starts from the same state, so all samples do the same work.
-const STEPS: i64 = 500;
+const STEPS_PER_SAMPLE: i64 = 500;
 /// Number of samples per median. The cases alternate, so a period of high machine load affects them all.
-const SAMPLES: usize = 61;
+const SAMPLE_COUNT: usize = 61;
 
 /// Maximum medians, as ratios to the baseline.
-const MAX_FREE: f64 = 4.0;
-const MAX_NEAR: f64 = 8.0;
-const MAX_CLOSE: f64 = 20.0;
-const MAX_STANDING: f64 = 200.0;
-const MAX_SCRAPING: f64 = 200.0;
+const MAX_HOVER_60_M_RATIO: f64 = 4.0;
+const MAX_HOVER_2_M_RATIO: f64 = 8.0;
+const MAX_HOVER_HALF_M_RATIO: f64 = 20.0;
+const MAX_STANDING_RATIO: f64 = 200.0;
+const MAX_SCRAPING_RATIO: f64 = 200.0;
 
 /// Baseline: minimal code that integrates a rigid body (13 numbers: position, velocity, attitude, and angular rates)
 /// and four rotor speeds.
 mod baseline {
-    pub type Y = [f64; 17];
+    pub type StateVector = [f64; 17];
 
-    fn rate(y: &Y, target: f64) -> Y {
+    fn rate(y: &StateVector, target: f64) -> StateVector {
         let mut d = [0.0; 17];
         let (v, q, w, rotors) = (&y[3..6], &y[6..10], &y[10..13], &y[13..17]);
         d[..3].copy_from_slice(v);
@@ -60,16 +60,16 @@ mod baseline {
         d
     }
 
-    fn plus(y: &Y, d: &Y, h: f64) -> Y {
+    fn add_scaled(y: &StateVector, d: &StateVector, h: f64) -> StateVector {
         std::array::from_fn(|i| y[i] + h * d[i])
     }
 
-    pub fn step(y: &Y, target: f64, h: f64) -> Y {
+    pub fn step(y: &StateVector, target: f64, h: f64) -> StateVector {
         let a = rate(y, target);
-        let b = rate(&plus(y, &a, 0.5 * h), target);
-        let c = rate(&plus(y, &b, 0.5 * h), target);
-        let d = rate(&plus(y, &c, h), target);
-        let mut out: Y = std::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+        let b = rate(&add_scaled(y, &a, 0.5 * h), target);
+        let c = rate(&add_scaled(y, &b, 0.5 * h), target);
+        let d = rate(&add_scaled(y, &c, h), target);
+        let mut out: StateVector = std::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
         let norm = out[6..10].iter().map(|x| x * x).sum::<f64>().sqrt();
         for x in &mut out[6..10] {
             *x /= norm;
@@ -96,22 +96,22 @@ impl Case {
         Self { name, limit, start, start_time: SimTime::ZERO, actuators, in_contact: false, samples: Vec::new() }
     }
 
-    /// Creates a case on the deck that starts at [`SETTLED_AT`].
+    /// Creates a case on the deck that starts at [`SETTLED_TIME`].
     fn on_deck(name: &'static str, limit: f64, start: PhysicsState) -> Self {
-        Self { start_time: SETTLED_AT, in_contact: true, ..Self::new(name, limit, start, Actuators::default()) }
+        Self { start_time: SETTLED_TIME, in_contact: true, ..Self::new(name, limit, start, Actuators::default()) }
     }
 
     fn fly(&self, model: &AirframeModel, site: &Site) -> PhysicsState {
         let (mut state, mut now) = (self.start.clone(), self.start_time);
         let load = PowerLoad { lamp_on: true, airborne: true };
         let mut touched = 0;
-        for _ in 0..STEPS {
+        for _ in 0..STEPS_PER_SAMPLE {
             model.advance(&mut state, &self.actuators, &AirState::STILL, site, load, now, STEP);
             now += STEP;
             touched += i64::from(state.contact.touching());
         }
-        let wanted = if self.in_contact { STEPS * 9 / 10..=STEPS } else { 0..=0 };
-        assert!(wanted.contains(&touched), "{}: in contact in {touched} of {STEPS} steps", self.name);
+        let wanted = if self.in_contact { STEPS_PER_SAMPLE * 9 / 10..=STEPS_PER_SAMPLE } else { 0..=0 };
+        assert!(wanted.contains(&touched), "{}: in contact in {touched} of {STEPS_PER_SAMPLE} steps", self.name);
         state
     }
 }
@@ -152,14 +152,14 @@ fn hovering(model: &AirframeModel, place: Vec3<Enu>) -> PhysicsState {
 }
 
 /// Simulation time by which an aircraft placed on the deck has settled.
-const SETTLED_AT: SimTime = SimTime::from_ms(2000);
+const SETTLED_TIME: SimTime = SimTime::from_ms(2000);
 
-/// Returns the state of an aircraft standing on the deck at [`SETTLED_AT`].
+/// Returns the state of an aircraft standing on the deck at [`SETTLED_TIME`].
 fn standing(model: &AirframeModel, site: &Site, vehicle: &Vehicle, deck: Vec3<Enu>) -> PhysicsState {
     let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
     let mut state = at(deck + Vec3::new(0.0, 0.0, feet + 0.03));
     let mut now = SimTime::ZERO;
-    while now < SETTLED_AT {
+    while now < SETTLED_TIME {
         model.advance(&mut state, &Actuators::default(), &AirState::STILL, site, PowerLoad::default(), now, STEP);
         now += STEP;
     }
@@ -175,11 +175,11 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
     let mut scrape = stand.clone();
     scrape.rigid.velocity_m_s = Vec3::new(4.0, 0.0, 0.0);
     vec![
-        Case::new("hovering 60 m above the deck", MAX_FREE, hovering(model, deck + up(60.0)), hover),
-        Case::new("hovering 2 m above the deck", MAX_NEAR, hovering(model, deck + up(2.0)), hover),
-        Case::new("hovering 0.5 m above the deck", MAX_CLOSE, hovering(model, deck + up(0.5)), hover),
-        Case::on_deck("standing on the deck, motors off", MAX_STANDING, stand),
-        Case::on_deck("scraping along the deck", MAX_SCRAPING, scrape),
+        Case::new("hovering 60 m above the deck", MAX_HOVER_60_M_RATIO, hovering(model, deck + up(60.0)), hover),
+        Case::new("hovering 2 m above the deck", MAX_HOVER_2_M_RATIO, hovering(model, deck + up(2.0)), hover),
+        Case::new("hovering 0.5 m above the deck", MAX_HOVER_HALF_M_RATIO, hovering(model, deck + up(0.5)), hover),
+        Case::on_deck("standing on the deck, motors off", MAX_STANDING_RATIO, stand),
+        Case::on_deck("scraping along the deck", MAX_SCRAPING_RATIO, scrape),
     ]
 }
 
@@ -187,7 +187,7 @@ fn cases(model: &AirframeModel, site: &Site, vehicle: &Vehicle) -> Vec<Case> {
 fn ns_per_step(work: impl FnOnce()) -> f64 {
     let start = std::time::Instant::now();
     work();
-    start.elapsed().as_secs_f64() * 1e9 / STEPS as f64
+    start.elapsed().as_secs_f64() * 1e9 / STEPS_PER_SAMPLE as f64
 }
 
 fn median(samples: &mut [f64]) -> f64 {
@@ -196,9 +196,9 @@ fn median(samples: &mut [f64]) -> f64 {
 }
 
 fn run_baseline() {
-    let mut y: baseline::Y = [0.0; 17];
+    let mut y: baseline::StateVector = [0.0; 17];
     y[6] = 1.0;
-    for _ in 0..STEPS {
+    for _ in 0..STEPS_PER_SAMPLE {
         y = baseline::step(black_box(&y), 560.0, 1e-3);
     }
     black_box(y);
@@ -210,7 +210,7 @@ fn main() -> ExitCode {
     let model = AirframeModel::new(&vehicle, BatteryModel::Physical);
     let mut cases = cases(&model, &site, &vehicle);
     let mut floors = Vec::new();
-    for _ in 0..SAMPLES {
+    for _ in 0..SAMPLE_COUNT {
         floors.push(ns_per_step(run_baseline));
         for case in &mut cases {
             let taken = ns_per_step(|| {

@@ -21,8 +21,8 @@ use std::time::Duration;
 const MIN_SPEED: f64 = 300.0;
 const STEP: SimTime = SimTime::from_ms(20);
 /// Time limit of a flight. The battery runs out earlier.
-const MAX_FLIGHT: SimTime = SimTime::from_ms(1_600_000);
-const PILOT: LinkId = LinkId(1);
+const MAX_FLIGHT_DURATION: SimTime = SimTime::from_ms(1_600_000);
+const PILOT_LINK: LinkId = LinkId(1);
 const ROUNDS: usize = 3;
 
 type Inputs = Vec<(SimTime, Vec<u8>)>;
@@ -51,7 +51,7 @@ impl Job {
             SimConfig { scenario, vehicle, seed: self.seed, instance: 0, flavor: &px4::FLAVOR, after_crash: None },
             Arc::clone(&self.site),
         );
-        sim.open_link(PILOT, LinkKind::GroundStation, lockstep);
+        sim.open_link(PILOT_LINK, LinkKind::GroundStation, lockstep);
         sim.open_link(LinkId(2), LinkKind::Payload, false);
         sim.open_link(LinkId(3), LinkKind::Sdk, false);
         sim
@@ -64,15 +64,15 @@ impl Job {
         let mut pilot = Pilot::new(PilotConfig { scenario, vehicle, skill, seed: self.seed });
         let mut sim = self.sim(true);
         let (mut inputs, mut crashes) = (Inputs::new(), 0);
-        while pilot.finished().is_none() && sim.now() < MAX_FLIGHT {
+        while pilot.finished().is_none() && sim.now() < MAX_FLIGHT_DURATION {
             sim.handle_timeout(sim.now() + STEP);
             while let Some(datagram) = sim.poll_transmit() {
-                if datagram.link == PILOT {
+                if datagram.link == PILOT_LINK {
                     pilot.handle_datagram(&datagram.bytes);
                 }
             }
             while let Some(bytes) = pilot.poll_transmit() {
-                sim.handle_datagram(PILOT, &bytes);
+                sim.handle_datagram(PILOT_LINK, &bytes);
                 inputs.push((sim.now(), bytes));
             }
             crashes += std::iter::from_fn(|| sim.poll_event()).filter(|event| matches!(event, SimEvent::Crash { .. })).count();
@@ -89,7 +89,7 @@ impl Job {
         let start = std::time::Instant::now();
         while sim.now() < end {
             while let Some((_, bytes)) = next.next_if(|(at, _)| *at <= sim.now()) {
-                sim.handle_datagram(PILOT, bytes);
+                sim.handle_datagram(PILOT_LINK, bytes);
             }
             sim.handle_timeout(sim.now() + STEP);
             while let Some(datagram) = sim.poll_transmit() {
@@ -103,11 +103,11 @@ impl Job {
 /// Returns the simulation time of the first message that satisfies `said` on the ground station link.
 fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     let (mut sim, mut decoder) = (job.sim(false), Decoder::new());
-    while sim.now() < MAX_FLIGHT {
+    while sim.now() < MAX_FLIGHT_DURATION {
         sim.handle_timeout(sim.now() + SimTime::from_ms(1));
         while let Some(datagram) = sim.poll_transmit() {
             let frames = decoder.datagram(&datagram.bytes);
-            if datagram.link == PILOT && frames.iter().filter_map(|frame| frame.message.as_ref()).any(&mut said) {
+            if datagram.link == PILOT_LINK && frames.iter().filter_map(|frame| frame.message.as_ref()).any(&mut said) {
                 return sim.now();
             }
         }

@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 const RECORDS: &str = include_str!("../examples/cohort/records.jsonl");
-const SESSIONS: usize = 10_000;
+const SESSION_COUNT: usize = 10_000;
 const ROUNDS: usize = 31;
 /// Limits (requirements) for the median response time of a page and the time to generate a cohort report.
 const MAX_PAGE_TIME: Duration = Duration::from_millis(100);
@@ -86,7 +86,7 @@ async fn insert_sessions(file: &Path) -> Result<String, sqlx::Error> {
     let mut database = SqliteConnection::connect(&format!("sqlite://{}", file.display())).await?;
     let mut change = database.begin().await?;
     let mut last = String::new();
-    for k in 0..SESSIONS {
+    for k in 0..SESSION_COUNT {
         let mut r = originals[k % originals.len()].clone();
         r.trainee = format!("{}-{}", r.trainee, k / originals.len());
         r.id = format!("{}-{k}", r.id);
@@ -104,7 +104,7 @@ async fn insert_sessions(file: &Path) -> Result<String, sqlx::Error> {
     }
     change.commit().await?;
     let counted: i64 = sqlx::query("SELECT COUNT(*) FROM sessions").fetch_one(&mut database).await?.try_get(0)?;
-    assert_eq!(usize::try_from(counted), Ok(SESSIONS));
+    assert_eq!(usize::try_from(counted), Ok(SESSION_COUNT));
     Ok(last)
 }
 

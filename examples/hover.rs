@@ -5,15 +5,15 @@ use spandrel_model::shipped;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::testing::Vehicle;
 
-const HEIGHT_M: f64 = 5.0;
-const LIMIT: SimTime = SimTime::from_ms(30_000);
+const HOVER_HEIGHT_M: f64 = 5.0;
+const TIME_LIMIT: SimTime = SimTime::from_ms(30_000);
 
 /// Runs one flight and prints the results.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut vehicle = Vehicle::builder().scenario(shipped::DRILL_HOVER).vehicle(shipped::M30).seed(7).build()?;
-    vehicle.arm(LIMIT)?;
-    vehicle.take_off(HEIGHT_M)?;
-    vehicle.run_until(|v| (v.height_m() - HEIGHT_M).abs() < 0.3, LIMIT)?;
+    vehicle.arm(TIME_LIMIT)?;
+    vehicle.take_off(HOVER_HEIGHT_M)?;
+    vehicle.run_until(|v| (v.height_m() - HOVER_HEIGHT_M).abs() < 0.3, TIME_LIMIT)?;
     vehicle.run(SimTime::from_ms(3_000));
     let start_m = vehicle.position_m();
     let mut max_error_m: f64 = 0.0;
@@ -23,7 +23,7 @@ pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!("largest position error in ten seconds: {max_error_m:.2} m");
     vehicle.land()?;
-    vehicle.run_until(|v| !v.armed(), LIMIT)?;
+    vehicle.run_until(|v| !v.armed(), TIME_LIMIT)?;
     println!("landed after {:.1} s", vehicle.now().s());
     Ok(())
 }

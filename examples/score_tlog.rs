@@ -25,12 +25,12 @@ pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
     let sibling = |name: &str| fs::read_to_string(beside.join(name)).map_err(|error| error.to_string());
     let scenario = scenario::read(job, &fs::read_to_string(job)?, &sibling)?;
     let vehicle = vehicle::read(aircraft, &fs::read_to_string(aircraft)?)?;
-    let graded = assess_log(&fs::read(log)?, &scenario, &vehicle, build_site)?;
-    let scores = &graded.assessment.scores;
+    let assessed_session = assess_log(&fs::read(log)?, &scenario, &vehicle, build_site)?;
+    let scores = &assessed_session.assessment.scores;
     println!("conformity {:?}", scores.conformity);
     println!("efficiency {:?}", scores.efficiency);
     println!("safety     {:?}", scores.safety);
     println!("accuracy   {:?}", scores.accuracy);
-    println!("frames     {}", graded.frames.len());
+    println!("frames     {}", assessed_session.frames.len());
     Ok(())
 }

@@ -21,7 +21,7 @@ pub enum AppError {
 
 impl AppError {
     /// Creates an error for invalid arguments or files.
-    pub fn wrong(message: impl Into<String>) -> Self {
+    pub fn invalid(message: impl Into<String>) -> Self {
         Self::Wrong(message.into())
     }
 
@@ -51,7 +51,7 @@ impl From<Problems> for AppError {
 impl From<GpuError> for AppError {
     fn from(error: GpuError) -> Self {
         match error {
-            GpuError::TooLarge(..) => Self::wrong(format!("{error}: choose a smaller --size")),
+            GpuError::TooLarge(..) => Self::invalid(format!("{error}: choose a smaller --size")),
             GpuError::NoDevice(_) | GpuError::Failed(_) => Self::failed(error.to_string()),
         }
     }

@@ -19,7 +19,7 @@ pub fn now() -> Instant {
 /// A simulator process. Dropping this value stops the process.
 pub struct SimulatorProcess {
     child: Child,
-    told: BufReader<ChildStdout>,
+    output: BufReader<ChildStdout>,
 }
 
 /// Simulator delays relative to real time.
@@ -41,7 +41,7 @@ impl SimulatorProcess {
 
     fn line(&mut self) -> serde_json::Value {
         let mut line = String::new();
-        self.told.read_line(&mut line).expect("the simulator must print a line");
+        self.output.read_line(&mut line).expect("the simulator must print a line");
         serde_json::from_str(&line).expect("the line must be JSON")
     }
 }
@@ -113,7 +113,7 @@ pub fn start() -> (SimulatorProcess, u16) {
         .spawn()
         .expect("the program must start");
     let told = BufReader::new(child.stdout.take().expect("standard output must be piped"));
-    let mut running = SimulatorProcess { child, told };
+    let mut running = SimulatorProcess { child, output: told };
     let port = running.line()["gcs_port"].as_u64().expect("the port must be a number");
     (running, port as u16)
 }

@@ -79,7 +79,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
                 FileAction::Checksum { .. } => Ok(FileJobResult::Checksum { sum: u32::MAX, bytes: 5 }),
                 _ => Err(FileError::Other),
             };
-            sim.file_job_done(job.ticket, outcome);
+            sim.finish_file_job(job.ticket, outcome);
         }
         while sim.poll_transmit().is_some() {}
         let truth = &sim.truth().rigid;

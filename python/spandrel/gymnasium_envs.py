@@ -37,7 +37,7 @@ class _Native:
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (self.width,), np.float32)
         self.keys = INFO_KEYS[kind]
 
-    def unpack(
+    def unpack_arrays(
         self, turn: tuple[bytes, bytes, bytes, bytes]
     ) -> tuple[Observation, NDArray[np.float64], NDArray[np.bool_], dict[str, Any]]:
         """Returns observations, rewards, terminations and measures as arrays."""
@@ -68,13 +68,13 @@ class SpandrelEnv(gymnasium.Env[Observation, Action]):
         bit."""
         super().reset(seed=seed)
         episode = int(self.np_random.integers(SEED_LIMIT))
-        observations, _, _, infos = self._native.unpack(self._native.batch.reset([episode]))
+        observations, _, _, infos = self._native.unpack_arrays(self._native.batch.reset([episode]))
         return observations[0], {key: float(values[0]) for key, values in infos.items()}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Runs one step. Actions are clamped to the action space; a value that is not finite raises ValueError."""
         row = np.asarray(action, dtype=np.float32)
-        observations, rewards, over, infos = self._native.unpack(self._native.batch.step(row.tobytes(), [None]))
+        observations, rewards, over, infos = self._native.unpack_arrays(self._native.batch.step(row.tobytes(), [None]))
         info = {key: float(values[0]) for key, values in infos.items()}
         return observations[0], float(rewards[0]), bool(over[0]), False, info
 
@@ -122,7 +122,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
                 self._streams[k] = gymnasium.utils.seeding.np_random(one)[0]
         self._steps[:], self._over[:] = 0, False
         turn = self._native.batch.reset([int(stream.integers(SEED_LIMIT)) for stream in self._streams])
-        observations, _, _, infos = self._native.unpack(turn)
+        observations, _, _, infos = self._native.unpack_arrays(turn)
         return observations, self._masked(infos)
 
     def _masked(self, infos: dict[str, Any]) -> dict[str, Any]:
@@ -136,7 +136,7 @@ class SpandrelVectorEnv(VectorEnv[Observation, Action, Any]):
         """Runs one step in each environment. If the previous step ended an episode, starts the next one instead."""
         seeds = [int(stream.integers(SEED_LIMIT)) if over else None for stream, over in zip(self._streams, self._over)]
         rows = np.ascontiguousarray(actions, dtype=np.float32)
-        observations, rewards, terminated, infos = self._native.unpack(self._native.batch.step(rows.tobytes(), seeds))
+        observations, rewards, terminated, infos = self._native.unpack_arrays(self._native.batch.step(rows.tobytes(), seeds))
         self._steps = np.where(self._over, 0, self._steps + 1)
         truncated = np.zeros(self.num_envs, dtype=np.bool_) if self._limit is None else self._steps >= self._limit
         self._over = terminated | truncated

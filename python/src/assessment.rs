@@ -15,9 +15,9 @@ pub fn assess(py: Python<'_>, tlog: PathBuf, scenario: &str, vehicle: &str) -> P
     let (job, aircraft) = (job::read_scenario(scenario)?, job::read_vehicle(vehicle)?);
     py.detach(|| {
         let log = fs::read(&tlog).map_err(|error| PyOSError::new_err(format!("{}: {error}", tlog.display())))?;
-        let graded =
+        let assessed_session =
             assess_log(&log[..], &job, &aircraft, build_site).map_err(|error| AssessmentError::new_err(error.to_string()))?;
         let rows = export::frame_rows(&log[..], &job, &aircraft).map_err(|error| AssessmentError::new_err(error.to_string()))?;
-        Ok((export::json_text(&graded.assessment), export::frames_csv(&rows)))
+        Ok((export::json_text(&assessed_session.assessment), export::frames_csv(&rows)))
     })
 }

@@ -32,7 +32,7 @@ struct SlotResult {
 
 impl Slot {
     /// Resets the environment if a reset is pending, otherwise steps it.
-    fn turn(&mut self, world: &Arc<World>, action: Option<&[f32]>) {
+    fn reset_or_step(&mut self, world: &Arc<World>, action: Option<&[f32]>) {
         self.result.reward = 0.0;
         self.result.terminated = false;
         self.result.failure = None;
@@ -115,7 +115,7 @@ impl Batch {
 
     /// Resets the environments that have a seed, and leaves the rest unchanged.
     fn reset(&self, py: Python<'_>, seeds: Vec<Option<u64>>) -> PyResult<StepBytes> {
-        self.turn(py, seeds, None)
+        self.reset_or_step(py, seeds, None)
     }
 
     /// Steps the environments without a seed with their actions (float32, one row each), and resets the environments
@@ -126,7 +126,7 @@ impl Batch {
         if actions.iter().any(|value| !value.is_finite()) {
             return Err(PyValueError::new_err("an action contains a value that is not finite"));
         }
-        self.turn(py, seeds, Some(actions))
+        self.reset_or_step(py, seeds, Some(actions))
     }
 
     /// Returns the SHA-256 of the state at every tick of one environment's episode, as 64 hexadecimal digits.
@@ -158,7 +158,7 @@ impl Batch {
             .ok_or_else(|| PyIndexError::new_err(format!("environment {index} does not exist or has never been reset")))
     }
 
-    fn turn(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<StepBytes> {
+    fn reset_or_step(&self, py: Python<'_>, seeds: Vec<Option<u64>>, actions: Option<Vec<f32>>) -> PyResult<StepBytes> {
         let width = self.world.kind.actions();
         let mut guard = self.lock()?;
         let slots = &mut *guard;
@@ -187,7 +187,7 @@ impl Batch {
         let turns = |first: usize, slots: &mut [Slot]| {
             for (k, slot) in slots.iter_mut().enumerate() {
                 let from = (first + k) * width;
-                slot.turn(world, actions.and_then(|actions| actions.get(from..from + width)));
+                slot.reset_or_step(world, actions.and_then(|actions| actions.get(from..from + width)));
             }
         };
         if self.threads == 1 {

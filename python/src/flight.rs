@@ -51,7 +51,7 @@ impl Inner {
             }
             // There is no SD card to read, so clients receive an error.
             while let Some(job) = self.vehicle.sim.poll_file_job() {
-                self.vehicle.sim.file_job_done(job.ticket, Err(FileError::NotFound));
+                self.vehicle.sim.finish_file_job(job.ticket, Err(FileError::NotFound));
             }
         }
     }

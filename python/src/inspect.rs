@@ -19,7 +19,7 @@ const MAX_CLEARANCE_M: f64 = 30.0;
 #[derive(Debug, Clone)]
 pub struct Inspect {
     paths: ReferencePaths,
-    look: Vec<Vec<Vec3<Enu>>>,
+    viewing_directions: Vec<Vec<Vec3<Enu>>>,
     flown: Vec<FlownPath>,
     on: Option<usize>,
     found: BTreeSet<u32>,
@@ -38,18 +38,18 @@ impl Inspect {
     pub fn new(job: &Scenario) -> Self {
         let paths = ReferencePaths::new(job);
         let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
-        let look = job.tasks.iter().map(|task| task.look.clone()).collect();
+        let look = job.tasks.iter().map(|task| task.viewing_directions.clone()).collect();
         Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
     }
 
     /// Returns the fraction of the total path length that has been flown.
-    fn flown_share(&self) -> f64 {
+    fn flown_fraction(&self) -> f64 {
         let all = self.flown.iter().map(FlownPath::coverage);
         let (flown_m, length_m) = all.fold((0.0, 0.0), |(f, l), one| (f + one.share * one.length_m, l + one.length_m));
         if length_m > 0.0 { flown_m / length_m } else { 0.0 }
     }
 
-    fn found_share(&self, sim: &Sim) -> f64 {
+    fn found_fraction(&self, sim: &Sim) -> f64 {
         let placed = sim.site().defects().len();
         if placed > 0 { self.found.len() as f64 / placed as f64 } else { 0.0 }
     }
@@ -70,7 +70,7 @@ impl Inspect {
             }
         }
         let (_, task, point) = best?;
-        let look = self.look[task].get(point).copied().unwrap_or(Vec3::zero());
+        let look = self.viewing_directions[task].get(point).copied().unwrap_or(Vec3::zero());
         Some((self.paths.path(task).points_m()[point] - position_m, look))
     }
 
@@ -86,7 +86,7 @@ impl Inspect {
         let lamp = f64::from(u8::from(payload.lamp.on));
         let clearance_m =
             sim.site().nearest(position_m, MAX_CLEARANCE_M, sim.now()).map_or(MAX_CLEARANCE_M, |nearest| nearest.distance_m);
-        environment::append(out, &[payload.gimbal.pitch_rad, lamp, clearance_m, self.flown_share(), self.found_share(sim)]);
+        environment::append(out, &[payload.gimbal.pitch_rad, lamp, clearance_m, self.flown_fraction(), self.found_fraction(sim)]);
     }
 
     /// Evaluates a photo from the vehicle's current pose; the defects that it shows count as found.
@@ -102,14 +102,14 @@ impl Inspect {
     /// Evaluates a step. The reward is the increase in two fractions: paths flown and defects found. A complete episode
     /// earns 2, or 1 in a job without defects. Measures: the two fractions.
     pub fn evaluate(&mut self, sim: &Sim, over: bool) -> Outcome {
-        let on = self.paths.on(sim.truth().rigid.position_m.enu(), self.on);
+        let on = self.paths.task_on_path(sim.truth().rigid.position_m.enu(), self.on);
         if let Some((task, _)) = on {
             self.on = Some(task);
         }
         for (task, flown) in self.flown.iter_mut().enumerate() {
-            flown.note(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
+            flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
         }
-        let measures = [self.flown_share(), self.found_share(sim)];
+        let measures = [self.flown_fraction(), self.found_fraction(sim)];
         let sum = measures[0] + measures[1];
         let reward = sum - self.before;
         self.before = sum;

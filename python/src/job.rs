@@ -23,7 +23,7 @@ pub fn vehicles() -> Vec<&'static str> {
 
 /// Reads a scenario by shipped name or file path. Height maps are read from the file's folder.
 pub fn read_scenario(name: &str) -> PyResult<Scenario> {
-    let text = text_of(name, "scenario", shipped::SCENARIOS)?;
+    let text = read_text(name, "scenario", shipped::SCENARIOS)?;
     let folder = Path::new(name).parent().unwrap_or(Path::new("."));
     let sibling = |file: &str| fs::read_to_string(folder.join(file)).map_err(|error| error.to_string());
     scenario::read(&file_name(name), &text, &sibling).map_err(|problems| errors::problems(&problems))
@@ -31,21 +31,21 @@ pub fn read_scenario(name: &str) -> PyResult<Scenario> {
 
 /// Reads a vehicle by shipped name or file path.
 pub fn read_vehicle(name: &str) -> PyResult<Vehicle> {
-    let text = text_of(name, "vehicle", shipped::VEHICLES)?;
+    let text = read_text(name, "vehicle", shipped::VEHICLES)?;
     vehicle::read(&file_name(name), &text).map_err(|problems| errors::problems(&problems))
 }
 
 fn file_name(name: &str) -> String {
-    if is_file(name) { name.to_owned() } else { format!("{name}.toml") }
+    if is_path(name) { name.to_owned() } else { format!("{name}.toml") }
 }
 
 /// Returns whether the name is a path. Shipped names have neither an extension nor a folder.
-fn is_file(name: &str) -> bool {
+fn is_path(name: &str) -> bool {
     name.contains(['.', '/', '\\'])
 }
 
-fn text_of(name: &str, what: &str, shipped: &[(&str, &str)]) -> PyResult<String> {
-    if is_file(name) {
+fn read_text(name: &str, what: &str, shipped: &[(&str, &str)]) -> PyResult<String> {
+    if is_path(name) {
         return fs::read_to_string(name).map_err(|error| JobError::new_err(format!("{name}: {error}")));
     }
     let found = shipped.iter().find(|(stem, _)| *stem == name);

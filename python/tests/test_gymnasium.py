@@ -64,7 +64,7 @@ def test_exact_new_and_reused_environments_are_bit_identical():
     assert digests[0] == digests[1] == digests[2]
 
 
-def test_flight_hover_rewards_short_distances():
+def test_flight_hover_reward_increases_near_the_target():
     env = gymnasium.make(HOVER)
     observation, _ = env.reset(seed=SEED)
     rewards = []

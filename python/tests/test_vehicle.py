@@ -8,7 +8,7 @@ import pytest
 import spandrel
 
 
-def flown(seed):
+def flying_vehicle(seed):
     """Returns a vehicle that has taken off."""
     vehicle = spandrel.Vehicle(seed=seed)
     vehicle.arm()
@@ -26,7 +26,7 @@ def test_exact_step_is_one_millisecond():
 
 
 def test_flight_arm_take_off_go_to_and_land():
-    vehicle = flown(7)
+    vehicle = flying_vehicle(7)
     assert vehicle.state.armed
     vehicle.go_to(8.0, 6.0, 7.0)
     state = vehicle.run_until(lambda s: math.dist(s.position_enu_m, (8.0, 6.0, 7.0)) < 1.0, sim_s=30)
@@ -46,8 +46,8 @@ def test_flight_ardupilot_takes_off_in_guided():
     assert vehicle.run_until(lambda state: state.height_m > 4.5, sim_s=30).armed
 
 
-def test_flight_sticks_climb():
-    vehicle = flown(7)
+def test_flight_sticks_make_the_vehicle_climb():
+    vehicle = flying_vehicle(7)
     start = vehicle.state.height_m
     for _ in range(10):
         vehicle.sticks(0.0, 0.0, 1.0, 0.0)
@@ -56,15 +56,15 @@ def test_flight_sticks_climb():
 
 
 def test_exact_only_equal_seeds_are_bit_identical():
-    digests = [flown(seed).digest for seed in (7, 7, 8)]
+    digests = [flying_vehicle(seed).digest for seed in (7, 7, 8)]
     assert digests[0] == digests[1] != digests[2]
     assert len(digests[0]) == 64
 
 
 def test_exact_concurrent_flights_are_bit_identical():
-    alone = flown(7).digest
+    alone = flying_vehicle(7).digest
     found = []
-    threads = [threading.Thread(target=lambda: found.append(flown(7).digest)) for _ in range(2)]
+    threads = [threading.Thread(target=lambda: found.append(flying_vehicle(7).digest)) for _ in range(2)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -114,7 +114,7 @@ def test_exact_every_problem_of_a_file_is_listed(tmp_path):
     assert "wrong" in str(raised.value) and "job.toml:" in str(raised.value)
 
 
-def test_exact_rejected_command_raises_the_result():
+def test_exact_rejected_command_raises_an_error_with_the_result():
     with pytest.raises(spandrel.RefusedError, match="MAV_CMD_USER_1 returned MAV_RESULT_UNSUPPORTED"):
         spandrel.Vehicle().command(31010)
     with pytest.raises(ValueError, match="unknown MAV_CMD 65000"):
@@ -142,6 +142,6 @@ def test_wire_socketless_link_carries_frames_in_both_directions():
         link.send(b"")
 
 
-def test_names_of_shipped_files():
+def test_shipped_files_are_listed():
     assert "two-bridges" in spandrel.scenarios()
     assert "phantom2" in spandrel.vehicles()

@@ -45,10 +45,10 @@ pub struct Args {
 /// Returns an error if files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (scenario, vehicle, log) = inputs(args)?;
-    let graded = grade(&log, &scenario, &vehicle)?;
+    let assessed_session = grade(&log, &scenario, &vehicle)?;
     match &args.json {
-        Some(target) => files::write(target, export::json_text(&graded.assessment).as_bytes()),
-        None => files::write("-", table::scores_text(&json!(graded.assessment)).as_bytes()),
+        Some(target) => files::write(target, export::json_text(&assessed_session.assessment).as_bytes()),
+        None => files::write("-", table::scores_text(&json!(assessed_session.assessment)).as_bytes()),
     }
 }
 
@@ -66,7 +66,7 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
         return Ok((scenario, vehicle, stored.log));
     }
     let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "{}: not a session folder; a telemetry log needs --scenario and --vehicle",
             args.flight.display()
         )));

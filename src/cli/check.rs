@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             }
             Ok(())
         }
-        many => Err(AppError::wrong(format!("{} in {}", count(many, "problem"), count(args.files.len(), "file")))),
+        many => Err(AppError::invalid(format!("{} in {}", count(many, "problem"), count(args.files.len(), "file")))),
     }
 }
 
@@ -101,7 +101,7 @@ fn unreadable(file: &str, error: &AppError) -> Problem {
 }
 
 fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findings) {
-    if is_vehicle(&source.text) {
+    if is_vehicle_file(&source.text) {
         match vehicle::read(&source.file, &source.text) {
             Ok(vehicle) => {
                 let short = defects::reference_shortfalls(&vehicle.camera, &vehicle.lamp);
@@ -140,7 +140,7 @@ const SCENARIO_KEYS: [&str; 13] = [
     "scoring",
 ];
 
-fn is_vehicle(text: &str) -> bool {
+fn is_vehicle_file(text: &str) -> bool {
     let mut in_table = false;
     let words = text.lines().filter_map(|line| {
         let line = line.trim();
@@ -156,8 +156,8 @@ fn is_vehicle(text: &str) -> bool {
 fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
     let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
     // The result does not depend on defects or traffic, so any seed works.
-    let site = Site::build(&Scenario { defects: without_defects(scenario), ..scenario.clone() }, 0);
-    let lines: Vec<usize> = task_lines(&source.text);
+    let site = Site::build(&Scenario { defects: scenario_without_defects(scenario), ..scenario.clone() }, 0);
+    let lines: Vec<usize> = task_line_numbers(&source.text);
     let tight = |(k, task): (usize, &Task)| {
         let (at_m, clearance_m, object) = min_clearance(task, &site, needed_m)?;
         let [east, north, up] = at_m.array();
@@ -199,7 +199,7 @@ fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<S
     })
 }
 
-fn without_defects(scenario: &Scenario) -> scenario::DefectSpec {
+fn scenario_without_defects(scenario: &Scenario) -> scenario::DefectSpec {
     scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
 }
 
@@ -215,7 +215,7 @@ fn min_clearance(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, 
 }
 
 /// Returns the line number of each task's table.
-fn task_lines(text: &str) -> Vec<usize> {
+fn task_line_numbers(text: &str) -> Vec<usize> {
     let heads = text.lines().enumerate().filter(|(_, line)| {
         let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();
         line.starts_with("[[task]]") || line.starts_with("[[tasks]]")
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn exact_task_lines_are_found() {
-        assert_eq!(task_lines("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
+        assert_eq!(task_line_numbers("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
     }
 
     #[test]
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn regress_missing_defects_cause_warning() {
+    fn regress_missing_defects_cause_a_warning() {
         let aircraft = files::vehicle("phantom2").unwrap().vehicle;
         let mut source = files::any_source("drill-straight-line").unwrap();
         let found = |source: &SourceFile| {
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_low_clearance_is_reported_with_its_position() {
+    fn exact_low_clearance_is_reported_with_the_position() {
         let mut aircraft = files::vehicle("phantom2").unwrap().vehicle;
         aircraft.hull.tip_to_tip_m = 30.0;
         let mut findings = Findings::default();
@@ -306,7 +306,7 @@ mod tests {
         assert_eq!(problems(fits_m - TOLERANCE_M), []);
         let refused = problems(fits_m + 2.0 * TOLERANCE_M);
         assert_eq!(refused.len(), 1);
-        assert_eq!(task_lines(&source.text), [refused[0].line]);
+        assert_eq!(task_line_numbers(&source.text), [refused[0].line]);
         // The clearance at the reported point matches the reported clearance.
         let number = |after: &str| {
             let rest = refused[0].message.split(after).nth(1).unwrap();

@@ -6,7 +6,7 @@ use crate::io::files;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
-use spandrel_training::record::{IncompletePolicy, omitted_summary};
+use spandrel_training::record::{IncompletePolicy, excluded_sessions_note};
 use spandrel_training::report::page::cohort as page;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -72,14 +72,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     };
     let cohort = cohort(&records, &selection);
     if cohort.sessions == 0
-        && let Some(words) = omitted_summary(cohort.left_out)
+        && let Some(words) = excluded_sessions_note(cohort.left_out)
     {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "this scenario has no complete sessions: {words} (to count them, use --include-incomplete)"
         )));
     }
     if cohort.sessions == 0 {
-        return Err(AppError::wrong(
+        return Err(AppError::invalid(
             "the records contain no sessions of this scenario; to add sessions, use `spandrel records import`",
         ));
     }
@@ -95,14 +95,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     match &args.json {
         Some(target) => files::write(target, json_text(&cohort).as_bytes()),
-        None => files::write("-", words(&cohort).as_bytes()),
+        None => files::write("-", summary_text(&cohort).as_bytes()),
     }
 }
 
 /// Formats the session count and the main statistics for first sessions as text.
 fn first_session_summary(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
-    if let Some(words) = omitted_summary(cohort.left_out) {
+    if let Some(words) = excluded_sessions_note(cohort.left_out) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     out.push('\n');
@@ -123,7 +123,7 @@ fn first_session_summary(cohort: &Cohort) -> String {
     out
 }
 
-fn words(cohort: &Cohort) -> String {
+fn summary_text(cohort: &Cohort) -> String {
     let mut out = first_session_summary(cohort);
     if !cohort.tests.is_empty() {
         let _ = writeln!(out, "\n{} people, {} repetitions", cohort.group.len(), cohort.repetitions);

@@ -114,7 +114,7 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
 fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &StopRequest) -> Option<AppError> {
     let mut pilot_done: Option<Stopwatch> = None;
     loop {
-        if monitor.ended().is_some() || stop.is_requested() {
+        if monitor.exit_status().is_some() || stop.is_requested() {
             return None;
         }
         if let Some(report) = pilot.try_read_line() {
@@ -126,8 +126,8 @@ fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &
         }
         for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
             // The monitor exits slightly before the other processes.
-            if let Some(status) = child.ended()
-                && monitor.ended().is_none()
+            if let Some(status) = child.exit_status()
+                && monitor.exit_status().is_none()
             {
                 return Some(AppError::failed(format!("the {name} exited early ({status})")));
             }

@@ -99,18 +99,18 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let stored = if path.is_dir() { Some(StoredSession::read(path)?) } else { None };
     if let Some(target) = &args.frames {
         let Some(stored) = &stored else {
-            return Err(AppError::wrong(format!("--frames needs a session folder, but '{}' is not one", args.from)));
+            return Err(AppError::invalid(format!("--frames needs a session folder, but '{}' is not one", args.from)));
         };
         files::write(target, frames_csv(&scoring::frame_rows(stored)?).as_bytes())?;
     }
     if let Some(target) = &args.mcap {
         let Some(stored) = &stored else {
-            return Err(AppError::wrong(format!(
+            return Err(AppError::invalid(format!(
                 "--mcap needs a session folder or a recording (.mcap), but '{}' is neither",
                 args.from
             )));
         };
-        files::write(target, &recorded(stored)?)?;
+        files::write(target, &recording(stored)?)?;
     }
     export_for_learning_systems(args, stored.as_ref())?;
     if args.scenario.is_none() && args.glb.is_none() && args.plan.is_none() {
@@ -122,7 +122,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     };
     let seed = args.seed.or(scenario.seed);
     if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "'{}' has different defects in every session: choose a seed with --seed N",
             args.from
         )));
@@ -152,7 +152,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Exports a session as Parquet, xAPI or SCORM.
 fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> Result<(), AppError> {
     let needed = |flag: &str| {
-        stored.ok_or_else(|| AppError::wrong(format!("{flag} needs a session folder, but '{}' is not one", args.from)))
+        stored.ok_or_else(|| AppError::invalid(format!("{flag} needs a session folder, but '{}' is not one", args.from)))
     };
     if let Some(target) = &args.parquet {
         let stored = needed("--parquet")?;
@@ -162,7 +162,7 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
         needed("--xapi")?;
         let record = read_session(Path::new(&args.from), &BTreeMap::new())?;
         let record = record.ok_or_else(|| AppError::failed("the session has no record"))?;
-        files::write(target, xapi::lines(&xapi::statements(&record, xapi::HOME)).as_bytes())?;
+        files::write(target, xapi::lines(&xapi::statements(&record, xapi::DEFAULT_ACCOUNT_HOME_PAGE)).as_bytes())?;
     }
     if let Some(target) = &args.scorm {
         needed("--scorm")?;
@@ -188,7 +188,7 @@ fn zip_files(files: &[(&str, String)]) -> Result<Vec<u8>, AppError> {
 }
 
 /// Exports a session's flight as an MCAP recording.
-fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
+fn recording(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
     let (scenario, vehicle) = (&stored.scenario.scenario, &stored.vehicle.vehicle);
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(&stored.log).map_err(|error| AppError::failed(format!("cannot read the telemetry: {error}")))?;
@@ -211,9 +211,10 @@ fn recorded(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
 /// Recovers the readable part of a truncated recording.
 fn recover(path: &Path, target: &str) -> Result<(), AppError> {
     let shown = path.display();
-    let file = std::fs::read(path).map_err(|error| AppError::wrong(format!("{shown}: {error}")))?;
-    let recovered = mcap::recover(&file).map_err(|error| AppError::wrong(format!("{shown}: not an MCAP recording: {error}")))?;
-    let why = recovered.broken.as_deref().unwrap_or("complete");
+    let file = std::fs::read(path).map_err(|error| AppError::invalid(format!("{shown}: {error}")))?;
+    let recovered =
+        mcap::recover(&file).map_err(|error| AppError::invalid(format!("{shown}: not an MCAP recording: {error}")))?;
+    let why = recovered.truncation_reason.as_deref().unwrap_or("complete");
     tracing::info!("{shown}: {} messages ({why})", recovered.messages);
     files::write(target, &recovered.bytes)
 }

@@ -25,7 +25,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Maximum time to wait for a datagram, because the core must be updated every 100 ms.
-const MAX_WAIT: Duration = Duration::from_millis(50);
+const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(50);
 /// Interval at which received data is written to disk.
 const FLUSH_INTERVAL: Duration = Duration::from_millis(250);
 /// Time without data after which the vehicle may use another address.
@@ -106,18 +106,18 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     tracing::info!("listening on UDP {}, writing {}", hub.port(socket), folder.path().display());
     let watch = Stopwatch::start();
-    let resolved = config.scenario.defects.placed.is_some();
+    let defects_saved = config.scenario.defects.placed.is_some();
     let mut shell = MonitorProcess {
         hub,
         socket,
         peer: args.connect,
-        last_heard: Duration::ZERO,
+        last_datagram_time: Duration::ZERO,
         monitor,
         folder,
-        resolved,
+        defects_saved,
         session_json_saved: false,
         last_flush: Duration::ZERO,
-        warned: None,
+        last_warning_time: None,
         stopwatch: watch,
     };
     shell.save_and_report();
@@ -185,23 +185,23 @@ struct MonitorProcess {
     hub: SocketHub,
     socket: SocketId,
     peer: Option<SocketAddr>,
-    last_heard: Duration,
+    last_datagram_time: Duration,
     monitor: Monitor,
     folder: SessionFolder,
     /// True after the seed and the placed defects have been saved in `scenario.toml`.
-    resolved: bool,
+    defects_saved: bool,
     /// True if `session.json` is up to date.
     session_json_saved: bool,
     last_flush: Duration,
     /// Time of the last disk warning; `None` while the disk can be written.
-    warned: Option<Duration>,
+    last_warning_time: Option<Duration>,
     stopwatch: Stopwatch,
 }
 
 impl MonitorProcess {
     /// Processes received data, sends the core's replies and saves its records.
     fn step(&mut self) {
-        let mut wait = MAX_WAIT;
+        let mut wait = MAX_DATAGRAM_WAIT;
         for _ in 0..MAX_BATCH_LEN {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;
@@ -218,7 +218,7 @@ impl MonitorProcess {
         let NetEvent::Datagram { from, bytes, .. } = arrival else { return };
         let wall = self.stopwatch.elapsed();
         if self.peer != Some(*from) {
-            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_heard) < SILENCE_TIMEOUT;
+            let current_is_alive = self.peer.is_some() && wall.saturating_sub(self.last_datagram_time) < SILENCE_TIMEOUT;
             if current_is_alive {
                 tracing::debug!("ignored a datagram from another address: {from}");
                 return;
@@ -230,7 +230,7 @@ impl MonitorProcess {
             tracing::info!("receiving from {from}");
             self.peer = Some(*from);
         }
-        self.last_heard = wall;
+        self.last_datagram_time = wall;
         self.monitor.handle_datagram(bytes);
     }
 
@@ -264,11 +264,11 @@ impl MonitorProcess {
     /// Writes all pending data.
     fn save(&mut self) -> Result<(), WriteError> {
         self.folder.flush()?;
-        if !self.resolved
+        if !self.defects_saved
             && let (Some(seed), Some(survey)) = (self.monitor.seed(), self.monitor.survey())
         {
             self.folder.resolve(seed, survey.defects())?;
-            self.resolved = true;
+            self.defects_saved = true;
             self.session_json_saved = false;
         }
         if !self.session_json_saved {
@@ -283,15 +283,15 @@ impl MonitorProcess {
     fn report_disk(&mut self, refused: Option<WriteError>) {
         let wall = self.stopwatch.elapsed();
         match refused {
-            None if self.warned.take().is_some() => {
+            None if self.last_warning_time.take().is_some() => {
                 tracing::info!("recording to disk resumed");
                 self.monitor.notify_pilot("Recording resumed", MavSeverity::MAV_SEVERITY_INFO);
             }
-            Some(refused) if self.warned.is_none_or(|last| wall.saturating_sub(last) >= WARNING_INTERVAL) => {
-                self.warned = Some(wall);
+            Some(refused) if self.last_warning_time.is_none_or(|last| wall.saturating_sub(last) >= WARNING_INTERVAL) => {
+                self.last_warning_time = Some(wall);
                 let (pending, dropped) = (self.folder.pending() / 1000, self.folder.dropped());
                 tracing::warn!("{refused}; {pending} kB in memory, {dropped} records lost; retrying");
-                let words = if refused.is_full() { "Disk full: recording paused" } else { "Disk error: recording paused" };
+                let words = if refused.is_disk_full() { "Disk full: recording paused" } else { "Disk error: recording paused" };
                 self.monitor.notify_pilot(words, MavSeverity::MAV_SEVERITY_ERROR);
             }
             None | Some(_) => {}
@@ -324,7 +324,7 @@ impl MonitorProcess {
         if self.hub.dropped() > 0 {
             tracing::warn!("dropped {} datagrams because the queue was full", self.hub.dropped());
         }
-        let json = self.outcome().ok().map(|graded| export::json_text(&graded.assessment));
+        let json = self.outcome().ok().map(|assessed_session| export::json_text(&assessed_session.assessment));
         self.send();
         self.complete(json.as_deref(), stop)?;
         // The report reads the telemetry again; keeping the flight in memory as well would double memory use.
@@ -338,9 +338,9 @@ impl MonitorProcess {
         if let Err(refused) = self.folder.sync() {
             tracing::warn!("{refused}; a power failure could damage the session");
         }
-        let graded = self.outcome()?;
+        let assessed_session = self.outcome()?;
         if !announce {
-            print!("{}", table::scores_text(&json!(graded.assessment)));
+            print!("{}", table::scores_text(&json!(assessed_session.assessment)));
             table::print_locations(self.folder.path());
         }
         Ok(())
@@ -349,9 +349,9 @@ impl MonitorProcess {
     fn outcome(&self) -> Result<&AssessedSession, AppError> {
         let place = self.folder.path().display();
         match self.monitor.finished() {
-            Some(Ok(graded)) => Ok(graded),
+            Some(Ok(assessed_session)) => Ok(assessed_session),
             Some(Err(error @ (AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. }))) => {
-                Err(AppError::wrong(format!(
+                Err(AppError::invalid(format!(
                     "{error}: use the same --scenario and --seed for the simulator and the monitor (telemetry is in {place})"
                 )))
             }

@@ -7,16 +7,16 @@ use spandrel_view::quality::{PRESETS, Quality};
 const MAX_SIZE_PX: u32 = 8192;
 
 /// Returns the quality preset with this name.
-pub fn quality(name: &str) -> Result<Quality, AppError> {
+pub fn parse_quality(name: &str) -> Result<Quality, AppError> {
     let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
     Quality::by_name(name)
-        .ok_or_else(|| AppError::wrong(format!("--quality {name}: unknown preset (allowed: {})", names.join(", "))))
+        .ok_or_else(|| AppError::invalid(format!("--quality {name}: unknown preset (allowed: {})", names.join(", "))))
 }
 
 /// Parses a size: width and height in px.
-pub fn size(text: &str) -> Result<(u32, u32), AppError> {
+pub fn parse_size(text: &str) -> Result<(u32, u32), AppError> {
     let wrong = || {
-        AppError::wrong(format!(
+        AppError::invalid(format!(
             "--size {text}: not a size (allowed: WIDTHxHEIGHT in px, each 16 to {MAX_SIZE_PX}, for example 1280x720)"
         ))
     };
@@ -26,6 +26,6 @@ pub fn size(text: &str) -> Result<(u32, u32), AppError> {
 }
 
 /// Returns the quality preset with this name; `None` for auto.
-pub fn quality_or_auto(name: &str) -> Result<Option<Quality>, AppError> {
-    if name == "auto" { Ok(None) } else { quality(name).map(Some) }
+pub fn parse_quality_or_auto(name: &str) -> Result<Option<Quality>, AppError> {
+    if name == "auto" { Ok(None) } else { parse_quality(name).map(Some) }
 }

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Maximum time to wait for a datagram.
-const MAX_WAIT: Duration = Duration::from_millis(50);
+const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(50);
 /// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
@@ -39,7 +39,7 @@ impl SkillArgs {
     /// # Errors
     /// Returns an error if there is no such skill level.
     pub fn skill(&self) -> Result<Skill, AppError> {
-        let base = self.skill.parse::<Skill>().map_err(AppError::wrong)?;
+        let base = self.skill.parse::<Skill>().map_err(AppError::invalid)?;
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
     }
 
@@ -115,7 +115,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let (watch, mut last_received_at, mut reported) = (Stopwatch::start(), None, false);
     let mut progress = ProgressLog::start("waiting for the vehicle");
     while !stop.is_requested() {
-        let arrival = hub.next(MAX_WAIT);
+        let arrival = hub.next(MAX_DATAGRAM_WAIT);
         if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival
             && *peer.get_or_insert(from) == from
         {

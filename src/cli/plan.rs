@@ -9,7 +9,7 @@ use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
-use spandrel_training::record::{IncompletePolicy, omitted_summary};
+use spandrel_training::record::{IncompletePolicy, excluded_sessions_note};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -61,14 +61,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let rules = rules(args.rules.as_deref())?;
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "the records contain no sessions of '{trainee}'; to add sessions, use `spandrel records import`"
         )));
     };
-    files::write("-", if args.json { json_text(&plan) } else { words(&plan) }.as_bytes())
+    files::write("-", if args.json { json_text(&plan) } else { plan_text(&plan) }.as_bytes())
 }
 
-fn words(plan: &TrainingPlan) -> String {
+fn plan_text(plan: &TrainingPlan) -> String {
     let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
     let mut out = format!(
         "Recommended exercises after {}, to fly between {} and {}:\n",
@@ -82,7 +82,7 @@ fn words(plan: &TrainingPlan) -> String {
             let _ = writeln!(out, "   {}", reason.words);
         }
     }
-    if let Some(words) = omitted_summary(plan.left_out) {
+    if let Some(words) = excluded_sessions_note(plan.left_out) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     if let Some(changes) = &plan.changes {

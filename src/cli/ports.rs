@@ -5,8 +5,8 @@ use crate::io::serial::SerialDevice;
 use crate::io::vehicle_ports::{VehiclePorts, local};
 use std::net::{IpAddr, SocketAddr};
 
-const GCS_TARGET: u16 = 14550;
-const SDK_TARGET: u16 = 14540;
+const GCS_TARGET_PORT: u16 = 14550;
+const SDK_TARGET_PORT: u16 = 14540;
 const GCS_PORT: u16 = 18570;
 const PAYLOAD_PORT: u16 = 14280;
 /// UDP port of the first instance's monitor; each further instance uses the next port.
@@ -58,7 +58,7 @@ impl PortArgs {
         self.ports == "ephemeral"
     }
 
-    fn shifted(&self, first: u16) -> u16 {
+    fn port_for_instance(&self, first: u16) -> u16 {
         first + u16::from(self.instance)
     }
 
@@ -93,7 +93,7 @@ impl PortArgs {
             Some(PortChoice::None) => None,
             Some(PortChoice::Number(port)) => Some(port),
             None if self.ephemeral() => Some(0),
-            None => Some(self.shifted(first)),
+            None => Some(self.port_for_instance(first)),
         }
     }
 
@@ -103,7 +103,7 @@ impl PortArgs {
             Destination::None => None,
             Destination::Address(address) => Some(*address),
         });
-        if self.gcs.is_empty() && !self.ephemeral() { vec![local(GCS_TARGET)] } else { given.collect() }
+        if self.gcs.is_empty() && !self.ephemeral() { vec![local(GCS_TARGET_PORT)] } else { given.collect() }
     }
 
     /// Returns the address of the SDK to send telemetry to from startup.
@@ -112,7 +112,7 @@ impl PortArgs {
             Some(Destination::Address(address)) => Some(address),
             Some(Destination::None) => None,
             None if self.ephemeral() => None,
-            None => Some(local(self.shifted(SDK_TARGET))),
+            None => Some(local(self.port_for_instance(SDK_TARGET_PORT))),
         }
     }
 
@@ -122,7 +122,7 @@ impl PortArgs {
             Some(PortChoice::Number(port)) => port,
             Some(PortChoice::None) => 0,
             None if self.ephemeral() => 0,
-            None => self.shifted(MONITOR_PORT),
+            None => self.port_for_instance(MONITOR_PORT),
         }
     }
 
@@ -183,13 +183,13 @@ mod tests {
     use clap::Parser;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestArgs {
         #[command(flatten)]
         ports: PortArgs,
     }
 
     fn parse(words: &[&str]) -> PortArgs {
-        Line::parse_from(["test"].iter().chain(words)).ports
+        TestArgs::parse_from(["test"].iter().chain(words)).ports
     }
 
     #[test]

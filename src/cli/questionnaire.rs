@@ -88,7 +88,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 fn select_wording<'a>(args: &Args, languages: &'a Languages, answers: &Answers) -> Result<&'a Wording, AppError> {
     if let Some(tag) = &args.language {
         let names: Vec<&str> = languages.all().iter().map(|wording| wording.language.as_str()).collect();
-        let none = || AppError::wrong(format!("--language {tag}: unknown language (allowed: {})", names.join(", ")));
+        let none = || AppError::invalid(format!("--language {tag}: unknown language (allowed: {})", names.join(", ")));
         return languages.of(tag).ok_or_else(none);
     }
     let begun = || languages.of(&answers.language).filter(|_| !answers.language.is_empty());

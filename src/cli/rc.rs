@@ -20,7 +20,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 /// Maximum time to wait for a datagram: one-quarter of the interval between stick samples.
-const MAX_WAIT: Duration = Duration::from_millis(5);
+const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(5);
 /// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall time without a first datagram after which the program logs that it is waiting.
@@ -130,7 +130,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         let keys = controller::keys(args.keys.as_deref())?;
         if let Some(duty) = keys.binding_name(QUIT_KEY) {
             let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
-            return Err(AppError::wrong(format!(
+            return Err(AppError::invalid(format!(
                 "{file}{duty} = \"{QUIT_KEY}\": this key quits the program in the terminal; choose another one"
             )));
         }
@@ -145,9 +145,9 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         return Ok(StickSource::Keyboard { terminal, board: KeyboardState::new(keys) });
     }
     let source = match &args.replay {
-        Some(path) => {
-            EventSource::Record(InputRecording::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::wrong)?)
-        }
+        Some(path) => EventSource::Record(
+            InputRecording::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::invalid)?,
+        ),
         None => EventSource::device(args.device.as_deref())?,
     };
     Ok(StickSource::Device(Box::new(CalibratedController::open(
@@ -200,7 +200,7 @@ fn fly(
         link.set_arm_key(&board.keys().label("arm"));
     }
     while !stop.is_requested() {
-        if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(MAX_WAIT)
+        if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(MAX_DATAGRAM_WAIT)
             && from == vehicle
         {
             if last_received_at.is_none() {
@@ -298,14 +298,14 @@ mod tests {
     use clap::Parser;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestArgs {
         #[command(flatten)]
         args: Args,
     }
 
     #[test]
     fn exact_calibration_requires_profile_folder() {
-        let args = Line::parse_from(["rc", "--calibrate"]).args;
+        let args = TestArgs::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
         assert!(told.contains("specify a profile folder with --profiles"), "{told}");
     }

@@ -5,18 +5,18 @@ use crate::io::progress::ProgressLog;
 use crate::io::trainee_id::TraineeId;
 use crate::io::{clock, files};
 use crate::records::{
-    Database, ImportCounts, RecordsLocation, erase_older_than, erase_person, find, folders_of_trainee, folders_older_than,
-    import_into, lines, push, session_folders, session_id, stored_data,
+    Database, ImportCounts, RecordsLocation, erase_older_than, erase_trainee, find, folders_of_trainee, folders_older_than,
+    import_into, lines, push, session_folders, session_id, trainee_data,
 };
 use spandrel_monitor::export::json_text;
 use spandrel_training::record::SessionOutcome;
-use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role};
-use spandrel_training::xapi::HOME;
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role};
+use spandrel_training::xapi::DEFAULT_ACCOUNT_HOME_PAGE;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Microseconds per day.
-const DAY_US: u64 = 86_400_000_000;
+const US_PER_DAY: u64 = 86_400_000_000;
 /// Maximum retention time, days (about 100 years).
 const MAX_RETENTION_DAYS: i64 = 36_525;
 
@@ -145,10 +145,10 @@ pub struct PersonArgs {
     #[arg(long, value_name = "BAND", value_parser = AGE_BANDS.to_vec())]
     age_band: Option<String>,
     /// Experience with drones
-    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE_LEVELS.to_vec())]
     drone_experience: Option<String>,
     /// Experience with video games
-    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE.to_vec())]
+    #[arg(long, value_name = "HOW", value_parser = EXPERIENCE_LEVELS.to_vec())]
     gaming_experience: Option<String>,
 }
 
@@ -163,7 +163,7 @@ pub struct PushArgs {
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Account home page (xAPI homePage) for the pseudonyms in the statements
-    #[arg(long, value_name = "URL", default_value = HOME)]
+    #[arg(long, value_name = "URL", default_value = DEFAULT_ACCOUNT_HOME_PAGE)]
     home: String,
 }
 
@@ -225,7 +225,7 @@ fn rebuild(records_location: &RecordsLocation, yes: bool) -> Result<(), AppError
     // Sessions that other stations add after this point are not affected.
     let gone: Vec<String> = database.fingerprints()?.into_keys().filter(|id| !here.contains(id)).collect();
     if !gone.is_empty() && !yes {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "{}: {} sessions have no folder on this machine and would be lost (for example {}); specify all folders with --sessions, or use --yes to delete these sessions",
             database.name(),
             gone.len(),
@@ -268,7 +268,7 @@ fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), App
 }
 
 fn retention(records_location: &RecordsLocation, days: u64, yes: bool) -> Result<(), AppError> {
-    let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(DAY_US));
+    let limit_us = clock::unix_us().saturating_sub(days.saturating_mul(US_PER_DAY));
     let database = records_location.open()?;
     let before = clock::utc(limit_us).0;
     if !yes {
@@ -292,7 +292,7 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
         database.update_details(name, args.role.as_deref().and_then(Role::from_word), details)?;
     }
     let person = find(database, name)?;
-    let person = person.ok_or_else(|| AppError::wrong(format!("{}: unknown person '{name}'", database.name())))?;
+    let person = person.ok_or_else(|| AppError::invalid(format!("{}: unknown person '{name}'", database.name())))?;
     files::write("-", json_text(&person).as_bytes())
 }
 
@@ -302,8 +302,8 @@ fn set_details(database: &Database, args: &PersonArgs) -> Result<(), AppError> {
 /// Returns an error if there is no data, or the database or the output fails.
 fn export(records_location: &RecordsLocation, trainee: &str, out: &str) -> Result<(), AppError> {
     let database = records_location.open()?;
-    let kept = stored_data(&database, records_location, trainee)?;
-    let kept = kept.ok_or_else(|| AppError::wrong(format!("{}: no data about '{trainee}'", database.name())))?;
+    let kept = trainee_data(&database, records_location, trainee)?;
+    let kept = kept.ok_or_else(|| AppError::invalid(format!("{}: no data about '{trainee}'", database.name())))?;
     files::write(out, json_text(&kept).as_bytes())
 }
 
@@ -324,9 +324,9 @@ fn erase(records_location: &RecordsLocation, trainee: &str, yes: bool) -> Result
         );
         return Ok(());
     }
-    let (known, sessions) = erase_person(&database, records_location, trainee)?;
+    let (known, sessions) = erase_trainee(&database, records_location, trainee)?;
     if !known {
-        return Err(AppError::wrong(format!("{}: no data about '{trainee}'", database.name())));
+        return Err(AppError::invalid(format!("{}: no data about '{trainee}'", database.name())));
     }
     println!("erased '{trainee}': {sessions} sessions in {}, {} folders", database.name(), folders.len());
     Ok(())
@@ -335,6 +335,12 @@ fn erase(records_location: &RecordsLocation, trainee: &str, yes: bool) -> Result
 fn push_sessions(records_location: &RecordsLocation, args: &PushArgs) -> Result<(), AppError> {
     let records = records_location.open()?.records(args.trainee.as_ref().map(TraineeId::as_str))?;
     let all = push::push(records_location, &records, &args.url, &args.home)?;
-    println!("{}: {} sessions, {} statements sent, {} already stored", args.url, records.len(), all.sent, all.already_there);
+    println!(
+        "{}: {} sessions, {} statements sent, {} already stored",
+        args.url,
+        records.len(),
+        all.sent,
+        all.already_stored_count
+    );
     Ok(())
 }

@@ -130,7 +130,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         return set_password(&args.records_location.location(), name.as_str(), role);
     }
     let stop = StopRequest::install(args.leash)?;
-    let watched = watched(&args.vehicle, &args.picture)?;
+    let watched = pair_vehicles_with_pictures(&args.vehicle, &args.picture)?;
     let scenarios = args.scenarios.clone();
     let (records_location, wordings) = (args.records_location.location(), args.wording.clone());
     let server = WebServer::start(&args.listen.config(), ServerSetup { records_location, scenarios, watched, wordings })?;
@@ -144,7 +144,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 }
 
 /// Pairs each vehicle with its picture file.
-fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<WatchedVehicle>, AppError> {
+fn pair_vehicles_with_pictures(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<WatchedVehicle>, AppError> {
     let addresses = vehicles.iter().filter_map(|target| match target {
         Destination::None => None,
         Destination::Address(address) => Some(*address),
@@ -152,7 +152,7 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
     let addresses: Vec<SocketAddr> = addresses.collect();
     if pictures.len() > addresses.len() {
         let (many, few) = (pictures.len(), addresses.len());
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "--picture: {many} files for {few} vehicles (allowed: at most one file for each vehicle)"
         )));
     }
@@ -166,7 +166,7 @@ fn watched(vehicles: &[Destination], pictures: &[PathBuf]) -> Result<Vec<Watched
 /// Returns an error if the password is not acceptable, or the database fails.
 fn set_password(records_location: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
     let password = prompt_password(name)?;
-    login::check(&password, name).map_err(|wrong| AppError::wrong(format!("--set-password {name}: {wrong}")))?;
+    login::check(&password, name).map_err(|wrong| AppError::invalid(format!("--set-password {name}: {wrong}")))?;
     let database = records_location.open()?;
     database.set_login(name, role, &passwords::hash(&password, &mut HashingMemory::default())?)?;
     println!("{}: '{name}' can now log in as {}", database.name(), role.word());
@@ -178,7 +178,7 @@ fn prompt_password(name: &str) -> Result<String, AppError> {
     if std::io::stdin().is_terminal() {
         let first = rpassword::prompt_password(format!("Password for {name}: ")).map_err(failed)?;
         let again = rpassword::prompt_password("Repeat password: ").map_err(failed)?;
-        return if first == again { Ok(first) } else { Err(AppError::wrong("the passwords do not match")) };
+        return if first == again { Ok(first) } else { Err(AppError::invalid("the passwords do not match")) };
     }
     let mut line = String::new();
     std::io::stdin().lock().read_line(&mut line).map_err(failed)?;

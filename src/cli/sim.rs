@@ -243,7 +243,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 
 fn lateness_json(late: Lateness) -> serde_json::Value {
     let ms = |time: Duration| 1e3 * time.as_secs_f64();
-    serde_json::json!({ "latest_ms": ms(late.latest), "slips": late.slips, "slipped_ms": ms(late.slipped) })
+    serde_json::json!({ "latest_ms": ms(late.longest_delay), "slips": late.slip_count, "slipped_ms": ms(late.slipped_time) })
 }
 
 /// A vehicle's final results.

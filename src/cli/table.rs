@@ -75,7 +75,7 @@ fn tasks(out: &mut String, assessment: &Value) {
     for task in assessment["tasks"].as_array().into_iter().flatten() {
         let id = task["id"].as_u64().unwrap_or_default();
         let state = TaskState::deserialize(&task["state"]).ok().zip(number(&task["covered"]));
-        let state = state.map_or(String::new(), |(state, covered)| format!("{}, ", state.words(covered, done_share)));
+        let state = state.map_or(String::new(), |(state, covered)| format!("{}, ", state.description(covered, done_share)));
         let _ = match (task["attempted"].as_bool(), number(&task["on_path"]), number(&task["speeding"])) {
             (Some(true), Some(on_path), Some(speeding)) => {
                 writeln!(out, "task {id}        {state}on path {:.1}% of the time, speeding loss {speeding:.3}", 100.0 * on_path)

@@ -2,7 +2,7 @@
 
 use super::args::JobArgs;
 #[cfg(feature = "view")]
-use super::picture_args::{quality_or_auto, size};
+use super::picture_args::{parse_quality_or_auto, parse_size};
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
 #[cfg(feature = "view")]
@@ -108,8 +108,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let keys = controller::keys(args.keys.as_deref())?;
     let config = WindowConfig {
         listen: args.listen,
-        quality: quality_or_auto(&args.quality)?,
-        size_px: size(&args.size)?,
+        quality: parse_quality_or_auto(&args.quality)?,
+        size_px: parse_size(&args.size)?,
         map: !args.no_map,
         picture: picture(args)?,
         camera_file: args.picture.clone(),
@@ -137,7 +137,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 fn picture(args: &Args) -> Result<Option<CaptureRequest>, AppError> {
     let (Some(path), Some(after)) = (&args.screenshot, args.after) else { return Ok(None) };
     if !(0.0..=MAX_SCREENSHOT_DELAY_S).contains(&after) {
-        return Err(AppError::wrong(format!("--after {after}: out of range (allowed: 0 to {MAX_SCREENSHOT_DELAY_S} s)")));
+        return Err(AppError::invalid(format!("--after {after}: out of range (allowed: 0 to {MAX_SCREENSHOT_DELAY_S} s)")));
     }
     Ok(Some(CaptureRequest { path: path.clone(), after: std::time::Duration::from_secs_f64(after) }))
 }

@@ -21,7 +21,7 @@ pub struct WriteError {
 
 impl WriteError {
     /// Returns true if the disk is full, false for any other disk error.
-    pub fn is_full(&self) -> bool {
+    pub fn is_disk_full(&self) -> bool {
         matches!(self.error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
     }
 }
@@ -72,7 +72,7 @@ impl AppendFile {
     pub fn lock(&self) -> Result<(), AppError> {
         match self.file.try_lock() {
             Ok(()) => Ok(()),
-            Err(TryLockError::WouldBlock) => Err(AppError::wrong(format!(
+            Err(TryLockError::WouldBlock) => Err(AppError::invalid(format!(
                 "{}: another monitor is recording this session: stop that monitor, or omit --session to start a new session",
                 self.path.display()
             ))),

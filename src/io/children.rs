@@ -13,7 +13,7 @@ use std::time::Duration;
 /// Time limit for a child to open its sockets and load its site on a busy machine.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
 /// Time limit for a child to shut down cleanly.
-const FINISH_TIMEOUT: Duration = Duration::from_secs(10);
+const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(10);
 /// Interval between checks of a child that is shutting down.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
 
@@ -70,10 +70,10 @@ impl Child {
     /// Returns an error if the child exits first, or prints anything else.
     pub fn read_announcement(&mut self) -> Result<Value, AppError> {
         let name = self.name;
-        let line = self.lines.recv_timeout(START_TIMEOUT).map_err(|error| match self.exit_status_after(error) {
+        let line = self.lines.recv_timeout(START_TIMEOUT).map_err(|error| match self.early_exit_status(error) {
             Some(status) => {
                 let why = format!("the {name} did not start ({status}); see its message in the terminal");
-                if status.code() == Some(2) { AppError::wrong(why) } else { AppError::failed(why) }
+                if status.code() == Some(2) { AppError::invalid(why) } else { AppError::failed(why) }
             }
             None => AppError::failed(format!("the {name} has not started after {} s", START_TIMEOUT.as_secs())),
         })?;
@@ -82,9 +82,9 @@ impl Child {
     }
 
     /// Returns the exit status of a child that exited before announcing its ports.
-    fn exit_status_after(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
+    fn early_exit_status(&mut self, error: RecvTimeoutError) -> Option<ExitStatus> {
         match error {
-            RecvTimeoutError::Timeout => self.ended(),
+            RecvTimeoutError::Timeout => self.exit_status(),
             // The child's output closes slightly before the process exits.
             RecvTimeoutError::Disconnected => self.finish(),
         }
@@ -105,7 +105,7 @@ impl Child {
     }
 
     /// Returns the exit status, if the child has exited.
-    pub fn ended(&mut self) -> Option<ExitStatus> {
+    pub fn exit_status(&mut self) -> Option<ExitStatus> {
         self.process.try_wait().ok().flatten()
     }
 
@@ -118,8 +118,8 @@ impl Child {
     pub fn finish(&mut self) -> Option<ExitStatus> {
         self.close_stdin();
         let watch = Stopwatch::start();
-        while watch.elapsed() < FINISH_TIMEOUT {
-            if let Some(status) = self.ended() {
+        while watch.elapsed() < SHUTDOWN_TIMEOUT {
+            if let Some(status) = self.exit_status() {
                 return Some(status);
             }
             std::thread::sleep(CHECK_INTERVAL);
@@ -133,7 +133,7 @@ impl Child {
 
 impl Drop for Child {
     fn drop(&mut self) {
-        if self.ended().is_none() {
+        if self.exit_status().is_none() {
             self.finish();
         }
     }

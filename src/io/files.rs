@@ -105,7 +105,7 @@ pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'stati
     }
     let names: Vec<&str> = library.iter().map(|(name, _)| *name).collect();
     let (name, text) = library.iter().find(|(name, _)| *name == argument).ok_or_else(|| {
-        AppError::wrong(format!("there is no {what} '{argument}': specify a file or one of {}", names.join(", ")))
+        AppError::invalid(format!("there is no {what} '{argument}': specify a file or one of {}", names.join(", ")))
     })?;
     Ok(SourceFile { file: format!("{name}.toml"), text: (*text).to_owned(), folder: None })
 }
@@ -124,9 +124,9 @@ pub fn any_source(argument: &str) -> Result<SourceFile, AppError> {
 /// # Errors
 /// Returns an error if it cannot be read.
 pub fn read(path: &Path) -> Result<String, AppError> {
-    let bytes = std::fs::read(path).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", path.display())))?;
+    let bytes = std::fs::read(path).map_err(|error| AppError::invalid(format!("{}: cannot read: {error}", path.display())))?;
     String::from_utf8(bytes).map_err(|error| {
-        AppError::wrong(format!("{}: not UTF-8 text (byte {})", path.display(), error.utf8_error().valid_up_to()))
+        AppError::invalid(format!("{}: not UTF-8 text (byte {})", path.display(), error.utf8_error().valid_up_to()))
     })
 }
 

@@ -4,7 +4,7 @@ use cap_std::fs::Dir;
 use std::collections::BTreeMap;
 
 /// File extensions of a flight's logs.
-const EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
+const LOG_EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
 
 /// Deletes the logs of the oldest flights until the remaining logs use at most `most` bytes. `folder` contains one
 /// folder per day, with two files per flight, named by time of day. Other files are neither counted nor deleted.
@@ -12,7 +12,7 @@ const EXTENSIONS: [&str; 2] = [".ulg", ".mcap"];
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read or a file cannot be deleted.
-pub fn delete_oldest(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
+pub fn delete_oldest_logs(root: &Dir, folder: &str, most: u64) -> std::io::Result<usize> {
     let flights = flights(root, folder)?;
     let mut total: u64 = flights.values().map(|flight| flight.bytes).sum();
     let mut deleted = 0;
@@ -51,7 +51,7 @@ fn flights(root: &Dir, folder: &str) -> std::io::Result<BTreeMap<(String, String
         for file in root.read_dir(&path)? {
             let file = file?;
             let Ok(name) = file.file_name().into_string() else { continue };
-            let Some(stem) = EXTENSIONS.iter().find_map(|ending| name.strip_suffix(ending)) else { continue };
+            let Some(stem) = LOG_EXTENSIONS.iter().find_map(|ending| name.strip_suffix(ending)) else { continue };
             let (time, number) = stem.split_once('-').map_or((stem, 0), |(time, number)| (time, number.parse().unwrap_or(0)));
             let flight = flights.entry((date.clone(), time.to_owned(), number)).or_default();
             flight.day.clone_from(&path);
@@ -86,13 +86,13 @@ mod tests {
             std::fs::write(temp_dir.path().join("log").join(name), vec![0; bytes]).unwrap();
         }
         let there = || files.iter().filter(|(name, _)| temp_dir.path().join("log").join(name).is_file()).map(|(name, _)| *name);
-        assert_eq!(delete_oldest(&root, "log", 450).unwrap(), 0);
+        assert_eq!(delete_oldest_logs(&root, "log", 450).unwrap(), 0);
         assert_eq!(there().count(), files.len(), "all of them fit");
-        assert_eq!(delete_oldest(&root, "log", 250).unwrap(), 2);
+        assert_eq!(delete_oldest_logs(&root, "log", 250).unwrap(), 2);
         let left = ["2026-09-21/01_00_00-2.ulg", "2026-09-21/01_00_00-10.ulg", "2026-09-21/notes.txt"];
         assert_eq!(there().collect::<Vec<_>>(), left, "the oldest flights were deleted with both files");
         assert!(!temp_dir.path().join("log/2026-09-20").exists(), "folders of days without logs are removed");
-        assert_eq!(delete_oldest(&root, "log", 0).unwrap(), 2);
+        assert_eq!(delete_oldest_logs(&root, "log", 0).unwrap(), 2);
         assert_eq!(there().collect::<Vec<_>>(), ["2026-09-21/notes.txt"]);
     }
 }

@@ -13,9 +13,9 @@ const MIN_PASSPHRASE_CHARS: usize = 8;
 /// Returns an error if the file cannot be read, is readable by other users, or contains no key. The message never shows
 /// the file's contents.
 pub fn read(path: &Path) -> Result<SigningKey, AppError> {
-    let wrong = |what: &str| AppError::wrong(format!("--signing-key {}: {what}", path.display()));
+    let wrong = |what: &str| AppError::invalid(format!("--signing-key {}: {what}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| wrong(&error.to_string()))?;
-    if let Some(mode) = mode_if_readable_by_others(path) {
+    if let Some(mode) = file_mode_if_readable_by_others(path) {
         return Err(wrong(&format!("other users can read it (mode {mode:o}); allowed: 600 or stricter (chmod 600)")));
     }
     let text = text.trim_end_matches(['\r', '\n']);
@@ -32,14 +32,14 @@ pub fn read(path: &Path) -> Result<SigningKey, AppError> {
 }
 
 #[cfg(unix)]
-fn mode_if_readable_by_others(path: &Path) -> Option<u32> {
+fn file_mode_if_readable_by_others(path: &Path) -> Option<u32> {
     use std::os::unix::fs::PermissionsExt;
     let mode = std::fs::metadata(path).ok()?.permissions().mode() & 0o777;
     (mode & 0o077 != 0).then_some(mode)
 }
 
 #[cfg(not(unix))]
-fn mode_if_readable_by_others(_: &Path) -> Option<u32> {
+fn file_mode_if_readable_by_others(_: &Path) -> Option<u32> {
     None
 }
 
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use std::os::unix::fs::PermissionsExt;
 
-    fn file(text: &str, mode: u32) -> tempfile::TempPath {
+    fn key_file(text: &str, mode: u32) -> tempfile::TempPath {
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), text).unwrap();
         std::fs::set_permissions(file.path(), std::fs::Permissions::from_mode(mode)).unwrap();
@@ -64,10 +64,10 @@ mod tests {
     #[test]
     fn exact_hex_digits_are_the_key_and_passphrases_are_hashed() {
         assert_eq!(
-            read(&file(&format!("{}\n", "0aFf".repeat(16)), 0o600)).unwrap(),
+            read(&key_file(&format!("{}\n", "0aFf".repeat(16)), 0o600)).unwrap(),
             SigningKey([0x0a, 0xff].repeat(16).try_into().unwrap())
         );
-        assert_eq!(read(&file("bridge over water", 0o400)).unwrap(), SigningKey::from_passphrase("bridge over water"));
+        assert_eq!(read(&key_file("bridge over water", 0o400)).unwrap(), SigningKey::from_passphrase("bridge over water"));
     }
 
     #[test]
@@ -77,7 +77,7 @@ mod tests {
             ("hunter2", 0o600, "too short"),
             ("one line\ntwo lines", 0o600, "more than one line"),
         ] {
-            let Err(error) = read(&file(text, mode)) else { panic!("{said}") };
+            let Err(error) = read(&key_file(text, mode)) else { panic!("{said}") };
             assert!(error.to_string().contains(said) && !error.to_string().contains(text), "{error}");
         }
     }

@@ -58,10 +58,10 @@ enum LinkRoute {
 #[derive(Debug)]
 pub struct Links {
     hub: SocketHub,
-    kinds: BTreeMap<SocketId, LinkKind>,
+    kinds_by_socket: BTreeMap<SocketId, LinkKind>,
     routes: BTreeMap<u32, LinkRoute>,
-    by_peer: BTreeMap<(SocketId, SocketAddr), u32>,
-    by_stream: BTreeMap<StreamId, u32>,
+    links_by_peer: BTreeMap<(SocketId, SocketAddr), u32>,
+    links_by_stream: BTreeMap<StreamId, u32>,
     lockstep: Vec<SocketAddr>,
     limit: Option<f64>,
     changes: VecDeque<LinkEvent>,
@@ -89,13 +89,13 @@ impl Links {
         }
         let port = |socket: Option<SocketId>| socket.map(|socket| hub.port(socket));
         let bound = serde_json::json!({ "system_id": ports.system_id, "gcs_port": port(gcs), "payload_port": port(payload), "tcp_port": tcp });
-        let kinds = [(gcs, LinkKind::GroundStation), (payload, LinkKind::Payload), (sdk, LinkKind::Sdk)];
+        let kinds_by_socket = [(gcs, LinkKind::GroundStation), (payload, LinkKind::Payload), (sdk, LinkKind::Sdk)];
         let mut links = Self {
             hub,
-            kinds: kinds.into_iter().filter_map(|(socket, kind)| Some((socket?, kind))).collect(),
+            kinds_by_socket: kinds_by_socket.into_iter().filter_map(|(socket, kind)| Some((socket?, kind))).collect(),
             routes: BTreeMap::new(),
-            by_peer: BTreeMap::new(),
-            by_stream: BTreeMap::new(),
+            links_by_peer: BTreeMap::new(),
+            links_by_stream: BTreeMap::new(),
             lockstep: lockstep.to_vec(),
             limit: ports.gcs_limit.map(f64::from),
             changes: VecDeque::new(),
@@ -116,9 +116,9 @@ impl Links {
     }
 
     fn check_lockstep_peers(&self) -> Result<(), AppError> {
-        let called = |peer: &SocketAddr| self.by_peer.keys().any(|(_, known)| known == peer);
+        let called = |peer: &SocketAddr| self.links_by_peer.keys().any(|(_, known)| known == peer);
         match self.lockstep.iter().find(|peer| !called(peer)) {
-            Some(peer) => Err(AppError::wrong(format!(
+            Some(peer) => Err(AppError::invalid(format!(
                 "--lockstep {peer}: not a destination of the vehicle; also specify it with --gcs, --sdk or --monitor-port"
             ))),
             None => Ok(()),
@@ -157,7 +157,7 @@ impl Links {
         for link in silent {
             if let Some(LinkRoute::Learned { socket, peer, .. }) = self.routes.remove(&link) {
                 tracing::info!("{peer} disconnected after {} s of silence", SILENCE_TIMEOUT.as_secs());
-                self.by_peer.remove(&(socket, peer));
+                self.links_by_peer.remove(&(socket, peer));
                 self.changes.push_back(LinkEvent::Closed { link });
             }
         }
@@ -195,8 +195,8 @@ impl Links {
         let link = self.next_number();
         let route = heard.map_or(LinkRoute::Fixed { socket, peer }, |heard| LinkRoute::Learned { socket, peer, heard });
         self.routes.insert(link, route);
-        self.by_peer.insert((socket, peer), link);
-        let kind = self.kinds.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
+        self.links_by_peer.insert((socket, peer), link);
+        let kind = self.kinds_by_socket.get(&socket).copied().unwrap_or(LinkKind::GroundStation);
         let limit = self.limit.filter(|_| kind == LinkKind::GroundStation);
         let lockstep = self.lockstep.contains(&peer);
         self.changes.push_back(LinkEvent::Opened { link, kind, lockstep, learned: heard.is_some(), limit });
@@ -208,7 +208,7 @@ impl Links {
             NetEvent::Datagram { socket, from, bytes } => self.handle_datagram(socket, from, bytes, wall),
             NetEvent::Connected(stream, origin) => self.add_stream(stream, &origin),
             NetEvent::Bytes(stream, bytes) => {
-                let Some(link) = self.by_stream.get(&stream).copied() else { return };
+                let Some(link) = self.links_by_stream.get(&stream).copied() else { return };
                 let Some(LinkRoute::Stream { decoder, .. }) = self.routes.get_mut(&link) else { return };
                 let before = decoder.bad_bytes();
                 let frames = decoder.push(&bytes).into_iter();
@@ -216,7 +216,7 @@ impl Links {
                 self.bad_bytes += decoder.bad_bytes() - before;
             }
             NetEvent::Closed(stream) => {
-                let Some(link) = self.by_stream.remove(&stream) else { return };
+                let Some(link) = self.links_by_stream.remove(&stream) else { return };
                 self.routes.remove(&link);
                 self.changes.push_back(LinkEvent::Closed { link });
             }
@@ -224,7 +224,7 @@ impl Links {
     }
 
     fn add_stream(&mut self, stream: StreamId, origin: &StreamOrigin) {
-        if self.by_stream.len() >= MAX_LEARNED_PEERS {
+        if self.links_by_stream.len() >= MAX_LEARNED_PEERS {
             tracing::warn!("rejected {origin}: {MAX_LEARNED_PEERS} clients are already connected");
             self.hub.drop_stream(stream);
             return;
@@ -236,7 +236,7 @@ impl Links {
             StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.capacity_bytes_s())),
         };
         self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
-        self.by_stream.insert(stream, link);
+        self.links_by_stream.insert(stream, link);
         self.changes.push_back(LinkEvent::Opened { link, kind, lockstep: false, learned: false, limit });
     }
 
@@ -257,7 +257,7 @@ impl Links {
     }
 
     fn handle_datagram(&mut self, socket: SocketId, from: SocketAddr, bytes: Vec<u8>, wall: Duration) {
-        let link = match self.by_peer.get(&(socket, from)) {
+        let link = match self.links_by_peer.get(&(socket, from)) {
             Some(link) => *link,
             None => {
                 let Some(link) = self.add_peer(socket, from, &bytes, wall) else { return };
@@ -284,7 +284,7 @@ mod tests {
     use spandrel_mavlink::station;
     use std::net::UdpSocket;
 
-    fn hello_frame() -> Vec<u8> {
+    fn heartbeat_frame() -> Vec<u8> {
         Encoder::new(255, 190).encode(&station::heartbeat())
     }
 
@@ -305,20 +305,20 @@ mod tests {
     }
 
     #[test]
-    fn wire_new_peers_are_learned_and_answered() {
+    fn wire_new_peers_are_learned_and_get_replies() {
         let mut links = Links::open(&ephemeral(&[]), &[]).unwrap();
         let port = u16::try_from(links.bound["payload_port"].as_u64().unwrap()).unwrap();
         let sidecar = UdpSocket::bind(local(0)).unwrap();
         // Non-MAVLink data does not add a peer.
         sidecar.send_to(b"h", local(port)).unwrap();
-        sidecar.send_to(&hello_frame(), local(port)).unwrap();
+        sidecar.send_to(&heartbeat_frame(), local(port)).unwrap();
         let (watch, limit) = (Stopwatch::start(), Duration::from_secs(60));
         while links.changes.is_empty() && watch.elapsed() < limit {
             links.wait(Duration::from_secs(1));
         }
         let opened = LinkEvent::Opened { link: 1, kind: LinkKind::Payload, lockstep: false, learned: true, limit: None };
         assert_eq!((links.poll(), links.bad_bytes()), (Some(opened), 1));
-        assert_eq!(links.poll(), Some(LinkEvent::Bytes { link: 1, bytes: hello_frame() }));
+        assert_eq!(links.poll(), Some(LinkEvent::Bytes { link: 1, bytes: heartbeat_frame() }));
         links.send(1, b"welcome".to_vec());
         let mut heard = [0u8; 16];
         let (len, from) = sidecar.recv_from(&mut heard).unwrap();
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lockstep_peers_must_be_destinations() {
+    fn exact_lockstep_peers_must_be_configured_destinations() {
         let Err(error) = Links::open(&ephemeral(&[]), &[local(9)]) else { panic!("accepted") };
         assert!(error.to_string().contains("--lockstep 127.0.0.1:9"));
         let args = ephemeral(&[local(9)]);
@@ -339,13 +339,13 @@ mod tests {
     fn called(peer: &str) -> (Links, SocketId) {
         let mut links = Links::open(&ephemeral(&[peer.parse().unwrap()]), &[]).unwrap();
         assert!(matches!(links.poll(), Some(LinkEvent::Opened { link: 1, .. })));
-        let socket = *links.kinds.iter().find(|(_, kind)| **kind == LinkKind::GroundStation).unwrap().0;
+        let socket = *links.kinds_by_socket.iter().find(|(_, kind)| **kind == LinkKind::GroundStation).unwrap().0;
         (links, socket)
     }
 
     /// Simulates a datagram from a port. Returns the link and whether it is new.
     fn note_received(links: &mut Links, socket: SocketId, port: u16, at_s: u64) -> Option<(u32, bool)> {
-        links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: hello_frame() }, Duration::from_secs(at_s));
+        links.handle_event(NetEvent::Datagram { socket, from: local(port), bytes: heartbeat_frame() }, Duration::from_secs(at_s));
         let new = matches!(links.changes.front(), Some(LinkEvent::Opened { .. }));
         let changes = std::mem::take(&mut links.changes);
         changes.iter().find_map(|change| if let LinkEvent::Bytes { link, .. } = change { Some((*link, new)) } else { None })
@@ -373,7 +373,7 @@ mod tests {
     fn regress_flood_on_one_port_does_not_block_another() {
         let mut links = Links::open(&ephemeral(&[local(9)]), &[]).unwrap();
         assert!(matches!(links.poll(), Some(LinkEvent::Opened { link: 1, .. })));
-        let of = |links: &Links, kind| *links.kinds.iter().find(|(_, other)| **other == kind).unwrap().0;
+        let of = |links: &Links, kind| *links.kinds_by_socket.iter().find(|(_, other)| **other == kind).unwrap().0;
         let (stations, sidecars) = (of(&links, LinkKind::GroundStation), of(&links, LinkKind::Payload));
         for port in 10_000..10_000 + 2 * MAX_LEARNED_PEERS as u16 {
             links.handle_event(
@@ -396,7 +396,7 @@ mod tests {
         let taken: usize = (10_000..60_000).filter_map(|port| note_received(&mut links, socket, port, 2)).count();
         let all = MAX_LEARNED_PEERS + 1;
         assert_eq!(
-            (taken, links.routes.len(), links.by_peer.len()),
+            (taken, links.routes.len(), links.links_by_peer.len()),
             (MAX_LEARNED_PEERS - 1, all, all),
             "including the configured destination"
         );
@@ -405,7 +405,7 @@ mod tests {
         assert_eq!(note_received(&mut links, socket, 4_003, 3), None, "new peers are not");
         links.drop_peers_silent_at(Duration::from_secs(3) + SILENCE_TIMEOUT);
         links.changes.clear();
-        assert_eq!((links.routes.len(), links.by_peer.len()), (2, 2), "the flood's peers have been removed");
+        assert_eq!((links.routes.len(), links.links_by_peer.len()), (2, 2), "the flood's peers have been removed");
         assert!(note_received(&mut links, socket, 4_003, 19).is_some_and(|(_, new)| new));
     }
 }

@@ -118,5 +118,5 @@ impl TelemetryLog for LogFile {
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> AppError {
-    AppError::wrong(format!("{}: cannot read: {error}", path.display()))
+    AppError::invalid(format!("{}: cannot read: {error}", path.display()))
 }

@@ -14,7 +14,7 @@ use std::io::{Seek, Write};
 /// Chunk size, bytes.
 const CHUNK_BYTES: u64 = 16 * 1024;
 /// Maximum flight time per chunk, ns.
-const FLUSH_AFTER_NS: u64 = 1_000_000_000;
+const FLUSH_INTERVAL_NS: u64 = 1_000_000_000;
 
 fn options() -> WriteOptions {
     // Without seeking, the library writes a chunk only once its length is known.
@@ -26,7 +26,7 @@ pub struct McapRecording<W: Write + Seek> {
     writer: Writer<W>,
     channels: Vec<u16>,
     sequences: Vec<u32>,
-    flushed_ns: u64,
+    last_flush_ns: u64,
 }
 
 impl<W: Write + Seek> std::fmt::Debug for McapRecording<W> {
@@ -47,7 +47,7 @@ impl<W: Write + Seek> McapRecording<W> {
             let schema = writer.add_schema(channel.schema, "jsonschema", channel.json_schema().as_bytes())?;
             channels.push(writer.add_channel(schema, channel.topic, "json", &BTreeMap::new())?);
         }
-        Ok(Self { writer, channels, sequences: vec![0; CHANNELS.len()], flushed_ns: 0 })
+        Ok(Self { writer, channels, sequences: vec![0; CHANNELS.len()], last_flush_ns: 0 })
     }
 
     /// Adds a message.
@@ -61,8 +61,8 @@ impl<W: Write + Seek> McapRecording<W> {
             MessageHeader { channel_id: self.channels[topic], sequence: self.sequences[topic], log_time: at, publish_time: at };
         self.sequences[topic] = self.sequences[topic].wrapping_add(1);
         self.writer.write_to_known_channel(&header, message.json.as_bytes())?;
-        if at.saturating_sub(self.flushed_ns) >= FLUSH_AFTER_NS {
-            self.flushed_ns = at;
+        if at.saturating_sub(self.last_flush_ns) >= FLUSH_INTERVAL_NS {
+            self.last_flush_ns = at;
             self.writer.flush()?;
         }
         Ok(())
@@ -92,7 +92,7 @@ pub struct RecoveryResult {
     /// Number of messages in the file.
     pub messages: usize,
     /// Reason why reading stopped, if the file was truncated.
-    pub broken: Option<String>,
+    pub truncation_reason: Option<String>,
 }
 
 /// Reads as much of a file as possible and rewrites that part with an index and a footer.
@@ -105,7 +105,7 @@ pub fn recover(file: &[u8]) -> McapResult<RecoveryResult> {
     }
     let mut writer = options().create(std::io::Cursor::new(Vec::new()))?;
     let mut messages = 0;
-    let mut broken = None;
+    let mut truncation_reason = None;
     for message in MessageStream::new_with_options(file, mcap::read::Options::IgnoreEndMagic.into())? {
         match message {
             Ok(message) => {
@@ -113,13 +113,13 @@ pub fn recover(file: &[u8]) -> McapResult<RecoveryResult> {
                 messages += 1;
             }
             Err(error) => {
-                broken = Some(error.to_string());
+                truncation_reason = Some(error.to_string());
                 break;
             }
         }
     }
     writer.finish()?;
-    Ok(RecoveryResult { bytes: writer.into_inner().into_inner(), messages, broken })
+    Ok(RecoveryResult { bytes: writer.into_inner().into_inner(), messages, truncation_reason })
 }
 
 #[cfg(test)]
@@ -154,7 +154,7 @@ mod tests {
         let summary = mcap::Summary::read(&file).unwrap().unwrap();
         assert_eq!(summary.stats.unwrap().message_count, 2_000);
         assert!(summary.chunk_indexes.len() >= 20, "small chunks: {}", summary.chunk_indexes.len());
-        assert_eq!(recover(&file).unwrap().broken, None);
+        assert_eq!(recover(&file).unwrap().truncation_reason, None);
     }
 
     /// No matter where the file is truncated, only the chunk that was being written is lost.

@@ -19,7 +19,7 @@ const STREAM_QUEUE_LEN: usize = 2_048;
 /// Delay after an unexpected socket error, to avoid a busy loop if a network interface is broken.
 const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
-const MAX_DATAGRAM: usize = 65_536;
+const MAX_DATAGRAM_BYTES: usize = 65_536;
 
 /// Identifies a UDP socket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -238,14 +238,14 @@ fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::E
             "{kind} port {port} on {ip} is in use, perhaps by another simulator or ground station: choose another one with {flag} or \
              --instance (port 0 selects any free port)"
         )),
-        ErrorKind::AddrNotAvailable => AppError::wrong(format!("{ip} is not an address of this machine (--listen)")),
+        ErrorKind::AddrNotAvailable => AppError::invalid(format!("{ip} is not an address of this machine (--listen)")),
         ErrorKind::PermissionDenied => AppError::failed(format!("no permission to open {kind} port {port} ({flag})")),
         _ => AppError::failed(format!("cannot open {kind} port {port} on {ip}: {error}")),
     }
 }
 
 fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEvent>, dropped: &AtomicU64) {
-    let mut buffer = vec![0u8; MAX_DATAGRAM];
+    let mut buffer = vec![0u8; MAX_DATAGRAM_BYTES];
     loop {
         match socket.recv_from(&mut buffer) {
             Ok((len, from)) => {

@@ -61,11 +61,11 @@ impl std::fmt::Display for SimulationSpeed {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Lateness {
     /// Longest delay, including sleep time, because several ticks run after each wake-up.
-    pub latest: Duration,
+    pub longest_delay: Duration,
     /// Number of times that the clock slipped because a delay exceeded the limit.
-    pub slips: u32,
+    pub slip_count: u32,
     /// Total wall time that the clock has slipped.
-    pub slipped: Duration,
+    pub slipped_time: Duration,
 }
 
 /// Computes the target simulation time for a given wall time.
@@ -88,10 +88,10 @@ impl WallPacer {
         let SimulationSpeed::Factor(times) = self.speed else { return reached + LOCKSTEP_STEP };
         let due = self.due(wall, times);
         let behind = Duration::from_secs_f64(due.saturating_sub(reached).s() / times);
-        self.late.latest = self.late.latest.max(behind);
+        self.late.longest_delay = self.late.longest_delay.max(behind);
         if behind > SLIP_THRESHOLD {
-            self.late.slips += 1;
-            self.late.slipped += behind;
+            self.late.slip_count += 1;
+            self.late.slipped_time += behind;
             self.wall = wall;
             self.sim = reached;
             return reached + LOCKSTEP_STEP;
@@ -130,12 +130,12 @@ impl WallPacer {
 }
 
 /// Time without a TIMESYNC response after which a peer that sends data is served in real time.
-const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(3);
+const FIRST_RESPONSE_TIMEOUT: Duration = Duration::from_secs(3);
 
 /// Pauses the simulation until a peer's first response. No simulation time passes until then, so a peer that responds
 /// quickly is in lockstep from the first tick.
 #[derive(Debug, Clone, Default)]
-pub struct FirstAnswerWait {
+pub struct FirstResponseWait {
     since: Option<Duration>,
     first_received: Option<Duration>,
     last_announced: Option<Duration>,
@@ -143,7 +143,7 @@ pub struct FirstAnswerWait {
 
 /// Action while waiting for the peer's first response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FirstAnswerAction {
+pub enum FirstResponseAction {
     /// Keep waiting for the peer.
     Wait,
     /// Announce the vehicle again.
@@ -152,26 +152,26 @@ pub enum FirstAnswerAction {
     Proceed,
 }
 
-impl FirstAnswerWait {
+impl FirstResponseWait {
     /// Returns the action at wall time `wall`; `data_received` is true once data has arrived from the peer, and `every`
     /// is the announcement interval.
-    pub fn next_action(&mut self, data_received: bool, wall: Duration, every: Duration) -> FirstAnswerAction {
+    pub fn next_action(&mut self, data_received: bool, wall: Duration, every: Duration) -> FirstResponseAction {
         let since = *self.since.get_or_insert(wall);
         let over = |since: Duration, most: Duration| wall.saturating_sub(since) > most;
         if data_received {
             self.first_received.get_or_insert(wall);
         }
         if over(since, LOCKSTEP_PEER_TIMEOUT)
-            || self.first_received.is_some_and(|data_received| over(data_received, FIRST_ANSWER_TIMEOUT))
+            || self.first_received.is_some_and(|data_received| over(data_received, FIRST_RESPONSE_TIMEOUT))
         {
             *self = Self::default();
-            return FirstAnswerAction::Proceed;
+            return FirstResponseAction::Proceed;
         }
         if over(self.last_announced.unwrap_or(since), every) {
             self.last_announced = Some(wall);
-            return FirstAnswerAction::Announce;
+            return FirstResponseAction::Announce;
         }
-        FirstAnswerAction::Wait
+        FirstResponseAction::Wait
     }
 }
 
@@ -216,7 +216,7 @@ mod tests {
         let mut pace = WallPacer::new(SimulationSpeed::Factor(1.0), Duration::ZERO);
         assert_eq!(pace.target(Duration::from_secs(5), SimTime::ZERO), LOCKSTEP_STEP);
         let five = Duration::from_secs(5);
-        assert_eq!(pace.lateness(), Lateness { latest: five, slips: 1, slipped: five });
+        assert_eq!(pace.lateness(), Lateness { longest_delay: five, slip_count: 1, slipped_time: five });
         assert_eq!(pace.target(Duration::from_millis(5010), LOCKSTEP_STEP), SimTime::from_ms(10));
     }
 
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(pace.target(Duration::from_millis(5), SimTime::ZERO), SimTime::from_ms(10));
         pace.resync(Duration::from_secs(60), SimTime::from_ms(10));
         assert_eq!(pace.target(Duration::from_millis(60_005), SimTime::from_ms(10)), SimTime::from_ms(20));
-        assert_eq!(pace.lateness(), Lateness { latest: Duration::from_millis(5), ..Lateness::default() });
+        assert_eq!(pace.lateness(), Lateness { longest_delay: Duration::from_millis(5), ..Lateness::default() });
     }
 
     #[test]
@@ -235,7 +235,7 @@ mod tests {
         for ms in [2, 102] {
             pace.target(Duration::from_millis(ms), SimTime::from_ms(8));
         }
-        assert_eq!(pace.lateness(), Lateness { latest: Duration::from_millis(100), ..Lateness::default() });
+        assert_eq!(pace.lateness(), Lateness { longest_delay: Duration::from_millis(100), ..Lateness::default() });
     }
 
     #[test]

@@ -27,7 +27,7 @@ impl ParamFile {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(AppError::wrong(format!("--params {}: {error}", self.path.display()))),
+            Err(error) => Err(AppError::invalid(format!("--params {}: {error}", self.path.display()))),
         }
     }
 
@@ -35,7 +35,7 @@ impl ParamFile {
     pub fn parse_error(&self, problems: &[ParamFileProblem]) -> AppError {
         let lines: Vec<String> =
             problems.iter().map(|problem| format!("{}:{}: {}", self.path.display(), problem.line, problem.what)).collect();
-        AppError::wrong(lines.join("\n"))
+        AppError::invalid(lines.join("\n"))
     }
 
     /// Replaces the whole file atomically: concurrent readers, and readers after a crash, see either the old or the new

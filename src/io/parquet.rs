@@ -4,7 +4,7 @@
 mod arrow_schema;
 
 use crate::errors::AppError;
-use arrow_schema::{Field, Kind};
+use arrow_schema::{Field, FieldType};
 use base64::Engine;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
@@ -64,10 +64,10 @@ fn arrow_metadata() -> String {
         name: column.name,
         nullable: column.optional,
         kind: match column.read {
-            ColumnReader::Integer(_) => Kind::Int64,
-            ColumnReader::Float(_) => Kind::Double,
-            ColumnReader::Boolean(_) => Kind::Bool,
-            ColumnReader::Text(_) => Kind::Utf8,
+            ColumnReader::Integer(_) => FieldType::Int64,
+            ColumnReader::Float(_) => FieldType::Double,
+            ColumnReader::Boolean(_) => FieldType::Bool,
+            ColumnReader::Text(_) => FieldType::Utf8,
         },
         metadata: [("unit", column.unit), ("frame", column.frame), ("description", column.description)]
             .into_iter()

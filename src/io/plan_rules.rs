@@ -2,7 +2,7 @@
 
 use super::files;
 use crate::errors::AppError;
-use spandrel_training::plan::{PlanRules, RULES, read_rules};
+use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
 use std::path::Path;
 
 /// Returns the rules from a file, or the built-in rules if no file is specified.
@@ -12,6 +12,6 @@ use std::path::Path;
 pub fn rules(file: Option<&Path>) -> Result<PlanRules, AppError> {
     match file {
         Some(path) => Ok(read_rules(&path.display().to_string(), &files::read(path)?)?),
-        None => Ok(read_rules("rules.toml", RULES)?),
+        None => Ok(read_rules("rules.toml", DEFAULT_RULES)?),
     }
 }

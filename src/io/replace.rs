@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// # Errors
 /// Returns an error if the disk cannot be written.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
-    Ok(replaced(path, bytes, |_| Ok(()))?)
+    Ok(write_and_rename(path, bytes, |_| Ok(()))?)
 }
 
 /// Like [`replace`], but also safe against a power failure.
@@ -21,10 +21,10 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), AppError> {
 /// # Errors
 /// Returns an error if the disk cannot be written.
 pub fn replace_durably(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    replaced(path, bytes, File::sync_data)
+    write_and_rename(path, bytes, File::sync_data)
 }
 
-fn replaced(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
+fn write_and_rename(path: &Path, bytes: &[u8], settle: fn(&File) -> std::io::Result<()>) -> Result<(), WriteError> {
     // The temporary name is unique so that two writers of the same file do not rename each other's partial file.
     static TEMP_FILE_COUNTER: AtomicU64 = AtomicU64::new(0);
     let mut temp_path = path.to_path_buf().into_os_string();

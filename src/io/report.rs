@@ -5,7 +5,7 @@ use super::replace::replace;
 use super::session_folder::StoredSession;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
-use spandrel_monitor::folder::{REPORT, SMALL, SNAPSHOTS, sha256_hex};
+use spandrel_monitor::folder::{REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, sha256_hex};
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
 
@@ -82,7 +82,7 @@ fn review_with_pictures(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Re
     let stored = StoredSession::read(session)?;
     let about = SessionMetadata { pictures, ..session_facts(session, &stored)? };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
-        AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::wrong(error.to_string()),
+        AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::invalid(error.to_string()),
         AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
             AppError::failed(error.to_string())
         }
@@ -138,7 +138,7 @@ fn numbered_photographs(folder: &Path) -> Vec<(u32, PathBuf)> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut names: Vec<_> = entries.flatten().map(|entry| entry.file_name()).collect();
     names.sort();
-    let small = |name| Some(folder.join(SMALL).join(name)).filter(|copy| copy.is_file());
+    let small = |name| Some(folder.join(SMALL_SNAPSHOTS).join(name)).filter(|copy| copy.is_file());
     let file = |name| small(name).unwrap_or_else(|| folder.join(name));
     names.iter().filter_map(|name| Some((photograph_number(Path::new(name))?, file(name)))).collect()
 }
@@ -168,7 +168,7 @@ mod tests {
     fn exact_page_uses_small_copies_and_skips_large_photographs() {
         let folder = tempfile::tempdir().unwrap();
         let put = |name: &str, bytes: u64| std::fs::write(folder.path().join(name), vec![0; bytes as usize]).unwrap();
-        std::fs::create_dir(folder.path().join(SMALL)).unwrap();
+        std::fs::create_dir(folder.path().join(SMALL_SNAPSHOTS)).unwrap();
         put("0001.jpg", 3 * MAX_PICTURE_BYTES);
         put("small/0001.jpg", 70);
         put("0002.jpg", MAX_PICTURE_BYTES + 1);

@@ -29,7 +29,7 @@ pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
 fn scoring_error(error: &AssessError) -> AppError {
     match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
-            AppError::wrong(format!("{error}: use the flight's scenario and seed"))
+            AppError::invalid(format!("{error}: use the flight's scenario and seed"))
         }
         AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
             AppError::failed(error.to_string())

@@ -23,7 +23,7 @@ pub struct SessionFolder {
     scenario_toml: String,
     vehicle_toml: String,
     started_utc: String,
-    starts: u32,
+    monitor_starts: u32,
 }
 
 /// Contents of a session folder, read from disk.
@@ -42,7 +42,7 @@ pub struct StoredSession {
     /// Wall time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Number of monitor starts for this session.
-    pub starts: u32,
+    pub monitor_starts: u32,
     /// Version of the program that recorded the session; empty if unknown.
     pub spandrel_version: String,
 }
@@ -83,7 +83,7 @@ impl SessionFolder {
     pub fn resume(path: &Path, stored: &StoredSession) -> Result<Self, AppError> {
         let (readable, _) = clock::utc(stored.started_unix_us);
         let (scenario, vehicle) = (stored.scenario.text.clone(), stored.vehicle.text.clone());
-        let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.starts + 1)?;
+        let mut folder = Self::open(path.to_path_buf(), scenario, vehicle, readable, stored.monitor_starts + 1)?;
         // Another monitor may have finished between reading and locking.
         if folder.telemetry.len() != stored.log.len() {
             return Err(AppError::failed(format!("{}: the session changed while it was being read; try again", path.display())));
@@ -100,12 +100,12 @@ impl SessionFolder {
         scenario_toml: String,
         vehicle_toml: String,
         started_utc: String,
-        starts: u32,
+        monitor_starts: u32,
     ) -> Result<Self, AppError> {
         let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::complete_len)?;
         telemetry.lock()?;
         let events = AppendFile::open(path.join(EVENTS), complete_lines_len)?;
-        Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, starts })
+        Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, monitor_starts })
     }
 
     /// Returns the folder's path.
@@ -169,7 +169,7 @@ impl SessionFolder {
     /// Returns an error if the disk cannot be written.
     pub fn write_session_json(&self, info: impl FnOnce(&[u8], &[u8], String, u32) -> SessionInfo) -> Result<(), WriteError> {
         let (scenario, vehicle) = (self.scenario_toml.as_bytes(), self.vehicle_toml.as_bytes());
-        let info = info(scenario, vehicle, self.started_utc.clone(), self.starts);
+        let info = info(scenario, vehicle, self.started_utc.clone(), self.monitor_starts);
         replace_durably(&self.path.join(SESSION), export::json_text(&info).as_bytes())
     }
 
@@ -222,7 +222,7 @@ impl StoredSession {
             purpose: text("purpose"),
             started_unix_us: started_unix_us.unwrap_or_default(),
             spandrel_version: text("spandrel_version").unwrap_or_default(),
-            starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),
+            monitor_starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),
             scenario,
             log,
         })
@@ -277,7 +277,7 @@ pub fn is_session(path: &Path) -> bool {
 }
 
 fn not_a_session_folder(path: &Path) -> AppError {
-    AppError::wrong(format!("{}: not a session folder (it has no {TELEMETRY})", path.display()))
+    AppError::invalid(format!("{}: not a session folder (it has no {TELEMETRY})", path.display()))
 }
 
 /// Returns the contents of `session.json`, or null if there is no such file.
@@ -286,7 +286,7 @@ fn read_session_json(path: &Path) -> Result<serde_json::Value, AppError> {
         return Ok(serde_json::Value::Null);
     }
     serde_json::from_str(&files::read(path)?)
-        .map_err(|error| AppError::wrong(format!("{}: line {}: {error}", path.display(), error.line())))
+        .map_err(|error| AppError::invalid(format!("{}: line {}: {error}", path.display(), error.line())))
 }
 
 /// Returns the trainee part of the folder name `<utc>-<trainee>-<scenario>-<short id>`.

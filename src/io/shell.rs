@@ -3,7 +3,7 @@
 use super::clock::{self, Stopwatch};
 use super::links::{LinkEvent, Links};
 use super::pacing::{
-    FirstAnswerAction, FirstAnswerWait, LOCKSTEP_PEER_TIMEOUT, Lateness, LockstepTimeout, SimulationSpeed, WallPacer,
+    FirstResponseAction, FirstResponseWait, LOCKSTEP_PEER_TIMEOUT, Lateness, LockstepTimeout, SimulationSpeed, WallPacer,
 };
 use super::params::ParamFile;
 use super::pause::PauseSwitch;
@@ -18,7 +18,7 @@ use spandrel_sitl::sim::{Sim, SimEvent};
 use std::time::Duration;
 
 /// Maximum time to wait for socket data, so that the loop notices stop requests and silent peers.
-const MAX_WAIT: Duration = Duration::from_millis(100);
+const MAX_SOCKET_WAIT: Duration = Duration::from_millis(100);
 /// Minimum sleep time. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
 /// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
@@ -53,7 +53,7 @@ pub struct VehicleShell {
     pacer: WallPacer,
     stopwatch: Stopwatch,
     lockstep_timeout: LockstepTimeout,
-    first_answer: FirstAnswerWait,
+    first_response: FirstResponseWait,
     speed: SimulationSpeed,
     store: Option<FileStore>,
     params: Option<ParamFile>,
@@ -84,7 +84,7 @@ impl VehicleShell {
         if let Some(file) = &mut params {
             core.enable_param_storage();
             if let Some(text) = file.text()? {
-                core.read_parameters(&text).map_err(|problems| file.parse_error(&problems))?;
+                core.load_parameters(&text).map_err(|problems| file.parse_error(&problems))?;
             }
             file.saved_changes = core.parameter_changes();
         }
@@ -103,7 +103,7 @@ impl VehicleShell {
             pacer: pace,
             stopwatch: watch,
             lockstep_timeout: LockstepTimeout::default(),
-            first_answer: FirstAnswerWait::default(),
+            first_response: FirstResponseWait::default(),
             speed,
             store,
             params,
@@ -135,7 +135,7 @@ impl VehicleShell {
             self.links.send(datagram.link.0, datagram.bytes);
         }
         self.pacer.resync(wall, self.core.now());
-        self.links.wait(MAX_WAIT);
+        self.links.wait(MAX_SOCKET_WAIT);
     }
 
     /// Handles incoming data, advances the simulation toward `end` as far as the wall clock allows, sends outgoing
@@ -165,7 +165,7 @@ impl VehicleShell {
             let target = self.pacer.target(wall, self.core.now()).min(end);
             self.advance_to(target);
         }
-        self.serve_file_jobs();
+        self.run_file_jobs();
         self.save_parameters();
         self.save_signing_state(false);
         while let Some(datagram) = self.core.poll_transmit() {
@@ -184,15 +184,15 @@ impl VehicleShell {
             if !self.core.has_file_job() {
                 return;
             }
-            self.serve_file_jobs();
+            self.run_file_jobs();
         }
     }
 
     /// Carries out the clients' file requests and appends to the flight log.
-    fn serve_file_jobs(&mut self) {
+    fn run_file_jobs(&mut self) {
         while let Some(job) = self.core.poll_file_job() {
             let outcome = self.store.as_mut().map_or(Err(FileError::NotFound), |store| store.run_action(&job.action));
-            self.core.file_job_done(job.ticket, outcome);
+            self.core.finish_file_job(job.ticket, outcome);
         }
         while let Some(piece) = self.core.poll_log() {
             if let Some(Err(error)) = self.store.as_mut().map(|store| store.log(&piece)) {
@@ -207,7 +207,7 @@ impl VehicleShell {
         let wish = self.core.take_storage_request();
         let told = match wish {
             Some(StorageRequest::Load) => file.text().and_then(|text| {
-                self.core.read_parameters(&text.unwrap_or_default()).map_err(|problems| file.parse_error(&problems))
+                self.core.load_parameters(&text.unwrap_or_default()).map_err(|problems| file.parse_error(&problems))
             }),
             _ if wish == Some(StorageRequest::Save) || self.core.parameter_changes() != file.saved_changes => {
                 file.write(&self.core.parameter_text())
@@ -238,7 +238,7 @@ impl VehicleShell {
                     self.core.await_heartbeat(LinkId(link));
                 }
                 if let Some(bytes_s) = limit {
-                    self.core.limit_link(LinkId(link), bytes_s);
+                    self.core.limit_link_rate(LinkId(link), bytes_s);
                 }
             }
             LinkEvent::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
@@ -250,7 +250,7 @@ impl VehicleShell {
     fn wait_for_next_tick(&mut self) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
         if let Some(heard) = self.core.awaits_first_response() {
-            self.await_first_answer(heard, wall);
+            self.wait_for_first_response(heard, wall);
             return Ok(());
         }
         if self.core.waiting() {
@@ -261,24 +261,24 @@ impl VehicleShell {
                     self.core.now()
                 )));
             }
-            self.links.wait(MAX_WAIT);
+            self.links.wait(MAX_SOCKET_WAIT);
             return Ok(());
         }
         let sleep = self.pacer.sleep(wall, self.core.poll_timeout());
         if !sleep.is_zero() {
-            self.links.wait(sleep.clamp(MIN_SLEEP, MAX_WAIT));
+            self.links.wait(sleep.clamp(MIN_SLEEP, MAX_SOCKET_WAIT));
         }
         Ok(())
     }
 
     /// Waits for a peer's first TIMESYNC response. Meanwhile, the vehicle announces itself, because a peer must find it
     /// before responding.
-    fn await_first_answer(&mut self, heard: bool, wall: Duration) {
+    fn wait_for_first_response(&mut self, heard: bool, wall: Duration) {
         self.pacer.resync(wall, self.core.now());
-        match self.first_answer.next_action(heard, wall, HEARTBEAT_INTERVAL) {
-            FirstAnswerAction::Wait => {}
-            FirstAnswerAction::Announce => self.core.send_first_heartbeats(),
-            FirstAnswerAction::Proceed => {
+        match self.first_response.next_action(heard, wall, HEARTBEAT_INTERVAL) {
+            FirstResponseAction::Wait => {}
+            FirstResponseAction::Announce => self.core.send_first_heartbeats(),
+            FirstResponseAction::Proceed => {
                 tracing::info!("a lockstep peer has not answered TIMESYNC yet: serving it in real time until it does");
                 self.core.stop_awaiting_first_responses();
                 return;
@@ -287,7 +287,7 @@ impl VehicleShell {
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
-        self.links.wait(MAX_WAIT);
+        self.links.wait(MAX_SOCKET_WAIT);
     }
 
     fn log_event(&self, event: &SimEvent) {
@@ -309,9 +309,9 @@ impl VehicleShell {
     /// Closes the flight log, saves the signing state and logs the amount of lost data.
     pub fn finish(&mut self) {
         self.core.close_flight_log();
-        self.serve_file_jobs();
+        self.run_file_jobs();
         self.save_signing_state(true);
-        let slipped = self.lateness().slipped;
+        let slipped = self.lateness().slipped_time;
         if slipped >= Duration::from_secs(1) {
             tracing::warn!("the computer could not keep up: lost {:.1} s of wall time", slipped.as_secs_f64());
         }

@@ -36,13 +36,13 @@ impl SigningStore {
         match std::fs::read_to_string(&self.path) {
             Ok(text) => Ok(Some(text)),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(AppError::wrong(format!("{}: {error}", self.path.display()))),
+            Err(error) => Err(AppError::invalid(format!("{}: {error}", self.path.display()))),
         }
     }
 
     /// Returns the error for an invalid line.
     pub fn parse_error(&self, line: usize) -> AppError {
-        AppError::wrong(format!(
+        AppError::invalid(format!(
             "{}:{line}: not a signing timestamp (allowed: a timestamp on line 1, then system, component, link and \
              timestamp); if you delete the file, attackers could replay messages from earlier runs",
             self.path.display()

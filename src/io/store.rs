@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Total quota for the files of all clients, bytes.
 const CLIENT_QUOTA_BYTES: u64 = 256 * 1024 * 1024;
 /// Maximum total number of clients' files and directories. The number is limited because a listing reads every entry.
-const CLIENT_QUOTA_ENTRIES: u64 = 1_000;
+const MAX_CLIENT_ENTRIES: u64 = 1_000;
 /// Flight log folder, with one subfolder per day as in PX4. The logs belong to the vehicle: clients can read and remove
 /// them, and they do not count toward the quota.
 const LOG_FOLDER: &str = "log";
@@ -43,7 +43,7 @@ struct FlightLog {
     file: File,
     name: String,
     /// Length of the data written successfully, bytes.
-    whole: u64,
+    written_len: u64,
 }
 
 impl FlightLog {
@@ -51,9 +51,9 @@ impl FlightLog {
     fn write(&mut self, piece: &[u8]) -> std::io::Result<()> {
         self.file.write_all(piece).inspect_err(|_| {
             // If this also fails, the partial message remains at the end of the file, where readers tolerate it.
-            let _ = self.file.set_len(self.whole);
+            let _ = self.file.set_len(self.written_len);
         })?;
-        self.whole += piece.len() as u64;
+        self.written_len += piece.len() as u64;
         Ok(())
     }
 }
@@ -82,7 +82,7 @@ impl FileStore {
     /// # Errors
     /// Returns the reason as a MAVLink FTP error.
     pub fn run_action(&mut self, action: &FileAction) -> Result<FileJobResult, FileError> {
-        self.act(action).map_err(|error| match error.kind() {
+        self.handle_request(action).map_err(|error| match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => FileError::NotFound,
             ErrorKind::AlreadyExists => FileError::Exists,
             ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => FileError::Protected,
@@ -90,7 +90,7 @@ impl FileStore {
         })
     }
 
-    fn act(&mut self, action: &FileAction) -> std::io::Result<FileJobResult> {
+    fn handle_request(&mut self, action: &FileAction) -> std::io::Result<FileJobResult> {
         match action {
             FileAction::List(path) => self.list(path).map(FileJobResult::Entries),
             FileAction::Size(path) => {
@@ -123,7 +123,7 @@ impl FileStore {
     /// Creates a file or a directory, unless the clients' quota is exhausted.
     fn make(&mut self, path: &FilePath, act: impl FnOnce(&Dir) -> std::io::Result<()>) -> std::io::Result<FileJobResult> {
         check_client_path(path)?;
-        if self.used.entries >= CLIENT_QUOTA_ENTRIES && StorageUsage::of(&self.root, path).entries == 0 {
+        if self.used.entries >= MAX_CLIENT_ENTRIES && StorageUsage::of(&self.root, path).entries == 0 {
             return Err(ErrorKind::QuotaExceeded.into());
         }
         self.change(path, act)
@@ -220,7 +220,7 @@ impl FileStore {
             LogOutput::Begin(unix_us) => {
                 let (readable, _) = super::clock::utc(*unix_us);
                 let (date, time) = readable.split_at(10);
-                let deleted = flight_logs::delete_oldest(&self.root, LOG_FOLDER, self.max_log_bytes)?;
+                let deleted = flight_logs::delete_oldest_logs(&self.root, LOG_FOLDER, self.max_log_bytes)?;
                 if deleted > 0 {
                     tracing::info!("deleted {deleted} old flight logs to make room for a new one");
                 }
@@ -242,7 +242,7 @@ impl FileStore {
 
     fn begin_log(&mut self, stem: &str, unix_us: u64) -> std::io::Result<()> {
         let (file, stem) = self.new_log(stem)?;
-        self.log = Some(FlightLog { file, name: format!("{stem}.ulg"), whole: 0 });
+        self.log = Some(FlightLog { file, name: format!("{stem}.ulg"), written_len: 0 });
         let file = self.root.open_with(format!("{stem}.mcap"), OpenOptions::new().write(true).create(true).truncate(true))?;
         let mut recording = McapRecording::begin(file.into_std()).map_err(std::io::Error::other)?;
         if let Some(site) = &self.site {
@@ -298,7 +298,7 @@ impl StorageUsage {
     fn count(&mut self, directory: &Dir, is_root: bool) {
         let Ok(entries) = directory.entries() else { return };
         for entry in entries.flatten().filter(|entry| !(is_root && entry.file_name() == LOG_FOLDER)) {
-            if self.entries > CLIENT_QUOTA_ENTRIES {
+            if self.entries > MAX_CLIENT_ENTRIES {
                 self.bytes = self.bytes.max(CLIENT_QUOTA_BYTES);
                 return;
             }
@@ -364,7 +364,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_file_operations() {
+    fn exact_file_operations_work() {
         let (base, mut store) = place("work");
         store.run_action(&FileAction::Create(path("a"))).unwrap();
         store.run_action(&FileAction::Write(path("a"), 2, b"xyz".to_vec())).unwrap();
@@ -410,7 +410,7 @@ mod tests {
         assert_eq!(again.used, StorageUsage { bytes: CLIENT_QUOTA_BYTES, entries: 2 }, "the next start measures the same");
         store.run_action(&FileAction::Remove(path("a"))).unwrap();
         store.run_action(&FileAction::Truncate(path("b"), 11)).unwrap();
-        for k in 1..CLIENT_QUOTA_ENTRIES {
+        for k in 1..MAX_CLIENT_ENTRIES {
             store.run_action(&FileAction::MakeDirectory(path(&format!("d{k}")))).unwrap();
         }
         assert_eq!(store.run_action(&FileAction::Create(path("one-more"))), Err(FileError::Other));
@@ -466,7 +466,7 @@ mod tests {
         assert_eq!(logs, [&DirectoryEntry::File("14_13_20-1.ulg".into(), 3), &DirectoryEntry::File("14_13_20.ulg".into(), 3)]);
         for name in ["14_13_20.mcap", "14_13_20-1.mcap"] {
             let file = std::fs::read(base.join("root/log/2026-09-21").join(name)).unwrap();
-            assert_eq!(crate::io::mcap::recover(&file).unwrap().broken, None, "{name}");
+            assert_eq!(crate::io::mcap::recover(&file).unwrap().truncation_reason, None, "{name}");
         }
         std::fs::remove_dir_all(base).unwrap();
     }

@@ -8,9 +8,9 @@ use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::browser_sessions::CredentialHash;
 use sqlx::Row;
 
-const ACCOUNT: &str = "SELECT trainees.pseudonym, role, age_band, drone_experience, gaming_experience, hash FROM trainees \
+const ACCOUNT_QUERY: &str = "SELECT trainees.pseudonym, role, age_band, drone_experience, gaming_experience, hash FROM trainees \
     LEFT JOIN passwords ON passwords.pseudonym = trainees.pseudonym WHERE trainees.pseudonym = $1";
-const SET_PASSWORD: &str = "INSERT INTO passwords (pseudonym, hash) VALUES ($1, $2) \
+const SET_PASSWORD_QUERY: &str = "INSERT INTO passwords (pseudonym, hash) VALUES ($1, $2) \
     ON CONFLICT (pseudonym) DO UPDATE SET hash = excluded.hash";
 
 /// A person and their password hash.
@@ -39,7 +39,7 @@ impl Database {
     /// Returns an error if the database fails.
     pub fn account(&self, name: &str) -> Result<Option<Account>, AppError> {
         self.run(async {
-            let row = sqlx::query(ACCOUNT).bind(name.to_owned()).fetch_optional(&self.pool).await?;
+            let row = sqlx::query(ACCOUNT_QUERY).bind(name.to_owned()).fetch_optional(&self.pool).await?;
             row.map(|row| Ok(Account { person: trainee(&row)?, hash: row.try_get(5)? })).transpose()
         })
     }
@@ -52,7 +52,7 @@ impl Database {
         self.run(async {
             let mut change = self.begin().await?;
             update_details(&mut change, name, Some(role), [None; 3]).await?;
-            let query = sqlx::query(SET_PASSWORD).bind(name.to_owned()).bind(hash.to_owned());
+            let query = sqlx::query(SET_PASSWORD_QUERY).bind(name.to_owned()).bind(hash.to_owned());
             query.execute(&mut *change).await?;
             change.commit().await
         })

@@ -11,12 +11,12 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Maximum time that SQLite waits for other writers, ms.
-const BUSY_TIMEOUT: &str = "PRAGMA busy_timeout = 60000";
+const BUSY_TIMEOUT_PRAGMA: &str = "PRAGMA busy_timeout = 60000";
 /// SQLite overwrites deleted data with zeros.
-const SECURE_DELETE: &str = "PRAGMA secure_delete = ON";
+const SECURE_DELETE_PRAGMA: &str = "PRAGMA secure_delete = ON";
 /// Advisory lock that PostgreSQL holds during a change; the number is arbitrary. Without the lock, two stations that
 /// add the same new trainees in different orders would deadlock, and PostgreSQL would abort one transaction.
-const WRITE_LOCK: &str = "SELECT pg_advisory_xact_lock(7301420226)";
+const WRITE_LOCK_QUERY: &str = "SELECT pg_advisory_xact_lock(7301420226)";
 
 /// SQL dialect of the database.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,7 +44,7 @@ impl Database {
         sqlx::any::install_default_drivers();
         let kind = if address::is_url(target) { SqlDialect::Postgres } else { SqlDialect::Sqlite };
         let name = without_password(target);
-        address::check_tls_options(target).map_err(|wrong| AppError::wrong(format!("{name}: {wrong}")))?;
+        address::check_tls_options(target).map_err(|wrong| AppError::invalid(format!("{name}: {wrong}")))?;
         if let (SqlDialect::Sqlite, Some(folder)) = (kind, Path::new(target).parent()) {
             std::fs::create_dir_all(folder)
                 .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", folder.display())))?;
@@ -92,7 +92,7 @@ impl Database {
                 SqlDialect::Sqlite => self.pool.execute("BEGIN IMMEDIATE").await.map(|_| ()),
                 SqlDialect::Postgres => {
                     self.pool.execute("BEGIN").await?;
-                    self.pool.execute(WRITE_LOCK).await?;
+                    self.pool.execute(WRITE_LOCK_QUERY).await?;
                     self.pool.execute("UPDATE sessions SET fingerprint = ''").await.map(|_| ())
                 }
             }
@@ -135,7 +135,7 @@ impl Database {
             SqlDialect::Sqlite => self.pool.begin_with("BEGIN IMMEDIATE").await,
             SqlDialect::Postgres => {
                 let mut change = self.pool.begin().await?;
-                change.execute(WRITE_LOCK).await?;
+                change.execute(WRITE_LOCK_QUERY).await?;
                 Ok(change)
             }
         }
@@ -161,7 +161,7 @@ impl Drop for Database {
 }
 
 async fn prepare(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
-    for pragma in [BUSY_TIMEOUT, SECURE_DELETE] {
+    for pragma in [BUSY_TIMEOUT_PRAGMA, SECURE_DELETE_PRAGMA] {
         connection.execute(pragma).await?;
     }
     // The write-ahead log allows reads while another process writes. SQLite may reject the mode change while another

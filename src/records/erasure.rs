@@ -15,7 +15,7 @@ const ERASING_PREFIX: &str = ".erasing-";
 
 impl Database {
     /// Returns the name hashes of the folders that are marked for removal.
-    fn erasing(&self) -> Result<BTreeSet<String>, AppError> {
+    fn marked_folder_hashes(&self) -> Result<BTreeSet<String>, AppError> {
         self.run(async {
             let query = sqlx::query("SELECT sha256 FROM erased WHERE what = $1").bind(ErasedKind::Folder.word().to_owned());
             query.fetch_all(&self.pool).await?.iter().map(|row| row.try_get(0)).collect()
@@ -57,8 +57,8 @@ pub(super) fn remove_folders(database: &Database, folders: &[PathBuf]) -> Result
 ///
 /// # Errors
 /// Returns an error if the disk or the database fails.
-pub(super) fn finish(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
-    let marked = database.erasing()?;
+pub(super) fn finish_erasures(database: &Database, sessions: &[PathBuf]) -> Result<(), AppError> {
+    let marked = database.marked_folder_hashes()?;
     for entry in sessions.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten() {
         let path = entry.path();
         let name = folder_name(&path);
@@ -123,12 +123,12 @@ mod tests {
             std::fs::rename(folder, folder.with_file_name(format!("{ERASING_PREFIX}{}", folder_name(folder)))).unwrap();
         }
         std::fs::remove_file(temp_dir.path().join(format!("{ERASING_PREFIX}d-anna")).join("telemetry.tlog")).unwrap();
-        finish(&database, &here).unwrap();
+        finish_erasures(&database, &here).unwrap();
         assert_eq!(remaining_folders(temp_dir.path()), ["b-ben"]);
-        assert_eq!(database.erasing(), Ok(BTreeSet::new()));
+        assert_eq!(database.marked_folder_hashes(), Ok(BTreeSet::new()));
         // A folder that someone copies back later is not deleted automatically.
         session(temp_dir.path(), "a-anna");
-        finish(&database, &here).unwrap();
+        finish_erasures(&database, &here).unwrap();
         assert_eq!(remaining_folders(temp_dir.path()), ["a-anna", "b-ben"]);
     }
 }

@@ -10,9 +10,9 @@ use sqlx::{Any, Row, Transaction};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const MARK: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1, $2, $3) \
+const INSERT_MARK_QUERY: &str = "INSERT INTO erased (what, sha256, erased_unix_us) VALUES ($1, $2, $3) \
     ON CONFLICT (what, sha256) DO UPDATE SET erased_unix_us = excluded.erased_unix_us";
-const CONTAINS: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
+const MARK_EXISTS_QUERY: &str = "SELECT COUNT(*) FROM erased WHERE (what = 'trainee' AND sha256 = $1 AND erased_unix_us >= $2) \
     OR (what = 'session' AND sha256 = $3)";
 
 /// What an erasure mark applies to.
@@ -78,7 +78,7 @@ impl Database {
 
 /// Marks a name as erased at the current time, within the transaction that erases it.
 pub(super) async fn mark(change: &mut Transaction<'static, Any>, what: ErasedKind, name: &str) -> Result<(), sqlx::Error> {
-    let query = sqlx::query(MARK).bind(what.word().to_owned()).bind(hash(name)).bind(signed(clock::unix_us()));
+    let query = sqlx::query(INSERT_MARK_QUERY).bind(what.word().to_owned()).bind(hash(name)).bind(signed(clock::unix_us()));
     query.execute(&mut **change).await.map(|_| ())
 }
 
@@ -90,7 +90,8 @@ pub(super) async fn unmark(change: &mut Transaction<'static, Any>, what: ErasedK
 
 /// Like [`ErasureMarks::contains`], but within a transaction: nothing can be erased between this check and the commit.
 pub(super) async fn contains(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> Result<bool, sqlx::Error> {
-    let query = sqlx::query(CONTAINS).bind(hash(&record.trainee)).bind(signed(record.started_unix_us)).bind(hash(&record.id));
+    let query =
+        sqlx::query(MARK_EXISTS_QUERY).bind(hash(&record.trainee)).bind(signed(record.started_unix_us)).bind(hash(&record.id));
     let count: i64 = query.fetch_one(&mut **change).await?.try_get(0)?;
     Ok(count > 0)
 }

@@ -20,8 +20,8 @@ use std::path::{Path, PathBuf};
 pub fn session_folders(sessions: &[PathBuf]) -> Result<Vec<PathBuf>, AppError> {
     let mut found = Vec::new();
     for folder in sessions {
-        let entries =
-            std::fs::read_dir(folder).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", folder.display())))?;
+        let entries = std::fs::read_dir(folder)
+            .map_err(|error| AppError::invalid(format!("{}: cannot read: {error}", folder.display())))?;
         found.extend(entries.flatten().map(|entry| entry.path()).filter(|path| is_session(path) && !is_hidden(path)));
     }
     found.sort_by(|a, b| a.file_name().cmp(&b.file_name()));
@@ -38,9 +38,9 @@ fn is_hidden(path: &Path) -> bool {
 /// # Errors
 /// Returns an error if the folder name is not valid UTF-8.
 pub fn id(session: &Path) -> Result<String, AppError> {
-    let path = session.canonicalize().map_err(|error| AppError::wrong(format!("{}: {error}", session.display())))?;
+    let path = session.canonicalize().map_err(|error| AppError::invalid(format!("{}: {error}", session.display())))?;
     let name = path.file_name().and_then(|name| name.to_str());
-    name.map(str::to_owned).ok_or_else(|| AppError::wrong(format!("{}: the folder name is not valid UTF-8", session.display())))
+    name.map(str::to_owned).ok_or_else(|| AppError::invalid(format!("{}: the folder name is not valid UTF-8", session.display())))
 }
 
 /// Creates a session folder's record. Returns `None` if `known` contains the session unchanged.
@@ -55,10 +55,10 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
     }
     let stored = StoredSession::read(session)?;
     let scenario = &stored.scenario.scenario;
-    let graded = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
+    let assessed_session = scoring::grade(&stored.log, scenario, &stored.vehicle.vehicle)
         .map_err(|error| AppError::failed(format!("{}: {error}", session.display())))?;
     // If the monitor was killed early, it did not save the defect positions; the seed reproduces them.
-    let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, graded.seed));
+    let survey = scenario.defects.placed.is_none().then(|| build_site(scenario, assessed_session.seed));
     let placed = scenario.defects.placed.as_deref().or_else(|| survey.as_ref().map(|survey| survey.defects()));
     let answers = answers::read_saved_answers(session, scenario)?;
     Ok(Some(record(&RecordSource {
@@ -70,7 +70,7 @@ pub fn read(session: &Path, known: &BTreeMap<String, String>) -> Result<Option<S
         scenario,
         vehicle: &stored.vehicle.vehicle.id,
         hashes: &hashes,
-        graded: &graded,
+        assessed_session: &assessed_session,
         placed: placed.unwrap_or_default(),
         answers: answers.as_ref(),
     })))
@@ -86,7 +86,7 @@ pub fn is_erased(session: &Path, erased: &ErasureMarks) -> bool {
 fn hashes(session: &Path) -> Result<SourceHashes, AppError> {
     let bytes = |name: &str| {
         let path = session.join(name);
-        std::fs::read(&path).map_err(|error| AppError::wrong(format!("{}: cannot read: {error}", path.display())))
+        std::fs::read(&path).map_err(|error| AppError::invalid(format!("{}: cannot read: {error}", path.display())))
     };
     let telemetry = LogFile::open(&session.join(TELEMETRY))?.sha256()?;
     let answers = if session.join(ANSWERS).is_file() { bytes(ANSWERS)? } else { Vec::new() };

@@ -22,7 +22,7 @@ pub fn read_json_lines(path: &Path) -> Result<Vec<SessionRecord>, AppError> {
     let text = files::read(path)?;
     let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let read = |(k, line): (usize, &str)| {
-        let wrong = |message: String| AppError::wrong(format!("{}:{}: {message}", path.display(), k + 1));
+        let wrong = |message: String| AppError::invalid(format!("{}:{}: {message}", path.display(), k + 1));
         let record: SessionRecord = serde_json::from_str(line).map_err(|error| wrong(format!("not a valid record: {error}")))?;
         record.check().map_err(wrong)?;
         Ok(record)

@@ -27,7 +27,7 @@ impl RecordsLocation {
                 Database::open(&folder.join("records.sqlite").display().to_string())
             }
         }?;
-        if let Err(error) = erasure::finish(&database, &self.sessions) {
+        if let Err(error) = erasure::finish_erasures(&database, &self.sessions) {
             tracing::warn!("cannot finish an interrupted erasure: {error}");
         }
         Ok(database)

@@ -24,4 +24,4 @@ pub use database::Database;
 pub use import::{id as session_id, is_erased, read as read_session, session_folders};
 pub use json_lines::{lines, read_json_lines};
 pub use location::RecordsLocation;
-pub use people::{erase_older_than, erase_person, find, folders_of_trainee, folders_older_than, stored_data};
+pub use people::{erase_older_than, erase_trainee, find, folders_of_trainee, folders_older_than, trainee_data};

@@ -36,7 +36,7 @@ impl TraineeData {
 ///
 /// # Errors
 /// Returns an error if the database or a folder cannot be read.
-pub fn stored_data(
+pub fn trainee_data(
     database: &Database,
     records_location: &RecordsLocation,
     trainee: &str,
@@ -55,7 +55,7 @@ pub fn stored_data(
 ///
 /// # Errors
 /// Returns an error if a folder or the database cannot be changed.
-pub fn erase_person(database: &Database, records_location: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
+pub fn erase_trainee(database: &Database, records_location: &RecordsLocation, trainee: &str) -> Result<(bool, u64), AppError> {
     let folders = folders_of_trainee(records_location, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
     erasure::remove_folders(database, &folders)?;
@@ -75,7 +75,7 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
 /// # Errors
 /// Returns an error if the sessions folder cannot be read.
 pub fn folders_of_trainee(records_location: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
-    folders_where(&records_location.sessions, |owner, _| owner == trainee)
+    matching_folders(&records_location.sessions, |owner, _| owner == trainee)
 }
 
 /// Returns the session folders whose trainee and start time (µs since the Unix epoch) satisfy the predicate. Logs
@@ -83,7 +83,7 @@ pub fn folders_of_trainee(records_location: &RecordsLocation, trainee: &str) -> 
 ///
 /// # Errors
 /// Returns an error if the sessions folder cannot be read.
-fn folders_where(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
+fn matching_folders(sessions: &[PathBuf], is: impl Fn(&str, u64) -> bool) -> Result<Vec<PathBuf>, AppError> {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let mut found = Vec::new();
     for path in import::session_folders(&here)? {
@@ -118,5 +118,5 @@ pub fn erase_older_than(
 /// # Errors
 /// Returns an error if the sessions folder cannot be read.
 pub fn folders_older_than(records_location: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
-    folders_where(&records_location.sessions, |_, started_unix_us| started_unix_us < limit_us)
+    matching_folders(&records_location.sessions, |_, started_unix_us| started_unix_us < limit_us)
 }

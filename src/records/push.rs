@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// Name of the file in a session folder that contains the session's statements.
-pub const STATEMENTS: &str = "xapi.jsonl";
+pub const STATEMENTS_FILE: &str = "xapi.jsonl";
 /// Maximum number of statements per request.
 const BATCH_SIZE: usize = 50;
 /// Delays before retries if the store does not respond or is temporarily unavailable.
@@ -26,8 +26,8 @@ const RETRY_DELAYS: [Duration; 5] = [
 /// Timeout for a request.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(60);
 /// Environment variables for the user name and password, which must not appear in process lists.
-const USER: &str = "SPANDREL_LRS_USER";
-const PASSWORD: &str = "SPANDREL_LRS_PASSWORD";
+const USER_VARIABLE: &str = "SPANDREL_LRS_USER";
+const PASSWORD_VARIABLE: &str = "SPANDREL_LRS_PASSWORD";
 
 /// Numbers of statements by the store's response.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct PushCounts {
     /// Statements that were new to the store.
     pub sent: usize,
     /// Statements that the store already had.
-    pub already_there: usize,
+    pub already_stored_count: usize,
 }
 
 /// Checks an endpoint's URL and removes trailing slashes.
@@ -72,7 +72,10 @@ pub fn push(
         save_statements(records_location, record, &statements)?;
         for parcel in statements.chunks(BATCH_SIZE) {
             let done = store.send_batch(parcel)?;
-            all = PushCounts { sent: all.sent + done.sent, already_there: all.already_there + done.already_there };
+            all = PushCounts {
+                sent: all.sent + done.sent,
+                already_stored_count: all.already_stored_count + done.already_stored_count,
+            };
         }
     }
     progress.finish();
@@ -83,7 +86,7 @@ pub fn push(
 fn save_statements(records_location: &RecordsLocation, record: &SessionRecord, statements: &[Value]) -> Result<(), AppError> {
     let here = |folder: &Path| crate::io::session_folder::is_session(&folder.join(&record.id));
     match records_location.sessions.iter().find(|folder| here(folder)) {
-        Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS), xapi::lines(statements).as_bytes()),
+        Some(folder) => replace(&folder.join(&record.id).join(STATEMENTS_FILE), xapi::lines(statements).as_bytes()),
         None => Ok(()),
     }
 }
@@ -102,13 +105,13 @@ impl LearningRecordStore {
             .timeout_global(Some(REQUEST_TIMEOUT))
             .max_redirects(0)
             .build();
-        let authorization = match (std::env::var(USER), std::env::var(PASSWORD)) {
+        let authorization = match (std::env::var(USER_VARIABLE), std::env::var(PASSWORD_VARIABLE)) {
             (Ok(user), Ok(password)) => {
                 Some(format!("Basic {}", spandrel_training::report::assets::base64(format!("{user}:{password}").as_bytes())))
             }
             (Err(_), Err(_)) => None,
             (Ok(_), Err(_)) | (Err(_), Ok(_)) => {
-                return Err(AppError::wrong(format!("{USER} and {PASSWORD} must be set together")));
+                return Err(AppError::invalid(format!("{USER_VARIABLE} and {PASSWORD_VARIABLE} must be set together")));
             }
         };
         Ok(Self { agent: config.into(), url: url.to_owned(), authorization })
@@ -117,16 +120,19 @@ impl LearningRecordStore {
     /// Sends statements. On a conflict (at least one already exists), sends each one separately.
     fn send_batch(&self, statements: &[Value]) -> Result<PushCounts, AppError> {
         match self.send(statements)? {
-            StoreAnswer::Accepted => Ok(PushCounts { sent: statements.len(), already_there: 0 }),
-            StoreAnswer::Conflict if statements.len() == 1 => Ok(PushCounts { sent: 0, already_there: 1 }),
-            StoreAnswer::Conflict => statements.iter().try_fold(PushCounts::default(), |sum, one| {
+            StoreResponse::Accepted => Ok(PushCounts { sent: statements.len(), already_stored_count: 0 }),
+            StoreResponse::Conflict if statements.len() == 1 => Ok(PushCounts { sent: 0, already_stored_count: 1 }),
+            StoreResponse::Conflict => statements.iter().try_fold(PushCounts::default(), |sum, one| {
                 let done = self.send_batch(std::slice::from_ref(one))?;
-                Ok(PushCounts { sent: sum.sent + done.sent, already_there: sum.already_there + done.already_there })
+                Ok(PushCounts {
+                    sent: sum.sent + done.sent,
+                    already_stored_count: sum.already_stored_count + done.already_stored_count,
+                })
             }),
         }
     }
 
-    fn send(&self, statements: &[Value]) -> Result<StoreAnswer, AppError> {
+    fn send(&self, statements: &[Value]) -> Result<StoreResponse, AppError> {
         let address = format!("{}/statements", self.url);
         let body = Value::from(statements.to_vec()).to_string();
         let mut waits = RETRY_DELAYS.iter();
@@ -159,8 +165,8 @@ impl LearningRecordStore {
             format!("status {status} {short}")
         };
         Ok(match status {
-            200..=299 => PushOutcome::Done(StoreAnswer::Accepted),
-            409 => PushOutcome::Done(StoreAnswer::Conflict),
+            200..=299 => PushOutcome::Done(StoreResponse::Accepted),
+            409 => PushOutcome::Done(StoreResponse::Conflict),
             408 | 425 | 429 | 500..=599 => PushOutcome::Retry(words()),
             _ => PushOutcome::Rejected(words()),
         })
@@ -168,13 +174,13 @@ impl LearningRecordStore {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum StoreAnswer {
+enum StoreResponse {
     Accepted,
     Conflict,
 }
 
 enum PushOutcome {
-    Done(StoreAnswer),
+    Done(StoreResponse),
     Retry(String),
     Rejected(String),
 }

@@ -12,7 +12,7 @@ use sqlx::{Any, Row, Transaction};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
+const UPSERT_SESSION_QUERY: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenario, scenario_sha256, vehicle, vehicle_sha256, \
     telemetry_sha256, spandrel_version, scorer_version, end_reason, seconds, conformity, efficiency, safety, accuracy, overall, \
     overall_max, fingerprint, record, purpose) \
     VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, $12, $13, $14, $15, $16, $17, $18, $19, $20, $21) \
@@ -24,11 +24,11 @@ const UPSERT: &str = "INSERT INTO sessions (id, trainee, started_unix_us, scenar
     accuracy = excluded.accuracy, overall = excluded.overall, overall_max = excluded.overall_max, \
     fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
-const ADD_TRAINEE: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
+const ADD_TRAINEE_QUERY: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
 // The subquery uses only an index, so complete rows are read only for the sessions to show.
-const LIST_ALL: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
+const LIST_ALL_QUERY: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
-const LIST_OF_TRAINEE: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
+const LIST_TRAINEE_QUERY: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
 impl Database {
@@ -138,7 +138,7 @@ impl Database {
     /// # Errors
     /// Returns an error if the database fails.
     pub fn list(&self, trainee: Option<&str>, most: u32, skip: u32) -> Result<Vec<SessionListEntry>, AppError> {
-        let query = if trainee.is_some() { LIST_OF_TRAINEE } else { LIST_ALL };
+        let query = if trainee.is_some() { LIST_TRAINEE_QUERY } else { LIST_ALL_QUERY };
         self.run(async {
             let query = sqlx::query(query).bind(i64::from(most)).bind(i64::from(skip));
             let query = if let Some(trainee) = trainee { query.bind(trainee.to_owned()) } else { query };
@@ -227,10 +227,10 @@ async fn put(change: &mut Transaction<'static, Any>, record: &SessionRecord) -> 
     if erasure_marks::contains(change, record).await? {
         return Ok(false);
     }
-    let trainee = sqlx::query(ADD_TRAINEE).bind(record.trainee.clone()).bind(Role::Trainee.word().to_owned());
+    let trainee = sqlx::query(ADD_TRAINEE_QUERY).bind(record.trainee.clone()).bind(Role::Trainee.word().to_owned());
     trainee.execute(&mut **change).await?;
     let text = serde_json::to_string(record).map_err(|error| sqlx::Error::Encode(error.into()))?;
-    let done = bind(sqlx::query(UPSERT), record, text).execute(&mut **change).await?;
+    let done = bind(sqlx::query(UPSERT_SESSION_QUERY), record, text).execute(&mut **change).await?;
     if done.rows_affected() == 0 {
         return Ok(false);
     }

@@ -7,17 +7,18 @@ use sqlx::any::AnyRow;
 use sqlx::{Any, Row, Transaction};
 
 /// Empty values do not overwrite stored values, so no concurrent change is lost.
-const UPSERT_DETAILS: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
+const UPSERT_DETAILS_QUERY: &str = "INSERT INTO trainees (pseudonym, role, age_band, drone_experience, gaming_experience) \
     VALUES ($1, CASE WHEN $2 = '' THEN 'trainee' ELSE $2 END, NULLIF($3, ''), NULLIF($4, ''), NULLIF($5, '')) \
     ON CONFLICT (pseudonym) DO UPDATE SET role = CASE WHEN $2 = '' THEN trainees.role ELSE excluded.role END, \
     age_band = COALESCE(excluded.age_band, trainees.age_band), \
     drone_experience = COALESCE(excluded.drone_experience, trainees.drone_experience), \
     gaming_experience = COALESCE(excluded.gaming_experience, trainees.gaming_experience)";
 /// Updates the details only if they have not changed since the form was loaded.
-const SET_DETAILS: &str = "UPDATE trainees SET age_band = NULLIF($1, ''), drone_experience = NULLIF($2, ''), \
+const SET_DETAILS_QUERY: &str = "UPDATE trainees SET age_band = NULLIF($1, ''), drone_experience = NULLIF($2, ''), \
     gaming_experience = NULLIF($3, '') WHERE pseudonym = $4 AND COALESCE(age_band, '') = $5 AND COALESCE(drone_experience, '') = $6 \
     AND COALESCE(gaming_experience, '') = $7";
-const TRAINEES: &str = "SELECT pseudonym, role, age_band, drone_experience, gaming_experience FROM trainees ORDER BY pseudonym";
+const TRAINEES_QUERY: &str =
+    "SELECT pseudonym, role, age_band, drone_experience, gaming_experience FROM trainees ORDER BY pseudonym";
 
 impl Database {
     /// Returns all trainees, ordered by pseudonym.
@@ -26,7 +27,7 @@ impl Database {
     /// Returns an error if the database fails.
     pub fn trainees(&self) -> Result<Vec<Trainee>, AppError> {
         self.run(async {
-            let rows = sqlx::query(TRAINEES).fetch_all(&self.pool).await?;
+            let rows = sqlx::query(TRAINEES_QUERY).fetch_all(&self.pool).await?;
             rows.iter().map(trainee).collect()
         })
     }
@@ -51,7 +52,7 @@ impl Database {
     pub fn set_details(&self, name: &str, before: [&str; 3], after: [&str; 3]) -> Result<bool, AppError> {
         self.run(async {
             let mut change = self.begin().await?;
-            let query = after.into_iter().fold(sqlx::query(SET_DETAILS), |query, value| query.bind(value.to_owned()));
+            let query = after.into_iter().fold(sqlx::query(SET_DETAILS_QUERY), |query, value| query.bind(value.to_owned()));
             let query = before.into_iter().fold(query.bind(name.to_owned()), |query, value| query.bind(value.to_owned()));
             let done = query.execute(&mut *change).await?;
             change.commit().await.map(|()| done.rows_affected() > 0)
@@ -66,7 +67,7 @@ pub(super) async fn update_details(
     role: Option<Role>,
     details: [Option<&str>; 3],
 ) -> Result<(), sqlx::Error> {
-    let query = sqlx::query(UPSERT_DETAILS).bind(name.to_owned()).bind(role.map_or("", Role::word).to_owned());
+    let query = sqlx::query(UPSERT_DETAILS_QUERY).bind(name.to_owned()).bind(role.map_or("", Role::word).to_owned());
     let query = details.into_iter().fold(query, |query, detail| query.bind(detail.unwrap_or_default().to_owned()));
     query.execute(&mut **change).await.map(|_| ())
 }

@@ -49,7 +49,7 @@ pub struct LoginClient<'a> {
 
 /// A visitor and their session cookie.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Identified {
+pub struct IdentifiedVisitor {
     /// The visitor's name and role.
     pub visitor: Visitor,
     /// Session cookie value.
@@ -102,7 +102,7 @@ impl Authenticator {
     ///
     /// # Errors
     /// Returns an error if the database fails.
-    pub fn is_open(&self, database: &Database) -> Result<bool, AppError> {
+    pub fn has_no_passwords(&self, database: &Database) -> Result<bool, AppError> {
         if self.login_required.load(Ordering::SeqCst) {
             return Ok(false);
         }
@@ -119,8 +119,8 @@ impl Authenticator {
     ///
     /// # Errors
     /// Returns an error if the database or the system's random number generator fails.
-    pub fn identify(&self, database: &Database, cookie: Option<String>) -> Result<Identified, WebError> {
-        let open = self.is_open(database)?;
+    pub fn identify(&self, database: &Database, cookie: Option<String>) -> Result<IdentifiedVisitor, WebError> {
+        let open = self.has_no_passwords(database)?;
         let now_us = clock::unix_us();
         let found = cookie.and_then(|cookie| lock(&self.browser_sessions).find(&cookie, now_us).map(|visit| (cookie, visit)));
         // This check runs for every request, so a role change, an erasure or a new password ends the browser session
@@ -138,10 +138,10 @@ impl Authenticator {
         };
         let Some((cookie, visit)) = found else {
             let (cookie, visit) = lock(&self.browser_sessions).begin(None, secrets()?, now_us);
-            return Ok(Identified { visitor: visitor(open, None, visit), cookie, is_new: true });
+            return Ok(IdentifiedVisitor { visitor: visitor(open, None, visit), cookie, is_new: true });
         };
         let person = account.map(|account| account.person);
-        Ok(Identified { visitor: visitor(open, person, visit), cookie, is_new: false })
+        Ok(IdentifiedVisitor { visitor: visitor(open, person, visit), cookie, is_new: false })
     }
 
     /// Logs in: checks the name and password, ends the previous browser session and starts a new one. Returns the new
@@ -235,12 +235,12 @@ impl Authenticator {
     }
 
     /// Returns the value of the session cookie in a request.
-    pub fn cookie_of(&self, headers: &HeaderMap) -> Option<String> {
+    pub fn session_cookie_from(&self, headers: &HeaderMap) -> Option<String> {
         cookie_value(headers, self.cookie_name())
     }
 
     /// Returns the value of the browser cookie in a request.
-    pub fn browser_cookie_of(&self, headers: &HeaderMap) -> Option<String> {
+    pub fn browser_cookie_from(&self, headers: &HeaderMap) -> Option<String> {
         cookie_value(headers, self.browser_cookie_name())
     }
 
@@ -299,8 +299,11 @@ mod tests {
         let guard = Authenticator::new(true, true, AllowedOrigins::default());
         let cookie = guard.cookie("v");
         assert!(cookie.starts_with("__Host-spandrel=v;") && cookie.contains("Secure"), "{cookie}");
-        assert_eq!(guard.cookie_of(&headers(&[("cookie", "a=b; __Host-spandrel=xyz; spandrel=no")])), Some("xyz".into()));
-        assert_eq!(guard.cookie_of(&headers(&[])), None);
+        assert_eq!(
+            guard.session_cookie_from(&headers(&[("cookie", "a=b; __Host-spandrel=xyz; spandrel=no")])),
+            Some("xyz".into())
+        );
+        assert_eq!(guard.session_cookie_from(&headers(&[])), None);
         let device = guard.browser_cookie("v");
         assert!(device.starts_with("__Host-spandrel-device=v; HttpOnly; SameSite=Strict; Secure;"), "{device}");
         assert!(device.contains("Max-Age=7776000"), "{device}");

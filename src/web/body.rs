@@ -38,7 +38,7 @@ pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Reques
 
 /// Reads a form with a file. The token must be the first field; without it, nothing else is read.
 async fn read_parts(web_request: &mut WebRequest, most: usize, request: Request, spool: &Path) -> Result<(), WebError> {
-    let mut parts = Multipart::from_request(request, &()).await.map_err(|_| not_a_form())?;
+    let mut parts = Multipart::from_request(request, &()).await.map_err(|_| not_a_form_error())?;
     let too_large = |error: MultipartError| unreadable(&error, most);
     while let Some(mut part) = parts.next_field().await.map_err(too_large)? {
         let name = part.name().unwrap_or_default().to_owned();
@@ -75,10 +75,10 @@ async fn read_file(part: &mut Field<'_>, mut spool: UploadSpool<'_>) -> Result<S
     Ok(spool.finish())
 }
 
-fn not_a_form() -> WebError {
+fn not_a_form_error() -> WebError {
     WebError::BadRequest("the request does not contain a form with a file".into())
 }
 
 fn unreadable(error: &MultipartError, most: usize) -> WebError {
-    if error.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE { WebError::TooLarge(most) } else { not_a_form() }
+    if error.status() == axum::http::StatusCode::PAYLOAD_TOO_LARGE { WebError::TooLarge(most) } else { not_a_form_error() }
 }

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex};
 
 /// Maximum number of cached selections; the oldest is removed first. An instructor is unlikely to compare more
 /// (estimate).
-const MAX_SELECTIONS: usize = 8;
+const MAX_CACHED_SELECTIONS: usize = 8;
 
 /// Cohort figures for one selection.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub struct CohortFigures {
 
 impl CohortFigures {
     /// Returns the cohort, or `None` if it contains no sessions.
-    pub fn non_empty(&self) -> Option<&Cohort> {
+    pub fn non_empty_cohort(&self) -> Option<&Cohort> {
         (self.cohort.sessions > 0).then_some(&self.cohort)
     }
 }
@@ -85,7 +85,7 @@ impl<K: Clone + PartialEq, V> VersionedCache<K, V> {
             return Ok(value.clone());
         }
         let value = Arc::new(compute()?);
-        if self.values.len() >= MAX_SELECTIONS {
+        if self.values.len() >= MAX_CACHED_SELECTIONS {
             self.values.remove(0);
         }
         self.values.push((key.clone(), value.clone()));
@@ -113,11 +113,11 @@ mod tests {
         assert_eq!(ask("1", 8), Ok(2), "another selection");
         assert_eq!(ask("1", 7), Ok(1), "both are cached");
         assert_eq!(ask("2", 7), Ok(3), "the database has changed");
-        for key in 100..100 + u32::try_from(MAX_SELECTIONS).unwrap() {
+        for key in 100..100 + u32::try_from(MAX_CACHED_SELECTIONS).unwrap() {
             ask("2", key).unwrap();
         }
-        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(MAX_SELECTIONS).unwrap()), "the oldest was removed");
-        assert!(kept.values.len() <= MAX_SELECTIONS);
+        assert_eq!(ask("2", 7), Ok(4 + u32::try_from(MAX_CACHED_SELECTIONS).unwrap()), "the oldest was removed");
+        assert!(kept.values.len() <= MAX_CACHED_SELECTIONS);
     }
 
     #[test]

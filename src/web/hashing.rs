@@ -10,14 +10,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Maximum number of requests that are hashing or waiting at the same time. Each request occupies one of the server's
 /// threads (`server::BLOCKING_THREADS`), so this maximum is well below the number of threads.
-const MAX_WAITING: usize = 6;
+const MAX_QUEUED_REQUESTS: usize = 6;
 /// Time after which a rejected client may retry, s.
 const RETRY_AFTER_S: u64 = 2;
 
 /// Hashing queue with its working memory.
 #[derive(Debug)]
 pub struct HashingQueue {
-    lanes: Vec<Mutex<HashingMemory>>,
+    memory_slots: Vec<Mutex<HashingMemory>>,
     next: AtomicUsize,
     waiting: AtomicUsize,
 }
@@ -30,8 +30,12 @@ impl Default for HashingQueue {
     fn default() -> Self {
         // Leave one core free for serving pages.
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        let lanes = (cores / 2).clamp(1, 2);
-        Self { lanes: (0..lanes).map(|_| Mutex::default()).collect(), next: AtomicUsize::new(0), waiting: AtomicUsize::new(0) }
+        let memory_slots = (cores / 2).clamp(1, 2);
+        Self {
+            memory_slots: (0..memory_slots).map(|_| Mutex::default()).collect(),
+            next: AtomicUsize::new(0),
+            waiting: AtomicUsize::new(0),
+        }
     }
 }
 
@@ -41,7 +45,7 @@ impl HashingQueue {
     /// # Errors
     /// Returns [`WebError::Busy`] if the queue is full.
     pub fn acquire(&self) -> Result<HashingSlot<'_>, WebError> {
-        let enter = |waiting| (waiting < MAX_WAITING).then_some(waiting + 1);
+        let enter = |waiting| (waiting < MAX_QUEUED_REQUESTS).then_some(waiting + 1);
         let entered = self.waiting.fetch_update(Ordering::AcqRel, Ordering::Acquire, enter);
         entered.map(|_| HashingSlot(self)).map_err(|_| WebError::Busy(RETRY_AFTER_S))
     }
@@ -49,8 +53,8 @@ impl HashingQueue {
 
 impl HashingSlot<'_> {
     fn with_memory<T>(&self, work: impl FnOnce(&mut HashingMemory) -> T) -> T {
-        let lane = self.0.next.fetch_add(1, Ordering::Relaxed) % self.0.lanes.len();
-        work(&mut lock(&self.0.lanes[lane]))
+        let lane = self.0.next.fetch_add(1, Ordering::Relaxed) % self.0.memory_slots.len();
+        work(&mut lock(&self.0.memory_slots[lane]))
     }
 
     /// Returns true if the password matches the hash.
@@ -80,7 +84,7 @@ mod tests {
     #[test]
     fn regress_full_queue_rejects_until_a_slot_is_released() {
         let hashing = HashingQueue::default();
-        let mut turns: Vec<_> = (0..MAX_WAITING).map(|_| hashing.acquire().unwrap()).collect();
+        let mut turns: Vec<_> = (0..MAX_QUEUED_REQUESTS).map(|_| hashing.acquire().unwrap()).collect();
         assert_eq!(hashing.acquire().err(), Some(WebError::Busy(RETRY_AFTER_S)));
         turns.pop();
         assert!(hashing.acquire().is_ok());

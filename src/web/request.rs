@@ -75,7 +75,7 @@ impl WebRequest {
     ///
     /// # Errors
     /// Returns an error if the visitor has no access.
-    pub fn require_access(&self, trainee: &str) -> Result<(), WebError> {
+    pub fn check_access(&self, trainee: &str) -> Result<(), WebError> {
         if self.visitor.may_see(trainee) { Ok(()) } else { Err(WebError::NotFound) }
     }
 }

@@ -1,7 +1,7 @@
 //! Request pipeline. It identifies the visitor of every request, authorizes the request and checks its form token. Then
 //! the route's handler runs on a thread that may block on disk and database access.
 
-use super::auth::Identified;
+use super::auth::IdentifiedVisitor;
 use super::body;
 use super::live;
 use super::request::WebRequest;
@@ -44,7 +44,7 @@ pub async fn handle_route(shared: PipelineState, route: &'static Route, request:
 /// A request before its body is read.
 struct RequestHead {
     request: WebRequest,
-    identity: Option<Identified>,
+    identity: Option<IdentifiedVisitor>,
 }
 
 async fn run_route(shared: PipelineState, route: &'static Route, mut request: Request) -> Response<Body> {
@@ -105,14 +105,15 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
     let changes = !route.kind.is_read_only();
     let file = route.kind == RouteKind::File;
     blocking(move || {
-        let open = state.auth.is_open(&state.database)?;
+        let open = state.auth.has_no_passwords(&state.database)?;
         state.auth.check_origin(&headers, changes, open)?;
         let from =
             state.auth.address(socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?, &headers)?;
-        let recognized = if file { None } else { Some(state.auth.identify(&state.database, state.auth.cookie_of(&headers))?) };
+        let recognized =
+            if file { None } else { Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?) };
         let visitor = recognized.as_ref().map_or_else(anonymous_visitor, |recognized| recognized.visitor.clone());
         let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
-        let device = state.auth.browser_cookie_of(&headers);
+        let device = state.auth.browser_cookie_from(&headers);
         let expects_json = accepts_json(&headers);
         let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
         let web_request =

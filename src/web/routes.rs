@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_anonymous_visitors_reach_only_the_login() {
+    fn exact_anonymous_visitors_reach_only_the_login_page() {
         let open: Vec<&str> =
             ROUTES.iter().filter(|route| route.required_access == AccessLevel::Public).map(|route| route.path).collect();
         assert_eq!(open, ["/", "/assets/{name}", "/login", "/login", "/logout"]);

@@ -1,7 +1,7 @@
 //! The server's scenarios, shipped and uploaded.
 
 use super::response::WebError;
-use super::safe_names::is_plain;
+use super::safe_names::is_safe_file_name;
 use crate::errors::AppError;
 use crate::io::files;
 use spandrel_model::scenario::{self, Scenario};
@@ -34,7 +34,7 @@ pub fn all(folder: &Path) -> Vec<StoredScenario> {
 
 /// Finds a scenario by name.
 pub fn find(folder: &Path, name: &str) -> Option<StoredScenario> {
-    if !is_plain(name) {
+    if !is_safe_file_name(name) {
         return None;
     }
     all(folder).into_iter().find(|job| job.named.name == name)

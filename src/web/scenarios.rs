@@ -2,7 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::safe_names::is_plain;
+use super::safe_names::is_safe_file_name;
 use super::scenario_library::{all, find, read, upload_path, uploaded};
 use super::state::ServerState;
 use crate::errors::AppError;
@@ -46,22 +46,22 @@ pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 fn save_upload(state: &ServerState, request: &WebRequest) -> Result<String, AppError> {
-    let upload = request.upload.as_ref().ok_or_else(|| AppError::wrong("file: missing"))?;
+    let upload = request.upload.as_ref().ok_or_else(|| AppError::invalid("file: missing"))?;
     let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
     let bytes = upload.file.bytes()?;
     let text = std::str::from_utf8(&bytes)
-        .map_err(|error| AppError::wrong(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
+        .map_err(|error| AppError::invalid(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
     let scenario = read(&shown, text)?;
     // The name becomes part of folder names; the scenario parser allows only [a-z0-9-].
-    if !is_plain(&scenario.name) || scenario.name.len() > 60 {
-        return Err(AppError::wrong(format!("{shown}: the name is too long (allowed: 60 characters)")));
+    if !is_safe_file_name(&scenario.name) || scenario.name.len() > 60 {
+        return Err(AppError::invalid(format!("{shown}: the name is too long (allowed: 60 characters)")));
     }
     if files::scenario_names().contains(&scenario.name.as_str()) {
-        return Err(AppError::wrong(format!("{shown}: '{}' is the name of a shipped scenario; choose another", scenario.name)));
+        return Err(AppError::invalid(format!("{shown}: '{}' is the name of a shipped scenario; choose another", scenario.name)));
     }
     let target = upload_path(&state.scenarios, &scenario.name);
     if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
-        return Err(AppError::wrong(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")));
+        return Err(AppError::invalid(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")));
     }
     std::fs::create_dir_all(&state.scenarios)
         .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;

@@ -44,7 +44,7 @@ pub fn session_list(state: &ServerState, request: &WebRequest) -> HandlerResult 
 /// Returns an error if there is no such session, or the visitor has no access to it.
 pub fn record(state: &ServerState, request: &WebRequest, id: &str) -> Result<SessionRecord, WebError> {
     let record = state.database.record(id)?.ok_or(WebError::NotFound)?;
-    request.require_access(&record.trainee)?;
+    request.check_access(&record.trainee)?;
     Ok(record)
 }
 

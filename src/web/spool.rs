@@ -11,11 +11,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// Maximum size of a file kept in memory, bytes.
-const MAX_IN_MEMORY: usize = 512 * 1024;
+const MAX_BYTES_IN_MEMORY: usize = 512 * 1024;
 /// Time after which the minimum upload rate applies.
-const GRACE_PERIOD: Duration = Duration::from_secs(30);
+const MIN_RATE_GRACE_PERIOD: Duration = Duration::from_secs(30);
 /// Minimum upload rate after that time, bytes/s. Estimate: one-sixteenth of a 1 Mbit/s line.
-const MIN_RATE: u64 = 8 * 1024;
+const MIN_UPLOAD_BYTES_S: u64 = 8 * 1024;
 
 /// A completely uploaded file.
 #[derive(Debug)]
@@ -82,9 +82,12 @@ impl<'a> UploadSpool<'a> {
             return Err(WebError::TooLarge(self.max_bytes));
         }
         if is_below_min_rate(self.size, elapsed) {
-            return Err(WebError::BadRequest(format!("the upload was too slow (allowed: {} KiB/s or more)", MIN_RATE / 1024)));
+            return Err(WebError::BadRequest(format!(
+                "the upload was too slow (allowed: {} KiB/s or more)",
+                MIN_UPLOAD_BYTES_S / 1024
+            )));
         }
-        if self.disk.is_none() && self.head.len() + bytes.len() > MAX_IN_MEMORY {
+        if self.disk.is_none() && self.head.len() + bytes.len() > MAX_BYTES_IN_MEMORY {
             self.disk = Some(self.create_file()?);
         }
         match &mut self.disk {
@@ -116,8 +119,8 @@ impl<'a> UploadSpool<'a> {
 }
 
 fn is_below_min_rate(size: usize, elapsed: Duration) -> bool {
-    let counted_s = elapsed.saturating_sub(GRACE_PERIOD).as_secs();
-    (size as u64) < counted_s.saturating_mul(MIN_RATE)
+    let counted_s = elapsed.saturating_sub(MIN_RATE_GRACE_PERIOD).as_secs();
+    (size as u64) < counted_s.saturating_mul(MIN_UPLOAD_BYTES_S)
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> AppError {
@@ -148,15 +151,15 @@ mod tests {
         small.append(b"0123456789", Duration::ZERO).unwrap();
         assert_eq!(small.append(b"x", Duration::ZERO), Err(WebError::TooLarge(10)));
         let mut dropped = UploadSpool::new(folder.path(), usize::MAX);
-        dropped.append(&vec![0; 2 * MAX_IN_MEMORY], Duration::ZERO).unwrap();
+        dropped.append(&vec![0; 2 * MAX_BYTES_IN_MEMORY], Duration::ZERO).unwrap();
         drop(dropped);
         assert_eq!(files(), 0);
     }
 
     #[test]
     fn regress_slow_uploads_are_below_the_minimum_rate() {
-        assert!(!is_below_min_rate(1, GRACE_PERIOD), "the grace");
-        assert!(is_below_min_rate(1, GRACE_PERIOD + Duration::from_secs(1)));
+        assert!(!is_below_min_rate(1, MIN_RATE_GRACE_PERIOD), "the grace");
+        assert!(is_below_min_rate(1, MIN_RATE_GRACE_PERIOD + Duration::from_secs(1)));
         assert!(!is_below_min_rate(96 * 1024 * 1024, Duration::from_secs(600)), "a recording over a slow line");
     }
 }

@@ -3,7 +3,7 @@
 use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
 use super::live::{LiveVehicle, WatchedVehicle};
-use super::safe_names::is_plain;
+use super::safe_names::is_safe_file_name;
 use super::session_importer::SessionImporter;
 use super::temp_files;
 use crate::errors::AppError;
@@ -97,7 +97,7 @@ impl ServerState {
 
     /// Returns a session's folder, or `None` if it is not on this machine or the ID is not a plain name.
     pub fn folder(&self, id: &str) -> Option<PathBuf> {
-        if !is_plain(id) {
+        if !is_safe_file_name(id) {
             return None;
         }
         self.records_location

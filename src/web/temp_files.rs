@@ -46,7 +46,7 @@ fn is_stale(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let Some(writer) = writer_pid(name) else { return false };
     let old = path.metadata().and_then(|about| about.modified()).is_ok_and(|at| at.elapsed().is_ok_and(|age| age > STALE_AGE));
-    old && path.is_file() && !is_alive(writer)
+    old && path.is_file() && !is_process_running(writer)
 }
 
 /// Returns the process ID from a `NAME.PID-N.new` file name.
@@ -58,7 +58,7 @@ fn writer_pid(name: &str) -> Option<u32> {
 }
 
 /// Returns true if the process is running, or if the system has no /proc to check.
-fn is_alive(process: u32) -> bool {
+fn is_process_running(process: u32) -> bool {
     let all = Path::new("/proc");
     !all.join("self").exists() || all.join(process.to_string()).exists()
 }
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    fn write_with_age(path: &Path, age: Duration) {
+    fn write_file_with_age(path: &Path, age: Duration) {
         fs::write(path, "half").unwrap();
         let file = fs::File::options().write(true).open(path).unwrap();
         let now = file.metadata().unwrap().modified().unwrap();
@@ -95,9 +95,9 @@ mod tests {
             session.join(format!("answers.json.{dead}-seven.new")),
             session.join("answers.json"),
         ];
-        gone.iter().chain(&kept).for_each(|path| write_with_age(path, 2 * STALE_AGE));
+        gone.iter().chain(&kept).for_each(|path| write_file_with_age(path, 2 * STALE_AGE));
         let young = session.join(format!("answers.json.{dead}-8.new"));
-        write_with_age(&young, Duration::ZERO);
+        write_file_with_age(&young, Duration::ZERO);
         remove_stale(&[sessions.path().to_path_buf(), PathBuf::from("/none")], scenarios.path());
         assert!(gone.iter().all(|path| !path.exists()));
         assert!(kept.iter().chain([&young]).all(|path| path.exists()));

@@ -16,14 +16,14 @@ use std::sync::Arc;
 pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), AppError> {
     let beyond = !args.listen.ip().is_loopback();
     if (beyond || args.behind_proxy) && !somebody_has_a_password {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "--listen {}: other machines could reach the server, but no password is set; first set one with \
              --set-password USER --role administrator",
             args.listen
         )));
     }
     if beyond && args.tls_cert.is_none() && !args.behind_proxy {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "--listen {}: passwords would be sent unencrypted; use --tls-cert and --tls-key, or --behind-proxy if a proxy \
              terminates TLS",
             args.listen
@@ -39,7 +39,7 @@ pub fn check(args: &ListenConfig, somebody_has_a_password: bool) -> Result<(), A
 pub fn config(args: &ListenConfig) -> Result<Option<RustlsConfig>, AppError> {
     let (Some(chain), Some(key)) = (&args.tls_cert, &args.tls_key) else { return Ok(None) };
     let wrong =
-        |flag: &str, path: &Path, error: &dyn std::fmt::Display| AppError::wrong(format!("{flag} {}: {error}", path.display()));
+        |flag: &str, path: &Path, error: &dyn std::fmt::Display| AppError::invalid(format!("{flag} {}: {error}", path.display()));
     let certificates = CertificateDer::pem_file_iter(chain)
         .and_then(Iterator::collect::<Result<Vec<_>, _>>)
         .map_err(|error| wrong("--tls-cert", chain, &error))?;

@@ -6,13 +6,13 @@ use super::state::ServerState;
 use crate::io::clock;
 use crate::io::plan_rules;
 use crate::io::trainee_id::TraineeId;
-use crate::records::{erase_person, stored_data};
+use crate::records::{erase_trainee, trainee_data};
 use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Selection, TABLES, table};
 use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::{assets, page::cohort as report};
-use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE, Role, Trainee};
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role, Trainee};
 use spandrel_training::web::{cohort_page, trainees as pages};
 
 /// Maximum number of sessions on a trainee's page.
@@ -28,7 +28,7 @@ pub fn trainee_list(state: &ServerState, request: &WebRequest) -> HandlerResult 
 /// Returns the person named in the path, if the visitor may see them.
 fn person(state: &ServerState, request: &WebRequest) -> Result<Trainee, WebError> {
     let name = request.path_param("name");
-    request.require_access(name)?;
+    request.check_access(name)?;
     state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
 }
 
@@ -37,7 +37,7 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let person = person(state, request)?;
     let records = state.database.records(Some(&person.pseudonym))?;
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
-    let incomplete = incomplete(request);
+    let incomplete = incomplete_policy(request);
     let plan = plan_for_policy(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
     let about = pages::TraineeProfile { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
     Ok(WebResponse::page(pages::trainee_page(&request.visitor, &about)))
@@ -46,20 +46,20 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
 /// Responds with all of a trainee's data.
 pub fn export(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
-    let kept = stored_data(&state.database, &state.records_location, &person.pseudonym)?.ok_or(WebError::NotFound)?;
+    let kept = trainee_data(&state.database, &state.records_location, &person.pseudonym)?.ok_or(WebError::NotFound)?;
     let name = format!("{}.json", person.pseudonym.parse::<TraineeId>().as_ref().map_or("trainee", TraineeId::as_str));
     Ok(WebResponse::download(&name, "application/json", json_text(&kept.with_folder_names()).into_bytes()))
 }
 
 /// The fields for a person's details, with their allowed values.
-const DETAILS: [(&str, &[&str]); 3] =
-    [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE), ("gaming_experience", EXPERIENCE)];
+const DETAIL_FIELDS: [(&str, &[&str]); 3] =
+    [("age_band", AGE_BANDS), ("drone_experience", EXPERIENCE_LEVELS), ("gaming_experience", EXPERIENCE_LEVELS)];
 
 /// Saves a person's details, unless they have been changed elsewhere since the page was loaded.
 pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
     let (mut before, mut after) = ([""; 3], [""; 3]);
-    for (k, (field, allowed)) in DETAILS.into_iter().enumerate() {
+    for (k, (field, allowed)) in DETAIL_FIELDS.into_iter().enumerate() {
         let given = request.form_field(field).unwrap_or_default();
         if !given.is_empty() && !allowed.contains(&given) {
             let short: String = given.chars().take(60).collect();
@@ -88,14 +88,14 @@ pub fn erase(state: &ServerState, request: &WebRequest) -> HandlerResult {
     if person.role == Role::Administrator && request.visitor.name.as_deref() == Some(name) {
         return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to erase you".into()));
     }
-    erase_person(&state.database, &state.records_location, name)?;
+    erase_trainee(&state.database, &state.records_location, name)?;
     state.auth.end_other_sessions(name, None);
     tracing::info!("erased a trainee");
     Ok(WebResponse::redirect("/trainees"))
 }
 
 /// Returns the selection on the page: whether incomplete sessions count.
-fn incomplete(request: &WebRequest) -> IncompletePolicy {
+fn incomplete_policy(request: &WebRequest) -> IncompletePolicy {
     IncompletePolicy::included(request.query_param("incomplete").is_some())
 }
 
@@ -109,14 +109,14 @@ fn selection_from_query(request: &WebRequest) -> Result<Selection, WebError> {
             .ok_or_else(|| WebError::BadRequest("repetitions: invalid number (allowed: 1 to 100)".into()))?,
     };
     let scenarios = request.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
-    Ok(Selection { scenarios, repetitions, incomplete: incomplete(request) })
+    Ok(Selection { scenarios, repetitions, incomplete: incomplete_policy(request) })
 }
 
 /// Responds with the cohort page.
 pub fn cohort_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let selection = selection_from_query(request)?;
     let figured = state.figures.get(&selection)?;
-    let counted = figured.non_empty();
+    let counted = figured.non_empty_cohort();
     let scenarios = counted.map_or(selection.scenarios, |cohort| cohort.scenarios.clone());
     let chosen = cohort_page::CohortPageSelection {
         flown_scenarios: &figured.flown_scenarios,
@@ -132,7 +132,7 @@ pub fn cohort_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
 pub fn cohort_table(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name = TABLES.into_iter().find(|name| *name == request.path_param("name")).ok_or(WebError::NotFound)?;
     let figured = state.figures.get(&selection_from_query(request)?)?;
-    let csv = figured.non_empty().and_then(|cohort| table(cohort, name)).ok_or(WebError::NotFound)?;
+    let csv = figured.non_empty_cohort().and_then(|cohort| table(cohort, name)).ok_or(WebError::NotFound)?;
     Ok(WebResponse::download(name, "text/csv; charset=utf-8", csv.into_bytes()))
 }
 
@@ -140,6 +140,6 @@ pub fn cohort_table(state: &ServerState, request: &WebRequest) -> HandlerResult 
 pub fn cohort_report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let figured = state.figures.get(&selection_from_query(request)?)?;
     let nothing = || WebError::BadRequest("these scenarios have no sessions to include".into());
-    let cohort = figured.non_empty().ok_or_else(nothing)?;
+    let cohort = figured.non_empty_cohort().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

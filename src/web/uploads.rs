@@ -77,7 +77,7 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
     }
     // A recording that cannot be scored counts as an invalid file, no matter which error the scorer reports.
     let unfit = |error: AppError| WebError::BadRequest(format!("cannot import this recording: {error}"));
-    let graded = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
+    let assessed_session = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
         let words =
@@ -111,15 +111,15 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
     folder.record(SessionOutput::Telemetry(kept.to_vec()));
     folder.flush()?;
     if let Some(survey) = monitor.survey() {
-        folder.resolve(graded.seed, survey.defects())?;
+        folder.resolve(assessed_session.seed, survey.defects())?;
     }
     folder.write_session_json(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
     if let Err(error) = report::write(folder.path()) {
         tracing::warn!("cannot write the report: {error}");
     }
-    folder.write_assessment(&json_text(&graded.assessment))?;
+    folder.write_assessment(&json_text(&assessed_session.assessment))?;
     // The complete folder is moved to the sessions folder; if the server is killed before that, nothing appears there.
-    let place = free_folder(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
+    let place = unused_folder_path(&first, &folder.path().file_name().unwrap_or_default().to_string_lossy());
     let moved = std::fs::rename(folder.path(), &place);
     moved.map_err(|error| WebError::Failed(format!("{}: cannot move: {error}", place.display())))?;
     Ok(UploadOutcome::Session(place))
@@ -127,7 +127,7 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
 
 /// Returns a path with this name, or with a similar name if another recording with the same start time is already using
 /// it.
-fn free_folder(sessions: &Path, name: &str) -> PathBuf {
+fn unused_folder_path(sessions: &Path, name: &str) -> PathBuf {
     let stem = name.rsplit_once('-').map_or(name, |(stem, _)| stem);
     let others = (1..).map(|k: u32| format!("{stem}-{}", &sha256_hex(format!("{name} {k}").as_bytes())[..6]));
     let mut places = std::iter::once(name.to_owned()).chain(others).map(|name| sessions.join(name));
@@ -139,13 +139,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_taken_folder_name_gets_another_suffix() {
+    fn exact_existing_folder_name_gets_a_suffix() {
         let sessions = tempfile::tempdir().unwrap();
         let name = "20231114T221320Z-anna-two-bridges-1a2b3c";
-        assert_eq!(free_folder(sessions.path(), name), sessions.path().join(name));
+        assert_eq!(unused_folder_path(sessions.path(), name), sessions.path().join(name));
         let mut seen = std::collections::BTreeSet::new();
         for _ in 0..3 {
-            let place = free_folder(sessions.path(), name);
+            let place = unused_folder_path(sessions.path(), name);
             std::fs::create_dir(&place).unwrap();
             let name = place.file_name().unwrap().to_string_lossy().into_owned();
             assert!(name.starts_with("20231114T221320Z-anna-two-bridges-") && seen.insert(name));

@@ -29,13 +29,13 @@ use winit::window::WindowId;
 
 /// Maximum frame rates of the views, 1/s. With a graphics card: the refresh rate of fast displays. Without one: a rate
 /// that still looks smooth.
-const MAX_FRAME_HZ: (f64, f64) = (120.0, 25.0);
+const MAX_FRAME_RATE_HZ: (f64, f64) = (120.0, 25.0);
 /// Frame rate of pages, 1/s. Pages change only on key and stick input.
-const PAGE_HZ: f64 = 20.0;
+const PAGE_FRAME_RATE_HZ: f64 = 20.0;
 /// Pause after each frame as a fraction of the frame time, without a graphics card. It lets other processes run.
-const IDLE_FRACTION: f64 = 0.25;
+const IDLE_TIME_FRACTION: f64 = 0.25;
 /// Zoom factor per mouse wheel notch.
-const ZOOM_PER_NOTCH: f64 = 1.15;
+const ZOOM_FACTOR_PER_NOTCH: f64 = 1.15;
 
 /// The window's threads and connections.
 pub struct WindowThreads {
@@ -70,7 +70,7 @@ pub struct Cockpit {
     pub(super) notices: Vec<(String, Duration)>,
     pub(super) stopwatch: Stopwatch,
     pub(super) last_frame_at: Duration,
-    due: Duration,
+    next_frame_at: Duration,
     failed: Option<AppError>,
 }
 
@@ -103,7 +103,7 @@ impl Cockpit {
             notices: Vec::new(),
             stopwatch: Stopwatch::start(),
             last_frame_at: Duration::ZERO,
-            due: Duration::ZERO,
+            next_frame_at: Duration::ZERO,
             failed: None,
         }
     }
@@ -133,23 +133,23 @@ impl Cockpit {
     }
 
     /// Returns true while the window shows the views and the keys control the vehicle.
-    fn flies(&self) -> bool {
+    fn is_flying(&self) -> bool {
         self.flow.page() == Page::Flight
     }
 
-    fn key(&mut self, event: &KeyEvent, made_up: bool) {
-        if self.held.pressed_elsewhere(event, made_up) {
+    fn key(&mut self, event: &KeyEvent, is_synthetic: bool) {
+        if self.held.pressed_elsewhere(event, is_synthetic) {
             return;
         }
         let change = self.held.handle(event);
-        if !self.flies() {
+        if !self.is_flying() {
             self.key_on_page(event, change);
             return;
         }
         match change {
             Some(KeyChange::Down(key)) => {
                 self.handle_action(&key);
-                if self.flies() {
+                if self.is_flying() {
                     self.send_to_pilot(PilotCommand::Down(key));
                 }
             }
@@ -211,10 +211,10 @@ impl Cockpit {
         let size = screen.window.inner_size();
         let (width, height) = (f64::from(size.width.max(1)), f64::from(size.height.max(1)));
         let hit = self.flow.click(hud::at(x / width, y / height), width / height);
-        self.dragging = !hit && self.flies();
+        self.dragging = !hit && self.is_flying();
     }
 
-    fn moved(&mut self, x: f64, y: f64) {
+    fn handle_mouse_move(&mut self, x: f64, y: f64) {
         if let (true, Some((from_x, from_y)), Some(flight)) = (self.dragging, self.mouse, &self.threads.flight)
             && let (Some(panes), Some(now)) = (flight.panes(), flight.now())
         {
@@ -241,10 +241,10 @@ impl Cockpit {
         }
         let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
         let took = self.stopwatch.elapsed().saturating_sub(started);
-        let shown = if software { MAX_FRAME_HZ.1 } else { MAX_FRAME_HZ.0 };
-        let most_hz = if self.flies() { shown } else { PAGE_HZ };
-        let rest = if software { took.mul_f64(IDLE_FRACTION) } else { Duration::ZERO };
-        self.due = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
+        let shown = if software { MAX_FRAME_RATE_HZ.1 } else { MAX_FRAME_RATE_HZ.0 };
+        let most_hz = if self.is_flying() { shown } else { PAGE_FRAME_RATE_HZ };
+        let rest = if software { took.mul_f64(IDLE_TIME_FRACTION) } else { Duration::ZERO };
+        self.next_frame_at = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
     }
 }
 
@@ -282,14 +282,14 @@ impl ApplicationHandler for Cockpit {
                 self.send_to_pilot(PilotCommand::ReleaseKeys);
             }
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => self.click(state == ElementState::Pressed),
-            WindowEvent::CursorMoved { position, .. } => self.moved(position.x, position.y),
+            WindowEvent::CursorMoved { position, .. } => self.handle_mouse_move(position.x, position.y),
             WindowEvent::MouseWheel { delta, .. } => {
                 let notches = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
                     // A mouse wheel notch is typically about 50 px (estimate).
                     MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
                 };
-                self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_PER_NOTCH, notches.clamp(-10.0, 10.0)));
+                self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_FACTOR_PER_NOTCH, notches.clamp(-10.0, 10.0)));
             }
             _ => {}
         }
@@ -301,12 +301,12 @@ impl ApplicationHandler for Cockpit {
             return;
         }
         let now = self.stopwatch.elapsed();
-        if now >= self.due {
+        if now >= self.next_frame_at {
             if let Some(screen) = &self.screen {
                 screen.window.request_redraw();
             }
-            self.due = now + Duration::from_millis(100);
+            self.next_frame_at = now + Duration::from_millis(100);
         }
-        events.set_control_flow(ControlFlow::wait_duration(self.due.saturating_sub(now)));
+        events.set_control_flow(ControlFlow::wait_duration(self.next_frame_at.saturating_sub(now)));
     }
 }

@@ -81,7 +81,7 @@ impl ControllerSlot {
             return false;
         }
         let Ok(source) = EventSource::device(self.requested_device.as_deref()) else { return false };
-        if self.flies() && !matches!(self.profiles.find(source.device_info()), Ok(Some(_))) {
+        if self.is_calibrated() && !matches!(self.profiles.find(source.device_info()), Ok(Some(_))) {
             return false;
         }
         self.open_controller(source);
@@ -105,7 +105,7 @@ impl ControllerSlot {
     }
 
     /// Returns true if the controller is calibrated, even if it is disconnected.
-    pub fn flies(&self) -> bool {
+    pub fn is_calibrated(&self) -> bool {
         matches!(self.held, DeviceState::Calibrated(_))
     }
 
@@ -129,10 +129,10 @@ impl ControllerSlot {
     }
 
     /// Returns the reason why only the keyboard can fly the vehicle, or `None` if a controller can be used.
-    pub fn keyboard_reason(&self) -> Option<String> {
+    pub fn keyboard_only_reason(&self) -> Option<String> {
         match self.name() {
             Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
-            _ => (!self.flies()).then(|| self.note.clone()),
+            _ => (!self.is_calibrated()).then(|| self.note.clone()),
         }
     }
 
@@ -245,9 +245,12 @@ impl ControllerSlot {
             DeviceState::Calibrating(_, wizard) => {
                 ControllerStatus { axes: wizard.axes().collect(), wizard: Some(wizard.prompt()), ..plain }
             }
-            _ if plain.device.is_none() || plain.lost => {
-                ControllerStatus { mode: 2, sticks: StickMode::Two.physical_sticks(keyboard), calibrated: self.flies(), ..plain }
-            }
+            _ if plain.device.is_none() || plain.lost => ControllerStatus {
+                mode: 2,
+                sticks: StickMode::Two.physical_sticks(keyboard),
+                calibrated: self.is_calibrated(),
+                ..plain
+            },
             DeviceState::NoDevice(_) => plain,
             DeviceState::Uncalibrated(_, raw) => ControllerStatus { axes: raw.axes.iter().map(from_rest).collect(), ..plain },
             DeviceState::Calibrated(hand) => {
@@ -312,12 +315,12 @@ mod tests {
     fn exact_disconnected_device_sends_no_sticks_until_it_reconnects() {
         let pushed = DeviceEvent::Axis { axis: 0, value: 1.0 };
         let mut desk = held(&[(0.0, pushed), (1.0, DeviceEvent::Lost), (2.0, DeviceEvent::Found)]);
-        assert!(poll_sticks(&mut desk, 0.5).is_some() && desk.keyboard_reason().is_none());
+        assert!(poll_sticks(&mut desk, 0.5).is_some() && desk.keyboard_only_reason().is_none());
         assert_eq!(poll_sticks(&mut desk, 1.5), None);
         let keys = Sticks { up: 1.0, ..Sticks::default() };
         let shown = desk.controls(keys, "");
         assert!(shown.lost && !shown.is_connected() && shown.sticks == StickMode::Two.physical_sticks(keys), "{shown:?}");
-        assert_eq!(desk.keyboard_reason().as_deref(), Some("'Pad' is not connected."));
+        assert_eq!(desk.keyboard_only_reason().as_deref(), Some("'Pad' is not connected."));
         assert_eq!(poll_sticks(&mut desk, 2.5), Some(Sticks::default()));
         assert!(!desk.controls(keys, "").lost);
     }
@@ -331,11 +334,11 @@ mod tests {
             poll_sticks(&mut desk, 4.0);
             desk.cancel();
             assert_eq!(poll_sticks(&mut desk, 5.0), None, "lost at {lost_s} s");
-            assert!(!desk.flies() && !desk.note().is_empty(), "the reason is shown");
+            assert!(!desk.is_calibrated() && !desk.note().is_empty(), "the reason is shown");
         }
         let mut desk = held(&[]);
         desk.cancel();
-        assert!(desk.flies(), "leaving a finished wizard changes nothing");
+        assert!(desk.is_calibrated(), "leaving a finished wizard changes nothing");
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
     std::panic::set_hook(told);
     let why = match opened {
         Ok(Ok(events)) => return Ok(events),
-        Ok(Err(EventLoopError::Os(_))) => unreachable_display(),
+        Ok(Err(EventLoopError::Os(_))) => display_problem(),
         Ok(Err(error)) => error.to_string(),
         Err(_) => {
             "a library is missing; on Debian and Ubuntu, run apt-get install libxkbcommon-x11-0 libx11-xcb1 libxcursor1 libxi6 \
@@ -26,7 +26,7 @@ pub fn open() -> Result<EventLoop<()>, AppError> {
 }
 
 /// Describes the configured display. The library's own message is not helpful because it refers to its source code.
-fn unreachable_display() -> String {
+fn display_problem() -> String {
     let set = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let asked: Vec<String> =
         ["WAYLAND_DISPLAY", "DISPLAY"].into_iter().filter_map(|name| Some(format!("{name}={}", set(name)?))).collect();

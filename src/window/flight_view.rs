@@ -26,7 +26,7 @@ pub enum SceneLoading {
 
 /// Seed for the defects and traffic in the scene.
 #[derive(Debug, Default)]
-struct SceneKey {
+struct SceneSeed {
     /// Seed that was passed to the window.
     requested_seed: Option<u64>,
     /// Seed of the current scene.
@@ -35,7 +35,7 @@ struct SceneKey {
     mismatch_reported: bool,
 }
 
-impl SceneKey {
+impl SceneSeed {
     /// Returns the seed to build the scene with: the simulator's seed, the requested seed, or `otherwise`, in that
     /// order of preference.
     fn seed(&self, said: Option<u64>, otherwise: Option<u64>) -> Option<u64> {
@@ -63,13 +63,13 @@ pub struct FlightView {
     pub listener: TelemetryListener,
     /// Scene state.
     pub scene: SceneLoading,
-    session: SceneKey,
+    session: SceneSeed,
     /// An earlier session's views, kept until their textures can be freed.
     previous_panes: Option<Box<ViewPanes>>,
     /// Time of the first rendered frame.
     pub first_frame_at: Option<Duration>,
     /// Number of rendered frames.
-    pub drawn: u32,
+    pub frame_count: u32,
 }
 
 impl FlightView {
@@ -79,8 +79,16 @@ impl FlightView {
     /// Returns an error if the socket cannot be opened.
     pub fn begin(listen: IpAddr, vehicle: SocketAddr, job: (Scenario, Vehicle), seed: Option<u64>) -> Result<Self, AppError> {
         let listener = TelemetryListener::connect(listen, vehicle, &job.0)?;
-        let session = SceneKey { requested_seed: seed, ..SceneKey::default() };
-        Ok(Self { job, listener, scene: SceneLoading::Waiting, session, previous_panes: None, first_frame_at: None, drawn: 0 })
+        let session = SceneSeed { requested_seed: seed, ..SceneSeed::default() };
+        Ok(Self {
+            job,
+            listener,
+            scene: SceneLoading::Waiting,
+            session,
+            previous_panes: None,
+            first_frame_at: None,
+            frame_count: 0,
+        })
     }
 
     /// Returns the current state to render.
@@ -99,7 +107,7 @@ impl FlightView {
             (live.seed(), live.scenario_crc(), live.has_no_truth(wall))
         };
         if crc.is_some_and(|crc| crc != self.job.0.crc) {
-            return Err(AppError::wrong(
+            return Err(AppError::invalid(
                 "the simulator and this window use different scenarios: start both with the same --scenario",
             ));
         }
@@ -179,8 +187,8 @@ impl FlightView {
             let seconds = lasted_since(first).as_secs_f64();
             tracing::info!(
                 "rendered {} frames of both views ({:.1} frames per second)",
-                self.drawn,
-                f64::from(self.drawn) / seconds.max(1e-3)
+                self.frame_count,
+                f64::from(self.frame_count) / seconds.max(1e-3)
             );
         }
         let Some(screen) = screen else { return };
@@ -199,15 +207,15 @@ mod tests {
 
     #[test]
     fn exact_simulator_seed_takes_precedence() {
-        let given = SceneKey { requested_seed: Some(5), ..SceneKey::default() };
+        let given = SceneSeed { requested_seed: Some(5), ..SceneSeed::default() };
         assert_eq!((given.seed(None, None), given.seed(Some(7), Some(1))), (Some(5), Some(7)));
-        let free = SceneKey::default();
+        let free = SceneSeed::default();
         assert_eq!((free.seed(None, None), free.seed(None, Some(1)), free.seed(Some(7), Some(1))), (None, Some(1), Some(7)));
     }
 
     #[test]
     fn exact_seed_mismatches_are_reported_once() {
-        let mut session = SceneKey { requested_seed: Some(5), ..SceneKey::default() };
+        let mut session = SceneSeed { requested_seed: Some(5), ..SceneSeed::default() };
         assert_eq!(
             (session.built_seed_mismatch(Some(5)), session.requested_seed_mismatch(Some(5))),
             (None, None),

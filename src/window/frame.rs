@@ -18,11 +18,11 @@ use spandrel_view::sound::SoundInputs;
 
 /// Turn rate of the inspector's view under keyboard control, rad/s, and zoom factor per second (estimates: comfortable
 /// on a laptop).
-const TURN_RAD_S: f64 = 1.0;
-const ZOOM_PER_S: f64 = 2.0;
+const TURN_RATE_RAD_S: f64 = 1.0;
+const ZOOM_FACTOR_PER_S: f64 = 2.0;
 /// Display time for messages and for the initial key help, s.
-const MESSAGE_S: f64 = 7.0;
-const KEY_HELP_S: f64 = 25.0;
+const MESSAGE_DURATION_S: f64 = 7.0;
+const KEY_HELP_DURATION_S: f64 = 25.0;
 
 impl Cockpit {
     /// Handles messages from `train` and requests from the pages, and renders a frame.
@@ -46,14 +46,14 @@ impl Cockpit {
             self.send_to_pilot(PilotCommand::SetPaused(stands));
         }
         match self.flow.page() {
-            Page::Flight | Page::Paused | Page::Leaving => self.fly(),
+            Page::Flight | Page::Paused | Page::ConfirmEnd => self.fly(),
             Page::Opening
             | Page::Start
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
             | Page::Waiting
-            | Page::Over => {
+            | Page::Results => {
                 self.speaker.silence();
                 self.page()
             }
@@ -174,7 +174,7 @@ impl Cockpit {
         if shown.is_empty() {
             return Ok(());
         }
-        flight.drawn += 1;
+        flight.frame_count += 1;
         if flight.first_frame_at.is_none() {
             flight.first_frame_at = Some(self.stopwatch.elapsed());
             self.announce();
@@ -214,7 +214,7 @@ impl Cockpit {
             tracing::info!("{text}");
             self.notices.push((text, now));
         }
-        self.notices.retain(|(_, since)| now.saturating_sub(*since).as_secs_f64() < MESSAGE_S);
+        self.notices.retain(|(_, since)| now.saturating_sub(*since).as_secs_f64() < MESSAGE_DURATION_S);
     }
 
     fn text(&self, heard: bool, now: std::time::Duration) -> WindowText {
@@ -223,7 +223,7 @@ impl Cockpit {
             waiting: waiting(&flight.scene, heard, &flight.listener),
             lines: self.notices.iter().map(|(words, _)| words.clone()).collect(),
             help: match flight.first_frame_at {
-                Some(first) if now.saturating_sub(first).as_secs_f64() < KEY_HELP_S => {
+                Some(first) if now.saturating_sub(first).as_secs_f64() < KEY_HELP_DURATION_S => {
                     help(&self.keys, self.threads.pilot.is_some())
                 }
                 _ => String::new(),
@@ -238,9 +238,13 @@ impl Cockpit {
         let way = |plus: &str, minus: &str| f64::from(i8::from(held(plus)) - i8::from(held(minus)));
         let (right, up) = (way("look_right", "look_left"), way("look_up", "look_down"));
         if right != 0.0 || up != 0.0 {
-            self.inspector_camera.turn(TURN_RAD_S * step_s * right, TURN_RAD_S * step_s * up, panes.inspector_to_aircraft(now));
+            self.inspector_camera.turn(
+                TURN_RATE_RAD_S * step_s * right,
+                TURN_RATE_RAD_S * step_s * up,
+                panes.inspector_to_aircraft(now),
+            );
         }
-        self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_PER_S, step_s * way("zoom_in", "zoom_out")));
+        self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_FACTOR_PER_S, step_s * way("zoom_in", "zoom_out")));
     }
 
     fn announce(&self) {

@@ -44,25 +44,25 @@ pub enum KeyChange {
 #[derive(Debug, Default)]
 pub struct HeldKeys {
     names: BTreeMap<String, String>,
-    foreign: BTreeSet<String>,
+    foreign_keys: BTreeSet<String>,
 }
 
 impl HeldKeys {
-    /// Returns true if a key press was meant for another window. `made_up` is true if the window system generated the
+    /// Returns true if a key press was meant for another window. `is_synthetic` is true if the window system generated the
     /// event for a key that was already pressed.
-    pub fn pressed_elsewhere(&mut self, event: &KeyEvent, made_up: bool) -> bool {
-        self.update_foreign(key_id(&event.physical_key), event.state, made_up)
+    pub fn pressed_elsewhere(&mut self, event: &KeyEvent, is_synthetic: bool) -> bool {
+        self.update_foreign_keys(key_id(&event.physical_key), event.state, is_synthetic)
     }
 
-    fn update_foreign(&mut self, physical_key_id: String, state: ElementState, made_up: bool) -> bool {
+    fn update_foreign_keys(&mut self, physical_key_id: String, state: ElementState, is_synthetic: bool) -> bool {
         match state {
-            ElementState::Pressed if made_up => {
-                self.foreign.insert(physical_key_id);
+            ElementState::Pressed if is_synthetic => {
+                self.foreign_keys.insert(physical_key_id);
                 true
             }
             // A held key repeats, and the first repetition is not marked as one.
-            ElementState::Pressed => self.foreign.contains(&physical_key_id),
-            ElementState::Released => self.foreign.remove(&physical_key_id),
+            ElementState::Pressed => self.foreign_keys.contains(&physical_key_id),
+            ElementState::Released => self.foreign_keys.remove(&physical_key_id),
         }
     }
 
@@ -122,11 +122,11 @@ mod tests {
     #[test]
     fn exact_keys_pressed_for_another_window_are_ignored_until_released() {
         let mut held = HeldKeys::default();
-        let mut told = |state, made_up| held.update_foreign("w".into(), state, made_up);
+        let mut told = |state, is_synthetic| held.update_foreign_keys("w".into(), state, is_synthetic);
         assert!(told(Pressed, true) && told(Pressed, false), "synthetic, then its first repetition");
         assert!(told(Released, false) && !told(Pressed, false) && !told(Released, false), "then a normal key");
-        held.update_foreign("w".into(), Pressed, true);
+        held.update_foreign_keys("w".into(), Pressed, true);
         held.clear();
-        assert!(!held.update_foreign("w".into(), Pressed, false));
+        assert!(!held.update_foreign_keys("w".into(), Pressed, false));
     }
 }

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Maximum time to wait for a datagram, so that heartbeats are sent on time.
-const MAX_WAIT: Duration = Duration::from_millis(50);
+const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(50);
 
 /// Received telemetry, shared with the render loop.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ impl TelemetryListener {
         std::thread::spawn(move || {
             // The thread ends when the telemetry has no other owner.
             while Arc::strong_count(&heard.live) > 1 {
-                let arrival = hub.next(MAX_WAIT);
+                let arrival = hub.next(MAX_DATAGRAM_WAIT);
                 let wall = heard.wall();
                 let mut live = heard.live();
                 if let Some(NetEvent::Datagram { from, bytes, .. }) = arrival

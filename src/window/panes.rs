@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 /// Number of pixels in a view without a graphics card, regardless of the view's size on the screen (issue: 640 x 360
 /// each on two cores).
-const SOFTWARE_VIEW_PX: f64 = 640.0 * 360.0;
+const SOFTWARE_VIEW_PIXELS: f64 = 640.0 * 360.0;
 
 /// A flight whose scene has been built.
 pub struct RenderJob {
@@ -67,7 +67,7 @@ pub struct ViewPanes {
     /// The second device's last image.
     last_image: Option<Picture>,
     /// Exposure meters for the inspector's view and the camera's view.
-    meters: [ExposureMeter; 2],
+    exposure_meters: [ExposureMeter; 2],
 }
 
 /// A view to show.
@@ -89,7 +89,7 @@ impl ViewPanes {
         };
         let aside = if screen.gpu.software { open().ok() } else { None };
         let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
-        Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_image: None, meters: Default::default() }
+        Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_image: None, exposure_meters: Default::default() }
     }
 
     /// Returns the vector from the inspector to the aircraft in meters.
@@ -185,9 +185,9 @@ impl ViewPanes {
     ) -> (Shot, Vec<DrawItem>) {
         let window = screen.window.inner_size();
         let on_screen = (view_rect.width * f64::from(window.width), view_rect.height * f64::from(window.height));
-        let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PX));
+        let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PIXELS));
         let moment = &now.moment;
-        let (stage, [eyes, film]) = (self.job.stage(), &mut self.meters);
+        let (stage, [eyes, film]) = (self.job.stage(), &mut self.exposure_meters);
         match view_rect.which {
             ViewKind::Inspector => {
                 let shot = stage.inspector_view(inspector_camera, moment, size_px, eyes);

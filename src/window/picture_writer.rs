@@ -13,13 +13,13 @@ use std::time::Duration;
 /// Interval between images.
 const SAVE_INTERVAL: Duration = Duration::from_secs(1);
 /// Maximum file size, bytes; a mobile connection transfers this in one second.
-const MAX_BYTES: usize = 150_000;
+const MAX_FILE_BYTES: usize = 150_000;
 
 /// Passes images to the thread that saves them. The thread deletes the file when it ends.
 pub struct PictureWriter {
     sender: Option<SyncSender<Picture>>,
     thread: Option<JoinHandle<()>>,
-    due: Duration,
+    next_save: Duration,
 }
 
 impl PictureWriter {
@@ -28,15 +28,15 @@ impl PictureWriter {
         // The queue holds at most one image; further images are dropped.
         let (sender, receiver) = sync_channel(1);
         let thread = std::thread::spawn(move || save_images(&path, &receiver));
-        Self { sender: Some(sender), thread: Some(thread), due: Duration::ZERO }
+        Self { sender: Some(sender), thread: Some(thread), next_save: Duration::ZERO }
     }
 
     /// Returns true if an image is due, at most once a second.
     pub fn is_due(&mut self, now: Duration) -> bool {
-        if now < self.due {
+        if now < self.next_save {
             return false;
         }
-        self.due = now + SAVE_INTERVAL;
+        self.next_save = now + SAVE_INTERVAL;
         true
     }
 
@@ -72,7 +72,7 @@ fn save_images(path: &Path, pictures: &Receiver<Picture>) {
 }
 
 fn write(path: &Path, picture: &Picture) -> Result<(), AppError> {
-    let jpeg = photo::plain(picture, MAX_BYTES).map_err(|error| AppError::failed(error.to_string()))?;
+    let jpeg = photo::plain(picture, MAX_FILE_BYTES).map_err(|error| AppError::failed(error.to_string()))?;
     replace(path, &jpeg)
 }
 
@@ -85,14 +85,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("camera.jpg");
         let mut image_writer = PictureWriter::start(path.clone());
-        let due: Vec<bool> = [0, 400, 999, 1_000, 1_500, 2_600].map(|ms| image_writer.is_due(Duration::from_millis(ms))).to_vec();
-        assert_eq!(due, [true, false, false, true, false, true]);
+        let next_save: Vec<bool> =
+            [0, 400, 999, 1_000, 1_500, 2_600].map(|ms| image_writer.is_due(Duration::from_millis(ms))).to_vec();
+        assert_eq!(next_save, [true, false, false, true, false, true]);
         let grey = |value: u8| Picture { width: 64, height: 48, rgba: [value, value, value, 255].repeat(64 * 48) };
         for value in [40, 200] {
             write(&path, &grey(value)).unwrap();
             let bytes = std::fs::read(&path).unwrap();
             assert_eq!(image::load_from_memory(&bytes).unwrap().to_luma8().dimensions(), (64, 48));
-            assert!(bytes.len() <= MAX_BYTES);
+            assert!(bytes.len() <= MAX_FILE_BYTES);
         }
         image_writer.save(grey(90));
         image_writer.save(grey(91));

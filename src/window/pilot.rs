@@ -17,7 +17,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Maximum time to wait for a datagram: one-quarter of the interval between stick samples.
-const MAX_WAIT: Duration = Duration::from_millis(5);
+const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(5);
 /// Interval at which the controller's status is updated on the ground: one-tenth of a person's reaction time
 /// (estimate).
 const STATUS_INTERVAL: SimTime = SimTime::from_ms(30);
@@ -74,7 +74,7 @@ impl PilotThread {
             // The device is opened in the thread that uses it, because some systems do not allow moving devices between
             // threads.
             let desk = ControllerSlot::new(device, profiles);
-            if let Some(why) = desk.keyboard_reason() {
+            if let Some(why) = desk.keyboard_only_reason() {
                 tracing::info!("{why} Flying with the keyboard.");
             }
             let words = keys.help_text();
@@ -139,7 +139,7 @@ impl PilotLoop {
     fn fly(&mut self, asked: &Receiver<PilotCommand>, message_sender: &Sender<String>) {
         let watch = Stopwatch::start();
         loop {
-            if let Some(NetEvent::Datagram { from, bytes, .. }) = self.hub.next(MAX_WAIT)
+            if let Some(NetEvent::Datagram { from, bytes, .. }) = self.hub.next(MAX_DATAGRAM_WAIT)
                 && Some(from) == self.vehicle
             {
                 self.link.receive(&bytes);
@@ -154,7 +154,8 @@ impl PilotLoop {
             }
             if self.controller.open_new_device() {
                 self.lost = false;
-                let flies = if self.controller.flies() { "Use it to fly." } else { "Use the keyboard until it is calibrated." };
+                let flies =
+                    if self.controller.is_calibrated() { "Use it to fly." } else { "Use the keyboard until it is calibrated." };
                 send_message(message_sender, format!("Controller connected. {} {flies}", self.controller.note()));
             }
             let (sticks, news) = self.sticks(now);
@@ -210,7 +211,7 @@ impl PilotLoop {
                 (self.vehicle, self.link, self.keyboard_in_use) = (Some(vehicle), ControllerLink::default(), false);
                 self.link.set_arm_key(&self.keyboard.keys().label("arm"));
                 self.paused = false;
-                if let Some(why) = self.controller.keyboard_reason() {
+                if let Some(why) = self.controller.keyboard_only_reason() {
                     send_message(message_sender, format!("{why} Use the keyboard."));
                 }
             }
@@ -236,8 +237,8 @@ impl PilotLoop {
         } else {
             flown = self.controller.sticks(&mut self.link, now);
         }
-        let lost = matches!(flown, Ok(None)) && self.controller.flies() || flown.is_err();
-        let news = self.set_device_lost(lost);
+        let lost = matches!(flown, Ok(None)) && self.controller.is_calibrated() || flown.is_err();
+        let news = self.update_connection_state(lost);
         let own = self.keyboard_in_use.then_some(keys);
         match flown {
             Ok(Some(sticks)) if keys == Sticks::default() => (Some(sticks), news),
@@ -252,7 +253,7 @@ impl PilotLoop {
     }
 
     /// Updates the controller's connection state. Returns a message if the state has changed.
-    fn set_device_lost(&mut self, lost: bool) -> Option<String> {
+    fn update_connection_state(&mut self, lost: bool) -> Option<String> {
         let before = std::mem::replace(&mut self.lost, lost);
         let name = self.controller.name().unwrap_or("the controller");
         match (before, lost) {
@@ -262,7 +263,7 @@ impl PilotLoop {
                 self.keyboard_in_use = false;
                 Some(format!("'{name}' disconnected: stick input centered, then stopped. Press a key to fly with the keyboard."))
             }
-            (true, false) if self.controller.flies() => Some(format!("'{name}' reconnected.")),
+            (true, false) if self.controller.is_calibrated() => Some(format!("'{name}' reconnected.")),
             _ => None,
         }
     }

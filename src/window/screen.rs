@@ -19,7 +19,7 @@ pub struct WindowSurface {
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     input: egui_winit::State,
-    freed: Vec<egui::TextureId>,
+    freed_textures: Vec<egui::TextureId>,
 }
 
 impl WindowSurface {
@@ -60,7 +60,7 @@ impl WindowSurface {
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
         let painter = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
-        Ok(Self { window, gpu, painter, surface, config, input, freed: Vec::new() })
+        Ok(Self { window, gpu, painter, surface, config, input, freed_textures: Vec::new() })
     }
 
     /// Passes an event to egui. Returns true if egui consumed it.
@@ -128,7 +128,7 @@ impl WindowSurface {
         }
         let jobs = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
         // The previous frame may still be using these textures.
-        for id in std::mem::replace(&mut self.freed, changes.free.iter().copied().collect()) {
+        for id in std::mem::replace(&mut self.freed_textures, changes.free.iter().copied().collect()) {
             self.painter.free_texture(&id);
         }
         changes.clear();

@@ -17,9 +17,9 @@ const PLAYERS: [(&str, &[&str]); 2] = [
 /// Programs that speak their last argument.
 const SPEECH_PROGRAMS: [&str; 2] = ["spd-say", "espeak-ng"];
 /// Number of samples per chunk (10 ms).
-const CHUNK_SAMPLES: usize = SAMPLE_RATE_HZ as usize / 100;
+const SAMPLES_PER_CHUNK: usize = SAMPLE_RATE_HZ as usize / 100;
 /// Playback lead time (estimate). A longer time delays the sound; a shorter time causes dropouts on a busy machine.
-const PLAYBACK_LEAD: Duration = Duration::from_millis(80);
+const PLAYBACK_LEAD_TIME: Duration = Duration::from_millis(80);
 /// Interval at which the thread checks whether the player needs another chunk.
 const CHUNK_INTERVAL: Duration = Duration::from_millis(5);
 
@@ -54,7 +54,7 @@ impl AudioOutput {
 
     /// Mutes the output until the inputs are updated again.
     pub fn silence(&self) {
-        locked(&self.inputs).silent = true;
+        lock_inputs(&self.inputs).silent = true;
     }
 
     /// Updates the inputs for sound synthesis.
@@ -62,7 +62,7 @@ impl AudioOutput {
         if !self.on {
             return;
         }
-        *locked(&self.inputs) = heard;
+        *lock_inputs(&self.inputs) = heard;
         if !self.started {
             self.started = true;
             let (heard, settings) = (self.inputs.clone(), self.settings);
@@ -71,7 +71,7 @@ impl AudioOutput {
     }
 }
 
-fn locked(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
+fn lock_inputs(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -95,7 +95,7 @@ fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
 fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
     let mut voice = SpeechVoice::new(settings.speech);
     while Arc::strong_count(heard) > 1 && voice.on {
-        voice.update_inputs(&locked(heard).clone());
+        voice.update_inputs(&lock_inputs(heard).clone());
         std::thread::sleep(CHUNK_INTERVAL);
     }
 }
@@ -111,16 +111,16 @@ fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, setting
     let (mut sound, mut voice) = (FlightSound::new(settings), SpeechVoice::new(settings.speech));
     let (watch, mut made) = (Stopwatch::start(), Duration::ZERO);
     while Arc::strong_count(heard) > 1 {
-        let now = locked(heard).clone();
+        let now = lock_inputs(heard).clone();
         voice.update_inputs(&now);
         sound.set(now);
         // If the computer has stalled, skip the missed sound instead of catching up.
         made = made.max(watch.elapsed());
-        while made < watch.elapsed() + PLAYBACK_LEAD {
+        while made < watch.elapsed() + PLAYBACK_LEAD_TIME {
             if stdin.write_all(&next_chunk(&mut sound)).is_err() {
                 return Err(std::io::Error::other(format!("it exited ({})", player.wait()?)));
             }
-            made += Duration::from_secs_f64(CHUNK_SAMPLES as f64 / f64::from(SAMPLE_RATE_HZ));
+            made += Duration::from_secs_f64(SAMPLES_PER_CHUNK as f64 / f64::from(SAMPLE_RATE_HZ));
         }
         std::thread::sleep(CHUNK_INTERVAL);
     }
@@ -130,7 +130,7 @@ fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, setting
 }
 
 fn next_chunk(sound: &mut FlightSound) -> Vec<u8> {
-    let mut samples = [0.0_f32; CHUNK_SAMPLES];
+    let mut samples = [0.0_f32; SAMPLES_PER_CHUNK];
     sound.fill(&mut samples);
     samples.iter().flat_map(|sample| ((sample * f32::from(i16::MAX)) as i16).to_le_bytes()).collect()
 }

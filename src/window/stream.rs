@@ -19,7 +19,7 @@ use std::time::Duration;
 /// Bits per pixel (estimate: 2 Mbit/s at 720p25, which wireless networks can handle).
 const BITS_PER_PIXEL: f64 = 0.1;
 /// Number of frames between key frames. A receiver that joins the stream waits for the next key frame.
-const KEY_FRAME_INTERVAL: u32 = 25;
+const KEY_FRAME_INTERVAL_FRAMES: u32 = 25;
 /// Minimum interval between frames: 30 frames per second, typical of drone cameras (estimate;
 /// docs/src/reference/wire.md, "Camera, gimbal and lamp"). The window may have a higher frame rate.
 const MIN_FRAME_INTERVAL: Duration = Duration::from_nanos(33_000_000);
@@ -85,7 +85,7 @@ impl StreamSender {
         if self.encoding_fails.load(Ordering::Relaxed) {
             return None;
         }
-        Some(VideoStatus { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bits_s((width_px, height_px)) })
+        Some(VideoStatus { width_px, height_px, rate_hz: self.rate.hz()?, bits_s: bit_rate((width_px, height_px)) })
     }
 }
 
@@ -109,8 +109,8 @@ fn socket(to: SocketAddr) -> std::io::Result<UdpSocket> {
     Ok(socket)
 }
 
-fn bits_s((width, height): (u32, u32)) -> u32 {
-    (BITS_PER_PIXEL * f64::from(width) * f64::from(height) * f64::from(KEY_FRAME_INTERVAL)) as u32
+fn bit_rate((width, height): (u32, u32)) -> u32 {
+    (BITS_PER_PIXEL * f64::from(width) * f64::from(height) * f64::from(KEY_FRAME_INTERVAL_FRAMES)) as u32
 }
 
 /// Where the packets are sent.
@@ -147,7 +147,9 @@ impl ResizingEncoder {
         let size = (picture.width, picture.height);
         let (mut encoder, of) = match self.0.take().filter(|(_, of)| *of == size) {
             Some(made) => made,
-            None => (H264Encoder::new(size, f64::from(KEY_FRAME_INTERVAL), bits_s(size), KEY_FRAME_INTERVAL)?, size),
+            None => {
+                (H264Encoder::new(size, f64::from(KEY_FRAME_INTERVAL_FRAMES), bit_rate(size), KEY_FRAME_INTERVAL_FRAMES)?, size)
+            }
         };
         let encoded = encoder.encode(picture);
         self.0 = Some((encoder, of));

@@ -37,7 +37,7 @@ def connect(port, system=255, kind="udpin", dialect="all"):
     return link
 
 
-def hear(link, kinds, fits=lambda message: True, limit_s=LIMIT_S):
+def receive(link, kinds, fits=lambda message: True, limit_s=LIMIT_S):
     """Returns the next message of these kinds that `fits` accepts."""
     end = time.monotonic() + limit_s
     while (left := end - time.monotonic()) > 0:
@@ -53,7 +53,7 @@ def ask(link, send, kinds, fits=lambda message: True, again_s=AGAIN_S):
     while time.monotonic() < end:
         send()
         try:
-            return hear(link, kinds, fits, again_s)
+            return receive(link, kinds, fits, again_s)
         except AssertionError:
             pass
     raise AssertionError(f"no {kinds} within {LIMIT_S} s, requested every {again_s} s")

@@ -60,7 +60,7 @@ def wait_for_result(what, predicate, limit_s=LIMIT_S):
         raise Failed(str(error)) from None
 
 
-def ended(start, *args, next_result, success):
+def run_transfer(start, *args, next_result, success):
     """Runs a transfer that reports progress until it ends."""
     results = []
     start(*args, lambda result, *_: results.append(type(success)(result)))
@@ -169,7 +169,7 @@ def download(bench, burst):
     """Downloads a 50 kB file in one attempt."""
     down = bench.folder / "down"
     down.mkdir()
-    ended(Ftp(bench.system).download_async, "/survey.bin", str(down), burst, next_result=FtpResult.NEXT, success=FtpResult.SUCCESS)
+    run_transfer(Ftp(bench.system).download_async, "/survey.bin", str(down), burst, next_result=FtpResult.NEXT, success=FtpResult.SUCCESS)
     if (down / "survey.bin").read_bytes() != content(FILE_BYTES):
         raise Failed("wrong content")
 
@@ -182,7 +182,7 @@ def log(bench):
     if old is None:
         raise Failed("the log is not listed")
     down = bench.folder / "down.ulg"
-    ended(logs.download_log_file_async, old, str(down), next_result=LogFilesResult.NEXT, success=LogFilesResult.SUCCESS)
+    run_transfer(logs.download_log_file_async, old, str(down), next_result=LogFilesResult.NEXT, success=LogFilesResult.SUCCESS)
     if down.read_bytes() != content(LOG_BYTES):
         raise Failed("wrong content")
 
@@ -190,7 +190,7 @@ def log(bench):
 def mavproxy_get(bench):
     """Downloads a 50 kB file with MAVProxy's `ftp get` in one attempt."""
     try:
-        bench.console.say("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
+        bench.console.enter_command("ftp get /survey.bin down.bin", f"Wrote {FILE_BYTES} bytes to down.bin")
     except AssertionError:
         raise Failed("the download did not finish") from None
     wait_for_result("the content", lambda: (bench.folder / "down.bin").read_bytes() == content(FILE_BYTES), 10)

@@ -46,7 +46,7 @@ def vehicle(request, tmp_path):
     port = spandrel.free_udp_port()
     process = spandrel.start_sim(tmp_path, port, "--flavor", flavor)
     mavsdk, system = sdk.connect(port)
-    yield system, (sdk.asked if flavor == "ardupilot" else sdk.ready)(system)
+    yield system, (sdk.request_telemetry if flavor == "ardupilot" else sdk.ready)(system)
     mavsdk.destroy()
     spandrel.end(process)
 

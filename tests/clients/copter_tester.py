@@ -48,7 +48,7 @@ class Copter:
         self.stick_due = self.beat_due = 0.0
         self.step()
         self.link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, RATE_HZ, 1)
-        self.until("armable", lambda: self.shows("SYS_STATUS") and self.last["SYS_STATUS"].onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK, 60)
+        self.wait_until("armable", lambda: self.has_received("SYS_STATUS") and self.last["SYS_STATUS"].onboard_control_sensors_health & M.MAV_SYS_STATUS_PREARM_CHECK, 60)
 
     def close(self):
         """Stops everything that was started."""
@@ -83,7 +83,7 @@ class Copter:
             self.stick_due = self.now + 1 / STICK_RATE_HZ
             self.link.mav.rc_channels_override_send(1, 1, *[self.channels[channel] for channel in range(1, 9)], self.channels[9])
 
-    def until(self, what, predicate, limit_s):
+    def wait_until(self, what, predicate, limit_s):
         """Waits until the predicate is true, for at most `limit_s` seconds of vehicle time, and returns the time that
         it took."""
         start = self.now
@@ -97,16 +97,16 @@ class Copter:
     def pass_time(self, seconds):
         """Lets some vehicle time pass."""
         end = self.now + seconds
-        self.until(f"{seconds} s", lambda: self.now >= end, seconds + 1)
+        self.wait_until(f"{seconds} s", lambda: self.now >= end, seconds + 1)
 
-    def holds(self, what, predicate, seconds):
+    def check_stays_true(self, what, predicate, seconds):
         """Checks that the predicate stays true."""
         end = self.now + seconds
         while self.now < end:
             assert predicate(), f"{what} at {self.now:.1f} s"
             self.step()
 
-    def settles(self, what, predicate, seconds, limit_s):
+    def wait_until_settled(self, what, predicate, seconds, limit_s):
         """Waits until the predicate has been true for `seconds` without interruption."""
         since = None
 
@@ -115,11 +115,11 @@ class Copter:
             since = (since if since is not None else self.now) if predicate() else None
             return since is not None and self.now - since >= seconds
 
-        self.until(what, held, limit_s)
+        self.wait_until(what, held, limit_s)
 
     # Telemetry
 
-    def shows(self, kind):
+    def has_received(self, kind):
         """Returns whether a message of this kind has arrived."""
         return kind in self.last
 
@@ -134,7 +134,7 @@ class Copter:
         return self.last["VFR_HUD"].groundspeed
 
     @property
-    def climb(self):
+    def climb_rate(self):
         """Returns the climb rate in m/s."""
         return -self.last["GLOBAL_POSITION_INT"].vz / 100
 
@@ -144,13 +144,13 @@ class Copter:
         return self.last["GLOBAL_POSITION_INT"].hdg / 100
 
     @property
-    def place(self):
+    def position_m(self):
         """Returns the position north and east of the first home, in meters."""
         here = self.last["GLOBAL_POSITION_INT"]
         return self.offset_m(here.lat / 1e7, here.lon / 1e7)
 
     @property
-    def item(self):
+    def current_item(self):
         """Returns the current mission item."""
         return self.last["MISSION_CURRENT"].seq
 
@@ -159,15 +159,15 @@ class Copter:
         """Returns whether the motors are armed."""
         return bool(self.last["HEARTBEAT"].base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
 
-    def flies(self, mode):
+    def is_in_mode(self, mode):
         """Returns whether the heartbeat reports this mode."""
         return self.last["HEARTBEAT"].custom_mode == MODES[mode]
 
     def home(self):
         """Returns the latitude and longitude of home in degrees."""
         if "HOME_POSITION" not in self.last:
-            self.ask(242)
-            self.until("home", lambda: self.shows("HOME_POSITION"), 5)
+            self.request_message(242)
+            self.wait_until("home", lambda: self.has_received("HOME_POSITION"), 5)
         home = self.last["HOME_POSITION"]
         return home.latitude / 1e7, home.longitude / 1e7
 
@@ -182,11 +182,11 @@ class Copter:
         east = east_m / DEGREE_M / math.cos(math.radians(latitude))
         return round((latitude + north_m / DEGREE_M) * 1e7), round((longitude + east) * 1e7)
 
-    def away(self, place=(0.0, 0.0)):
+    def distance_from_m(self, position_m=(0.0, 0.0)):
         """Returns the distance from a position in meters."""
-        return math.dist(self.place, place)
+        return math.dist(self.position_m, position_m)
 
-    def off(self, heading):
+    def heading_error_deg(self, heading):
         """Returns the difference between the vehicle's heading and a given heading in degrees."""
         return abs((self.heading - heading + 180) % 360 - 180)
 
@@ -196,60 +196,60 @@ class Copter:
         """Sends a command and returns the name of its result."""
         self.last.pop("COMMAND_ACK", None)
         self.link.mav.command_long_send(1, 1, command, 0, *values, *[0] * (7 - len(values)))
-        self.until(f"the response to {command}", lambda: self.shows("COMMAND_ACK") and self.last["COMMAND_ACK"].command == command, 5)
+        self.wait_until(f"the response to {command}", lambda: self.has_received("COMMAND_ACK") and self.last["COMMAND_ACK"].command == command, 5)
         return M.enums["MAV_RESULT"][self.last["COMMAND_ACK"].result].name.removeprefix("MAV_RESULT_")
 
-    def must(self, command, *values):
+    def command_accepted(self, command, *values):
         """Sends a command that must be accepted."""
         assert self.command(command, *values) == "ACCEPTED", (command, values, self.texts[-3:])
 
-    def ask(self, message):
+    def request_message(self, message):
         """Requests a message."""
-        self.must(M.MAV_CMD_REQUEST_MESSAGE, message)
+        self.command_accepted(M.MAV_CMD_REQUEST_MESSAGE, message)
 
     def set(self, **parameters):
         """Sets parameters and waits for confirmation."""
         for name, value in parameters.items():
             self.last.pop("PARAM_VALUE", None)
             self.link.mav.param_set_send(1, 1, name.encode(), value, M.MAV_PARAM_TYPE_REAL32)
-            self.until(name, lambda name=name: self.shows("PARAM_VALUE") and self.last["PARAM_VALUE"].param_id == name, 5)
+            self.wait_until(name, lambda name=name: self.has_received("PARAM_VALUE") and self.last["PARAM_VALUE"].param_id == name, 5)
             assert math.isclose(self.last["PARAM_VALUE"].param_value, value, rel_tol=1e-5), name
 
-    def stick(self, **channels):
+    def set_sticks(self, **channels):
         """Moves sticks (roll, pitch, throttle, yaw) and switches (channels c5 to c9)."""
         names = {"roll": 1, "pitch": 2, "throttle": 3, "yaw": 4}
         for name, pulse in channels.items():
             self.channels[names.get(name) or int(name[1:])] = pulse
 
-    def change(self, mode):
+    def set_mode(self, mode):
         """Changes the mode with a command."""
-        self.must(M.MAV_CMD_DO_SET_MODE, M.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MODES[mode])
-        self.until(mode, lambda: self.flies(mode), 5)
+        self.command_accepted(M.MAV_CMD_DO_SET_MODE, M.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED, MODES[mode])
+        self.wait_until(mode, lambda: self.is_in_mode(mode), 5)
 
     def arm(self):
         """Arms the motors."""
-        self.must(M.MAV_CMD_COMPONENT_ARM_DISARM, 1)
-        self.until("armed", lambda: self.armed, 5)
+        self.command_accepted(M.MAV_CMD_COMPONENT_ARM_DISARM, 1)
+        self.wait_until("armed", lambda: self.armed, 5)
 
     def take_off(self, height_m, mode="GUIDED"):
         """Takes off to a height: with a command in GUIDED mode, with the throttle in manual modes."""
-        self.change(mode)
+        self.set_mode(mode)
         self.arm()
         if mode == "GUIDED":
-            self.must(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, height_m)
+            self.command_accepted(M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, height_m)
         else:
-            self.stick(throttle=1700)
-        self.until(f"{height_m} m", lambda: self.height > height_m - 1, 60)
-        self.stick(throttle=1500)
+            self.set_sticks(throttle=1700)
+        self.wait_until(f"{height_m} m", lambda: self.height > height_m - 1, 60)
+        self.set_sticks(throttle=1500)
 
     def until_disarmed(self, limit_s=180):
         """Waits until the vehicle has landed and disarmed."""
-        self.until("disarmed", lambda: not self.armed, limit_s)
+        self.wait_until("disarmed", lambda: not self.armed, limit_s)
 
-    def go_home(self):
+    def return_and_land(self):
         """Returns home, lands and disarms."""
-        self.stick(**{"roll": 1500, "pitch": 1500, "throttle": 1500, "yaw": 1500})
-        self.change("RTL")
+        self.set_sticks(**{"roll": 1500, "pitch": 1500, "throttle": 1500, "yaw": 1500})
+        self.set_mode("RTL")
         self.until_disarmed()
 
     def upload(self, items, kind=0):
@@ -259,22 +259,22 @@ class Copter:
         self.last.pop("MISSION_REQUEST", None)
         self.link.mav.mission_count_send(1, 1, len(whole), kind)
         for seq, (command, north, east, height, *values) in enumerate(whole):
-            wants = lambda seq=seq: self.shows("MISSION_REQUEST") and self.last["MISSION_REQUEST"].seq == seq
-            self.until(f"a request for item {seq}", wants, 5)
+            wants = lambda seq=seq: self.has_received("MISSION_REQUEST") and self.last["MISSION_REQUEST"].seq == seq
+            self.wait_until(f"a request for item {seq}", wants, 5)
             x, y = self.degrees(north, east) if command < M.MAV_CMD_NAV_DELAY and command != M.MAV_CMD_NAV_RETURN_TO_LAUNCH or kind else (0, 0)
             values = [*values, *[0] * (4 - len(values))]
             frame = M.MAV_FRAME_GLOBAL_RELATIVE_ALT
             self.link.mav.mission_item_int_send(1, 1, seq, frame, command, 0, 1, *values, x, y, height, kind)
-        self.until("the end of the upload", lambda: self.shows("MISSION_ACK"), 5)
+        self.wait_until("the end of the upload", lambda: self.has_received("MISSION_ACK"), 5)
         assert self.last["MISSION_ACK"].type == M.MAV_MISSION_ACCEPTED, self.last["MISSION_ACK"]
 
     def start_auto(self):
         """Arms in AUTO, which takes off immediately."""
         self.set(AUTO_OPTIONS=3)
-        self.change("AUTO")
+        self.set_mode("AUTO")
         self.arm()
 
-    def target(self, north=0.0, east=0.0, up=0.0, velocity=None):
+    def send_setpoint(self, north=0.0, east=0.0, up=0.0, velocity=None):
         """Sends a setpoint in the local frame: a position or a velocity."""
         mask = IGNORE_ALL_BUT_VELOCITY if velocity else POSITION_ONLY_MASK
         vx, vy, vz = velocity or (0, 0, 0)

@@ -22,7 +22,7 @@ REACHED_M = 1.2
 OVER_M = 14.0
 
 
-def wrap(angle):
+def wrap_angle(angle):
     """Returns an angle in (-pi, pi]."""
     return math.atan2(math.sin(angle), math.cos(angle))
 
@@ -36,7 +36,7 @@ def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
     forward = vn * math.cos(yaw) + ve * math.sin(yaw)
     right = ve * math.cos(yaw) - vn * math.sin(yaw)
     climb = vu / (FULL_CLIMB_M_S if vu > 0 else FULL_DESCENT_M_S)
-    turn = YAW_GAIN * wrap(look_yaw - yaw) / FULL_YAW_RAD_S
+    turn = YAW_GAIN * wrap_angle(look_yaw - yaw) / FULL_YAW_RAD_S
     return tuple(max(-1.0, min(1.0, s)) for s in (forward / FULL_STICK_M_S, right / FULL_STICK_M_S, climb, turn))
 
 

@@ -126,7 +126,7 @@ class Tester:
         truth = self.telemetry.ground_truth()
         return (truth.latitude_deg, truth.longitude_deg) if math.isfinite(truth.latitude_deg) else None
 
-    def from_home_m(self):
+    def distance_from_home_m(self):
         """Returns the horizontal distance from the stored home in meters."""
         latitude, longitude = self.ground_truth()
         east = (longitude - self.home[1]) * math.cos(math.radians(self.home[0]))
@@ -164,7 +164,7 @@ class Tester:
         position = self.telemetry.position_velocity_ned().position
         return position.north_m, position.east_m, position.down_m
 
-    def global_from(self, north_m, east_m):
+    def global_position_at(self, north_m, east_m):
         """Returns latitude and longitude of a position given in meters from home."""
         home = self.telemetry.home()
         latitude = home.latitude_deg + north_m / DEGREE_M
@@ -174,7 +174,7 @@ class Tester:
         """Uploads a mission with these positions in meters north and east of home."""
         items = []
         for north, east in places:
-            latitude, longitude = self.global_from(north, east)
+            latitude, longitude = self.global_position_at(north, east)
             items.append(MissionItem(latitude_deg=latitude, longitude_deg=longitude, relative_altitude_m=height_m, is_fly_through=fly_through))
         self.mission.set_return_to_launch_after_mission(return_at_end)
         self.mission.upload_mission(MissionPlan(items))

@@ -26,7 +26,7 @@ def ready(system):
     return telemetry
 
 
-def asked(system):
+def request_telemetry(system):
     """Requests telemetry from a vehicle that, like ArduPilot, sends none without a request, and waits until its home is
     known."""
     telemetry = Telemetry(system)

@@ -74,13 +74,13 @@ def test_wire_mavproxy_transfers_plan_and_parameters_over_a_bad_radio(tmp_path):
     typed = mavproxy.Console(port, tmp_path)
     try:
         typed.wait("parameters to")
-        typed.until("param set MPC_XY_CRUISE 4\nparam fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0", PATIENCE_S)
+        typed.repeat_until("param set MPC_XY_CRUISE 4\nparam fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0", PATIENCE_S)
         nothing = (0.0, 0.0, 0.0, 0.0)
         rows = [(3, 22, nothing, 0, 5)] + [(3, 16, nothing, k, 6) for k in range(1, 20)] + [(3, 21, nothing, 0, 0)]
         mission = mavproxy.plan(tmp_path, "mission.txt", rows)
-        typed.until(f"wp load {mission}", "Got MISSION_ACK: TYPE_MISSION: ACCEPTED", 3 * PATIENCE_S)
-        typed.until("wp list", "Saved 21 waypoints", 3 * PATIENCE_S)
-        typed.until("arm throttle", "ARMED")
+        typed.repeat_until(f"wp load {mission}", "Got MISSION_ACK: TYPE_MISSION: ACCEPTED", 3 * PATIENCE_S)
+        typed.repeat_until("wp list", "Saved 21 waypoints", 3 * PATIENCE_S)
+        typed.repeat_until("arm throttle", "ARMED")
     finally:
         typed.close()
         spandrel.end(process)

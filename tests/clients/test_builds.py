@@ -39,7 +39,7 @@ class Script:
     def command(self, number, *values):
         self.link.mav.command_long_send(1, 1, number, 0, *values, *[0.0] * (7 - len(values)))
 
-    def act(self, seconds):
+    def send_scheduled_inputs(self, seconds):
         """Sends the scheduled commands and sticks for this time."""
         forward, right, up = sticks_at(seconds)
         self.link.mav.manual_control_send(1, forward, right, up, 0, 0)
@@ -51,7 +51,7 @@ class Script:
             self.stopped = True
             self.command(mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 0.0, float(FORCE))
 
-    def hear(self, message):
+    def receive(self, message):
         """Processes a message from the vehicle."""
         if message.get_type() == "NAMED_VALUE_INT" and message.name in self.counts:
             self.counts[message.name] = max(self.counts[message.name], message.value)
@@ -59,7 +59,7 @@ class Script:
             return
         self.steps += 1
         if self.steps % 2 == 0:
-            self.act(message.ts1 / 1e9)
+            self.send_scheduled_inputs(message.ts1 / 1e9)
         self.link.mav.timesync_send(message.ts1 + 1, message.ts1)
 
 
@@ -78,7 +78,7 @@ def fly(program):
         while process.poll() is None:
             message = link.recv_match(blocking=True, timeout=0.2)
             if message is not None:
-                script.hear(message)
+                script.receive(message)
         digest = process.stdout.read().strip()
     finally:
         spandrel.end(process)

@@ -92,12 +92,12 @@ def test_wire_transmitter_flies_the_vehicle_and_its_loss_triggers_the_failsafe(t
             return "manual control lost" in (seen["texts"] or [""])[-1]
 
         kinds = ["LOCAL_POSITION_NED", "RELAY_STATUS", "CAMERA_IMAGE_CAPTURED", "RC_CHANNELS", "STATUSTEXT"]
-        asking.hear(link, kinds, take)
+        asking.receive(link, kinds, take)
         assert seen["up"] > 3.0 and seen["speed"] > 1.0 and seen["lamp"] == 1 and seen["pictures"] == 1, seen
         assert {1500, 2000} <= seen["sticks"], "calibrated end and center positions"
         _, told = flown.communicate(timeout=60)
         assert flown.returncode == 0 and "disconnected: stick input centered, then stopped" in told, told
-        beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
+        beat = asking.receive(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
         assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold its position"
     finally:
         spandrel.end(process)

@@ -23,13 +23,13 @@ def test_regress_pymavlink_decodes_ardupilot_messages(launch):
     """pymavlink checks the CRC seed and layout of each message against its own definitions."""
     link = asking.connect(launch("ardupilot"))
     link.mav.request_data_stream_send(1, 1, M.MAV_DATA_STREAM_ALL, 10, 1)
-    ekf = asking.hear(link, "EKF_STATUS_REPORT", lambda e: e.flags == 831)
+    ekf = asking.receive(link, "EKF_STATUS_REPORT", lambda e: e.flags == 831)
     assert 0.0 <= ekf.pos_horiz_variance < 0.5 and ekf.compass_variance == 0.0
-    assert asking.hear(link, "MEMINFO").freemem32 == 524288
-    assert asking.hear(link, "POWER_STATUS").Vcc == 5000
-    ahrs, wind = asking.hear(link, "AHRS"), asking.hear(link, "WIND")
+    assert asking.receive(link, "MEMINFO").freemem32 == 524288
+    assert asking.receive(link, "POWER_STATUS").Vcc == 5000
+    ahrs, wind = asking.receive(link, "AHRS"), asking.receive(link, "WIND")
     assert abs(ahrs.omegaIx) < 0.1 and wind.speed >= 0.0 and -180.0 <= wind.direction <= 180.0
-    simulated, position = asking.hear(link, "SIMSTATE"), asking.hear(link, "GLOBAL_POSITION_INT")
+    simulated, position = asking.receive(link, "SIMSTATE"), asking.receive(link, "GLOBAL_POSITION_INT")
     assert abs(simulated.zacc + GRAVITY) < GRAVITY_TOLERANCE
     # 10 m in 1e-7 degrees, more than the receiver's error.
     assert abs(simulated.lat - position.lat) < 900 and abs(simulated.lng - position.lon) < 900
@@ -44,7 +44,7 @@ def fixture_px4(launch):
 
 
 @pytest.mark.timeout(300)
-def test_regress_mavsdk_uses_px4s_shell(px4):
+def test_regress_mavsdk_uses_the_px4_shell(px4):
     """Sends a line to the shell and reads its output."""
     shell, heard = Shell(px4), []
     shell.subscribe_receive(lambda received, _: heard.append(received.data))

@@ -14,7 +14,7 @@ WRITES = "pwrite64,write,fsync,fdatasync,ftruncate,rename,renameat,renameat2,unl
 SECRET = "only-anna-wrote-this"
 
 
-def everything(folder):
+def file_contents(folder):
     """Returns the contents of all files in a folder, and all names."""
     files = [path for path in folder.rglob("*") if path.is_file()]
     return b"".join(path.read_bytes() for path in files), [str(path.relative_to(folder)) for path in folder.rglob("*")]
@@ -53,12 +53,12 @@ def test_erasure_killed_at_any_write_completes_later(tmp_path):
         shutil.copytree(original, place)
         killed = kill_at(WRITES, k, "records", "erase", "--trainee", "anna", "--yes", "--sessions", str(place))
         listed = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(place)))
-        data, names = everything(place)
+        data, names = file_contents(place)
         kept = {record["trainee"] for record in listed}
         if "anna" in kept:
             assert SECRET.encode() in data and any("-anna-" in name for name in names), f"call {k}: half erased"
             assert "erased 'anna': 1 sessions" in spandrel.run("records", "erase", "--trainee", "anna", "--yes", "--sessions", str(place))
-            data, names = everything(place)
+            data, names = file_contents(place)
             untouched += 1
         else:
             erased_whole += 1

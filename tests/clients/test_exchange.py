@@ -57,11 +57,11 @@ def test_parquet_matches_the_csv(sessions, tmp_path):
     for name in ("roll_deg", "gimbal_pitch_deg", "task", "path_distance_m", "clearance_m", "wind_north_m_s", "estimated_up_m"):
         known = [value for value in table.column(name).to_pylist() if value is not None]
         assert len(known) > 0.2 * table.num_rows, name
-    off = [math.dist(true, estimated) for true, estimated in zip(places(table, ""), places(table, "estimated_")) if None not in estimated]
+    off = [math.dist(true, estimated) for true, estimated in zip(value_paths(table, ""), value_paths(table, "estimated_")) if None not in estimated]
     assert 0 < max(off) < 5, "the estimate must be near the truth, but not equal"
 
 
-def places(table, prefix):
+def value_paths(table, prefix):
     return list(zip(*(table.column(f"{prefix}{axis}_m").to_pylist() for axis in ("east", "north", "up"))))
 
 
@@ -91,29 +91,29 @@ class Store(http.server.BaseHTTPRequestHandler):
         body = self.rfile.read(int(self.headers["Content-Length"]))
         if store.busy > 0:
             store.busy -= 1
-            return self.tell(503, "later")
+            return self.respond(503, "later")
         if self.headers["Authorization"] != "Basic dTpw":
-            return self.tell(401, "who?")
+            return self.respond(401, "who?")
         if self.path != "/xapi/statements" or self.headers["X-Experience-API-Version"] != "1.0.3" or self.headers["Content-Type"] != "application/json":
-            return self.tell(400, "headers")
+            return self.respond(400, "headers")
         statements = json.loads(body)
         for one in statements:
             fault = violated_rule(one)
             if fault:
                 store.faults.append(fault)
-                return self.tell(400, fault)
+                return self.respond(400, fault)
         # An existing statement with different contents is a conflict, and nothing in the request is stored.
         if any(one["id"] in store.kept and store.kept[one["id"]] != one for one in statements):
-            return self.tell(409, "conflict")
+            return self.respond(409, "conflict")
         store.kept.update({one["id"]: one for one in statements})
         if store.lose_answer:
             store.lose_answer = False
             self.close_connection = True
             self.connection.close()
             return None
-        return self.tell(200, json.dumps([one["id"] for one in statements]))
+        return self.respond(200, json.dumps([one["id"] for one in statements]))
 
-    def tell(self, status, text):
+    def respond(self, status, text):
         self.send_response(status)
         self.send_header("Content-Length", str(len(text)))
         self.end_headers()
@@ -179,7 +179,7 @@ def test_statements_are_stored_once_despite_connection_failures(sessions, store)
     assert store.kept == before, "repeated statements must be stored once"
 
 
-def test_rejection_by_the_store_is_reported_and_not_retried(sessions, store):
+def test_store_rejection_is_reported_and_not_retried(sessions, store):
     done = push(sessions, store, password="wrong")
     assert done.returncode == 1 and "401" in done.stderr and "wrong" not in done.stderr and store.requests == 1
 

@@ -421,9 +421,9 @@ class MonitoredFlight:
         # MAVSDK crashes the process if it is released before the objects that it created.
         del action, telemetry, system
         mavsdk.destroy()
-        assert ended == 0, self.printed()
+        assert ended == 0, self.output()
 
-    def printed(self):
+    def output(self):
         """Returns the monitor's output."""
         return (self.folder / "monitor.txt").read_text(encoding="utf-8")
 
@@ -517,7 +517,7 @@ def test_regress_disk_failure_in_flight_loses_no_telemetry(shim, tmp_path, kind)
             assert not any("recording" in text for text in texts), "a short write must not be reported as a disk error"
         else:
             wait_for("the end of the warning", lambda: "Recording resumed" in texts, limit_s=30)
-            assert "retrying" in watched.printed() and "recording to disk resumed" in watched.printed()
+            assert "retrying" in watched.output() and "recording to disk resumed" in watched.output()
         # Complete and in order: the stored flight gives the same scores as the live one, frame by frame.
         assert spandrel.run("assess", str(session), "--json", "-") == (session / "assessment.json").read_text(encoding="utf-8")
         assert json.loads((session / "assessment.json").read_text(encoding="utf-8"))["telemetry"]["missing_frames"] == 0

@@ -31,7 +31,7 @@ class Script:
 
     def wait(self, kind, condition=lambda message: True):
         """Returns the next message of a kind that meets a condition."""
-        return asking.hear(self.link, kind, condition)
+        return asking.receive(self.link, kind, condition)
 
     def command(self, number, *params):
         """Returns the result of a command."""
@@ -114,36 +114,36 @@ def copter(tmp_path, launch):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavproxy_flies_a_copter(copter):
+def test_wire_mavproxy_flies_arducopter(copter):
     """Parameters as a file, modes by name, arming rejected and accepted, GUIDED takeoff, channels, relay, return."""
     typed, _folder = copter
     fetched = "\n".join(typed.heard)
     assert "fallback" not in fetched.lower() and "param.pck" not in fetched, "parameters must come over FTP at the first attempt"
-    typed.say("param show RTL_ALT", "RTL_ALT          3000")
-    typed.say("param set RTL_ALT 1500", None)
-    typed.until("param fetch RTL_ALT", "RTL_ALT = 1500")
-    modes = typed.say("mode", "Available modes")
+    typed.enter_command("param show RTL_ALT", "RTL_ALT          3000")
+    typed.enter_command("param set RTL_ALT 1500", None)
+    typed.repeat_until("param fetch RTL_ALT", "RTL_ALT = 1500")
+    modes = typed.enter_command("mode", "Available modes")
     assert "GUIDED" in modes and "POSHOLD" in modes
-    typed.say("arm list", "all")
-    typed.say("arm prearms", "RUN_PREARM_CHECKS: ACCEPTED")
-    typed.until("mode rtl", "Mode RTL")
-    typed.until("arm throttle", "Arm: RTL mode not armable")
-    typed.until("mode loiter", "Mode LOITER")
-    typed.say("rc 3 1900", None)
-    typed.until("arm throttle", "Arm: Throttle too high")
-    typed.say("rc 3 1000", None)
-    typed.until("mode guided", "Mode GUIDED")
-    typed.until("arm throttle", "ARMED")
-    typed.say("takeoff 5", "NAV_TAKEOFF: ACCEPTED")
+    typed.enter_command("arm list", "all")
+    typed.enter_command("arm prearms", "RUN_PREARM_CHECKS: ACCEPTED")
+    typed.repeat_until("mode rtl", "Mode RTL")
+    typed.repeat_until("arm throttle", "Arm: RTL mode not armable")
+    typed.repeat_until("mode loiter", "Mode LOITER")
+    typed.enter_command("rc 3 1900", None)
+    typed.repeat_until("arm throttle", "Arm: Throttle too high")
+    typed.enter_command("rc 3 1000", None)
+    typed.repeat_until("mode guided", "Mode GUIDED")
+    typed.repeat_until("arm throttle", "ARMED")
+    typed.enter_command("takeoff 5", "NAV_TAKEOFF: ACCEPTED")
     typed.wait("Takeoff detected")
-    typed.until("status VFR_HUD", "climb : 0.0")
-    typed.say("rc all 1500", None)
-    typed.until("mode loiter", "Mode LOITER")
-    typed.say("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
-    typed.say("rc 2 1300", None)
-    typed.until("status VFR_HUD", "groundspeed : 5.")
-    typed.say("rc 2 1500", None)
-    typed.until("mode rtl", "Mode RTL")
+    typed.repeat_until("status VFR_HUD", "climb : 0.0")
+    typed.enter_command("rc all 1500", None)
+    typed.repeat_until("mode loiter", "Mode LOITER")
+    typed.enter_command("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
+    typed.enter_command("rc 2 1300", None)
+    typed.repeat_until("status VFR_HUD", "groundspeed : 5.")
+    typed.enter_command("rc 2 1500", None)
+    typed.repeat_until("mode rtl", "Mode RTL")
     typed.wait("DISARMED")
 
 
@@ -154,25 +154,25 @@ def test_wire_mavproxy_transfers_copter_plans(copter):
     nothing = (0.0, 0.0, 0.0, 0.0)
     home = (0, 16, nothing, 0, 1630)
     mission = plan(folder, "mission.txt", [home, (3, 22, nothing, 0, 5), (3, 16, nothing, 10, 6), (3, 21, nothing, 0, 0)])
-    typed.say(f"wp load {mission}", "Loaded 4 waypoints")
+    typed.enter_command(f"wp load {mission}", "Loaded 4 waypoints")
     typed.wait("Got MISSION_ACK: TYPE_MISSION: ACCEPTED")
-    typed.say("wp list", "Requesting 4 waypoints")
+    typed.enter_command("wp list", "Requesting 4 waypoints")
     saved = folder / "back.txt"
     typed.wait("Saved 4 waypoints")
-    typed.say(f"wp save {saved}", str(saved))
+    typed.enter_command(f"wp save {saved}", str(saved))
     rows = [line.split("\t") for line in saved.read_text(encoding="utf-8").splitlines()[1:]]
     assert [row[3] for row in rows] == ["16", "22", "16", "21"]
     assert abs(float(rows[0][8]) - LAT) < 1e-3 and abs(float(rows[0][9]) - LON) < 1e-3, "home must be at the vehicle's position"
-    typed.say("wp set 2", None)
-    typed.until("status MISSION_CURRENT", "seq : 2")
-    typed.say(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
-    typed.say("fence list", "Requesting 1 fence")
-    typed.say(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
-    typed.say("rally list", "Requesting 1 rally")
+    typed.enter_command("wp set 2", None)
+    typed.repeat_until("status MISSION_CURRENT", "seq : 2")
+    typed.enter_command(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
+    typed.enter_command("fence list", "Requesting 1 fence")
+    typed.enter_command(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
+    typed.enter_command("rally list", "Requesting 1 rally")
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_detects_an_ardupilot(launch):
+def test_wire_mavsdk_detects_ardupilot(launch):
     """Takeoff, hold, parameters, a mission that starts with home, return: MAVSDK must choose ArduPilot's variants
     automatically."""
     port = launch("ardupilot")

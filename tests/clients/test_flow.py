@@ -58,23 +58,23 @@ class Training:
         player.chmod(0o755)
         return {"PATH": f"{programs}:{os.environ['PATH']}", "XDG_CONFIG_HOME": str(self.folder / "config")}
 
-    def told(self):
+    def output(self):
         """Returns the output so far."""
         return (self.folder / "train.txt").read_text(encoding="utf-8")
 
-    def keep(self, name, photograph):
+    def save_screenshot(self, name, photograph):
         """Stores a screenshot in the album folder, if there is one."""
         if self.album:
             Image.fromarray(photograph.astype(numpy.uint8)).save(os.path.join(self.album, f"{name}.png"))
 
-    def see(self, name, predicate, key=None):
+    def wait_for_screenshot(self, name, predicate, key=None):
         """Waits until a screenshot meets a condition. Presses a key first, and again if nothing happens, because the
         window may not have the focus at the first press."""
         pressed = spandrel.time.monotonic() - AGAIN_S if key else None
 
         def look():
             nonlocal pressed
-            assert self.process.poll() is None, self.told()
+            assert self.process.poll() is None, self.output()
             photograph = self.screen.photograph()
             if predicate(photograph):
                 return [photograph]
@@ -85,7 +85,7 @@ class Training:
             return []
 
         (photograph,) = spandrel.wait_for(name, look, LIMIT_S)
-        self.keep(name, photograph)
+        self.save_screenshot(name, photograph)
         return photograph
 
     def close(self):
@@ -132,34 +132,34 @@ def folders(training):
 
 
 @pytest.mark.timeout(2400)
-def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
+def test_wire_keyboard_controls_a_complete_session(screen, tmp_path):
     """Start page, controller check, tutorial, flight, pause, restart, end; takes a screenshot of every page."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
     try:
-        start = training.see("start", is_page)
+        start = training.wait_for_screenshot("start", is_page)
         # Moves the focus down to "Next", which opens the controller check.
-        moved = training.see("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
+        moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
         assert focus(moved)[1] < 0.5
         for _ in range(2):
             screen.tap(DOWN)
-        controls = training.see("controls", other_page(moved), ENTER)
+        controls = training.wait_for_screenshot("controls", other_page(moved), ENTER)
         screen.key("w", True)
-        training.see("stick-follows-the-key", lambda photograph: is_page(photograph) and numpy.abs(photograph - controls).sum() > 20_000)
+        training.wait_for_screenshot("stick-follows-the-key", lambda photograph: is_page(photograph) and numpy.abs(photograph - controls).sum() > 20_000)
         screen.key("w", False)
-        page = training.see("tutorial-1", other_page(controls), ENTER)
+        page = training.wait_for_screenshot("tutorial-1", other_page(controls), ENTER)
         for number in range(2, 7):
-            page = training.see(f"tutorial-{number}", other_page(page), ENTER)
-        training.see("flight", in_flight, ENTER)
-        training.see("paused", paused, ESCAPE)
-        spandrel.wait_for("the simulation is paused", lambda: "simulation paused" in training.told(), LIMIT_S)
-        training.see("flies-on", in_flight, ESCAPE)
+            page = training.wait_for_screenshot(f"tutorial-{number}", other_page(page), ENTER)
+        training.wait_for_screenshot("flight", in_flight, ENTER)
+        training.wait_for_screenshot("paused", paused, ESCAPE)
+        spandrel.wait_for("the simulation is paused", lambda: "simulation paused" in training.output(), LIMIT_S)
+        training.wait_for_screenshot("flies-on", in_flight, ESCAPE)
         assert len(folders(training)) == 1
 
         # Restart: after a confirmation, there is a second session.
-        training.see("asked-once-more", paused, "BackSpace")
+        training.wait_for_screenshot("asked-once-more", paused, "BackSpace")
         screen.tap(ENTER)
         spandrel.wait_for("a second session", lambda: len(folders(training)) == 2, LIMIT_S)
-        training.see("second-flight", in_flight)
+        training.wait_for_screenshot("second-flight", in_flight)
         screen.focus()
         # Flies for a short time: arming and takeoff are repeated until they succeed, because the filter must settle
         # first.
@@ -168,7 +168,7 @@ def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
 
         def flies():
             again.if_due()
-            return "lift-off" in training.told().split("the attempt has ended; the recorded data")[-1]
+            return "lift-off" in training.output().split("the attempt has ended; the recorded data")[-1]
 
         spandrel.wait_for("lift-off", flies, LIMIT_S)
 
@@ -177,14 +177,14 @@ def test_wire_complete_session_with_the_keyboard(screen, tmp_path):
             return '"event":"snapshot"' in (folders(training)[-1] / "events.jsonl").read_text(encoding="utf-8")
 
         spandrel.wait_for("a photograph", taken, LIMIT_S)
-        training.see("paused-again", paused, ESCAPE)
+        training.wait_for_screenshot("paused-again", paused, ESCAPE)
         screen.tap(UP)
-        over = training.see("over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
+        over = training.wait_for_screenshot("over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
         assert focus(over)[0] > 0.5, "the next steps must be on the right"
         screen.tap(UP)
         screen.tap(ENTER)
         # The program ends after the photos have been rendered.
-        assert training.process.wait(timeout=LIMIT_S) == 0, training.told()
+        assert training.process.wait(timeout=LIMIT_S) == 0, training.output()
     finally:
         training.close()
     sessions = [json.loads((folder / "session.json").read_text(encoding="utf-8")) for folder in folders(training)]
@@ -210,22 +210,22 @@ def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_pa
     """The pause key asks whether to end the session while the flight continues."""
     training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
     try:
-        training.see("assessment", in_flight)
+        training.wait_for_screenshot("assessment", in_flight)
         screen.focus()
         again = asking.Repeater(lambda: screen.tap("BackSpace"), again_s=AGAIN_S)
 
         def refused():
             again.if_due()
-            return "cannot be restarted" in training.told()
+            return "cannot be restarted" in training.output()
 
         spandrel.wait_for("'cannot be restarted'", refused, LIMIT_S)
-        training.see("assessment-asked", paused, ESCAPE)
-        training.see("assessment-goes-on", in_flight, ESCAPE)
-        assert "simulation paused" not in training.told() and len(folders(training)) == 1
-        training.see("assessment-asked-again", paused, ESCAPE)
+        training.wait_for_screenshot("assessment-asked", paused, ESCAPE)
+        training.wait_for_screenshot("assessment-goes-on", in_flight, ESCAPE)
+        assert "simulation paused" not in training.output() and len(folders(training)) == 1
+        training.wait_for_screenshot("assessment-asked-again", paused, ESCAPE)
         screen.tap(DOWN)
-        training.see("assessment-over", is_page, ENTER)
-        assert "so there is no session to score" in training.told(), "the output must explain that there was no takeoff"
+        training.wait_for_screenshot("assessment-over", is_page, ENTER)
+        assert "so there is no session to score" in training.output(), "the output must explain that there was no takeoff"
     finally:
         training.close()
     assert len(folders(training)) == 1
@@ -247,10 +247,10 @@ def test_wire_flight_survives_its_window(screen, tmp_path):
     """A killed window is reported once; the simulator and the monitor continue."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
-        spandrel.wait_for("the controller connection", lambda: "has connected" in training.told(), LIMIT_S)
+        spandrel.wait_for("the controller connection", lambda: "has connected" in training.output(), LIMIT_S)
         os.kill(spandrel.wait_for("a window", lambda: window_of(training), LIMIT_S), signal.SIGKILL)
-        spandrel.wait_for("the message about the lost window", lambda: "the session continues without it" in training.told(), LIMIT_S)
-        assert training.process.poll() is None and training.told().count("the window failed") == 1
+        spandrel.wait_for("the message about the lost window", lambda: "the session continues without it" in training.output(), LIMIT_S)
+        assert training.process.poll() is None and training.output().count("the window failed") == 1
     finally:
         training.close()
 
@@ -277,5 +277,5 @@ def test_wire_invalid_lines_are_reported_once_without_closing_the_window(screen,
     finally:
         spandrel.end(window)
         log.close()
-    told = (tmp_path / "view.txt").read_text(encoding="utf-8")
-    assert told.count("is not a valid message between `spandrel train` and its window") == 1 and "rubbish" in told, told
+    output = (tmp_path / "view.txt").read_text(encoding="utf-8")
+    assert output.count("is not a valid message between `spandrel train` and its window") == 1 and "rubbish" in output, output

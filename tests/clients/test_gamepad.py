@@ -49,7 +49,7 @@ class Bridge:
         self.lines, self.read = [], 0
         threading.Thread(target=lambda: self.lines.extend(self.process.stderr), daemon=True).start()
 
-    def hear(self, words):
+    def receive(self, words):
         """Waits for the next line that contains these words."""
         def said():
             for k in range(self.read, len(self.lines)):
@@ -80,21 +80,21 @@ def calibrate(pad, profiles):
     """Follows the wizard like a user who touches the triggers first."""
     wizard = Bridge(pad, profiles, "--calibrate")
     try:
-        wizard.hear("Release both sticks")
+        wizard.receive("Release both sticks")
         wizard.enter()
-        wizard.hear("Move both sticks through their full range")
+        wizard.receive("Move both sticks through their full range")
         for axis in (gamepad.LEFT_TRIGGER, gamepad.RIGHT_TRIGGER, *(axis for _, axis, _ in PUSHES)):
             for part in (-1, 1, -1 if gamepad.AXES[axis] == gamepad.TRIGGER else 0):
                 pad.axis(axis, part)
                 time.sleep(0.05)
-        wizard.hear("Axes found: 4 of 4")
+        wizard.receive("Axes found: 4 of 4")
         # The last event must be processed before Enter.
         time.sleep(0.5)
         wizard.enter()
         for words, axis, part in PUSHES:
-            wizard.hear(f"Push the {words}")
+            wizard.receive(f"Push the {words}")
             pad.axis(axis, part)
-            wizard.hear("Center the sticks" if (words, axis, part) != PUSHES[-1] else f"button for {BUTTON_ACTIONS[0][0]}")
+            wizard.receive("Center the sticks" if (words, axis, part) != PUSHES[-1] else f"button for {BUTTON_ACTIONS[0][0]}")
             pad.axis(axis, 0)
         for (_, button), following in zip(BUTTON_ACTIONS, [*BUTTON_ACTIONS[1:], None]):
             if button is None:
@@ -102,7 +102,7 @@ def calibrate(pad, profiles):
             else:
                 pad.press(button)
             if following:
-                wizard.hear(f"button for {following[0]}")
+                wizard.receive(f"button for {following[0]}")
         kept, _ = wizard.process.stdout.read(), wizard.process.wait(timeout=LIMIT_S)
         assert wizard.process.returncode == 0, wizard.lines
         return kept.strip()
@@ -111,7 +111,7 @@ def calibrate(pad, profiles):
 
 
 @pytest.mark.timeout(600)
-def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
+def test_wire_gamepad_is_calibrated_and_its_loss_triggers_the_failsafe(pad, tmp_path):
     """Covers everything from system events to flight: the wizard's profile, sticks, buttons, and the failsafe after the
     gamepad is lost."""
     profiles = tmp_path / "profiles"
@@ -124,30 +124,30 @@ def test_wire_gamepad_calibration_flight_and_loss(pad, tmp_path):
     try:
         link = asking.connect(watcher)
         assert asking.command(link, mavutil.mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, 376, 200_000) == 0
-        bridge.hear("connected to the vehicle")
+        bridge.receive("connected to the vehicle")
         arm = asking.Repeater(lambda: pad.press(gamepad.NORTH))
 
         def armed(beat):
             arm.if_due()
             return beat.get_srcComponent() == 1 and beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED
 
-        asking.hear(link, "HEARTBEAT", armed)
+        asking.receive(link, "HEARTBEAT", armed)
         pad.axis(gamepad.Y, -1)
-        asking.hear(link, "RC_CHANNELS", lambda rc: rc.chan3_raw == 2000)
-        asking.hear(link, "LOCAL_POSITION_NED", lambda p: -p.z > 3)
+        asking.receive(link, "RC_CHANNELS", lambda rc: rc.chan3_raw == 2000)
+        asking.receive(link, "LOCAL_POSITION_NED", lambda p: -p.z > 3)
         pad.axis(gamepad.Y, 0)
         pad.axis(gamepad.RIGHT_Y, -1)
-        asking.hear(link, "LOCAL_POSITION_NED", lambda p: (p.vx**2 + p.vy**2) ** 0.5 > 1)
+        asking.receive(link, "LOCAL_POSITION_NED", lambda p: (p.vx**2 + p.vy**2) ** 0.5 > 1)
         pad.axis(gamepad.RIGHT_Y, 0)
-        asking.hear(link, "RC_CHANNELS", lambda rc: {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw} == {1500})
+        asking.receive(link, "RC_CHANNELS", lambda rc: {rc.chan1_raw, rc.chan2_raw, rc.chan3_raw, rc.chan4_raw} == {1500})
         pad.press(gamepad.SOUTH)
-        asking.hear(link, "RELAY_STATUS", lambda relay: relay.on & 1)
+        asking.receive(link, "RELAY_STATUS", lambda relay: relay.on & 1)
         pad.press(gamepad.EAST)
-        asking.hear(link, "CAMERA_IMAGE_CAPTURED")
+        asking.receive(link, "CAMERA_IMAGE_CAPTURED")
         pad.close()
-        bridge.hear("disconnected: stick input centered, then stopped")
-        asking.hear(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
-        beat = asking.hear(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
+        bridge.receive("disconnected: stick input centered, then stopped")
+        asking.receive(link, "STATUSTEXT", lambda text: "manual control lost" in text.text)
+        beat = asking.receive(link, "HEARTBEAT", lambda b: b.get_srcComponent() == 1)
         assert beat.base_mode & mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED, "the vehicle must hold its position"
     finally:
         spandrel.end(bridge.process)

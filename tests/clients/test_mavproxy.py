@@ -46,13 +46,13 @@ class Console:
             if text in line:
                 return line
 
-    def say(self, command, answer):
+    def enter_command(self, command, answer):
         """Enters a command and waits for its response."""
         self.process.stdin.write(command + "\n")
         self.process.stdin.flush()
         return self.wait(answer) if answer else None
 
-    def until(self, command, answer, patience_s=1):
+    def repeat_until(self, command, answer, patience_s=1):
         """Enters a command repeatedly until its response arrives, because MAVProxy processes commands
         asynchronously."""
         for _ in range(LIMIT_S // patience_s):
@@ -106,17 +106,17 @@ def plan(folder, name, rows):
 def test_wire_mavproxy_uses_parameters_channels_and_lamp(console):
     """Parameters, a rejected arming attempt with its reason, a climb with RC channels, the relay, released channels."""
     typed, _folder = console
-    typed.say("param show MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT  2.5")
-    typed.say("param set MPC_XY_CRUISE 4", None)
-    typed.until("param fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0")
-    typed.say("mode", "Available modes")
-    typed.say("rc 3 1900", None)
-    typed.until("arm throttle", "Sticks not centered")
-    typed.say("rc all 1500", None)
-    typed.until("arm throttle", "ARMED")
-    typed.say("rc 3 1800", "Takeoff detected")
-    typed.say("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
-    typed.say("rc clear", "manual control lost")
+    typed.enter_command("param show MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT  2.5")
+    typed.enter_command("param set MPC_XY_CRUISE 4", None)
+    typed.repeat_until("param fetch MPC_XY_CRUISE", "MPC_XY_CRUISE = 4.0")
+    typed.enter_command("mode", "Available modes")
+    typed.enter_command("rc 3 1900", None)
+    typed.repeat_until("arm throttle", "Sticks not centered")
+    typed.enter_command("rc all 1500", None)
+    typed.repeat_until("arm throttle", "ARMED")
+    typed.enter_command("rc 3 1800", "Takeoff detected")
+    typed.enter_command("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
+    typed.enter_command("rc clear", "manual control lost")
     assert "breach" not in "\n".join(typed.heard)
 
 
@@ -126,15 +126,15 @@ def test_wire_mavproxy_transfers_plans(console):
     typed, folder = console
     nothing = (0.0, 0.0, 0.0, 0.0)
     mission = plan(folder, "mission.txt", [(3, 22, nothing, 0, 5), (3, 16, nothing, 10, 6), (3, 21, nothing, 0, 0)])
-    typed.say(f"wp load {mission}", "Loaded 3 waypoints")
+    typed.enter_command(f"wp load {mission}", "Loaded 3 waypoints")
     typed.wait("Got MISSION_ACK: TYPE_MISSION: ACCEPTED")
-    typed.say("wp list", "Requesting 3 waypoints")
+    typed.enter_command("wp list", "Requesting 3 waypoints")
     corners = [(0, 5001, (4.0, 0.0, 0.0, 0.0), north, 0) for north in (-50, 50)]
-    typed.say(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
-    typed.say("fence list", "Requesting 1 fence")
-    typed.say(f"fence load {plan(folder, 'torn.txt', corners)}", "Got MISSION_ACK: TYPE_FENCE: INVALID_PARAM1")
-    typed.say(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
-    typed.say("rally list", "Requesting 1 rally")
+    typed.enter_command(f"fence load {plan(folder, 'fence.txt', [(0, 5003, (80.0, 0.0, 0.0, 0.0), 0, 0)])}", "Got MISSION_ACK: TYPE_FENCE: ACCEPTED")
+    typed.enter_command("fence list", "Requesting 1 fence")
+    typed.enter_command(f"fence load {plan(folder, 'torn.txt', corners)}", "Got MISSION_ACK: TYPE_FENCE: INVALID_PARAM1")
+    typed.enter_command(f"rally load {plan(folder, 'rally.txt', [(3, 5100, nothing, 20, 5)])}", "Got MISSION_ACK: TYPE_RALLY: ACCEPTED")
+    typed.enter_command("rally list", "Requesting 1 rally")
 
 
 @pytest.mark.timeout(600)
@@ -148,11 +148,11 @@ def test_wire_mavproxy_needs_the_signing_key(tmp_path):
     typed = Console(port, tmp_path)
     try:
         typed.wait("Detected vehicle")
-        typed.say("arm throttle force", None)
-        typed.say("signing key steelspan", None)
-        typed.until("param fetch MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT = 2.5")
+        typed.enter_command("arm throttle force", None)
+        typed.enter_command("signing key steelspan", None)
+        typed.repeat_until("param fetch MIS_TAKEOFF_ALT", "MIS_TAKEOFF_ALT = 2.5")
         assert "ARMED" not in "\n".join(typed.heard), "the vehicle armed without a signature"
-        typed.until("arm throttle force", "ARMED")
+        typed.repeat_until("arm throttle force", "ARMED")
     finally:
         typed.close()
         spandrel.end(process)

@@ -19,20 +19,20 @@ def test_wire_mavproxy_transfers_files(launch, tmp_path):
     same = lambda path: spandrel.wait_for(f"{path} on disk", lambda: path.read_bytes() == content, limit_s=60)  # noqa: E731
     try:
         typed.wait("parameters to")
-        typed.say("ftp get /survey.bin down.bin", "Wrote 50000 bytes to down.bin")
+        typed.enter_command("ftp get /survey.bin down.bin", "Wrote 50000 bytes to down.bin")
         same(tmp_path / "down.bin")
-        typed.say("ftp get /survey.bin one.bin", None)
-        typed.say("ftp get /survey.bin two.bin", "Wrote 50000 bytes")
+        typed.enter_command("ftp get /survey.bin one.bin", None)
+        typed.enter_command("ftp get /survey.bin two.bin", "Wrote 50000 bytes")
         typed.wait("Wrote 50000 bytes")
         same(tmp_path / "one.bin")
         same(tmp_path / "two.bin")
-        typed.say("ftp put down.bin /up.bin", "Sent file of length 50000")
+        typed.enter_command("ftp put down.bin /up.bin", "Sent file of length 50000")
         same(files / "up.bin")
-        typed.say("ftp list /", "up.bin\t50000")
-        typed.say("ftp crclocal down.bin", "crclocal: down.bin")
+        typed.enter_command("ftp list /", "up.bin\t50000")
+        typed.enter_command("ftp crclocal down.bin", "crclocal: down.bin")
         checksum = next(word for word in typed.heard[-1].split() if word.startswith("0x"))
-        typed.say("ftp crc /up.bin", f"crc: /up.bin {checksum}")
-        typed.until("ftp rm /up.bin", "Removing /up.bin")
+        typed.enter_command("ftp crc /up.bin", f"crc: /up.bin {checksum}")
+        typed.repeat_until("ftp rm /up.bin", "Removing /up.bin")
         spandrel.wait_for("the removal", lambda: not (files / "up.bin").exists(), limit_s=60)
     finally:
         typed.close()
@@ -45,7 +45,7 @@ def test_wire_mavproxy_fetches_parameters_by_ftp(launch, tmp_path):
     try:
         line = typed.wait("parameters (ftp)")
         assert int(line.split()[1]) > 50, line
-        typed.until("param show WPNAV_SPEED", "WPNAV_SPEED")
-        typed.say("param ftp", "parameters (ftp)")
+        typed.repeat_until("param show WPNAV_SPEED", "WPNAV_SPEED")
+        typed.enter_command("param ftp", "parameters (ftp)")
     finally:
         typed.close()

@@ -71,17 +71,17 @@ def test_wire_three_vehicles_in_one_process_are_independent(tmp_path):
     try:
         connection = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
         for system in (1, 2, 3):
-            asking.hear(connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system)
+            asking.receive(connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system)
         prearm = mavutil.mavlink.MAV_SYS_STATUS_PREARM_CHECK
-        asking.hear(
+        asking.receive(
             connection, "SYS_STATUS", lambda m: m.get_srcSystem() == 2 and m.onboard_control_sensors_health & prearm,
         )
         # pymavlink sends to all connected vehicles; only the addressed one must respond.
         assert asking.command(connection, mavutil.mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1, system=2) == 0
         armed = mavutil.mavlink.MAV_MODE_FLAG_SAFETY_ARMED
-        asking.hear(connection, "HEARTBEAT", lambda beat: beat.get_srcSystem() == 2 and beat.base_mode & armed)
+        asking.receive(connection, "HEARTBEAT", lambda beat: beat.get_srcSystem() == 2 and beat.base_mode & armed)
         for system in (1, 3):
-            beat = asking.hear(
+            beat = asking.receive(
                 connection, "HEARTBEAT", lambda beat, system=system: beat.get_srcSystem() == system and beat.get_srcComponent() == 1,
             )
             assert not beat.base_mode & armed
@@ -111,7 +111,7 @@ def test_wire_tcp_clients_may_disconnect_in_flight(tmp_path):
         rude.sendall(b"\xfd\xff\x00")
         rude.close()
         connection = mavutil.mavlink_connection(f"tcp:127.0.0.1:{port}", source_system=255, source_component=190, dialect="all")
-        asking.hear(connection, "HEARTBEAT")
+        asking.receive(connection, "HEARTBEAT")
         send = lambda: connection.mav.param_request_read_send(1, 1, b"MIS_TAKEOFF_ALT", -1)  # noqa: E731
         asking.ask(connection, send, "PARAM_VALUE", lambda value: value.param_id == "MIS_TAKEOFF_ALT")
         assert sim.poll() is None

@@ -25,7 +25,7 @@ def start(folder, port, *more, speed=spandrel.SPEED):
 
 
 @pytest.mark.timeout(600)
-def test_regress_mavsdks_offboard_example_flies(tmp_path, measured):
+def test_regress_mavsdk_offboard_example_flies(tmp_path, measured):
     """Flies like MAVSDK's offboard examples: setpoint at 0, 0, 0 on the pad, up 5 m, 5 m north, back, then velocities,
     then down."""
     port = spandrel.free_udp_port()

@@ -17,7 +17,7 @@ INT32, REAL32 = mavutil.mavlink.MAV_PARAM_TYPE_INT32, mavutil.mavlink.MAV_PARAM_
 LIMIT_S = asking.LIMIT_S
 
 
-def put(connection, name, value, kind, answers="PARAM_VALUE", fits=None):
+def set_parameter(connection, name, value, kind, answers="PARAM_VALUE", fits=None):
     """Sets a parameter and returns the response; integers use bytewise encoding, as PX4 requires."""
     wire = struct.unpack("<f", struct.pack("<i", value))[0] if kind == INT32 else value
     send = lambda: connection.mav.param_set_send(1, 1, name.encode(), wire, kind)  # noqa: E731
@@ -40,10 +40,10 @@ def test_wire_parameter_list_is_complete_and_ranges_are_enforced(tmp_path):
         assert sorted(v.param_index for v in values.values()) == list(range(len(values)))
         for name in ("GF_ACTION", "MPC_XY_CRUISE"):
             assert read(connection, name).param_index == values[name].param_index
-        assert put(connection, "MPC_XY_CRUISE", 7.5, REAL32).param_value == 7.5
-        refusal = put(connection, "MPC_XY_CRUISE", 900.0, REAL32, "PARAM_ERROR")
+        assert set_parameter(connection, "MPC_XY_CRUISE", 7.5, REAL32).param_value == 7.5
+        refusal = set_parameter(connection, "MPC_XY_CRUISE", 900.0, REAL32, "PARAM_ERROR")
         assert refusal.error == mavutil.mavlink.MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE
-        assert put(connection, "MPC_XY_CRUISE", 900.0, REAL32).param_value == 7.5, "the old value must be reported too"
+        assert set_parameter(connection, "MPC_XY_CRUISE", 900.0, REAL32).param_value == 7.5, "the old value must be reported too"
     finally:
         spandrel.end(process)
 
@@ -60,7 +60,7 @@ def test_wire_parameters_persist_in_their_file(tmp_path):
             connection = asking.connect(port)
             assert read(connection, "MIS_TAKEOFF_ALT").param_value == expected
             if then is not None:
-                assert put(connection, "MIS_TAKEOFF_ALT", then, REAL32).param_value == then
+                assert set_parameter(connection, "MIS_TAKEOFF_ALT", then, REAL32).param_value == then
                 continue
             assert asking.command(connection, mavutil.mavlink.MAV_CMD_PREFLIGHT_STORAGE, 2, -1) == 0
             assert read(connection, "MIS_TAKEOFF_ALT").param_value == 2.5
@@ -104,8 +104,8 @@ def test_wire_parameter_changes_reach_all_stations(tmp_path):
     process = spandrel.start_sim(tmp_path, ports[0], "--gcs", f"127.0.0.1:{ports[1]}")
     try:
         one, other = (asking.connect(port) for port in ports)
-        assert put(one, "MPC_XY_CRUISE", 6.25, REAL32).param_value == 6.25
-        told = asking.hear(other, "PARAM_VALUE")
+        assert set_parameter(one, "MPC_XY_CRUISE", 6.25, REAL32).param_value == 6.25
+        told = asking.receive(other, "PARAM_VALUE")
         assert (told.param_id, told.param_value) == ("MPC_XY_CRUISE", 6.25)
     finally:
         spandrel.end(process)

@@ -76,11 +76,11 @@ class Station:
             end = time.monotonic() + asking.AGAIN_S
             while time.monotonic() < end:
                 self.pump()
-                if (message := self.told(kind)) is not None:
+                if (message := self.last_message(kind)) is not None:
                     return message
         raise AssertionError(f"no {kind}")
 
-    def told(self, kind, component=CAMERA):
+    def last_message(self, kind, component=CAMERA):
         """Returns the last message of a kind since the last command."""
         found = [m for m in self.heard if m.get_type() == kind and m.get_srcComponent() == component]
         return found[-1] if found else None
@@ -144,7 +144,7 @@ def pictures(rig):
 
 
 @pytest.mark.timeout(300)
-def test_wire_mavsdk_takes_single_pictures_and_series(rig):
+def test_wire_mavsdk_takes_single_photos_and_series(rig):
     """take_photo, start_photo_interval, capture info with geotags, list_photos, storage, format."""
     camera = found(rig)
     shots = {}
@@ -408,7 +408,7 @@ def test_wire_mavsdk_switches_the_lamp_as_a_relay_and_an_actuator(tmp_path, flav
         station = rig.station
 
         def lamp():
-            return station.command(AUTOPILOT, M.MAV_CMD_REQUEST_MESSAGE, 376) == M.MAV_RESULT_ACCEPTED and station.told("RELAY_STATUS", 1).on
+            return station.command(AUTOPILOT, M.MAV_CMD_REQUEST_MESSAGE, 376) == M.MAV_RESULT_ACCEPTED and station.last_message("RELAY_STATUS", 1).on
 
         for switch, wanted in [
             (lambda: rig.action.set_relay(0, RelayCommand.ON), 1),

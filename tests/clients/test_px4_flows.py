@@ -97,7 +97,7 @@ def offboard_takeoff_and_land(t):
     t.offboard_to(PositionNedYaw(0.0, 0.0, -2.0, 0.0), NEAR_M, 90)
     t.offboard_land()
     t.wait_until_disarmed(120)
-    assert t.from_home_m() < 2.0
+    assert t.distance_from_home_m() < 2.0
 
 
 def offboard_positions(t):
@@ -110,7 +110,7 @@ def offboard_positions(t):
         t.offboard_to(target, NEAR_M, 10)
     t.offboard_land()
     t.wait_until_disarmed(120)
-    assert t.from_home_m() < 2.0
+    assert t.distance_from_home_m() < 2.0
 
 
 def offboard_attitude(t):
@@ -141,13 +141,13 @@ def offboard_attitude(t):
 def forward_in_position_control(t):
     t.fly_forward_by_sticks(t.manual.start_position_control)
     t.wait_until_disarmed(180)
-    assert t.from_home_m() > 5.0
+    assert t.distance_from_home_m() > 5.0
 
 
 def forward_in_altitude_control(t):
     t.fly_forward_by_sticks(t.manual.start_altitude_control)
     t.wait_until_disarmed(180)
-    assert t.from_home_m() > 5.0
+    assert t.distance_from_home_m() > 5.0
 
 
 def land_without_gnss(height_source):
@@ -201,7 +201,7 @@ def set_current_item_to_jump(t):
     t.wait_until_ready()
 
     def item(seq, command, north, east, z, params=(0.0, 0.0), frame=6):
-        latitude, longitude = t.global_from(north, east)
+        latitude, longitude = t.global_position_at(north, east)
         x, y = (round(latitude * 1e7), round(longitude * 1e7)) if frame == 6 else (0, 0)
         return RawItem(seq, frame, command, int(seq == 0), 1, params[0], params[1], 0.0, 0.0, x, y, z, 0)
 
@@ -251,7 +251,7 @@ def follow(stream_velocity):
                 angle = math.radians(config.follow_angle_deg)
                 assert abs(here[0] - north - 8.0 * math.cos(angle)) < tolerance_m, (k, here, north)
                 assert abs(here[1] - start[1] - 8.0 * math.sin(angle)) < tolerance_m, (k, here)
-            latitude, longitude = t.global_from(north, start[1])
+            latitude, longitude = t.global_position_at(north, start[1])
             velocity = (2.0 if k > 5 else 0.0, 0.0, 0.0) if stream_velocity else (math.nan,) * 3
             me.set_target_location(TargetLocation(latitude, longitude, altitude_m, *velocity))
             t.pass_time(1)
@@ -281,7 +281,7 @@ def follow_velocity_only(t):
     assert math.dist(before, t.position_ned()) < 4.0
     t.action.land()
     t.wait_until_disarmed(300)
-    assert t.from_home_m() < 1.0
+    assert t.distance_from_home_m() < 1.0
 
 
 BARO, GNSS = 0, 1
@@ -339,6 +339,6 @@ def fixture_flights(tmp_path_factory):
 
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize(("name", "scenario"), FLIGHTS)
-def test_wire_px4_flow(flights, name, scenario):
+def test_wire_px4_flow_passes(flights, name, scenario):
     """Checks that the flight passed, as on PX4."""
     flights[name, scenario].result()

@@ -45,7 +45,7 @@ def browser():
         chromium.close()
 
 
-def opened(browser, path, size="desktop", scheme="light"):
+def open_page(browser, path, size="desktop", scheme="light"):
     """Opens a page and collects all problems on it."""
     width, height = SIZES[size]
     page = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True).new_page()
@@ -58,7 +58,7 @@ def opened(browser, path, size="desktop", scheme="light"):
     return page, wrong
 
 
-def keep(page, name):
+def save_screenshot(page, name):
     """Stores a screenshot, if a folder is set."""
     if PICTURES:
         folder = pathlib.Path(PICTURES)
@@ -66,7 +66,7 @@ def keep(page, name):
         page.screenshot(path=str(folder / f"{name}.png"))
 
 
-def moment(page, index):
+def set_slider(page, index):
     """Sets the slider as a user would."""
     page.evaluate(
         "i => { const s = document.getElementById('moment'); s.value = i; s.dispatchEvent(new Event('input', {bubbles: true})); }", index
@@ -76,19 +76,19 @@ def moment(page, index):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", list(SIZES))
 def test_report_opens_without_errors_or_requests(browser, session, size, scheme):
-    page, wrong = opened(browser, session / "report.html", size, scheme)
-    moment(page, int(page.get_attribute("#moment", "max")) * 2 // 3)
-    keep(page, f"{size}-{scheme}-top")
+    page, wrong = open_page(browser, session / "report.html", size, scheme)
+    set_slider(page, int(page.get_attribute("#moment", "max")) * 2 // 3)
+    save_screenshot(page, f"{size}-{scheme}-top")
     for name in ("flight", "pictures", "defects"):
         page.evaluate("id => document.getElementById(id).scrollIntoView({behavior: 'instant'})", name)
-        keep(page, f"{size}-{scheme}-{name}")
+        save_screenshot(page, f"{size}-{scheme}-{name}")
     assert page.evaluate("document.documentElement.scrollWidth") <= SIZES[size][0], "the content must fit the width of the page"
     assert page.locator(".chart canvas").count() == 5
     assert wrong == []
 
 
 def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
-    page, wrong = opened(browser, session / "report.html")
+    page, wrong = open_page(browser, session / "report.html")
     most = int(page.get_attribute("#moment", "max"))
     assert most > 1000
 
@@ -97,9 +97,9 @@ def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
         marks = page.eval_on_selector_all(".chart .now", "nodes => nodes.map(node => node.style.transform)")
         return drones + marks + [page.inner_text("#moment-text"), page.inner_text("#now-speed")]
 
-    moment(page, most // 4)
+    set_slider(page, most // 4)
     early = places()
-    moment(page, most // 2)
+    set_slider(page, most // 2)
     late = places()
     assert len(early) >= 4 + 5 + 2
     assert all(a != b for a, b in zip(early, late)), (early, late)
@@ -116,11 +116,11 @@ def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
 
 def test_marker_matches_the_recorded_position(browser, session):
     """Compares the marker on the plan with the frames that `export` writes, using the drawing's own matrix."""
-    page, _ = opened(browser, session / "report.html")
+    page, _ = open_page(browser, session / "report.html")
     rows = spandrel.run("export", str(session), "--frames", "-").splitlines()
     head = rows[0].split(",")
     index = 500
-    moment(page, index)
+    set_slider(page, index)
     # The page contains every third of the thirty frames per second.
     frame = dict(zip(head, rows[1 + 3 * index].split(",")))
     east, north, up = (float(frame[key]) for key in ("east_m", "north_m", "up_m"))
@@ -133,7 +133,7 @@ def test_marker_matches_the_recorded_position(browser, session):
 
 
 def test_color_choice_applies_to_all_drawings(browser, session):
-    page, wrong = opened(browser, session / "report.html")
+    page, wrong = open_page(browser, session / "report.html")
     shown = "nodes => nodes.filter(node => getComputedStyle(node).display !== 'none').length"
     for chosen in ("by-speed", "by-clearance", "by-path"):
         page.check(f"#{chosen}")
@@ -145,7 +145,7 @@ def test_color_choice_applies_to_all_drawings(browser, session):
 
 
 def test_model_opens_rotates_and_follows_the_slider(browser, session):
-    page, wrong = opened(browser, session / "report.html")
+    page, wrong = open_page(browser, session / "report.html")
     page.click("#model-open")
     canvas = page.wait_for_selector("#model-live canvas")
     picture = "canvas => canvas.toDataURL()"
@@ -154,18 +154,18 @@ def test_model_opens_rotates_and_follows_the_slider(browser, session):
     canvas.focus()
     page.keyboard.press("ArrowLeft")
     second = canvas.evaluate(picture)
-    moment(page, 500)
+    set_slider(page, 500)
     third = canvas.evaluate(picture)
     page.check("#by-speed")
     fourth = canvas.evaluate(picture)
     assert len({first, second, third, fourth}) == 4
     canvas.scroll_into_view_if_needed()
-    keep(page, "model")
+    save_screenshot(page, "model")
     assert wrong == []
 
 
 def test_data_behind_a_figure_can_be_downloaded(browser, session, tmp_path):
-    page, wrong = opened(browser, session / "report.html")
+    page, wrong = open_page(browser, session / "report.html")
     page.click("#tasks summary >> nth=0")
     with page.expect_download() as download:
         page.click("#tasks details[open] a[download]")
@@ -183,14 +183,14 @@ def test_data_behind_a_figure_can_be_downloaded(browser, session, tmp_path):
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_no_violations(browser, session, scheme):
     """Contrast, names, landmarks, keyboard: everything that axe can check, with all tables expanded."""
-    page, _ = opened(browser, session / "report.html", scheme=scheme)
+    page, _ = open_page(browser, session / "report.html", scheme=scheme)
     page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()
 
 
 def test_every_figure_has_its_data_table(browser, session):
-    page, _ = opened(browser, session / "report.html")
+    page, _ = open_page(browser, session / "report.html")
     for section in page.query_selector_all("main > section"):
         name = section.get_attribute("id")
         assert section.query_selector("table") and section.query_selector("a[download]"), name
@@ -201,7 +201,7 @@ def test_report_works_without_scripts_and_prints(browser, session, tmp_path):
     page.goto((session / "report.html").as_uri())
     assert page.locator("#flight svg.map").count() >= 4
     assert not page.is_visible("#moment"), "controls without a function must be hidden"
-    page, wrong = opened(browser, session / "report.html", scheme="dark")
+    page, wrong = open_page(browser, session / "report.html", scheme="dark")
     printed = page.pdf(format="A4")
     assert printed.startswith(b"%PDF") and len(printed) > 100_000
     assert wrong == []
@@ -214,7 +214,7 @@ def test_report_is_reproducible_and_small(session, tmp_path):
     assert (tmp_path / "again.html").read_bytes() == page
 
 
-def test_comparison_report_of_two_sessions(browser, session, tmp_path):
+def test_comparison_report_shows_two_different_flights(browser, session, tmp_path):
     """Two different flights: each must have its own shape, track and drone."""
     spandrel.run("demo", "--seed", "5", "--skill", "trained", "--speed", "max", "--trainee", "other", "--sessions", str(tmp_path / "sessions"))
     other = next(path for path in (tmp_path / "sessions").iterdir() if (path / "telemetry.tlog").is_file())
@@ -223,7 +223,7 @@ def test_comparison_report_of_two_sessions(browser, session, tmp_path):
     wrong = []
     page.on("console", lambda message: wrong.append(message.text))
     page.goto((tmp_path / "both.html").as_uri())
-    keep(page, "comparison")
+    save_screenshot(page, "comparison")
     assert page.locator(".shape-1").count() == 1 and page.locator(".shape-2").count() == 1
     drawn = lambda of: page.locator(of).first.get_attribute("d")
     assert drawn(".shape-1") != drawn(".shape-2"), "a novice and a trained pilot must have different scores"

@@ -84,7 +84,7 @@ def test_wire_mavsdk_receives_all_streams_and_the_identification(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_flies_by_command_and_returns_home(vehicle):
+def test_wire_mavsdk_commands_a_flight_and_a_return(vehicle):
     """Takeoff height, go-to with a heading, a circle, a speed, hold, and return at the return height. The vehicle lands
     and disarms at home."""
     system, telemetry = vehicle
@@ -167,7 +167,7 @@ def test_wire_mavsdk_transfers_500_items(vehicle):
 
 
 @pytest.mark.timeout(600)
-def test_wire_mavsdk_flies_with_sticks_and_their_loss_holds(vehicle):
+def test_wire_mavsdk_flies_with_sticks_and_holds_when_they_are_lost(vehicle):
     """Climbs and flies forward. Released sticks stop the vehicle, lost stick input triggers the failsafe's hold, and
     new stick input takes over."""
     system, telemetry = vehicle

@@ -119,7 +119,7 @@ class Signer:
         """Returns the bytes of a lamp command."""
         return self.mav.command_long_encode(1, 1, mavlink.MAV_CMD_ILLUMINATOR_ON_OFF, 0, on, 0, 0, 0, 0, 0, 0).pack(self.mav)
 
-    def question(self, number):
+    def request_bytes(self, number):
         """Returns the bytes of a request whose response contains the given number."""
         return self.mav.timesync_encode(0, number).pack(self.mav)
 
@@ -137,7 +137,7 @@ def is_acknowledged(wire, frame):
 
     def answered():
         asked.add(number := next(NUMBERS))
-        wire.write(good.question(number))
+        wire.write(good.request_bytes(number))
         heard = ears.parse_buffer(wire.read()) or []
         acknowledged.extend(m for m in heard if m.get_type() == "COMMAND_ACK" and m.command == mavlink.MAV_CMD_ILLUMINATOR_ON_OFF)
         return any(m.get_type() == "TIMESYNC" and m.ts1 in asked for m in heard)

@@ -49,7 +49,7 @@ def test_regress_new_clients_receive_the_autopilot_heartbeat_first(launch):
 
 
 @pytest.mark.timeout(300)
-def test_regress_a_naive_script_flies(launch):
+def test_regress_naive_script_flies(launch):
     """Reads mode, arming and takeoff from any heartbeat, as many tutorials do."""
     port = launch("ardupilot", "--camera", "off", speed=2)
     link = mavutil.mavlink_connection(f"udpin:127.0.0.1:{port}")
@@ -57,7 +57,7 @@ def test_regress_a_naive_script_flies(launch):
     link.mav.request_data_stream_send(link.target_system, link.target_component, M.MAV_DATA_STREAM_ALL, 10, 1)
     guided = link.mode_mapping()["GUIDED"]
 
-    def told(send, holds):
+    def wait_for_change(send, holds):
         """Sends until the next heartbeat shows the change."""
         for _ in range(120):
             send()
@@ -66,8 +66,8 @@ def test_regress_a_naive_script_flies(launch):
                 return
         raise AssertionError("no heartbeat shows the change")
 
-    told(lambda: link.set_mode(guided), lambda beat: beat.custom_mode == guided)
-    told(link.arducopter_arm, lambda beat: beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
+    wait_for_change(lambda: link.set_mode(guided), lambda beat: beat.custom_mode == guided)
+    wait_for_change(link.arducopter_arm, lambda beat: beat.base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED)
     link.mav.command_long_send(link.target_system, link.target_component, M.MAV_CMD_NAV_TAKEOFF, 0, 0, 0, 0, 0, 0, 0, 5)
     # From now on, every heartbeat must be the vehicle's: armed, in GUIDED.
     for _ in range(10):
@@ -78,7 +78,7 @@ def test_regress_a_naive_script_flies(launch):
 
 
 @pytest.mark.timeout(600)
-def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
+def test_regress_dronekit_takes_off_and_flies_to_a_target(launch):
     """Uses DroneKit 2.9.2 as in its own example, then for a mission, which it uploads only through the older
     request."""
     port = launch("ardupilot", "--camera", "off", speed=2)
@@ -123,7 +123,7 @@ def test_regress_dronekit_connects_arms_takes_off_and_goes(launch):
 
 
 @pytest.mark.timeout(600)
-def test_regress_mavpilot_takes_off_goes_and_lands(launch):
+def test_regress_mavpilot_takes_off_flies_and_lands(launch):
     """mavpilot 0.3, which flies PX4 with setpoints in the local frame."""
     port = launch("px4", "--camera", "off", speed=1)
 

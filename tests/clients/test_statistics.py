@@ -64,7 +64,7 @@ def close(ours, theirs, tolerance=CLOSE):
     return math.isclose(ours, float(theirs), rel_tol=tolerance, abs_tol=tolerance)
 
 
-def test_val_distributions(study):
+def test_val_distributions_match_scipy(study):
     people, cohort = study
     for one in cohort["distributions"]:
         values = np.array([PICKS[one["score"]](records[0]) for records in people.values()])
@@ -78,7 +78,7 @@ def test_val_distributions(study):
     assert len(cohort["distributions"]) == 5
 
 
-def test_val_paired_t_tests(study):
+def test_val_paired_t_tests_match_scipy(study):
     people, cohort = study
     group = [records for records in people.values() if len(records) == 5]
     for one in cohort["tests"]:
@@ -94,7 +94,7 @@ def test_val_paired_t_tests(study):
     assert len(cohort["tests"]) == 50
 
 
-def test_val_box_plots(study):
+def test_val_box_plots_match_numpy(study):
     people, cohort = study
     group = [records for records in people.values() if len(records) == 5]
     for one in cohort["boxes"]:
@@ -106,7 +106,7 @@ def test_val_box_plots(study):
         assert len(plot["outliers"]) == len(values) - len(inside)
 
 
-def test_val_homogeneity(study):
+def test_val_homogeneity_test_matches_scipy(study):
     _, cohort = study
     for one in cohort["homogeneity"]:
         theirs = stats.chi2_contingency([one["group"], one["others"]], correction=False)
@@ -115,7 +115,7 @@ def test_val_homogeneity(study):
     assert len(cohort["homogeneity"]) == 5
 
 
-def test_val_correlations(study):
+def test_val_correlations_match_scipy(study):
     people, cohort = study
     pairs = cohort["self_rating"]["people"]
     theirs = stats.spearmanr([p["self_rating"] for p in pairs], [p["measured_pct"] for p in pairs])
@@ -142,7 +142,7 @@ def regression(y, columns):
     return estimates, errors, p, estimates - reach, estimates + reach, explained, stats.f.sf(f, x.shape[1] - 1, df)
 
 
-def test_val_causal_model(study):
+def test_val_causal_model_matches_scipy(study):
     people, cohort = study
     answers = [records[0]["answers"]["answers"] for records in people.values()]
     demand = np.array([np.mean([a[f"{p}.{d}"] for p in PHASES for d in ("mental_demand", "physical_demand")]) for a in answers])
@@ -159,7 +159,7 @@ def test_val_causal_model(study):
         assert close(ours["r_squared"], explained) and close(ours["p"], whole)
 
 
-def test_val_learning_curves(study):
+def test_val_learning_curves_match_scipy(study):
     people, cohort = study
     n = np.arange(1, 6)
     checked = 0
@@ -177,7 +177,7 @@ def test_val_learning_curves(study):
     assert checked > 50
 
 
-def test_val_paired_test_of_the_tasbid_paper(tmp_path):
+def test_val_paired_test_matches_the_tasbid_paper(tmp_path):
     """Eight people whose differences give t = 2.609: the TASBID paper's first test, p = 0.0175 in the upper tail."""
     random = np.random.default_rng(5)
     shape = random.normal(size=8)

@@ -83,7 +83,7 @@ class Player:
             elif "PLAYING" in line:
                 self.ready.set()
 
-    def seen(self):
+    def picture_files(self):
         """Returns the files of the pictures."""
         return sorted(self.folder.glob("seen-*.png"))
 
@@ -121,8 +121,8 @@ def test_val_gstreamer_decodes_the_camera_stream(tmp_path, measured):
         stdin=subprocess.DEVNULL, stderr=open(tmp_path / "view.txt", "w", encoding="utf-8"), env=screen.environment(),
     )
     try:
-        spandrel.wait_for("decoded pictures", lambda: len(player.seen()) > ENOUGH, LIMIT_S)
-        spandrel.wait_for("the window's picture", lambda: is_similar(player.seen()[-2], camera(screen)), LIMIT_S)
+        spandrel.wait_for("decoded pictures", lambda: len(player.picture_files()) > ENOUGH, LIMIT_S)
+        spandrel.wait_for("the window's picture", lambda: is_similar(player.picture_files()[-2], camera(screen)), LIMIT_S)
         link = asking.connect(watcher)
         running = lambda m: m.flags & 1 and m.resolution_h == 320 and m.resolution_v == 240  # noqa: E731
         send = lambda: link.mav.command_long_send(1, 100, mavutil.mavlink.MAV_CMD_REQUEST_MESSAGE, 0, 269, 1, 0, 0, 0, 0, 0)  # noqa: E731

@@ -38,7 +38,7 @@ class Training:
             stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log,
         )
 
-    def printed(self):
+    def output(self):
         """Returns the output so far."""
         return (self.folder / "train.txt").read_text(encoding="utf-8")
 
@@ -69,7 +69,7 @@ class Training:
         """Stops the process and prints its output."""
         spandrel.end(self.process)
         self.log.close()
-        print(self.printed()[-3000:])
+        print(self.output()[-3000:])
 
 
 @pytest.fixture
@@ -110,10 +110,10 @@ def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measu
     action, telemetry = sdk.take_off(system, HEIGHT_M)
     land(action, telemetry)
     session = training.session()
-    wait_for("the scores", lambda: "stays connected: download" in training.printed())
+    wait_for("the scores", lambda: "stays connected: download" in training.output())
     assert (session / "assessment.json").is_file() and (session / "report.html").is_file()
     heartbeats(station, BEATS)
-    assert training.process.poll() is None, training.printed()
+    assert training.process.poll() is None, training.output()
     # Downloads the log of this flight like QGroundControl's Log Download page.
     logs = LogFiles(system)
     entries = logs.get_entries()
@@ -136,7 +136,7 @@ def test_regress_vehicle_stays_connected_after_landing(training, tmp_path, measu
 
 
 @pytest.mark.timeout(600)
-def test_train_once_ends_with_the_scores(tmp_path):
+def test_train_once_quits_after_scoring(tmp_path):
     """With `--once`, for scripts, `train` quits when the session is scored."""
     training = Training(tmp_path, "--once")
     try:

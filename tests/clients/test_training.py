@@ -35,7 +35,7 @@ def folders(sessions):
     return sorted(path for path in sessions.iterdir() if path.is_dir())
 
 
-def test_session_leads_to_a_record_and_a_plan(sessions):
+def test_session_produces_a_record_and_a_plan(sessions):
     place = ["--sessions", str(sessions)]
     session = folders(sessions)[0]
     # Answers half of the questions now and the rest later: saved answers are not requested again.

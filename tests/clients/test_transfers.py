@@ -19,14 +19,14 @@ class Station:
 
     def __init__(self, port, system):
         self.link = mavutil.mavlink_connection(f"udpout:127.0.0.1:{port}", dialect="common", source_system=system)
-        wait_for("the vehicle", self.call, limit_s=LIMIT_S)
+        wait_for("the vehicle", self.exchange_heartbeats, limit_s=LIMIT_S)
 
-    def call(self):
+    def exchange_heartbeats(self):
         """Sends a heartbeat; returns whether the vehicle has sent one."""
         self.link.mav.heartbeat_send(mavlink.MAV_TYPE_GCS, mavlink.MAV_AUTOPILOT_INVALID, 0, 0, mavlink.MAV_STATE_ACTIVE)
         return self.link.recv_match(type="HEARTBEAT", blocking=True, timeout=0.2)
 
-    def hear(self, *kinds):
+    def receive(self, *kinds):
         """Returns the next message of these kinds for this station."""
         for _ in range(10_000):
             message = self.link.recv_match(type=list(kinds), blocking=True, timeout=LIMIT_S)
@@ -48,20 +48,20 @@ class Station:
         """Answers requests until an item number is requested or an acknowledgment arrives. Returns the acknowledgment's
         result."""
         while True:
-            heard = self.hear("MISSION_REQUEST_INT", "MISSION_ACK")
+            heard = self.receive("MISSION_REQUEST_INT", "MISSION_ACK")
             if heard.get_type() == "MISSION_ACK":
                 return heard.type
             if heard.seq == until_seq:
                 return None
             self.item(heard.seq, height)
 
-    def heights(self):
+    def plan_heights(self):
         """Returns the heights in the vehicle's current plan."""
         self.link.mav.mission_request_list_send(1, 1)
         found = []
-        for seq in range(self.hear("MISSION_COUNT").count):
+        for seq in range(self.receive("MISSION_COUNT").count):
             self.link.mav.mission_request_int_send(1, 1, seq)
-            item = self.hear("MISSION_ITEM_INT")
+            item = self.receive("MISSION_ITEM_INT")
             assert item.seq == seq
             found.append(item.z)
         self.link.mav.mission_ack_send(1, 1, mavlink.MAV_MISSION_ACCEPTED)
@@ -79,22 +79,22 @@ def test_wire_mission_protocol_handles_partial_canceled_and_concurrent_transfers
         assert one.answer(None, 5.0) == mavlink.MAV_MISSION_ACCEPTED
         one.link.mav.mission_write_partial_list_send(1, 1, 2, 3)
         assert one.answer(None, 9.0) == mavlink.MAV_MISSION_ACCEPTED
-        assert two.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
+        assert two.plan_heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
         # Canceled in the middle: the plan must not change.
         one.count(4)
         assert one.answer(2, 7.0) is None
         one.link.mav.mission_ack_send(1, 1, mavlink.MAV_MISSION_OPERATION_CANCELLED)
-        assert one.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
+        assert one.plan_heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
         # A second station downloads during the first one's upload, and must not upload.
         one.count(3)
         assert one.answer(1, 8.0) is None
-        assert two.heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
+        assert two.plan_heights() == [5.0, 5.0, 9.0, 9.0, 5.0, 5.0]
         two.count(1)
         assert two.answer(None, 1.0) == mavlink.MAV_MISSION_DENIED
         one.item(1, 8.0)
         assert one.answer(None, 8.0) == mavlink.MAV_MISSION_ACCEPTED
         two.count(1)
         assert two.answer(None, 1.0) == mavlink.MAV_MISSION_ACCEPTED
-        assert one.heights() == [1.0]
+        assert one.plan_heights() == [1.0]
     finally:
         spandrel.end(process)

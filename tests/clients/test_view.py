@@ -43,7 +43,7 @@ def open_view(screen, tmp_path, *args):
     return process, json.loads(said)
 
 
-def contrast(part):
+def brightness_deviation(part):
     """Returns the standard deviation of the brightness, 0 for a blank area."""
     return part.mean(axis=2).std()
 
@@ -64,7 +64,7 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
         (photograph,) = spandrel.wait_for("a screenshot with the HUD", lambda: screenshot_with_hud(screen), DRAW_LIMIT_S)
         height, width, _ = photograph.shape
         left, right = photograph[:, : width // 2], photograph[:, width // 2 :]
-        assert contrast(left) > 10 and contrast(right) > 10, "no view may be blank"
+        assert brightness_deviation(left) > 10 and brightness_deviation(right) > 10, "no view may be blank"
         assert numpy.abs(left - right).mean() > 10, "the views must be different"
         # Battery upper right and speed upper left, only in the camera view on the right.
         rows, columns = display.pixels_of(photograph, GREEN).T
@@ -98,9 +98,9 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
 
         spandrel.wait_for("motors on", armed, DRAW_LIMIT_S)
         screen.key("w", True)
-        asking.hear(link, "LOCAL_POSITION_NED", lambda p: p.z < -2.0)
+        asking.receive(link, "LOCAL_POSITION_NED", lambda p: p.z < -2.0)
         screen.key("w", False)
-        asking.hear(link, "LOCAL_POSITION_NED", lambda p: abs(p.vz) < 0.2)
+        asking.receive(link, "LOCAL_POSITION_NED", lambda p: abs(p.vz) < 0.2)
         window.send_signal(signal.SIGINT)
         assert window.wait(timeout=60) == 0, (tmp_path / "view.txt").read_text(encoding="utf-8")
     finally:
@@ -119,7 +119,7 @@ def camera_view_is_centered(screen):
     empty bar above the inset view."""
     photograph = screen.photograph()
     green, bar = display.pixels_of(photograph, GREEN), screen.size[0] // 4
-    return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and contrast(photograph[: screen.size[1] // 5, : bar - 4]) < 1.0
+    return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and brightness_deviation(photograph[: screen.size[1] // 5, : bar - 4]) < 1.0
 
 
 def is_armable(link):

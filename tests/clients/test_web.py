@@ -89,7 +89,7 @@ class BrowserUser:
         self.page.fill("[name=password]", password)
         self.page.click("main button[type=submit]")
 
-    def keep(self, name):
+    def save_screenshot(self, name):
         if PICTURES:
             folder = pathlib.Path(PICTURES)
             folder.mkdir(parents=True, exist_ok=True)
@@ -119,14 +119,14 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
     for name, path in pages.items():
         answer = person.go(path)
         assert answer.status == (404 if name == "missing" else 200), path
-        person.keep(f"{name}-{size}-{scheme}")
+        person.save_screenshot(f"{name}-{size}-{scheme}")
         # The browser treats a missing page as an error, but this test intends it.
         person.wrong = [wrong for wrong in person.wrong if "404" not in wrong]
         person.check()
     stranger = BrowserUser(browser, server, None, size, scheme)
     stranger.go("/sessions")
     assert stranger.page.url.endswith("/login")
-    stranger.keep(f"login-{size}-{scheme}")
+    stranger.save_screenshot(f"login-{size}-{scheme}")
     stranger.check()
 
 
@@ -221,7 +221,7 @@ def test_questionnaire_language_follows_browser_and_selection(browser, sessions,
         page.click("fieldset >> nth=0 >> label:has-text('de acuerdo') >> nth=0")
         expect(page.locator("[data-status]")).to_contain_text("1 de", timeout=PATIENCE_MS)
         assert given()["language"] == "es" and list(given()["answers"].values()) == [1]
-        person.keep("questions-spanish")
+        person.save_screenshot("questions-spanish")
         person.check()
         page.select_option("select[name=language]", "de")
         page.click("text=Cambiar")
@@ -232,7 +232,7 @@ def test_questionnaire_language_follows_browser_and_selection(browser, sessions,
         page.click("text=Speichern")
         expect(page.locator("main")).to_contain_text("Gespeichert.")
         assert given()["language"] == "de" and sorted(given()["answers"].values()) == [1, 5]
-        person.keep("questions-german")
+        person.save_screenshot("questions-german")
         person.check()
         # A returning user continues in the language of the saved answers, regardless of the browser.
         person.go(f"/sessions/{session.name}/questions")
@@ -323,7 +323,7 @@ def test_two_sessions_can_be_compared(browser, server, sessions):
         away = [float(text.split()[0]) for text in page.locator("[data-now=distance]").all_inner_texts()]
         assert max(away) <= 1.6, "the task starts within 1.5 m of its path, plus one step of the slider"
         assert page.locator("details.numbers table tr").count() > 4
-        person.keep(f"compare-{size}-{scheme}")
+        person.save_screenshot(f"compare-{size}-{scheme}")
         assert page.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
         assert person.wrong == []
 
@@ -385,7 +385,7 @@ def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_pat
         person.page.set_input_files("[name=file]", tmp_path / "job.toml")
         person.page.click("text=Validate and save")
         expect(person.page.locator(".message")).to_contain_text(said)
-        person.keep(f"upload-{said.split()[0]}")
+        person.save_screenshot(f"upload-{said.split()[0]}")
     person.page.click(f"a:has-text('{name}')")
     # The file may contain defect positions, so a trainee sees the job but not the file.
     trainee = BrowserUser(browser, server, "anna")
@@ -424,7 +424,7 @@ def test_recorded_flight_can_be_imported(browser, server, sessions, tmp_path):
         person.page.set_input_files("[name=file]", log)
         person.page.click("text=Import >> nth=-1")
         expect(person.page.locator(".message.good")).to_contain_text("already imported")
-        person.keep("upload-again")
+        person.save_screenshot("upload-again")
     person.page.click(".message a")
     person.page.wait_for_url("**/sessions/2*")
     assert len(session_ids(sessions, "carl")) == 1 and session_ids(sessions, "carlotta") == []
@@ -488,7 +488,7 @@ def test_local_server_requires_login_only_after_a_password_is_set(browser, tmp_p
     person = BrowserUser(browser, server)
     person.go("/")
     expect(person.page.locator("main")).to_contain_text("No sessions yet")
-    person.keep("open")
+    person.save_screenshot("open")
     person.go("/settings")
     person.page.fill("[name=name]", "ada")
     person.page.select_option("[name=role]", "trainee")
@@ -547,7 +547,7 @@ def test_instructor_can_watch_and_intervene(browser, tmp_path):
         for size, scheme in [("desktop", "light"), ("phone", "dark")]:
             page.set_viewport_size({"width": SIZES[size][0], "height": SIZES[size][1]})
             page.emulate_media(color_scheme=scheme)
-            person.keep(f"live-flight-{size}-{scheme}")
+            person.save_screenshot(f"live-flight-{size}-{scheme}")
             person.check()
         events = next(path for path in flight.sessions.iterdir() if path.is_dir()) / "events.jsonl"
         noted = lambda: [e["text"] for e in map(json.loads, events.read_text(encoding="utf-8").splitlines()) if e["event"] == "note"]
@@ -589,7 +589,7 @@ def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
             page.click("text=My flight")
             page.wait_for_function("() => document.querySelector('[data-camera] img').naturalWidth > 0")
             expect(page.locator("[data-state]")).to_have_text("Flight in progress.")
-            person.keep(f"own-flight-{size}-{scheme}")
+            person.save_screenshot(f"own-flight-{size}-{scheme}")
             person.check()
         # When the flight ends, its picture disappears.
         spandrel.end(flight.monitor)

@@ -45,13 +45,13 @@ def logged_in(server, name):
     return browser
 
 
-def of(sessions, trainee):
+def session_folder(sessions, trainee):
     return next(path.name for path in sessions.iterdir() if f"-{trainee}-" in path.name)
 
 
 def forms(sessions):
     """Returns all forms of the server with page, target and fields. Add new forms here."""
-    anna = of(sessions, "anna")
+    anna = session_folder(sessions, "anna")
     return {
         "/logout": ("/sessions", {}),
         "/account": ("/account", {"present": "x" * 12, "new": "y" * 12}),
@@ -100,7 +100,7 @@ def test_attack_tests_cover_every_form(sessions):
 
 def test_script_in_any_field_is_escaped(server, sessions):
     ada = logged_in(server, "ada")
-    anna = of(sessions, "anna")
+    anna = session_folder(sessions, "anna")
     tries = [
         ("/trainees/anna", "/trainees/anna/details", {"age_band": EVIL}),
         ("/settings", "/settings/login", {"name": EVIL, "role": "trainee", "password": webserver.PASSWORD}),
@@ -169,7 +169,7 @@ def test_path_traversal_is_rejected(server, sessions):
     for name in ("telemetry.tlog", "report.html", "secret.toml"):
         (secret / name).write_text("secret-secret", encoding="utf-8")
     ida = logged_in(server, "ida")
-    ways = ["..%2Fsecret", "%2e%2e%2fsecret", "..", "%2e%2e", "....//secret", "..%5Csecret", "%00", f"{of(sessions, 'anna')}%2F..%2F..%2Fsecret",
+    ways = ["..%2Fsecret", "%2e%2e%2fsecret", "..", "%2e%2e", "....//secret", "..%5Csecret", "%00", f"{session_folder(sessions, 'anna')}%2F..%2F..%2Fsecret",
             urllib.parse.quote(str(secret), safe=""), ".%2e%2fsecret", "..%252fsecret"]
     routes = ["/sessions/{}", "/sessions/{}/report", "/sessions/{}/frames.csv", "/sessions/{}/telemetry.tlog", "/sessions/{}/questions",
               "/scenarios/{}", "/assets/{}", "/trainees/{}/export.json", "/compare?first={}&second={}"]
@@ -190,7 +190,7 @@ def test_invalid_and_oversized_uploads_are_rejected(server, sessions):
     ida = logged_in(server, "ida")
     fields = {"trainee": "mallory", "scenario": "drill-hover", "vehicle": "phantom2"}
     before = sorted(path.name for path in sessions.iterdir())
-    real = (sessions / of(sessions, "anna") / "telemetry.tlog").read_bytes()
+    real = (sessions / session_folder(sessions, "anna") / "telemetry.tlog").read_bytes()
     generator = random.Random(SEED)
     for name, body in {
         "nothing": b"", "text": b"no recording", "noise": generator.randbytes(200_000), "half a record": real[:15],
@@ -225,7 +225,7 @@ def test_invalid_and_oversized_uploads_are_rejected(server, sessions):
 
 def test_login_does_not_reveal_user_names(server, sessions):
     anna = logged_in(server, "anna")
-    ben = of(sessions, "ben")
+    ben = session_folder(sessions, "ben")
     for route in ["/sessions/{}", "/sessions/{}/report", "/sessions/{}/questions", "/trainees/{}", "/trainees/{}/export.json"]:
         there = anna.ask(route.format("ben" if "trainees" in route else ben))
         nowhere = anna.ask(route.format("nobody"))
@@ -294,7 +294,7 @@ def test_logins_are_throttled(sessions):
 
 def test_security_headers_are_set_on_every_response(server, sessions):
     ada = logged_in(server, "ada")
-    for path in ["/sessions", f"/sessions/{of(sessions, 'anna')}/report", "/assets/style.css", "/none", "/login", "/trainees/anna/export.json"]:
+    for path in ["/sessions", f"/sessions/{session_folder(sessions, 'anna')}/report", "/assets/style.css", "/none", "/login", "/trainees/anna/export.json"]:
         _, headers, _ = ada.ask(path)
         assert headers["X-Content-Type-Options"] == "nosniff" and headers["X-Frame-Options"] == "DENY", path
         assert headers["Referrer-Policy"] == "same-origin", path
@@ -335,7 +335,7 @@ def test_dns_rebinding_is_rejected(tmp_path):
         server.close()
 
 
-def test_tls_with_certificate_files(tmp_path):
+def test_server_uses_tls_certificate_files(tmp_path):
     import ssl
     import urllib.request
 

@@ -118,7 +118,7 @@ def test_slow_uploads_do_not_block_other_requests(sessions):
         server.close()
 
 
-def test_server_behind_a_proxy_accepts_only_the_proxy(sessions):
+def test_server_behind_a_proxy_accepts_only_proxied_requests(sessions):
     server = webserver.Server(sessions, "--behind-proxy", "--trusted-proxy", "127.0.3.0/24", "--host", "trainer.example")
     host, port = host_of(server)
 

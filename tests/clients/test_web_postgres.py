@@ -34,7 +34,7 @@ def serve(sessions, database):
     return webserver.Server(sessions, "--database", database.url)
 
 
-def listed(browser):
+def listed_sessions(browser):
     status, _, text = browser.ask("/sessions")
     assert status == 200, text
     return {name for name in ("anna", "ben", "carl") if f"/trainees/{name}" in text}
@@ -51,7 +51,7 @@ def test_users_see_only_their_own_data(sessions, database):
         his = next(path.name for path in sessions.iterdir() if "-ben-" in path.name)
         assert anna.ask(f"/sessions/{hers}")[0] == 200 and anna.ask(f"/sessions/{his}")[0] == 404
         assert ida.ask(f"/sessions/{his}")[0] == 200
-        assert listed(ida) == {"anna", "ben"}
+        assert listed_sessions(ida) == {"anna", "ben"}
         assert not (sessions / "records.sqlite").exists(), "records must be stored only in PostgreSQL"
     finally:
         server.close()
@@ -68,9 +68,9 @@ def test_servers_and_stations_share_one_database(sessions, database, tmp_path):
         station = tmp_path / "station"
         webserver.flown(station, "carl")
         spandrel.run("records", "import", "--sessions", str(station), "--database", database.url)
-        assert listed(here) == listed(there) == {"anna", "ben", "carl"}
+        assert listed_sessions(here) == listed_sessions(there) == {"anna", "ben", "carl"}
         status, _, _ = there.post("/trainees/carl", "/trainees/carl/erase", {"again": "carl"})
-        assert status == 303 and listed(here) == {"anna", "ben"}
+        assert status == 303 and listed_sessions(here) == {"anna", "ben"}
         records = json.loads(spandrel.run("records", "list", "--json", "--sessions", str(station), "--database", database.url))
         assert {record["trainee"] for record in records} == {"anna", "ben"}
         # The station still has Carl's folder, but neither its import nor its rebuild nor a server restores the session.
@@ -81,7 +81,7 @@ def test_servers_and_stations_share_one_database(sessions, database, tmp_path):
         try:
             told = lambda: "was erased" in pathlib.Path(third.log.name).read_text(encoding="utf-8")
             spandrel.wait_for("the third server notices the erasure", told)
-            assert listed(here) == listed(there) == {"anna", "ben"}
+            assert listed_sessions(here) == listed_sessions(there) == {"anna", "ben"}
         finally:
             third.close()
         assert "erased 'carl': 0 sessions" in spandrel.run("records", "erase", "--trainee", "carl", "--yes", *place)
@@ -106,7 +106,7 @@ def test_server_reports_and_survives_a_database_outage(sessions, database):
             assert status == 500 and "spandrel@" not in text, (status, text)
         finally:
             database.start()
-        assert listed(ida) >= {"anna", "ben"}, "the browser session must survive the outage"
+        assert listed_sessions(ida) >= {"anna", "ben"}, "the browser session must survive the outage"
     finally:
         server.close()
 

@@ -3,7 +3,7 @@
 use spandrel_testkit::shipped::text;
 
 #[test]
-fn regress_crashed_vehicle_stays_by_default_without_a_session() {
+fn regress_sim_does_not_respawn_by_default() {
     let help = std::process::Command::new(env!("CARGO_BIN_EXE_spandrel")).args(["sim", "--help"]).output().unwrap();
     let help = String::from_utf8_lossy(&help.stdout).into_owned();
     let rule = help.split("--after-crash").nth(1).expect("the option must exist");

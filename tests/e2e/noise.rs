@@ -15,7 +15,7 @@ const MAX_DATAGRAM_BYTES: usize = 65_507;
 const EXIT_TIMEOUT: Duration = Duration::from_secs(30);
 
 #[test]
-fn wire_noise_on_the_socket_is_counted_and_has_no_effect() {
+fn wire_noise_on_the_socket_is_counted_and_ignored() {
     let mut sim = Command::new(env!("CARGO_BIN_EXE_spandrel"))
         .args([
             "sim",

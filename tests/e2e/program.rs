@@ -107,7 +107,7 @@ fn regress_long_problem_lists_are_truncated() {
 }
 
 #[test]
-fn wire_exports_use_standard_output_and_logs_do_not() {
+fn wire_only_exports_use_standard_output() {
     let (code, out, _) =
         code_and_output(&spandrel(&["export", "two-bridges", "--seed", "7", "--scenario", "-", "--log", "trace"]));
     assert_eq!(code, Some(0));

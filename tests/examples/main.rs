@@ -23,7 +23,7 @@ fn val_custom_job_example_builds() {
 }
 
 #[test]
-fn val_missing_log_is_an_error_and_no_arguments_print_help() {
+fn val_score_tlog_example_rejects_a_missing_log() {
     score_tlog::score(&[]).unwrap();
     let missing = ["none.tlog", "none.toml", "none.toml"].map(str::to_owned);
     assert!(score_tlog::score(&missing).is_err());

@@ -46,7 +46,7 @@ impl CrateFiles {
     }
 
     /// Returns the import cycles, each as lines `file -> files in the same cycle that it imports`.
-    pub fn circles(&self) -> Vec<Vec<String>> {
+    pub fn find_import_cycles(&self) -> Vec<Vec<String>> {
         let edges: Edges = self.modules.keys().map(|path| (path.clone(), self.imported_files(path))).collect();
         let reachable: Edges = edges.keys().map(|path| (path.clone(), reachable(path, &edges))).collect();
         let mut seen = BTreeSet::new();
@@ -170,51 +170,51 @@ fn items(code: &[Token]) -> BTreeSet<String> {
 mod tests {
     use super::*;
 
-    fn circles(files: &[(&str, &str)]) -> Vec<Vec<String>> {
-        CrateFiles::read(files.iter().copied()).circles()
+    fn find_import_cycles(files: &[(&str, &str)]) -> Vec<Vec<String>> {
+        CrateFiles::read(files.iter().copied()).find_import_cycles()
     }
 
     #[test]
     fn exact_files_that_import_each_other_form_a_cycle() {
         let files =
             [("lib.rs", "mod a; mod b;"), ("a.rs", "use crate::b::B; pub struct A;"), ("b.rs", "pub struct B(super::a::A);")];
-        assert_eq!(circles(&files), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
+        assert_eq!(find_import_cycles(&files), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
         let files = [("lib.rs", "mod a; mod b;"), ("a.rs", "use crate::b::B; pub struct A;"), ("b.rs", "pub struct B;")];
-        assert!(circles(&files).is_empty());
+        assert!(find_import_cycles(&files).is_empty());
     }
 
     #[test]
     fn exact_imported_names_count_for_the_defining_file() {
         let handed_on = [("a/mod.rs", "mod b; mod c; pub use c::C;"), ("a/b.rs", "use super::C;"), ("a/c.rs", "pub struct C;")];
-        assert!(circles(&handed_on).is_empty());
+        assert!(find_import_cycles(&handed_on).is_empty());
         let defined = [("a/mod.rs", "mod b; use b::B; pub struct C;"), ("a/b.rs", "use super::C; pub struct B;")];
-        assert_eq!(circles(&defined), [["a/mod.rs -> a/b.rs", "a/b.rs -> a/mod.rs"]]);
+        assert_eq!(find_import_cycles(&defined), [["a/mod.rs -> a/b.rs", "a/b.rs -> a/mod.rs"]]);
         let through_glob = [
             ("a/mod.rs", "mod b; mod c; pub use c::*;"),
             ("a/b.rs", "use super::C;"),
             ("a/c.rs", "use super::b::B; pub enum C {}"),
         ];
-        assert!(circles(&through_glob).is_empty(), "b defines no B");
+        assert!(find_import_cycles(&through_glob).is_empty(), "b defines no B");
     }
 
     #[test]
     fn exact_imported_modules_count_where_they_are_used() {
         let used = [("a.rs", "use crate::b; fn f() { b::g() }"), ("b.rs", "pub fn g() { crate::a::f() }")];
-        assert_eq!(circles(&used), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
+        assert_eq!(find_import_cycles(&used), [["a.rs -> b.rs", "b.rs -> a.rs"]]);
         let unused = [("a.rs", "use crate::b; fn f() {}"), ("b.rs", "pub fn g() { crate::a::f() }")];
-        assert!(circles(&unused).is_empty());
+        assert!(find_import_cycles(&unused).is_empty());
         let renamed = [("a.rs", "use crate::b::g as h; fn f() { h() }"), ("b.rs", "pub fn g() { crate::a::f() }")];
-        assert_eq!(circles(&renamed).len(), 1);
+        assert_eq!(find_import_cycles(&renamed).len(), 1);
     }
 
     #[test]
     fn exact_test_modules_do_not_form_cycles() {
         let inside =
             [("a.rs", "fn f() {} #[cfg(test)] mod tests { use crate::b::g; }"), ("b.rs", "pub fn g() { crate::a::f() }")];
-        assert!(circles(&inside).is_empty());
+        assert!(find_import_cycles(&inside).is_empty());
         let beside =
             [("a.rs", "#[cfg(test)]\nmod checks; fn f() { self::checks::g() }"), ("a/checks.rs", "pub fn g() { super::f() }")];
-        assert!(circles(&beside).is_empty());
+        assert!(find_import_cycles(&beside).is_empty());
     }
 
     #[test]
@@ -225,6 +225,6 @@ mod tests {
             ("c.rs", "use crate::a; pub struct C; fn f() -> a::A { a::A }"),
             ("d.rs", "use crate::a::A; use std::fmt::Debug; pub struct D;"),
         ];
-        assert_eq!(circles(&files), [["a.rs -> b.rs", "b.rs -> c.rs", "c.rs -> a.rs"]]);
+        assert_eq!(find_import_cycles(&files), [["a.rs -> b.rs", "b.rs -> c.rs", "c.rs -> a.rs"]]);
     }
 }

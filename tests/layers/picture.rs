@@ -32,7 +32,7 @@ pub fn svg(imports: &Imports) -> String {
          <path d=\"M0 0L8 4L0 8z\" fill=\"#555\"/></marker></defs>\n\
          <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n"
     );
-    let direct = direct(imports);
+    let direct = direct_imports(imports);
     let arrows: Vec<(Arrow, usize)> = direct.iter().map(|(edge, count)| (arrow(*edge, &direct, &centers), *count)).collect();
     for (((x1, y1), (x2, y2)), _) in &arrows {
         let bend = (y1 + y2) / 2;
@@ -112,7 +112,7 @@ fn centers(rows: &[Vec<&'static str>], imports: &Imports) -> BTreeMap<&'static s
 }
 
 /// Returns the imports without those that are also reachable through an intermediate layer.
-fn direct(imports: &Imports) -> Imports {
+fn direct_imports(imports: &Imports) -> Imports {
     let mut reached: BTreeSet<(&str, &str)> = imports.keys().copied().collect();
     for middle in layers() {
         let (into, out): (Vec<&str>, Vec<&str>) = (
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn exact_only_direct_imports_have_arrows() {
         let imports = Imports::from([(("mav", "base"), 3), (("telemetry", "mav"), 2), (("telemetry", "base"), 9)]);
-        assert_eq!(direct(&imports), Imports::from([(("mav", "base"), 3), (("telemetry", "mav"), 2)]));
+        assert_eq!(direct_imports(&imports), Imports::from([(("mav", "base"), 3), (("telemetry", "mav"), 2)]));
     }
 
     #[test]

@@ -43,7 +43,7 @@ const ALLOWED_IMPORTS: &[(&str, &[&str])] = &[
 ];
 
 /// Paths that only the main program may use: sockets, files, clocks, threads, processes, terminals.
-const OUTSIDE: &[&[&str]] = &[
+const OUTSIDE_WORLD_PATHS: &[&[&str]] = &[
     &["std", "net"],
     &["std", "fs"],
     &["std", "thread"],
@@ -65,11 +65,11 @@ const OUTSIDE: &[&[&str]] = &[
     &["jiff", "ZonedDateTime", "now"],
 ];
 /// Items in these modules of `std` that are plain data rather than clocks or sockets.
-const PLAIN_DATA: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];
+const PLAIN_DATA_ITEMS: &[&[&str]] = &[&["std", "time", "Duration"], &["std", "net", "IpAddr"], &["std", "net", "SocketAddr"]];
 /// Items of the physics module that the autopilot may use: actuator commands, not the true state.
-const ACTUATION: &[&str] = &["Actuators", "MAX_ROTORS"];
+const ACTUATION_ITEMS: &[&str] = &["Actuators", "MAX_ROTORS"];
 /// Modules of the simulator that a real autopilot would replace. The equipment interface must not depend on them.
-const AUTOPILOT_SIDE: &[&[&str]] = &[
+const AUTOPILOT_MODULES: &[&[&str]] = &[
     &["autopilot"],
     &["backend"],
     &["endpoint", "vehicle_link"],
@@ -201,7 +201,10 @@ fn module_of(file: &str) -> Option<(&'static str, Vec<String>)> {
 }
 
 fn violated_rule(folder: &str, layer: &str, module: &[String], path: &[&str]) -> Option<String> {
-    if folder != PROGRAM && OUTSIDE.iter().any(|outside| path.starts_with(outside)) && !PLAIN_DATA.contains(&path) {
+    if folder != PROGRAM
+        && OUTSIDE_WORLD_PATHS.iter().any(|outside| path.starts_with(outside))
+        && !PLAIN_DATA_ITEMS.contains(&path)
+    {
         return Some("ONLY THE PROGRAM AND THE PYTHON PACKAGE TOUCH THE OUTSIDE WORLD".into());
     }
     let target = target_of(folder, path)?;
@@ -212,12 +215,13 @@ fn violated_rule(folder: &str, layer: &str, module: &[String], path: &[&str]) ->
         return Some(format!("{layer} must not use {target}"));
     }
     let in_autopilot = folder == "sitl" && module.first().is_some_and(|first| first == "autopilot");
-    let truth = target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION.contains(name));
+    let truth =
+        target == "sitl" && rest.first() == Some(&"physics") && !rest.get(1).is_some_and(|name| ACTUATION_ITEMS.contains(name));
     if in_autopilot && truth {
         return Some("THE AUTOPILOT NEVER SEES THE TRUE STATE".into());
     }
     let in_payload = folder == "sitl" && module.iter().map(String::as_str).take(2).eq(["endpoint", "payload"]);
-    let autopilot = target == "sitl" && AUTOPILOT_SIDE.iter().any(|side| rest.starts_with(side));
+    let autopilot = target == "sitl" && AUTOPILOT_MODULES.iter().any(|side| rest.starts_with(side));
     (in_payload && autopilot).then(|| "THE EQUIPMENT INTERFACE NEVER SEES THE AUTOPILOT".into())
 }
 
@@ -230,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_simulator_and_monitor_side_are_independent() {
+    fn exact_simulator_and_monitor_do_not_import_each_other() {
         assert_eq!(check("crates/monitor/src/sidecar.rs", "use spandrel_sitl::sim::Sim;"), 1);
         assert_eq!(check("crates/training/src/report/mod.rs", "use spandrel_sitl::{sim::Sim, endpoint};"), 2);
         assert_eq!(check("crates/sitl/src/sim.rs", "fn f() { spandrel_monitor::assess(); }"), 1);
@@ -247,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_program_layers_import_only_lower_layers_and_never_the_command_line() {
+    fn exact_program_layers_import_only_lower_layers() {
         assert_eq!(check("src/io/links.rs", "use crate::errors::AppError; use super::net::SocketHub;"), 0);
         assert_eq!(check("src/web/server.rs", "use crate::{errors::AppError, io::stop, records::Database};"), 0);
         assert_eq!(check("src/cli/serve.rs", "use crate::web::WebServer; use crate::window;"), 0);

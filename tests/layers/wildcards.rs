@@ -11,7 +11,7 @@ pub fn enums(code: &[Token]) -> BTreeSet<String> {
 }
 
 /// Returns the catch-all arms in matches on one of `enums`, each as a line number and the enum's name.
-pub fn found(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
+pub fn find_catch_all_arms(code: &[Token], enums: &BTreeSet<String>) -> Vec<(usize, String)> {
     let implementations = impl_blocks(code);
     let mut out = Vec::new();
     for at in (0..code.len()).filter(|at| code[*at].1 == "match") {
@@ -142,7 +142,7 @@ mod tests {
 
     fn lines(source: &str) -> Vec<usize> {
         let code = tokens(&code_only(source));
-        found(&code, &enums(&code)).into_iter().map(|(line, _)| line).collect()
+        find_catch_all_arms(&code, &enums(&code)).into_iter().map(|(line, _)| line).collect()
     }
 
     #[test]

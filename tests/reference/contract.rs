@@ -2,7 +2,7 @@
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
-use spandrel_mavlink::contract::named_values::Named;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::{VERSION, cue};
 use spandrel_mavlink::dialect::MavMessage;
 
@@ -16,16 +16,16 @@ fn exact_contract_page_lists_every_name_code_and_bit() {
     let has = |row: &str| assert!(page.contains(row), "docs/src/reference/contract.md lacks {row:?}");
     has(&format!("Version {VERSION}."));
     let named = [
-        Named::Contact(ContactKind::None),
-        Named::Hits(0),
-        Named::Respawns(0),
-        Named::Traffic(0),
-        Named::Seed(0),
-        Named::ScenarioCrc(0),
-        Named::ClearanceM(0.0),
-        Named::Lux(0.0),
-        Named::Pace(1.0),
-        Named::Cues(0),
+        NamedValue::Contact(ContactKind::None),
+        NamedValue::Hits(0),
+        NamedValue::Respawns(0),
+        NamedValue::Traffic(0),
+        NamedValue::Seed(0),
+        NamedValue::ScenarioCrc(0),
+        NamedValue::ClearanceM(0.0),
+        NamedValue::Lux(0.0),
+        NamedValue::Pace(1.0),
+        NamedValue::Cues(0),
     ];
     for value in named {
         let kind = if matches!(value.message(0), MavMessage::NAMED_VALUE_INT(_)) { "int" } else { "float" };

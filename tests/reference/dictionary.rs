@@ -111,8 +111,8 @@ fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     nothing.fly((0.0, 0.0, 10.0), 2.0);
     let mut seen = BTreeSet::new();
     for tape in [full, nothing] {
-        let graded = assess_log(&tape.log(0), &one_task(), &vehicle(), test_survey).unwrap();
-        paths(&serde_json::to_value(&graded.assessment).unwrap(), "", &mut seen);
+        let assessed_session = assess_log(&tape.log(0), &one_task(), &vehicle(), test_survey).unwrap();
+        paths(&serde_json::to_value(&assessed_session.assessment).unwrap(), "", &mut seen);
     }
     let documented: BTreeSet<String> = FIELDS.iter().map(|field| field.path.to_owned()).collect();
     assert_eq!(documented.len(), FIELDS.len(), "a field is documented twice");

@@ -51,7 +51,7 @@ fn streams() -> String {
     table(&["message", "id", "component", "ground station (Hz)", "SDK (Hz)", "payload (Hz)", "interface"], rows)
 }
 
-fn handled() -> String {
+fn handled_messages() -> String {
     let mut rows: Vec<(String, u32)> = HANDLED.iter().map(|id| (name(*id), *id)).collect();
     rows.sort();
     table(&["message", "id"], rows.into_iter().map(|(name, id)| vec![name, id.to_string()]))
@@ -71,7 +71,11 @@ fn exact_messages_page_matches_the_code() {
         asks.join(" or ")
     );
     let acts = "The vehicle handles these messages. It forwards all other messages to the links of the target.";
-    let page =
-        format!("{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}", page_head("Messages", &about), streams(), handled());
+    let page = format!(
+        "{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}",
+        page_head("Messages", &about),
+        streams(),
+        handled_messages()
+    );
     check("messages.md", &page);
 }

@@ -156,7 +156,7 @@ struct MonitoredFlight {
     station: Station,
     monitor: Monitor,
     site: Site,
-    pad_up_m: f64,
+    pad_height_m: f64,
     sum_of_squares: [f64; 2],
     samples: u32,
     cues_before: i32,
@@ -189,13 +189,13 @@ impl MonitoredFlight {
         assert_eq!(station.command(1, MavCmd::MAV_CMD_MISSION_START, [0.0; 7]), MavResult::MAV_RESULT_ACCEPTED);
         assert_eq!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), MavResult::MAV_RESULT_ACCEPTED);
         let job = scenario(name);
-        let pad_up_m = job.ground_team.pad_m.up();
+        let pad_height_m = job.ground_team.pad_m.up();
         let site = Site::build(&job, seed);
         Self {
             station,
             monitor,
             site,
-            pad_up_m,
+            pad_height_m,
             sum_of_squares: [0.0; 2],
             samples: 0,
             cues_before: 0,
@@ -245,7 +245,7 @@ impl MonitoredFlight {
 
     fn measure(&mut self) {
         let rigid = &self.station.sim.truth().rigid;
-        if rigid.position_m.enu().up() - self.pad_up_m < MIN_RATE_HEIGHT_M {
+        if rigid.position_m.enu().up() - self.pad_height_m < MIN_RATE_HEIGHT_M {
             return;
         }
         let [roll, pitch, _] = rigid.rates_rad_s.array().map(f64::to_degrees);
@@ -300,10 +300,10 @@ fn regress_exported_plan_flies_smoothly_without_cues() {
 #[test]
 fn prop_traffic_respects_the_minimum_lane_distance() {
     /// Rounding tolerance, m.
-    const ROUNDING_M: f64 = 1e-6;
+    const ROUNDING_TOLERANCE_M: f64 = 1e-6;
     /// Range of the queries, m, and time over which traffic is observed.
     const QUERY_RANGE_M: f64 = 6.0;
-    const OBSERVATION_S: i64 = 60;
+    const OBSERVATION_TIME_S: i64 = 60;
     let job = scenario("two-bridges");
     let mut met = 0;
     for seed in [1, 7] {
@@ -311,10 +311,13 @@ fn prop_traffic_respects_the_minimum_lane_distance() {
         for (east, north, over) in (0..60).map(|k| (f64::from(k) * 2.0 - 60.0, f64::from(k % 7) * 2.0 - 6.0, f64::from(k % 5))) {
             let point: Vec3<Enu> = Vec3::new(east, north, 36.0 + over);
             let least_m = site.traffic().min_distance_over_time_m(point, QUERY_RANGE_M);
-            for ms in (0..OBSERVATION_S * 1_000).step_by(100) {
+            for ms in (0..OBSERVATION_TIME_S * 1_000).step_by(100) {
                 let Some(near) = site.traffic().nearest(point, QUERY_RANGE_M, SimTime::from_ms(ms)) else { continue };
                 met += 1;
-                assert!(least_m.is_some_and(|m| m <= near.distance_m + ROUNDING_M), "{point:?}: {least_m:?} and {near:?}");
+                assert!(
+                    least_m.is_some_and(|m| m <= near.distance_m + ROUNDING_TOLERANCE_M),
+                    "{point:?}: {least_m:?} and {near:?}"
+                );
             }
         }
     }

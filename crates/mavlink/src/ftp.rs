@@ -157,7 +157,7 @@ impl FtpPacket {
 
     /// Returns the data covered by the size field; `None` if the size exceeds the packet capacity.
     #[must_use]
-    pub fn sized(&self) -> Option<&[u8]> {
+    pub fn data_in_use(&self) -> Option<&[u8]> {
         self.data.get(..usize::from(self.size))
     }
 
@@ -218,9 +218,9 @@ mod tests {
     fn exact_oversized_ftp_packet_has_no_data() {
         let mut packet = FtpPacket::read(&[0; PAYLOAD]);
         packet.size = DATA_MAX as u8;
-        assert_eq!(packet.sized().map(<[u8]>::len), Some(DATA_MAX));
+        assert_eq!(packet.data_in_use().map(<[u8]>::len), Some(DATA_MAX));
         packet.size += 1;
-        assert_eq!(packet.sized(), None);
+        assert_eq!(packet.data_in_use(), None);
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use super::codec::{Encoder, ReceivedFrame};
 
 /// Message ID of TUNNEL.
-const TUNNEL: u32 = 385;
+const TUNNEL_MESSAGE_ID: u32 = 385;
 /// Payload type of notes; types 32768 and above are reserved for private use.
 const NOTE_PAYLOAD_TYPE: u16 = 33_077;
 /// Number of bytes before the text: payload type, target system, target component, text length.
@@ -20,13 +20,13 @@ pub fn encode(encoder: &mut Encoder, system: u8, component: u8, text: &str) -> V
     let [low, high] = NOTE_PAYLOAD_TYPE.to_le_bytes();
     let mut payload = vec![low, high, system, component, u8::try_from(text.len()).unwrap_or(0)];
     payload.extend_from_slice(text.as_bytes());
-    encoder.encode_payload(TUNNEL, &payload)
+    encoder.encode_payload(TUNNEL_MESSAGE_ID, &payload)
 }
 
 /// Returns the target (system and component) and the text of a note; `None` if the frame is not a note.
 #[must_use]
 pub fn decode(frame: &ReceivedFrame) -> Option<((u8, u8), String)> {
-    if frame.message_id != TUNNEL {
+    if frame.message_id != TUNNEL_MESSAGE_ID {
         return None;
     }
     let payload = frame.payload(HEADER_LEN + MAX_TEXT_LEN);
@@ -67,11 +67,11 @@ mod tests {
     #[test]
     fn wire_other_tunnel_payloads_are_not_notes() {
         let mut encoder = Encoder::new(1, 1);
-        let other = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[1, 0, 1, 191, 2, b'h', b'i'])).remove(0);
+        let other = Decoder::new().datagram(&encoder.encode_payload(TUNNEL_MESSAGE_ID, &[1, 0, 1, 191, 2, b'h', b'i'])).remove(0);
         assert_eq!(decode(&other), None);
         // The length field exceeds the payload.
         let [low, high] = NOTE_PAYLOAD_TYPE.to_le_bytes();
-        let long = Decoder::new().datagram(&encoder.encode_payload(TUNNEL, &[low, high, 1, 191, 200, b'h'])).remove(0);
+        let long = Decoder::new().datagram(&encoder.encode_payload(TUNNEL_MESSAGE_ID, &[low, high, 1, 191, 200, b'h'])).remove(0);
         assert_eq!(decode(&long), None);
     }
 }

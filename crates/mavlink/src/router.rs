@@ -8,7 +8,7 @@ use mavlink::{MavlinkVersion, Message};
 use std::collections::BTreeMap;
 
 /// Message ID of SETUP_SIGNING, which contains a key and is therefore never forwarded.
-const SETUP_SIGNING: u32 = 256;
+const SETUP_SIGNING_MESSAGE_ID: u32 = 256;
 /// Maximum number of senders stored, so that a link with thousands of spoofed senders cannot exhaust memory.
 const MAX_SENDERS: usize = 1_024;
 
@@ -52,7 +52,7 @@ impl<L: Copy + Ord> Router<L> {
     /// Returns the links in `all` that should receive a frame from link `from`.
     #[must_use]
     pub fn targets_of(&self, from: L, frame: &ReceivedFrame, all: &[L]) -> Vec<L> {
-        if frame.message_id == SETUP_SIGNING {
+        if frame.message_id == SETUP_SIGNING_MESSAGE_ID {
             return Vec::new();
         }
         let (system, component) = target(frame);
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn wire_broadcasts_reach_other_links_and_addressed_frames_their_target() {
+    fn wire_broadcasts_and_addressed_frames_reach_the_correct_links() {
         let mut router = Router::new();
         let beat = MavMessage::HEARTBEAT(HEARTBEAT_DATA::default());
         router.note(1, &frame(255, 190, &beat));

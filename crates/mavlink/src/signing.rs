@@ -17,7 +17,7 @@ const FLAG_SIGNED: u8 = 0x01;
 /// Length of the signature block (link ID, 48-bit timestamp, 48-bit signature), bytes.
 const SIGNATURE_LEN: usize = 13;
 /// Message ID of RADIO_STATUS, which telemetry radios send unsigned because they have no key.
-const RADIO_STATUS: u32 = 109;
+const RADIO_STATUS_MESSAGE_ID: u32 = 109;
 /// Maximum age of a new stream's first timestamp, in timestamp units (one minute).
 const MAX_NEW_STREAM_LAG: u64 = 6_000_000;
 /// Maximum amount by which a timestamp may be ahead of a valid clock, in timestamp units (one day, to tolerate a wrong
@@ -217,7 +217,7 @@ impl Signing {
 /// Returns whether a link that requires signatures accepts a frame with this verdict.
 #[must_use]
 pub fn is_accepted(frame: &ReceivedFrame, verdict: SignatureVerdict) -> bool {
-    verdict == SignatureVerdict::Good || (verdict == SignatureVerdict::Unsigned && frame.message_id == RADIO_STATUS)
+    verdict == SignatureVerdict::Good || (verdict == SignatureVerdict::Unsigned && frame.message_id == RADIO_STATUS_MESSAGE_ID)
 }
 
 #[cfg(test)]
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_wrong_key_altered_and_unsigned_frames_are_rejected() {
+    fn exact_forged_altered_and_unsigned_frames_are_rejected() {
         let (mut ours, mut theirs) = pair();
         let good = ours.sign(frame(1), NOW);
         let mut stranger = Signing::new(SigningKey::from_passphrase("brigde"), 3, NOW);
@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_streams_are_separate_and_bounded() {
+    fn exact_streams_are_independent_and_bounded() {
         let (mut ours, mut theirs) = pair();
         let early = ours.sign(frame(1), NOW);
         let late = ours.sign(frame(2), NOW + 500);
@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_frames_from_before_a_restart_are_rejected_after_it() {
+    fn exact_old_frames_are_rejected_after_a_restart() {
         let (mut ours, mut theirs) = pair();
         let before = read(&ours.sign(frame(1), NOW));
         assert_eq!(theirs.verify(&before, NOW), SignatureVerdict::Good);

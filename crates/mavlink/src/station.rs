@@ -8,9 +8,9 @@ use super::units::deg_e7;
 use spandrel_model::geodesy::Geo;
 
 /// PX4's main mode number for "Position" (POSCTL).
-const PX4_POSITION: f32 = 3.0;
+const PX4_POSITION_MODE: f32 = 3.0;
 /// ArduCopter's mode number for "PosHold".
-const COPTER_POSHOLD: f32 = 16.0;
+const COPTER_POSHOLD_MODE: f32 = 16.0;
 
 /// Creates a ground station heartbeat.
 #[must_use]
@@ -85,8 +85,8 @@ pub fn params<const N: usize>(given: &[f32]) -> [f32; N] {
 #[must_use]
 pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
     let (command, [a, b]) = match autopilot {
-        Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION]),
-        Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD]),
+        Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION_MODE]),
+        Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD_MODE]),
         _ => (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32, 0.0]),
     };
     (command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0])

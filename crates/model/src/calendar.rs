@@ -20,7 +20,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_utc_of_a_known_time() {
+    fn exact_known_time_is_formatted_as_utc() {
         let (readable, compact) = utc(1_700_000_000_000_000);
         assert_eq!(readable, "2023-11-14T22:13:20Z");
         assert_eq!(compact, "20231114T221320Z");

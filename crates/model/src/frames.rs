@@ -398,7 +398,7 @@ mod tests {
     use super::*;
 
     /// Tolerance for rounding errors of a few f64 operations, dimensionless.
-    const ROUNDING: f64 = 1e-14;
+    const ROUNDING_TOLERANCE: f64 = 1e-14;
 
     #[test]
     fn exact_ned_and_enu_conversions_are_inverse() {
@@ -411,7 +411,7 @@ mod tests {
     fn exact_yaw_of_90_degrees_points_the_nose_east() {
         let attitude = Rotation::from_euler(0.0, 0.0, math::FRAC_PI_2);
         let nose = attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
-        assert!((nose - Vec3::new(0.0, 1.0, 0.0)).norm() < ROUNDING);
+        assert!((nose - Vec3::new(0.0, 1.0, 0.0)).norm() < ROUNDING_TOLERANCE);
     }
 
     #[test]
@@ -423,7 +423,9 @@ mod tests {
     #[test]
     fn exact_euler_angles_round_trip() {
         let (r, p, y) = Rotation::from_euler(0.3, -0.4, 2.5).euler();
-        assert!((r - 0.3).abs() < ROUNDING && (p + 0.4).abs() < ROUNDING && (y - 2.5).abs() < ROUNDING);
+        assert!(
+            (r - 0.3).abs() < ROUNDING_TOLERANCE && (p + 0.4).abs() < ROUNDING_TOLERANCE && (y - 2.5).abs() < ROUNDING_TOLERANCE
+        );
     }
 
     #[test]
@@ -438,6 +440,6 @@ mod tests {
     #[test]
     fn exact_positive_yaw_rotates_clockwise_seen_from_above() {
         let turned = Rotation::from_euler(0.0, 0.0, 0.0).rotated_by(Vec3::new(0.0, 0.0, 0.2));
-        assert!((turned.yaw_rad() - 0.2).abs() < ROUNDING);
+        assert!((turned.yaw_rad() - 0.2).abs() < ROUNDING_TOLERANCE);
     }
 }

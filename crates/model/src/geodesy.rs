@@ -5,7 +5,7 @@ use super::frames::{Enu, Vec3};
 use super::math;
 
 /// WGS84 semi-major axis, m (NIMA TR8350.2).
-pub const SEMI_MAJOR_M: f64 = 6_378_137.0;
+pub const SEMI_MAJOR_AXIS_M: f64 = 6_378_137.0;
 /// WGS84 flattening (NIMA TR8350.2).
 pub const FLATTENING: f64 = 1.0 / 298.257_223_563;
 const ECCENTRICITY_SQUARED: f64 = FLATTENING * (2.0 - FLATTENING);
@@ -79,7 +79,7 @@ impl LocalPlane {
 fn ecef_from_geo(geo: Geo) -> [f64; 3] {
     let (sl, cl) = math::sin_cos(geo.latitude_deg.to_radians());
     let (so, co) = math::sin_cos(geo.longitude_deg.to_radians());
-    let n = SEMI_MAJOR_M / (1.0 - ECCENTRICITY_SQUARED * sl * sl).sqrt();
+    let n = SEMI_MAJOR_AXIS_M / (1.0 - ECCENTRICITY_SQUARED * sl * sl).sqrt();
     let h = geo.altitude_m;
     [(n + h) * cl * co, (n + h) * cl * so, (n * (1.0 - ECCENTRICITY_SQUARED) + h) * sl]
 }
@@ -89,10 +89,10 @@ fn ecef_from_geo(geo: Geo) -> [f64; 3] {
 fn geo_from_ecef(p: [f64; 3]) -> Geo {
     let r = math::hypot(p[0], p[1]);
     let mut lat = math::atan2(p[2], r * (1.0 - ECCENTRICITY_SQUARED));
-    let mut n = SEMI_MAJOR_M;
+    let mut n = SEMI_MAJOR_AXIS_M;
     for _ in 0..4 {
         let s = math::sin(lat);
-        n = SEMI_MAJOR_M / (1.0 - ECCENTRICITY_SQUARED * s * s).sqrt();
+        n = SEMI_MAJOR_AXIS_M / (1.0 - ECCENTRICITY_SQUARED * s * s).sqrt();
         lat = math::atan2(p[2] + ECCENTRICITY_SQUARED * n * s, r);
     }
     let (s, c) = math::sin_cos(lat);
@@ -107,13 +107,13 @@ mod tests {
 
     const ORIGIN: Geo = Geo { latitude_deg: 46.5, longitude_deg: 8.25, altitude_m: 430.0 };
     /// Tolerance for rounding errors of earth-centered coordinates in f64, m.
-    const ROUND_TRIP_M: f64 = 1e-8;
+    const ROUND_TRIP_TOLERANCE_M: f64 = 1e-8;
 
     #[test]
     fn exact_local_positions_round_trip() {
         let plane = LocalPlane::new(ORIGIN);
         let p = Vec3::new(812.5, -433.25, 61.0);
-        assert!((plane.enu_from_geo(plane.geo_from_enu(p)) - p).norm() < ROUND_TRIP_M);
+        assert!((plane.enu_from_geo(plane.geo_from_enu(p)) - p).norm() < ROUND_TRIP_TOLERANCE_M);
     }
 
     #[test]

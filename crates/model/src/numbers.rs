@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_enough_decimals_show_the_side_of_the_limit() {
+    fn exact_value_is_displayed_on_the_correct_side_of_the_limit() {
         assert_eq!(format_with_limit(60.3, 60.0, 0), "60.3");
         assert_eq!(format_with_limit(60.004, 60.0, 0), "60.004");
         assert_eq!(format_with_limit(60.3, 59.999_999_999_999_99, 0), "60.3");

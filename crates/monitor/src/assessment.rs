@@ -229,7 +229,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
         return Err(AssessError::NoTruth);
     }
     let scenario = job.scenario;
-    let session = Session::truncate(flight, scenario, job.vehicle).ok_or(AssessError::NeverFlown)?;
+    let session = Session::from_flight(flight, scenario, job.vehicle).ok_or(AssessError::NeverFlown)?;
     let paths = ReferencePaths::new(scenario);
     let on_path = OnPath::measure(&paths, session.frames.iter().map(|frame| frame.position_m));
     let crashes = crash::crashes(&session.frames, &on_path);

@@ -23,7 +23,7 @@ pub const REPORT: &str = "report.html";
 /// Folder that contains the pictures.
 pub const SNAPSHOTS: &str = "snapshots";
 /// Subfolder with downsized copies of the pictures for the report. The file names are the same.
-pub const SMALL: &str = "small";
+pub const SMALL_SNAPSHOTS: &str = "small";
 
 /// Contents of `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -74,7 +74,7 @@ pub struct EndRuleInput {
     /// Current simulation time.
     pub time: SimTime,
     /// Flight time so far, s.
-    pub flown_s: f64,
+    pub flight_time_s: f64,
     /// Position of the drone's center in the site frame, m.
     pub position_m: Vec3<Enu>,
     /// Speed (magnitude of the velocity), m/s.
@@ -98,10 +98,10 @@ pub struct EndRule {
     lift_off_m: f64,
     time_max_s: f64,
     any_crash_ends_session: bool,
-    seen_armed: bool,
+    armed_received: bool,
     rest_since: Option<SimTime>,
     pending: Option<(SimTime, EndReason)>,
-    last: Option<EndRuleInput>,
+    last_input: Option<EndRuleInput>,
     respawned_at: Option<SimTime>,
 }
 
@@ -115,58 +115,58 @@ impl EndRule {
             lift_off_m: lift_off_height_m(vehicle),
             time_max_s: scenario.scoring.time_max_s,
             any_crash_ends_session: scenario.rules.after_crash == AfterCrash::End,
-            seen_armed: false,
+            armed_received: false,
             rest_since: None,
             pending: None,
-            last: None,
+            last_input: None,
             respawned_at: None,
         }
     }
 
     /// Discards armed and on-ground states received before a respawn.
-    fn discard_stale_states(&mut self, moment: &EndRuleInput) -> EndRuleInput {
-        let jumped = self.last.is_some_and(|last| {
-            let step_m = (moment.position_m - last.position_m).norm();
-            is_jump(step_m, moment.speed_m_s.max(last.speed_m_s), moment.time - last.time)
+    fn discard_stale_states(&mut self, input: &EndRuleInput) -> EndRuleInput {
+        let jumped = self.last_input.is_some_and(|last| {
+            let step_m = (input.position_m - last.position_m).norm();
+            is_jump(step_m, input.speed_m_s.max(last.speed_m_s), input.time - last.time)
         });
-        self.last = Some(*moment);
+        self.last_input = Some(*input);
         if jumped {
-            self.respawned_at = Some(moment.time);
+            self.respawned_at = Some(input.time);
         }
-        if self.respawned_at.is_none_or(|since| moment.time - since >= MAX_STATE_AGE) {
-            return *moment;
+        if self.respawned_at.is_none_or(|since| input.time - since >= MAX_STATE_AGE) {
+            return *input;
         }
-        let down = matches!(moment.contact, ContactKind::Terrain);
-        EndRuleInput { armed: moment.armed.filter(|armed| *armed), on_ground: moment.on_ground && down, ..*moment }
+        let down = matches!(input.contact, ContactKind::Terrain);
+        EndRuleInput { armed: input.armed.filter(|armed| *armed), on_ground: input.on_ground && down, ..*input }
     }
 
     /// Returns the time of the last frame and the end reason if the session ends now.
-    pub fn update(&mut self, moment: &EndRuleInput) -> Option<(SimTime, EndReason)> {
-        let moment = &self.discard_stale_states(moment);
-        match moment.contact {
-            ContactKind::Person => return Some((moment.time, EndReason::Person)),
-            ContactKind::Vehicle => return Some((moment.time, EndReason::Vehicle)),
+    pub fn update(&mut self, input: &EndRuleInput) -> Option<(SimTime, EndReason)> {
+        let input = &self.discard_stale_states(input);
+        match input.contact {
+            ContactKind::Person => return Some((input.time, EndReason::Person)),
+            ContactKind::Vehicle => return Some((input.time, EndReason::Vehicle)),
             ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other
                 if self.any_crash_ends_session =>
             {
-                return Some((moment.time, EndReason::Crash));
+                return Some((input.time, EndReason::Crash));
             }
             ContactKind::None | ContactKind::Bridge | ContactKind::Terrain | ContactKind::Water | ContactKind::Other => {}
         }
         // The armed state can be up to a second old, so "disarmed" indicates a landing only after "armed" was received.
-        self.seen_armed |= moment.armed == Some(true);
-        self.rest_since = self.has_landed_at_home(moment).then(|| self.rest_since.unwrap_or(moment.time));
+        self.armed_received |= input.armed == Some(true);
+        self.rest_since = self.has_landed_at_home(input).then(|| self.rest_since.unwrap_or(input.time));
         if let Some(since) = self.rest_since
-            && (self.seen_armed && moment.armed == Some(false) || moment.time - since >= LANDING_REST_TIME)
+            && (self.armed_received && input.armed == Some(false) || input.time - since >= LANDING_REST_TIME)
         {
             return Some((since, EndReason::Landed));
         }
-        let over = if moment.battery_pct <= 0.0 {
+        let over = if input.battery_pct <= 0.0 {
             Some(EndReason::Battery)
         } else {
-            (moment.flown_s > self.time_max_s).then_some(EndReason::TimeLimit)
+            (input.flight_time_s > self.time_max_s).then_some(EndReason::TimeLimit)
         };
-        self.pending = self.pending.or(over.map(|reason| (moment.time, reason)));
+        self.pending = self.pending.or(over.map(|reason| (input.time, reason)));
         if self.rest_since.is_none() { self.pending } else { None }
     }
 
@@ -177,10 +177,10 @@ impl EndRule {
         self.pending
     }
 
-    fn has_landed_at_home(&self, moment: &EndRuleInput) -> bool {
-        let from_pad = moment.position_m - self.pad_m;
-        let down = moment.on_ground || from_pad.up() < self.lift_off_m || moment.contact == ContactKind::Terrain;
-        down && moment.speed_m_s < MAX_REST_SPEED_M_S && from_pad.horizontal_norm() <= self.home_radius_m
+    fn has_landed_at_home(&self, input: &EndRuleInput) -> bool {
+        let from_pad = input.position_m - self.pad_m;
+        let down = input.on_ground || from_pad.up() < self.lift_off_m || input.contact == ContactKind::Terrain;
+        down && input.speed_m_s < MAX_REST_SPEED_M_S && from_pad.horizontal_norm() <= self.home_radius_m
     }
 }
 
@@ -206,7 +206,7 @@ pub struct Session {
 impl Session {
     /// Extracts the session from a flight; `None` if there was no lift-off.
     #[must_use]
-    pub fn truncate(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
+    pub fn from_flight(flight: &Flight, scenario: &Scenario, vehicle: &Vehicle) -> Option<Self> {
         let start = flight.lift_off(scenario.ground_team.pad_m.up(), lift_off_height_m(vehicle))?;
         // Limits the number of frames even if the clock is corrupt.
         let end = flight.end()?.min(start + SimTime::from_s(scenario.scoring.time_max_s) + EVALUATION_MARGIN);
@@ -241,7 +241,7 @@ fn all_frames(flight: &Flight, start: SimTime, end: SimTime, rate: f64) -> Vec<F
 fn input(frame: &Frame, rate: f64) -> EndRuleInput {
     EndRuleInput {
         time: frame.time,
-        flown_s: f64::from(frame.index) / rate,
+        flight_time_s: f64::from(frame.index) / rate,
         position_m: frame.position_m,
         speed_m_s: frame.speed_m_s(),
         contact: frame.contact,
@@ -271,7 +271,7 @@ mod tests {
             let contact = ContactKind::None;
             let still = EndRuleInput {
                 time,
-                flown_s: time.s(),
+                flight_time_s: time.s(),
                 position_m,
                 speed_m_s: 0.0,
                 contact,

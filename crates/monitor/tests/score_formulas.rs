@@ -42,7 +42,7 @@ fn exact_efficiency_decreases_with_flight_time() {
 }
 
 #[test]
-fn exact_conformity_of_complete_and_missed_tasks() {
+fn exact_conformity_counts_complete_and_missed_tasks() {
     let perfect = (1.0, 0.0);
     assert_close(conformity_pct(&[perfect; 4]), 100.0);
     assert_close(conformity_pct(&[perfect, perfect, perfect, (0.0, 0.0)]), 87.5);
@@ -78,7 +78,7 @@ fn exact_accuracy_matches_pilot_study() {
 }
 
 #[test]
-fn exact_f_measure_for_extreme_beta_and_no_hits() {
+fn exact_f_measure_handles_extreme_beta_and_no_hits() {
     assert_close(accuracy(3, 5, 0.0), 60.0);
     assert_close(accuracy(3, 5, f64::INFINITY), 30.0);
     assert_close(accuracy(0, 5, 1.0), 0.0);

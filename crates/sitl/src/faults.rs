@@ -91,11 +91,11 @@ impl FailureType {
 const POSITION_ERROR_M: f64 = 25.0;
 const HEIGHT_ERROR_M: f64 = 8.0;
 /// Standard deviations of garbage readings: position (m), height (m) and magnetic field (gauss).
-const GARBAGE_M: f64 = 30.0;
-const GARBAGE_UP_M: f64 = 10.0;
-const GARBAGE_GAUSS: f64 = 0.5;
+const GARBAGE_POSITION_SIGMA_M: f64 = 30.0;
+const GARBAGE_HEIGHT_SIGMA_M: f64 = 10.0;
+const GARBAGE_FIELD_SIGMA_GAUSS: f64 = 0.5;
 /// Factor applied to the reading of a faulty range finder.
-const RANGE_FACTOR: f64 = 0.5;
+const FAULTY_RANGE_FACTOR: f64 = 0.5;
 /// Maximum charge left after a battery failure, 0 to 1.
 const MAX_CHARGE_AFTER_FAILURE: f64 = 0.05;
 
@@ -162,7 +162,7 @@ impl Faults {
     }
 
     /// Stores the latest reading of every sensor that is not stuck.
-    fn freeze(&mut self, fresh: &Readings) {
+    fn store_latest_readings(&mut self, fresh: &Readings) {
         let before = self.held;
         let stuck = |unit| self.sensors[sensor_index(unit)] == Some(FailureType::Stuck);
         let [mag, baro, gnss, flow, ranges] =
@@ -196,7 +196,7 @@ impl Faults {
             return;
         }
         let kinds = self.sensors;
-        self.freeze(fresh);
+        self.store_latest_readings(fresh);
         let held = self.held;
         let noise = |stream: &mut RandomStream, scale: f64| stream.normal3().map(|x| x * scale);
         if let Some(kind) = kinds[sensor_index(FailureUnit::Gnss)]
@@ -204,7 +204,7 @@ impl Faults {
         {
             let [n, e, d] = match kind {
                 FailureType::Wrong => [POSITION_ERROR_M, POSITION_ERROR_M, 0.0],
-                FailureType::Garbage => noise(&mut self.stream, GARBAGE_M),
+                FailureType::Garbage => noise(&mut self.stream, GARBAGE_POSITION_SIGMA_M),
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => [0.0; 3],
             };
             fix.position_m += Vec3::<Ned>::new(n, e, d);
@@ -219,7 +219,7 @@ impl Faults {
         if let Some(kind) = kinds[sensor_index(FailureUnit::Barometer)] {
             let rise = match kind {
                 FailureType::Wrong => HEIGHT_ERROR_M,
-                FailureType::Garbage => self.stream.normal() * GARBAGE_UP_M,
+                FailureType::Garbage => self.stream.normal() * GARBAGE_HEIGHT_SIGMA_M,
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 0.0,
             };
             fresh.baro_up_m = faulty_reading(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
@@ -232,7 +232,7 @@ impl Faults {
                     field + Vec3::new(x, y, z)
                 }
             };
-            let scale = if kind == FailureType::Garbage { GARBAGE_GAUSS } else { 0.0 };
+            let scale = if kind == FailureType::Garbage { GARBAGE_FIELD_SIGMA_GAUSS } else { 0.0 };
             let spoilt = fresh.mag_gauss.map(|field| turned(field, noise(&mut self.stream, scale)));
             fresh.mag_gauss = faulty_reading(kind, spoilt, held.mag_gauss, now);
         }
@@ -241,7 +241,7 @@ impl Faults {
         }
         if let Some(kind) = kinds[sensor_index(FailureUnit::Ranges)] {
             let factor = match kind {
-                FailureType::Wrong => RANGE_FACTOR,
+                FailureType::Wrong => FAULTY_RANGE_FACTOR,
                 FailureType::Garbage => 0.2 + self.stream.uniform(),
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 1.0,
             };

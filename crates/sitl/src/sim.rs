@@ -158,8 +158,11 @@ impl Sim {
         let pack = AircraftValues {
             cells: vehicle.battery.cells,
             capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
-            thresholds: BatteryThresholds { low_pct: rules.low_battery_pct, critical_pct: rules.critical_battery_pct },
-            returns_when_low: rules.low_battery_return,
+            thresholds: BatteryThresholds {
+                low_charge_pct: rules.low_battery_pct,
+                critical_charge_pct: rules.critical_battery_pct,
+            },
+            returns_on_low_battery: rules.low_battery_return,
             frame: autopilot.airframe_envelope(),
         };
         let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavor);
@@ -223,7 +226,7 @@ impl Sim {
     }
 
     /// Limits a link's outgoing data rate, in bytes/s.
-    pub fn limit_link(&mut self, link: LinkId, bytes_s: f64) {
+    pub fn limit_link_rate(&mut self, link: LinkId, bytes_s: f64) {
         self.endpoint.links.limit(link, bytes_s, self.now);
     }
 
@@ -422,7 +425,7 @@ impl Sim {
         let aircraft = SimulatedAircraft {
             clock: VehicleClock {
                 now: self.now,
-                autopilot_booted: self.boot_time,
+                autopilot_boot_time: self.boot_time,
                 start_unix_s: self.config.scenario.light.start_unix_s,
                 link_kind: LinkKind::GroundStation,
             },

@@ -161,13 +161,13 @@ impl VehicleBuilder {
             flavor: self.flavor,
             after_crash: self.after_crash,
         };
-        let pad_up_m = config.scenario.ground_team.pad_m.up();
+        let pad_height_m = config.scenario.ground_team.pad_m.up();
         let mut sim = Sim::new(config, site);
         sim.open_link(STATION, LinkKind::GroundStation, false);
         Vehicle {
             sim,
             flavor: self.flavor,
-            pad_up_m,
+            pad_height_m,
             encoder: Encoder::new(STATION_ID.0, STATION_ID.1),
             decoder: Decoder::new(),
             received: Vec::new(),
@@ -186,7 +186,7 @@ pub struct Vehicle {
     /// Received frames, oldest first; only the most recent ones are kept.
     pub received: Vec<ReceivedFrame>,
     flavor: &'static Flavor,
-    pad_up_m: f64,
+    pad_height_m: f64,
     decoder: Decoder,
     others: VecDeque<Transmit>,
 }
@@ -249,7 +249,7 @@ impl Vehicle {
     /// Returns the true height above the landing pad, in meters.
     #[must_use]
     pub fn height_m(&self) -> f64 {
-        self.position_m().up() - self.pad_up_m
+        self.position_m().up() - self.pad_height_m
     }
 
     /// Sends a message as the ground station. The vehicle processes it at the next tick.

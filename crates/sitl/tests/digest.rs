@@ -10,7 +10,7 @@ use spandrel_testkit::station::{GCS, Station};
 
 const SEED: u64 = 7;
 /// Interval between stick messages, ms.
-const PERIOD_MS: i64 = 40;
+const STICK_INTERVAL_MS: i64 = 40;
 /// Stick inputs (forward, right, up from 0 to 1000) and their durations, ms: climb, fly sideways into the suspension
 /// bridge's girder, fly away from it. Then the motors are stopped and the vehicle falls into the lake; after three
 /// seconds there, the flight continues.
@@ -18,10 +18,10 @@ const SCRIPT: [(i64, [i16; 3]); 5] =
     [(4_000, [0, 0, 800]), (15_000, [0, -1000, 500]), (4_000, [0, 1000, 500]), (9_000, [0, 0, 500]), (5_000, [500, 0, 600])];
 const STOP_BEFORE: usize = 3;
 /// Command parameter that forces disarming in flight.
-const FORCE: f32 = 21_196.0;
+const FORCE_DISARM: f32 = 21_196.0;
 
 /// Minimum interval between snapshots.
-const MIN_INTERVAL: SimTime = SimTime::from_ms(2_000);
+const MIN_SNAPSHOT_INTERVAL: SimTime = SimTime::from_ms(2_000);
 
 /// Received datagrams with their times.
 type Inputs = Vec<(SimTime, Vec<u8>)>;
@@ -31,13 +31,14 @@ fn inputs(mut at: SimTime) -> (Inputs, SimTime) {
     for (k, (for_ms, [x, y, z])) in SCRIPT.into_iter().enumerate() {
         if k == STOP_BEFORE {
             let command = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
-            let stop = COMMAND_LONG_DATA { command, param2: FORCE, target_system: 1, target_component: 1, ..Default::default() };
+            let stop =
+                COMMAND_LONG_DATA { command, param2: FORCE_DISARM, target_system: 1, target_component: 1, ..Default::default() };
             inputs.push((at, encoder.encode(&MavMessage::COMMAND_LONG(stop))));
         }
-        for _ in 0..for_ms / PERIOD_MS {
+        for _ in 0..for_ms / STICK_INTERVAL_MS {
             let sticks = MANUAL_CONTROL_DATA { target: 1, x, y, z, ..Default::default() };
             inputs.push((at, encoder.encode(&MavMessage::MANUAL_CONTROL(sticks))));
-            at += SimTime::from_ms(PERIOD_MS);
+            at += SimTime::from_ms(STICK_INTERVAL_MS);
         }
     }
     (inputs, at)
@@ -107,7 +108,7 @@ fn flight_same_inputs_give_identical_results_despite_wind_collision_and_respawn(
         crashes += usize::from(matches!(event, SimEvent::Crash { .. }));
         respawns += usize::from(*event == SimEvent::Respawn);
         // A snapshot taken right after an event reveals any state that it omits.
-        if snapshots.last().is_none_or(|last| sim.now() >= last.now() + MIN_INTERVAL) {
+        if snapshots.last().is_none_or(|last| sim.now() >= last.now() + MIN_SNAPSHOT_INTERVAL) {
             snapshots.push(sim.clone());
         }
     });

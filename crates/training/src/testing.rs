@@ -1,7 +1,7 @@
 //! Synthetic session records for tests.
 
 use super::questionnaire::{Answers, QuestionnaireItem};
-use super::record::{Crashes, DefectRecord, FORMAT, Scores, SessionRecord, TaskRecord};
+use super::record::{Crashes, DefectRecord, FORMAT_VERSION, Scores, SessionRecord, TaskRecord};
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
 /// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".
@@ -9,7 +9,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };
     answers.given.extend(QuestionnaireItem::all(&[1, 2, 3, 4]).into_iter().map(|item| (item, 2)));
     SessionRecord {
-        format: FORMAT,
+        format: FORMAT_VERSION,
         id: format!("session-{trainee}-{number:03}"),
         fingerprint: format!("f{number}"),
         trainee: trainee.to_owned(),

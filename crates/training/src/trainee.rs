@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// Age groups, years.
 pub const AGE_BANDS: &[&str] = &["18-24", "25-34", "35-44", "45-54", "55-64", "65+"];
 /// Levels of experience with drones and with video games.
-pub const EXPERIENCE: &[&str] = &["none", "some", "regular"];
+pub const EXPERIENCE_LEVELS: &[&str] = &["none", "some", "regular"];
 
 /// User role, which determines access rights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -28,9 +28,9 @@ pub struct Trainee {
     pub role: Role,
     /// Age group; one of [`AGE_BANDS`].
     pub age_band: Option<String>,
-    /// Experience with drones; one of [`EXPERIENCE`].
+    /// Experience with drones; one of [`EXPERIENCE_LEVELS`].
     pub drone_experience: Option<String>,
-    /// Experience with video games; one of [`EXPERIENCE`].
+    /// Experience with video games; one of [`EXPERIENCE_LEVELS`].
     pub gaming_experience: Option<String>,
 }
 

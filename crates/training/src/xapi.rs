@@ -10,13 +10,13 @@ use uuid::Uuid;
 /// xAPI version to send in the request header.
 pub const VERSION: &str = "1.0.3";
 /// Default home page of the accounts that identify trainees by pseudonym.
-pub const HOME: &str = "https://spandrel.invalid/trainees";
+pub const DEFAULT_ACCOUNT_HOME_PAGE: &str = "https://spandrel.invalid/trainees";
 /// Namespace UUID for statement IDs (RFC 9562, version 5).
 const STATEMENT_NAMESPACE: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
 /// Key of the session result extension for job completion.
-const COMPLETION: &str = "urn:spandrel:completion";
+const COMPLETION_EXTENSION_KEY: &str = "urn:spandrel:completion";
 /// Key of the task result extension for the fraction of the task's path that was flown.
-const COVERED: &str = "urn:spandrel:covered";
+const COVERAGE_EXTENSION_KEY: &str = "urn:spandrel:covered";
 /// Prefix of verb IDs in ADL's vocabulary.
 const VERB_PREFIX: &str = "http://adlnet.gov/expapi/verbs/";
 
@@ -59,7 +59,7 @@ fn flight(record: &SessionRecord, home: &str) -> Value {
         result["score"] = score(record.scores.overall, record.scores.overall_max);
     }
     if let Some(completion) = &record.completion {
-        result["extensions"] = json!({ COMPLETION: completion });
+        result["extensions"] = json!({ COMPLETION_EXTENSION_KEY: completion });
     }
     let verb = if complete { "completed" } else { "attempted" };
     statement(record, home, "", (verb, &record.scenario), result)
@@ -72,7 +72,7 @@ fn task_statement(record: &SessionRecord, home: &str, task: &TaskRecord) -> Valu
     });
     if let Some((state, covered)) = task.state.zip(task.covered) {
         result["completion"] = json!(state == TaskState::Done);
-        result["extensions"] = json!({ COVERED: covered });
+        result["extensions"] = json!({ COVERAGE_EXTENSION_KEY: covered });
     }
     statement(record, home, &format!("tasks/{}", task.id), ("attempted", &task.name), result)
 }
@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn exact_session_reports_flight_scores_tasks_and_answers() {
         let record = perfect_record("anna", 1);
-        let all = statements(&record, HOME);
+        let all = statements(&record, DEFAULT_ACCOUNT_HOME_PAGE);
         assert_eq!(all.len(), 1 + 4 + 4 + 24);
         assert_eq!(all[0]["result"]["score"], json!({ "scaled": 1.0, "raw": 400.0, "min": 0.0, "max": 400.0 }));
         assert_eq!(all[0]["result"]["duration"], "PT700.25S");
@@ -139,31 +139,36 @@ mod tests {
         assert_eq!(ids.len(), all.len());
         let mut bare = record;
         (bare.scores.accuracy, bare.answers) = (None, None);
-        assert_eq!(statements(&bare, HOME).len(), 1 + 3 + 4);
+        assert_eq!(statements(&bare, DEFAULT_ACCOUNT_HOME_PAGE).len(), 1 + 3 + 4);
     }
 
     #[test]
     fn regress_incomplete_session_is_reported_as_attempted() {
-        let all = statements(&aborted_record("anna", 1), HOME);
+        let all = statements(&aborted_record("anna", 1), DEFAULT_ACCOUNT_HOME_PAGE);
         let flight = &all[0];
         assert!(flight["verb"]["id"].as_str().is_some_and(|verb| verb.ends_with("/attempted")), "{flight}");
         assert_eq!((&flight["result"]["completion"], &flight["result"]["success"]), (&json!(false), &json!(false)));
         assert_eq!(flight["result"]["score"], Value::Null);
         assert_eq!(flight["result"]["response"], "Incomplete: 0 of 4 tasks, 15% of the path");
-        assert_eq!(flight["result"]["extensions"][COMPLETION]["path_share"], 0.15);
+        assert_eq!(flight["result"]["extensions"][COMPLETION_EXTENSION_KEY]["path_share"], 0.15);
         let task = all.iter().find(|one| one["object"]["id"].as_str().is_some_and(|id| id.ends_with("/tasks/1"))).unwrap();
-        assert_eq!((&task["result"]["completion"], &task["result"]["extensions"][COVERED]), (&json!(false), &json!(0.6)));
+        assert_eq!(
+            (&task["result"]["completion"], &task["result"]["extensions"][COVERAGE_EXTENSION_KEY]),
+            (&json!(false), &json!(0.6))
+        );
     }
 
     #[test]
     fn exact_statement_ids_depend_on_content() {
         let record = perfect_record("anna", 1);
-        assert_eq!(statements(&record, HOME), statements(&record, HOME));
+        assert_eq!(statements(&record, DEFAULT_ACCOUNT_HOME_PAGE), statements(&record, DEFAULT_ACCOUNT_HOME_PAGE));
         let mut other = record.clone();
         if let Some(answer) = other.answers.as_mut().and_then(|answers| answers.given.values_mut().next()) {
             *answer = 5;
         }
-        let ids = |record| statements(record, HOME).into_iter().map(|one| one["id"].to_string()).collect::<BTreeSet<_>>();
+        let ids = |record| {
+            statements(record, DEFAULT_ACCOUNT_HOME_PAGE).into_iter().map(|one| one["id"].to_string()).collect::<BTreeSet<_>>()
+        };
         assert_eq!(ids(&record).difference(&ids(&other)).count(), 1);
         assert!(ids(&record).is_disjoint(&ids(&perfect_record("anna", 2))));
     }

@@ -51,7 +51,7 @@ fn faulty_flight() -> Tape {
     tape
 }
 
-fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecord {
+fn session_record(assessed_session: &AssessedSession, scenario: &Scenario) -> SessionRecord {
     record(&RecordSource {
         id: "20231114T221320Z-anna-test-job-000000",
         trainee: "anna",
@@ -61,17 +61,17 @@ fn session_record(graded: &AssessedSession, scenario: &Scenario) -> SessionRecor
         scenario,
         vehicle: "test",
         hashes: &SourceHashes::of(b"s", b"v", b"t", b""),
-        graded,
+        assessed_session,
         placed: TestSurvey::of(10).defects(),
         answers: None,
     })
 }
 
 #[test]
-fn exact_record_contains_faults_of_flight() {
+fn exact_record_contains_known_faults() {
     let job = two_tasks();
-    let graded = score_tape(&faulty_flight(), &job);
-    let record = session_record(&graded, &job);
+    let assessed_session = score_tape(&faulty_flight(), &job);
+    let record = session_record(&assessed_session, &job);
     let task = &record.tasks[0];
     assert!((task.off_path_s - 9.0).abs() < DURATION_TOLERANCE_S, "{}", task.off_path_s);
     // 1.5 s each while climbing and descending between 3 and 4.5 m above the path, 6 s at 4.5 m.
@@ -81,15 +81,15 @@ fn exact_record_contains_faults_of_flight() {
     assert!((task.fastest_m_s - 5.0).abs() < 0.02);
     assert_eq!((task.crashes.bridge, task.crashes.total()), (1, 1));
     assert_eq!((record.crashes_outside.water, record.crashes().total()), (1, 2));
-    assert!((task.on_path - graded.assessment.tasks[0].on_path).abs() == 0.0 && task.on_path < 0.8);
+    assert!((task.on_path - assessed_session.assessment.tasks[0].on_path).abs() == 0.0 && task.on_path < 0.8);
     assert!(task.attempted && !record.tasks[1].attempted);
     assert_eq!((record.tasks[1].seconds, record.tasks[1].off_height_m), (0.0, None));
-    assert_eq!(record.scores.overall, graded.assessment.scores.overall);
+    assert_eq!(record.scores.overall, assessed_session.assessment.scores.overall);
     assert_eq!((record.end_reason.as_str(), record.battery_failed), ("landed", false));
 }
 
 #[test]
-fn exact_defects_belong_to_nearest_task_with_failed_conditions() {
+fn exact_defects_have_nearest_task_and_failed_conditions() {
     let job = two_tasks();
     let record = session_record(&score_tape(&faulty_flight(), &job), &job);
     assert_eq!(record.defects.iter().map(|defect| defect.task.unwrap()).collect::<Vec<_>>(), [1, 1, 1, 1, 1, 1, 2, 2, 2, 2]);

@@ -7,7 +7,7 @@ use spandrel_mavlink::instructor_note;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 use spandrel_monitor::assess_log;
-use spandrel_monitor::sidecar::{COMPONENT, build_site};
+use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
@@ -20,7 +20,7 @@ const MAX_PAGE_BYTES: usize = 10_000_000;
 /// Maximum flight time for the TASBID job, s.
 const MAX_FLIGHT_S: f64 = 1500.0;
 
-fn about() -> SessionMetadata {
+fn metadata() -> SessionMetadata {
     SessionMetadata {
         trainee: "anna".into(),
         started_utc: "2026-08-01T10:00:00Z".into(),
@@ -30,7 +30,7 @@ fn about() -> SessionMetadata {
 }
 
 fn review(tape: &Tape, job: &Scenario) -> Review {
-    Review::of(&tape.log(0), job, &phantom(), about()).expect("a session")
+    Review::of(&tape.log(0), job, &phantom(), metadata()).expect("a session")
 }
 
 /// Returns the review of a 240 s flight of the TASBID job, computed once for all tests.
@@ -42,12 +42,12 @@ fn short_review() -> &'static Review {
 /// Inserts an instructor's note in the middle of a tape.
 fn with_note(mut tape: Tape, text: &str) -> Tape {
     let middle = tape.datagrams.len() / 2;
-    tape.datagrams.insert(middle, instructor_note::encode(&mut Encoder::new(252, 192), 1, COMPONENT, text));
+    tape.datagrams.insert(middle, instructor_note::encode(&mut Encoder::new(252, 192), 1, MONITOR_COMPONENT_ID, text));
     tape
 }
 
 #[test]
-fn exact_instructor_note_is_in_report_but_not_among_messages() {
+fn exact_instructor_note_is_reported_separately_from_messages() {
     let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
     let plain = review(&tape, &job);
     assert_eq!(plain.feedback.notes, []);
@@ -69,8 +69,10 @@ fn resource_urls(page: &str) -> Vec<&str> {
 
 /// Returns the page without scripts and styles, both Spandrel's and those of libraries.
 fn without_assets(page: &str) -> String {
-    use spandrel_training::report::assets::{COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE};
-    [COMMON, COMPARE, SCRIPT, STYLE, THREE, THREE_CORE, UPLOT, UPLOT_STYLE]
+    use spandrel_training::report::assets::{
+        COMMON_SCRIPT, COMPARE_SCRIPT, SCRIPT, STYLE, THREE_CORE_SCRIPT, THREE_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE,
+    };
+    [COMMON_SCRIPT, COMPARE_SCRIPT, SCRIPT, STYLE, THREE_SCRIPT, THREE_CORE_SCRIPT, UPLOT_SCRIPT, UPLOT_STYLE]
         .iter()
         .fold(page.to_owned(), |page, text| page.replacen(text, "", 1))
 }
@@ -78,10 +80,13 @@ fn without_assets(page: &str) -> String {
 #[test]
 fn exact_review_contains_scorer_assessment() {
     let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
-    let graded = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
+    let assessed_session = assess_log(&tape.log(0), &job, &phantom(), build_site).unwrap();
     let review = review(&tape, &job);
-    assert_eq!((&review.assessment, &review.frames, review.seed), (&graded.assessment, &graded.frames, graded.seed));
-    let each = &graded.assessment.snapshots.each;
+    assert_eq!(
+        (&review.assessment, &review.frames, review.seed),
+        (&assessed_session.assessment, &assessed_session.frames, assessed_session.seed)
+    );
+    let each = &assessed_session.assessment.snapshots.each;
     assert!(each.len() > 5, "the test requires several pictures");
     let verdicts: Vec<bool> = review
         .pictures
@@ -89,9 +94,10 @@ fn exact_review_contains_scorer_assessment() {
         .map(|picture| picture.verdict == spandrel_training::report::pictures::PictureVerdict::Hit)
         .collect();
     assert_eq!(verdicts, each.iter().map(|picture| picture.hit).collect::<Vec<_>>());
-    let found = review.defects.iter().filter(|fate| fate.found_by.is_some()).count();
-    assert_eq!(found, graded.assessment.snapshots.defects_found);
-    let missed: Vec<String> = review.defects.iter().filter(|fate| fate.found_by.is_none()).map(|fate| fate.words()).collect();
+    let found = review.defects.iter().filter(|outcome| outcome.found_by.is_some()).count();
+    assert_eq!(found, assessed_session.assessment.snapshots.defects_found);
+    let missed: Vec<String> =
+        review.defects.iter().filter(|outcome| outcome.found_by.is_none()).map(|outcome| outcome.description()).collect();
     assert!(
         missed.iter().all(|words| !words.is_empty())
             && review.defects.iter().all(|f| f.found_by.is_some() != f.best_approach.is_some())
@@ -125,7 +131,7 @@ fn exact_user_text_is_escaped_everywhere() {
     for task in &mut job.tasks {
         task.name = HOSTILE_TEXT.into();
     }
-    let about = SessionMetadata {
+    let metadata = SessionMetadata {
         trainee: HOSTILE_TEXT.into(),
         purpose: Some(HOSTILE_TEXT.into()),
         started_utc: HOSTILE_TEXT.into(),
@@ -135,7 +141,7 @@ fn exact_user_text_is_escaped_everywhere() {
     let mut vehicle = phantom();
     vehicle.name = HOSTILE_TEXT.into();
     let tape = with_note(record_inspection(&job, 200.0, 9), HOSTILE_TEXT);
-    let evil = Review::of(&tape.log(0), &job, &vehicle, about).unwrap();
+    let evil = Review::of(&tape.log(0), &job, &vehicle, metadata).unwrap();
     assert_eq!(evil.feedback.notes.len(), 1);
     for page in [page::session(&evil), page::comparison(&evil, short_review())] {
         let page = without_assets(&page);
@@ -155,7 +161,7 @@ fn exact_every_surface_area_has_one_outcome() {
     let coverage = &short_review().coverage;
     assert!(coverage.elements.len() > 3 && coverage.total().area_m2(SurfaceOutcome::Shown) > 0.0);
     for element in coverage.elements.values().chain([&coverage.total()]) {
-        let sum: f64 = SurfaceOutcome::ALL.iter().map(|fate| element.area_m2(*fate)).sum();
+        let sum: f64 = SurfaceOutcome::ALL.iter().map(|outcome| element.area_m2(*outcome)).sum();
         assert!((sum - element.inspectable_m2).abs() < 1e-6 * element.inspectable_m2, "{element:?}");
         assert!(
             element.pictured_m2() <= element.inspectable_m2 && element.area_m2(SurfaceOutcome::Shown) <= element.pictured_m2()
@@ -178,9 +184,10 @@ fn exact_night_changes_only_light_outcomes() {
     let mut job = two_bridges();
     job.light.start_unix_s += 10 * 3600;
     let (day, night) = (short_review().coverage.total(), review(&record_inspection(&job, 240.0, 6), &job).coverage.total());
-    for fate in [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::NotPhotographed, SurfaceOutcome::NeverInView]
+    for outcome in
+        [SurfaceOutcome::TooOblique, SurfaceOutcome::TooFar, SurfaceOutcome::NotPhotographed, SurfaceOutcome::NeverInView]
     {
-        assert!((night.area_m2(fate) - day.area_m2(fate)).abs() < 1e-6 * day.inspectable_m2, "{fate:?}");
+        assert!((night.area_m2(outcome) - day.area_m2(outcome)).abs() < 1e-6 * day.inspectable_m2, "{outcome:?}");
     }
     // The lamp lights the remaining surface; it is on only during the dark task.
     assert!(night.area_m2(SurfaceOutcome::Shown) < day.area_m2(SurfaceOutcome::Shown));
@@ -200,7 +207,7 @@ fn exact_speeding_cue_is_reported_with_reaction_time() {
     let fast_to_s = f64::from(tape.now_ms) / 1000.0;
     tape.fly((90.0, 0.0, 10.0), 3.0);
     tape.land();
-    let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
+    let review = Review::of(&tape.log(0), &job, &vehicle(), metadata()).unwrap();
     let lift_off_s = review.frames[0].time.s();
     let speeding: Vec<_> = review.feedback.episodes.iter().filter(|e| KINDS[e.kind].name == "speeding").collect();
     assert_eq!(speeding.len(), 1, "{:?}", review.feedback.episodes);
@@ -220,7 +227,7 @@ fn exact_empty_job_has_a_report() {
     tape.hold_unrecorded(2500);
     tape.hold(1.0);
     tape.land();
-    let review = Review::of(&tape.log(0), &job, &vehicle(), about()).unwrap();
+    let review = Review::of(&tape.log(0), &job, &vehicle(), metadata()).unwrap();
     let page = page::session(&review);
     for words in [
         "No pictures were taken",

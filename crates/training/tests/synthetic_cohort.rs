@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
-use spandrel_training::plan::{RULES, plan, read_rules};
+use spandrel_training::plan::{DEFAULT_RULES, plan, read_rules};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
@@ -21,7 +21,7 @@ fn study() -> Cohort {
 }
 
 #[test]
-fn val_pilot_study_design_yields_its_tables() {
+fn val_pilot_study_design_yields_expected_tables() {
     let records = records();
     assert!(records.iter().all(|record| record.check().is_ok() && record.answers.as_ref().is_some_and(|a| a.given.len() == 24)));
     let study = study();
@@ -50,7 +50,7 @@ fn val_less_stick_noise_improves_scores() {
 
 #[test]
 fn val_only_poor_interlayer_flights_recommend_gap_drill() {
-    let rules = read_rules("rules.toml", RULES).unwrap();
+    let rules = read_rules("rules.toml", DEFAULT_RULES).unwrap();
     let (mut sent, mut spared) = (0, 0);
     for record in records() {
         let task = record.tasks.iter().find(|task| task.kind == "interlayer").unwrap();

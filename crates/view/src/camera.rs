@@ -8,7 +8,7 @@ use spandrel_model::vehicle::Camera;
 
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Near plane, m.
-pub const NEAR_M: f64 = 0.05;
+pub const NEAR_PLANE_M: f64 = 0.05;
 /// The inspector's vertical field of view, rad (60 deg: close to a natural perspective on a screen; estimate).
 pub const INSPECTOR_FOV_RAD: f64 = 1.05;
 /// Eye height of the inspector above the ground, m (estimate).
@@ -54,7 +54,7 @@ impl PinholeCamera {
 
     /// Returns half the width and half the height of the picture at distance 1.
     #[must_use]
-    pub fn half_sizes(&self, aspect: f64) -> (f64, f64) {
+    pub fn half_extents(&self, aspect: f64) -> (f64, f64) {
         let half = math::tan(0.5 * self.hfov_rad);
         (half, half / aspect)
     }
@@ -62,14 +62,14 @@ impl PinholeCamera {
     /// Returns the view-projection matrix (world to clip space).
     #[must_use]
     pub fn view_projection(&self, aspect: f64) -> Matrix {
-        let (w, h) = self.half_sizes(aspect);
-        Matrix::perspective(w, h, NEAR_M).after(&Matrix::view(self.position_m, self.right, self.up(), -self.forward))
+        let (w, h) = self.half_extents(aspect);
+        Matrix::perspective(w, h, NEAR_PLANE_M).after(&Matrix::view(self.position_m, self.right, self.up(), -self.forward))
     }
 
     /// Returns the unit vector from the camera through a picture point; `x` (right) and `y` (up) are in [-1, 1].
     #[must_use]
     pub fn ray(&self, x: f64, y: f64, aspect: f64) -> Vec3<Enu> {
-        let (w, h) = self.half_sizes(aspect);
+        let (w, h) = self.half_extents(aspect);
         (self.forward + self.right * (x * w) + self.up() * (y * h)).unit()
     }
 }

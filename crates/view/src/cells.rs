@@ -9,9 +9,9 @@ use spandrel_model::math;
 use std::collections::BTreeMap;
 
 /// Side of a cell, m (estimate: most pictures show only a few cells).
-const CELL_M: f64 = 80.0;
+const CELL_SIZE_M: f64 = 80.0;
 /// Minimum distance of the backdrop from the origin, m.
-const BACKDROP_M: f64 = 500.0;
+const MIN_BACKDROP_DISTANCE_M: f64 = 500.0;
 /// Number of backdrop sectors around the origin: a view of 84 degrees covers a third of them. With a software renderer,
 /// a draw call costs as much as fifty triangles, which is a sixth of a mountain sector.
 const BACKDROP_SECTORS: f64 = 16.0;
@@ -64,7 +64,7 @@ fn position(v: &Vertex) -> Vec3<Enu> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellBounds {
     /// Bounding sphere.
-    pub ball: BoundingSphere,
+    pub sphere: BoundingSphere,
     /// Corners of the bounding box; empty if only the sphere is known.
     corners_m: Vec<Vec3<Enu>>,
 }
@@ -73,13 +73,13 @@ impl CellBounds {
     /// Returns the bounds of a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
-        Self { ball: BoundingSphere::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
+        Self { sphere: BoundingSphere::of(mesh), corners_m: mesh.vertices.iter().map(position).collect() }
     }
 }
 
 impl From<BoundingSphere> for CellBounds {
-    fn from(ball: BoundingSphere) -> Self {
-        Self { ball, corners_m: Vec::new() }
+    fn from(sphere: BoundingSphere) -> Self {
+        Self { sphere: sphere, corners_m: Vec::new() }
     }
 }
 
@@ -91,10 +91,10 @@ enum SceneCell {
 }
 
 fn cell(p: Vec3<Enu>, backdrop: bool) -> SceneCell {
-    if backdrop || p.east().abs().max(p.north().abs()) > BACKDROP_M {
+    if backdrop || p.east().abs().max(p.north().abs()) > MIN_BACKDROP_DISTANCE_M {
         return SceneCell::Sector((math::atan2(p.east(), p.north()) / math::TAU * BACKDROP_SECTORS).floor() as i64);
     }
-    SceneCell::Square((p.east() / CELL_M).floor() as i64, (p.north() / CELL_M).floor() as i64)
+    SceneCell::Square((p.east() / CELL_SIZE_M).floor() as i64, (p.north() / CELL_SIZE_M).floor() as i64)
 }
 
 /// Maps vertex indices of the whole mesh to those of a cell.
@@ -161,12 +161,12 @@ impl Frustum {
 
     /// Returns false if the sphere is definitely outside the frustum.
     #[must_use]
-    pub fn may_be_visible(&self, ball: &BoundingSphere) -> bool {
+    pub fn may_be_visible(&self, sphere: &BoundingSphere) -> bool {
         self.0.iter().all(|plane| {
             let [a, b, c, _] = plane;
             let length = (a * a + b * b + c * c).sqrt();
             // A projection with infinite depth has no far plane.
-            length < 1e-12 || signed_distance(plane, ball.center_m) >= -ball.radius_m * length
+            length < 1e-12 || signed_distance(plane, sphere.center_m) >= -sphere.radius_m * length
         })
     }
 
@@ -176,7 +176,7 @@ impl Frustum {
         let corners = &bounds.corners_m;
         let reaches =
             |plane: &[f64; 4]| corners.is_empty() || corners.iter().any(|corner| signed_distance(plane, *corner) >= 0.0);
-        self.may_be_visible(&bounds.ball) && self.0.iter().all(reaches)
+        self.may_be_visible(&bounds.sphere) && self.0.iter().all(reaches)
     }
 }
 
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_corners_cull_a_long_wall_that_its_sphere_keeps() {
+    fn exact_box_corners_cull_a_long_wall_that_the_sphere_keeps() {
         let eye = PinholeCamera::at(Vec3::new(0.0, 0.0, 10.0), Vec3::new(0.0, 100.0, 10.0), 1.0, 1.5);
         let frustum = Frustum::of(&eye.view_projection(1.5));
         let wall = |east: f64| {
@@ -235,8 +235,8 @@ mod tests {
             CellBounds::of(&mesh)
         };
         let (beside, across) = (wall(-260.0), wall(-60.0));
-        assert!(frustum.may_be_visible(&beside.ball) && !frustum.cell_may_be_visible(&beside));
-        assert!(frustum.cell_may_be_visible(&across) && frustum.cell_may_be_visible(&CellBounds::from(across.ball)));
+        assert!(frustum.may_be_visible(&beside.sphere) && !frustum.cell_may_be_visible(&beside));
+        assert!(frustum.cell_may_be_visible(&across) && frustum.cell_may_be_visible(&CellBounds::from(across.sphere)));
         // The frustum test must keep a cell that contains the camera even though none of its corners are in view.
         let mut hall = Mesh::default();
         hall.block([-500.0, -500.0, -500.0], [500.0, 500.0, 500.0], [0.0; 3], SurfaceFinish::new(Material::Rock, [9, 9, 9]));

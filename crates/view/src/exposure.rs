@@ -20,7 +20,7 @@ const MAX_HIGHLIGHT_WEIGHT: f64 = 5.0;
 /// Minimum illuminance to which the inspector's eyes adapt, lx (estimate: limit of color vision).
 const MIN_EYE_ADAPTATION_LUX: f64 = 3.0;
 /// Lowest ISO sensitivity of any camera.
-const ISO_MIN: f64 = 100.0;
+const MIN_ISO: f64 = 100.0;
 /// Maximum metering distance, m.
 const METERING_RANGE_M: f64 = 600.0;
 
@@ -43,25 +43,25 @@ pub struct Lighting<'a> {
     /// The aircraft's lamp and its pose, if it is on.
     pub lamp: Option<(&'a Lamp, &'a CameraPose)>,
     /// Simulation time of the site query.
-    pub ambient_at: QueryTime,
+    pub query_time: QueryTime,
 }
 
 impl Exposure {
     /// Returns the exposure of the aircraft's camera, limited by its longest exposure time and highest sensitivity.
     #[must_use]
     pub fn camera(metered_lux: f64, camera: &Camera) -> Self {
-        let limit = visibility::needed_lux(camera);
+        let limit = visibility::required_illuminance_lux(camera);
         let lux = metered_lux.max(limit);
         // limit = C N²/(t_max S_max), so t S = t_max S_max limit / lux.
-        let product = camera.exposure_max_s * camera.iso_max * limit / lux;
-        let time_s = (product / ISO_MIN).min(camera.exposure_max_s);
-        Self { white_lux: lux, time_s, iso: (product / time_s).clamp(ISO_MIN, camera.iso_max.max(ISO_MIN)) }
+        let product = camera.max_exposure_time_s * camera.iso_max * limit / lux;
+        let time_s = (product / MIN_ISO).min(camera.max_exposure_time_s);
+        Self { white_lux: lux, time_s, iso: (product / time_s).clamp(MIN_ISO, camera.iso_max.max(MIN_ISO)) }
     }
 
     /// Returns the exposure of a person's eyes.
     #[must_use]
     pub fn eyes(metered_lux: f64) -> Self {
-        Self { white_lux: metered_lux.max(MIN_EYE_ADAPTATION_LUX), time_s: 0.0, iso: ISO_MIN }
+        Self { white_lux: metered_lux.max(MIN_EYE_ADAPTATION_LUX), time_s: 0.0, iso: MIN_ISO }
     }
 }
 
@@ -69,7 +69,7 @@ impl Exposure {
 /// second).
 const ADAPTATION_TIME_S: f64 = 0.35;
 /// Minimum time gap that restarts the adaptation, s.
-const ADAPTATION_RESET_S: f64 = 2.0;
+const ADAPTATION_RESET_GAP_S: f64 = 2.0;
 
 /// Smooths the metered illuminance over a sequence of pictures. Prevents flicker when an object crosses the picture.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -79,8 +79,9 @@ impl ExposureMeter {
     /// Returns the smoothed illuminance for the picture at time `at`, in lx. The first picture, and the first one after
     /// a jump in time, uses the metered value directly.
     pub fn smoothed_lux(&mut self, metered_lux: f64, at: SimTime) -> f64 {
-        let before =
-            self.0.filter(|(then, lux)| *then <= at && (at - *then).s() <= ADAPTATION_RESET_S && *lux > 0.0 && metered_lux > 0.0);
+        let before = self
+            .0
+            .filter(|(then, lux)| *then <= at && (at - *then).s() <= ADAPTATION_RESET_GAP_S && *lux > 0.0 && metered_lux > 0.0);
         let lux = before.map_or(metered_lux, |(then, lux)| {
             let kept = math::exp(-(at - then).s() / ADAPTATION_TIME_S);
             metered_lux * math::pow(lux / metered_lux, kept)
@@ -119,7 +120,7 @@ fn metered(mut seen: Vec<f64>) -> f64 {
 
 /// Returns π times the luminance along a ray, in lx.
 fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -> f64 {
-    let Some(hit) = site.ray(from, ray, METERING_RANGE_M, light.ambient_at) else {
+    let Some(hit) = site.ray(from, ray, METERING_RANGE_M, light.query_time) else {
         return light.sky.visible_lux(Vec3::new(ray.east(), ray.north(), ray.up().max(0.0)));
     };
     let point = from + ray * hit.distance_m;
@@ -128,10 +129,10 @@ fn visible_lux(site: &Site, from: Vec3<Enu>, ray: Vec3<Enu>, light: &Lighting) -
         let mirrored = Vec3::new(ray.east(), ray.north(), ray.up().abs());
         let glance = 1.0 - ray.up().abs();
         let fresnel = 0.02 + 0.98 * glance * glance * glance * glance * glance;
-        return fresnel * light.sky.visible_lux(mirrored) + 0.04 * site.ambient_lux(point, Some(hit.normal), light.ambient_at);
+        return fresnel * light.sky.visible_lux(mirrored) + 0.04 * site.ambient_lux(point, Some(hit.normal), light.query_time);
     }
     let lamp = light.lamp.map_or(0.0, |(lamp, pose)| visibility::lamp_lux(lamp, pose, point, hit.normal));
-    ALBEDO * (site.ambient_lux(point, Some(hit.normal), light.ambient_at) + lamp)
+    ALBEDO * (site.ambient_lux(point, Some(hit.normal), light.query_time) + lamp)
 }
 
 #[cfg(test)]
@@ -143,10 +144,10 @@ mod tests {
     /// Number of metered points.
     const METERED_POINTS: usize = (METERING_GRID.0 * METERING_GRID.1) as usize;
     /// Relative rounding error when adding 35 numbers.
-    const ROUNDING: f64 = 1e-12;
+    const ROUNDING_ERROR: f64 = 1e-12;
 
     fn near(found: f64, expected: f64) -> bool {
-        (found / expected - 1.0).abs() < ROUNDING
+        (found / expected - 1.0).abs() < ROUNDING_ERROR
     }
 
     #[test]
@@ -198,7 +199,7 @@ mod tests {
                 let (dark, light) = (with(DARK_LUX), with(DARK_LUX * RANGE));
                 assert!(light >= dark && light < dark * leap, "{dark} to {light} lx among {seen:?}");
                 let nudged = with(seen[at] * 1.01) / with(seen[at]);
-                assert!((1.0 - ROUNDING..nudge).contains(&nudged), "{nudged} among {seen:?}");
+                assert!((1.0 - ROUNDING_ERROR..nudge).contains(&nudged), "{nudged} among {seen:?}");
             }
         }
     }
@@ -225,12 +226,12 @@ mod tests {
 
     #[test]
     fn exact_camera_exposure_stops_at_its_limits() {
-        let limit = visibility::needed_lux(&REFERENCE_CAMERA);
+        let limit = visibility::required_illuminance_lux(&REFERENCE_CAMERA);
         let dark = Exposure::camera(0.1 * limit, &REFERENCE_CAMERA);
-        assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.exposure_max_s));
+        assert_eq!((dark.white_lux, dark.time_s), (limit, REFERENCE_CAMERA.max_exposure_time_s));
         assert!((dark.iso - REFERENCE_CAMERA.iso_max).abs() < 1e-6);
         // 160 times the light requires a tenth of the exposure time at a sixteenth of the sensitivity.
         let bright = Exposure::camera(160.0 * limit, &REFERENCE_CAMERA);
-        assert!((bright.iso - 100.0).abs() < 1e-6 && (bright.time_s - 0.1 * REFERENCE_CAMERA.exposure_max_s).abs() < 1e-9);
+        assert!((bright.iso - 100.0).abs() < 1e-6 && (bright.time_s - 0.1 * REFERENCE_CAMERA.max_exposure_time_s).abs() < 1e-9);
     }
 }

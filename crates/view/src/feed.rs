@@ -4,7 +4,7 @@ use super::hud::GnssStatus;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::modes;
-use spandrel_mavlink::contract::named_values::Named;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
     GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
 };
@@ -55,10 +55,10 @@ impl Feed {
                     gps.fix_type,
                     GpsFixType::GPS_FIX_TYPE_NO_GPS | GpsFixType::GPS_FIX_TYPE_NO_FIX | GpsFixType::GPS_FIX_TYPE_2D_FIX
                 );
-                self.gnss = Some(GnssStatus { fixed, satellites: gps.satellites_visible });
+                self.gnss = Some(GnssStatus { has_fix: fixed, satellites: gps.satellites_visible });
             }
             MavMessage::NAMED_VALUE_INT(named) => {
-                if let Some(Named::Cues(cues)) = Named::from_int(named) {
+                if let Some(NamedValue::Cues(cues)) = NamedValue::from_int(named) {
                     self.set_cues(cues, now);
                 }
             }
@@ -135,7 +135,7 @@ mod tests {
         feed.handle_datagram(&vehicle.encode(&MavMessage::GPS_RAW_INT(gps)), now);
         let cues = NAMED_VALUE_INT_DATA { name: "cues".into(), value: 12, ..Default::default() };
         feed.handle_datagram(&monitor.encode(&MavMessage::NAMED_VALUE_INT(cues)), now);
-        assert_eq!((feed.mode(), feed.gnss()), ("Position", Some(GnssStatus { fixed: true, satellites: 11 })));
+        assert_eq!((feed.mode(), feed.gnss()), ("Position", Some(GnssStatus { has_fix: true, satellites: 11 })));
         assert_eq!(feed.cues(now + SimTime::from_ms(1_000), false), 12);
         assert_eq!(feed.cues(now + SimTime::from_ms(2_000), false), 0, "cues expire without repetition");
         feed.handle_text("Crash: bridge member arch/rib-left/07");

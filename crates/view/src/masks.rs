@@ -29,7 +29,7 @@ struct LabelBounds {
 impl LabelMask {
     /// Converts a half-precision float (IEEE 754 binary16, nonnegative) to an integer.
     #[must_use]
-    pub fn half_to_integer(half: u16) -> u16 {
+    pub fn half_float_to_integer(half: u16) -> u16 {
         let (exponent, fraction) = (i32::from((half >> 10) & 0x1F), f64::from(half & 0x3FF));
         if exponent == 0 {
             return 0;
@@ -85,12 +85,12 @@ mod tests {
     use spandrel_model::frames::Vec3;
 
     #[test]
-    fn exact_half_floats_represent_integers() {
+    fn exact_half_floats_convert_to_integers() {
         // IEEE 754-2019, binary16.
         for (half, whole) in
             [(0x0000, 0), (0x3C00, 1), (0x4000, 2), (0x4200, 3), (0x4A00, 12), (0x5880, 144), (0x5D2C, 331), (0x6800, 2048)]
         {
-            assert_eq!(LabelMask::half_to_integer(half), whole, "{half:#06x}");
+            assert_eq!(LabelMask::half_float_to_integer(half), whole, "{half:#06x}");
         }
     }
 

@@ -190,11 +190,11 @@ impl Mesh {
 
     /// Adds an ellipsoid with three semi-axes; a `dent` in 0..1 makes it an irregular boulder.
     pub fn ball(&mut self, center: Vec3<Enu>, half: [f64; 3], dent: f64, finish: SurfaceFinish) {
-        self.ball_with_detail((8, 12), center, half, dent, finish);
+        self.sphere_with_detail((8, 12), center, half, dent, finish);
     }
 
     /// Adds an ellipsoid with the given number of rings and sides.
-    pub fn ball_with_detail(
+    pub fn sphere_with_detail(
         &mut self,
         (rings, sides): (u32, u32),
         center: Vec3<Enu>,

@@ -4,7 +4,7 @@
 use spandrel_model::random::RandomStream;
 
 /// Texels per side.
-pub const SIDE: usize = 512;
+pub const SIDE_TEXELS: usize = 512;
 /// Lattice cells per side; the tile repeats after this many cells.
 pub const CELLS: usize = 16;
 /// Octaves of the first channel; the finest has cells of two texels.
@@ -26,7 +26,7 @@ pub struct NoiseLevel {
 #[must_use]
 pub fn levels() -> Vec<NoiseLevel> {
     let mut values = tile();
-    let mut side = SIDE;
+    let mut side = SIDE_TEXELS;
     let mut all = Vec::new();
     loop {
         let rgba = values.iter().flatten().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
@@ -56,23 +56,23 @@ fn tile() -> Vec<[f64; 4]> {
     let single = lattice(CELLS);
     let (east, north, own) = (lattice(CELLS), lattice(CELLS), lattice(CELLS));
     let texel = |k: usize| {
-        let unit = CELLS as f64 / SIDE as f64;
-        let (x, y) = ((k % SIDE) as f64 * unit, (k / SIDE) as f64 * unit);
+        let unit = CELLS as f64 / SIDE_TEXELS as f64;
+        let (x, y) = ((k % SIDE_TEXELS) as f64 * unit, (k / SIDE_TEXELS) as f64 * unit);
         let mut sum = 0.5;
         let mut share = 0.5;
         for (k, octave) in octaves.iter().enumerate() {
             let finer = f64::from(1u32 << k);
-            sum += share * (smooth(octave, CELLS << k, x * finer, y * finer) - 0.5);
+            sum += share * (interpolate(octave, CELLS << k, x * finer, y * finer) - 0.5);
             share *= 0.5;
         }
         let (distance, number) = nearest(&east, &north, &own, x, y);
-        [sum, smooth(&single, CELLS, x, y), distance / MAX_DISTANCE, number]
+        [sum, interpolate(&single, CELLS, x, y), distance / MAX_DISTANCE, number]
     };
-    (0..SIDE * SIDE).map(texel).collect()
+    (0..SIDE_TEXELS * SIDE_TEXELS).map(texel).collect()
 }
 
 /// Interpolates smoothly between the corners of a periodic lattice.
-fn smooth(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
+fn interpolate(lattice: &[f64], cells: usize, x: f64, y: f64) -> f64 {
     let (cx, cy) = (x.floor(), y.floor());
     let fade = |t: f64| t * t * (3.0 - 2.0 * t);
     let (fx, fy) = (fade(x - cx), fade(y - cy));
@@ -116,9 +116,9 @@ mod tests {
     #[test]
     fn prop_tile_repeats_without_a_seam() {
         let fine = &levels()[0];
-        let at = |x: usize, y: usize| f64::from(fine.rgba[4 * (y * SIDE + x)]);
+        let at = |x: usize, y: usize| f64::from(fine.rgba[4 * (y * SIDE_TEXELS + x)]);
         // The step across the seam must not exceed the largest step within the tile.
-        let within = (0..SIDE - 1).map(|x| (at(x + 1, 100) - at(x, 100)).abs()).fold(0.0, f64::max);
-        assert!((at(0, 100) - at(SIDE - 1, 100)).abs() <= within);
+        let within = (0..SIDE_TEXELS - 1).map(|x| (at(x + 1, 100) - at(x, 100)).abs()).fold(0.0, f64::max);
+        assert!((at(0, 100) - at(SIDE_TEXELS - 1, 100)).abs() <= within);
     }
 }

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_difference_and_mean_luma() {
+    fn exact_difference_and_luma_are_averages() {
         let grey = |v: u8| Picture { width: 2, height: 1, rgba: vec![v, v, v, 255, v, v, v, 255] };
         assert_eq!(grey(10).difference(&grey(13)), Some(3.0));
         assert_eq!(grey(10).difference(&Picture { width: 1, height: 1, rgba: vec![0; 4] }), None);

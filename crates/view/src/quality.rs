@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_presets_increase_in_every_setting() {
+    fn exact_every_setting_increases_with_the_preset() {
         for pair in PRESETS.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
             assert!(a.samples <= b.samples && a.cascades <= b.cascades && a.shadow_taps <= b.shadow_taps, "{}", b.name);

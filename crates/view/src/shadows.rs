@@ -12,12 +12,12 @@ const CASTER_RANGE_M: f64 = 700.0;
 /// Maximum distance of shadow receivers beyond a map's center, m.
 const RECEIVER_RANGE_M: f64 = 400.0;
 /// Radii of the maps that follow the camera, m, by number of cascades.
-const CASCADE_RADII_3_M: [f64; 3] = [16.0, 80.0, 380.0];
-const CASCADE_RADII_4_M: [f64; 4] = [10.0, 38.0, 130.0, 440.0];
+const THREE_CASCADE_RADII_M: [f64; 3] = [16.0, 80.0, 380.0];
+const FOUR_CASCADE_RADII_M: [f64; 4] = [10.0, 38.0, 130.0, 440.0];
 /// Near plane of the lamp's map, m: in front of the aircraft's own parts.
-const LAMP_NEAR_M: f64 = 0.35;
+const LAMP_NEAR_PLANE_M: f64 = 0.35;
 /// Width of the lamp's map relative to its beam.
-const LAMP_MARGIN: f64 = 1.08;
+const LAMP_MARGIN_FACTOR: f64 = 1.08;
 
 /// A shadow map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,8 +34,8 @@ pub fn sun_maps(quality: &Quality, eye: &PinholeCamera, bounds_m: (Vec3<Enu>, f6
     let ahead = |radius: f64| sun_map(eye.position_m + eye.forward * (0.75 * radius), radius, quality.shadow_px, sun);
     match quality.cascades {
         0 | 1 => vec![sun_map(bounds_m.0, bounds_m.1, quality.shadow_px, sun)],
-        2 | 3 => CASCADE_RADII_3_M.iter().map(|r| ahead(*r)).collect(),
-        _ => CASCADE_RADII_4_M.iter().map(|r| ahead(*r)).collect(),
+        2 | 3 => THREE_CASCADE_RADII_M.iter().map(|r| ahead(*r)).collect(),
+        _ => FOUR_CASCADE_RADII_M.iter().map(|r| ahead(*r)).collect(),
     }
 }
 
@@ -56,10 +56,13 @@ fn sun_map(center_m: Vec3<Enu>, radius_m: f64, side_px: u32, sun: Vec3<Enu>) -> 
 /// Returns the lamp's shadow map.
 #[must_use]
 pub fn lamp_map(beam: &LampBeam, side_px: u32) -> ShadowMap {
-    let half = math::tan(beam.half_rad) * LAMP_MARGIN;
+    let half = math::tan(beam.half_angle_rad) * LAMP_MARGIN_FACTOR;
     let up = beam.right.cross(beam.forward);
     let view = Matrix::view(beam.position_m, beam.right, up, -beam.forward);
-    ShadowMap { projection: Matrix::perspective(half, half, LAMP_NEAR_M).after(&view), texel_m: 2.0 * half / f64::from(side_px) }
+    ShadowMap {
+        projection: Matrix::perspective(half, half, LAMP_NEAR_PLANE_M).after(&view),
+        texel_m: 2.0 * half / f64::from(side_px),
+    }
 }
 
 #[cfg(test)]

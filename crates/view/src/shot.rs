@@ -13,7 +13,7 @@ use spandrel_model::vehicle::Lamp;
 const NOISE_AT_ISO_100: f64 = 0.006;
 /// Vignetting strength: the corners are darkened by half of this fraction. The darkening grows with the square of the
 /// distance from the center (estimate: small wide-angle lenses).
-const VIGNETTE: f64 = 0.45;
+const VIGNETTE_STRENGTH: f64 = 0.45;
 
 /// Beam of a lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,9 +25,9 @@ pub struct LampBeam {
     /// Unit vector to the right.
     pub right: Vec3<Enu>,
     /// Half beam angle, rad.
-    pub half_rad: f64,
+    pub half_angle_rad: f64,
     /// Luminous intensity within the beam, cd.
-    pub candela: f64,
+    pub intensity_cd: f64,
 }
 
 impl LampBeam {
@@ -35,13 +35,13 @@ impl LampBeam {
     /// `site::visibility`.
     #[must_use]
     pub fn of(lamp: &Lamp, pose: &CameraPose) -> Option<Self> {
-        let half_rad = 0.5 * lamp.beam_rad;
-        (pose.lamp_on && lamp.flux_lm > 0.0).then(|| Self {
+        let half_rad = 0.5 * lamp.beam_angle_rad;
+        (pose.lamp_on && lamp.luminous_flux_lm > 0.0).then(|| Self {
             position_m: pose.position_m,
             forward: pose.forward,
             right: pose.right,
-            half_rad,
-            candela: lamp.flux_lm / (math::TAU * (1.0 - math::cos(half_rad))),
+            half_angle_rad: half_rad,
+            intensity_cd: lamp.luminous_flux_lm / (math::TAU * (1.0 - math::cos(half_rad))),
         })
     }
 }
@@ -63,7 +63,7 @@ impl SensorResponse {
     /// Returns the response of the aircraft's camera. `moved` is the camera when the shutter opened.
     #[must_use]
     pub fn camera(exposure: Exposure, moved: Option<PinholeCamera>) -> Self {
-        Self { exposure, noise: NOISE_AT_ISO_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE, before: moved }
+        Self { exposure, noise: NOISE_AT_ISO_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE_STRENGTH, before: moved }
     }
 
     /// Checks whether this is a camera, with sensor noise and vignetting, rather than an eye.

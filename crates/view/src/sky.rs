@@ -6,11 +6,11 @@ use spandrel_model::math;
 use spandrel_model::site::light::Daylight;
 
 /// Color of the clear sky's zenith, luminance 1 (estimate: about 15,000 K).
-const ZENITH: [f64; 3] = [0.62, 0.97, 2.0];
+const ZENITH_COLOR: [f64; 3] = [0.62, 0.97, 2.0];
 /// Color of the horizon, luminance 1 (estimate: about 8,000 K).
-const HORIZON: [f64; 3] = [0.94, 0.995, 1.24];
+const HORIZON_COLOR: [f64; 3] = [0.94, 0.995, 1.24];
 /// Color of clouds, luminance 1 (estimate: about 6,500 K).
-const CLOUD: [f64; 3] = [0.97, 1.0, 1.05];
+const CLOUD_COLOR: [f64; 3] = [0.97, 1.0, 1.05];
 /// Optical depths of clear air for red, green, and blue light, per air mass (Rayleigh scattering, inverse fourth power,
 /// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
@@ -60,7 +60,7 @@ pub fn relative_radiance(direction: Vec3<Enu>, sun: Vec3<Enu>, cloud: f64) -> [f
     let clear = (0.32 + 0.68 * fall) * glow;
     // CIE overcast sky: three times as bright at the zenith as at the horizon.
     let grey = (1.0 + 2.0 * up) / 3.0;
-    [0, 1, 2].map(|k| math::lerp(clear * math::lerp(ZENITH[k], HORIZON[k], fall), grey * CLOUD[k], cloud))
+    [0, 1, 2].map(|k| math::lerp(clear * math::lerp(ZENITH_COLOR[k], HORIZON_COLOR[k], fall), grey * CLOUD_COLOR[k], cloud))
 }
 
 impl Sky {

@@ -54,17 +54,17 @@ pub struct SceneMoment {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CameraTurnRate {
     /// Heading rate, rad/s, clockwise as seen from above.
-    pub heading_rad_s: f64,
+    pub heading_rate_rad_s: f64,
     /// Pitch rate, rad/s, up positive.
-    pub pitch_rad_s: f64,
+    pub pitch_rate_rad_s: f64,
 }
 
 impl CameraTurnRate {
     /// Returns the camera's angular velocity in rad/s. `right` is the camera's right axis, which the gimbal keeps
     /// level.
     #[must_use]
-    pub fn angular_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
-        right * self.pitch_rad_s - Vec3::new(0.0, 0.0, self.heading_rad_s)
+    pub fn angular_velocity_rad_s(&self, right: Vec3<Enu>) -> Vec3<Enu> {
+        right * self.pitch_rate_rad_s - Vec3::new(0.0, 0.0, self.heading_rate_rad_s)
     }
 }
 
@@ -177,13 +177,13 @@ impl Stage<'_> {
     ) -> f64 {
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
         let lamp = lamp.filter(|pose| pose.lamp_on).map(|pose| (&self.vehicle.lamp, pose));
-        meter(self.site, eye, aspect, &Lighting { sky, lamp, ambient_at: at })
+        meter(self.site, eye, aspect, &Lighting { sky, lamp, query_time: at })
     }
 }
 
 /// Returns the camera's pose when the shutter opened, `time_s` before it closed.
 fn camera_at_shutter_open(eye: &PinholeCamera, moment: &SceneMoment, time_s: f64) -> PinholeCamera {
-    let back = Rotation::<Enu, Enu>::identity().rotated_by(moment.turn.angular_rad_s(eye.right) * -time_s);
+    let back = Rotation::<Enu, Enu>::identity().rotated_by(moment.turn.angular_velocity_rad_s(eye.right) * -time_s);
     let position_m = eye.position_m - moment.velocity_m_s * time_s;
     PinholeCamera { position_m, forward: back * eye.forward, right: back * eye.right, ..*eye }
 }
@@ -209,12 +209,12 @@ pub struct HudInputs {
 impl HudInputs {
     /// Returns the inputs from a recorded flight.
     #[must_use]
-    pub fn of(flight: &Flight, pad_up_m: f64, at: SimTime) -> Self {
+    pub fn of(flight: &Flight, pad_height_m: f64, at: SimTime) -> Self {
         let newest = flight.truths.iter().rev().find(|truth| truth.time <= at).map(|truth| truth.time);
         let taken = flight.snapshots.all().iter().filter(|shot| shot.0 <= at);
         Self {
             battery_pct: flight.battery.at(at),
-            lift_off: flight.lift_off(pad_up_m, LIFT_OFF_M).filter(|begun| *begun <= at),
+            lift_off: flight.lift_off(pad_height_m, LIFTOFF_HEIGHT_M).filter(|begun| *begun <= at),
             telemetry_age_s: newest.map_or(0.0, |newest| (at - newest).s()),
             pictures: taken.clone().count(),
             last_picture: taken.map(|shot| shot.0).max(),
@@ -233,7 +233,7 @@ pub fn hud(stage: &Stage, moment: &SceneMoment, flight: &Flight, feed: (&Feed, b
 
 /// Builds the HUD from inputs from any source.
 #[must_use]
-pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, held): (&Feed, bool), map: bool) -> Hud {
+pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, held): (&Feed, bool), map: bool) -> Hud {
     let (scenario, at) = (stage.scenario, moment.at);
     let pad_m = scenario.ground_team.pad_m;
     let from_pad = moment.drone.pose.position_m - pad_m;
@@ -241,23 +241,23 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
     Hud {
         speed_m_s: moment.velocity_m_s.norm(),
         limit_m_s: scenario.scoring.speed_limit_m_s,
-        battery_pct: told.battery_pct,
-        green_pct: scenario.feedback.battery_green_pct,
-        yellow_pct: scenario.feedback.battery_yellow_pct,
+        battery_pct: inputs.battery_pct,
+        min_green_pct: scenario.feedback.battery_green_pct,
+        min_yellow_pct: scenario.feedback.battery_yellow_pct,
         cues: feed.cues(at, held),
         hit: feed.hit().map(str::to_owned),
         height_m: from_pad.up(),
         home_distance_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),
         gnss: feed.gnss(),
-        telemetry_age_s: told.telemetry_age_s,
+        telemetry_age_s: inputs.telemetry_age_s,
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
         zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
         lamp: moment.camera.lamp_on,
-        remaining_s: scenario.scoring.time_max_s - told.lift_off.map_or(0.0, |begun| (at - begun).s()),
-        pictures: told.pictures,
-        shutter: shutter(told.last_picture, at),
-        time_s: told.blink_time_s,
+        remaining_s: scenario.scoring.time_max_s - inputs.lift_off.map_or(0.0, |begun| (at - begun).s()),
+        pictures: inputs.pictures,
+        shutter: shutter(inputs.last_picture, at),
+        time_s: inputs.blink_time_s,
         position_m: moment.drone.pose.position_m,
         heading_rad: moment.drone.pose.ned_from_frd.yaw_rad(),
         pad_m,
@@ -266,7 +266,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, told: &HudInputs, (feed, hel
 }
 
 /// Height above the pad at which the flight time starts, m (docs/src/reference/assessment.md, "Frames").
-pub const LIFT_OFF_M: f64 = 0.3;
+pub const LIFTOFF_HEIGHT_M: f64 = 0.3;
 
 fn tracks(scenario: &Scenario) -> Vec<MapPath> {
     let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
@@ -303,7 +303,7 @@ mod tests {
     use super::*;
     use spandrel_model::site::defects::REFERENCE_CAMERA;
 
-    const ROUNDING: f64 = 1e-12;
+    const ROUNDING_ERROR: f64 = 1e-12;
 
     /// Returns a moment with a camera at the origin that looks north at the given pitch.
     fn moment(pitch_deg: f64, turn: CameraTurnRate) -> SceneMoment {
@@ -326,28 +326,28 @@ mod tests {
     #[test]
     fn exact_turning_camera_pointed_elsewhere_when_the_shutter_opened() {
         let (degree, fast) = (1.0_f64.to_radians(), 100.0_f64.to_radians());
-        let yawed = before(&moment(0.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
+        let yawed = before(&moment(0.0, CameraTurnRate { heading_rate_rad_s: fast, pitch_rate_rad_s: 0.0 }), 0.01);
         // The camera turned clockwise, so it pointed west of north one degree earlier.
-        assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING, "{yawed:?}");
-        assert!(yawed.forward.up().abs() < ROUNDING && yawed.right.up().abs() < ROUNDING);
+        assert!((math::atan2(yawed.forward.east(), yawed.forward.north()) + degree).abs() < ROUNDING_ERROR, "{yawed:?}");
+        assert!(yawed.forward.up().abs() < ROUNDING_ERROR && yawed.right.up().abs() < ROUNDING_ERROR);
         assert!(
-            (yawed.forward.dot(yawed.right)).abs() < ROUNDING
-                && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING
+            (yawed.forward.dot(yawed.right)).abs() < ROUNDING_ERROR
+                && (yawed.position_m - Vec3::new(-0.03, 0.0, 0.02)).norm() < ROUNDING_ERROR
         );
         // The camera turned up, so it pointed lower before, whatever its pitch.
         for pitch_deg in [0.0, -60.0, 60.0] {
-            let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rad_s: 0.0, pitch_rad_s: fast }), 0.01);
+            let tilted = before(&moment(pitch_deg, CameraTurnRate { heading_rate_rad_s: 0.0, pitch_rate_rad_s: fast }), 0.01);
             assert!((math::asin(tilted.forward.up()).to_degrees() - (pitch_deg - 1.0)).abs() < 1e-9, "{tilted:?}");
-            assert!((tilted.right - Vec3::new(1.0, 0.0, 0.0)).norm() < ROUNDING);
+            assert!((tilted.right - Vec3::new(1.0, 0.0, 0.0)).norm() < ROUNDING_ERROR);
         }
-        let steep = before(&moment(60.0, CameraTurnRate { heading_rad_s: fast, pitch_rad_s: 0.0 }), 0.01);
-        assert!((steep.forward.up() - math::sin(60.0_f64.to_radians())).abs() < ROUNDING, "its pitch stays");
+        let steep = before(&moment(60.0, CameraTurnRate { heading_rate_rad_s: fast, pitch_rate_rad_s: 0.0 }), 0.01);
+        assert!((steep.forward.up() - math::sin(60.0_f64.to_radians())).abs() < ROUNDING_ERROR, "its pitch stays");
     }
 
     #[test]
     fn exact_steady_camera_keeps_its_direction_during_exposure() {
         let still = moment(-20.0, CameraTurnRate::default());
         let (eye, opened) = (PinholeCamera::of(&still.camera, &still.lens), before(&still, 0.01));
-        assert!((opened.forward - eye.forward).norm() < ROUNDING && (opened.right - eye.right).norm() < ROUNDING);
+        assert!((opened.forward - eye.forward).norm() < ROUNDING_ERROR && (opened.right - eye.right).norm() < ROUNDING_ERROR);
     }
 }

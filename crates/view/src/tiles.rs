@@ -1,19 +1,19 @@
 //! Precomputed tiles for the cheaper presets. One texture contains several slow patterns of ground or concrete, so one
-//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_M`] and [`CONCRETE_M`]; the `lean`
+//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_TILE_SIZE_M`] and [`CONCRETE_TILE_SIZE_M`]; the `lean`
 //! shader reads them.
 
 use spandrel_model::random::RandomStream;
 
 /// Texels per side.
-pub const SIDE: usize = 1024;
+pub const SIDE_TEXELS: usize = 1024;
 /// Side of the ground tile, m.
-pub const GROUND_M: f64 = 32.0;
+pub const GROUND_TILE_SIZE_M: f64 = 32.0;
 /// Side of the concrete tile, m: an integer multiple of the board width and length.
-pub const CONCRETE_M: f64 = 38.4;
+pub const CONCRETE_TILE_SIZE_M: f64 = 38.4;
 /// Width and length of formwork boards, m (as in the `surface` shader).
-const BOARD_M: (f64, f64) = (0.16, 2.4);
+const BOARD_SIZE_M: (f64, f64) = (0.16, 2.4);
 /// Side of a cell that may contain bird droppings, m. The shader uses 1.7; here the cells must divide the tile evenly.
-const DROPPINGS_CELL_M: f64 = 1.6;
+const DROPPINGS_CELL_SIZE_M: f64 = 1.6;
 /// Fraction of cells with droppings, and radius of the droppings, m.
 const DROPPINGS: (f64, f64) = (0.07, 0.045);
 
@@ -26,7 +26,7 @@ type TilePattern = Vec<f32>;
 /// Returns noise with the given numbers of cells across and down in the first octave; each subsequent octave has twice
 /// the frequency and half the amplitude. The mean is about 0.5.
 fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u32) -> TilePattern {
-    let mut field = vec![0.5; SIDE * SIDE];
+    let mut field = vec![0.5; SIDE_TEXELS * SIDE_TEXELS];
     for octave in 0..octaves {
         let (columns, rows) = (columns << octave, rows << octave);
         let lattice: Vec<f32> = (0..columns * rows).map(|_| stream.uniform() as f32 - 0.5).collect();
@@ -39,17 +39,17 @@ fn noise(stream: &mut RandomStream, (columns, rows): (usize, usize), octaves: u3
 /// fraction.
 fn interpolation_corners(cells: usize) -> Vec<(usize, usize, f32)> {
     let of = |k: usize| {
-        let at = k as f32 * cells as f32 / SIDE as f32;
+        let at = k as f32 * cells as f32 / SIDE_TEXELS as f32;
         let t = at - at.floor();
         let cell = at as usize % cells;
         (cell, (cell + 1) % cells, t * t * (3.0 - 2.0 * t))
     };
-    (0..SIDE).map(of).collect()
+    (0..SIDE_TEXELS).map(of).collect()
 }
 
 fn add(field: &mut TilePattern, lattice: &[f32], (columns, rows): (usize, usize), share: f32) {
     let across = interpolation_corners(columns);
-    for ((above, below, t), line) in interpolation_corners(rows).into_iter().zip(field.chunks_exact_mut(SIDE)) {
+    for ((above, below, t), line) in interpolation_corners(rows).into_iter().zip(field.chunks_exact_mut(SIDE_TEXELS)) {
         let (above, below) = (&lattice[above * columns..][..columns], &lattice[below * columns..][..columns]);
         let row: Vec<f32> = above.iter().zip(below).map(|(a, b)| share * (a + (b - a) * t)).collect();
         for (texel, (left, right, t)) in line.iter_mut().zip(&across) {
@@ -72,10 +72,10 @@ pub fn ground() -> MipLevels {
     // The rock strata waver by about a meter.
     let bed = |k: usize| {
         let shift = (30.0 * (near[k] - 0.5)) as i64;
-        let row = ((k / SIDE) as i64 + shift).rem_euclid(SIDE as i64) as usize;
-        straight[row * SIDE + k % SIDE]
+        let row = ((k / SIDE_TEXELS) as i64 + shift).rem_euclid(SIDE_TEXELS as i64) as usize;
+        straight[row * SIDE_TEXELS + k % SIDE_TEXELS]
     };
-    levels((0..SIDE * SIDE).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
+    levels((0..SIDE_TEXELS * SIDE_TEXELS).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
 /// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot, and bird
@@ -85,18 +85,18 @@ pub fn concrete() -> MipLevels {
     let mut stream = RandomStream::new(0, "view.tiles.concrete");
     let (blotch, streak) = (noise(&mut stream, (17, 17), 5), noise(&mut stream, (119, 9), 3));
     let soot = noise(&mut stream, (7, 7), 5);
-    let (lengths, boards) = (whole(CONCRETE_M / BOARD_M.1), whole(CONCRETE_M / BOARD_M.0));
+    let (lengths, boards) = (whole(CONCRETE_TILE_SIZE_M / BOARD_SIZE_M.1), whole(CONCRETE_TILE_SIZE_M / BOARD_SIZE_M.0));
     let board: Vec<f32> = (0..lengths * boards).map(|_| stream.uniform() as f32 - 0.5).collect();
     let bird_droppings = bird_droppings(&mut stream);
     let texel = |k: usize| {
-        let (x, row) = ((k % SIDE) as f64 / SIDE as f64, (k / SIDE) * boards / SIDE);
+        let (x, row) = ((k % SIDE_TEXELS) as f64 / SIDE_TEXELS as f64, (k / SIDE_TEXELS) * boards / SIDE_TEXELS);
         // Joints are offset in every other row of boards.
         let shift = if row % 2 == 1 { 0.37 } else { 0.0 };
         let length = (x * lengths as f64 + shift) as usize % lengths;
         let tone = 0.5 + 0.55 * (blotch[k] - 0.5) + 0.07 * board[row * lengths + length];
         [tone, step(0.52, 0.78, streak[k]), step(0.6, 0.8, soot[k]), bird_droppings[k]].map(byte)
     };
-    levels((0..SIDE * SIDE).map(texel).collect())
+    levels((0..SIDE_TEXELS * SIDE_TEXELS).map(texel).collect())
 }
 
 fn whole(x: f64) -> usize {
@@ -105,11 +105,12 @@ fn whole(x: f64) -> usize {
 
 /// Returns white droppings, elongated downward.
 fn bird_droppings(stream: &mut RandomStream) -> TilePattern {
-    let mut field = vec![0.0; SIDE * SIDE];
-    let (cells, texel_m) = (whole(CONCRETE_M / DROPPINGS_CELL_M), CONCRETE_M / SIDE as f64);
+    let mut field = vec![0.0; SIDE_TEXELS * SIDE_TEXELS];
+    let (cells, texel_m) = (whole(CONCRETE_TILE_SIZE_M / DROPPINGS_CELL_SIZE_M), CONCRETE_TILE_SIZE_M / SIDE_TEXELS as f64);
     for cell in 0..cells * cells {
         let (lucky, at) = (stream.uniform() < DROPPINGS.0, (0.3 + 0.4 * stream.uniform(), 0.3 + 0.4 * stream.uniform()));
-        let center_m = (((cell % cells) as f64 + at.0) * DROPPINGS_CELL_M, ((cell / cells) as f64 + at.1) * DROPPINGS_CELL_M);
+        let center_m =
+            (((cell % cells) as f64 + at.0) * DROPPINGS_CELL_SIZE_M, ((cell / cells) as f64 + at.1) * DROPPINGS_CELL_SIZE_M);
         if !lucky {
             continue;
         }
@@ -118,7 +119,7 @@ fn bird_droppings(stream: &mut RandomStream) -> TilePattern {
             let (x, y) = (middle.0 + k % 16 - 8, middle.1 + k / 16 - 8);
             let (dx, dy) = (x as f64 * texel_m - center_m.0, 0.45 * (y as f64 * texel_m - center_m.1));
             let d_m = (dx * dx + dy * dy).sqrt();
-            field[y % SIDE * SIDE + x % SIDE] = 1.0 - step(0.6, 1.4, (d_m / DROPPINGS.1) as f32);
+            field[y % SIDE_TEXELS * SIDE_TEXELS + x % SIDE_TEXELS] = 1.0 - step(0.6, 1.4, (d_m / DROPPINGS.1) as f32);
         }
     }
     field
@@ -129,7 +130,7 @@ fn byte(x: f32) -> u8 {
 }
 
 fn levels(finest: Vec<[u8; 4]>) -> MipLevels {
-    let (mut side, mut texels, mut all) = (SIDE, finest, Vec::new());
+    let (mut side, mut texels, mut all) = (SIDE_TEXELS, finest, Vec::new());
     loop {
         all.push((side, texels.iter().flatten().copied().collect()));
         if side == 1 {
@@ -152,7 +153,7 @@ mod tests {
 
     /// Returns the value of a channel at a texel on the finest level.
     fn at(levels: &MipLevels, x: usize, y: usize, channel: usize) -> f64 {
-        f64::from(levels[0].1[4 * (y * SIDE + x) + channel]) / 255.0
+        f64::from(levels[0].1[4 * (y * SIDE_TEXELS + x) + channel]) / 255.0
     }
 
     #[test]
@@ -161,11 +162,11 @@ mod tests {
             assert_eq!(tile.iter().map(|level| level.0).collect::<Vec<_>>(), [1024, 512, 256, 128, 64, 32, 16, 8, 4, 2, 1]);
             assert!(tile.iter().all(|(side, rgba)| rgba.len() == 4 * side * side));
             for channel in 0..patterns {
-                let steps = |y: usize| (0..SIDE - 1).map(move |x| (x, y));
+                let steps = |y: usize| (0..SIDE_TEXELS - 1).map(move |x| (x, y));
                 let step = |(x, y): (usize, usize)| (at(&tile, x + 1, y, channel) - at(&tile, x, y, channel)).abs();
-                let within = (0..SIDE).step_by(37).flat_map(steps).map(step).fold(0.0, f64::max);
-                for y in (0..SIDE).step_by(37) {
-                    let seam = (at(&tile, 0, y, channel) - at(&tile, SIDE - 1, y, channel)).abs();
+                let within = (0..SIDE_TEXELS).step_by(37).flat_map(steps).map(step).fold(0.0, f64::max);
+                for y in (0..SIDE_TEXELS).step_by(37) {
+                    let seam = (at(&tile, 0, y, channel) - at(&tile, SIDE_TEXELS - 1, y, channel)).abs();
                     assert!(seam <= within, "channel {channel}, row {y}: {seam} over {within}");
                 }
                 let mean = f64::from(tile[10].1[channel]) / 255.0;
@@ -177,11 +178,12 @@ mod tests {
     #[test]
     fn exact_bird_droppings_are_few_and_small() {
         let tile = concrete();
-        let cells = whole(CONCRETE_M / DROPPINGS_CELL_M);
-        let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE * SIDE) as f64;
+        let cells = whole(CONCRETE_TILE_SIZE_M / DROPPINGS_CELL_SIZE_M);
+        let white = tile[0].1.chunks(4).filter(|texel| texel[3] > 127).count() as f64 / (SIDE_TEXELS * SIDE_TEXELS) as f64;
         // Each dropping is an ellipse of 45 x 100 mm; the total varies randomly by up to a third.
-        let expected =
-            DROPPINGS.0 * core::f64::consts::PI * DROPPINGS.1 * DROPPINGS.1 / 0.45 / (DROPPINGS_CELL_M * DROPPINGS_CELL_M);
+        let expected = DROPPINGS.0 * core::f64::consts::PI * DROPPINGS.1 * DROPPINGS.1
+            / 0.45
+            / (DROPPINGS_CELL_SIZE_M * DROPPINGS_CELL_SIZE_M);
         assert!((white / expected - 1.0).abs() < 0.34, "{white} of the tile, {expected} expected from {} squares", cells * cells);
     }
 }

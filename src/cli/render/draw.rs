@@ -4,7 +4,7 @@ use super::args::Args;
 use super::recorded::RecordedFlight;
 use super::scene_drawing::{SceneDrawing, aspect, sim_time_arg};
 use super::{masks, snapshots, video};
-use crate::cli::picture_args::{quality, size};
+use crate::cli::picture_args::{parse_quality, parse_size};
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::png::png;
@@ -30,8 +30,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if let Some(path) = &args.video {
         return video::run(args, path);
     }
-    let quality = quality(&args.quality)?;
-    let size = size(args.size.as_deref().unwrap_or("1280x720"))?;
+    let quality = parse_quality(&args.quality)?;
+    let size = parse_size(args.size.as_deref().unwrap_or("1280x720"))?;
     let path = std::path::Path::new(&args.what);
     let picture = if path.is_dir() { render_session(args, quality, size)? } else { render_scenario(args, quality, size)? };
     files::write(&args.out, &png(&picture)?)
@@ -50,7 +50,7 @@ fn reject_scenario_options(args: &Args) -> Result<(), AppError> {
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
         Some((name, _)) => {
-            Err(AppError::wrong(format!("{name}: '{}' is a session, but {name} applies only to scenarios", args.what)))
+            Err(AppError::invalid(format!("{name}: '{}' is a session, but {name} applies only to scenarios", args.what)))
         }
     }
 }
@@ -59,7 +59,7 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
     match numbers[..] {
         [east, north, up] if numbers.iter().all(|x| x.is_finite() && x.abs() < 1e5) => Ok(Vec3::new(east, north, up)),
-        _ => Err(AppError::wrong(format!(
+        _ => Err(AppError::invalid(format!(
             "--{name} {text}: not a point (allowed: east,north,up in m from the origin, for example 10,-25,30)"
         ))),
     }
@@ -71,23 +71,23 @@ fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pi
     let vehicle = files::vehicle(&args.vehicle)?.vehicle;
     if let Some(utc) = &args.utc {
         let time: jiff::Timestamp =
-            utc.parse().map_err(|error| AppError::wrong(format!("--utc {utc}: {error} (example: 2026-06-20T08:00:00Z)")))?;
+            utc.parse().map_err(|error| AppError::invalid(format!("--utc {utc}: {error} (example: 2026-06-20T08:00:00Z)")))?;
         scenario.light.start_unix_s = time.as_second();
     }
     if let Some(cloud) = args.cloud {
         if !(0.0..=1.0).contains(&cloud) {
-            return Err(AppError::wrong(format!("--cloud {cloud}: out of range (allowed: 0 to 1)")));
+            return Err(AppError::invalid(format!("--cloud {cloud}: out of range (allowed: 0 to 1)")));
         }
         scenario.light.cloud_cover = cloud;
     }
     let (Some(from), Some(look)) = (&args.from, &args.look) else {
-        return Err(AppError::wrong("a scenario needs a viewpoint: --from E,N,U and --look E,N,U"));
+        return Err(AppError::invalid("a scenario needs a viewpoint: --from E,N,U and --look E,N,U"));
     };
     let (from, look) = (point("from", from)?, point("look", look)?);
     let at = sim_time_arg("at", args.at.unwrap_or(0.0))?;
     let lens = match args.fov {
         Some(deg) if (1.0..=150.0).contains(&deg) => Camera { hfov_rad: deg.to_radians(), ..vehicle.camera },
-        Some(deg) => return Err(AppError::wrong(format!("--fov {deg}: out of range (allowed: 1 to 150 deg)"))),
+        Some(deg) => return Err(AppError::invalid(format!("--fov {deg}: out of range (allowed: 1 to 150 deg)"))),
         None => vehicle.camera,
     };
     let drawing = SceneDrawing::new(&scenario, &vehicle, args.seed.or(scenario.seed).unwrap_or_default(), quality, at)?;

@@ -12,10 +12,10 @@ use std::path::Path;
 pub fn check(args: &Args) -> Result<(), AppError> {
     let one = args.snapshots || args.from.is_some() || args.view != "both";
     if args.masks && !one {
-        return Err(AppError::wrong("--masks needs a single view: use --view camera or --view inspector"));
+        return Err(AppError::invalid("--masks needs a single view: use --view camera or --view inspector"));
     }
     if args.masks && !args.snapshots && args.out == "-" {
-        return Err(AppError::wrong("--masks writes files next to the picture: specify a file with --out"));
+        return Err(AppError::invalid("--masks writes files next to the picture: specify a file with --out"));
     }
     Ok(())
 }

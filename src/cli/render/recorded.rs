@@ -35,7 +35,7 @@ pub struct RecordedFlight {
     /// The session's scored flight, which is the one to render.
     pub flight: Flight,
     /// Number of earlier flights in the log, from before the simulator was restarted.
-    before: usize,
+    earlier_flights: usize,
     /// Total duration of the earlier flights.
     earlier_duration: SimTime,
     /// Number of records in the earlier flights.
@@ -55,19 +55,20 @@ impl RecordedFlight {
             .enumerate()
             .filter_map(|(k, record)| matches!(timeline.push(record.frame), FrameDisposition::Restarted(_)).then_some(k))
             .collect();
-        let (before, flight) = flight_and_prior_runs(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
+        let (earlier_flights, flight) = flight_and_prior_runs(&timeline, &stored.scenario.scenario, &stored.vehicle.vehicle);
         if flight.truths.is_empty() {
             return Err(AppError::failed("the session contains no flight to render"));
         }
         let zero_unix_us = tlog::simulation_zero_us(&log).unwrap_or(stored.started_unix_us);
-        let (passed, earlier_records) = (timeline.elapsed_before_epoch(before), before.checked_sub(1).map_or(0, |k| begun[k]));
+        let (passed, earlier_records) =
+            (timeline.elapsed_before_epoch(earlier_flights), earlier_flights.checked_sub(1).map_or(0, |k| begun[k]));
         Ok(Self {
             folder: folder.to_owned(),
             stored,
             log,
             zero_unix_us,
             flight,
-            before,
+            earlier_flights,
             earlier_duration: passed,
             earlier_records,
         })
@@ -121,7 +122,7 @@ impl RecordedFlight {
         // A session without an event log is rendered without cues.
         let events = files::read(&self.folder.join(EVENTS)).unwrap_or_default();
         let mut events = events.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
-        for _ in 0..self.before {
+        for _ in 0..self.earlier_flights {
             events.find(|event| event["event"] == SIMULATOR_RESTARTED);
         }
         let mut events: Vec<(SimTime, serde_json::Value)> =
@@ -229,7 +230,7 @@ mod tests {
     }
 
     impl ReplayTelemetry {
-        fn hear(&mut self, frame: &[u8]) {
+        fn receive_message(&mut self, frame: &[u8]) {
             self.folder.record(SessionOutput::Telemetry(tlog::record(STARTED_US, frame)));
         }
 
@@ -250,7 +251,7 @@ mod tests {
                 ..Default::default()
             });
             let frame = if other { self.other.encode(&truth) } else { self.vehicle.encode(&truth) };
-            self.hear(&frame);
+            self.receive_message(&frame);
         }
 
         /// Records a flight in this PX4 flight mode with a status text; its clock starts at zero.
@@ -268,7 +269,7 @@ mod tests {
                         ..Default::default()
                     };
                     let frame = self.vehicle.encode(&MavMessage::HEARTBEAT(beat));
-                    self.hear(&frame);
+                    self.receive_message(&frame);
                     self.event(&json!({ "t_s": 0.1, "event": "cue", "cues": mode, "text": words }));
                 }
             }
@@ -327,8 +328,8 @@ mod tests {
             [(10, 100.0, 1.0), (20, 0.0, 1.0), (55, -50.0, -1.0), (60, 0.0, -1.0), (100, 0.0, 0.0)]
         {
             let found = trace(&flight, SimTime::from_ms(ms)).turn_at(SimTime::from_ms(ms));
-            let near =
-                (found.heading_rad_s.to_degrees() - heading_deg_s).abs() < 1e-6 && (found.pitch_rad_s - pitch_rad_s).abs() < 1e-9;
+            let near = (found.heading_rate_rad_s.to_degrees() - heading_deg_s).abs() < 1e-6
+                && (found.pitch_rate_rad_s - pitch_rad_s).abs() < 1e-9;
             assert!(near, "{ms} ms: {found:?}");
         }
         let vehicle =

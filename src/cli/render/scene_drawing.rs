@@ -26,7 +26,7 @@ pub fn sim_time_arg(name: &str, seconds: f64) -> Result<SimTime, AppError> {
     if (0.0..=86_400.0).contains(&seconds) {
         Ok(SimTime::from_s(seconds))
     } else {
-        Err(AppError::wrong(format!("--{name} {seconds}: out of range (allowed: 0 to 86400 s of simulation time)")))
+        Err(AppError::invalid(format!("--{name} {seconds}: out of range (allowed: 0 to 86400 s of simulation time)")))
     }
 }
 

@@ -4,14 +4,14 @@ use super::args::Args;
 use super::masks;
 use super::recorded::RecordedFlight;
 use super::scene_drawing::SceneDrawing;
-use crate::cli::picture_args::{quality, size};
+use crate::cli::picture_args::{parse_quality, parse_size};
 use crate::errors::AppError;
 use crate::io::clock;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
 use spandrel_model::geodesy::LocalPlane;
-use spandrel_monitor::folder::{SMALL, SNAPSHOTS};
+use spandrel_monitor::folder::{SMALL_SNAPSHOTS, SNAPSHOTS};
 use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::{largest_even_size_px, render_size_px};
 use spandrel_view::photo::{self, PhotoInfo};
@@ -20,12 +20,12 @@ use spandrel_view::stage::SceneMoment;
 
 /// Maximum number of pixels without a graphics card, unless a size is specified. Rendering an image then takes roughly
 /// a second instead of a minute.
-const MAX_SOFTWARE_PX: f64 = 1280.0 * 960.0;
+const MAX_SOFTWARE_PIXELS: f64 = 1280.0 * 960.0;
 
 /// Renders all of a session's photographs to its folder, and rewrites its report.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let preset = quality(&args.quality)?;
-    let asked = args.size.as_deref().map(size).transpose()?;
+    let preset = parse_quality(&args.quality)?;
+    let asked = args.size.as_deref().map(parse_size).transpose()?;
     let recorded = RecordedFlight::read(std::path::Path::new(&args.what))?;
     let taken = report::pictures(&recorded.folder)?;
     if taken.is_empty() {
@@ -35,7 +35,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
     let drawing = drawing.with_closures(recorded.closure_times());
     let camera = &recorded.vehicle().camera;
-    let most = drawing.gpu.software.then_some(MAX_SOFTWARE_PX);
+    let most = drawing.gpu.software.then_some(MAX_SOFTWARE_PIXELS);
     let size_px = match asked {
         Some(within) => largest_even_size_px(within, camera.aspect()),
         None => render_size_px((f64::from(camera.width_px), f64::from(camera.height_px)), most),
@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         );
     }
     let folder = recorded.folder.join(SNAPSHOTS);
-    let copies = folder.join(SMALL);
+    let copies = folder.join(SMALL_SNAPSHOTS);
     std::fs::create_dir_all(&copies).map_err(|error| AppError::failed(format!("{}: {error}", copies.display())))?;
     let mut scene_renderer = drawing.scene_renderer();
     let mut progress = ProgressLog::start("rendering photographs");
@@ -88,10 +88,10 @@ fn photo_info(recorded: &RecordedFlight, picture: &ReviewedPicture, moment: &Sce
         taken_utc: (date.replace('-', ":"), time.to_owned()),
         at_s: picture.time.s(),
         place: LocalPlane::new(scenario.origin).geo_from_enu(pose.position_m),
-        over_pad_m: (pose.position_m - scenario.ground_team.pad_m).up(),
+        height_over_pad_m: (pose.position_m - scenario.ground_team.pad_m).up(),
         yaw_deg,
         pitch_deg,
-        aircraft_deg: [yaw, pitch, roll].map(f64::to_degrees),
+        aircraft_attitude_deg: [yaw, pitch, roll].map(f64::to_degrees),
         lens: moment.lens,
         exposure_s: shot.finish.exposure.time_s,
         iso: shot.finish.exposure.iso,

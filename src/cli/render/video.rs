@@ -3,7 +3,7 @@
 use super::args::Args;
 use super::recorded::RecordedFlight;
 use super::scene_drawing::{SceneDrawing, aspect, sim_time_arg};
-use crate::cli::picture_args::{quality, size};
+use crate::cli::picture_args::{parse_quality, parse_size};
 use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
@@ -24,18 +24,18 @@ const BITS_PER_PIXEL: f64 = 0.1;
 /// Interval between key frames, s; players can seek to key frames.
 const KEY_FRAME_INTERVAL_S: f64 = 2.0;
 /// Maximum duration of a photograph's chapter, s; a chapter ends where the next one starts.
-const MAX_CHAPTER_S: f64 = 4.0;
+const MAX_CHAPTER_DURATION_S: f64 = 4.0;
 
 /// Renders the video to `path`, and writes its chapters next to it.
 pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
-    let preset = quality(&args.quality)?;
-    let within_px = size(args.size.as_deref().unwrap_or("1280x720"))?;
+    let preset = parse_quality(&args.quality)?;
+    let within_px = parse_size(args.size.as_deref().unwrap_or("1280x720"))?;
     if !(1.0..=60.0).contains(&args.fps) {
-        return Err(AppError::wrong(format!("--fps {}: out of range (allowed: 1 to 60)", args.fps)));
+        return Err(AppError::invalid(format!("--fps {}: out of range (allowed: 1 to 60)", args.fps)));
     }
     let track = path.with_extension("vtt");
     if track == path {
-        return Err(AppError::wrong(format!(
+        return Err(AppError::invalid(format!(
             "--video {}: this file name is reserved for the chapters; choose another extension, for example .mp4",
             path.display()
         )));
@@ -84,7 +84,7 @@ fn span(args: &Args, recorded: &RecordedFlight) -> Result<(SimTime, SimTime), Ap
     let Some(text) = &args.span else { return Ok((first, last)) };
     let wrong = || {
         let (first, last) = (first.s(), last.s());
-        AppError::wrong(format!(
+        AppError::invalid(format!(
             "--span {text}: not a valid range (allowed: FROM,TO in s of simulation time within {first:.1} to {last:.1}, for example 60,90)"
         ))
     };
@@ -104,7 +104,7 @@ fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s
         .enumerate()
         .map(|(k, picture)| webvtt::Chapter {
             from_s: (picture.time - from).s(),
-            to_s: match (picture.time + SimTime::from_s(MAX_CHAPTER_S)).min(next(k)) {
+            to_s: match (picture.time + SimTime::from_s(MAX_CHAPTER_DURATION_S)).min(next(k)) {
                 end if end > picture.time => (end - from).s(),
                 _ => (picture.time - from).s() + picture_s,
             },
@@ -125,7 +125,7 @@ impl<'a> VideoFile<'a> {
         let mut part = path.to_path_buf().into_os_string();
         part.push(".part");
         let part = PathBuf::from(part);
-        let file = File::create(&part).map_err(|error| AppError::wrong(format!("{}: {error}", part.display())))?;
+        let file = File::create(&part).map_err(|error| AppError::invalid(format!("{}: {error}", part.display())))?;
         Ok(Self { path, part, file })
     }
 

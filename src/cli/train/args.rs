@@ -109,9 +109,9 @@ pub fn parse_args(words: &[&str]) -> Args {
     use clap::Parser;
 
     #[derive(Debug, Parser)]
-    struct Line {
+    struct TestArgs {
         #[command(flatten)]
         args: Args,
     }
-    Line::parse_from(["train"].iter().chain(words)).args
+    TestArgs::parse_from(["train"].iter().chain(words)).args
 }

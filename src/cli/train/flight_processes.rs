@@ -19,7 +19,7 @@ use std::time::Duration;
 /// Interval at which the child processes are checked.
 const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 /// Folder for the vehicle's files and flight logs inside the session folder, so that they are erased with the session.
-const VEHICLE_FILES: &str = "vehicle";
+const VEHICLE_FILES_FOLDER: &str = "vehicle";
 /// Maximum number of monitor restarts per flight.
 const MAX_MONITOR_RESTARTS: u32 = 10;
 
@@ -67,7 +67,7 @@ impl FlightProcesses {
         let monitor_port = announced["port"].as_u64().unwrap_or_default().to_string();
         let monitor_restart_args =
             [with_port(monitor_port.clone()), vec!["--session".to_owned(), session.display().to_string()]].concat();
-        let files = session.join(VEHICLE_FILES).display().to_string();
+        let files = session.join(VEHICLE_FILES_FOLDER).display().to_string();
         let sim_args = [
             common,
             args.ports.to_args(),
@@ -139,7 +139,7 @@ impl FlightProcesses {
             if stop.is_requested() {
                 return FlightOutcome::Over;
             }
-            match self.monitor.ended() {
+            match self.monitor.exit_status() {
                 Some(status) if exited_normally(status) => return FlightOutcome::Over,
                 Some(status) => {
                     if let Err(error) = self.restart_monitor(status) {
@@ -148,7 +148,7 @@ impl FlightProcesses {
                 }
                 None => {}
             }
-            if let Some(status) = self.sim.ended() {
+            if let Some(status) = self.sim.exit_status() {
                 return FlightOutcome::Lost(AppError::failed(format!("the simulator exited early ({status})")));
             }
             std::thread::sleep(CHECK_INTERVAL);
@@ -205,7 +205,7 @@ impl FlightProcesses {
 
     /// Returns the simulator's exit status, if it has exited.
     pub fn simulator_exit_status(&mut self) -> Option<ExitStatus> {
-        self.sim.ended()
+        self.sim.exit_status()
     }
 
     /// Stops both processes; the session is saved.

@@ -35,7 +35,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
 /// Checks a quality preset's name. Without the `view` feature, accepts every name.
 fn check_quality(name: &str) -> Result<(), AppError> {
     #[cfg(feature = "view")]
-    super::picture_args::quality_or_auto(name)?;
+    super::picture_args::parse_quality_or_auto(name)?;
     let _ = name;
     Ok(())
 }

@@ -20,7 +20,7 @@ pub enum PromptAnswer {
 pub struct TerminalPrompt {
     lines: Option<Receiver<String>>,
     /// True once the user has quit at the terminal.
-    pub answered: bool,
+    pub has_quit: bool,
 }
 
 impl TerminalPrompt {
@@ -48,7 +48,7 @@ impl TerminalPrompt {
             Err(TryRecvError::Disconnected) => PromptAnswer::Quit,
             Err(TryRecvError::Empty) => return None,
         };
-        self.answered |= answer == PromptAnswer::Quit;
+        self.has_quit |= answer == PromptAnswer::Quit;
         Some(answer)
     }
 }

@@ -96,7 +96,7 @@ impl<'a> TrainRun<'a> {
                 Ok(done) => done,
                 // An error in the first flight ends the run, as it does without a window; later errors are shown in the
                 // window.
-                Err(error) if last.is_none() && !self.is_window_in_use() => return Err(error),
+                Err(error) if last.is_none() && !self.are_flights_chosen_in_window() => return Err(error),
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
                     self.send_to_window(&ToWindow::Refused { words: error.to_string() });
@@ -115,7 +115,7 @@ impl<'a> TrainRun<'a> {
         if let Some(window) = self.window.take() {
             window.close();
         }
-        if let (Some(session), false, true) = (&last, seen || self.prompt.answered, result.is_ok()) {
+        if let (Some(session), false, true) = (&last, seen || self.prompt.has_quit, result.is_ok()) {
             self.keep_serving(session);
         }
         self.photographs.finish(&self.stop);
@@ -145,7 +145,7 @@ impl<'a> TrainRun<'a> {
     }
 
     /// Returns true if the user can choose flights in the window.
-    fn is_window_in_use(&mut self) -> bool {
+    fn are_flights_chosen_in_window(&mut self) -> bool {
         self.web_announced && self.is_open()
     }
 
@@ -325,7 +325,7 @@ impl<'a> TrainRun<'a> {
                 self.web = Some(web);
                 return;
             }
-            Some(web) => port = url_port(web.server.address()).unwrap_or(port),
+            Some(web) => port = port_from_url(web.server.address()).unwrap_or(port),
             None => {}
         }
         // The database is next to the sessions; its folder may not exist before the first session.
@@ -358,11 +358,11 @@ impl<'a> TrainRun<'a> {
 
 /// Validates a choice made in the window in the same way as a choice on the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
-    choice.trainee.parse::<TraineeId>().map_err(AppError::wrong)?;
+    choice.trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
     files::scenario(&choice.scenario).map(|_| ())
 }
 
-fn url_port(address: &str) -> Option<u16> {
+fn port_from_url(address: &str) -> Option<u16> {
     address.rsplit(':').next()?.parse().ok()
 }
 
@@ -376,7 +376,7 @@ mod tests {
     fn exact_crashed_window_is_dropped_before_flight() {
         let args = parse_args(&["--scenario", "drill-hover"]);
         let mut course = TrainRun::new(&args, tracing::Level::WARN, StopRequest::default());
-        course.window = Some(WindowProcess::failing());
+        course.window = Some(WindowProcess::failing_process());
         let choice = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
         assert!(matches!(course.command_line_choice(&choice), NextFlight::Fly(flown) if flown == choice));
         assert!(course.window.is_none() && !course.has_display() && !course.closed);

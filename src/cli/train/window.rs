@@ -37,10 +37,10 @@ impl WindowProcess {
         }
         let opened = Child::start_with_env("view", &window_args(args, log), &[software_renderer_threads()]);
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
-        Some(Self::of(child))
+        Some(Self::from_child(child))
     }
 
-    fn of(child: Child) -> Self {
+    fn from_child(child: Child) -> Self {
         Self { child, has_exited: false, ready: false, closed: false, is_flying: false, bad_line_reported: false }
     }
 
@@ -90,7 +90,7 @@ impl WindowProcess {
 
     /// Returns true while the window runs; logs its exit once.
     pub fn is_open(&mut self) -> bool {
-        let ended = self.child.ended();
+        let ended = self.child.exit_status();
         if let Some(status) = ended.filter(|_| !self.has_exited) {
             self.has_exited = true;
             self.closed = status.success();
@@ -143,8 +143,8 @@ pub fn software_renderer_threads() -> (&'static str, String) {
 #[cfg(test)]
 impl WindowProcess {
     /// Starts a process that fails immediately: the test executable does not accept `--announce`.
-    pub fn failing() -> Self {
-        Self::of(Child::start("view", &[]).unwrap())
+    pub fn failing_process() -> Self {
+        Self::from_child(Child::start("view", &[]).unwrap())
     }
 }
 
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn exact_crashed_window_is_neither_ready_nor_closed() {
-        let mut window = WindowProcess::failing();
+        let mut window = WindowProcess::failing_process();
         assert!(!window.is_ready(&StopRequest::default()) && !window.is_open());
         assert!(!window.ready && !window.closed);
         assert!(exit_message(window.closed, true).contains("see its message in the terminal"));

@@ -29,7 +29,7 @@ struct InputLog {
 
 impl InputLog {
     fn begin(path: &Path, device: &Device) -> Result<Self, AppError> {
-        let failed = |error: std::io::Error| AppError::wrong(format!("{}: {error}", path.display()));
+        let failed = |error: std::io::Error| AppError::invalid(format!("{}: {error}", path.display()));
         let mut log = Self { path: path.to_owned(), file: File::create(path).map_err(failed)?, written_len: 0 };
         log.line(input_recording::head(device)).map_err(failed)?;
         Ok(log)
@@ -80,7 +80,7 @@ impl CalibratedController {
             AppError::failed(format!(
                 "'{}' is not calibrated: run `spandrel rc --calibrate` ({})",
                 device.name,
-                profiles.missing(&device)
+                profiles.missing_reason(&device)
             ))
         })?;
         let log = record.map(|path| InputLog::begin(path, &device)).transpose()?;

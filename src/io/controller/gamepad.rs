@@ -68,7 +68,7 @@ impl Gamepad {
             ([(id, device)], _) => Ok(Self { id: *id, device: device.clone(), system }),
             ([], None) => Err(AppError::failed("no gamepad or transmitter is connected; use --keyboard to fly without one")),
             ([], Some(wanted)) => Err(AppError::failed(format!("no device matches '{wanted}' (connected: {names})"))),
-            _ => Err(AppError::wrong(format!("more than one device matches: choose one with --device (connected: {names})"))),
+            _ => Err(AppError::invalid(format!("more than one device matches: choose one with --device (connected: {names})"))),
         }
     }
 

@@ -37,7 +37,7 @@ impl EventSource {
         #[cfg(feature = "gamepad")]
         return gamepad::Gamepad::open(wanted).map(|gamepad| Self::Gamepad(Box::new(gamepad)));
         #[cfg(not(feature = "gamepad"))]
-        Err(AppError::failed(format!("{}: {NO_GAMEPADS}", wanted.unwrap_or("a gamepad or transmitter"))))
+        Err(AppError::failed(format!("{}: {NO_GAMEPADS_MESSAGE}", wanted.unwrap_or("a gamepad or transmitter"))))
     }
 
     /// Returns the device that produces the events.
@@ -69,7 +69,7 @@ impl EventSource {
 }
 
 #[cfg(not(feature = "gamepad"))]
-const NO_GAMEPADS: &str = "this build does not support gamepads (build with --features gamepad, which needs libudev-dev on Debian and Ubuntu); use --keyboard to fly without one";
+const NO_GAMEPADS_MESSAGE: &str = "this build does not support gamepads (build with --features gamepad, which needs libudev-dev on Debian and Ubuntu); use --keyboard to fly without one";
 
 /// Detects newly connected devices.
 #[derive(Debug, Default)]
@@ -118,5 +118,5 @@ pub fn connected() -> Result<Vec<Device>, AppError> {
     #[cfg(feature = "gamepad")]
     return gamepad::connected();
     #[cfg(not(feature = "gamepad"))]
-    Err(AppError::failed(NO_GAMEPADS))
+    Err(AppError::failed(NO_GAMEPADS_MESSAGE))
 }

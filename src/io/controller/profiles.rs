@@ -7,7 +7,7 @@ use spandrel_clients::rc::{ControllerProfile, Device};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-const NO_HOME_FOLDER: &str = "no home folder found: specify a profile folder with --profiles";
+const NO_HOME_FOLDER_MESSAGE: &str = "no home folder found: specify a profile folder with --profiles";
 
 /// Profile folder; `None` if the user has no home folder. Without this folder, devices have no profiles, but everything
 /// else works.
@@ -25,7 +25,7 @@ impl ProfileFolder {
     /// # Errors
     /// Returns an error if no folder was specified and the user has no home folder.
     pub fn folder(&self) -> Result<&Path, AppError> {
-        self.0.as_deref().ok_or_else(|| AppError::wrong(NO_HOME_FOLDER))
+        self.0.as_deref().ok_or_else(|| AppError::invalid(NO_HOME_FOLDER_MESSAGE))
     }
 
     /// Returns the path of a device's profile.
@@ -34,8 +34,8 @@ impl ProfileFolder {
     }
 
     /// Returns the reason why a device has no profile.
-    pub fn missing(&self, device: &Device) -> String {
-        self.path(device).map_or(NO_HOME_FOLDER.to_owned(), |path| format!("no {}", path.display()))
+    pub fn missing_reason(&self, device: &Device) -> String {
+        self.path(device).map_or(NO_HOME_FOLDER_MESSAGE.to_owned(), |path| format!("no {}", path.display()))
     }
 
     /// Returns a device's profile, if it has one.
@@ -113,7 +113,7 @@ mod tests {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let nowhere = ProfileFolder::default();
         assert_eq!((nowhere.find(&device).unwrap(), nowhere.path(&device)), (None, None));
-        for told in [nowhere.save(&profile(&device)).unwrap_err().to_string(), nowhere.missing(&device)] {
+        for told in [nowhere.save(&profile(&device)).unwrap_err().to_string(), nowhere.missing_reason(&device)] {
             assert_eq!(told, "no home folder found: specify a profile folder with --profiles");
         }
     }

@@ -5,7 +5,7 @@
 
 /// Field type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum FieldType {
     /// Signed 64-bit integer.
     Int64,
     /// 64-bit float.
@@ -24,7 +24,7 @@ pub struct Field<'a> {
     /// True if values may be null.
     pub nullable: bool,
     /// Value type.
-    pub kind: Kind,
+    pub kind: FieldType,
     /// Metadata as key-value pairs.
     pub metadata: Vec<(&'a str, &'a str)>,
 }
@@ -40,7 +40,7 @@ const CONTINUATION: [u8; 4] = [0xFF; 4];
 /// Alignment of messages and of the widest scalar type, bytes.
 const ALIGNMENT: usize = 8;
 
-impl Kind {
+impl FieldType {
     /// Returns the type's number in the `Type` union.
     fn number(self) -> u8 {
         match self {
@@ -142,9 +142,9 @@ impl FlatBufferWriter {
         self.set_offset(from, start);
         self.text(at[0], field.name);
         let (kind, _) = match field.kind {
-            Kind::Int64 => self.table(&[Slot::Int(64), Slot::Byte(1)]),
-            Kind::Double => self.table(&[Slot::Short(PRECISION_DOUBLE)]),
-            Kind::Bool | Kind::Utf8 => self.table(&[]),
+            FieldType::Int64 => self.table(&[Slot::Int(64), Slot::Byte(1)]),
+            FieldType::Double => self.table(&[Slot::Short(PRECISION_DOUBLE)]),
+            FieldType::Bool | FieldType::Utf8 => self.table(&[]),
         };
         self.set_offset(at[3], kind);
         let (children, _) = self.offsets(0);

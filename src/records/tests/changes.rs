@@ -7,7 +7,7 @@ use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Role;
 
 /// A time after every erasure in these tests, in the year 2100, µs since the Unix epoch.
-const LATER_US: u64 = 4_102_444_800_000_000;
+const AFTER_ERASURE_US: u64 = 4_102_444_800_000_000;
 
 /// Runs all tests in this file on one database.
 pub fn run_all(target: &str) {
@@ -38,9 +38,9 @@ fn erased_sessions_are_not_imported_again(target: &str) {
     assert_eq!(there.rebuild(&flown, &[]), Ok(0), "a rebuild");
     assert!(is_deleted(&there, &flown[0].id) && !there.trainees().unwrap().iter().any(|one| one.pseudonym == "erna"));
     let erased = there.erased().unwrap();
-    assert!(erased.contains(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.contains("x", "erna", LATER_US));
+    assert!(erased.contains(&flown[0].id, "erna", flown[0].started_unix_us) && !erased.contains("x", "erna", AFTER_ERASURE_US));
     // A new trainee may reuse the pseudonym.
-    let anew = SessionRecord { started_unix_us: LATER_US, ..record("erna", 3) };
+    let anew = SessionRecord { started_unix_us: AFTER_ERASURE_US, ..record("erna", 3) };
     assert_eq!(there.put(std::slice::from_ref(&anew)), Ok(1));
     assert_eq!(there.erase("erna", &[]), Ok((true, 1)));
     // A session that was deleted because of its age stays deleted; the trainee's other sessions can be imported.
@@ -119,7 +119,7 @@ fn session_is_found_by_telemetry_hash(target: &str) {
 fn list_pages_are_consecutive(target: &str) {
     let database = Database::open(target).unwrap();
     let flown: Vec<SessionRecord> =
-        (0..7).map(|k| SessionRecord { started_unix_us: LATER_US + k / 3, ..record("jana", k as usize) }).collect();
+        (0..7).map(|k| SessionRecord { started_unix_us: AFTER_ERASURE_US + k / 3, ..record("jana", k as usize) }).collect();
     database.put(&flown).unwrap();
     let page =
         |trainee, skip| -> Vec<String> { database.list(trainee, 3, skip).unwrap().into_iter().map(|one| one.id).collect() };

@@ -24,7 +24,7 @@ impl PostgresServer {
     }
 
     /// Starts a server on one of this machine's ports, with additional settings (`name=value`).
-    pub fn on_port(port: u16, settings: &[String]) -> Self {
+    pub fn start_on_port(port: u16, settings: &[String]) -> Self {
         let here = ["listen_addresses=127.0.0.1".to_owned(), format!("port={port}")];
         Self::with(port, &[&here, settings].concat())
     }
@@ -39,14 +39,14 @@ impl PostgresServer {
             chown(&home, Some(NOBODY), Some(NOBODY)).unwrap();
         }
         let at = |path: &Path| path.display().to_string();
-        let made = unprivileged(&bin_folder.join("initdb"))
+        let made = unprivileged_command(&bin_folder.join("initdb"))
             .args(["-D", &at(&data), "-U", "spandrel", "-A", "trust", "-E", "UTF8", "--no-locale", "--no-sync"])
             .current_dir(&home)
             .output()
             .unwrap();
         assert!(made.status.success(), "initdb: {}", String::from_utf8_lossy(&made.stderr));
         let log = std::fs::File::create(folder.path().join("log.txt")).unwrap();
-        let process = unprivileged(&bin_folder.join("postgres"))
+        let process = unprivileged_command(&bin_folder.join("postgres"))
             .args(["-D", &at(&data), "-k", &at(&home), "-c", "fsync=off", "-c", "max_connections=60"])
             .args(settings.iter().flat_map(|setting| ["-c", setting.as_str()]))
             .current_dir(&home)
@@ -77,8 +77,10 @@ impl Drop for PostgresServer {
     fn drop(&mut self) {
         // pg_ctl stops the server's child processes first; killing the server would leave them running.
         let data = self.folder.path().join("run/data").display().to_string();
-        let stopped =
-            unprivileged(&bin_folder().join("pg_ctl")).args(["stop", "-D", &data, "-m", "fast", "-s"]).current_dir("/").status();
+        let stopped = unprivileged_command(&bin_folder().join("pg_ctl"))
+            .args(["stop", "-D", &data, "-m", "fast", "-s"])
+            .current_dir("/")
+            .status();
         if !stopped.is_ok_and(|status| status.success()) {
             let _ = self.process.kill();
         }
@@ -101,7 +103,7 @@ fn is_root() -> bool {
     Command::new("id").arg("-u").output().is_ok_and(|told| told.stdout == b"0\n")
 }
 
-fn unprivileged(program: &Path) -> Command {
+fn unprivileged_command(program: &Path) -> Command {
     if !is_root() {
         return Command::new(program);
     }
@@ -112,7 +114,7 @@ fn unprivileged(program: &Path) -> Command {
 
 /// Changes a file's owner to the user that runs PostgreSQL, and makes the file readable only by that user. PostgreSQL
 /// rejects private keys with other permissions.
-pub fn give_to_postgres(file: &Path) {
+pub fn set_owner_to_postgres(file: &Path) {
     std::fs::set_permissions(file, std::fs::Permissions::from_mode(0o600)).unwrap();
     if is_root() {
         chown(file, Some(NOBODY), Some(NOBODY)).unwrap();

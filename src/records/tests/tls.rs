@@ -1,6 +1,6 @@
 //! Tests TLS connections to a real PostgreSQL server, with certificates created by OpenSSL.
 
-use super::server::{PostgresServer, give_to_postgres};
+use super::server::{PostgresServer, set_owner_to_postgres};
 use crate::records::database::Database;
 use sqlx::Row;
 use std::net::TcpListener;
@@ -16,12 +16,12 @@ fn openssl(folder: &Path, words: &str) {
 }
 
 /// Creates a certificate authority: `NAME.pem` and `NAME.key`.
-fn authority(folder: &Path, name: &str) {
+fn create_authority(folder: &Path, name: &str) {
     openssl(folder, &format!("req -x509 {KEY_OPTIONS} -keyout {name}.key -out {name}.pem -days 2 -subj /CN={name}"));
 }
 
 /// Creates `NAME.pem` and `NAME.key` for a host, signed by the `ours` authority.
-fn signed(folder: &Path, name: &str, host: &str) {
+fn create_signed_certificate(folder: &Path, name: &str, host: &str) {
     std::fs::write(folder.join("more.cnf"), format!("subjectAltName=DNS:{host}\nbasicConstraints=CA:FALSE\n")).unwrap();
     openssl(folder, &format!("req {KEY_OPTIONS} -keyout {name}.key -out {name}.csr -subj /CN={name}"));
     let sign = "-CA ours.pem -CAkey ours.key -CAcreateserial -days 2 -extfile more.cnf";
@@ -36,14 +36,14 @@ fn tls_info(url: &str) -> Option<(String, String)> {
 }
 
 #[test]
-fn val_tls_options_in_the_postgresql_url() {
+fn val_tls_options_in_postgresql_url_are_applied() {
     let made = tempfile::tempdir().unwrap();
     let folder = made.path();
-    authority(folder, "ours");
-    authority(folder, "other");
-    signed(folder, "server", "localhost");
-    signed(folder, "station", "station");
-    give_to_postgres(&folder.join("server.key"));
+    create_authority(folder, "ours");
+    create_authority(folder, "other");
+    create_signed_certificate(folder, "server", "localhost");
+    create_signed_certificate(folder, "station", "station");
+    set_owner_to_postgres(&folder.join("server.key"));
     // PostgreSQL runs as a different user and must be able to read the files.
     std::fs::set_permissions(folder, std::os::unix::fs::PermissionsExt::from_mode(0o755)).unwrap();
     let at = |name: &str| folder.join(name).display().to_string();
@@ -51,7 +51,7 @@ fn val_tls_options_in_the_postgresql_url() {
     let files = [("ssl_cert_file", "server.pem"), ("ssl_key_file", "server.key"), ("ssl_ca_file", "ours.pem")];
     let mut settings = vec!["ssl=on".to_owned()];
     settings.extend(files.map(|(name, file)| format!("{name}={}", at(file))));
-    let _server = PostgresServer::on_port(port, &settings);
+    let _server = PostgresServer::start_on_port(port, &settings);
 
     let url = |host: &str, words: &str| format!("postgres://spandrel@{host}:{port}/postgres?{words}");
     let (ours, other) = (at("ours.pem"), at("other.pem"));

@@ -22,7 +22,7 @@ impl AllowedOrigins {
         Self { proxies: if named.is_empty() { local() } else { named.to_vec() }, hosts: hosts.to_vec() }
     }
 
-    fn trusts(&self, address: IpAddr) -> bool {
+    fn is_trusted_proxy(&self, address: IpAddr) -> bool {
         self.proxies.iter().any(|proxy| proxy.contains(&address.to_canonical()))
     }
 
@@ -75,7 +75,7 @@ impl AllowedOrigins {
         if self.proxies.is_empty() {
             return Ok(socket);
         }
-        if !self.trusts(socket) {
+        if !self.is_trusted_proxy(socket) {
             return Err(WebError::Forbidden("This server accepts requests only from its proxy (--trusted-proxy).".into()));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
@@ -83,7 +83,7 @@ impl AllowedOrigins {
         // untrusted address.
         for entry in lines.flat_map(|line| line.rsplit(',')) {
             match entry.trim().parse::<IpAddr>() {
-                Ok(address) if self.trusts(address) => {}
+                Ok(address) if self.is_trusted_proxy(address) => {}
                 Ok(address) => return Ok(address),
                 Err(_) => break,
             }

@@ -4,14 +4,14 @@
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
 use spandrel_mavlink::{instructor_note, station};
-use spandrel_monitor::sidecar::COMPONENT as MONITOR;
+use spandrel_monitor::sidecar::MONITOR_COMPONENT_ID as MONITOR;
 use std::collections::VecDeque;
 use std::time::Duration;
 
 /// Interval at which a step without a response is repeated.
 const RETRY_INTERVAL: Duration = Duration::from_millis(500);
 /// Maximum number of attempts per step.
-const MAX_TRIES: u32 = 20;
+const MAX_ATTEMPTS: u32 = 20;
 /// MAVLink system ID of the live page. Its component type is a companion computer, so that losing it does not trigger
 /// the vehicle's ground station failsafe.
 pub const INSTRUCTOR_SYSTEM: u8 = 252;
@@ -84,7 +84,7 @@ struct QueuedCommand {
     steps: VecDeque<CommandStep>,
     description: String,
     last_sent: Option<Duration>,
-    tries: u32,
+    attempts: u32,
 }
 
 /// Unfinished commands, processed in order.
@@ -117,7 +117,7 @@ impl CommandQueue {
                 (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1)), inject], said)
             }
         };
-        self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, tries: 0 });
+        self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, attempts: 0 });
     }
 
     /// Returns the frames to send now, and messages about finished commands. For `cast`, see [`ParamNumber::to_wire`].
@@ -132,13 +132,13 @@ impl CommandQueue {
             if task.last_sent.is_some_and(|asked| now < asked + RETRY_INTERVAL) {
                 break;
             }
-            if task.tries >= MAX_TRIES {
+            if task.attempts >= MAX_ATTEMPTS {
                 words.push(format!("{}: no response", task.description));
                 self.0.pop_front();
                 continue;
             }
             frames.push(frame(step, encoder, system, cast));
-            (task.last_sent, task.tries) = (Some(now), task.tries + 1);
+            (task.last_sent, task.attempts) = (Some(now), task.attempts + 1);
             // Notes have no response; datagrams to a monitor on the same machine are hardly ever lost.
             if matches!(step, CommandStep::Note(_)) {
                 task.steps.pop_front();
@@ -154,7 +154,7 @@ impl CommandQueue {
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
             Ok(()) => {
                 task.steps.pop_front();
-                (task.last_sent, task.tries) = (None, 0);
+                (task.last_sent, task.attempts) = (None, 0);
                 None
             }
             Err(why) => {
@@ -238,7 +238,7 @@ mod tests {
     use spandrel_mavlink::codec::Decoder;
     use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, PARAM_ERROR_DATA, PARAM_VALUE_DATA};
 
-    fn told(message: &MavMessage) -> ReceivedFrame {
+    fn received_frame(message: &MavMessage) -> ReceivedFrame {
         Decoder::new().datagram(&Encoder::new(1, 1).encode(message)).remove(0)
     }
 
@@ -259,7 +259,11 @@ mod tests {
     }
 
     fn value(name: &str, param_value: f32) -> ReceivedFrame {
-        told(&MavMessage::PARAM_VALUE(PARAM_VALUE_DATA { param_id: name.into(), param_value, ..PARAM_VALUE_DATA::default() }))
+        received_frame(&MavMessage::PARAM_VALUE(PARAM_VALUE_DATA {
+            param_id: name.into(),
+            param_value,
+            ..PARAM_VALUE_DATA::default()
+        }))
     }
 
     #[test]
@@ -291,7 +295,10 @@ mod tests {
         commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut commands, 1);
         assert_eq!(
-            commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            commands.handle_frame(&received_frame(&command_ack(
+                MavResult::MAV_RESULT_DENIED,
+                (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)
+            ))),
             Some("instructor: satellite navigation fails: rejected, the vehicle denied this command".into())
         );
         let (frames, words) = sent(&mut commands, 2);
@@ -307,7 +314,7 @@ mod tests {
         commands.push(InstructorCommand::Wind { speed_m_s: 8.0, from_deg: 270.0 });
         sent(&mut commands, 0);
         let error = |name: &str, (target_system, target_component): (u8, u8)| {
-            told(&MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
+            received_frame(&MavMessage::PARAM_ERROR(PARAM_ERROR_DATA {
                 target_system,
                 target_component,
                 param_id: name.into(),
@@ -331,18 +338,23 @@ mod tests {
         commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut commands, 10_001);
         assert_eq!(
-            commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_DENIED, (255, 190)))),
+            commands.handle_frame(&received_frame(&command_ack(MavResult::MAV_RESULT_DENIED, (255, 190)))),
             None,
             "an answer to another system"
         );
         assert_eq!(
-            commands
-                .handle_frame(&told(&command_ack(MavResult::MAV_RESULT_IN_PROGRESS, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            commands.handle_frame(&received_frame(&command_ack(
+                MavResult::MAV_RESULT_IN_PROGRESS,
+                (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)
+            ))),
             None
         );
         assert_eq!(sent(&mut commands, 10_600).0.len(), 1, "still waiting for its own answer");
         assert_eq!(
-            commands.handle_frame(&told(&command_ack(MavResult::MAV_RESULT_ACCEPTED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)))),
+            commands.handle_frame(&received_frame(&command_ack(
+                MavResult::MAV_RESULT_ACCEPTED,
+                (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)
+            ))),
             None
         );
         assert_eq!(sent(&mut commands, 10_601).1, ["instructor: compass fails"]);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Time after which a session whose telemetry has stopped growing is no longer the current flight.
-const MAX_AGE: Duration = Duration::from_secs(10);
+const MAX_TELEMETRY_AGE: Duration = Duration::from_secs(10);
 
 /// Returns the trainee of the only matching ongoing session. Returns `None` if there is no such session or more than
 /// one, so that no trainee sees another trainee's camera view.
@@ -16,7 +16,7 @@ pub fn current_trainee(sessions: &[PathBuf], key: JobIdentity) -> Option<String>
     let folders = session_folders(&here).ok()?;
     let mut found = folders
         .iter()
-        .filter_map(|folder| ongoing_session(folder, MAX_AGE))
+        .filter_map(|folder| ongoing_session(folder, MAX_TELEMETRY_AGE))
         .filter(|one| (one.crc, one.seed) == (key.crc, key.seed));
     let one = found.next()?;
     found.next().is_none().then_some(one.trainee)
@@ -53,7 +53,7 @@ mod tests {
         assert_eq!(current_trainee(&places, JOB).as_deref(), Some("anna"), "the other has ended");
         let file = fs::File::options().write(true).open(anna.join(TELEMETRY)).unwrap();
         let modified = file.metadata().unwrap().modified().unwrap();
-        file.set_modified(modified - 2 * MAX_AGE).unwrap();
+        file.set_modified(modified - 2 * MAX_TELEMETRY_AGE).unwrap();
         assert_eq!(current_trainee(&places, JOB), None, "no longer being written");
     }
 }

@@ -30,5 +30,5 @@ pub fn current(state: &ServerState, request: &WebRequest) -> HandlerResult {
 
 /// Responds with the camera image.
 pub fn camera(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    camera_picture::of(flight(state, request).ok_or(WebError::NotFound)?)
+    camera_picture::respond_with_picture(flight(state, request).ok_or(WebError::NotFound)?)
 }

@@ -4,18 +4,18 @@ use std::path::Path;
 use std::time::{Duration, UNIX_EPOCH};
 
 /// Age beyond which an image is outdated.
-const MAX_AGE: Duration = Duration::from_secs(10);
+const MAX_IMAGE_AGE: Duration = Duration::from_secs(10);
 /// Maximum size of an image, bytes; a full HD view takes several hundred thousand bytes.
-const MAX_BYTES: u64 = 4 * 1024 * 1024;
+const MAX_IMAGE_BYTES: u64 = 4 * 1024 * 1024;
 /// Returns the current image's version, or `None` if the image is outdated. The version lets browsers request each
 /// image only once.
 pub fn version(path: &Path) -> Option<u64> {
-    let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MAX_BYTES)?;
+    let about = path.metadata().ok().filter(|about| about.is_file() && about.len() <= MAX_IMAGE_BYTES)?;
     let kept = about.modified().ok()?;
     // If the clock has been set back, the image counts as current.
     let age = kept.elapsed().unwrap_or_default();
     let since = kept.duration_since(UNIX_EPOCH).ok()?;
-    (age < MAX_AGE).then(|| u64::try_from(since.as_millis()).ok()).flatten()
+    (age < MAX_IMAGE_AGE).then(|| u64::try_from(since.as_millis()).ok()).flatten()
 }
 
 #[cfg(test)]
@@ -37,7 +37,7 @@ mod tests {
         let first = version(&path).unwrap();
         at(Duration::ZERO);
         assert!(version(&path).unwrap() > first, "every image has its own version");
-        at(2 * MAX_AGE);
+        at(2 * MAX_IMAGE_AGE);
         assert_eq!((version(&path), version(folder.path())), (None, None));
     }
 }

@@ -26,7 +26,7 @@ use tokio::sync::watch;
 /// Interval between page updates.
 const UPDATE_INTERVAL: Duration = Duration::from_millis(200);
 /// Maximum time to wait for a datagram.
-const MAX_WAIT: Duration = Duration::from_millis(50);
+const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(50);
 /// Heartbeat interval. The vehicle drops silent subscribers.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 /// Time without telemetry after which a vehicle is considered silent.
@@ -135,7 +135,7 @@ impl LiveListener {
 
     /// Processes received datagrams. Returns true if any of them came from the vehicle.
     fn receive(&mut self) -> bool {
-        let (mut wait, mut spoke) = (MAX_WAIT, false);
+        let (mut wait, mut spoke) = (MAX_DATAGRAM_WAIT, false);
         for _ in 0..MAX_BATCH_LEN {
             let Some(arrival) = self.hub.next(wait) else { break };
             wait = Duration::ZERO;

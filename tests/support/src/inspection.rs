@@ -26,7 +26,8 @@ pub fn record_inspection(job: &Scenario, seconds: f64, picture_every: usize) -> 
     let (mut lap, mut points, mut pictures) = (0, 0, 0);
     'laps: loop {
         for task in &job.tasks {
-            let mut stations: Vec<(Vec3<Enu>, Vec3<Enu>)> = task.path_m.iter().copied().zip(task.look.iter().copied()).collect();
+            let mut stations: Vec<(Vec3<Enu>, Vec3<Enu>)> =
+                task.path_m.iter().copied().zip(task.viewing_directions.iter().copied()).collect();
             if lap % 2 == 1 {
                 stations.reverse();
             }

@@ -18,7 +18,7 @@ use spandrel_view::stage::{SceneMoment, Stage, camera_aimed_at, drone_on_pad};
 use std::sync::Arc;
 
 /// A midsummer morning, 2026-06-21 09:00 UTC: high sun in the southeast.
-pub const MORNING_S: i64 = 1_782_032_400;
+pub const MORNING_UNIX_S: i64 = 1_782_032_400;
 
 pub fn at(east: f64, north: f64, up: f64) -> Vec3<Enu> {
     Vec3::new(east, north, up)
@@ -31,15 +31,15 @@ pub fn two_bridges() -> Scenario {
 }
 
 /// Returns the TASBID job on a bright summer day.
-pub fn sunny() -> Scenario {
+pub fn sunny_job() -> Scenario {
     let mut scenario = two_bridges();
-    scenario.light.start_unix_s = MORNING_S;
+    scenario.light.start_unix_s = MORNING_UNIX_S;
     scenario.light.cloud_cover = 0.2;
     scenario
 }
 
 /// Returns the TASBID job at dusk: forty minutes after its start time, just after sunset.
-pub fn dusk() -> Scenario {
+pub fn dusk_job() -> Scenario {
     let mut scenario = two_bridges();
     scenario.light.start_unix_s += 2_400;
     scenario

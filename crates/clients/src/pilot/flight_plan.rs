@@ -11,13 +11,13 @@ use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::math;
 
 /// Maximum spacing of task waypoints, m. Turns and line-of-sight changes also add waypoints.
-const TASK_STRIDE_M: f64 = 4.0;
-const TRANSIT_STRIDE_M: f64 = 12.0;
-const MIN_TURN_RAD: f64 = 0.15;
+const TASK_WAYPOINT_SPACING_M: f64 = 4.0;
+const TRANSIT_WAYPOINT_SPACING_M: f64 = 12.0;
+const MIN_TURN_ANGLE_RAD: f64 = 0.15;
 /// Waypoint acceptance radius, m: the narrowest task threshold in the supplied jobs minus the expected path error
 /// (estimate).
-const TASK_ACCEPT_M: f64 = 0.8;
-const TRANSIT_ACCEPT_M: f64 = 1.2;
+const TASK_ACCEPTANCE_RADIUS_M: f64 = 0.8;
+const TRANSIT_ACCEPTANCE_RADIUS_M: f64 = 1.2;
 /// Maximum leg speed as a fraction of the job's speed limit, which leaves a margin for gusts and estimator error
 /// (estimate).
 const SPEED_LIMIT_FRACTION: f64 = 0.9;
@@ -47,7 +47,7 @@ const MOUNT_MODE_TARGETING: f64 = 2.0;
 /// Builds an ordered list of mission items.
 struct PlanWriter {
     plane: LocalPlane,
-    pad_up_m: f64,
+    pad_height_m: f64,
     items: Vec<Value>,
     speed_m_s: f64,
     max_leg_speed_m_s: f64,
@@ -79,12 +79,12 @@ impl PlanWriter {
 
     fn geo_position(&self, point_m: Vec3<Enu>) -> [f64; 3] {
         let geo = self.plane.geo_from_enu(point_m);
-        [geo.latitude_deg, geo.longitude_deg, point_m.up() - self.pad_up_m]
+        [geo.latitude_deg, geo.longitude_deg, point_m.up() - self.pad_height_m]
     }
 
-    fn waypoint(&mut self, point_m: Vec3<Enu>, accept_m: f64, yaw_deg: Option<f64>) {
+    fn waypoint(&mut self, point_m: Vec3<Enu>, acceptance_radius_m: f64, yaw_deg: Option<f64>) {
         let [lat, lon, height] = self.geo_position(point_m).map(Some);
-        self.item(CMD_WAYPOINT, FRAME_RELATIVE_ALT, [Some(0.0), Some(accept_m), Some(0.0), yaw_deg, lat, lon, height]);
+        self.item(CMD_WAYPOINT, FRAME_RELATIVE_ALT, [Some(0.0), Some(acceptance_radius_m), Some(0.0), yaw_deg, lat, lon, height]);
     }
 
     fn set_speed(&mut self, speed_m_s: f64) {
@@ -116,7 +116,7 @@ impl PlanWriter {
                 self.tilt_gimbal(math::atan2(look.up(), look.horizontal_norm()).to_degrees());
             }
             let yaw_deg = look.map(|look| math::atan2(look.east(), look.north()).to_degrees().rem_euclid(360.0));
-            let accept_m = if task { TASK_ACCEPT_M } else { TRANSIT_ACCEPT_M };
+            let accept_m = if task { TASK_ACCEPTANCE_RADIUS_M } else { TRANSIT_ACCEPTANCE_RADIUS_M };
             self.waypoint(leg.points_m[k], accept_m, yaw_deg);
         }
     }
@@ -127,7 +127,7 @@ fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for k in 0..leg.points_m.len() {
         let last = kept.last().copied();
-        let stride = if leg.task[k].is_some() { TASK_STRIDE_M } else { TRANSIT_STRIDE_M };
+        let stride = if leg.task[k].is_some() { TASK_WAYPOINT_SPACING_M } else { TRANSIT_WAYPOINT_SPACING_M };
         let end = k == 0 || k + 1 == leg.points_m.len();
         let far = last.is_none_or(|last| (leg.points_m[k] - leg.points_m[last]).norm() >= stride);
         if end || far || is_turn(leg, k) || leg.task[k] != leg.task[k - 1] || leg.speed_m_s[k] != leg.speed_m_s[k - 1] {
@@ -140,8 +140,8 @@ fn waypoint_indices(leg: &TrackLeg) -> Vec<usize> {
 fn is_turn(leg: &TrackLeg, k: usize) -> bool {
     let way = |a: usize, b: usize| (leg.points_m[b] - leg.points_m[a]).unit();
     let angle = |a: Vec3<Enu>, b: Vec3<Enu>| math::acos(a.dot(b).clamp(-1.0, 1.0));
-    let bent = angle(way(k - 1, k), way(k, k + 1)) > MIN_TURN_RAD;
-    bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > MIN_TURN_RAD)
+    let bent = angle(way(k - 1, k), way(k, k + 1)) > MIN_TURN_ANGLE_RAD;
+    bent || matches!((leg.line_of_sight[k - 1], leg.line_of_sight[k]), (Some(before), Some(now)) if angle(before, now) > MIN_TURN_ANGLE_RAD)
 }
 
 /// Returns the plan: takeoff, all tasks in order (with pictures), and return to launch. Altitudes are relative to the
@@ -154,8 +154,14 @@ pub fn plan(map: &PlanningContext, firmware: MavAutopilot) -> Value {
     let plane = LocalPlane::new(scenario.origin);
     let home = plane.geo_from_enu(pad);
     let max_leg_speed_m_s = SPEED_LIMIT_FRACTION * scenario.scoring.speed_limit_m_s;
-    let mut w =
-        PlanWriter { plane, pad_up_m: pad.up(), items: Vec::new(), speed_m_s: 0.0, max_leg_speed_m_s, pitch_deg: f64::INFINITY };
+    let mut w = PlanWriter {
+        plane,
+        pad_height_m: pad.up(),
+        items: Vec::new(),
+        speed_m_s: 0.0,
+        max_leg_speed_m_s,
+        pitch_deg: f64::INFINITY,
+    };
     let mut here = hover_point_over_pad(scenario);
     let [lat, lon, height] = w.geo_position(here).map(Some);
     w.item(CMD_TAKEOFF, FRAME_RELATIVE_ALT, [Some(0.0), Some(0.0), Some(0.0), None, lat, lon, height]);

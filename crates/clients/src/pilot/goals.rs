@@ -14,7 +14,7 @@ const TRANSIT_SPEED_M_S: f64 = 6.0;
 /// Transit speed near obstacles, m/s (estimate).
 const NEAR_OBSTACLE_SPEED_M_S: f64 = 2.5;
 /// Maximum distance to an obstacle that counts as near during transit, m (estimate).
-const NEAR_OBSTACLE_M: f64 = 4.0;
+const NEAR_OBSTACLE_DISTANCE_M: f64 = 4.0;
 /// Height above the landing pad where takeoff ends and landing begins, m (estimate).
 pub const PAD_HOVER_HEIGHT_M: f64 = 6.0;
 
@@ -72,13 +72,13 @@ impl PlanningContext<'_> {
 
     /// Appends a transit to a leg: slow near obstacles and fast elsewhere.
     fn append_route(&self, leg: &mut TrackLeg, from: Vec3<Enu>, to: Vec3<Enu>) {
-        const STEP_M: f64 = 3.0;
+        const ROUTE_STEP_M: f64 = 3.0;
         let mut last = from;
         for point in self.route(from, to) {
-            let steps = ((point - last).norm() / STEP_M).ceil().max(1.0) as usize;
+            let steps = ((point - last).norm() / ROUTE_STEP_M).ceil().max(1.0) as usize;
             for k in 1..=steps {
                 let p = last.lerp(point, k as f64 / steps as f64);
-                let near = self.site.nearest(p, NEAR_OBSTACLE_M, self.at).is_some();
+                let near = self.site.nearest(p, NEAR_OBSTACLE_DISTANCE_M, self.at).is_some();
                 leg.push(p, if near { NEAR_OBSTACLE_SPEED_M_S } else { TRANSIT_SPEED_M_S }, None, None);
             }
             last = point;
@@ -108,7 +108,7 @@ impl PlanningContext<'_> {
         let Some(first) = order.first() else { return self.transit(from, hover_point_over_pad(self.scenario)) };
         self.append_route(&mut leg, from, task.path_m[*first]);
         for k in &order {
-            leg.push(task.path_m[*k], task_speed_m_s(task), task.look.get(*k).copied(), Some(index));
+            leg.push(task.path_m[*k], task_speed_m_s(task), task.viewing_directions.get(*k).copied(), Some(index));
         }
         ensure_two_points(&mut leg, task.path_m[*first]);
         leg
@@ -144,7 +144,7 @@ fn ensure_two_points(leg: &mut TrackLeg, at: Vec3<Enu>) {
 /// Returns the path indices in the order in which they are flown: from the nearer end, or, on a closed path, from the
 /// nearest point with a short overlap.
 fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
-    const OVERLAP: usize = 4;
+    const OVERLAP_POINTS: usize = 4;
     let n = task.path_m.len();
     if n == 0 {
         return Vec::new();
@@ -152,7 +152,7 @@ fn flying_order(task: &Task, from: Vec3<Enu>) -> Vec<usize> {
     let far = |k: usize| (task.path_m[k] - from).norm();
     if task.closed {
         let start = (0..n).min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(0);
-        return (0..n + OVERLAP).map(|k| (start + k) % n).collect();
+        return (0..n + OVERLAP_POINTS).map(|k| (start + k) % n).collect();
     }
     if far(n - 1) < far(0) { (0..n).rev().collect() } else { (0..n).collect() }
 }

@@ -22,15 +22,15 @@ const STUCK_TIMEOUT_S: f64 = 6.0;
 /// Duration of the back-off maneuver after getting stuck, s.
 const BACK_OFF_DURATION_S: f64 = 2.0;
 /// Maximum duration of an approach to a noticed defect, s.
-const MAX_INSPECTION_S: f64 = 7.0;
+const MAX_INSPECTION_DURATION_S: f64 = 7.0;
 /// Minimum battery level for continuing the job, %.
-const ABORT_BATTERY_PCT: f64 = 12.0;
+const MIN_BATTERY_PCT: f64 = 12.0;
 /// Maximum aiming error for taking a picture, rad.
 const MAX_AIM_ERROR_RAD: f64 = 0.12;
 /// Maximum number of picture attempts per defect.
 const MAX_PICTURE_ATTEMPTS: u32 = 2;
 /// Time to ignore a poorly visible defect, s; it may be easier to see from farther along the path (estimate).
-const IGNORE_DEFECT_S: f64 = 15.0;
+const IGNORE_DEFECT_DURATION_S: f64 = 15.0;
 /// Standard deviation of a trained pilot's visual estimate of the incidence angle, rad (4 degrees; estimate).
 const ANGLE_JUDGMENT_SIGMA_RAD: f64 = 0.07;
 /// Relative standard deviation of a trained pilot's estimates of size and brightness on a screen (estimate).
@@ -48,7 +48,7 @@ impl Pilot {
         self.control_payload(&wish, belief);
         wish.velocity_m_s += self.avoid_obstacles(belief);
         // The pilot misjudges speed, so the actual velocity differs from the intended one.
-        wish.velocity_m_s = wish.velocity_m_s / self.perception.speed_scale();
+        wish.velocity_m_s = wish.velocity_m_s / self.perception.perceived_speed_ratio();
         sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
     }
 
@@ -75,7 +75,7 @@ impl Pilot {
     fn plan_next_leg(&mut self, belief: &MotionState) {
         let Some(site) = &self.site else { return };
         let map = Self::map(&self.config, site, self.now);
-        if self.link.status.battery_pct.is_some_and(|pct| pct < ABORT_BATTERY_PCT)
+        if self.link.status.battery_pct.is_some_and(|pct| pct < MIN_BATTERY_PCT)
             && !matches!(self.guidance.leg, Some((FlightGoal::Home, _)))
         {
             self.goals = [FlightGoal::Home].into();
@@ -135,9 +135,9 @@ impl Pilot {
     fn search_picture(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
         self.glimpse(wish.task.is_some());
         let Some(target) = self.guidance.target else { return };
-        if (self.now - target.since).s() > MAX_INSPECTION_S || target.attempts >= MAX_PICTURE_ATTEMPTS {
+        if (self.now - target.since).s() > MAX_INSPECTION_DURATION_S || target.attempts >= MAX_PICTURE_ATTEMPTS {
             if target.attempts == 0 {
-                self.visual_search.ignore_until(target.defect, self.now + SimTime::from_s(IGNORE_DEFECT_S));
+                self.visual_search.ignore_until(target.defect, self.now + SimTime::from_s(IGNORE_DEFECT_DURATION_S));
             }
             self.guidance.target = None;
             return;
@@ -236,7 +236,7 @@ impl Pilot {
             self.trigger_camera();
         }
         let dark = wish.task.is_some_and(|t| self.config.scenario.tasks[t].dark);
-        if dark != self.lamp && self.config.vehicle.lamp.flux_lm > 0.0 {
+        if dark != self.lamp && self.config.vehicle.lamp.luminous_flux_lm > 0.0 {
             self.lamp = dark;
             self.link.send_command(MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, [f32::from(u8::from(dark)), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }

@@ -10,11 +10,11 @@ use std::collections::VecDeque;
 /// Drifting position error of a trained pilot, m (1 sigma per axis; estimate).
 const POSITION_ERROR_M: f64 = 0.4;
 /// Correlation time of the position error, s (estimate).
-const POSITION_TAU_S: f64 = 4.0;
+const POSITION_ERROR_TAU_S: f64 = 4.0;
 /// Drifting relative speed error of a trained pilot (1 sigma; estimate).
-const SPEED_ERROR: f64 = 0.13;
+const RELATIVE_SPEED_ERROR: f64 = 0.13;
 /// Correlation time of the speed error, s (estimate).
-const SPEED_TAU_S: f64 = 3.0;
+const SPEED_ERROR_TAU_S: f64 = 3.0;
 /// Heading error of a trained pilot, rad (1 sigma; estimate).
 const HEADING_ERROR_RAD: f64 = 0.03;
 
@@ -60,7 +60,7 @@ pub struct Perception {
     position: [DriftProcess; 3],
     speed: DriftProcess,
     heading: DriftProcess,
-    last_speed_scale: f64,
+    last_speed_ratio: f64,
 }
 
 impl Perception {
@@ -68,10 +68,10 @@ impl Perception {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut random = RandomStream::new(seed, "pilot perception");
-        let position = [(); 3].map(|()| DriftProcess::new(POSITION_TAU_S, &mut random));
-        let speed = DriftProcess::new(SPEED_TAU_S, &mut random);
-        let heading = DriftProcess::new(SPEED_TAU_S, &mut random);
-        Self { history: VecDeque::new(), random, position, speed, heading, last_speed_scale: 1.0 }
+        let position = [(); 3].map(|()| DriftProcess::new(POSITION_ERROR_TAU_S, &mut random));
+        let speed = DriftProcess::new(SPEED_ERROR_TAU_S, &mut random);
+        let heading = DriftProcess::new(SPEED_ERROR_TAU_S, &mut random);
+        Self { history: VecDeque::new(), random, position, speed, heading, last_speed_ratio: 1.0 }
     }
 
     /// Adds the current motion to the delay line.
@@ -97,13 +97,13 @@ impl Perception {
         for (axis, drift) in self.position.iter_mut().enumerate() {
             offset[axis] = drift.step(dt_s, &mut self.random) * POSITION_ERROR_M * skill.noise;
         }
-        let speed_error = self.speed.step(dt_s, &mut self.random) * SPEED_ERROR * skill.noise;
+        let speed_error = self.speed.step(dt_s, &mut self.random) * RELATIVE_SPEED_ERROR * skill.noise;
         let heading_error = self.heading.step(dt_s, &mut self.random) * HEADING_ERROR_RAD * skill.noise;
-        self.last_speed_scale = (1.0 + speed_error).clamp(0.4, 2.0);
+        self.last_speed_ratio = (1.0 + speed_error).clamp(0.4, 2.0);
         Some(MotionState {
             time: truth.time,
             position_m: truth.position_m + Vec3::new(offset[0], offset[1], offset[2]),
-            velocity_m_s: truth.velocity_m_s * self.last_speed_scale,
+            velocity_m_s: truth.velocity_m_s * self.last_speed_ratio,
             yaw_rad: math::wrap_pi(truth.yaw_rad + heading_error),
         })
     }
@@ -111,8 +111,8 @@ impl Perception {
     /// Returns the ratio of perceived to true speed. A pilot who overestimates their speed flies too slowly, and vice
     /// versa.
     #[must_use]
-    pub fn speed_scale(&self) -> f64 {
-        self.last_speed_scale
+    pub fn perceived_speed_ratio(&self) -> f64 {
+        self.last_speed_ratio
     }
 
     /// Discards the history after the aircraft has been repositioned.

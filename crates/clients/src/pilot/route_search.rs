@@ -7,14 +7,14 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 /// Grid spacing, m: finer than the height of the interlayer.
-const CELL_M: f64 = 2.0;
+const GRID_SPACING_M: f64 = 2.0;
 /// Preferred clearance, m (typical practice: 3 to 5 m, docs/src/reference/domain.md, "Stand-off and clearance").
 const PREFERRED_CLEARANCE_M: f64 = 4.0;
 /// Radius around an endpoint with too little clearance, m; within it, the route may come as close to obstacles as the
 /// endpoint (estimate: within the task's "too close" distance).
 const ENDPOINT_RADIUS_M: f64 = 8.0;
 /// Clearance tolerance at such an endpoint, m (estimate: stand-offs are rounded).
-const ENDPOINT_MARGIN_M: f64 = 0.1;
+const ENDPOINT_CLEARANCE_TOLERANCE_M: f64 = 0.1;
 /// Clearances to try, in order, as fractions of the range from the minimum to the preferred clearance.
 const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 /// Search margin around the two endpoints, m.
@@ -34,10 +34,10 @@ pub fn route(
     (from, to): (Vec3<Enu>, Vec3<Enu>),
     clearance_m: f64,
     required_clearance_m: Option<f64>,
-    ceiling_up_m: f64,
+    ceiling_height_m: f64,
     at: SimTime,
 ) -> Vec<Vec3<Enu>> {
-    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_up_m, rule: None };
+    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_height_m: ceiling_height_m, rule: None };
     let found = match required_clearance_m {
         Some(required_clearance_m) => CLEARANCE_FRACTIONS.into_iter().find_map(|share| {
             space.rule = Some(space.clearance_rule(clearance_m + share * (required_clearance_m - clearance_m).max(0.0)));
@@ -70,12 +70,12 @@ struct SearchSpace<'a> {
     at: SimTime,
     origin: Vec3<Enu>,
     to: Vec3<Enu>,
-    ceiling_up_m: f64,
+    ceiling_height_m: f64,
 }
 
 impl SearchSpace<'_> {
     fn center(&self, cell: GridCell) -> Vec3<Enu> {
-        self.origin + Vec3::new(f64::from(cell[0]), f64::from(cell[1]), f64::from(cell[2])) * CELL_M
+        self.origin + Vec3::new(f64::from(cell[0]), f64::from(cell[1]), f64::from(cell[2])) * GRID_SPACING_M
     }
 
     /// Returns the clearance rule for `required_clearance_m`, relaxed where an endpoint has less.
@@ -84,7 +84,8 @@ impl SearchSpace<'_> {
             |end| self.site.nearest(end, required_clearance_m, self.at).map_or(required_clearance_m, |near| near.distance_m);
         ClearanceRule {
             required_clearance_m,
-            endpoint_clearances_m: [self.origin, self.to].map(|end| (still(end) - ENDPOINT_MARGIN_M).max(self.clearance_m)),
+            endpoint_clearances_m: [self.origin, self.to]
+                .map(|end| (still(end) - ENDPOINT_CLEARANCE_TOLERANCE_M).max(self.clearance_m)),
         }
     }
 
@@ -113,7 +114,7 @@ impl SearchSpace<'_> {
             && p.east() <= high(a.east(), b.east())
             && p.north() >= low(a.north(), b.north())
             && p.north() <= high(a.north(), b.north())
-            && p.up() <= self.ceiling_up_m.max(a.up().max(b.up()) + SEARCH_MARGIN_M)
+            && p.up() <= self.ceiling_height_m.max(a.up().max(b.up()) + SEARCH_MARGIN_M)
             && p.up() >= low(a.up(), b.up())
     }
 
@@ -132,7 +133,7 @@ impl SearchSpace<'_> {
 
 fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
     let goal = {
-        let d = (space.to - space.origin) / CELL_M;
+        let d = (space.to - space.origin) / GRID_SPACING_M;
         [d.east().round() as i32, d.north().round() as i32, d.up().round() as i32]
     };
     let mut open = BinaryHeap::new();
@@ -181,7 +182,7 @@ fn neighbors(c: GridCell) -> impl Iterator<Item = GridCell> {
 
 fn distance(a: GridCell, b: GridCell) -> f64 {
     let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]].map(f64::from);
-    CELL_M * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+    GRID_SPACING_M * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
 }
 
 fn reconstruct_path(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<GridCell> {

@@ -8,12 +8,12 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 
 /// Neuromuscular lag, s (docs/src/reference/domain.md, "Human operators").
-const LAG_S: f64 = 0.1;
+const NEUROMUSCULAR_LAG_S: f64 = 0.1;
 /// Motor noise of a trained pilot as a fraction of the deflection (-25 dB, docs/src/reference/domain.md, "Human
 /// operators").
 const PROPORTIONAL_NOISE: f64 = 0.056;
 /// Tremor of a trained pilot around the stick center (estimate).
-const TREMOR: f64 = 0.006;
+const TREMOR_AMPLITUDE: f64 = 0.006;
 /// Correlation time of the motor noise, s (estimate).
 const NOISE_TAU_S: f64 = 0.25;
 /// Shortest and longest duration of a lapse, s (estimate).
@@ -52,13 +52,13 @@ impl StickResponse {
         if lapse && !self.is_lapsed(now) {
             self.lapse_until = now + SimTime::from_s(self.random.range(LAPSE_DURATION_S.0, LAPSE_DURATION_S.1));
         }
-        let follow = 1.0 - math::exp(-dt_s / LAG_S);
+        let follow = 1.0 - math::exp(-dt_s / NEUROMUSCULAR_LAG_S);
         for (axis, target) in wanted.iter().enumerate() {
             let drift = self.noise[axis].step(dt_s, &mut self.random);
             if now < self.lapse_until {
                 continue;
             }
-            let noisy = target + drift * skill.noise * (PROPORTIONAL_NOISE * target.abs() + TREMOR);
+            let noisy = target + drift * skill.noise * (PROPORTIONAL_NOISE * target.abs() + TREMOR_AMPLITUDE);
             self.out[axis] += follow * (noisy.clamp(-1.0, 1.0) - self.out[axis]);
         }
         self.out

@@ -2,7 +2,7 @@
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::contact::ContactKind;
-use spandrel_mavlink::contract::named_values::Named;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::{self, Truth};
 use spandrel_mavlink::dialect::{
     MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, TIMESYNC_DATA,
@@ -22,7 +22,7 @@ const COMPONENT_ID: u8 = 190;
 const AUTOPILOT_COMPONENT: u8 = 1;
 /// Messages that the pilot needs (ground truth, system status, landed state, battery, gimbal) and their rates, Hz
 /// (PX4's rates for a ground station).
-const STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
+const REQUESTED_STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
 
 /// Latest state reported by the vehicle.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -121,10 +121,10 @@ impl VehicleLink {
                     self.status.gimbal_pitch_rad = attitude.euler().1;
                 }
             }
-            MavMessage::NAMED_VALUE_INT(named) => match Named::from_int(named) {
-                Some(Named::Seed(seed)) => self.status.seed = Some(u64::from(seed)),
-                Some(Named::Respawns(count)) => self.status.respawns = count,
-                Some(Named::Contact(contact)) => self.status.contact = contact,
+            MavMessage::NAMED_VALUE_INT(named) => match NamedValue::from_int(named) {
+                Some(NamedValue::Seed(seed)) => self.status.seed = Some(u64::from(seed)),
+                Some(NamedValue::Respawns(count)) => self.status.respawns = count,
+                Some(NamedValue::Contact(contact)) => self.status.contact = contact,
                 _ => {}
             },
             _ => {}
@@ -133,7 +133,7 @@ impl VehicleLink {
 
     /// Requests the streams until they arrive, because not every vehicle sends them by default.
     fn request_streams(&mut self) {
-        for (id, rate_hz) in STREAMS {
+        for (id, rate_hz) in REQUESTED_STREAMS {
             self.send_command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
     }

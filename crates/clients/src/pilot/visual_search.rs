@@ -15,7 +15,7 @@ const GLIMPSE_INTERVAL_S: f64 = 0.25;
 /// Spread of the lognormal detection curve (Campbell et al. 2020: 50% at 26 mm, 90% at 113 mm).
 const POD_SIGMA_LN: f64 = 1.147;
 /// Minimum extent of a clearly visible object, px (estimate).
-const CLEAR_PX: f64 = 40.0;
+const CLEAR_EXTENT_PX: f64 = 40.0;
 /// Minimum extent for detection, px (a tenth of the pixels in a clear picture; estimate).
 const MIN_EXTENT_PX: f64 = 6.0;
 /// Maximum incidence angle for detection, rad (60 degrees; inspection practice rejects more oblique pictures).
@@ -78,7 +78,7 @@ impl VisualSearch {
         for view in views() {
             // The pilot cannot notice a defect that is edge-on, too small, or in the dark, but it may become detectable
             // later.
-            let lit = view.illuminance_lux >= view.needed_lux;
+            let lit = view.illuminance_lux >= view.required_illuminance_lux;
             let plain = lit && view.unoccluded && view.extent_px >= MIN_EXTENT_PX && view.incidence_rad < MAX_INCIDENCE_RAD;
             if self.ignored_until.get(&view.defect_id).is_some_and(|until| now < *until) || !plain {
                 continue;
@@ -103,7 +103,7 @@ impl VisualSearch {
 fn probability(view: &DefectView, site: &Site, skill: &Skill) -> f64 {
     let Some(defect) = site.defects().iter().find(|d| d.id == view.defect_id) else { return 0.0 };
     let contrast = if defect.line { view.width_px.min(1.0) } else { 1.0 };
-    let plain_mm = defect.length_m * 1000.0 * contrast * (view.extent_px / CLEAR_PX).min(1.0);
+    let plain_mm = defect.length_m * 1000.0 * contrast * (view.extent_px / CLEAR_EXTENT_PX).min(1.0);
     normal_cdf((math::ln(plain_mm.max(1e-6)) - math::ln(skill.median_length_mm())) / POD_SIGMA_LN)
 }
 

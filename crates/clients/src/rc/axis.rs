@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     /// Rounding error after a few multiplications of numbers below 1.
-    const ROUNDING: f64 = 1e-15;
+    const ROUNDING_ERROR: f64 = 1e-15;
 
     fn full_range_axis() -> AxisCalibration {
         AxisCalibration { axis: 0, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 }
@@ -50,7 +50,7 @@ mod tests {
     fn exact_endpoints_and_center_map_to_one_and_zero() {
         let axis = AxisCalibration { low: -0.8, centre: 0.1, high: 0.9, ..full_range_axis() };
         for (raw, read) in [(-0.8, -1.0), (-1.0, -1.0), (0.1, 0.0), (0.5, 0.5), (0.9, 1.0), (1.0, 1.0), (-0.35, -0.5)] {
-            assert!((axis.read(raw) - read).abs() < ROUNDING, "{raw}");
+            assert!((axis.read(raw) - read).abs() < ROUNDING_ERROR, "{raw}");
         }
     }
 
@@ -67,6 +67,6 @@ mod tests {
         let just = axis.read(0.2 + 1e-9);
         assert!(just > 0.0 && just < 1e-8);
         // The reading is halfway between the edge of the dead band and the endpoint: 0.5 · 0.5 + 0.5 · 0.125.
-        assert!((axis.read(0.6) - 0.3125).abs() < ROUNDING);
+        assert!((axis.read(0.6) - 0.3125).abs() < ROUNDING_ERROR);
     }
 }

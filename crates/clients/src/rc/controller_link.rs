@@ -1,6 +1,6 @@
 //! MAVLink link from a controller to a vehicle: MANUAL_CONTROL at 50 Hz, commands with retries, and a heartbeat.
 //!
-//! After a device is lost, the link sends centered sticks for [`CENTERED_DURATION_S`] and then stops sending, so that
+//! After a device is lost, the link sends centered sticks for [`CENTERED_STICKS_DURATION_S`] and then stops sending, so that
 //! the vehicle's own failsafe takes over.
 
 use super::{ControllerAction, Sticks};
@@ -23,13 +23,13 @@ const STICK_INTERVAL_S: f64 = 0.02;
 const HEARTBEAT_INTERVAL_S: f64 = 1.0;
 /// Time for which the link sends centered sticks after a device is lost, s (estimate: long enough to get through a poor
 /// radio link).
-pub const CENTERED_DURATION_S: f64 = 0.3;
+pub const CENTERED_STICKS_DURATION_S: f64 = 0.3;
 /// Retry interval for an unacknowledged command, s, and the maximum number of transmissions (MAVLink command protocol;
 /// estimate).
 const RETRY_INTERVAL_S: f64 = 0.5;
 const MAX_TRANSMISSIONS: u8 = 5;
 /// Messages that button actions depend on, and their rates, Hz: ILLUMINATOR_STATUS, GIMBAL_DEVICE_ATTITUDE_STATUS.
-const STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
+const REQUESTED_STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
 /// Retry interval for missing streams, s, in case an acknowledgment was lost or the vehicle restarted (estimate).
 const STREAM_RETRY_S: f64 = 5.0;
 const STREAM_REQUEST_NAME: &str = "lamp and gimbal telemetry";
@@ -73,7 +73,7 @@ pub struct ControllerLink {
     out: VecDeque<Vec<u8>>,
     messages: VecDeque<String>,
     next_stream_request: SimTime,
-    /// Flags for the [`STREAMS`] that have arrived since the last check.
+    /// Flags for the [`REQUESTED_STREAMS`] that have arrived since the last check.
     streams_received: [bool; 2],
     /// Latest state reported by the vehicle.
     pub vehicle: LastReported,
@@ -100,7 +100,7 @@ impl Default for ControllerLink {
             streams_received: [false; 2],
             vehicle: LastReported::default(),
             sticks: Sticks::default(),
-            device_lost: Some(SimTime::ZERO - SimTime::from_s(CENTERED_DURATION_S)),
+            device_lost: Some(SimTime::ZERO - SimTime::from_s(CENTERED_STICKS_DURATION_S)),
             next_sticks: SimTime::ZERO,
             next_heartbeat: SimTime::ZERO,
             pending: Vec::new(),
@@ -215,7 +215,7 @@ impl ControllerLink {
         let Some(system) = self.vehicle.system.filter(|_| now >= self.next_stream_request) else { return };
         self.next_stream_request = now + SimTime::from_s(STREAM_RETRY_S);
         let came = std::mem::take(&mut self.streams_received);
-        for (n, (id, rate_hz)) in STREAMS.into_iter().enumerate() {
+        for (n, (id, rate_hz)) in REQUESTED_STREAMS.into_iter().enumerate() {
             if came[n] {
                 continue;
             }
@@ -280,7 +280,7 @@ impl ControllerLink {
             self.next_heartbeat = now + SimTime::from_s(HEARTBEAT_INTERVAL_S);
             self.send(&station::heartbeat());
         }
-        let pilot = self.device_lost.is_none_or(|since| (now - since).s() < CENTERED_DURATION_S);
+        let pilot = self.device_lost.is_none_or(|since| (now - since).s() < CENTERED_STICKS_DURATION_S);
         if pilot && now >= self.next_sticks {
             self.next_sticks = (self.next_sticks + SimTime::from_s(STICK_INTERVAL_S)).max(now);
             self.send_sticks();
@@ -373,7 +373,7 @@ mod tests {
         link.receive(&Encoder::new(1, 1).encode(&beat));
         link.handle_timeout(SimTime::ZERO);
         let asked: Vec<_> = std::iter::from_fn(|| link.poll_transmit()).collect();
-        assert_eq!(asked.len(), 1 + STREAMS.len(), "a heartbeat and the stream requests");
+        assert_eq!(asked.len(), 1 + REQUESTED_STREAMS.len(), "a heartbeat and the stream requests");
         link.pending.clear();
         link
     }
@@ -410,16 +410,16 @@ mod tests {
             MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(spandrel_mavlink::dialect::GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::default());
         link.receive(&Encoder::new(1, 1).encode(&gimbal));
         let again = sent(&mut link, 0.0, STREAM_RETRY_S + 0.1);
-        assert_eq!(asked(&again), [STREAMS[0].0], "only the missing stream must be requested");
+        assert_eq!(asked(&again), [REQUESTED_STREAMS[0].0], "only the missing stream must be requested");
         answer(&mut link, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
         let later = sent(&mut link, STREAM_RETRY_S + 0.1, 2.0 * STREAM_RETRY_S + 0.1);
-        assert_eq!(asked(&later), STREAMS.map(|(id, _)| id), "all stopped streams must be requested");
+        assert_eq!(asked(&later), REQUESTED_STREAMS.map(|(id, _)| id), "all stopped streams must be requested");
         sent(&mut link, 2.0 * STREAM_RETRY_S + 0.1, 60.0);
         let told = |link: &mut ControllerLink| std::iter::from_fn(|| link.poll_message()).collect::<Vec<_>>();
         assert!(told(&mut link).is_empty(), "no message if one of the streams arrives");
         let mut refused = known();
         sent(&mut refused, 0.0, STREAM_RETRY_S + 0.1);
-        for _ in STREAMS {
+        for _ in REQUESTED_STREAMS {
             answer(&mut refused, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, MavResult::MAV_RESULT_UNSUPPORTED);
         }
         assert_eq!(told(&mut refused), ["lamp and gimbal telemetry: not supported by this vehicle"]);
@@ -473,7 +473,7 @@ mod tests {
             link.set_sticks(None, SimTime::from_us(ms * 1000));
         }
         let after = sticks(&sent(&mut link, 0.1, 2.0));
-        assert_eq!(after, vec![(0, 0, 500, 0); (CENTERED_DURATION_S / STICK_INTERVAL_S) as usize]);
+        assert_eq!(after, vec![(0, 0, 500, 0); (CENTERED_STICKS_DURATION_S / STICK_INTERVAL_S) as usize]);
         link.set_sticks(Some(Sticks { up: 1.0, ..Sticks::default() }), at(2.0));
         assert_eq!(sticks(&sent(&mut link, 2.0, 2.1)), vec![(0, 0, 1000, 0); 5]);
     }

@@ -6,7 +6,7 @@ pub const SPECIAL_KEYS: [&str; 11] =
 
 /// Checks whether `name` is a valid key name: one lowercase character or one of [`SPECIAL_KEYS`].
 #[must_use]
-pub fn is_key(name: &str) -> bool {
+pub fn is_valid_key(name: &str) -> bool {
     let mut signs = name.chars();
     match (signs.next(), signs.next()) {
         (Some(sign), None) => !sign.is_whitespace() && !sign.is_control() && sign.to_lowercase().eq([sign]),
@@ -49,10 +49,10 @@ mod tests {
     #[test]
     fn exact_valid_keys_are_characters_and_special_keys() {
         for name in ["a", "ü", "ß", "7", "+", "[", ",", "я"].into_iter().chain(SPECIAL_KEYS) {
-            assert!(is_key(name), "{name}");
+            assert!(is_valid_key(name), "{name}");
         }
         for name in ["", " ", "\n", "\u{7}", "A", "f5", "shift", "Up", "ab", "page up", "esc"] {
-            assert!(!is_key(name), "{name:?}");
+            assert!(!is_valid_key(name), "{name:?}");
         }
         assert!(allowed().contains("one character") && allowed().ends_with("backspace"));
     }

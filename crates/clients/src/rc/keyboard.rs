@@ -129,7 +129,7 @@ impl Default for SoundPreferences {
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeyBindings {
     push: f64,
-    pushes: BTreeMap<String, StickDirection>,
+    stick_keys: BTreeMap<String, StickDirection>,
     actions: BTreeMap<String, ControllerAction>,
     window_actions: BTreeMap<String, WindowAction>,
     /// Sound settings of the viewer window.
@@ -140,7 +140,7 @@ impl Default for KeyBindings {
     fn default() -> Self {
         Self {
             push: DEFAULT_DEFLECTION,
-            pushes: STICK_BINDINGS.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
+            stick_keys: STICK_BINDINGS.iter().map(|(_, push, key)| ((*key).to_owned(), *push)).collect(),
             actions: ACTION_BINDINGS.iter().map(|(action, key)| ((*key).to_owned(), *action)).collect(),
             window_actions: WINDOW_BINDINGS.iter().map(|(_, wish, key)| ((*key).to_owned(), *wish)).collect(),
             sounds: SoundPreferences::default(),
@@ -160,7 +160,7 @@ impl KeyBindings {
             r.integer(&mut root, "format", (1, 1), None);
             let mut keys = Self {
                 push: r.number(&mut root, "push", (0.05, 1.0), Some(DEFAULT_DEFLECTION)),
-                pushes: BTreeMap::new(),
+                stick_keys: BTreeMap::new(),
                 actions: BTreeMap::new(),
                 window_actions: BTreeMap::new(),
                 sounds: SoundPreferences::default(),
@@ -168,7 +168,7 @@ impl KeyBindings {
             let mut taken = BTreeMap::new();
             let mut s = r.section(&mut root, "sticks");
             for (name, push, usual) in STICK_BINDINGS {
-                keys.pushes.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), push);
+                keys.stick_keys.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), push);
             }
             r.finish(&s);
             let mut s = r.section(&mut root, "actions");
@@ -200,13 +200,13 @@ impl KeyBindings {
     /// Checks whether a key controls a stick.
     #[must_use]
     pub fn is_stick(&self, key: &str) -> bool {
-        self.pushes.contains_key(&key.to_lowercase())
+        self.stick_keys.contains_key(&key.to_lowercase())
     }
 
     /// Returns the stick direction or vehicle action of a key, by its name in configuration files.
     #[must_use]
     pub fn binding_name(&self, key: &str) -> Option<&'static str> {
-        let push = self.pushes.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
+        let push = self.stick_keys.get(key).and_then(|push| STICK_BINDINGS.iter().find(|p| p.1 == *push)).map(|p| p.0);
         push.or_else(|| self.actions.get(key).map(|action| action.name()))
     }
 
@@ -232,7 +232,7 @@ impl KeyBindings {
     pub fn of(&self, name: &str) -> Option<&str> {
         let push = STICK_BINDINGS.iter().find(|p| p.0 == name).map(|p| p.1);
         let wish = WINDOW_BINDINGS.iter().find(|w| w.0 == name).map(|w| w.1);
-        let pushes = self.pushes.iter().filter(|(_, p)| Some(**p) == push).map(|(key, _)| key);
+        let pushes = self.stick_keys.iter().filter(|(_, p)| Some(**p) == push).map(|(key, _)| key);
         let wishes = self.window_actions.iter().filter(|(_, w)| Some(**w) == wish).map(|(key, _)| key);
         let actions = self.actions.iter().filter(|(_, a)| a.name() == name).map(|(key, _)| key);
         pushes.chain(wishes).chain(actions).next().map(String::as_str)
@@ -242,7 +242,7 @@ impl KeyBindings {
     #[must_use]
     pub fn help_text(&self) -> String {
         let pushes = self
-            .pushes
+            .stick_keys
             .iter()
             .map(|(key, push)| format!("{key:10} {}", STICK_BINDINGS.iter().find(|p| p.1 == *push).map_or("", |p| p.0)));
         let actions = self.actions.iter().map(|(key, action)| format!("{key:10} {}", action.name()));
@@ -268,12 +268,12 @@ fn read_binding(
     r: &mut Reader,
     s: &mut Section,
     (name, usual): (&'static str, &str),
-    taken: &mut BTreeMap<String, &'static str>,
+    bound_keys: &mut BTreeMap<String, &'static str>,
 ) -> String {
     let key = r.text(s, name, Some(usual)).to_lowercase();
-    if !key::is_key(&key) {
+    if !key::is_valid_key(&key) {
         r.add_problem(s, name, &key, &key::allowed(), "unknown key");
-    } else if let Some(before) = taken.insert(key.clone(), name) {
+    } else if let Some(before) = bound_keys.insert(key.clone(), name) {
         r.add_problem(s, name, &key, "an unused key", &format!("already bound to {before}"));
     }
     key
@@ -306,7 +306,7 @@ impl KeyboardState {
     /// `MIN_TAP_INTERVAL_S` if it is a gimbal or zoom step.
     pub fn press(&mut self, key: &str, until_released: bool, now: SimTime) -> Option<ControllerAction> {
         let key = key.to_lowercase();
-        if let Some(push) = self.keys.pushes.get(&key) {
+        if let Some(push) = self.keys.stick_keys.get(&key) {
             self.held.insert(*push, (!until_released).then(|| now + SimTime::from_s(KEY_HOLD_TIMEOUT_S)));
         }
         let action = self.keys.actions.get(&key).copied()?;
@@ -318,7 +318,7 @@ impl KeyboardState {
 
     /// Handles a key release.
     pub fn release(&mut self, key: &str) {
-        if let Some(push) = self.keys.pushes.get(&key.to_lowercase()) {
+        if let Some(push) = self.keys.stick_keys.get(&key.to_lowercase()) {
             self.held.remove(push);
         }
     }
@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_key_repeats_are_ignored_except_tapped_steps() {
+    fn exact_key_repeats_are_ignored_except_for_tapped_steps() {
         let mut board = KeyboardState::default();
         // One second of events: 0.5 s until the first repeat, then 30 repeats per second.
         let held: Vec<f64> = std::iter::once(0.0).chain((0..15).map(|k| 0.5 + f64::from(k) / 30.0)).collect();
@@ -431,7 +431,7 @@ mod tests {
         let labels = usual.labels();
         let keys: std::collections::BTreeSet<&str> = labels.keys().filter_map(|name| usual.of(name)).collect();
         assert_eq!((labels.len(), keys.len()), (every, every), "each binding must have its own key");
-        assert!(keys.into_iter().all(key::is_key));
+        assert!(keys.into_iter().all(key::is_valid_key));
         let label = |name: &str| usual.label(name);
         assert_eq!([label("pause"), label("forward"), label("lamp"), label("camera_zoom_in")], ["Esc", "Up", "B", "]"]);
         assert_eq!(label("fly"), "");

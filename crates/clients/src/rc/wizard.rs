@@ -8,24 +8,24 @@ use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Duration of the rest measurement (center and noise), s (estimate).
-const REST_DURATION_S: f64 = 1.5;
+const REST_MEASUREMENT_DURATION_S: f64 = 1.5;
 /// Minimum travel of a stick axis, in raw units (full range: 2; estimate).
-const MIN_TRAVEL: f64 = 0.6;
+const MIN_STICK_TRAVEL: f64 = 0.6;
 /// Minimum deflection of a pushed stick, and maximum deflection of a released one, as fractions of the travel; in
 /// between, it counts as neither (estimates).
-const PUSHED_FRACTION: f64 = 0.8;
-const RELEASED_FRACTION: f64 = 0.3;
+const MIN_PUSH_DEFLECTION: f64 = 0.8;
+const MAX_RELEASED_DEFLECTION: f64 = 0.3;
 /// Minimum duration of a push, s, to ignore brief touches (estimate).
-const PUSHED_DURATION_S: f64 = 0.3;
+const MIN_PUSH_DURATION_S: f64 = 0.3;
 /// Minimum movement since the prompt, as a fraction of the travel, to ignore an axis that was already at an end.
 const MIN_DISPLACEMENT: f64 = 0.5;
 /// Maximum movement of an axis that counts as still, in raw units (full range: 2; estimate: above the noise of a worn
 /// stick).
 const STILL_TOLERANCE: f64 = 0.2;
-/// Time that sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_S`] counts as a
+/// Time that sticks must be still at the center, s. An axis that stays elsewhere for [`NON_RETURNING_TIMEOUT_S`] counts as a
 /// trigger, switch, or knob that does not return (estimates).
 const STILL_DURATION_S: f64 = 0.2;
-const NON_RETURNING_S: f64 = 1.0;
+const NON_RETURNING_TIMEOUT_S: f64 = 1.0;
 /// Dead band as a multiple of the noise at rest. It is at least the default and at most [`MAX_DEAD_BAND`].
 const NOISE_FACTOR: f64 = 2.0;
 const MAX_DEAD_BAND: f64 = 0.2;
@@ -53,7 +53,7 @@ enum WizardStep {
 }
 
 /// Actions that the wizard assigns to buttons.
-const BUTTONS: [(ControllerAction, &str); 7] = [
+const BUTTON_ACTIONS: [(ControllerAction, &str); 7] = [
     (ControllerAction::Lamp, "the lamp"),
     (ControllerAction::Snapshot, "a snapshot"),
     (ControllerAction::Arm, "arming"),
@@ -71,9 +71,9 @@ struct AxisStatistics {
     /// Minimum and maximum at rest.
     rest_range: (f64, f64),
     /// Whether the rest position was measured with the axis untouched, not just between two pushes.
-    rested: bool,
+    rest_measured: bool,
     /// Minimum and maximum overall.
-    ends: (f64, f64),
+    overall_range: (f64, f64),
     /// Steady value, and the time at which the axis reached it.
     steady: (f64, SimTime),
 }
@@ -81,11 +81,11 @@ struct AxisStatistics {
 impl AxisStatistics {
     fn at(value: f64, now: SimTime) -> Self {
         let one = (value, value);
-        Self { sum: 0.0, count: 0, rest_range: one, rested: false, ends: one, steady: (value, now) }
+        Self { sum: 0.0, count: 0, rest_range: one, rest_measured: false, overall_range: one, steady: (value, now) }
     }
 
     fn take(&mut self, value: f64, now: SimTime) {
-        self.ends = (self.ends.0.min(value), self.ends.1.max(value));
+        self.overall_range = (self.overall_range.0.min(value), self.overall_range.1.max(value));
         if (value - self.steady.0).abs() > STILL_TOLERANCE {
             self.steady = (value, now);
         }
@@ -112,9 +112,9 @@ pub struct CalibrationWizard {
     since: SimTime,
     statistics: BTreeMap<u32, AxisStatistics>,
     /// Axes that have been moved through their full range.
-    fully_moved: BTreeSet<u32>,
+    fully_moved_axes: BTreeSet<u32>,
     /// Axis values when the push was requested.
-    push_start: BTreeMap<u32, f64>,
+    push_start_values: BTreeMap<u32, f64>,
     pushed: Option<(u32, bool)>,
     found: BTreeMap<StickMotion, (u32, bool)>,
     buttons: BTreeMap<u32, ControllerAction>,
@@ -132,8 +132,8 @@ impl CalibrationWizard {
             raw: RawInput::default(),
             since: SimTime::ZERO,
             statistics: BTreeMap::new(),
-            fully_moved: BTreeSet::new(),
-            push_start: BTreeMap::new(),
+            fully_moved_axes: BTreeSet::new(),
+            push_start_values: BTreeMap::new(),
             pushed: None,
             found: BTreeMap::new(),
             buttons: BTreeMap::new(),
@@ -153,7 +153,7 @@ impl CalibrationWizard {
             ),
             WizardStep::Center(_) => "Center the sticks ...".to_owned(),
             WizardStep::Push(k) => format!("Push {} and hold it there.", STICK_AXES[k].2),
-            WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTONS[k].1),
+            WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTON_ACTIONS[k].1),
             WizardStep::Done => "Done.".to_owned(),
         };
         match self.note {
@@ -170,7 +170,7 @@ impl CalibrationWizard {
 
     /// Returns the position of each axis for display: number, reading, minimum, and maximum.
     pub fn axes(&self) -> impl Iterator<Item = (u32, f64, (f64, f64))> + '_ {
-        self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.statistics.get(axis)?.ends)))
+        self.raw.axes.iter().filter_map(|(axis, value)| Some((*axis, *value, self.statistics.get(axis)?.overall_range)))
     }
 
     /// Processes a device event.
@@ -180,11 +180,11 @@ impl CalibrationWizard {
             && let Some(value) = self.raw.axes.get(&axis).copied()
         {
             self.statistics.entry(axis).or_insert_with(|| AxisStatistics::at(value, now)).take(value, now);
-            self.push_start.entry(axis).or_insert(value);
+            self.push_start_values.entry(axis).or_insert(value);
         }
         if let (WizardStep::Button(k), DeviceEvent::Button { button, pressed: true }) = (self.step, event) {
             if let std::collections::btree_map::Entry::Vacant(free) = self.buttons.entry(button) {
-                free.insert(BUTTONS[k].0);
+                free.insert(BUTTON_ACTIONS[k].0);
                 self.next_button(k);
             } else {
                 self.note = Some("That button is already assigned.");
@@ -214,9 +214,9 @@ impl CalibrationWizard {
     }
 
     fn end_range(&mut self, now: SimTime) {
-        self.fully_moved = self.statistics.iter().filter(|(_, seen)| is_fully_moved(seen)).map(|(axis, _)| *axis).collect();
+        self.fully_moved_axes = self.statistics.iter().filter(|(_, seen)| is_fully_moved(seen)).map(|(axis, _)| *axis).collect();
         self.found.clear();
-        if self.fully_moved.len() < STICK_AXES.len() {
+        if self.fully_moved_axes.len() < STICK_AXES.len() {
             self.note = Some("Fewer than four axes moved.");
         } else {
             self.start_step(WizardStep::Center(0), now);
@@ -229,7 +229,7 @@ impl CalibrationWizard {
 
     fn next_button(&mut self, k: usize) {
         self.note = None;
-        self.step = if k + 1 < BUTTONS.len() { WizardStep::Button(k + 1) } else { WizardStep::Done };
+        self.step = if k + 1 < BUTTON_ACTIONS.len() { WizardStep::Button(k + 1) } else { WizardStep::Done };
     }
 
     /// Advances time; call it every few milliseconds.
@@ -238,7 +238,7 @@ impl CalibrationWizard {
             WizardStep::Rest => self.measure_rest(now),
             WizardStep::Center(k) if self.is_centered(now) => {
                 self.measure_center();
-                self.push_start.clone_from(&self.raw.axes);
+                self.push_start_values.clone_from(&self.raw.axes);
                 self.start_step(WizardStep::Push(k), now);
             }
             WizardStep::Push(k) => self.push(k, now),
@@ -250,10 +250,10 @@ impl CalibrationWizard {
         for (axis, seen) in &mut self.statistics {
             if let Some(value) = self.raw.axes.get(axis) {
                 seen.measure(*value);
-                seen.rested = true;
+                seen.rest_measured = true;
             }
         }
-        if (now - self.since).s() >= REST_DURATION_S {
+        if (now - self.since).s() >= REST_MEASUREMENT_DURATION_S {
             self.start_step(WizardStep::Range, now);
         }
     }
@@ -262,7 +262,7 @@ impl CalibrationWizard {
     fn deflection(&self, axis: u32) -> Option<(f64, f64)> {
         let (value, seen) = (*self.raw.axes.get(&axis)?, self.statistics.get(&axis)?);
         let centre = rest_position(seen);
-        let way = if value >= centre { seen.ends.1 - centre } else { centre - seen.ends.0 };
+        let way = if value >= centre { seen.overall_range.1 - centre } else { centre - seen.overall_range.0 };
         Some((value, if way == 0.0 { 0.0 } else { (value - centre) / way }))
     }
 
@@ -272,9 +272,9 @@ impl CalibrationWizard {
 
     fn is_centered(&self, now: SimTime) -> bool {
         let still = |axis: u32, seconds: f64| self.statistics.get(&axis).is_none_or(|seen| seen.is_still(seconds, now));
-        self.fully_moved.iter().all(|axis| match self.deflection(*axis) {
-            Some((_, part)) if part.abs() < RELEASED_FRACTION => still(*axis, STILL_DURATION_S),
-            Some(_) => !self.is_known(*axis) && still(*axis, NON_RETURNING_S),
+        self.fully_moved_axes.iter().all(|axis| match self.deflection(*axis) {
+            Some((_, part)) if part.abs() < MAX_RELEASED_DEFLECTION => still(*axis, STILL_DURATION_S),
+            Some(_) => !self.is_known(*axis) && still(*axis, NON_RETURNING_TIMEOUT_S),
             None => true,
         })
     }
@@ -282,9 +282,11 @@ impl CalibrationWizard {
     /// Measures the center of each axis that has just returned to it. Some systems do not report an axis before it
     /// moves.
     fn measure_center(&mut self) {
-        for axis in self.fully_moved.clone() {
+        for axis in self.fully_moved_axes.clone() {
             let Some((value, part)) = self.deflection(axis) else { continue };
-            if let Some(seen) = self.statistics.get_mut(&axis).filter(|seen| !seen.rested && part.abs() < RELEASED_FRACTION) {
+            if let Some(seen) =
+                self.statistics.get_mut(&axis).filter(|seen| !seen.rest_measured && part.abs() < MAX_RELEASED_DEFLECTION)
+            {
                 seen.measure(value);
             }
         }
@@ -296,8 +298,8 @@ impl CalibrationWizard {
         if now_pushed != self.pushed {
             (self.pushed, self.since) = (now_pushed, now);
         }
-        let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= PUSHED_DURATION_S) else { return };
-        if !self.fully_moved.contains(&axis) {
+        let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= MIN_PUSH_DURATION_S) else { return };
+        if !self.fully_moved_axes.contains(&axis) {
             self.note = Some("You did not move that stick through its full range.");
             return self.start_step(WizardStep::Range, now);
         }
@@ -316,19 +318,19 @@ impl CalibrationWizard {
 
     /// Resets the start of the push for sticks that have been released since the prompt.
     fn track_released_sticks(&mut self, now: SimTime) {
-        for axis in &self.fully_moved {
+        for axis in &self.fully_moved_axes {
             let Some((value, part)) = self.deflection(*axis) else { continue };
-            if part.abs() < RELEASED_FRACTION
-                && self.statistics.get(axis).is_some_and(|seen| seen.is_still(PUSHED_DURATION_S, now))
+            if part.abs() < MAX_RELEASED_DEFLECTION
+                && self.statistics.get(axis).is_some_and(|seen| seen.is_still(MIN_PUSH_DURATION_S, now))
             {
-                self.push_start.insert(*axis, value);
+                self.push_start_values.insert(*axis, value);
             }
         }
     }
 
     /// Returns the distance that an axis has moved since the push was requested, in raw units (full range: 2).
     fn displacement(&self, axis: u32) -> f64 {
-        let ends = self.push_start.get(&axis).zip(self.raw.axes.get(&axis));
+        let ends = self.push_start_values.get(&axis).zip(self.raw.axes.get(&axis));
         ends.map_or(0.0, |(from, value)| (value - from).abs())
     }
 
@@ -336,14 +338,16 @@ impl CalibrationWizard {
     /// `None` if there is more than one.
     fn single_pushed_axis(&self) -> Option<(u32, bool)> {
         let pushed = |axis: &u32| {
-            let ends = self.statistics.get(axis)?.ends;
+            let ends = self.statistics.get(axis)?.overall_range;
             let (_, part) = self.deflection(*axis)?;
-            (part.abs() >= PUSHED_FRACTION && self.displacement(*axis) >= MIN_DISPLACEMENT * (ends.1 - ends.0) / 2.0)
+            (part.abs() >= MIN_PUSH_DEFLECTION && self.displacement(*axis) >= MIN_DISPLACEMENT * (ends.1 - ends.0) / 2.0)
                 .then_some((*axis, part > 0.0))
         };
-        let sticks: Vec<(u32, bool)> = self.fully_moved.iter().filter_map(pushed).collect();
-        let mut others =
-            self.statistics.keys().filter(|axis| !self.fully_moved.contains(axis) && self.displacement(**axis) >= MIN_TRAVEL);
+        let sticks: Vec<(u32, bool)> = self.fully_moved_axes.iter().filter_map(pushed).collect();
+        let mut others = self
+            .statistics
+            .keys()
+            .filter(|axis| !self.fully_moved_axes.contains(axis) && self.displacement(**axis) >= MIN_STICK_TRAVEL);
         match sticks.as_slice() {
             [] => others.next().map(|axis| (*axis, true)),
             [one] => Some(*one),
@@ -367,23 +371,23 @@ impl CalibrationWizard {
 }
 
 fn is_fully_moved(seen: &AxisStatistics) -> bool {
-    seen.ends.1 - seen.ends.0 >= MIN_TRAVEL
+    seen.overall_range.1 - seen.overall_range.0 >= MIN_STICK_TRAVEL
 }
 
 /// Returns the stick's rest position: the measured one, or the middle of the range if the stick rests near an end, like
 /// a throttle without a spring.
 fn rest_position(seen: &AxisStatistics) -> f64 {
-    let middle = f64::midpoint(seen.ends.0, seen.ends.1);
+    let middle = f64::midpoint(seen.overall_range.0, seen.overall_range.1);
     let rest = if seen.count > 0 { seen.sum / f64::from(seen.count) } else { middle };
-    let off = (rest - middle).abs() > MAX_CENTER_OFFSET * (seen.ends.1 - seen.ends.0) / 2.0;
+    let off = (rest - middle).abs() > MAX_CENTER_OFFSET * (seen.overall_range.1 - seen.overall_range.0) / 2.0;
     if off { middle } else { rest }
 }
 
 fn axis_calibration(axis: u32, up: bool, seen: &AxisStatistics) -> AxisCalibration {
     let centre = rest_position(seen);
-    let way = (seen.ends.1 - centre).min(centre - seen.ends.0).max(MIN_ENDPOINT_DISTANCE);
+    let way = (seen.overall_range.1 - centre).min(centre - seen.overall_range.0).max(MIN_ENDPOINT_DISTANCE);
     let noise = (seen.rest_range.1 - seen.rest_range.0) / 2.0 / way;
-    let (low, high) = if up { seen.ends } else { (seen.ends.1, seen.ends.0) };
+    let (low, high) = if up { seen.overall_range } else { (seen.overall_range.1, seen.overall_range.0) };
     AxisCalibration {
         axis,
         low,
@@ -465,7 +469,7 @@ mod tests {
         person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
         person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
         assert!(person.wizard.prompt().starts_with("That button is already assigned."), "{}", person.wizard.prompt());
-        for _ in 1..BUTTONS.len() {
+        for _ in 1..BUTTON_ACTIONS.len() {
             assert_eq!(person.wizard.profile(), None);
             person.confirm();
         }

@@ -29,7 +29,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_respawn_is_a_jump_and_fast_flight_is_not() {
+    fn exact_only_respawns_count_as_jumps() {
         let span = SimTime::from_ms(20);
         assert!(!is_jump(0.4, 20.0, span));
         assert!(!is_jump(1.6, 2.0, span));

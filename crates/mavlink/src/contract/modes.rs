@@ -20,10 +20,10 @@ pub enum ControlSource {
 use ControlSource::{Autopilot, Mission, Pilot, Script};
 
 /// Value of MAV_AUTOPILOT_ARDUPILOTMEGA.
-const ARDUPILOT_TYPE: u8 = 3;
+const ARDUPILOT_AUTOPILOT_TYPE: u8 = 3;
 
 /// PX4 modes: main mode, sub-mode (`None` matches any other), name, control source.
-const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
+const PX4_MODES: [(u8, Option<u8>, &str, ControlSource); 14] = [
     (1, None, "Manual", Pilot),
     (2, None, "Altitude", Pilot),
     (3, Some(1), "Orbit", Autopilot),
@@ -41,7 +41,7 @@ const PX4: [(u8, Option<u8>, &str, ControlSource); 14] = [
 ];
 
 /// ArduCopter modes: mode number, name, control source.
-const COPTER: [(u32, &str, ControlSource); 15] = [
+const COPTER_MODES: [(u32, &str, ControlSource); 15] = [
     (0, "Stabilize", Pilot),
     (1, "Acro", Pilot),
     (2, "Alt Hold", Pilot),
@@ -62,11 +62,11 @@ const COPTER: [(u32, &str, ControlSource); 15] = [
 /// Returns the name and control source of a mode; `None` if it is unknown. As in common SDKs, a generic autopilot type is treated
 /// as PX4.
 fn lookup(autopilot: u8, custom_mode: u32) -> Option<(&'static str, ControlSource)> {
-    if autopilot == ARDUPILOT_TYPE {
-        return COPTER.iter().find(|(number, ..)| *number == custom_mode).map(|(_, name, source)| (*name, *source));
+    if autopilot == ARDUPILOT_AUTOPILOT_TYPE {
+        return COPTER_MODES.iter().find(|(number, ..)| *number == custom_mode).map(|(_, name, source)| (*name, *source));
     }
     let [_, _, main, sub] = custom_mode.to_le_bytes();
-    let row = PX4.iter().find(|(m, s, ..)| *m == main && s.is_none_or(|s| s == sub));
+    let row = PX4_MODES.iter().find(|(m, s, ..)| *m == main && s.is_none_or(|s| s == sub));
     row.map(|(.., name, source)| (*name, *source))
 }
 

@@ -7,7 +7,7 @@ use crate::dialect::{MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA};
 
 /// A named value and its data.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Named {
+pub enum NamedValue {
     /// `contact`: kind of the current contact (the most severe one if there are several). Sent on change and at 10 Hz.
     Contact(ContactKind),
     /// `hits`: number of contacts since simulation start, including those between two `contact` messages. Sent on
@@ -33,7 +33,7 @@ pub enum Named {
     Cues(i32),
 }
 
-impl Named {
+impl NamedValue {
     /// Returns the name in the MAVLink message.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -122,24 +122,24 @@ mod tests {
     #[test]
     fn exact_named_values_round_trip() {
         let all = [
-            Named::Contact(ContactKind::Person),
-            Named::Hits(3),
-            Named::Respawns(-1),
-            Named::Traffic(-95_000),
-            Named::Seed(u32::MAX),
-            Named::ScenarioCrc(0xC0FF_EE00),
-            Named::ClearanceM(2.25),
-            Named::Lux(18_000.0),
-            Named::Pace(4.0),
-            Named::Cues(33),
+            NamedValue::Contact(ContactKind::Person),
+            NamedValue::Hits(3),
+            NamedValue::Respawns(-1),
+            NamedValue::Traffic(-95_000),
+            NamedValue::Seed(u32::MAX),
+            NamedValue::ScenarioCrc(0xC0FF_EE00),
+            NamedValue::ClearanceM(2.25),
+            NamedValue::Lux(18_000.0),
+            NamedValue::Pace(4.0),
+            NamedValue::Cues(33),
         ];
         for value in all {
-            assert_eq!(Named::of(&value.message(7)), Some(value), "{}", value.name());
+            assert_eq!(NamedValue::of(&value.message(7)), Some(value), "{}", value.name());
             // MAVLink names have at most 10 characters.
             assert!(value.name().len() <= 10);
         }
-        assert_eq!(Named::of(&float(7, "clearance", f64::NAN)), None);
-        assert_eq!(Named::of(&int(7, "clearance", 1)), None, "a wrong type is rejected");
-        assert_eq!(Named::of(&int(7, "unknown", 1)), None);
+        assert_eq!(NamedValue::of(&float(7, "clearance", f64::NAN)), None);
+        assert_eq!(NamedValue::of(&int(7, "clearance", 1)), None, "a wrong type is rejected");
+        assert_eq!(NamedValue::of(&int(7, "unknown", 1)), None);
     }
 }

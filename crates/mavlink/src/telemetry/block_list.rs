@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_rows_stay_in_order_and_in_place() {
+    fn exact_rows_keep_their_order_and_address() {
         let mut rows = BlockList::default();
         rows.push(0);
         let first: *const usize = rows.iter().next().unwrap();

@@ -67,11 +67,11 @@ pub struct InterpolatedState {
 }
 
 impl Flight {
-    /// Returns the first time at which the aircraft was more than `height_m` above the pad. `pad_up_m` is the pad's
+    /// Returns the first time at which the aircraft was more than `height_m` above the pad. `pad_height_m` is the pad's
     /// height in the scenario frame, m.
     #[must_use]
-    pub fn lift_off(&self, pad_up_m: f64, height_m: f64) -> Option<SimTime> {
-        self.truths.iter().find(|truth| truth.motion.position_m.up() - pad_up_m > height_m).map(|truth| truth.time)
+    pub fn lift_off(&self, pad_height_m: f64, height_m: f64) -> Option<SimTime> {
+        self.truths.iter().find(|truth| truth.motion.position_m.up() - pad_height_m > height_m).map(|truth| truth.time)
     }
 
     /// Returns the time of the last truth message.

@@ -11,7 +11,7 @@ use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::time::SimTime;
 
 /// Component ID of the autopilot. Other components' positions are ignored.
-const AUTOPILOT: u8 = 1;
+const AUTOPILOT_COMPONENT_ID: u8 = 1;
 /// Maximum difference from truth time at which a message's own timestamp is used. Otherwise, the message gets the time
 /// of the preceding truth message.
 const MAX_CLOCK_DIFFERENCE: SimTime = SimTime::from_ms(2_000);
@@ -71,7 +71,7 @@ impl NavigationReader {
     pub fn take(&mut self, frame: &[u8], timeline: &Timeline) {
         let Some(header) = FrameHeader::peek(frame) else { return };
         let wanted = matches!(header.message_id, GLOBAL_POSITION_INT_DATA::ID | WIND_COV_DATA::ID);
-        let ours = header.sender.1 == AUTOPILOT && timeline.system() == Some(header.sender.0);
+        let ours = header.sender.1 == AUTOPILOT_COMPONENT_ID && timeline.system() == Some(header.sender.0);
         let Some(newest) = timeline.newest().filter(|_| wanted && ours && FrameHeader::has_valid_checksum(frame)) else { return };
         let Some(payload) = frame.get(header.payload_at..header.payload_end) else { return };
         self.count += 1;

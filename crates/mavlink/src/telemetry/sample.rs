@@ -4,7 +4,7 @@
 
 use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
-use crate::contract::named_values::Named;
+use crate::contract::named_values::NamedValue;
 use crate::contract::sticks::Sticks;
 use crate::contract::truth::{self, Truth, clock};
 use crate::dialect::{
@@ -255,26 +255,26 @@ fn decode_value(header: &FrameHeader, payload: &[u8]) -> Option<(Option<SimTime>
         }
         NAMED_VALUE_INT_DATA::ID => {
             let named: NAMED_VALUE_INT_DATA = body(payload)?;
-            Some((time_since_boot(named.time_boot_ms), stored_value(Named::from_int(&named)?)?))
+            Some((time_since_boot(named.time_boot_ms), stored_value(NamedValue::from_int(&named)?)?))
         }
         NAMED_VALUE_FLOAT_DATA::ID => {
             let named: NAMED_VALUE_FLOAT_DATA = body(payload)?;
-            Some((time_since_boot(named.time_boot_ms), stored_value(Named::from_float(&named)?)?))
+            Some((time_since_boot(named.time_boot_ms), stored_value(NamedValue::from_float(&named)?)?))
         }
         _ => None,
     }
 }
 
 /// Returns the sample of a named value; `None` if the timeline does not store it.
-fn stored_value(named: Named) -> Option<SampleValue> {
+fn stored_value(named: NamedValue) -> Option<SampleValue> {
     Some(match named {
-        Named::Contact(contact) => SampleValue::Contact(contact),
-        Named::Hits(count) => SampleValue::Hits(count),
-        Named::Respawns(count) => SampleValue::Respawns(count),
-        Named::Traffic(code) => SampleValue::Traffic(code),
-        Named::Seed(seed) => SampleValue::Seed(u64::from(seed)),
-        Named::ScenarioCrc(crc) => SampleValue::ScenarioCrc(crc),
-        Named::ClearanceM(meters) => SampleValue::Clearance(meters),
-        Named::Lux(_) | Named::Pace(_) | Named::Cues(_) => return None,
+        NamedValue::Contact(contact) => SampleValue::Contact(contact),
+        NamedValue::Hits(count) => SampleValue::Hits(count),
+        NamedValue::Respawns(count) => SampleValue::Respawns(count),
+        NamedValue::Traffic(code) => SampleValue::Traffic(code),
+        NamedValue::Seed(seed) => SampleValue::Seed(u64::from(seed)),
+        NamedValue::ScenarioCrc(crc) => SampleValue::ScenarioCrc(crc),
+        NamedValue::ClearanceM(meters) => SampleValue::Clearance(meters),
+        NamedValue::Lux(_) | NamedValue::Pace(_) | NamedValue::Cues(_) => return None,
     })
 }

@@ -25,7 +25,7 @@ const MAX_SEQUENCE_TIME_DIFFERENCE: SimTime = SimTime::from_ms(500);
 /// at 256.
 const MAX_LATE_FRAMES: i64 = 64;
 /// Component ID of the monitor, whose own messages are ignored.
-const MONITOR_COMPONENT: u8 = 191;
+const MONITOR_COMPONENT_ID: u8 = 191;
 /// Period after which a 32-bit millisecond counter wraps: 49.7 days.
 const CLOCK_PERIOD_MS: i64 = 1 << 32;
 
@@ -222,7 +222,7 @@ impl Timeline {
     /// Adds one complete frame.
     pub fn push(&mut self, frame: &[u8]) -> FrameDisposition {
         let Some(header) = FrameHeader::peek(frame) else { return FrameDisposition::Ignored };
-        if header.sender.1 == MONITOR_COMPONENT || frame.len() < header.payload_end + 2 {
+        if header.sender.1 == MONITOR_COMPONENT_ID || frame.len() < header.payload_end + 2 {
             return FrameDisposition::Ignored;
         }
         // Messages from other systems may also be routed here. They are ignored once the vehicle's system is known.

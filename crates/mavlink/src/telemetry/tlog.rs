@@ -120,13 +120,13 @@ pub fn session_start_us(bytes: &[u8]) -> Option<u64> {
 /// time. `None` for a log without truth messages.
 #[must_use]
 pub fn simulation_zero_us(bytes: &[u8]) -> Option<u64> {
-    TlogReader::new(bytes).find_map(|record| zero_of_record_us(&record))
+    TlogReader::new(bytes).find_map(|record| record_simulation_zero_us(&record))
 }
 
 /// Returns the Unix time of simulation time zero in µs, calculated from a single record: its timestamp minus its
 /// simulation time. `None` if the record is not a truth message.
 #[must_use]
-pub fn zero_of_record_us(record: &TlogRecord<'_>) -> Option<u64> {
+pub fn record_simulation_zero_us(record: &TlogRecord<'_>) -> Option<u64> {
     let time = super::sample::truth_time(record.frame)?;
     Some(record.timestamp_us.saturating_sub(u64::try_from(time.us()).unwrap_or(0)))
 }

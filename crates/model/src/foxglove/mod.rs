@@ -280,14 +280,14 @@ mod tests {
     use nalgebra::Vector3;
 
     /// Tolerance for rounding errors of unit quaternions.
-    const ROUNDING: f64 = 1e-12;
+    const ROUNDING_TOLERANCE: f64 = 1e-12;
 
     fn rotated(pose: &FramePose, axis: [f64; 3]) -> [f64; 3] {
         (pose.rotation * Vector3::from(axis)).into()
     }
 
     fn assert_close(a: [f64; 3], b: [f64; 3]) {
-        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < ROUNDING), "{a:?} {b:?}");
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < ROUNDING_TOLERANCE), "{a:?} {b:?}");
     }
 
     #[test]

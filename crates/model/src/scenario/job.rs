@@ -75,7 +75,7 @@ pub enum TerrainSource {
         /// Direction of the valley axis, degrees clockwise from north.
         axis_deg: f64,
         /// Mountain height above the water, m.
-        relief_m: f64,
+        mountain_height_m: f64,
         /// Maximum depth of the lake, m.
         lake_depth_m: f64,
     },
@@ -124,7 +124,7 @@ pub struct Task {
     /// Reference points, resampled to at most 1 m spacing, m. A closed path does not repeat its first point.
     pub path_m: Vec<Vec3<Enu>>,
     /// Viewing directions: for each path point, a unit vector toward the inspected surface.
-    pub look: Vec<Vec3<Enu>>,
+    pub viewing_directions: Vec<Vec3<Enu>>,
     /// Too-close threshold of this task, m; `None` to use the job's threshold.
     pub too_close_m: Option<f64>,
     /// True if the lamp is recommended in this task. Used in briefings and by the synthetic trainee.
@@ -225,7 +225,7 @@ pub enum WindEvent {
         /// Duration of the gust.
         duration: SimTime,
         /// Peak speed, m/s.
-        peak_m_s: f64,
+        peak_speed_m_s: f64,
         /// Direction that the gust blows from, degrees clockwise from north.
         from_deg: f64,
     },
@@ -304,9 +304,9 @@ pub struct FeedbackThresholds {
     /// Outer limit of the off-path band, m.
     pub off_path_max_m: f64,
     /// Time off the path before the cue appears.
-    pub off_path_after: SimTime,
+    pub off_path_delay: SimTime,
     /// Minimum time that the cue stays visible.
-    pub off_path_hold: SimTime,
+    pub off_path_hold_time: SimTime,
     /// Minimum battery level displayed in green, %.
     pub battery_green_pct: f64,
     /// Minimum battery level displayed in yellow, %; lower levels are red.

@@ -66,7 +66,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     let path = match bridge {
         Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
             r.add_problem(s, "kind", "", &problem, "not available for this bridge");
-            TaskPath { path_m: Vec::new(), look: Vec::new(), closed }
+            TaskPath { path_m: Vec::new(), viewing_directions: Vec::new(), closed }
         }),
         None => free_path(r, s, kind, &points, &look_at, closed),
     };
@@ -80,7 +80,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
         threshold_m,
         closed: path.closed,
         path_m: path.path_m,
-        look: path.look,
+        viewing_directions: path.viewing_directions,
         too_close_m: r.optional_number(s, "too_close_m", (0.2, 20.0)),
         dark,
     }
@@ -116,12 +116,12 @@ fn free_path(
     let length_m: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
     if length_m > MAX_PATH_LENGTH_M {
         r.add_problem(s, "points_m", &format!("{length_m:.0} m long"), "at most 20000 m of path", "too long");
-        return TaskPath { path_m: Vec::new(), look: Vec::new(), closed };
+        return TaskPath { path_m: Vec::new(), viewing_directions: Vec::new(), closed };
     }
     let path_m = resample(&points, closed);
     let target = look_at.first().map(|p| Vec3::new(p[0], p[1], p[2]));
-    let look = (0..path_m.len()).map(|k| look_direction(&path_m, k, target)).collect();
-    TaskPath { path_m, look, closed }
+    let viewing_directions = (0..path_m.len()).map(|k| look_direction(&path_m, k, target)).collect();
+    TaskPath { path_m, viewing_directions, closed }
 }
 
 fn look_direction(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Vec3<Enu> {

@@ -48,7 +48,7 @@ fn read_event(r: &mut Reader, s: &mut Section) -> WindEvent {
     let from_deg = r.number(s, "from_deg", (0.0, 360.0), None);
     if gust {
         let duration = SimTime::from_s(r.number(s, "duration_s", (0.1, 600.0), None));
-        WindEvent::Gust { at, duration, peak_m_s: r.number(s, "peak_m_s", (0.0, 30.0), None), from_deg }
+        WindEvent::Gust { at, duration, peak_speed_m_s: r.number(s, "peak_m_s", (0.0, 30.0), None), from_deg }
     } else {
         let over = SimTime::from_s(r.number(s, "over_s", (0.1, 3_600.0), None));
         WindEvent::Change { at, over, speed_m_s: r.number(s, "speed_m_s", (0.0, 30.0), None), from_deg }

@@ -16,7 +16,7 @@ pub struct OrientedBox {
 
 /// Number of steps in the golden-section search along a capsule's axis, enough to narrow 10 m to less than a
 /// micrometer.
-const SEARCH_STEPS: usize = 36;
+const SEARCH_STEP_COUNT: usize = 36;
 /// (√5 - 1)/2.
 const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 /// Minimum capsule axis length at which the ends are separate contacts, m.
@@ -111,7 +111,7 @@ impl OrientedBox {
         let (mut low, mut high) = (0.0, 1.0);
         let (mut x1, mut x2) = (1.0 - INVERSE_GOLDEN_RATIO, INVERSE_GOLDEN_RATIO);
         let (mut f1, mut f2) = (at(x1), at(x2));
-        for _ in 0..SEARCH_STEPS {
+        for _ in 0..SEARCH_STEP_COUNT {
             if f1 <= f2 {
                 (high, x2, f2) = (x2, x1, f1);
                 x1 = high - INVERSE_GOLDEN_RATIO * (high - low);
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_distances_to_face_and_edge_and_from_inside() {
+    fn exact_box_distances_match_outside_and_inside() {
         let b = cube();
         assert!((b.nearest(Vec3::new(10.0, 0.0, 5.0)).0 - 3.0).abs() < 1e-12);
         // The vertical edge at east 10 - √2.

@@ -6,7 +6,7 @@ use crate::scenario::bridges::Solid;
 
 /// Maximum number of iterations in the search along a capsule's axis. The search stops earlier if the result cannot
 /// improve noticeably (see [`DISTANCE_TOLERANCE_M`]).
-const MAX_SEARCH_ROUNDS: usize = 40;
+const MAX_SEARCH_ITERATIONS: usize = 40;
 /// Tolerance within which two distances count as equal, m. Identifies segments that lie flat on a face.
 const DISTANCE_TOLERANCE_M: f64 = 1e-7;
 /// Maximum distance from the surface at which a point gets the face's normal, m.
@@ -144,7 +144,7 @@ impl Convex {
             return None;
         }
         let (mut flat, mut rising) = (0.0, 1.0);
-        for _ in 0..MAX_SEARCH_ROUNDS / 2 {
+        for _ in 0..MAX_SEARCH_ITERATIONS / 2 {
             let middle = 0.5 * (flat + rising);
             if self.nearest(from.lerp(to, middle)).distance_m <= least + DISTANCE_TOLERANCE_M {
                 flat = middle
@@ -161,7 +161,7 @@ impl Convex {
         let slope = |near: &SurfacePoint| near.normal.dot(along);
         let (mut left, mut right) = ((0.0, *ends[0]), (1.0, *ends[1]));
         let mut best = if ends[0].distance_m <= ends[1].distance_m { left } else { right };
-        for round in 0..MAX_SEARCH_ROUNDS {
+        for round in 0..MAX_SEARCH_ITERATIONS {
             let (rise_left, rise_right) = (slope(&left.1), slope(&right.1));
             if rise_left >= 0.0 {
                 return if left.1.distance_m <= best.1.distance_m { left } else { best };
@@ -336,7 +336,7 @@ mod tests {
     use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 
     /// Tolerance for rounding errors at the scale of the test shapes, m.
-    const ROUNDING_M: f64 = 1e-12;
+    const ROUNDING_TOLERANCE_M: f64 = 1e-12;
 
     fn cube() -> Convex {
         let mut b = MemberBuilder::new("t", Placement::new(Vec3::zero(), 90.0));
@@ -354,13 +354,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_distances_to_a_cube() {
+    fn exact_cube_distances_match_the_closed_form() {
         let cube = cube();
         let root3 = 3f64.sqrt();
         for (p, d) in [([3.0, 0.0, 0.0], 2.0), ([2.0, 2.0, 2.0], root3), ([0.0, 0.0, 0.5], -0.5), ([2.0, 2.0, 0.0], 2f64.sqrt())]
         {
             let near = cube.nearest(Vec3::new(p[0], p[1], p[2]));
-            assert!((near.distance_m - d).abs() < ROUNDING_M, "{p:?} {near:?}");
+            assert!((near.distance_m - d).abs() < ROUNDING_TOLERANCE_M, "{p:?} {near:?}");
         }
     }
 
@@ -436,7 +436,7 @@ mod tests {
         let cube = cube();
         let (a, b) = (Vec3::new(0.0, 2.0, 2.0), Vec3::new(0.0, 2.0, -6.0));
         let near = cube.interior_minimum(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();
-        assert!((near.distance_m - 1.0).abs() < ROUNDING_M);
+        assert!((near.distance_m - 1.0).abs() < ROUNDING_TOLERANCE_M);
         // The nearest point of a segment across the top edge at 45 degrees is on the edge.
         let (a, b) = (Vec3::new(0.0, 0.0, 2.5), Vec3::new(0.0, 2.5, 0.0));
         let near = cube.interior_minimum(a, b, [&cube.nearest(a), &cube.nearest(b)], 2.0).unwrap();

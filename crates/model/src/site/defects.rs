@@ -28,48 +28,52 @@ pub const REFERENCE_CAMERA: Camera = Camera {
     zoom_max: 1.0,
     f_number: 2.8,
     iso_max: 1600.0,
-    exposure_max_s: 0.01,
+    max_exposure_time_s: 0.01,
     gimbal_pitch_min_rad: -math::FRAC_PI_2,
     gimbal_pitch_max_rad: math::FRAC_PI_2,
     gimbal_rate_rad_s: 1.0,
 };
 /// Lamp of the reference camera (estimate: a small clip-on light).
-pub const REFERENCE_LAMP: Lamp = Lamp { flux_lm: 1000.0, beam_rad: math::PI / 3.0 };
+pub const REFERENCE_LAMP: Lamp = Lamp { luminous_flux_lm: 1000.0, beam_angle_rad: math::PI / 3.0 };
 
 /// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
 pub const CAMERA_CLEARANCE_M: f64 = 0.8;
 /// Candidate distances by which the reference camera leaves the path toward the defect, as fractions of the task's
 /// threshold. The largest one leaves a margin.
-const APPROACH_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
+const CAMERA_DISTANCE_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
 /// Half angle of the search cone about the path's viewing direction, rad (estimate of camera pan and tilt).
-const SEARCH_CONE_RAD: f64 = 0.9;
+const SEARCH_CONE_HALF_ANGLE_RAD: f64 = 0.9;
 /// Unit vector pointing up.
 const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Maximum distance of the search for faces, m (estimate; thin lines fail the visibility check at much shorter
 /// distances).
-const SEARCH_REACH_M: f64 = 20.0;
+const MAX_SEARCH_DISTANCE_M: f64 = 20.0;
 /// Minimum width of bare surface around a defect, m, which keeps defects away from joints and edges.
 const EDGE_MARGIN_M: f64 = 0.03;
 /// Minimum free space in front of a defect, along its normal, m.
-const FREE_SPACE_M: f64 = 0.5;
+const MIN_FREE_DEPTH_M: f64 = 0.5;
 /// Minimum distance between the centers of two defects, m, so that a photo rarely shows two defects.
 const MIN_SEPARATION_M: f64 = 2.0;
 /// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
 /// gradually.
 const MAX_ATTEMPTS: usize = 3000;
 /// Number of path points to try as reference camera positions, nearest first.
-const CANDIDATE_POINTS: usize = 5;
+const CANDIDATE_POINT_COUNT: usize = 5;
 
 /// Returns the properties of an aircraft's camera and lamp that fall short of the reference, each with both values.
 /// Empty if there are none.
 #[must_use]
 pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
-    let candela = |l: &Lamp| l.flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_rad)));
+    let candela = |l: &Lamp| l.luminous_flux_lm / (math::TAU * (1.0 - math::cos(0.5 * l.beam_angle_rad)));
     let wanting = [
         ("focal length (px)", camera.focal_px(), REFERENCE_CAMERA.focal_px()),
         ("lamp intensity (cd)", candela(lamp), candela(&REFERENCE_LAMP)),
         // Use the reciprocal, so that a higher value is better in every row.
-        ("light sensitivity (1/lx)", 1.0 / visibility::needed_lux(camera), 1.0 / visibility::needed_lux(&REFERENCE_CAMERA)),
+        (
+            "light sensitivity (1/lx)",
+            1.0 / visibility::required_illuminance_lux(camera),
+            1.0 / visibility::required_illuminance_lux(&REFERENCE_CAMERA),
+        ),
         ("gimbal up limit (rad)", camera.gimbal_pitch_max_rad, REFERENCE_CAMERA.gimbal_pitch_max_rad),
         ("gimbal down limit (rad)", -camera.gimbal_pitch_min_rad, -REFERENCE_CAMERA.gimbal_pitch_min_rad),
     ];
@@ -138,13 +142,13 @@ fn try_place(
         // On a free path the camera does not necessarily point toward a structure.
         TaskKind::Free => draw_direction_in_cone(UP, math::PI, stream),
         TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
-            draw_direction_in_cone(task.look.get(n).copied().unwrap_or(UP), SEARCH_CONE_RAD, stream)
+            draw_direction_in_cone(task.viewing_directions.get(n).copied().unwrap_or(UP), SEARCH_CONE_HALF_ANGLE_RAD, stream)
         }
     };
     let kind_draw = stream.uniform();
     let condition_state = if stream.uniform() < 0.5 { 2 } else { 3 };
     let roll = stream.range(0.0, math::PI);
-    let hit = (context.cast)(task.path_m[n], direction, SEARCH_REACH_M)?;
+    let hit = (context.cast)(task.path_m[n], direction, MAX_SEARCH_DISTANCE_M)?;
     let member = (hit.surface == Surface::Bridge).then(|| context.members.get(hit.object.0 as usize)).flatten()?;
     let kind = choose_code(settings, member.element, kind_draw)?;
     let (length_m, width_m) = defect_codes::draw_size(kind, condition_state, settings.size_factor, stream);
@@ -215,10 +219,10 @@ fn is_exposed(defect: &PlacedDefect, object: u32, context: &PlacementContext) ->
     let mut points = end_points(defect, EDGE_MARGIN_M).to_vec();
     points.push(defect.position_m);
     points.iter().all(|p| {
-        let above = *p + defect.normal * FREE_SPACE_M;
-        let room_up = (context.cast)(*p + defect.normal * 0.005, defect.normal, FREE_SPACE_M).is_none();
-        let back = (context.cast)(above, -defect.normal, FREE_SPACE_M + 0.01);
-        room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - FREE_SPACE_M).abs() < 0.002)
+        let above = *p + defect.normal * MIN_FREE_DEPTH_M;
+        let room_up = (context.cast)(*p + defect.normal * 0.005, defect.normal, MIN_FREE_DEPTH_M).is_none();
+        let back = (context.cast)(above, -defect.normal, MIN_FREE_DEPTH_M + 0.01);
+        room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - MIN_FREE_DEPTH_M).abs() < 0.002)
     })
 }
 
@@ -231,8 +235,8 @@ pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext)
         let d = |k: usize| (task.path_m[k] - defect.position_m).norm_squared();
         d(*a).total_cmp(&d(*b)).then(a.cmp(b))
     });
-    order.iter().step_by(2).take(CANDIDATE_POINTS).find_map(|k| {
-        APPROACH_FRACTIONS.iter().find_map(|share| {
+    order.iter().step_by(2).take(CANDIDATE_POINT_COUNT).find_map(|k| {
+        CAMERA_DISTANCE_FRACTIONS.iter().find_map(|share| {
             let to = defect.position_m - task.path_m[*k];
             let step = (share * task.threshold_m).min(to.norm() - CAMERA_CLEARANCE_M).max(0.0);
             let pose = camera_aimed_at(task.path_m[*k] + to.unit() * step, defect.position_m);
@@ -242,7 +246,7 @@ pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext)
             let air = || (context.clearance_m)(pose.position_m) >= CAMERA_CLEARANCE_M;
             let lit = || {
                 let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, defect.position_m, defect.normal);
-                let needed = visibility::needed_lux(&REFERENCE_CAMERA);
+                let needed = visibility::required_illuminance_lux(&REFERENCE_CAMERA);
                 lamp >= needed || lamp + (context.ambient)(defect.position_m, defect.normal) >= needed
             };
             (bright.is_some_and(|v| v.hit) && air() && lit()).then_some(pose)
@@ -307,7 +311,7 @@ mod tests {
             threshold_m: 2.5,
             closed: false,
             path_m: (0..=40).map(|k| Vec3::new(f64::from(k), -4.0, 5.0)).collect(),
-            look: vec![Vec3::new(0.0, 1.0, 0.0); 41],
+            viewing_directions: vec![Vec3::new(0.0, 1.0, 0.0); 41],
             too_close_m: None,
             dark: false,
         }
@@ -356,7 +360,7 @@ mod tests {
     #[test]
     fn prop_defects_are_permitted_on_the_surface_and_photographable() {
         /// Maximum distance of a defect's ends from its member, m.
-        const ON_SURFACE_M: f64 = 1e-3;
+        const SURFACE_TOLERANCE_M: f64 = 1e-3;
         with_test_site(1000.0, |context, solids| {
             for seed in 0..SEED_COUNT {
                 let placed = place_defects(&settings(), context, seed);
@@ -366,8 +370,8 @@ mod tests {
                     let k = context.members.iter().position(|m| m.name == d.member).expect("a member of the site");
                     assert_eq!(context.members[k].element, d.element);
                     for p in end_points(d, 0.0).iter().chain([&d.position_m]) {
-                        assert!(solids[k].nearest(*p).0.abs() < ON_SURFACE_M, "{d:?}");
-                        let covered = solids.iter().enumerate().any(|(j, s)| j != k && s.nearest(*p).0 < ON_SURFACE_M);
+                        assert!(solids[k].nearest(*p).0.abs() < SURFACE_TOLERANCE_M, "{d:?}");
+                        let covered = solids.iter().enumerate().any(|(j, s)| j != k && s.nearest(*p).0 < SURFACE_TOLERANCE_M);
                         assert!(!covered, "covered by another member: {d:?}");
                     }
                     let pose = find_view(d, &context.tasks[0], context).expect("photographable");
@@ -412,16 +416,16 @@ mod tests {
             for d in &placed {
                 let pose = find_view(d, &context.tasks[0], context).expect("photographable");
                 let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, d.position_m, d.normal);
-                assert!(lamp >= visibility::needed_lux(&REFERENCE_CAMERA), "{lamp} lx");
+                assert!(lamp >= visibility::required_illuminance_lux(&REFERENCE_CAMERA), "{lamp} lx");
             }
         });
     }
 
     #[test]
-    fn exact_shortfalls_of_camera_and_lamp_are_listed() {
+    fn exact_camera_and_lamp_shortfalls_are_listed() {
         assert!(reference_shortfalls(&REFERENCE_CAMERA, &REFERENCE_LAMP).is_empty());
         let coarse = Camera { width_px: 1920, gimbal_pitch_max_rad: 0.5, ..REFERENCE_CAMERA };
-        let dark = Lamp { flux_lm: 0.0, ..REFERENCE_LAMP };
+        let dark = Lamp { luminous_flux_lm: 0.0, ..REFERENCE_LAMP };
         let words = reference_shortfalls(&coarse, &dark).join("; ");
         assert!(words.contains("focal") && words.contains("lamp") && words.contains("gimbal up"), "{words}");
         assert!(!words.contains("light sensitivity") && !words.contains("gimbal down"), "{words}");

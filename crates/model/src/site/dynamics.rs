@@ -126,7 +126,7 @@ mod tests {
                 threshold_m,
                 closed: path.closed,
                 path_m: path.path_m,
-                look: path.look,
+                viewing_directions: path.viewing_directions,
                 too_close_m: None,
                 dark: false,
             }
@@ -148,8 +148,8 @@ mod tests {
             too_close_m: 2.5,
             too_close_clear_m: 2.8,
             off_path_max_m: 8.0,
-            off_path_after: SimTime::from_s(1.0),
-            off_path_hold: SimTime::from_s(2.0),
+            off_path_delay: SimTime::from_s(1.0),
+            off_path_hold_time: SimTime::from_s(2.0),
             battery_green_pct: 70.0,
             battery_yellow_pct: 30.0,
             text_interval: SimTime::from_s(5.0),
@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn prop_defects_on_both_bridges_are_valid_and_photographable() {
         /// Maximum distance of a defect from its member, m.
-        const ON_SURFACE_M: f64 = 1e-3;
+        const SURFACE_TOLERANCE_M: f64 = 1e-3;
         let mut scenario = scenario(0.5);
         let mut all: Vec<[f64; 3]> = Vec::new();
         for seed in 0..SEED_COUNT {
@@ -239,7 +239,7 @@ mod tests {
                 let k = site.members().iter().position(|m| m.name == d.member).expect("a member of the site");
                 assert_eq!(site.members()[k].element, d.element);
                 let near = site.geometry().shape(k).expect("has a shape").nearest(d.position_m);
-                assert!(near.distance_m.abs() < ON_SURFACE_M, "{d:?}");
+                assert!(near.distance_m.abs() < SURFACE_TOLERANCE_M, "{d:?}");
                 let views = (0..4).filter(|t| defects::find_view(d, &scenario.tasks[*t], &ground).is_some());
                 let first = views.fold(None, |first, t| {
                     per_task[t] += 1;

@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn val_gltf_crate_reads_all_members_with_elements_and_vertices() {
         // 32-bit floats represent positions within 1 km with an accuracy of 6e-5 m.
-        const ROUNDING_M: f64 = 6e-5;
+        const ROUNDING_TOLERANCE_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);
         let (document, buffers, _) = gltf::import_slice(glb(&site)).unwrap();
         let nodes: Vec<_> = document.nodes().collect();
@@ -152,7 +152,7 @@ mod tests {
             let corners: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
             for (corner, vertex) in corners.iter().zip(&member.solid.vertices_m) {
                 let back = Vec3::<Enu>::new(f64::from(corner[0]), -f64::from(corner[2]), f64::from(corner[1]));
-                assert!((back - *vertex).norm() < ROUNDING_M, "{}", member.name);
+                assert!((back - *vertex).norm() < ROUNDING_TOLERANCE_M, "{}", member.name);
             }
             let indices = reader.read_indices().unwrap().into_u32();
             assert!(indices.into_iter().all(|index| (index as usize) < corners.len()));

@@ -7,9 +7,9 @@ use crate::frames::{Enu, Vec3};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LaneTrack {
     pub(super) points_m: Vec<Vec3<Enu>>,
-    pub(super) arc_m: Vec<f64>,
+    pub(super) arc_lengths_m: Vec<f64>,
     pub(super) length_m: f64,
-    pub(super) loop_m: f64,
+    pub(super) loop_length_m: f64,
     pub(super) speed_m_s: f64,
     pub(super) first: usize,
     pub(super) count: usize,
@@ -22,14 +22,14 @@ impl LaneTrack {
     /// ends.
     pub(super) fn at(&self, s_m: f64) -> MoverPlacement {
         let last = self.points_m.len() - 2;
-        let k = self.arc_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
+        let k = self.arc_lengths_m[1..=last].partition_point(|arc| *arc <= s_m).min(last);
         let forward = (self.points_m[k + 1] - self.points_m[k]).unit();
-        let position_m = self.points_m[k] + forward * (s_m - self.arc_m[k]);
+        let position_m = self.points_m[k] + forward * (s_m - self.arc_lengths_m[k]);
         MoverPlacement { position_m, forward, velocity_m_s: forward * self.speed_m_s }
     }
 
     /// Returns the arc length, in meters, of the track point nearest to a point, at most `beyond_m` beyond the ends.
-    pub(super) fn nearest_arc_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
+    pub(super) fn nearest_arc_length_m(&self, point_m: Vec3<Enu>, beyond_m: f64) -> f64 {
         let last = self.points_m.len() - 2;
         let place = |k: usize| {
             let (line, to) = (self.points_m[k + 1] - self.points_m[k], point_m - self.points_m[k]);
@@ -37,7 +37,7 @@ impl LaneTrack {
             let low = if k == 0 { -beyond_m } else { 0.0 };
             let high = if k == last { length + beyond_m } else { length };
             let along = (to.dot(line) / length).clamp(low, high);
-            ((to - line * (along / length)).norm(), self.arc_m[k] + along)
+            ((to - line * (along / length)).norm(), self.arc_lengths_m[k] + along)
         };
         (0..=last).map(place).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, arc)| arc)
     }

@@ -23,22 +23,22 @@ const RAY_COUNT: usize = 64;
 const SKY_RAY_COUNT: usize = 64;
 /// Maximum distance of structures that obstruct the sky, m (estimate: a structure farther away covers less than the
 /// solid angle of one ray).
-const SKY_REACH_M: f64 = 250.0;
+const MAX_OBSTRUCTION_DISTANCE_M: f64 = 250.0;
 /// Maximum length of a shadow, m (estimate).
-const SHADOW_REACH_M: f64 = 600.0;
+const MAX_SHADOW_LENGTH_M: f64 = 600.0;
 /// Distance from a surface at which its rays start, m.
 const SURFACE_OFFSET_M: f64 = 0.01;
 /// Extraterrestrial solar illuminance, lx (IES RP-21, 127.5 klx).
-const SOLAR_LUX: f64 = 127_500.0;
+const SOLAR_ILLUMINANCE_LUX: f64 = 127_500.0;
 /// Clear-sky optical extinction coefficient (IES RP-21).
-const CLEAR_EXTINCTION: f64 = 0.21;
+const CLEAR_SKY_EXTINCTION: f64 = 0.21;
 /// Reflectance of weathered concrete and steel under the deck (estimate; fresh concrete 0.3 to 0.4).
 const STRUCTURE_ALBEDO: f64 = 0.25;
 /// Exponential decay rate of the illuminance per degree that the sun is below the horizon, from 800 lx at sunset to the
 /// published 3.4 lx at the end of civil twilight (-6 deg).
 const TWILIGHT_DECAY_PER_DEG: f64 = 0.91;
 /// Illuminance under a moonless night sky, lx (published order of magnitude).
-const NIGHT_LUX: f64 = 0.002;
+const NIGHT_ILLUMINANCE_LUX: f64 = 0.002;
 
 /// Illuminance from sun and sky at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,7 +62,7 @@ impl Daylight {
             let below_deg = -sun::elevation_rad(sun).to_degrees();
             let overcast = 300.0 / 800.0;
             let dusk = 800.0 * math::exp(-TWILIGHT_DECAY_PER_DEG * below_deg) * math::lerp(1.0, overcast, cloud);
-            return Self { sun, direct_normal_lux: 0.0, sky_lux: dusk.max(NIGHT_LUX) };
+            return Self { sun, direct_normal_lux: 0.0, sky_lux: dusk.max(NIGHT_ILLUMINANCE_LUX) };
         }
         // The air mass of Kasten and Young (1989) stays finite at the horizon, unlike the reciprocal of the sine.
         let elevation_deg = sun::elevation_rad(sun).to_degrees();
@@ -71,7 +71,7 @@ impl Daylight {
         let overcast = 300.0 + 21_000.0 * s;
         Self {
             sun,
-            direct_normal_lux: (1.0 - cloud) * SOLAR_LUX * math::exp(-CLEAR_EXTINCTION * air_mass),
+            direct_normal_lux: (1.0 - cloud) * SOLAR_ILLUMINANCE_LUX * math::exp(-CLEAR_SKY_EXTINCTION * air_mass),
             sky_lux: math::lerp(clear, overcast, cloud),
         }
     }
@@ -103,8 +103,8 @@ enum RayTarget {
 /// Sums over one ray bundle, by surface type.
 #[derive(Debug, Clone, Copy, Default)]
 struct LightSums {
-    outside_lux: f64,
-    structure_lux: f64,
+    distant_illuminance_lux: f64,
+    structure_illuminance_lux: f64,
     structure_fraction: f64,
 }
 
@@ -130,7 +130,7 @@ impl LightModel {
     /// Returns the open-sky fraction of the upper hemisphere's solid angle, 0 to 1.
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>, cast: RayCast) -> f64 {
-        let open = self.upper.iter().filter(|d| cast(position_m, **d, SKY_REACH_M).is_none()).count();
+        let open = self.upper.iter().filter(|d| cast(position_m, **d, MAX_OBSTRUCTION_DISTANCE_M).is_none()).count();
         open as f64 / self.upper.len() as f64
     }
 
@@ -187,7 +187,7 @@ impl LightModel {
 
     /// Returns the surface that a ray hits. Skips the shadow test if there is no direct sun.
     fn trace_ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, (sun, shines): (Vec3<Enu>, bool), cast: RayCast) -> RayTarget {
-        let Some(hit) = cast(origin, direction, SKY_REACH_M) else {
+        let Some(hit) = cast(origin, direction, MAX_OBSTRUCTION_DISTANCE_M) else {
             return if direction.up() > 0.0 { RayTarget::Sky } else { RayTarget::Far };
         };
         let point = origin + direction * hit.distance_m + hit.normal * SURFACE_OFFSET_M;
@@ -204,14 +204,15 @@ impl LightModel {
         let mut sum = LightSums::default();
         for met in met {
             match met {
-                RayTarget::Sky => sum.outside_lux += share * day.sky_lux,
-                RayTarget::Far => sum.outside_lux += share * self.far_lux(day),
+                RayTarget::Sky => sum.distant_illuminance_lux += share * day.sky_lux,
+                RayTarget::Far => sum.distant_illuminance_lux += share * self.distant_illuminance_lux(day),
                 RayTarget::Outdoors { albedo, sun, up } => {
                     // Assumes that visible ground and water receive light from the entire sky above their horizon (estimate).
-                    sum.outside_lux += share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
+                    sum.distant_illuminance_lux +=
+                        share * albedo * (sun * day.direct_normal_lux + day.sky_lux * 0.5 * (1.0 + up));
                 }
                 RayTarget::Structure { sun } => {
-                    sum.structure_lux += share * STRUCTURE_ALBEDO * (sun * day.direct_normal_lux);
+                    sum.structure_illuminance_lux += share * STRUCTURE_ALBEDO * (sun * day.direct_normal_lux);
                     sum.structure_fraction += share;
                 }
             }
@@ -220,7 +221,7 @@ impl LightModel {
     }
 
     /// Returns the illuminance from distant sunlit land and water, beyond the maximum length of a downward ray.
-    fn far_lux(&self, day: &Daylight) -> f64 {
+    fn distant_illuminance_lux(&self, day: &Daylight) -> f64 {
         let albedo = 0.5 * (self.light.water_albedo + self.light.ground_albedo);
         albedo * (day.sky_lux + day.direct_normal_lux * day.sun.up().max(0.0))
     }
@@ -238,13 +239,13 @@ impl LightSums {
     /// Returns the indirect illuminance according to the enclosure model: visible members receive the same indirect
     /// light as this point, in addition to their direct sunlight.
     fn indirect_lux(&self) -> f64 {
-        (self.outside_lux + self.structure_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_fraction)
+        (self.distant_illuminance_lux + self.structure_illuminance_lux) / (1.0 - STRUCTURE_ALBEDO * self.structure_fraction)
     }
 }
 
 /// Returns true if no geometry blocks the sun at a point.
 fn is_sunlit(point: Vec3<Enu>, sun: Vec3<Enu>, cast: RayCast) -> bool {
-    cast(point, sun, SHADOW_REACH_M).is_none()
+    cast(point, sun, MAX_SHADOW_LENGTH_M).is_none()
 }
 
 /// Returns a bundle of cosine-weighted directions over the hemisphere about the normal `n`.
@@ -365,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sky_view_under_a_long_deck_matches_the_analytic_value() {
+    fn exact_open_sky_fraction_under_a_long_deck_matches_the_formula() {
         // At the center of an infinite strip of width w, at distance h below it, the open fraction of the hemisphere is 1 - 2/π
         // atan(w/2h). Tolerance: two rays.
         let tolerance = 2.0 / SKY_RAY_COUNT as f64;

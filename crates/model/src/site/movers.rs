@@ -37,7 +37,7 @@ impl MoverKind {
     /// All types of moving objects.
     pub(super) const ALL: [Self; 3] = [Self::Car, Self::Truck, Self::Pedestrian];
     /// Maximum over all types of the bounding radius plus half the length, m.
-    pub(super) const MAX_REACH_M: f64 = 6.3 + 5.0;
+    pub(super) const MAX_MOVER_EXTENT_M: f64 = 6.3 + 5.0;
 
     fn parts(self) -> &'static [MoverPart] {
         match self {

@@ -60,7 +60,7 @@ mod tests {
     use crate::random::RandomStream;
 
     /// Tolerance for rounding errors at the scale of the test triangles, m.
-    const ROUNDING_M: f64 = 1e-9;
+    const ROUNDING_TOLERANCE_M: f64 = 1e-9;
 
     #[test]
     fn prop_nearest_triangle_point_matches_sampling() {
@@ -73,7 +73,7 @@ mod tests {
             let q = nearest_on_triangle(p, a, b, c);
             for (i, j) in (0..=20).flat_map(|i| (0..=20 - i).map(move |j| (f64::from(i) / 20.0, f64::from(j) / 20.0))) {
                 let other = a + (b - a) * i + (c - a) * j;
-                assert!((p - q).norm() <= (p - other).norm() + ROUNDING_M);
+                assert!((p - q).norm() <= (p - other).norm() + ROUNDING_TOLERANCE_M);
             }
         }
     }

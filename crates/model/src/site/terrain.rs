@@ -8,15 +8,15 @@ use crate::random::RandomStream;
 use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec as Settings};
 
 /// Radius of level ground around the landing pad, m.
-const LEVEL_RADIUS_M: f64 = 16.0;
+const LEVEL_GROUND_RADIUS_M: f64 = 16.0;
 /// Earthwork slope, as horizontal distance per unit height.
 const EARTHWORK_SLOPE: f64 = 1.2;
 /// Downward grade of the roads that lead away from the bridges (estimate: maximum grade on mountain highways).
 const ROAD_GRADE: f64 = 0.07;
 /// Depth of the excavation below an arch's springings, m.
-const EXCAVATION_M: f64 = 1.0;
+const EXCAVATION_DEPTH_M: f64 = 1.0;
 /// Minimum embedment depth of structures in the ground, m.
-const EMBEDMENT_M: f64 = 0.5;
+const MIN_EMBEDMENT_DEPTH_M: f64 = 0.5;
 
 /// Ground surface and water level.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +51,7 @@ impl Terrain {
 /// Source of the natural heights, before earthworks.
 enum HeightSource<'a> {
     Flat(f64),
-    Valley { noise: ValueNoise, settings: &'a Settings, axis: (f64, f64), lake_half_m: f64, relief_m: f64, depth_m: f64 },
+    Valley { noise: ValueNoise, settings: &'a Settings, axis: (f64, f64), lake_half_m: f64, mountain_height_m: f64, depth_m: f64 },
     File(&'a [Vec<f64>]),
 }
 
@@ -59,12 +59,12 @@ impl<'a> HeightSource<'a> {
     fn new(settings: &'a Settings) -> Self {
         match &settings.source {
             TerrainSource::Flat { height_m } => Self::Flat(*height_m),
-            TerrainSource::Valley { seed, lake_width_m, axis_deg, relief_m, lake_depth_m } => Self::Valley {
+            TerrainSource::Valley { seed, lake_width_m, axis_deg, mountain_height_m, lake_depth_m } => Self::Valley {
                 noise: ValueNoise::new(*seed),
                 settings,
                 axis: math::sin_cos(axis_deg.to_radians()),
                 lake_half_m: 0.5 * lake_width_m,
-                relief_m: *relief_m,
+                mountain_height_m: *mountain_height_m,
                 depth_m: *lake_depth_m,
             },
             TerrainSource::File { heights_m } => Self::File(heights_m),
@@ -78,7 +78,7 @@ impl<'a> HeightSource<'a> {
                 let row = &rows[row.min(rows.len() - 1)];
                 row[column.min(row.len() - 1)]
             }
-            Self::Valley { noise, settings, axis, lake_half_m, relief_m, depth_m } => {
+            Self::Valley { noise, settings, axis, lake_half_m, mountain_height_m, depth_m } => {
                 // Distance from the shore, which is varied by noise.
                 let across = east * axis.1 - north * axis.0;
                 let waver = 0.1 * lake_half_m * (noise.at(east / 90.0, north / 90.0) - 0.5);
@@ -89,7 +89,10 @@ impl<'a> HeightSource<'a> {
                     water - depth_m * (1.0 - math::exp(d / 12.0))
                 } else {
                     let climb = 1.0 - math::exp(-d * d / (160.0 * 160.0));
-                    water + 5.0 * (1.0 - math::exp(-d / 8.0)) + relief_m * climb * (0.55 + 0.45 * rough) + 1.5 * rough * climb
+                    water
+                        + 5.0 * (1.0 - math::exp(-d / 8.0))
+                        + mountain_height_m * climb * (0.55 + 0.45 * rough)
+                        + 1.5 * rough * climb
                 }
             }
         }
@@ -107,12 +110,12 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     let [x, y, _] = bridge.placement().local(Vec3::new(east, north, 0.0));
     let deck = bridge.center_m.up();
     let half_length = 0.5 * bridge.deck_length_m();
-    let opening = bridge.opening_half_m();
+    let opening = bridge.opening_half_length_m();
     let off_side = (y.abs() - 0.5 * bridge.deck_width_m() - 2.0).max(0.0);
     let cut = if x.abs() < opening + 4.0 {
         // The ground under the span slopes down from the springings to avoid covering any part of the bridge.
         let inside = (opening + 4.0 - x.abs()).max(0.0);
-        height.min(deck - underside_depth_m(bridge) - EXCAVATION_M - 0.3 * inside + off_side / EARTHWORK_SLOPE)
+        height.min(deck - underside_depth_m(bridge) - EXCAVATION_DEPTH_M - 0.3 * inside + off_side / EARTHWORK_SLOPE)
     } else {
         // The approaches reach just below the road surface, continue level for a short distance, and then descend to the natural
         // ground.
@@ -124,7 +127,7 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
     bridge.footings().iter().fold(cut, |height, foot| {
         let out = |at: f64, (low, high): (f64, f64)| (low - at).max(at - high).max(0.0);
         let away = (math::hypot(out(x, foot.x_m), out(y, foot.y_m)) - spacing_m).max(0.0);
-        height.max(deck + foot.up_m + EMBEDMENT_M - away / EARTHWORK_SLOPE)
+        height.max(deck + foot.up_m + MIN_EMBEDMENT_DEPTH_M - away / EARTHWORK_SLOPE)
     })
 }
 
@@ -138,7 +141,7 @@ fn underside_depth_m(bridge: &Bridge) -> f64 {
 
 fn level_pad(height: f64, east: f64, north: f64, team: &GroundTeam) -> f64 {
     let away = math::hypot(east - team.pad_m.east(), north - team.pad_m.north());
-    let blend = ((away - LEVEL_RADIUS_M) / 10.0).clamp(0.0, 1.0);
+    let blend = ((away - LEVEL_GROUND_RADIUS_M) / 10.0).clamp(0.0, 1.0);
     // The surface of the pad is slightly above the leveled ground.
     math::lerp(team.pad_m.up() - 0.05, height, blend)
 }

@@ -22,11 +22,11 @@ pub const INSPECTOR: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 2);
 pub const CREW_TRUCK: ObjectId = ObjectId(FIRST_TRAFFIC_OBJECT - 1);
 
 /// Minimum spacing of vehicles in a lane, center to center, m (estimate: a truck and a gap).
-const VEHICLE_SPACING_M: f64 = 24.0;
+const MIN_VEHICLE_SPACING_M: f64 = 24.0;
 /// Minimum spacing of pedestrians on a walkway, center to center, m (estimate).
-const PEDESTRIAN_SPACING_M: f64 = 4.0;
+const MIN_PEDESTRIAN_SPACING_M: f64 = 4.0;
 /// Minimum length of the part of a loop beyond the ends of the lane, m (estimate).
-const LOOP_GAP_M: f64 = 40.0;
+const MIN_LENGTH_BEYOND_LANE_M: f64 = 40.0;
 /// Maximum offset of an object from even spacing, as a fraction of the spacing.
 const SPACING_JITTER: f64 = 0.25;
 /// Mean and standard deviation of the walking speed, m/s (Fruin, Pedestrian Planning and Design).
@@ -73,11 +73,11 @@ impl TrafficPlan {
         let mut numbers = [0; 3];
         for (lane, kinds) in assign_lanes(&roads, &vehicles) {
             let speed = settings.car_speed_m_s * (1.0 + stream.range(-LANE_SPEED_SPREAD, LANE_SPEED_SPREAD));
-            plan.add_lane(lane, &kinds, (speed, VEHICLE_SPACING_M), &mut numbers, &mut stream);
+            plan.add_lane(lane, &kinds, (speed, MIN_VEHICLE_SPACING_M), &mut numbers, &mut stream);
         }
         for (lane, kinds) in assign_lanes(&walkways, &vec![MoverKind::Pedestrian; settings.pedestrians]) {
             let speed = (WALKING_SPEED_M_S.0 + WALKING_SPEED_M_S.1 * stream.normal()).clamp(0.8, 1.9);
-            plan.add_lane(lane, &kinds, (speed, PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
+            plan.add_lane(lane, &kinds, (speed, MIN_PEDESTRIAN_SPACING_M), &mut numbers, &mut stream);
         }
         plan
     }
@@ -91,20 +91,22 @@ impl TrafficPlan {
         stream: &mut RandomStream,
     ) {
         let points_m = without_collinear_points(&lane.points_m);
-        let arc_m = arc_lengths(&points_m);
-        let length_m = arc_m.last().copied().unwrap_or(0.0);
+        let arc_lengths_m = arc_lengths(&points_m);
+        let length_m = arc_lengths_m.last().copied().unwrap_or(0.0);
         if kinds.is_empty() || length_m <= 0.0 {
             return;
         }
         // A crowded lane gets a longer loop, which preserves the minimum spacing of objects despite the random offsets.
-        let loop_m = (length_m + LOOP_GAP_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * SPACING_JITTER));
-        let slot_m = loop_m / kinds.len() as f64;
-        let turn_m = stream.range(0.0, loop_m);
+        let loop_length_m =
+            (length_m + MIN_LENGTH_BEYOND_LANE_M).max(kinds.len() as f64 * spacing_m / (1.0 - 2.0 * SPACING_JITTER));
+        let slot_m = loop_length_m / kinds.len() as f64;
+        let turn_m = stream.range(0.0, loop_length_m);
         let first = self.movers.len();
         for (k, kind) in kinds.iter().enumerate() {
             let number = &mut numbers[*kind as usize];
             *number += 1;
-            let phase_m = (turn_m + slot_m * (k as f64 + stream.range(-SPACING_JITTER, SPACING_JITTER))).rem_euclid(loop_m);
+            let phase_m =
+                (turn_m + slot_m * (k as f64 + stream.range(-SPACING_JITTER, SPACING_JITTER))).rem_euclid(loop_length_m);
             self.movers.push(Mover { kind: *kind, number: *number, track: self.tracks.len(), phase_m });
         }
         let reach_m = kinds.iter().map(|k| k.reach_m() + k.half_length_m()).fold(0.0, f64::max);
@@ -112,9 +114,9 @@ impl TrafficPlan {
         self.tracks.push(LaneTrack {
             height_range_m,
             points_m,
-            arc_m,
+            arc_lengths_m,
             length_m,
-            loop_m,
+            loop_length_m,
             speed_m_s,
             first,
             count: kinds.len(),
@@ -145,7 +147,7 @@ impl TrafficPlan {
     pub fn placement(&self, mover: &Mover, at: SimTime) -> Option<MoverPlacement> {
         let track = &self.tracks[mover.track];
         let half = mover.kind.half_length_m();
-        let driven_m = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_m);
+        let driven_m = (mover.phase_m + track.speed_m_s * at.s()).rem_euclid(track.loop_length_m);
         let s = driven_m - half;
         let entered = s <= track.length_m + half && self.closures.is_open_at(at.s() - driven_m / track.speed_m_s);
         entered.then(|| track.at(s))
@@ -181,10 +183,10 @@ impl TrafficPlan {
     pub fn min_distance_over_time_m(&self, position_m: Vec3<Enu>, max_m: f64) -> Option<f64> {
         let mut least: Option<f64> = None;
         let tracks = self.tracks.iter().filter(|track| track.count > 0);
-        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::MAX_REACH_M) {
+        for track in tracks.filter(|track| track.distance_m(position_m) <= max_m + MoverKind::MAX_MOVER_EXTENT_M) {
             let surface = self.movers[track.first].kind.surface();
             for kind in MoverKind::ALL.into_iter().filter(|kind| kind.surface() == surface && self.has_kind(*kind)) {
-                let placed = track.at(track.nearest_arc_m(position_m, kind.half_length_m()));
+                let placed = track.at(track.nearest_arc_length_m(position_m, kind.half_length_m()));
                 let distance_m = boxes(kind, placed).map(|solid| solid.nearest(position_m).0).fold(max_m, f64::min);
                 least = Some(distance_m).filter(|d| *d < least.unwrap_or(max_m)).or(least);
             }
@@ -355,7 +357,7 @@ mod tests {
                 }
                 last = now;
             }
-            let later = SimTime::from_s(7.0 + track.loop_m / track.speed_m_s);
+            let later = SimTime::from_s(7.0 + track.loop_length_m / track.speed_m_s);
             let (a, b) = (plan.placement(mover, SimTime::from_s(7.0)), plan.placement(mover, later));
             assert_eq!(a.is_some(), b.is_some());
             if let (Some(a), Some(b)) = (a, b) {
@@ -473,7 +475,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_crew_consists_of_a_person_and_a_vehicle() {
+    fn exact_crew_is_a_person_and_a_vehicle() {
         let plan = plan(1);
         let hit = plan.nearest(Vec3::new(-55.0, 1.0, 1.0), 3.0, SimTime::ZERO).expect("inspector");
         assert_eq!((hit.surface, hit.object), (Surface::Person, INSPECTOR));

@@ -16,9 +16,9 @@ pub struct Dryden {
     /// Vertical standard deviation, m/s.
     pub sigma_vertical_m_s: f64,
     /// Length scale along and across the mean wind, m.
-    pub length_horizontal_m: f64,
+    pub horizontal_length_scale_m: f64,
     /// Vertical length scale, m.
-    pub length_vertical_m: f64,
+    pub vertical_length_scale_m: f64,
 }
 
 impl Dryden {
@@ -31,8 +31,8 @@ impl Dryden {
         Self {
             sigma_horizontal_m_s: sigma_vertical_m_s / math::pow(shape, 0.4),
             sigma_vertical_m_s,
-            length_horizontal_m: h_ft / math::pow(shape, 1.2) * M_PER_FT,
-            length_vertical_m: h_ft * M_PER_FT,
+            horizontal_length_scale_m: h_ft / math::pow(shape, 1.2) * M_PER_FT,
+            vertical_length_scale_m: h_ft * M_PER_FT,
         }
     }
 }
@@ -104,11 +104,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn val_sigma_and_length_match_the_table_at_10_m() {
+    fn val_turbulence_matches_the_table_at_10_m() {
         // MIL-F-8785C low-altitude Dryden model (docs/src/reference/domain.md, "Wind and turbulence"): W20 11 mph, 10 m: L_u 67
         // m, sigma_u 0.93, sigma_w 0.49 m/s; tolerance half a unit of the last printed digit.
         let d = Dryden::at(10.0, 11.0 * math::M_S_PER_MPH);
-        assert!((d.length_horizontal_m - 67.0).abs() < 0.5, "{}", d.length_horizontal_m);
+        assert!((d.horizontal_length_scale_m - 67.0).abs() < 0.5, "{}", d.horizontal_length_scale_m);
         assert!((d.sigma_horizontal_m_s - 0.93).abs() < 0.005, "{}", d.sigma_horizontal_m_s);
         assert!((d.sigma_vertical_m_s - 0.49).abs() < 0.005);
     }

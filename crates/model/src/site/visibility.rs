@@ -23,7 +23,7 @@ pub const MIN_EXTENT_PX: f64 = 10.0;
 /// Minimum width of a line defect, px.
 pub const MIN_LINE_WIDTH_PX: f64 = 0.5;
 /// Calibration constant of an incident-light meter, lx s ISO (ISO 2720 specifies 240 to 400).
-const METER_CALIBRATION: f64 = 250.0;
+const LIGHT_METER_CONSTANT: f64 = 250.0;
 /// Offsets of the occlusion test's sample points from the center of a defect, as fractions of the defect's length.
 const SAMPLE_OFFSETS: [f64; 5] = [-0.48, -0.24, 0.0, 0.24, 0.48];
 /// Height above the surface at which lines of sight end, m.
@@ -49,7 +49,7 @@ pub struct DefectView {
     /// Illuminance at the defect from sun, sky, reflections and lamp, lx.
     pub illuminance_lux: f64,
     /// Illuminance needed for an exposure within the camera's limits, lx.
-    pub needed_lux: f64,
+    pub required_illuminance_lux: f64,
     /// Distance between the defect and the lens, m.
     pub distance_m: f64,
     /// True for a line defect, which must have a minimum width in the image.
@@ -65,8 +65,8 @@ pub type AmbientLight<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> f64;
 
 /// Returns the illuminance needed for an exposure within the camera's limits, in lx: C N²/(t S).
 #[must_use]
-pub fn needed_lux(camera: &Camera) -> f64 {
-    METER_CALIBRATION * camera.f_number * camera.f_number / (camera.exposure_max_s * camera.iso_max)
+pub fn required_illuminance_lux(camera: &Camera) -> f64 {
+    LIGHT_METER_CONSTANT * camera.f_number * camera.f_number / (camera.max_exposure_time_s * camera.iso_max)
 }
 
 /// Returns the illuminance that a lamp at the lens produces on a surface, in lx: flux over the solid angle of the beam,
@@ -75,15 +75,15 @@ pub fn needed_lux(camera: &Camera) -> f64 {
 pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3<Enu>) -> f64 {
     let to = point_m - pose.position_m;
     let distance = to.norm();
-    if !pose.lamp_on || lamp.flux_lm <= 0.0 || distance <= 0.0 {
+    if !pose.lamp_on || lamp.luminous_flux_lm <= 0.0 || distance <= 0.0 {
         return 0.0;
     }
-    let edge = math::cos(0.5 * lamp.beam_rad);
+    let edge = math::cos(0.5 * lamp.beam_angle_rad);
     let ray = to / distance;
     if ray.dot(pose.forward) < edge {
         return 0.0;
     }
-    let candela = lamp.flux_lm / (math::TAU * (1.0 - edge));
+    let candela = lamp.luminous_flux_lm / (math::TAU * (1.0 - edge));
     candela * (-ray.dot(normal)).max(0.0) / (distance * distance)
 }
 
@@ -120,7 +120,7 @@ pub fn evaluate_defect(
         extent_px: if defect.line { along_px } else { along_px.max(width_px) },
         width_px,
         illuminance_lux: ambient(defect.position_m, defect.normal) + lamp_lux(lamp, pose, defect.position_m, defect.normal),
-        needed_lux: needed_lux(camera),
+        required_illuminance_lux: required_illuminance_lux(camera),
         distance_m,
         line: defect.line,
         lamp_on: pose.lamp_on,
@@ -141,7 +141,7 @@ impl DefectView {
             self.incidence_rad <= MAX_INCIDENCE_RAD,
             self.extent_px >= MIN_EXTENT_PX,
             !self.line || self.width_px >= MIN_LINE_WIDTH_PX,
-            self.illuminance_lux >= self.needed_lux,
+            self.illuminance_lux >= self.required_illuminance_lux,
         ]
     }
 
@@ -152,8 +152,8 @@ impl DefectView {
         let (incidence_deg, incidence_max_deg) = (self.incidence_rad.to_degrees(), MAX_INCIDENCE_RAD.to_degrees());
         // The required illuminance is displayed as an integer unless the measured value is between the rounded and the exact
         // limit.
-        let whole = self.needed_lux.round();
-        let needed_lux = if self.illuminance_lux < whole { whole } else { self.needed_lux };
+        let whole = self.required_illuminance_lux.round();
+        let required_illuminance_lux = if self.illuminance_lux < whole { whole } else { self.required_illuminance_lux };
         let words = [
             "not in the central 80% of the image".to_owned(),
             "hidden behind something".to_owned(),
@@ -169,8 +169,8 @@ impl DefectView {
             ),
             format!(
                 "too dark: {lamp}, {} lx of {} lx needed",
-                format_with_limit(self.illuminance_lux, needed_lux, 0),
-                format_limit(needed_lux)
+                format_with_limit(self.illuminance_lux, required_illuminance_lux, 0),
+                format_limit(required_illuminance_lux)
             ),
         ];
         words.into_iter().zip(self.conditions()).filter_map(|(word, holds)| (!holds).then_some(word)).collect()
@@ -232,12 +232,12 @@ mod tests {
         zoom_max: 1.0,
         f_number: 2.8,
         iso_max: 1600.0,
-        exposure_max_s: 0.01,
+        max_exposure_time_s: 0.01,
         gimbal_pitch_min_rad: -1.57,
         gimbal_pitch_max_rad: 1.57,
         gimbal_rate_rad_s: 1.0,
     };
-    const LAMP: Lamp = Lamp { flux_lm: 2200.0, beam_rad: math::PI / 3.0 };
+    const LAMP: Lamp = Lamp { luminous_flux_lm: 2200.0, beam_angle_rad: math::PI / 3.0 };
 
     /// Creates a 0.5 m by 2 mm crack that is 3 m north of the camera and faces it.
     fn crack() -> PlacedDefect {
@@ -286,14 +286,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_frontal_view_is_a_hit_with_pinhole_dimensions() {
+    fn exact_frontal_photo_captures_the_defect_with_pinhole_dimensions() {
         let view = evaluate(&crack(), &pose(), &unobstructed, 1000.0);
         // A field of view of 90 deg and a width of 4000 px yield a focal length of 2000 px.
         assert!(view.hit && view.reasons().is_empty(), "{view:?}");
         assert!((view.extent_px - 2000.0 * 0.5 / 3.0).abs() < 1e-9);
         assert!((view.width_px - 2000.0 * 0.002 / 3.0).abs() < 1e-9);
         // C N²/(t S) = 250 * 2.8² / (0.01 * 1600).
-        assert!((view.needed_lux - 122.5).abs() < 1e-9);
+        assert!((view.required_illuminance_lux - 122.5).abs() < 1e-9);
     }
 
     #[test]
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn val_lamp_illuminance_matches_the_table() {
+    fn val_lamp_illuminance_matches_published_values() {
         // docs/src/reference/domain.md, "Light levels": a 2200 lm, 60 deg light: 2600, 650, 290, 105 lx at 1, 2, 3, 5 m;
         // tolerance is the table's rounding.
         let lit = CameraPose { lamp_on: true, ..pose() };
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_extent_of_a_partly_hidden_crack_is_its_visible_part() {
+    fn exact_only_the_visible_part_of_a_crack_counts() {
         // Lines of sight to the right half are blocked: three of five samples remain.
         let right_blocked = |_: Vec3<Enu>, d: Vec3<Enu>, _: f64| {
             (d.east() > 0.01).then_some(RayHit { distance_m: 1.0, normal: -d, surface: Surface::Other, object: ObjectId(0) })

@@ -28,7 +28,7 @@ const MIN_TURBULENCE_HEIGHT_M: f64 = 3.048;
 /// Height below which the profile is constant, m (estimate: wave height).
 const MIN_PROFILE_HEIGHT_M: f64 = 0.5;
 /// Minimum drift speed of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
-const MIN_DRIFT_M_S: f64 = 0.1;
+const MIN_DRIFT_SPEED_M_S: f64 = 0.1;
 
 /// Mean wind at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,8 +50,8 @@ pub struct WindField {
     vertical: SecondOrderFilter,
     over_ground: bool,
     next_sample: SimTime,
-    previous_m_s: Vec3<Ned>,
-    current_m_s: Vec3<Ned>,
+    previous_velocity_m_s: Vec3<Ned>,
+    current_velocity_m_s: Vec3<Ned>,
 }
 
 impl WindField {
@@ -70,11 +70,11 @@ impl WindField {
             vertical,
             over_ground: false,
             next_sample: SimTime::ZERO,
-            previous_m_s: Vec3::zero(),
-            current_m_s: Vec3::zero(),
+            previous_velocity_m_s: Vec3::zero(),
+            current_velocity_m_s: Vec3::zero(),
         };
-        field.current_m_s = field.mean_velocity(SimTime::ZERO, REFERENCE_HEIGHT_M);
-        field.previous_m_s = field.current_m_s;
+        field.current_velocity_m_s = field.mean_velocity(SimTime::ZERO, REFERENCE_HEIGHT_M);
+        field.previous_velocity_m_s = field.current_velocity_m_s;
         field
     }
 
@@ -86,8 +86,8 @@ impl WindField {
         }
         while self.next_sample <= now {
             let sample = self.sample(self.next_sample, height_m, velocity_m_s);
-            self.previous_m_s = if self.next_sample == SimTime::ZERO { sample } else { self.current_m_s };
-            self.current_m_s = sample;
+            self.previous_velocity_m_s = if self.next_sample == SimTime::ZERO { sample } else { self.current_velocity_m_s };
+            self.current_velocity_m_s = sample;
             self.next_sample += SAMPLE_PERIOD;
         }
     }
@@ -111,7 +111,7 @@ impl WindField {
             return Vec3::zero();
         }
         let since = (at - (self.next_sample - SAMPLE_PERIOD)).s();
-        self.previous_m_s.lerp(self.current_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
+        self.previous_velocity_m_s.lerp(self.current_velocity_m_s, (since / SAMPLE_PERIOD.s()).clamp(0.0, 1.0))
     }
 
     /// Returns the constant force, in N, that the `paper` model applies at the center of mass; zero in the `physical`
@@ -150,11 +150,11 @@ impl WindField {
         }
         let dryden = Dryden::at(height_m, mean.speed_m_s);
         // Turbulence drifts with the mean wind (Taylor's hypothesis), so a hovering drone also moves through it.
-        let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(MIN_DRIFT_M_S);
+        let drift = (velocity_m_s - mean_velocity).norm().max(mean_velocity.norm()).max(MIN_DRIFT_SPEED_M_S);
         let traveled_m = drift * SAMPLE_PERIOD.s();
-        let u = self.along.step(traveled_m / dryden.length_horizontal_m, &mut self.stream);
-        let v = self.across.step(traveled_m / dryden.length_horizontal_m, &mut self.stream);
-        let w = self.vertical.step(traveled_m / dryden.length_vertical_m, &mut self.stream);
+        let u = self.along.step(traveled_m / dryden.horizontal_length_scale_m, &mut self.stream);
+        let v = self.across.step(traveled_m / dryden.horizontal_length_scale_m, &mut self.stream);
+        let w = self.vertical.step(traveled_m / dryden.vertical_length_scale_m, &mut self.stream);
         let along = direction_toward(mean.from_rad);
         let across = Vec3::new(-along.east(), along.north(), 0.0);
         let near_surface = (self.profile(height_m) / self.profile(MIN_TURBULENCE_HEIGHT_M)).min(1.0);
@@ -201,10 +201,10 @@ pub fn mean_at(wind: &WindSpec, at: SimTime) -> MeanWind {
 /// Returns the sum of all 1-cosine gusts at a time. A gust has the speed peak/2 (1 - cos(2 pi t/duration)) while it lasts.
 fn gusts_at(wind: &WindSpec, at: SimTime) -> Vec3<Ned> {
     wind.events.iter().fold(Vec3::zero(), |sum, event| match event {
-        WindEvent::Gust { at: start, duration, peak_m_s, from_deg } => {
+        WindEvent::Gust { at: start, duration, peak_speed_m_s, from_deg } => {
             let since = (at - *start).s();
             let inside = since > 0.0 && since < duration.s();
-            let speed = if inside { 0.5 * peak_m_s * (1.0 - math::cos(math::TAU * since / duration.s())) } else { 0.0 };
+            let speed = if inside { 0.5 * peak_speed_m_s * (1.0 - math::cos(math::TAU * since / duration.s())) } else { 0.0 };
             sum + direction_toward(from_deg.to_radians()) * speed
         }
         WindEvent::Change { .. } => sum,
@@ -235,7 +235,7 @@ mod tests {
         (0..seconds * SAMPLE_RATE_HZ)
             .map(|k| {
                 field.update(SimTime::from_ms(k * 10), height_m, velocity);
-                field.current_m_s - mean
+                field.current_velocity_m_s - mean
             })
             .collect()
     }
@@ -258,9 +258,9 @@ mod tests {
         // Wind from the north moves the air south. At a lag of one time scale, the correlation of a first-order filter is 1/e,
         // and that of a second-order filter 1/(2e).
         let axes: [(Vec<f64>, f64, f64, f64); 3] = [
-            (samples.iter().map(|s| s.north()).collect(), d.sigma_horizontal_m_s, d.length_horizontal_m, 1.0),
-            (samples.iter().map(|s| s.east()).collect(), d.sigma_horizontal_m_s, d.length_horizontal_m, 0.5),
-            (samples.iter().map(|s| s.down()).collect(), d.sigma_vertical_m_s, d.length_vertical_m, 0.5),
+            (samples.iter().map(|s| s.north()).collect(), d.sigma_horizontal_m_s, d.horizontal_length_scale_m, 1.0),
+            (samples.iter().map(|s| s.east()).collect(), d.sigma_horizontal_m_s, d.horizontal_length_scale_m, 0.5),
+            (samples.iter().map(|s| s.down()).collect(), d.sigma_vertical_m_s, d.vertical_length_scale_m, 0.5),
         ];
         for (values, sigma, length, factor) in axes {
             let variance = correlation(&values, 0);
@@ -304,8 +304,12 @@ mod tests {
     fn exact_gust_displaces_air_by_half_its_peak_times_its_duration() {
         let mut w = wind();
         w.speed_m_s = 0.0;
-        w.events =
-            vec![WindEvent::Gust { at: SimTime::from_s(2.0), duration: SimTime::from_s(4.0), peak_m_s: 6.0, from_deg: 180.0 }];
+        w.events = vec![WindEvent::Gust {
+            at: SimTime::from_s(2.0),
+            duration: SimTime::from_s(4.0),
+            peak_speed_m_s: 6.0,
+            from_deg: 180.0,
+        }];
         let field = WindField::new(&w, 1);
         // The trapezoidal rule is exact for a whole period of a cosine, so only rounding errors remain.
         let dt_s = 0.01;
@@ -316,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_change_is_linear_and_turns_the_shorter_way() {
+    fn exact_wind_changes_linearly_and_turns_the_shorter_way() {
         let mut w = wind();
         w.from_deg = 350.0;
         w.events =
@@ -357,7 +361,7 @@ mod tests {
             let now = SimTime::from_ms(k);
             field.update(now, 5.0, Vec3::zero());
             let air = field.air_velocity(now);
-            let jump = (field.current_m_s - field.previous_m_s).norm();
+            let jump = (field.current_velocity_m_s - field.previous_velocity_m_s).norm();
             let bound = 0.1 * jump.max(last_jump) + 1e-12;
             assert!(last.is_none_or(|l: Vec3<Ned>| (air - l).norm() <= bound), "at {now}");
             (last, last_jump) = (Some(air), jump);

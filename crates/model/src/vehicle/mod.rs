@@ -79,7 +79,7 @@ pub struct Drag {
     /// Drag area CdA along forward, right, down, m².
     pub area_m2: [f64; 3],
     /// Angular damping about forward, right, down, N m/(rad/s).
-    pub angular_n_m_s: [f64; 3],
+    pub angular_damping_n_m_s: [f64; 3],
 }
 
 /// Collision hull: the union of convex parts built from these dimensions (arms, rotor disks or cage, feet, body).
@@ -88,7 +88,7 @@ pub struct Hull {
     /// Distance between opposite rotor tips (or the cage's diameter), m.
     pub tip_to_tip_m: f64,
     /// True if a cage or bumpers protect the rotors from contact on all sides.
-    pub caged: bool,
+    pub has_propeller_guard: bool,
     /// Half dimensions of the body box: forward, right, down, m.
     pub body_half_extent_m: [f64; 3],
     /// Landing-gear contact points, m.
@@ -111,9 +111,9 @@ pub struct BatterySpec {
     /// Open-circuit voltage per cell at state of charge 0, 0.1, … 1.0, V (11 increasing values).
     pub ocv_cell_v: [f64; 11],
     /// Avionics load, W.
-    pub avionics_w: f64,
+    pub avionics_power_w: f64,
     /// Lamp load when on, W.
-    pub lamp_w: f64,
+    pub lamp_power_w: f64,
     /// Endurance of the `paper` battery model, which discharges linearly from 100% to 0%, s.
     pub paper_endurance_s: f64,
 }
@@ -124,7 +124,7 @@ pub struct FlightLimits {
     /// Forward and backward speed at full stick in position mode, m/s.
     pub forward_m_s: f64,
     /// Sideways speed at full stick, m/s.
-    pub sideward_m_s: f64,
+    pub sideways_speed_m_s: f64,
     /// Climb speed at full stick, m/s.
     pub climb_m_s: f64,
     /// Descent speed at full stick, m/s.
@@ -156,11 +156,11 @@ pub struct SensorSpec {
     /// GNSS rate, Hz.
     pub gnss_rate_hz: f64,
     /// GNSS horizontal position noise under an open sky, m.
-    pub gnss_horizontal_m: f64,
+    pub gnss_horizontal_noise_m: f64,
     /// GNSS vertical position noise under an open sky, m.
-    pub gnss_vertical_m: f64,
+    pub gnss_vertical_noise_m: f64,
     /// GNSS velocity noise, m/s.
-    pub gnss_velocity_m_s: f64,
+    pub gnss_velocity_noise_m_s: f64,
     /// Barometer rate, Hz.
     pub baro_rate_hz: f64,
     /// Barometer noise, m.
@@ -203,7 +203,7 @@ pub struct Camera {
     /// Maximum ISO sensitivity.
     pub iso_max: f64,
     /// Maximum exposure time for a sharp image, s.
-    pub exposure_max_s: f64,
+    pub max_exposure_time_s: f64,
     /// Minimum gimbal pitch, rad; negative looks down.
     pub gimbal_pitch_min_rad: f64,
     /// Maximum gimbal pitch, rad.
@@ -254,7 +254,7 @@ impl Camera {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lamp {
     /// Luminous flux, lm; 0 if there is no lamp.
-    pub flux_lm: f64,
+    pub luminous_flux_lm: f64,
     /// Full beam angle, rad.
-    pub beam_rad: f64,
+    pub beam_angle_rad: f64,
 }

@@ -106,7 +106,7 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
     let mut s = r.section(root, "drag");
     let drag = Drag {
         area_m2: r.numbers(&mut s, "area_m2", (0.0, 5.0), None),
-        angular_n_m_s: r.numbers(&mut s, "angular_n_m_s", (0.0, 1.0), None),
+        angular_damping_n_m_s: r.numbers(&mut s, "angular_n_m_s", (0.0, 1.0), None),
     };
     r.finish(&s);
     drag
@@ -119,7 +119,7 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     let mut s = r.section(root, "hull");
     let hull = Hull {
         tip_to_tip_m: r.number(&mut s, "tip_to_tip_m", (0.05, 5.0), None),
-        caged: r.boolean(&mut s, "caged", false),
+        has_propeller_guard: r.boolean(&mut s, "caged", false),
         body_half_extent_m: r.numbers(&mut s, "body_half_extent_m", (0.005, 2.0), None),
         feet_m: r.points(&mut s, "feet_m", (-2.0, 2.0)).iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect(),
         restitution: r.number(&mut s, "restitution", (0.0, 0.95), None),
@@ -128,7 +128,7 @@ fn hull(r: &mut Reader, root: &mut Section) -> Hull {
     // A spherical cage without feet would roll in the wind.
     let cage_m = 0.5 * hull.tip_to_tip_m;
     let carrying = hull.feet_m.iter().filter(|foot| foot.down() >= cage_m).count();
-    if hull.caged && carrying < MIN_FEET {
+    if hull.has_propeller_guard && carrying < MIN_FEET {
         let allowed = format!("at least {MIN_FEET} landing feet, each at least {cage_m} m below the center");
         r.add_problem(&s, "feet_m", "", &allowed, "the aircraft would rest on its spherical cage and roll");
     }
@@ -143,8 +143,8 @@ fn battery(r: &mut Reader, root: &mut Section) -> BatterySpec {
         capacity_ah: r.number(&mut s, "capacity_ah", (0.1, 100.0), None),
         internal_resistance_ohm: r.number(&mut s, "internal_resistance_ohm", (0.0, 1.0), None),
         ocv_cell_v: r.numbers(&mut s, "ocv_cell_v", (2.5, 4.5), None),
-        avionics_w: r.number(&mut s, "avionics_w", (0.0, 200.0), None),
-        lamp_w: r.number(&mut s, "lamp_w", (0.0, 500.0), None),
+        avionics_power_w: r.number(&mut s, "avionics_w", (0.0, 200.0), None),
+        lamp_power_w: r.number(&mut s, "lamp_w", (0.0, 500.0), None),
         paper_endurance_s: r.number(&mut s, "paper_endurance_s", (10.0, 10_000.0), Some(1500.0)),
     };
     if battery.ocv_cell_v.windows(2).any(|w| w[1] < w[0]) {
@@ -158,7 +158,7 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
     let mut s = r.section(root, "limits");
     let limits = FlightLimits {
         forward_m_s: r.number(&mut s, "forward_m_s", (0.5, 40.0), None),
-        sideward_m_s: r.number(&mut s, "sideward_m_s", (0.5, 40.0), None),
+        sideways_speed_m_s: r.number(&mut s, "sideward_m_s", (0.5, 40.0), None),
         climb_m_s: r.number(&mut s, "climb_m_s", (0.3, 20.0), None),
         descend_m_s: r.number(&mut s, "descend_m_s", (0.3, 20.0), None),
         yaw_rate_rad_s: r.number(&mut s, "yaw_rate_deg_s", (5.0, 720.0), None).to_radians(),
@@ -168,7 +168,7 @@ fn limits(r: &mut Reader, root: &mut Section) -> FlightLimits {
     };
     // At maximum tilt, the braking deceleration is g tan(tilt). The effects of air drag and the time needed to tilt
     // roughly cancel out (verified in simulation for every shipped aircraft).
-    let least_s = limits.forward_m_s.max(limits.sideward_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
+    let least_s = limits.forward_m_s.max(limits.sideways_speed_m_s) / (GRAVITY_M_S2 * math::tan(limits.tilt_rad));
     if limits.slow_down_time_s < least_s && r.problems.is_empty() {
         let allowed = format!("at least {least_s:.2}, which is full speed divided by g tan(tilt_deg)");
         r.add_problem(&s, "slow_down_time_s", &limits.slow_down_time_s.to_string(), &allowed, "too short for the maximum tilt");
@@ -187,9 +187,9 @@ fn sensors(r: &mut Reader, root: &mut Section) -> SensorSpec {
         gyro_noise_density: n("gyro_noise_density_rad_s_sqrt_hz", (0.0, 0.1), 1e-4),
         gyro_bias_rad_s: n("gyro_bias_rad_s", (0.0, 0.2), 0.003),
         gnss_rate_hz: n("gnss_rate_hz", (1.0, 20.0), 5.0),
-        gnss_horizontal_m: n("gnss_horizontal_m", (0.0, 20.0), 0.5),
-        gnss_vertical_m: n("gnss_vertical_m", (0.0, 40.0), 0.8),
-        gnss_velocity_m_s: n("gnss_velocity_m_s", (0.0, 2.0), 0.1),
+        gnss_horizontal_noise_m: n("gnss_horizontal_m", (0.0, 20.0), 0.5),
+        gnss_vertical_noise_m: n("gnss_vertical_m", (0.0, 40.0), 0.8),
+        gnss_velocity_noise_m_s: n("gnss_velocity_m_s", (0.0, 2.0), 0.1),
         baro_rate_hz: n("baro_rate_hz", (5.0, 200.0), 50.0),
         baro_noise_m: n("baro_noise_m", (0.0, 10.0), 0.1),
         baro_drift_m_sqrt_s: n("baro_drift_m_sqrt_s", (0.0, 1.0), 0.005),
@@ -217,7 +217,7 @@ fn camera(r: &mut Reader, root: &mut Section) -> Camera {
         zoom_max: r.number(&mut s, "zoom_max", (1.0, 30.0), Some(1.0)),
         f_number: r.number(&mut s, "f_number", (0.9, 22.0), None),
         iso_max: r.number(&mut s, "iso_max", (50.0, 409_600.0), None),
-        exposure_max_s: r.number(&mut s, "exposure_max_s", (1e-4, 1.0), None),
+        max_exposure_time_s: r.number(&mut s, "exposure_max_s", (1e-4, 1.0), None),
         gimbal_pitch_min_rad: r.number(&mut s, "gimbal_pitch_min_deg", (-120.0, 0.0), Some(-90.0)).to_radians(),
         gimbal_pitch_max_rad: r.number(&mut s, "gimbal_pitch_max_deg", (0.0, 120.0), Some(90.0)).to_radians(),
         gimbal_rate_rad_s: r.number(&mut s, "gimbal_rate_deg_s", (5.0, 720.0), None).to_radians(),
@@ -229,8 +229,8 @@ fn camera(r: &mut Reader, root: &mut Section) -> Camera {
 fn lamp(r: &mut Reader, root: &mut Section) -> Lamp {
     let mut s = r.section(root, "lamp");
     let lamp = Lamp {
-        flux_lm: r.number(&mut s, "flux_lm", (0.0, 100_000.0), Some(0.0)),
-        beam_rad: r.number(&mut s, "beam_deg", (5.0, 170.0), Some(60.0)).to_radians(),
+        luminous_flux_lm: r.number(&mut s, "flux_lm", (0.0, 100_000.0), Some(0.0)),
+        beam_angle_rad: r.number(&mut s, "beam_deg", (5.0, 170.0), Some(60.0)).to_radians(),
     };
     r.finish(&s);
     lamp

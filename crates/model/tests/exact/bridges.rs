@@ -10,7 +10,7 @@ use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Tolerance for rounding errors in positions a few hundred meters from the origin, m.
-const ROUNDING_M: f64 = 1e-9;
+const ROUNDING_TOLERANCE_M: f64 = 1e-9;
 /// Relative tolerance for rounding errors in volumes, which are sums of many products.
 const VOLUME_TOLERANCE: f64 = 1e-9;
 
@@ -88,8 +88,11 @@ fn prop_all_solids_are_closed_and_convex_with_outward_faces() {
                 let at = |k: usize| solid.vertices_m[face[k] as usize];
                 let normal = (at(1) - at(0)).cross(at(2) - at(0)).unit();
                 let height = |v: &Vec3<Enu>| normal.dot(*v - at(0));
-                assert!(face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_M), "{name}: nonplanar face");
-                assert!(solid.vertices_m.iter().all(|v| height(v) < ROUNDING_M), "{name}: not convex");
+                assert!(
+                    face.iter().all(|k| height(&solid.vertices_m[*k as usize]).abs() < ROUNDING_TOLERANCE_M),
+                    "{name}: nonplanar face"
+                );
+                assert!(solid.vertices_m.iter().all(|v| height(v) < ROUNDING_TOLERANCE_M), "{name}: not convex");
             }
         }
     }
@@ -117,13 +120,14 @@ fn exact_all_members_are_connected() {
         let near_boxes = |i: usize, j: usize| {
             let ((low, high), (other_low, other_high)) = (shapes[i].bounds(), shapes[j].bounds());
             (0..3).all(|k| {
-                low.array()[k] <= other_high.array()[k] + ROUNDING_M && other_low.array()[k] <= high.array()[k] + ROUNDING_M
+                low.array()[k] <= other_high.array()[k] + ROUNDING_TOLERANCE_M
+                    && other_low.array()[k] <= high.array()[k] + ROUNDING_TOLERANCE_M
             })
         };
         let touches = |i: usize, j: usize| {
             near_boxes(i, j)
-                && (sample_points(&members[i].solid).iter().any(|p| shapes[j].nearest(*p).distance_m < ROUNDING_M)
-                    || sample_points(&members[j].solid).iter().any(|p| shapes[i].nearest(*p).distance_m < ROUNDING_M))
+                && (sample_points(&members[i].solid).iter().any(|p| shapes[j].nearest(*p).distance_m < ROUNDING_TOLERANCE_M)
+                    || sample_points(&members[j].solid).iter().any(|p| shapes[i].nearest(*p).distance_m < ROUNDING_TOLERANCE_M))
         };
         let mut joined = vec![false; members.len()];
         let mut open = vec![0];
@@ -139,7 +143,7 @@ fn exact_all_members_are_connected() {
 }
 
 #[test]
-fn exact_arch_member_counts_match_the_formulas() {
+fn exact_arch_bridge_member_counts_match_the_formulas() {
     for bridge in random_bridges() {
         let BridgeKind::Arch(a) = &bridge.kind else { continue };
         let n = a.panels.round() as usize;
@@ -234,19 +238,21 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
 }
 
 #[test]
-fn exact_ribs_follow_their_parabola() {
+fn exact_ribs_follow_the_parabola() {
     let bridge = arch();
     let a = Arch::default();
     let crown = a.slab_m + a.crown_gap_m;
-    assert!((a.extrados_z_m(0.0) + crown).abs() < ROUNDING_M);
-    assert!((a.axis_z_m(0.0) - a.axis_z_m(0.5 * a.span_m) - a.rise_m).abs() < ROUNDING_M);
+    assert!((a.extrados_z_m(0.0) + crown).abs() < ROUNDING_TOLERANCE_M);
+    assert!((a.axis_z_m(0.0) - a.axis_z_m(0.5 * a.span_m) - a.rise_m).abs() < ROUNDING_TOLERANCE_M);
     // Calculated by hand for span 98, rise 26, depths 1.6 and 2.7, slab 0.23, gap 3.4: axis -4.43 - 6.5 at a quarter of the span.
-    assert!((a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_M && (a.rib_depth_m(24.5) - 1.875).abs() < ROUNDING_M);
+    assert!(
+        (a.axis_z_m(24.5) + 10.93).abs() < ROUNDING_TOLERANCE_M && (a.rib_depth_m(24.5) - 1.875).abs() < ROUNDING_TOLERANCE_M
+    );
     for member in members_named(&bridge.members(), "rib-") {
         for vertex in &member.solid.vertices_m {
             let [x, y, z] = bridge.placement().local(*vertex);
             let off = (z - a.intrados_z_m(x)).abs().min((z - a.extrados_z_m(x)).abs());
-            assert!(off < ROUNDING_M && ((y.abs() - 2.9).abs() - 0.75).abs() < ROUNDING_M, "{}", member.name);
+            assert!(off < ROUNDING_TOLERANCE_M && ((y.abs() - 2.9).abs() - 0.75).abs() < ROUNDING_TOLERANCE_M, "{}", member.name);
         }
     }
 }
@@ -263,20 +269,25 @@ fn exact_hangers_end_at_the_parabolic_cable() {
     // With a sag of 14 m over 140 m and 2 m above the deck at midspan, the cable is at 16 m at the towers and 5.5 m at the
     // quarter points.
     for (x, z) in [(0.0, 2.0), (35.0, 5.5), (-70.0, 16.0), (115.0, 0.0)] {
-        assert!((s.cable_z_m(x) - z).abs() < ROUNDING_M);
+        assert!((s.cable_z_m(x) - z).abs() < ROUNDING_TOLERANCE_M);
     }
     for hanger in members_named(&members, "hanger-left") {
         let (top, foot) = (middle(&hanger.solid.vertices_m[..6]), middle(&hanger.solid.vertices_m[6..]));
         let u = top[0] / 70.0;
-        assert!((top[2] - (2.0 + 14.0 * u * u)).abs() < ROUNDING_M && (foot[2] + s.slab_m).abs() < ROUNDING_M);
-        assert!((top[0] - foot[0]).abs() < ROUNDING_M && (top[0] / 7.0 - (top[0] / 7.0).round()).abs() < ROUNDING_M);
+        assert!(
+            (top[2] - (2.0 + 14.0 * u * u)).abs() < ROUNDING_TOLERANCE_M && (foot[2] + s.slab_m).abs() < ROUNDING_TOLERANCE_M
+        );
+        assert!(
+            (top[0] - foot[0]).abs() < ROUNDING_TOLERANCE_M
+                && (top[0] / 7.0 - (top[0] / 7.0).round()).abs() < ROUNDING_TOLERANCE_M
+        );
     }
     let ends: Vec<_> = members_named(&members, "cable-left").map(|m| middle(&m.solid.vertices_m[..8])).collect();
-    assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_M));
+    assert!(ends.iter().all(|e| (e[2] - s.cable_z_m(e[0])).abs() < ROUNDING_TOLERANCE_M));
     // Consecutive cable segments share their corners, so the cable has no gaps at its bends.
     let pieces: Vec<_> = members_named(&members, "cable-left").map(|m| &m.solid.vertices_m).collect();
     for pair in pieces.windows(2) {
-        assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_M));
+        assert!(pair[0][..8].iter().zip(&pair[1][8..]).all(|(end, start)| (*end - *start).norm() < ROUNDING_TOLERANCE_M));
     }
 }
 
@@ -294,8 +305,8 @@ fn assert_smooth(path: &TaskPath) {
     // Sine of the angle that 0.8 m spans on an arc with a 4 m radius, plus a margin.
     const MAX_TURN_SINE: f64 = 0.25;
     let n = path.path_m.len();
-    assert_eq!(path.look.len(), n);
-    assert!(path.look.iter().all(|l| (l.norm() - 1.0).abs() < 1e-12));
+    assert_eq!(path.viewing_directions.len(), n);
+    assert!(path.viewing_directions.iter().all(|l| (l.norm() - 1.0).abs() < 1e-12));
     let last = if path.closed { n } else { n - 1 };
     let step = |k: usize| path.path_m[(k + 1) % n] - path.path_m[k % n];
     for k in 0..last {
@@ -315,7 +326,11 @@ fn prop_paths_keep_the_stand_off_distance() {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
                 let gap = min_clearance_m(&shapes, &path);
-                assert!(gap > stand_off_m - ROUNDING_M, "{kind:?}: {gap} m, expected {stand_off_m} m, {:?}", bridge.kind);
+                assert!(
+                    gap > stand_off_m - ROUNDING_TOLERANCE_M,
+                    "{kind:?}: {gap} m, expected {stand_off_m} m, {:?}",
+                    bridge.kind
+                );
                 assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
@@ -330,10 +345,10 @@ fn exact_pier_path_is_closed_at_a_constant_distance() {
     let path = bridge.task_path(TaskKind::PierCircle, 4.5).unwrap();
     assert!(path.closed);
     assert_smooth(&path);
-    for (p, look) in path.path_m.iter().zip(&path.look) {
+    for (p, look) in path.path_m.iter().zip(&path.viewing_directions) {
         let near = pier.nearest(*p);
-        assert!((near.distance_m - 4.5).abs() < ROUNDING_M);
-        assert!((near.normal + *look).norm() < ROUNDING_M, "viewing direction is not perpendicular to the pier");
+        assert!((near.distance_m - 4.5).abs() < ROUNDING_TOLERANCE_M);
+        assert!((near.normal + *look).norm() < ROUNDING_TOLERANCE_M, "viewing direction is not perpendicular to the pier");
     }
     let around: f64 = (0..path.path_m.len()).map(|k| (path.path_m[(k + 1) % path.path_m.len()] - path.path_m[k]).norm()).sum();
     // Length of the offset curve of a 4 m by 13 m rectangle; the polyline is slightly shorter because it cuts the arcs.
@@ -354,7 +369,7 @@ fn exact_interlayer_path_clears_the_largest_shipped_aircraft() {
     for p in &path.path_m {
         let [x, y, z] = bridge.placement().local(*p);
         let a = Arch::default();
-        assert!(y.abs() < 0.5 * a.rib_spacing_m && z < a.floorbeam_z_m() && z > a.extrados_z_m(0.0), "{x} {z}");
+        assert!(y.abs() < 0.5 * a.rib_spacing_m && z < a.floorbeam_bottom_z_m() && z > a.extrados_z_m(0.0), "{x} {z}");
     }
 }
 
@@ -370,9 +385,17 @@ fn prop_viewing_directions_point_at_the_bridge() {
     ] {
         let shapes = solids(&bridge.members());
         let path = bridge.task_path(kind, 4.5).unwrap();
-        let hits =
-            path.path_m.iter().zip(&path.look).filter(|(p, l)| shapes.iter().any(|s| s.ray(**p, **l, 40.0).is_some())).count();
-        assert!(hits as f64 >= share * path.look.len() as f64, "{kind:?}: {hits} of {}", path.look.len());
+        let hits = path
+            .path_m
+            .iter()
+            .zip(&path.viewing_directions)
+            .filter(|(p, l)| shapes.iter().any(|s| s.ray(**p, **l, 40.0).is_some()))
+            .count();
+        assert!(
+            hits as f64 >= share * path.viewing_directions.len() as f64,
+            "{kind:?}: {hits} of {}",
+            path.viewing_directions.len()
+        );
     }
 }
 
@@ -410,7 +433,7 @@ const MEMBER_NAMES: [(u16, &[&str]); 18] = [
 ];
 
 #[test]
-fn exact_every_member_has_the_element_of_its_part() {
+fn exact_every_member_has_the_correct_element() {
     let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
     for bridge in random_bridges() {
         for member in bridge.members() {

@@ -7,11 +7,11 @@ use spandrel_model::site::{Site, gltf};
 use std::collections::BTreeMap;
 
 /// Resolution of 32-bit floats for positions within 1 km, m.
-const ROUNDING_M: f64 = 6e-5;
-/// Maximum displacement of a ray hit caused by rounding, m, for incidence cosines of at least [`MIN_COSINE`].
+const ROUNDING_TOLERANCE_M: f64 = 6e-5;
+/// Maximum displacement of a ray hit caused by rounding, m, for incidence cosines of at least [`MIN_INCIDENCE_COSINE`].
 const HIT_TOLERANCE_M: f64 = 2e-3;
 /// Minimum incidence cosine for rays to be compared.
-const MIN_COSINE: f64 = 0.1;
+const MIN_INCIDENCE_COSINE: f64 = 0.1;
 
 type Triangle = [Vec3<Enu>; 3];
 
@@ -77,7 +77,7 @@ fn val_exported_members_match_the_collision_solids() {
         assert_eq!(node.element, Some(u32::from(member.element.number())), "{}", member.name);
         assert_eq!(node.triangles.len(), member.solid.triangles().len());
         for corner in &node.corners {
-            assert!(shape.nearest(*corner).distance_m.abs() < ROUNDING_M, "{}", member.name);
+            assert!(shape.nearest(*corner).distance_m.abs() < ROUNDING_TOLERANCE_M, "{}", member.name);
         }
         for t in &node.triangles {
             assert_on_surface(&member.name, shape, t, &mut random);
@@ -95,12 +95,12 @@ fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut Rand
     let middle = (t[0] + t[1] + t[2]) / 3.0;
     // Stay away from the edges, where rounding decides the result.
     let p = middle.lerp(t[0] + (t[1] - t[0]) * a + (t[2] - t[0]) * b, 0.9);
-    assert!(shape.nearest(p).distance_m.abs() < ROUNDING_M, "{name}");
+    assert!(shape.nearest(p).distance_m.abs() < ROUNDING_TOLERANCE_M, "{name}");
     let mut from = random_direction(random);
     if from.dot(normal(t)) < 0.0 {
         from = -from;
     }
-    if from.dot(normal(t)) > MIN_COSINE {
+    if from.dot(normal(t)) > MIN_INCIDENCE_COSINE {
         let (distance, _) = shape.ray(p + from * 3.0, -from, 10.0).unwrap_or_else(|| panic!("{name}: ray misses its face"));
         assert!((distance - 3.0).abs() < HIT_TOLERANCE_M, "{name}: hit at {distance} m instead of 3 m");
     }
@@ -118,10 +118,13 @@ fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut Rando
         let towards = random_direction(random);
         let origin = aim - towards * (high - low).norm();
         let Some((distance, normal)) = shape.ray(origin, towards, f64::INFINITY) else { continue };
-        if -normal.dot(towards) > MIN_COSINE {
+        if -normal.dot(towards) > MIN_INCIDENCE_COSINE {
             let first = node.triangles.iter().filter_map(|t| ray_to_triangle(origin, towards, t)).filter(|h| h.1 > 0.0);
             let first = first.map(|h| h.0).fold(f64::INFINITY, f64::min);
-            assert!((first - distance).abs() < HIT_TOLERANCE_M / MIN_COSINE, "{name}: {distance} m, but {first} m in the file");
+            assert!(
+                (first - distance).abs() < HIT_TOLERANCE_M / MIN_INCIDENCE_COSINE,
+                "{name}: {distance} m, but {first} m in the file"
+            );
         }
     }
 }
@@ -145,21 +148,21 @@ fn val_rays_hit_the_site_and_the_exported_file_at_the_same_points() {
             .iter()
             .filter_map(|t| ray_to_triangle(origin, towards, t))
             .fold((f64::INFINITY, 1.0), |a, b| if b.0 < a.0 { b } else { a });
-        if first.1.abs() < MIN_COSINE || found.is_some_and(|f| -f.normal.dot(towards) < MIN_COSINE) {
+        if first.1.abs() < MIN_INCIDENCE_COSINE || found.is_some_and(|f| -f.normal.dot(towards) < MIN_INCIDENCE_COSINE) {
             continue;
         }
         compared += 1;
         match found {
             Some(f) => {
                 assert!(
-                    (f.distance_m - first.0).abs() < HIT_TOLERANCE_M / MIN_COSINE,
+                    (f.distance_m - first.0).abs() < HIT_TOLERANCE_M / MIN_INCIDENCE_COSINE,
                     "{origin:?} {towards:?}: {f:?}, but {first:?} in the file"
                 );
                 ground += usize::from(f.surface == spandrel_model::site::Surface::Terrain);
                 bridge += usize::from(f.surface == spandrel_model::site::Surface::Bridge);
             }
             None => assert!(
-                first.0 > 190.0 - HIT_TOLERANCE_M / MIN_COSINE,
+                first.0 > 190.0 - HIT_TOLERANCE_M / MIN_INCIDENCE_COSINE,
                 "{origin:?} {towards:?}: no hit, but {first:?} in the file"
             ),
         }

@@ -6,7 +6,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::site::heights::HeightGrid;
 
 /// Tolerance for rounding errors at the scale of the test grid, m.
-const ROUNDING_M: f64 = 1e-9;
+const ROUNDING_TOLERANCE_M: f64 = 1e-9;
 
 /// Returns a rough height grid of 20 x 20 cells, each 5 m wide.
 fn rough_grid() -> HeightGrid {
@@ -24,12 +24,12 @@ fn prop_nearest_ground_point_matches_brute_force() {
         let brute =
             triangles.iter().map(|t| distance_to_triangle(p, &t.map(|k| corners[k as usize]))).fold(f64::INFINITY, f64::min);
         let near = grid.nearest(p, f64::INFINITY).unwrap();
-        assert!((near.distance_m.abs() - brute).abs() < ROUNDING_M, "{p:?}: {} against {brute}", near.distance_m);
+        assert!((near.distance_m.abs() - brute).abs() < ROUNDING_TOLERANCE_M, "{p:?}: {} against {brute}", near.distance_m);
         assert_eq!(near.distance_m < 0.0, p.up() < grid.ground(p.east(), p.north()).0);
-        assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_M);
+        assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_TOLERANCE_M);
         let capped = grid.nearest(p, 2.0);
         assert_eq!(capped.is_some(), near.distance_m <= 2.0);
-        assert!(capped.is_none_or(|c| (c.distance_m - near.distance_m).abs() < ROUNDING_M));
+        assert!(capped.is_none_or(|c| (c.distance_m - near.distance_m).abs() < ROUNDING_TOLERANCE_M));
     }
 }
 
@@ -58,8 +58,8 @@ fn prop_segments_are_nearest_to_the_ground_at_ends_or_creases() {
             "{least} m, but {tried} m by sampling"
         );
         if let Some(near) = between {
-            assert!((near.point_m.up() - grid.ground(near.point_m.east(), near.point_m.north()).0).abs() < ROUNDING_M);
-            assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M && near.normal.up() > 0.0);
+            assert!((near.point_m.up() - grid.ground(near.point_m.east(), near.point_m.north()).0).abs() < ROUNDING_TOLERANCE_M);
+            assert!((near.normal.norm() - 1.0).abs() < ROUNDING_TOLERANCE_M && near.normal.up() > 0.0);
         }
     }
     assert!(across > 30, "{across}");
@@ -74,13 +74,16 @@ fn exact_rod_across_a_ridge_touches_the_ridge() {
     for (up, gap) in [(1.2, 0.2), (0.9, -0.1)] {
         let (a, b) = rod(up);
         let near = grid.interior_minimum(a, b, f64::INFINITY, 0.5).unwrap();
-        assert!((near.distance_m - gap).abs() < ROUNDING_M && (near.normal.up() - 1.0).abs() < ROUNDING_M, "{near:?}");
-        assert!((near.point_m - Vec3::new(0.0, 0.3, 1.0)).norm() < ROUNDING_M);
+        assert!(
+            (near.distance_m - gap).abs() < ROUNDING_TOLERANCE_M && (near.normal.up() - 1.0).abs() < ROUNDING_TOLERANCE_M,
+            "{near:?}"
+        );
+        assert!((near.point_m - Vec3::new(0.0, 0.3, 1.0)).norm() < ROUNDING_TOLERANCE_M);
     }
 }
 
 #[test]
-fn prop_ground_is_lower_where_reported_below() {
+fn prop_ground_reported_below_a_height_is_below_it() {
     let grid = rough_grid();
     let mut random = RandomStream::new(7, "under");
     let mut certain = 0;
@@ -131,10 +134,11 @@ fn prop_rays_end_at_the_first_ground_hit() {
         let reach = hit.map_or(120.0, |h| h.0);
         if let Some((t, normal)) = hit.filter(|h| h.0 > 0.0) {
             hits += 1;
-            assert!(over(origin + direction * t).abs() < ROUNDING_M);
+            assert!(over(origin + direction * t).abs() < ROUNDING_TOLERANCE_M);
             assert!(normal.dot(direction) < 0.0);
         }
-        let clear = (0..2000).map(|k| reach * f64::from(k) / 2000.0).all(|t| over(origin + direction * t) > -ROUNDING_M);
+        let clear =
+            (0..2000).map(|k| reach * f64::from(k) / 2000.0).all(|t| over(origin + direction * t) > -ROUNDING_TOLERANCE_M);
         assert!(clear || reach == 0.0, "{origin:?} {direction:?}");
     }
     assert!(hits > 500, "{hits}");
@@ -144,7 +148,7 @@ fn prop_rays_end_at_the_first_ground_hit() {
 fn exact_vertical_and_horizontal_rays_hit_the_ground() {
     let grid = HeightGrid::new(vec![2.0; 9], 10.0);
     let down = grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, -1.0), 50.0).unwrap();
-    assert!((down.0 - 5.0).abs() < ROUNDING_M && down.1 == Vec3::new(0.0, 0.0, 1.0));
+    assert!((down.0 - 5.0).abs() < ROUNDING_TOLERANCE_M && down.1 == Vec3::new(0.0, 0.0, 1.0));
     assert_eq!(grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, 1.0), 50.0), None);
     assert_eq!(grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(1.0, 0.0, 0.0), f64::INFINITY), None);
     assert_eq!(grid.ray(Vec3::new(1.0, 2.0, 7.0), Vec3::new(0.0, 0.0, -1.0), 4.9), None);

@@ -7,7 +7,7 @@ use spandrel_model::site::geometry::Geometry;
 use spandrel_model::site::{Contact, HullProbe, Surface};
 
 /// Tolerance for rounding errors in positions a few hundred meters from the origin, m.
-const ROUNDING_M: f64 = 1e-9;
+const ROUNDING_TOLERANCE_M: f64 = 1e-9;
 
 fn scenario(text: &str) -> Scenario {
     spandrel_model::scenario::read("shipped.toml", text, &|_| Err("no file".into())).unwrap_or_else(|p| panic!("{p}"))
@@ -45,8 +45,9 @@ fn ray_to_triangle(origin: Vec3<Enu>, direction: Vec3<Enu>, t: &Triangle) -> Opt
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).unit();
     let distance = normal.dot(t[0] - origin) / normal.dot(direction);
     let p = origin + direction * distance;
-    let within =
-        [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])].iter().all(|(a, b)| normal.cross((*b - *a).unit()).dot(p - *a) >= -ROUNDING_M);
+    let within = [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])]
+        .iter()
+        .all(|(a, b)| normal.cross((*b - *a).unit()).dot(p - *a) >= -ROUNDING_TOLERANCE_M);
     (distance >= 0.0 && within).then_some(distance)
 }
 
@@ -69,14 +70,18 @@ fn prop_nearest_member_matches_brute_force() {
     let mut outside = 0;
     for p in random_points(&geometry, 250) {
         let near = geometry.nearest_member(p, f64::INFINITY).unwrap();
-        assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_M);
-        assert!((near.normal.norm() - 1.0).abs() < ROUNDING_M);
+        assert!((near.point_m + near.normal * near.distance_m - p).norm() < ROUNDING_TOLERANCE_M);
+        assert!((near.normal.norm() - 1.0).abs() < ROUNDING_TOLERANCE_M);
         let within = (0..geometry.members().len()).any(|k| geometry.shape(k).unwrap().nearest(p).distance_m < 0.0);
         assert_eq!(near.distance_m < 0.0, within);
         if !within {
             outside += 1;
             let brute = faces.iter().map(|t| distance_to_triangle(p, t)).fold(f64::INFINITY, f64::min);
-            assert!((near.distance_m - brute).abs() < ROUNDING_M, "{p:?}: {} m, but {brute} m by brute force", near.distance_m);
+            assert!(
+                (near.distance_m - brute).abs() < ROUNDING_TOLERANCE_M,
+                "{p:?}: {} m, but {brute} m by brute force",
+                near.distance_m
+            );
             let capped = geometry.nearest_member(p, 1.5).map(|n| n.distance_m);
             assert_eq!(capped, (brute <= 1.5).then_some(near.distance_m));
         }
@@ -124,14 +129,14 @@ fn prop_capsule_contacts_include_the_deepest_point() {
     const SAMPLING_TOLERANCE_M: f64 = 0.5 * 0.8 / 400.0;
     // Tolerance within which distances count as equal, m.
     const DISTANCE_TOLERANCE_M: f64 = 2e-7;
-    const MARGIN_M: f64 = 0.3;
+    const SAMPLING_MARGIN_M: f64 = 0.3;
     let geometry = Geometry::new(&two_bridges());
     let mut random = RandomStream::new(8, "capsules");
     let mut found = 0;
     for p in random_points(&geometry, 1500) {
         let (a_m, b_m, radius_m) = random_capsule(p, &mut random);
         let mut contacts: Vec<Contact> = Vec::new();
-        geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m }, MARGIN_M, &mut contacts);
+        geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m }, SAMPLING_MARGIN_M, &mut contacts);
         contacts.retain(|c| c.surface == Surface::Bridge);
         let member = |k: usize| {
             let shape = geometry.shape(k).unwrap();
@@ -151,7 +156,7 @@ fn prop_capsule_contacts_include_the_deepest_point() {
             found += 1;
         }
         // Members without a contact must be out of reach.
-        let near = geometry.nearest_member(p, MARGIN_M + radius_m);
+        let near = geometry.nearest_member(p, SAMPLING_MARGIN_M + radius_m);
         assert!(near.is_none_or(|n| contacts.iter().any(|c| c.object == n.object)));
     }
     assert!(found > 800, "{found}");
@@ -167,8 +172,11 @@ fn exact_capsule_on_the_deck_has_contacts_at_both_ends() {
     geometry.contacts(&HullProbe::Capsule { a_m, b_m, radius_m: 0.05 }, 0.01, &mut contacts);
     assert_eq!(contacts.len(), 2, "{contacts:?}");
     for (contact, end) in contacts.iter().zip([a_m, b_m]) {
-        assert!(contact.gap_m.abs() < ROUNDING_M && (contact.normal - Vec3::new(0.0, 0.0, 1.0)).norm() < ROUNDING_M);
-        assert!((contact.point_m - (end - Vec3::new(0.0, 0.0, 0.05))).norm() < ROUNDING_M);
+        assert!(
+            contact.gap_m.abs() < ROUNDING_TOLERANCE_M
+                && (contact.normal - Vec3::new(0.0, 0.0, 1.0)).norm() < ROUNDING_TOLERANCE_M
+        );
+        assert!((contact.point_m - (end - Vec3::new(0.0, 0.0, 0.05))).norm() < ROUNDING_TOLERANCE_M);
     }
 }
 
@@ -230,7 +238,7 @@ fn exact_ground_meets_the_decks_and_clears_the_spans() {
             assert!(step.abs() < MAX_STEP_M, "{}: the road is {step} m below the deck", bridge.name);
         }
         for k in -8..=8 {
-            let p = at(f64::from(k) / 8.0 * bridge.opening_half_m());
+            let p = at(f64::from(k) / 8.0 * bridge.opening_half_length_m());
             assert!(deck - geometry.ground_up_m(p.east(), p.north()) > 1.5, "{}: the ground reaches the deck", bridge.name);
         }
     }
@@ -326,7 +334,7 @@ fn prop_free_radius_near_steep_ground_matches_brute_force() {
             continue;
         }
         let free = geometry.free_radius(p, 5.0).unwrap_or(5.0);
-        assert!((free - brute.min(5.0)).abs() < ROUNDING_M, "{p:?}: {free} m, but {brute} m by brute force");
+        assert!((free - brute.min(5.0)).abs() < ROUNDING_TOLERANCE_M, "{p:?}: {free} m, but {brute} m by brute force");
         steep += usize::from(normal.up() < 0.85 && free < 4.0);
     }
     assert!(steep > 30, "{steep}");

@@ -65,7 +65,7 @@ fn assert_message(from: &str, to: &str, expected: &str) {
 }
 
 #[test]
-fn regress_message_for_an_unknown_key() {
+fn regress_unknown_key_is_reported_with_a_suggestion() {
     assert_message(
         "cloud_cover = 0.9",
         "cloud_covr = 0.9",
@@ -75,7 +75,7 @@ fn regress_message_for_an_unknown_key() {
 }
 
 #[test]
-fn regress_message_for_a_number_out_of_range() {
+fn regress_number_out_of_range_is_reported() {
     assert_message(
         "latitude_deg = 46.7052",
         "latitude_deg = 467.052",
@@ -84,7 +84,7 @@ fn regress_message_for_a_number_out_of_range() {
 }
 
 #[test]
-fn regress_message_for_a_wrong_type() {
+fn regress_wrong_type_is_reported() {
     assert_message(
         "altitude_m = 430.0",
         "altitude_m = \"high\"",
@@ -98,12 +98,12 @@ fn regress_message_for_a_wrong_type() {
 }
 
 #[test]
-fn regress_message_for_a_missing_key() {
+fn regress_missing_key_is_reported() {
     assert_message("longitude_deg = 8.3814\n", "", "job.toml:6: origin.longitude_deg: missing (allowed: -180 to 180)");
 }
 
 #[test]
-fn regress_message_for_an_unknown_bridge() {
+fn regress_unknown_bridge_is_reported() {
     assert_message(
         "bridge = \"suspension\"",
         "bridge = \"suspenson\"",
@@ -112,7 +112,7 @@ fn regress_message_for_an_unknown_bridge() {
 }
 
 #[test]
-fn regress_message_for_inconsistent_numbers() {
+fn regress_inconsistent_numbers_are_reported() {
     assert_message("spacing_m = 4.0", "spacing_m = 1.0", "");
     assert_message(
         "size_m = 800.0\nspacing_m = 4.0",
@@ -128,7 +128,7 @@ fn regress_message_for_inconsistent_numbers() {
 }
 
 #[test]
-fn regress_message_for_a_path_that_is_too_long() {
+fn regress_overlong_path_is_reported() {
     let far: Vec<String> = (0..200).map(|k| format!("[{}, 0.0, 50.0]", if k % 2 == 0 { -4000.0 } else { 4000.0 })).collect();
     let text = shipped_scenario() + &format!("\n[[tasks]]\nname = \"far\"\nkind = \"free\"\npoints_m = [{}]\n", far.join(", "));
     let problems = read_problems(&text);
@@ -136,7 +136,7 @@ fn regress_message_for_a_path_that_is_too_long() {
 }
 
 #[test]
-fn regress_inline_tables_are_read_and_resolved_like_tables() {
+fn regress_inline_tables_work_like_regular_tables() {
     let text =
         shipped_scenario().replace("[defects]\ncount = 10\n", "").replacen("[origin]", "defects = { count = 2 }\n\n[origin]", 1);
     let read =

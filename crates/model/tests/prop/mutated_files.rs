@@ -12,10 +12,10 @@ use spandrel_model::time::SimTime;
 use spandrel_model::toml::Problems;
 use std::path::Path;
 
-const SCENARIO_MUTANTS: usize = 2_000;
-const VEHICLE_MUTANTS: usize = 500;
+const SCENARIO_MUTANT_COUNT: usize = 2_000;
+const VEHICLE_MUTANT_COUNT: usize = 500;
 /// Number of bridges with random dimensions per bridge type.
-const RANDOM_BRIDGES: usize = 150;
+const RANDOM_BRIDGE_COUNT: usize = 150;
 /// Maximum number of mutations applied to one file.
 const MAX_MUTATIONS: usize = 3;
 
@@ -141,11 +141,11 @@ fn assert_builds(scenario: Scenario, text: &str) {
 }
 
 #[test]
-fn prop_mutated_scenarios_are_rejected_with_a_line_or_build() {
+fn prop_mutated_scenarios_build_or_are_rejected_with_a_line() {
     let texts = file_texts("scenarios");
     let mut random = RandomStream::new(1, "prop.scenario-files");
     let (mut accepted, mut refused) = (0, 0);
-    for _ in 0..SCENARIO_MUTANTS {
+    for _ in 0..SCENARIO_MUTANT_COUNT {
         let text = mutate(&texts[random.below(texts.len())], &mut random);
         match read(&text) {
             Ok(scenario) => {
@@ -159,15 +159,18 @@ fn prop_mutated_scenarios_are_rejected_with_a_line_or_build() {
         }
     }
     // The test is meaningful only if both outcomes occur often.
-    assert!(accepted > SCENARIO_MUTANTS / 20 && refused > SCENARIO_MUTANTS / 4, "{accepted} accepted, {refused} rejected");
+    assert!(
+        accepted > SCENARIO_MUTANT_COUNT / 20 && refused > SCENARIO_MUTANT_COUNT / 4,
+        "{accepted} accepted, {refused} rejected"
+    );
 }
 
 #[test]
-fn prop_mutated_vehicles_are_rejected_with_a_line_or_valid() {
+fn prop_mutated_vehicles_are_valid_or_rejected_with_a_line() {
     let texts = file_texts("vehicle-params");
     let mut random = RandomStream::new(1, "prop.vehicle-files");
     let (mut accepted, mut refused) = (0, 0);
-    for _ in 0..VEHICLE_MUTANTS {
+    for _ in 0..VEHICLE_MUTANT_COUNT {
         let text = mutate(&texts[random.below(texts.len())], &mut random);
         match spandrel_model::vehicle::read("aircraft.toml", &text) {
             Ok(vehicle) => {
@@ -181,7 +184,10 @@ fn prop_mutated_vehicles_are_rejected_with_a_line_or_valid() {
             }
         }
     }
-    assert!(accepted > VEHICLE_MUTANTS / 20 && refused > VEHICLE_MUTANTS / 4, "{accepted} accepted, {refused} rejected");
+    assert!(
+        accepted > VEHICLE_MUTANT_COUNT / 20 && refused > VEHICLE_MUTANT_COUNT / 4,
+        "{accepted} accepted, {refused} rejected"
+    );
 }
 
 fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
@@ -203,7 +209,7 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
 fn dimension_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)>> {
     let mut random = RandomStream::new(2, "prop.bridges");
     let mut sets: Vec<Vec<(&str, f64)>> = fields.iter().flat_map(|f| [vec![(f.key, f.min)], vec![(f.key, f.max)]]).collect();
-    for _ in 0..RANDOM_BRIDGES {
+    for _ in 0..RANDOM_BRIDGE_COUNT {
         // A cubed random number is often close to the default, which makes enough of the sets consistent.
         let mut near = |f: &BridgeField| {
             let draw = random.range(-1.0, 1.0);

@@ -78,7 +78,7 @@ fn find_differences(readme: &str, keys: &Keys) -> Vec<String> {
 }
 
 #[test]
-fn val_scenario_keys_are_documented_as_read() {
+fn val_scenario_keys_match_the_documentation() {
     let wrong = find_differences("scenarios/README.md", &scenario_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
@@ -96,7 +96,7 @@ fn val_bridge_dimensions_are_documented_with_their_meaning() {
 }
 
 #[test]
-fn val_aircraft_keys_are_documented_as_read() {
+fn val_vehicle_keys_match_the_documentation() {
     let wrong = find_differences("vehicle-params/README.md", &vehicle_keys());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -82,7 +82,7 @@ fn val_shipped_paths_clear_the_default_aircraft() {
                 site.nearest(at, 50.0, SimTime::ZERO).map(|n| site.object_name(n.object))
             );
             assert!(task.path_m.windows(2).all(|w| (w[1] - w[0]).norm() <= 1.0 + 1e-9));
-            assert_eq!(task.path_m.len(), task.look.len());
+            assert_eq!(task.path_m.len(), task.viewing_directions.len());
         }
     }
 }
@@ -105,13 +105,13 @@ fn val_two_bridges_job_places_ten_defects() {
 }
 
 /// Illuminance below which photos need the lamp, lx: f/2.8, ISO 1600 and an exposure of 1/100 s.
-const REQUIRED_LUX: f64 = 122.5;
+const REQUIRED_ILLUMINANCE_LUX: f64 = 122.5;
 
 #[test]
 fn val_default_job_requires_the_lamp_only_in_the_interlayer() {
     let scenario = read_scenario(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios/two-bridges.toml"));
     let phantom = read_vehicle(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("vehicle-params/phantom2.toml"));
-    assert!((spandrel_model::site::visibility::needed_lux(&phantom.camera) - REQUIRED_LUX).abs() < 0.1);
+    assert!((spandrel_model::site::visibility::required_illuminance_lux(&phantom.camera) - REQUIRED_ILLUMINANCE_LUX).abs() < 0.1);
     let (mut dark, mut inside) = (0, 0);
     for seed in 1..=10 {
         let site = Site::build(&scenario, seed);
@@ -124,9 +124,9 @@ fn val_default_job_requires_the_lamp_only_in_the_interlayer() {
             let lux = site.ambient_lux(defect.position_m, Some(defect.normal), SimTime::ZERO);
             if scenario.tasks[task].dark {
                 inside += 1;
-                dark += i32::from(lux < REQUIRED_LUX);
+                dark += i32::from(lux < REQUIRED_ILLUMINANCE_LUX);
             } else {
-                assert!(lux > REQUIRED_LUX, "{} in task {}: {lux} lx", defect.member, task + 1);
+                assert!(lux > REQUIRED_ILLUMINANCE_LUX, "{} in task {}: {lux} lx", defect.member, task + 1);
             }
         }
     }

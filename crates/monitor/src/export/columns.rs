@@ -35,10 +35,10 @@ pub struct Column {
     pub read: ColumnReader,
 }
 
-const ENU: &str = "east, north, up from the scenario's origin";
-const ENU_VELOCITY: &str = "east, north, up";
-const STICK: &str = "body, -1 to 1";
-const BODY_FROM_NED: &str = "body (forward, right, down) against north, east, down";
+const POSITION_FRAME: &str = "east, north, up from the scenario's origin";
+const VELOCITY_FRAME: &str = "east, north, up";
+const STICK_FRAME: &str = "body, -1 to 1";
+const ATTITUDE_FRAME: &str = "body (forward, right, down) against north, east, down";
 
 const fn column(
     name: &'static str,
@@ -50,7 +50,7 @@ const fn column(
     Column { name, unit, frame, description, optional: false, read }
 }
 
-const fn optional(
+const fn optional_column(
     name: &'static str,
     unit: &'static str,
     frame: &'static str,
@@ -80,10 +80,10 @@ fn attitude_deg(row: &FrameRow, angle: usize) -> Option<f64> {
 pub const COLUMNS: &[Column] = &[
     column("frame", "", "", "Frame number; 1 is lift-off.", ColumnReader::Integer(|r| Some(i64::from(r.frame.index)))),
     column("t_s", "s", "", "Simulation time since lift-off.", ColumnReader::Float(|r| Some(r.since_lift_off_s))),
-    column("fb", "", STICK, "Stick position, positive forward.", ColumnReader::Float(|r| Some(r.frame.sticks[0]))),
-    column("rl", "", STICK, "Stick position, positive to the right.", ColumnReader::Float(|r| Some(r.frame.sticks[1]))),
-    column("ud", "", STICK, "Stick position, positive up.", ColumnReader::Float(|r| Some(r.frame.sticks[2]))),
-    column("rt", "", STICK, "Stick position, positive clockwise.", ColumnReader::Float(|r| Some(r.frame.sticks[3]))),
+    column("fb", "", STICK_FRAME, "Stick position, positive forward.", ColumnReader::Float(|r| Some(r.frame.sticks[0]))),
+    column("rl", "", STICK_FRAME, "Stick position, positive to the right.", ColumnReader::Float(|r| Some(r.frame.sticks[1]))),
+    column("ud", "", STICK_FRAME, "Stick position, positive up.", ColumnReader::Float(|r| Some(r.frame.sticks[2]))),
+    column("rt", "", STICK_FRAME, "Stick position, positive clockwise.", ColumnReader::Float(|r| Some(r.frame.sticks[3]))),
     column("light", "", "", "Whether the lamp is on.", ColumnReader::Boolean(|r| r.frame.light)),
     column(
         "snapshot",
@@ -92,9 +92,9 @@ pub const COLUMNS: &[Column] = &[
         "Whether a picture was taken since the previous frame.",
         ColumnReader::Boolean(|r| r.frame.snapshot),
     ),
-    column("east_m", "m", ENU, "True east position.", ColumnReader::Float(|r| Some(r.frame.position_m.east()))),
-    column("north_m", "m", ENU, "True north position.", ColumnReader::Float(|r| Some(r.frame.position_m.north()))),
-    column("up_m", "m", ENU, "True height above the origin.", ColumnReader::Float(|r| Some(r.frame.position_m.up()))),
+    column("east_m", "m", POSITION_FRAME, "True east position.", ColumnReader::Float(|r| Some(r.frame.position_m.east()))),
+    column("north_m", "m", POSITION_FRAME, "True north position.", ColumnReader::Float(|r| Some(r.frame.position_m.north()))),
+    column("up_m", "m", POSITION_FRAME, "True height above the origin.", ColumnReader::Float(|r| Some(r.frame.position_m.up()))),
     column(
         "speed_m_s",
         "m/s",
@@ -127,53 +127,53 @@ pub const COLUMNS: &[Column] = &[
     column(
         "velocity_east_m_s",
         "m/s",
-        ENU_VELOCITY,
+        VELOCITY_FRAME,
         "True east velocity.",
         ColumnReader::Float(|r| Some(r.frame.velocity_m_s.east())),
     ),
     column(
         "velocity_north_m_s",
         "m/s",
-        ENU_VELOCITY,
+        VELOCITY_FRAME,
         "True north velocity.",
         ColumnReader::Float(|r| Some(r.frame.velocity_m_s.north())),
     ),
     column(
         "velocity_up_m_s",
         "m/s",
-        ENU_VELOCITY,
+        VELOCITY_FRAME,
         "True vertical velocity, positive up.",
         ColumnReader::Float(|r| Some(r.frame.velocity_m_s.up())),
     ),
-    optional(
+    optional_column(
         "roll_deg",
         "deg",
-        BODY_FROM_NED,
+        ATTITUDE_FRAME,
         "True roll angle, positive with the right side down.",
         ColumnReader::Float(|r| attitude_deg(r, 0)),
     ),
-    optional(
+    optional_column(
         "pitch_deg",
         "deg",
-        BODY_FROM_NED,
+        ATTITUDE_FRAME,
         "True pitch angle, positive with the nose up.",
         ColumnReader::Float(|r| attitude_deg(r, 1)),
     ),
-    optional(
+    optional_column(
         "yaw_deg",
         "deg",
-        BODY_FROM_NED,
+        ATTITUDE_FRAME,
         "True heading, clockwise from north, -180 to 180.",
         ColumnReader::Float(|r| attitude_deg(r, 2)),
     ),
-    optional(
+    optional_column(
         "gimbal_pitch_deg",
         "deg",
         "horizon",
         "Camera pitch relative to the horizon, positive up.",
         ColumnReader::Float(|r| r.gimbal_pitch_rad.map(f64::to_degrees)),
     ),
-    optional(
+    optional_column(
         "task",
         "",
         "",
@@ -181,59 +181,59 @@ pub const COLUMNS: &[Column] = &[
         ColumnReader::Integer(|r| r.task.map(|task| i64::from(task.id))),
     ),
     column("on_path", "", "", "Whether the drone is on a task's path.", ColumnReader::Boolean(|r| r.on_path)),
-    optional(
+    optional_column(
         "path_distance_m",
         "m",
         "",
         "Distance to the path of `task`, measured with the scenario's path rule.",
         ColumnReader::Float(|r| r.task.and_then(|task| task.distance_m)),
     ),
-    optional(
+    optional_column(
         "clearance_m",
         "m",
         "",
         "Distance from the drone's center to the nearest surface, excluding the pad.",
         ColumnReader::Float(|r| r.clearance_m),
     ),
-    optional(
+    optional_column(
         "wind_east_m_s",
         "m/s",
-        ENU_VELOCITY,
+        VELOCITY_FRAME,
         "East wind component relative to the ground.",
         ColumnReader::Float(|r| east(r.wind_m_s)),
     ),
-    optional(
+    optional_column(
         "wind_north_m_s",
         "m/s",
-        ENU_VELOCITY,
+        VELOCITY_FRAME,
         "North wind component relative to the ground.",
         ColumnReader::Float(|r| north(r.wind_m_s)),
     ),
-    optional(
+    optional_column(
         "wind_up_m_s",
         "m/s",
-        ENU_VELOCITY,
+        VELOCITY_FRAME,
         "Vertical wind component relative to the ground, positive up.",
         ColumnReader::Float(|r| up(r.wind_m_s)),
     ),
-    optional(
+    optional_column(
         "estimated_east_m",
         "m",
-        ENU,
+        POSITION_FRAME,
         "East position estimated by the autopilot.",
         ColumnReader::Float(|r| east(r.estimate_m)),
     ),
-    optional(
+    optional_column(
         "estimated_north_m",
         "m",
-        ENU,
+        POSITION_FRAME,
         "North position estimated by the autopilot.",
         ColumnReader::Float(|r| north(r.estimate_m)),
     ),
-    optional(
+    optional_column(
         "estimated_up_m",
         "m",
-        ENU,
+        POSITION_FRAME,
         "Height above the origin estimated by the autopilot.",
         ColumnReader::Float(|r| up(r.estimate_m)),
     ),

@@ -65,7 +65,7 @@ pub fn frame_rows(
         return Err(AssessError::NoTruth);
     }
     check_identity(&flight, scenario, None)?;
-    let session = Session::truncate(&flight, scenario, vehicle).ok_or(AssessError::NeverFlown)?;
+    let session = Session::from_flight(&flight, scenario, vehicle).ok_or(AssessError::NeverFlown)?;
     Ok(rows(session.frames, &flight, &navigation.of(epoch), scenario))
 }
 

@@ -19,7 +19,7 @@ pub enum BatteryColor {
 
 /// Returns the display color for a battery charge in percent.
 #[must_use]
-pub fn color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
+pub fn battery_color(battery_pct: f64, limits: &FeedbackThresholds) -> BatteryColor {
     if battery_pct >= limits.battery_green_pct {
         BatteryColor::Green
     } else if battery_pct >= limits.battery_yellow_pct {
@@ -37,8 +37,8 @@ pub struct BatteryCue {
 
 impl BatteryCue {
     /// Updates the rule and returns the cue bits and any text to send.
-    pub fn update(&mut self, moment: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
-        let now = moment.battery_pct.map_or(BatteryColor::Green, |pct| color(pct, limits));
+    pub fn update(&mut self, input: &FeedbackInput, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
+        let now = input.battery_pct.map_or(BatteryColor::Green, |pct| battery_color(pct, limits));
         let worse = now > self.worst_color;
         self.worst_color = self.worst_color.max(now);
         let bit = match self.worst_color {
@@ -46,7 +46,7 @@ impl BatteryCue {
             BatteryColor::Yellow => cue::BATTERY_YELLOW,
             BatteryColor::Red => cue::BATTERY_RED,
         };
-        let text = worse.then(|| PilotText { cue: bit, text: format!("Battery {:.0}%", moment.battery_pct.unwrap_or_default()) });
+        let text = worse.then(|| PilotText { cue: bit, text: format!("Battery {:.0}%", input.battery_pct.unwrap_or_default()) });
         (bit, text)
     }
 }

@@ -36,11 +36,11 @@ pub struct FeedbackInput {
     /// Kind of object in contact, excluding touchdowns on the pad.
     pub contact: ContactKind,
     /// Name of the object in contact, if the site knows it.
-    pub touched: Option<String>,
+    pub contact_name: Option<String>,
     /// The drone's proximity to each task, in scenario order.
     pub tasks: Vec<TaskProximity>,
     /// Index of the task whose path the drone is on, if any.
     pub current_task: Option<usize>,
     /// Index of the last task entered, if any.
-    pub last: Option<usize>,
+    pub last_task: Option<usize>,
 }

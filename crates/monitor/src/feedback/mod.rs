@@ -44,18 +44,18 @@ impl FeedbackRules {
     }
 
     /// Updates all rules and returns the active cue mask and the texts to send, most urgent first.
-    pub fn update(&mut self, moment: &FeedbackInput) -> (i32, Vec<PilotText>) {
+    pub fn update(&mut self, input: &FeedbackInput) -> (i32, Vec<PilotText>) {
         let mut mask = 0;
         let mut texts = Vec::new();
         let mut put = |(bits, text): (i32, Option<PilotText>)| {
             mask |= bits;
             texts.extend(text);
         };
-        put(self.crash.update(moment, &self.limits));
-        put(self.too_close.update(moment, &self.limits));
-        put(self.speeding.update(moment, self.speed_limit_m_s, &self.limits));
-        put(self.off_path.update(moment, &self.limits));
-        put(self.battery.update(moment, &self.limits));
+        put(self.crash.update(input, &self.limits));
+        put(self.too_close.update(input, &self.limits));
+        put(self.speeding.update(input, self.speed_limit_m_s, &self.limits));
+        put(self.off_path.update(input, &self.limits));
+        put(self.battery.update(input, &self.limits));
         (mask, texts)
     }
 }

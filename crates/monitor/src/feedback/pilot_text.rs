@@ -18,17 +18,17 @@ pub(super) struct Cooldown {
 }
 
 impl Cooldown {
-    pub(super) fn limited_text(
+    pub(super) fn rate_limited_text(
         &mut self,
         now: SimTime,
         interval: SimTime,
         cue: i32,
-        words: impl FnOnce() -> String,
+        message: impl FnOnce() -> String,
     ) -> Option<PilotText> {
         if self.last_sent.is_some_and(|said| now - said < interval) {
             return None;
         }
         self.last_sent = Some(now);
-        Some(PilotText { cue, text: words() })
+        Some(PilotText { cue, text: message() })
     }
 }

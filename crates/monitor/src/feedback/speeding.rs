@@ -21,18 +21,18 @@ const CUE_OFF_DELAY_MS: i64 = 500;
 
 impl SpeedingCue {
     /// Updates the rule and returns the cue bits and any text to send.
-    pub fn update(&mut self, moment: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
-        let near_last = moment.last.is_some_and(|task| moment.tasks[task].distance_m <= limits.off_path_max_m);
-        let speeding = moment.in_session && moment.speed_m_s > limit_m_s && (moment.current_task.is_some() || near_last);
+    pub fn update(&mut self, input: &FeedbackInput, limit_m_s: f64, limits: &FeedbackThresholds) -> (i32, Option<PilotText>) {
+        let near_last = input.last_task.is_some_and(|task| input.tasks[task].distance_m <= limits.off_path_max_m);
+        let speeding = input.in_session && input.speed_m_s > limit_m_s && (input.current_task.is_some() || near_last);
         if speeding {
-            self.over_limit_since = Some(moment.time);
-            let words = || {
-                let (speed_mph, limit_mph) = (moment.speed_m_s / M_S_PER_MPH, limit_m_s / M_S_PER_MPH);
+            self.over_limit_since = Some(input.time);
+            let message = || {
+                let (speed_mph, limit_mph) = (input.speed_m_s / M_S_PER_MPH, limit_m_s / M_S_PER_MPH);
                 format!("Too fast: {} mph, limit {} mph", format_with_limit(speed_mph, limit_mph, 0), format_limit(limit_mph))
             };
-            return (cue::SPEEDING, self.cooldown.limited_text(moment.time, limits.text_interval, cue::SPEEDING, words));
+            return (cue::SPEEDING, self.cooldown.rate_limited_text(input.time, limits.text_interval, cue::SPEEDING, message));
         }
-        let fresh = self.over_limit_since.is_some_and(|over| (moment.time - over).ms() < CUE_OFF_DELAY_MS);
-        (if fresh && moment.in_session { cue::SPEEDING } else { 0 }, None)
+        let fresh = self.over_limit_since.is_some_and(|over| (input.time - over).ms() < CUE_OFF_DELAY_MS);
+        (if fresh && input.in_session { cue::SPEEDING } else { 0 }, None)
     }
 }

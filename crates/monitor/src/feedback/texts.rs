@@ -16,32 +16,32 @@ const MAX_QUEUE_LEN: usize = 4;
 /// Queue of texts to send.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TextQueue {
-    waiting: VecDeque<(SimTime, PilotText)>,
-    last: Option<SimTime>,
+    queue: VecDeque<(SimTime, PilotText)>,
+    last_sent_time: Option<SimTime>,
 }
 
 impl TextQueue {
     /// Adds texts, most urgent first. A new text replaces any queued text from the same rule.
     pub fn enqueue(&mut self, now: SimTime, texts: Vec<PilotText>) {
         for text in texts {
-            self.waiting.retain(|(_, waiting)| waiting.cue != text.cue);
+            self.queue.retain(|(_, waiting)| waiting.cue != text.cue);
             if text.cue == cue::CRASH {
-                self.waiting.push_front((now, text));
+                self.queue.push_front((now, text));
             } else {
-                self.waiting.push_back((now, text));
+                self.queue.push_back((now, text));
             }
         }
-        self.waiting.truncate(MAX_QUEUE_LEN);
+        self.queue.truncate(MAX_QUEUE_LEN);
     }
 
     /// Returns the next text if it may be sent now.
     pub fn next(&mut self, now: SimTime) -> Option<PilotText> {
-        self.waiting.retain(|(put, _)| now - *put < MAX_TEXT_AGE);
-        let crash = self.waiting.front()?.1.cue == cue::CRASH;
-        if !crash && self.last.is_some_and(|last| now - last < MIN_TEXT_INTERVAL) {
+        self.queue.retain(|(put, _)| now - *put < MAX_TEXT_AGE);
+        let crash = self.queue.front()?.1.cue == cue::CRASH;
+        if !crash && self.last_sent_time.is_some_and(|last| now - last < MIN_TEXT_INTERVAL) {
             return None;
         }
-        self.last = Some(now);
-        self.waiting.pop_front().map(|(_, text)| text)
+        self.last_sent_time = Some(now);
+        self.queue.pop_front().map(|(_, text)| text)
     }
 }

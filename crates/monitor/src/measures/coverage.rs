@@ -25,7 +25,7 @@ pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
 fn task_coverage(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
     let mut flown = FlownPath::new(path, threshold_m);
     for on in &on_path.task {
-        flown.note(on.and_then(|(t, point)| (t == task).then_some(point)));
+        flown.add_frame(on.and_then(|(t, point)| (t == task).then_some(point)));
     }
     flown.coverage()
 }
@@ -36,11 +36,11 @@ fn task_coverage(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &
 /// lies between the nearest points of two consecutive on-path frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlownPath {
-    along_m: Vec<f64>,
-    weights_m: Vec<f64>,
+    distances_along_path_m: Vec<f64>,
+    point_lengths_m: Vec<f64>,
     threshold_m: f64,
     covered: Vec<bool>,
-    before: Option<usize>,
+    previous_point: Option<usize>,
 }
 
 impl FlownPath {
@@ -48,19 +48,26 @@ impl FlownPath {
     #[must_use]
     pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
         let covered = vec![false; path.points_m().len()];
-        Self { along_m: path.along_m(), weights_m: path.lengths_by_point_m(), threshold_m, covered, before: None }
+        Self {
+            distances_along_path_m: path.distances_along_path_m(),
+            point_lengths_m: path.lengths_by_point_m(),
+            threshold_m,
+            covered,
+            previous_point: None,
+        }
     }
 
     /// Adds a frame. `point` is the index of the nearest path point, or `None` while the drone is off the path. An
     /// out-of-range index counts as `None`.
-    pub fn note(&mut self, point: Option<usize>) {
+    pub fn add_frame(&mut self, point: Option<usize>) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
-            let near = |b: &usize| (self.along_m[*b] - self.along_m[point]).abs() <= MAX_COVERED_STEP_M;
-            let from = self.before.filter(near).unwrap_or(point);
+            let near =
+                |b: &usize| (self.distances_along_path_m[*b] - self.distances_along_path_m[point]).abs() <= MAX_COVERED_STEP_M;
+            let from = self.previous_point.filter(near).unwrap_or(point);
             self.covered[from.min(point)..=from.max(point)].fill(true);
         }
-        self.before = point;
+        self.previous_point = point;
     }
 
     /// Returns whether each path point was flown.
@@ -72,8 +79,8 @@ impl FlownPath {
     /// Returns the path's length and the fraction that was flown.
     #[must_use]
     pub fn coverage(&self) -> PathCoverage {
-        let length_m: f64 = self.weights_m.iter().sum();
-        let flown = self.weights_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
+        let length_m: f64 = self.point_lengths_m.iter().sum();
+        let flown = self.point_lengths_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
         let covered_m = flown.fold(0.0, |sum, (weight, _)| sum + weight);
         let any = f64::from(u8::from(self.covered.iter().any(|covered| *covered)));
         // A path no longer than its threshold is a hold position: reaching it covers all of it. If every point is
@@ -90,18 +97,18 @@ mod tests {
     use spandrel_model::frames::Vec3;
 
     #[test]
-    fn exact_coverage_joins_near_frames() {
+    fn exact_short_gaps_between_frames_are_covered() {
         let points: Vec<_> = (0..11).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
         let mut flown = FlownPath::new(&ReferencePath::new(&points, false), 1.0);
         assert_eq!(flown.coverage(), PathCoverage { length_m: 10.0, share: 0.0 });
-        flown.note(Some(0));
-        flown.note(Some(4));
+        flown.add_frame(Some(0));
+        flown.add_frame(Some(4));
         assert_eq!(flown.coverage().share, 0.45, "half a meter for the first point, one meter for each of four points");
-        flown.note(Some(10));
+        flown.add_frame(Some(10));
         assert_eq!(flown.coverage().share, 0.5, "a gap of 6 m is not covered");
-        flown.note(None);
-        flown.note(Some(8));
-        flown.note(Some(11));
+        flown.add_frame(None);
+        flown.add_frame(Some(8));
+        flown.add_frame(Some(11));
         assert_eq!(flown.coverage().share, 0.6, "an index out of range is ignored");
         assert_eq!(flown.points().iter().filter(|flown| **flown).count(), 7);
     }

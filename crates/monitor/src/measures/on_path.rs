@@ -43,7 +43,7 @@ impl BoundingBox {
 /// Nearest point on a reference path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestOnPath {
-    /// Index of the nearest reference point (n*); in `exact` mode, the first point of the nearest segment.
+    /// Index of the nearest reference point (n*); in `nearest_exact` mode, the first point of the nearest segment.
     pub point: usize,
     /// Distance to the path (l*), m.
     pub distance_m: f64,
@@ -68,7 +68,7 @@ impl ReferencePath {
     /// Applies the TASBID rule: finds the nearest reference point (lowest index in a tie), then measures the distance
     /// to the adjacent segments.
     #[must_use]
-    pub fn paper(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
+    pub fn nearest_by_tasbid_rule(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let point = self.search(position_m, |k| (position_m - self.points_m[k]).norm_squared())?;
         let count = self.points_m.len();
         let before = if point > 0 { Some(point - 1) } else { self.closed.then_some(count - 1) };
@@ -80,7 +80,7 @@ impl ReferencePath {
 
     /// Returns the exact distance to the polyline in meters.
     #[must_use]
-    pub fn exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
+    pub fn nearest_exact(&self, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
         let to_segment = |k: usize| {
             let (a, b) = self.segment(k).unwrap_or((self.points_m[k], self.points_m[k]));
             distance_to_segment_squared(position_m, a, b)
@@ -92,9 +92,9 @@ impl ReferencePath {
     /// Returns the nearest position anywhere on the polyline in meters.
     #[must_use]
     pub fn closest_position(&self, position_m: Vec3<Enu>) -> Option<Vec3<Enu>> {
-        let point = self.exact(position_m)?.point;
+        let point = self.nearest_exact(position_m)?.point;
         let (a, b) = self.segment(point).unwrap_or((self.points_m[point], self.points_m[point]));
-        Some(a.lerp(b, along(position_m, a, b)))
+        Some(a.lerp(b, segment_fraction(position_m, a, b)))
     }
 
     /// Returns whether the entire path is farther away than `distance_m`.
@@ -106,7 +106,7 @@ impl ReferencePath {
 
     /// Returns each point's distance in meters from the first point, measured along the path.
     #[must_use]
-    pub fn along_m(&self) -> Vec<f64> {
+    pub fn distances_along_path_m(&self) -> Vec<f64> {
         let steps = self.points_m.windows(2).map(|pair| (pair[1] - pair[0]).norm());
         let mut sum_m = 0.0;
         let later = steps.map(|step_m| {
@@ -156,11 +156,11 @@ impl ReferencePath {
 }
 
 fn distance_to_segment_squared(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
-    (p - (a + (b - a) * along(p, a, b))).norm_squared()
+    (p - (a + (b - a) * segment_fraction(p, a, b))).norm_squared()
 }
 
 /// Returns the position on the segment from `a` (0) to `b` (1) that is nearest to `p`.
-fn along(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
+fn segment_fraction(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
     let way = b - a;
     let length_squared = way.norm_squared();
     if length_squared > 0.0 { ((p - a).dot(way) / length_squared).clamp(0.0, 1.0) } else { 0.0 }
@@ -212,13 +212,13 @@ impl ReferencePaths {
     /// Returns the nearest point on a task's path and its distance (n* and l*).
     #[must_use]
     pub fn nearest(&self, task: usize, position_m: Vec3<Enu>) -> Option<NearestOnPath> {
-        if self.exact { self.paths[task].exact(position_m) } else { self.paths[task].paper(position_m) }
+        if self.exact { self.paths[task].nearest_exact(position_m) } else { self.paths[task].nearest_by_tasbid_rule(position_m) }
     }
 
     /// Returns the task whose path the drone is on: of the tasks within their threshold, the one with the smallest
     /// l*/threshold. Ties go to `current`, then to the lowest index.
     #[must_use]
-    pub fn on(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, NearestOnPath)> {
+    pub fn task_on_path(&self, position_m: Vec3<Enu>, current: Option<usize>) -> Option<(usize, NearestOnPath)> {
         let mut best: Option<(f64, usize, NearestOnPath)> = None;
         for task in 0..self.len() {
             let threshold = self.thresholds_m[task];
@@ -280,7 +280,7 @@ impl OnPath {
         let mut current = None;
         let mut task = Vec::new();
         for (i, position_m) in positions_m.enumerate() {
-            let on = paths.on(position_m, current);
+            let on = paths.task_on_path(position_m, current);
             if let Some((t, _)) = on {
                 current = Some(t);
                 let first = windows[t].map_or(i, |window| window.first);
@@ -310,24 +310,24 @@ mod tests {
         let points = [(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
         let path = ReferencePath::new(&points, false);
         let drone = Vec3::new(20.0, 3.0, 0.0);
-        assert_eq!(path.paper(drone).unwrap().distance_m, 7.0);
-        assert_eq!(path.exact(drone).unwrap().distance_m, 3.0);
+        assert_eq!(path.nearest_by_tasbid_rule(drone).unwrap().distance_m, 7.0);
+        assert_eq!(path.nearest_exact(drone).unwrap().distance_m, 3.0);
     }
 
     #[test]
     fn exact_only_closed_paths_wrap() {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(e, n)| Vec3::new(e, n, 0.0));
         let drone = Vec3::new(0.0, 4.0, 0.0);
-        assert_eq!(ReferencePath::new(&square, true).paper(drone).unwrap().distance_m, 0.0);
-        assert_eq!(ReferencePath::new(&square, true).exact(drone).unwrap().distance_m, 0.0);
-        assert_eq!(ReferencePath::new(&square, false).paper(drone).unwrap().distance_m, 4.0);
-        assert_eq!(ReferencePath::new(&square, true).paper(Vec3::new(-1.0, 6.0, 0.0)).unwrap().point, 3);
+        assert_eq!(ReferencePath::new(&square, true).nearest_by_tasbid_rule(drone).unwrap().distance_m, 0.0);
+        assert_eq!(ReferencePath::new(&square, true).nearest_exact(drone).unwrap().distance_m, 0.0);
+        assert_eq!(ReferencePath::new(&square, false).nearest_by_tasbid_rule(drone).unwrap().distance_m, 4.0);
+        assert_eq!(ReferencePath::new(&square, true).nearest_by_tasbid_rule(Vec3::new(-1.0, 6.0, 0.0)).unwrap().point, 3);
     }
 
     #[test]
     fn exact_nearest_point_ties_go_to_lowest_index() {
         let line: Vec<Vec3<Enu>> = (0..40).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
-        assert_eq!(ReferencePath::new(&line, false).paper(Vec3::new(20.5, 1.0, 0.0)).unwrap().point, 20);
+        assert_eq!(ReferencePath::new(&line, false).nearest_by_tasbid_rule(Vec3::new(20.5, 1.0, 0.0)).unwrap().point, 20);
     }
 
     #[test]
@@ -345,10 +345,10 @@ mod tests {
                 let p = Vec3::new(stream.range(-12.0, 12.0).round(), stream.range(-12.0, 12.0).round(), stream.range(0.0, 3.0));
                 let least = points.iter().map(|q| (p - *q).norm_squared()).fold(f64::INFINITY, f64::min);
                 let first = points.iter().position(|q| (p - *q).norm_squared() == least).unwrap();
-                assert_eq!(path.paper(p).unwrap().point, first);
+                assert_eq!(path.nearest_by_tasbid_rule(p).unwrap().point, first);
                 let exact = (0..count).filter_map(|k| path.segment(k)).map(|(a, b)| distance_to_segment_squared(p, a, b));
                 let exact = exact.fold(least, f64::min).sqrt();
-                assert_eq!(path.exact(p).unwrap().distance_m, exact);
+                assert_eq!(path.nearest_exact(p).unwrap().distance_m, exact);
                 assert!(((p - path.closest_position(p).unwrap()).norm() - exact).abs() < 1e-12);
             }
         }

@@ -47,6 +47,6 @@ impl DetectionTally {
     /// Returns 100 times the F-measure; `None` if no defect was placed.
     #[must_use]
     pub fn score(&self, beta: f64) -> Option<Score> {
-        Some(Score::on_scale(100.0 * self.f_beta(beta)?, 0.0, 100.0))
+        Some(Score::clamped_to_scale(100.0 * self.f_beta(beta)?, 0.0, 100.0))
     }
 }

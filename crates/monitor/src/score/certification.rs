@@ -4,7 +4,7 @@
 use crate::measures::coverage::PathCoverage;
 use crate::measures::crash::{self, Crash};
 use crate::measures::on_path::{OnPath, ReferencePaths};
-use crate::score::completion::{Completion, TaskState, missing};
+use crate::score::completion::{Completion, TaskState, describe_unfinished_task};
 use crate::score::{Score, accuracy, conformity, efficiency};
 use crate::session::{EndReason, Session};
 use serde::Serialize;
@@ -29,9 +29,9 @@ const CRASH_REFERENCE_SPEED_M_S: f64 = 2.0;
 /// Maximum loss per crash, points (estimate).
 const MAX_CRASH_LOSS: f64 = 30.0;
 /// Points lost per second below the minimum clearance (estimate: one minute costs as much as two minimum-loss crashes).
-const EXPOSURE_LOSS_PER_S: f64 = 0.1;
+const LOW_CLEARANCE_LOSS_PER_S: f64 = 0.1;
 /// Maximum loss for low clearance, points (estimate).
-const MAX_EXPOSURE_LOSS: f64 = 50.0;
+const MAX_LOW_CLEARANCE_LOSS: f64 = 50.0;
 
 /// Certification results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -171,23 +171,23 @@ pub struct CertificationInputs<'a> {
 
 /// Evaluates a session against the certification profile.
 #[must_use]
-pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
-    let scenario = evidence.scenario;
-    let frames = &evidence.session.frames;
-    let tasks = visits(evidence);
-    let attempted: Vec<bool> = evidence.on_path.windows.iter().map(Option::is_some).collect();
-    let crashes = merge_crashes(evidence);
-    let exposure_s = exposure_s(evidence);
+pub fn grade(inputs: &CertificationInputs<'_>) -> Certification {
+    let scenario = inputs.scenario;
+    let frames = &inputs.session.frames;
+    let tasks = visits(inputs);
+    let attempted: Vec<bool> = inputs.on_path.windows.iter().map(Option::is_some).collect();
+    let crashes = merge_crashes(inputs);
+    let exposure_s = low_clearance_time_s(inputs);
     let battery_at_end_pct = frames.last().map_or(0.0, |frame| frame.battery_pct);
-    let gates = check_requirements(evidence, attempted.iter().all(|a| *a), battery_at_end_pct);
-    let unmet = unmet(evidence, &gates, battery_at_end_pct);
+    let gates = check_requirements(inputs, attempted.iter().all(|a| *a), battery_at_end_pct);
+    let unmet = unmet(inputs, &gates, battery_at_end_pct);
     let none_entered = !attempted.is_empty() && attempted.iter().all(|a| !a);
     let whole = gates.landed_at_home && gates.all_tasks_attempted;
     let scores = CertificationScores {
         conformity: if none_entered { None } else { coverage_weighted_conformity(&tasks, scenario) },
-        efficiency: if whole { tasbid_efficiency(evidence) } else { 0.0 },
+        efficiency: if whole { tasbid_efficiency(inputs) } else { 0.0 },
         safety: safety(&gates, &crashes, exposure_s),
-        accuracy: evidence.counts.score(scenario.scoring.beta).map(|score| score.pct),
+        accuracy: inputs.counts.score(scenario.scoring.beta).map(|score| score.pct),
     };
     Certification {
         passed: unmet.is_empty(),
@@ -196,35 +196,37 @@ pub fn grade(evidence: &CertificationInputs<'_>) -> Certification {
         scores,
         flags: flags(scenario, &attempted, none_entered),
         tasks,
-        crash_onsets: evidence.crashes.len(),
+        crash_onsets: inputs.crashes.len(),
         crashes,
         exposure_s,
         battery_at_end_pct,
-        detection: detection(evidence),
+        detection: detection(inputs),
     }
 }
 
-fn check_requirements(evidence: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Requirements {
-    let landed = evidence.session.reason == EndReason::Landed;
+fn check_requirements(inputs: &CertificationInputs<'_>, all_tasks_attempted: bool, battery_pct: f64) -> Requirements {
+    let landed = inputs.session.reason == EndReason::Landed;
     let traffic = |crash: &Crash| matches!(crash.with, ContactKind::Person | ContactKind::Vehicle);
     Requirements {
-        session_complete: evidence.completion.complete,
+        session_complete: inputs.completion.complete,
         all_tasks_attempted,
-        no_person_or_vehicle_hit: !evidence.crashes.iter().any(traffic),
+        no_person_or_vehicle_hit: !inputs.crashes.iter().any(traffic),
         landed_at_home: landed,
         battery_reserve: landed && battery_pct >= MIN_LANDING_BATTERY_PCT,
     }
 }
 
 /// Returns the unmet requirements as text. Omits the battery reserve if the drone did not land.
-fn unmet(evidence: &CertificationInputs<'_>, gates: &Requirements, battery_pct: f64) -> Vec<String> {
-    let done_share = evidence.completion.done_share;
-    let tasks = evidence.scenario.tasks.iter().zip(evidence.states).zip(evidence.covered);
+fn unmet(inputs: &CertificationInputs<'_>, gates: &Requirements, battery_pct: f64) -> Vec<String> {
+    let done_share = inputs.completion.done_share;
+    let tasks = inputs.scenario.tasks.iter().zip(inputs.states).zip(inputs.covered);
     let mut unmet = Vec::new();
     if !gates.no_person_or_vehicle_hit {
         unmet.push("a person or vehicle was hit".to_owned());
     }
-    unmet.extend(tasks.filter_map(|((task, state), covered)| missing(task.id, *state, covered.share, done_share)));
+    unmet.extend(
+        tasks.filter_map(|((task, state), covered)| describe_unfinished_task(task.id, *state, covered.share, done_share)),
+    );
     if !gates.landed_at_home {
         unmet.push("not landed at home".to_owned());
     } else if !gates.battery_reserve {
@@ -243,9 +245,9 @@ fn flags(scenario: &Scenario, attempted: &[bool], none_entered: bool) -> Vec<Str
     flags
 }
 
-fn tasbid_efficiency(evidence: &CertificationInputs<'_>) -> f64 {
-    let scoring = &evidence.scenario.scoring;
-    efficiency::score(evidence.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
+fn tasbid_efficiency(inputs: &CertificationInputs<'_>) -> f64 {
+    let scoring = &inputs.scenario.scoring;
+    efficiency::score(inputs.session.seconds(scoring.frame_rate_hz), false, scoring.time_best_s, scoring.time_max_s).pct
 }
 
 /// Returns the visits to a task: on-path intervals, merged if they are less than `apart_frames` apart.
@@ -260,23 +262,23 @@ fn visit_ranges(on_path: &OnPath, task: usize, apart_frames: f64) -> Vec<(usize,
     ranges
 }
 
-fn visits(evidence: &CertificationInputs<'_>) -> Vec<TaskVisits> {
-    let scenario = evidence.scenario;
+fn visits(inputs: &CertificationInputs<'_>) -> Vec<TaskVisits> {
+    let scenario = inputs.scenario;
     let apart = VISIT_MERGE_GAP_S * scenario.scoring.frame_rate_hz;
     let limit = scenario.scoring.speed_limit_m_s;
-    let frames = &evidence.session.frames;
+    let frames = &inputs.session.frames;
     let ranges: Vec<Vec<(usize, usize)>> =
-        (0..scenario.tasks.len()).map(|task| visit_ranges(evidence.on_path, task, apart)).collect();
+        (0..scenario.tasks.len()).map(|task| visit_ranges(inputs.on_path, task, apart)).collect();
     let one = |(task, ranges): (usize, &Vec<(usize, usize)>)| {
         let count: usize = ranges.iter().map(|(first, last)| last - first + 1).sum();
-        let on = evidence.on_path.task.iter().filter(|on| on.is_some_and(|(t, _)| t == task)).count();
+        let on = inputs.on_path.task.iter().filter(|on| on.is_some_and(|(t, _)| t == task)).count();
         let inside = ranges.iter().flat_map(|(first, last)| &frames[*first..=*last]);
         let loss: f64 = inside.map(Frame::speed_m_s).filter(|v| *v > limit).map(|v| v / limit).sum();
         let per_frame = |sum: f64| if count == 0 { 0.0 } else { (sum + 0.0) / count as f64 };
         TaskVisits {
             id: scenario.tasks[task].id,
             visits: ranges.iter().map(|(first, last)| (frames[*first].index, frames[*last].index)).collect(),
-            coverage: evidence.covered[task].share,
+            coverage: inputs.covered[task].share,
             on_path: per_frame(on as f64),
             speeding: per_frame(loss),
         }
@@ -297,28 +299,28 @@ fn crash_loss(speed_m_s: f64) -> f64 {
     (MIN_CRASH_LOSS * (1.0 + ratio * ratio)).min(MAX_CRASH_LOSS)
 }
 
-fn merge_crashes(evidence: &CertificationInputs<'_>) -> Vec<MergedCrash> {
-    let rate = evidence.scenario.scoring.frame_rate_hz;
-    crash::merge_crashes(evidence.crashes, CRASH_MERGE_GAP_S * rate)
+fn merge_crashes(inputs: &CertificationInputs<'_>) -> Vec<MergedCrash> {
+    let rate = inputs.scenario.scoring.frame_rate_hz;
+    crash::merge_crashes(inputs.crashes, CRASH_MERGE_GAP_S * rate)
         .iter()
         .map(|crash| MergedCrash {
-            frame: evidence.session.frames[crash.frame].index,
+            frame: inputs.session.frames[crash.frame].index,
             t_s: crash.frame as f64 / rate,
             with: crash.with,
             speed_m_s: crash.speed_m_s,
             loss: crash_loss(crash.speed_m_s),
-            task: crash.task.map(|task| evidence.scenario.tasks[task].id),
+            task: crash.task.map(|task| inputs.scenario.tasks[task].id),
         })
         .collect()
 }
 
 /// Returns the time spent below the minimum clearance in seconds. The limit is the scenario's or, if lower, that of the
 /// last task entered, as for the too-close cue.
-fn exposure_s(evidence: &CertificationInputs<'_>) -> f64 {
-    let scenario = evidence.scenario;
+fn low_clearance_time_s(inputs: &CertificationInputs<'_>) -> f64 {
+    let scenario = inputs.scenario;
     let mut current: Option<usize> = None;
     let mut frames = 0usize;
-    for (frame, on) in evidence.session.frames.iter().zip(&evidence.on_path.task) {
+    for (frame, on) in inputs.session.frames.iter().zip(&inputs.on_path.task) {
         current = on.map(|(task, _)| task).or(current);
         let own = current.and_then(|task| scenario.tasks[task].too_close_m);
         let limit = own.unwrap_or(f64::INFINITY).min(scenario.scoring.clearance_m);
@@ -334,19 +336,19 @@ fn safety(gates: &Requirements, crashes: &[MergedCrash], exposure_s: f64) -> f64
         return 0.0;
     }
     let crashes: f64 = crashes.iter().map(|crash| crash.loss).sum();
-    let closeness = (EXPOSURE_LOSS_PER_S * exposure_s).min(MAX_EXPOSURE_LOSS);
-    Score::on_scale(-crashes - closeness, -100.0, 0.0).pct
+    let closeness = (LOW_CLEARANCE_LOSS_PER_S * exposure_s).min(MAX_LOW_CLEARANCE_LOSS);
+    Score::clamped_to_scale(-crashes - closeness, -100.0, 0.0).pct
 }
 
-fn detection(evidence: &CertificationInputs<'_>) -> Detection {
+fn detection(inputs: &CertificationInputs<'_>) -> Detection {
     let mut detection = Detection {
         detection_only: true,
         by_element: BTreeMap::new(),
         by_kind: BTreeMap::new(),
         by_condition_state: BTreeMap::new(),
     };
-    for defect in evidence.defects {
-        let found = usize::from(evidence.found.contains(&defect.id));
+    for defect in inputs.defects {
+        let found = usize::from(inputs.found.contains(&defect.id));
         let add = |entry: &mut DetectionCounts| {
             entry.placed += 1;
             entry.found += found;

@@ -29,10 +29,10 @@ impl TaskState {
 
     /// Returns the state as text, with the percentage of the path flown.
     #[must_use]
-    pub fn words(self, covered: f64, done_share: f64) -> String {
+    pub fn description(self, covered: f64, done_share: f64) -> String {
         match self {
-            Self::Done => format!("done ({}% of path)", percent(covered, done_share)),
-            Self::Part => format!("partly flown ({}% of path)", percent(covered, done_share)),
+            Self::Done => format!("done ({}% of path)", format_percent(covered, done_share)),
+            Self::Part => format!("partly flown ({}% of path)", format_percent(covered, done_share)),
             Self::NotAttempted => "not attempted".to_owned(),
         }
     }
@@ -81,8 +81,11 @@ impl Completion {
         let word = if self.complete { "Complete" } else { "Incomplete" };
         // If there is only one task, its share determines whether the job is complete, so the text needs enough digits
         // to show why. Otherwise, a rounded share is enough.
-        let share =
-            if self.tasks == 1 { percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) };
+        let share = if self.tasks == 1 {
+            format_percent(self.path_share, self.done_share)
+        } else {
+            format!("{:.0}", 100.0 * self.path_share)
+        };
         let tasks = if self.tasks == 1 { "task" } else { "tasks" };
         format!("{word}: {} of {} {tasks}, {share}% of the path", self.tasks_done, self.tasks)
     }
@@ -97,18 +100,18 @@ impl Completion {
 
 /// Formats a fraction as a percentage, with enough digits to distinguish it from the limit.
 #[must_use]
-pub fn percent(share: f64, done_share: f64) -> String {
+pub fn format_percent(share: f64, done_share: f64) -> String {
     format_with_limit(100.0 * share, 100.0 * done_share, 0)
 }
 
 /// Describes why a task is incomplete; `None` if it is done.
 #[must_use]
-pub fn missing(id: u32, state: TaskState, covered: f64, done_share: f64) -> Option<String> {
+pub fn describe_unfinished_task(id: u32, state: TaskState, covered: f64, done_share: f64) -> Option<String> {
     match state {
         TaskState::Done => None,
         TaskState::Part => Some(format!(
             "task {id} not done: {}% of its path, {}% needed",
-            percent(covered, done_share),
+            format_percent(covered, done_share),
             format_limit(100.0 * done_share)
         )),
         TaskState::NotAttempted => Some(format!("task {id} not attempted")),

@@ -23,5 +23,5 @@ pub fn score(tasks: &[TaskShares], speed_limit_m_s: f64, max_speed_m_s: f64) -> 
     let speed_weight = -100.0 * speed_limit_m_s / (count * max_speed_m_s);
     let on_path: f64 = tasks.iter().map(|task| task.on_path).sum();
     let speeding: f64 = tasks.iter().map(|task| task.speeding).sum();
-    Some(Score::on_scale(path_weight * on_path + speed_weight * speeding, -100.0, 100.0))
+    Some(Score::clamped_to_scale(path_weight * on_path + speed_weight * speeding, -100.0, 100.0))
 }

@@ -8,5 +8,5 @@ use super::Score;
 pub fn score(seconds: f64, battery_failed: bool, time_best_s: f64, time_max_s: f64) -> Score {
     let over = (seconds - time_best_s).max(0.0);
     let raw = if battery_failed { -100.0 } else { 100.0 - 100.0 * over / (time_max_s - time_best_s) };
-    Score::on_scale(raw, -100.0, 100.0)
+    Score::clamped_to_scale(raw, -100.0, 100.0)
 }

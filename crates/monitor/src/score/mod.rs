@@ -25,7 +25,7 @@ pub struct Score {
 impl Score {
     /// Creates a score from a raw value, clamped to the range from `least` to `greatest`.
     #[must_use]
-    pub fn on_scale(raw: f64, least: f64, greatest: f64) -> Self {
+    pub fn clamped_to_scale(raw: f64, least: f64, greatest: f64) -> Self {
         // Adding 0.0 turns -0.0 into +0.0.
         let raw = raw.clamp(least, greatest) + 0.0;
         Self { raw, pct: (raw - least) / (greatest - least) * 100.0 }

@@ -1,13 +1,13 @@
 //! Outgoing messages: cues, texts, replies, and log events.
 
-use super::{AUTOPILOT_COMPONENT, COMPONENT, CUES_INTERVAL, Monitor, SessionOutput};
+use super::{AUTOPILOT_COMPONENT_ID, CUES_INTERVAL, MONITOR_COMPONENT_ID, Monitor, SessionOutput};
 use crate::feedback::{FeedbackInput, TaskProximity};
 use crate::session::lift_off_height_m;
 use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::contract::named_values::Named;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
@@ -19,8 +19,8 @@ const MIN_FLOWN_SHARE: f64 = 0.9;
 impl Monitor {
     pub(super) fn send_feedback(&mut self) {
         let Some(truth) = self.live.truth else { return };
-        let moment = self.input(&truth);
-        let (cues, texts) = self.feedback.update(&moment);
+        let input = self.input(&truth);
+        let (cues, texts) = self.feedback.update(&input);
         let changed = cues != self.live.cues;
         if changed {
             self.event("cues", json!({ "cues": cues }));
@@ -28,7 +28,7 @@ impl Monitor {
         self.live.cues = cues;
         if changed || self.live.cues_sent.is_none_or(|sent| truth.time - sent >= CUES_INTERVAL) {
             self.live.cues_sent = Some(truth.time);
-            self.send(&Named::Cues(cues).message(truth.time.ms() as u32));
+            self.send(&NamedValue::Cues(cues).message(truth.time.ms() as u32));
         }
         self.texts.enqueue(truth.time, texts);
         while let Some(text) = self.texts.next(truth.time) {
@@ -61,10 +61,10 @@ impl Monitor {
             battery_pct: self.live.battery_pct,
             clearance_m: self.live.clearance_m,
             contact,
-            touched: if onset { self.contact_name() } else { None },
+            contact_name: if onset { self.contact_name() } else { None },
             tasks: scenario.tasks.iter().enumerate().map(near).collect(),
             current_task: self.live.current_task,
-            last: self.live.last_task,
+            last_task: self.live.last_task,
         }
     }
 
@@ -87,7 +87,7 @@ impl Monitor {
 
     pub(super) fn handle_command(&mut self, received: &ReceivedFrame) {
         let ours = |system: u8, component: u8| {
-            (system == 0 || system == self.encoder.system_id()) && (component == 0 || component == COMPONENT)
+            (system == 0 || system == self.encoder.system_id()) && (component == 0 || component == MONITOR_COMPONENT_ID)
         };
         match &received.message {
             Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0 && ours(sync.target_system, sync.target_component) => {
@@ -99,17 +99,17 @@ impl Monitor {
                 };
                 self.send(&MavMessage::TIMESYNC(answer));
             }
-            Some(MavMessage::COMMAND_LONG(command)) if command.target_component == COMPONENT => {
-                if ours(command.target_system, COMPONENT) {
+            Some(MavMessage::COMMAND_LONG(command)) if command.target_component == MONITOR_COMPONENT_ID => {
+                if ours(command.target_system, MONITOR_COMPONENT_ID) {
                     self.reject_command(command.command, received);
                 }
             }
-            Some(MavMessage::COMMAND_INT(command)) if command.target_component == COMPONENT => {
-                if ours(command.target_system, COMPONENT) {
+            Some(MavMessage::COMMAND_INT(command)) if command.target_component == MONITOR_COMPONENT_ID => {
+                if ours(command.target_system, MONITOR_COMPONENT_ID) {
                     self.reject_command(command.command, received);
                 }
             }
-            Some(MavMessage::HEARTBEAT(_)) if received.component_id == AUTOPILOT_COMPONENT => {
+            Some(MavMessage::HEARTBEAT(_)) if received.component_id == AUTOPILOT_COMPONENT_ID => {
                 self.adopt_system(received.system_id)
             }
             Some(_) | None => {}
@@ -120,16 +120,16 @@ impl Monitor {
     fn adopt_system(&mut self, system: u8) {
         let system = self.timeline.system().unwrap_or(system);
         if system != self.encoder.system_id() {
-            self.encoder = Encoder::new(system, COMPONENT);
+            self.encoder = Encoder::new(system, MONITOR_COMPONENT_ID);
         }
     }
 
-    fn reject_command(&mut self, command: MavCmd, asker: &ReceivedFrame) {
+    fn reject_command(&mut self, command: MavCmd, requester: &ReceivedFrame) {
         self.send(&MavMessage::COMMAND_ACK(COMMAND_ACK_DATA {
             command,
             result: MavResult::MAV_RESULT_UNSUPPORTED,
-            target_system: asker.system_id,
-            target_component: asker.component_id,
+            target_system: requester.system_id,
+            target_component: requester.component_id,
             ..COMMAND_ACK_DATA::default()
         }));
     }
@@ -146,7 +146,7 @@ impl Monitor {
     fn send(&mut self, message: &MavMessage) {
         if !self.replaying {
             let bytes = self.encoder.encode(message);
-            self.out.push_back(bytes);
+            self.outgoing.push_back(bytes);
         }
     }
 

@@ -35,9 +35,9 @@ mod messages;
 mod telemetry_intake;
 
 /// The monitor's component ID (MAV_COMP_ID_ONBOARD_COMPUTER).
-pub const COMPONENT: u8 = 191;
+pub const MONITOR_COMPONENT_ID: u8 = 191;
 /// The autopilot's component ID (MAV_COMP_ID_AUTOPILOT1).
-const AUTOPILOT_COMPONENT: u8 = 1;
+const AUTOPILOT_COMPONENT_ID: u8 = 1;
 /// Interval at which the monitor repeats `cues`, 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_INTERVAL: SimTime = SimTime::from_ms(200);
 /// Heartbeat interval in simulation time, which keeps runs reproducible at any simulation speed.
@@ -110,9 +110,9 @@ struct LiveState {
     last_task: Option<usize>,
     /// For each task and path point, whether it was ever the nearest point while the drone was on the path.
     visited_points: Vec<Vec<bool>>,
-    rule: EndRule,
+    end_rule: EndRule,
     end: Option<(SimTime, EndReason)>,
-    end_check_after: SimTime,
+    next_end_check: SimTime,
     cues: i32,
     cues_sent: Option<SimTime>,
     respawns: Option<i32>,
@@ -134,14 +134,14 @@ pub struct Monitor {
     live: LiveState,
     survey: Option<Arc<dyn SiteSurvey>>,
     seed: Option<u64>,
-    out: VecDeque<Vec<u8>>,
+    outgoing: VecDeque<Vec<u8>>,
     records: VecDeque<SessionOutput>,
     replaying: bool,
-    heartbeat_sim: Option<SimTime>,
-    heartbeat_wall: Option<SimTime>,
-    last_received_wall: Option<SimTime>,
+    last_heartbeat_sim_time: Option<SimTime>,
+    last_heartbeat_wall_time: Option<SimTime>,
+    last_received_wall_time: Option<SimTime>,
     vehicle_received: bool,
-    refusal: Option<AssessError>,
+    rejection: Option<AssessError>,
     outcome: Option<Result<AssessedSession, AssessError>>,
 }
 
@@ -153,7 +153,7 @@ impl Monitor {
         Self {
             paths: ReferencePaths::new(scenario),
             decoder: Decoder::new(),
-            encoder: Encoder::new(config.system_id, COMPONENT),
+            encoder: Encoder::new(config.system_id, MONITOR_COMPONENT_ID),
             timeline: Timeline::new(LocalPlane::new(scenario.origin)),
             zero_unix_us: None,
             feedback: FeedbackRules::new(scenario),
@@ -161,14 +161,14 @@ impl Monitor {
             live: LiveState::new(&config),
             survey: None,
             seed: config.seed.or(scenario.seed),
-            out: VecDeque::new(),
+            outgoing: VecDeque::new(),
             records: VecDeque::new(),
             replaying: false,
-            heartbeat_sim: None,
-            heartbeat_wall: None,
-            last_received_wall: None,
+            last_heartbeat_sim_time: None,
+            last_heartbeat_wall_time: None,
+            last_received_wall_time: None,
             vehicle_received: false,
-            refusal: None,
+            rejection: None,
             outcome: None,
             config,
         }
@@ -183,7 +183,7 @@ impl Monitor {
         let mut monitor = Self::new(config);
         monitor.replaying = true;
         log.for_each_record(&mut |record| {
-            monitor.zero_unix_us = monitor.zero_unix_us.or_else(|| tlog::zero_of_record_us(&record));
+            monitor.zero_unix_us = monitor.zero_unix_us.or_else(|| tlog::record_simulation_zero_us(&record));
             for received in monitor.decoder.datagram(record.frame) {
                 monitor.ingest_frame(&received);
             }
@@ -205,7 +205,7 @@ impl Monitor {
             message => message.is_some() && system.is_some(),
         };
         let fits = |frame: &ReceivedFrame| {
-            frame.component_id == AUTOPILOT_COMPONENT && system.is_none_or(|system| system == frame.system_id)
+            frame.component_id == AUTOPILOT_COMPONENT_ID && system.is_none_or(|system| system == frame.system_id)
         };
         Decoder::new().datagram(bytes).iter().any(|frame| fits(frame) && beats(frame))
     }
@@ -228,14 +228,14 @@ impl Monitor {
     /// Updates the wall-clock time, measured from an arbitrary fixed instant. Required only while simulation time does
     /// not advance.
     pub fn handle_timeout(&mut self, wall: SimTime) {
-        if std::mem::take(&mut self.vehicle_received) || self.last_received_wall.is_none() {
-            self.last_received_wall = Some(wall);
+        if std::mem::take(&mut self.vehicle_received) || self.last_received_wall_time.is_none() {
+            self.last_received_wall_time = Some(wall);
         }
-        if self.heartbeat_wall.is_none_or(|last| wall - last >= HEARTBEAT_WALL_INTERVAL) {
+        if self.last_heartbeat_wall_time.is_none_or(|last| wall - last >= HEARTBEAT_WALL_INTERVAL) {
             self.heartbeat();
-            self.heartbeat_wall = Some(wall);
+            self.last_heartbeat_wall_time = Some(wall);
         }
-        let silent = self.last_received_wall.is_some_and(|heard| wall - heard >= SILENCE_TIMEOUT);
+        let silent = self.last_received_wall_time.is_some_and(|heard| wall - heard >= SILENCE_TIMEOUT);
         if silent && self.live.end.is_some() {
             self.close();
         }
@@ -243,7 +243,7 @@ impl Monitor {
 
     /// Returns the next datagram to send to the vehicle, if any.
     pub fn poll_transmit(&mut self) -> Option<Vec<u8>> {
-        self.out.pop_front()
+        self.outgoing.pop_front()
     }
 
     /// Returns the next data to write to the session folder, if any.
@@ -260,7 +260,7 @@ impl Monitor {
     /// Returns the reason why the telemetry was rejected; `None` if it was not.
     #[must_use]
     pub fn refused(&self) -> Option<&AssessError> {
-        self.refusal.as_ref()
+        self.rejection.as_ref()
     }
 
     /// Ends the session immediately (user abort or closed link) and scores the flight up to this point.
@@ -281,8 +281,8 @@ impl Monitor {
         self.timeline = Timeline::new(LocalPlane::new(self.config.scenario.origin));
         self.survey = None;
         self.records = VecDeque::new();
-        if let Some(Ok(graded)) = &mut self.outcome {
-            graded.frames = Vec::new();
+        if let Some(Ok(assessed_session)) = &mut self.outcome {
+            assessed_session.frames = Vec::new();
         }
     }
 
@@ -377,9 +377,9 @@ impl LiveState {
             current_task: None,
             last_task: None,
             visited_points: config.scenario.tasks.iter().map(|task| vec![false; task.path_m.len()]).collect(),
-            rule: EndRule::new(&config.scenario, &config.vehicle),
+            end_rule: EndRule::new(&config.scenario, &config.vehicle),
             end: None,
-            end_check_after: SimTime::ZERO,
+            next_end_check: SimTime::ZERO,
             cues: 0,
             cues_sent: None,
             respawns: None,

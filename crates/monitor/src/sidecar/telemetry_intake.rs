@@ -1,6 +1,8 @@
 //! Processing of received telemetry frames: log timestamps, live state, events and session end.
 
-use super::{COMPONENT, CONTACT_SEARCH_RADIUS_M, END_RETRY_DELAY, HEARTBEAT_INTERVAL, LiveState, Monitor, SCORING_DELAY};
+use super::{
+    CONTACT_SEARCH_RADIUS_M, END_RETRY_DELAY, HEARTBEAT_INTERVAL, LiveState, MONITOR_COMPONENT_ID, Monitor, SCORING_DELAY,
+};
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
@@ -44,7 +46,7 @@ impl Monitor {
 
     /// Logs an instructor's note at the current time.
     pub(super) fn log_instructor_note(&mut self, received: &ReceivedFrame) {
-        if let Some(((system, COMPONENT), text)) = instructor_note::decode(received)
+        if let Some(((system, MONITOR_COMPONENT_ID), text)) = instructor_note::decode(received)
             && system == self.encoder.system_id()
         {
             self.event("note", json!({ "text": text }));
@@ -60,7 +62,7 @@ impl Monitor {
         self.live = LiveState::new(&self.config);
         self.feedback = FeedbackRules::new(&self.config.scenario);
         self.texts = TextQueue::default();
-        self.heartbeat_sim = None;
+        self.last_heartbeat_sim_time = None;
         self.handle_sample(sample, None);
     }
 
@@ -86,7 +88,7 @@ impl Monitor {
             SampleValue::Seed(seed) => self.handle_seed(seed),
             SampleValue::ScenarioCrc(crc) => {
                 if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
-                    self.refuse(error);
+                    self.reject_telemetry(error);
                 }
             }
             SampleValue::Clearance(meters) => self.live.clearance_m = Some(meters),
@@ -103,7 +105,7 @@ impl Monitor {
 
     fn handle_seed(&mut self, seed: u64) {
         if let Err(error) = assessment::check_seed(self.seed, seed) {
-            self.refuse(error);
+            self.reject_telemetry(error);
             return;
         }
         self.seed = Some(seed);
@@ -114,11 +116,11 @@ impl Monitor {
         }
     }
 
-    fn refuse(&mut self, error: AssessError) {
-        if self.refusal.is_none() {
+    fn reject_telemetry(&mut self, error: AssessError) {
+        if self.rejection.is_none() {
             self.event("refused", json!({ "why": error.to_string() }));
             self.text("Monitor: scenario or seed mismatch", MavSeverity::MAV_SEVERITY_WARNING);
-            self.refusal = Some(error.clone());
+            self.rejection = Some(error.clone());
             self.outcome = Some(Err(error));
         }
     }
@@ -154,8 +156,8 @@ impl Monitor {
         self.send_feedback();
         self.check_end(&truth);
         let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_INTERVAL);
-        if due(self.heartbeat_sim) {
-            self.heartbeat_sim = Some(truth.time);
+        if due(self.last_heartbeat_sim_time) {
+            self.last_heartbeat_sim_time = Some(truth.time);
             self.heartbeat();
         }
     }
@@ -168,7 +170,7 @@ impl Monitor {
         if self.live.lift_off.is_none() {
             return;
         }
-        let on = self.paths.on(position_m, self.live.last_task);
+        let on = self.paths.task_on_path(position_m, self.live.last_task);
         if let Some((task, nearest)) = on
             && let Some(passed) = self.live.visited_points[task].get_mut(nearest.point)
         {
@@ -222,11 +224,11 @@ impl Monitor {
 
     fn check_end(&mut self, truth: &Truth) {
         let Some(start) = self.live.lift_off else { return };
-        if self.live.end.is_none() && truth.time >= self.live.end_check_after {
+        if self.live.end.is_none() && truth.time >= self.live.next_end_check {
             let rate = self.config.scenario.scoring.frame_rate_hz;
-            let moment = EndInput {
+            let end_input = EndInput {
                 time: truth.time,
-                flown_s: (truth.time - start).s() + 1.0 / rate,
+                flight_time_s: (truth.time - start).s() + 1.0 / rate,
                 position_m: truth.motion.position_m,
                 speed_m_s: truth.motion.velocity_m_s.norm(),
                 contact: self.counted_contact(),
@@ -234,7 +236,7 @@ impl Monitor {
                 armed: self.live.armed,
                 on_ground: self.live.on_ground,
             };
-            self.live.end = self.live.rule.update(&moment).map(|(_, reason)| (truth.time, reason));
+            self.live.end = self.live.end_rule.update(&end_input).map(|(_, reason)| (truth.time, reason));
         }
         if let Some((time, _)) = self.live.end
             && truth.time - time >= SCORING_DELAY
@@ -249,16 +251,16 @@ impl Monitor {
     fn try_to_finish(&mut self, now: SimTime) {
         let outcome = self.score();
         match &outcome {
-            Ok(graded) if graded.assessment.end.reason == EndReason::Abort => {
+            Ok(assessed_session) if assessed_session.assessment.end.reason == EndReason::Abort => {
                 self.live.end = None;
-                self.live.end_check_after = now + END_RETRY_DELAY;
+                self.live.next_end_check = now + END_RETRY_DELAY;
             }
             Ok(_) | Err(_) => self.finish(outcome),
         }
     }
 
     pub(super) fn score(&mut self) -> Result<AssessedSession, AssessError> {
-        if let Some(refused) = &self.refusal {
+        if let Some(refused) = &self.rejection {
             return Err(refused.clone());
         }
         let Self { config, timeline, survey, .. } = self;
@@ -273,10 +275,10 @@ impl Monitor {
 
     pub(super) fn finish(&mut self, outcome: Result<AssessedSession, AssessError>) {
         let (reason, words) = match &outcome {
-            Ok(graded) => {
-                let (overall, completion) = (graded.assessment.scores.overall, graded.assessment.completion);
+            Ok(assessed_session) => {
+                let (overall, completion) = (assessed_session.assessment.scores.overall, assessed_session.assessment.completion);
                 let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.summary() };
-                (json!(graded.assessment.end.reason), words)
+                (json!(assessed_session.assessment.end.reason), words)
             }
             Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),
         };

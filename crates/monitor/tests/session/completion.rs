@@ -74,8 +74,8 @@ fn regress_session_without_tasks_flown_is_incomplete() {
 
 #[test]
 fn regress_session_without_landing_at_home_is_incomplete() {
-    let graded = score_tape(&flown(100.0, false), &scenario_with_long_task());
-    let assessment = &graded.assessment;
+    let assessed_session = score_tape(&flown(100.0, false), &scenario_with_long_task());
+    let assessment = &assessed_session.assessment;
     assert_eq!((assessment.end.reason, assessment.tasks[0].state), (EndReason::Abort, TaskState::Done));
     assert!(!assessment.completion.complete);
     assert_eq!(assessment.completion.headline(), "Incomplete: 1 of 1 task, 100% of the path, not landed at home");
@@ -96,7 +96,7 @@ fn regress_half_flown_path_is_not_certified() {
 }
 
 #[test]
-fn regress_hold_position_task_is_done_by_reaching_it() {
+fn regress_reaching_hold_position_completes_task() {
     let job = scenario(vec![task(1, line((0.0, 15.0, 10.0), (0.0, 15.4, 10.0)), 2.0)]);
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);

@@ -13,15 +13,15 @@ struct MonitoredFlight {
 }
 
 impl MonitoredFlight {
-    fn airborne() -> Self {
+    fn in_flight() -> Self {
         Self::of(one_task())
     }
 
     fn of(scenario: spandrel_model::scenario::Scenario) -> Self {
-        let mut watch = Self { monitor: new_monitor(scenario), tape: Tape::new(), texts: Vec::new() };
-        watch.tape.fly((0.0, 0.0, 10.0), 2.0);
-        watch.run();
-        watch
+        let mut monitored = Self { monitor: new_monitor(scenario), tape: Tape::new(), texts: Vec::new() };
+        monitored.tape.fly((0.0, 0.0, 10.0), 2.0);
+        monitored.run();
+        monitored
     }
 
     /// Sends the tape's datagrams to the monitor and returns the time and active cues after each one.
@@ -46,25 +46,25 @@ impl MonitoredFlight {
 
 #[test]
 fn exact_off_path_cue_has_delay_and_hold_time() {
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.fly((30.0, 0.0, 10.0), 20.0);
-    watch.run();
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((30.0, 0.0, 10.0), 20.0);
+    monitored.run();
     // The drone moves sideways at 10 m/s. A distance of 5 m is beyond the 3 m threshold but within 8 m.
-    watch.tape.fly((30.0, 5.0, 10.0), 10.0);
-    let left = watch.tape.now_ms;
-    watch.tape.hold(3.0);
-    let cues = watch.run();
+    monitored.tape.fly((30.0, 5.0, 10.0), 10.0);
+    let left = monitored.tape.now_ms;
+    monitored.tape.hold(3.0);
+    let cues = monitored.run();
     let on = cues.iter().find(|(_, cues)| cues & cue::OFF_PATH != 0).unwrap().0;
     // The drone passed 3 m about 0.2 s before it reached 5 m. Messages are 20 ms apart.
     assert!((on as i64 - (i64::from(left) - 200 + 1_000)).abs() <= 20, "left path at {left}, cue on at {on}");
     // The drone returns to the path within half a second, but the cue stays on for two seconds.
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.fly((30.0, 0.0, 10.0), 20.0);
-    watch.tape.fly((30.0, 5.0, 10.0), 10.0);
-    watch.tape.hold(0.9);
-    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
-    watch.tape.hold(3.0);
-    let cues = watch.run();
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((30.0, 0.0, 10.0), 20.0);
+    monitored.tape.fly((30.0, 5.0, 10.0), 10.0);
+    monitored.tape.hold(0.9);
+    monitored.tape.fly((30.0, 0.0, 10.0), 10.0);
+    monitored.tape.hold(3.0);
+    let cues = monitored.run();
     let on: Vec<u32> = cues.iter().filter(|(_, cues)| cues & cue::OFF_PATH != 0).map(|(time, _)| *time).collect();
     let shown = on.last().unwrap() - on.first().unwrap();
     assert!((1_960..2_000).contains(&shown), "{shown} ms");
@@ -72,69 +72,69 @@ fn exact_off_path_cue_has_delay_and_hold_time() {
 
 #[test]
 fn exact_short_swerve_and_distant_drone_are_not_off_path() {
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.fly((30.0, 0.0, 10.0), 20.0);
-    watch.tape.fly((30.0, 5.0, 10.0), 10.0);
-    watch.tape.hold(0.5);
-    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
-    watch.tape.hold(2.0);
-    watch.tape.fly((30.0, 20.0, 10.0), 30.0);
-    watch.tape.hold(3.0);
-    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0));
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((30.0, 0.0, 10.0), 20.0);
+    monitored.tape.fly((30.0, 5.0, 10.0), 10.0);
+    monitored.tape.hold(0.5);
+    monitored.tape.fly((30.0, 0.0, 10.0), 10.0);
+    monitored.tape.hold(2.0);
+    monitored.tape.fly((30.0, 20.0, 10.0), 30.0);
+    monitored.tape.hold(3.0);
+    assert!(monitored.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0));
 }
 
 #[test]
 fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
     // The path runs from 10 to 60 m east; its threshold is 3 m.
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.fly((-20.0, 20.0, 10.0), 4.0);
-    watch.tape.fly((30.0, 20.0, 10.0), 8.0);
-    watch.tape.fly((30.0, 0.0, 10.0), 1.0);
-    watch.tape.fly((60.0, 0.0, 10.0), 4.0);
-    watch.tape.fly((80.0, 0.0, 10.0), 1.0);
-    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((-20.0, 20.0, 10.0), 4.0);
+    monitored.tape.fly((30.0, 20.0, 10.0), 8.0);
+    monitored.tape.fly((30.0, 0.0, 10.0), 1.0);
+    monitored.tape.fly((60.0, 0.0, 10.0), 4.0);
+    monitored.tape.fly((80.0, 0.0, 10.0), 1.0);
+    assert!(monitored.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", monitored.texts);
     // Once the drone has left the task, passing near its path on the way home doesn't raise the cue.
-    watch.tape.fly((70.0, 6.0, 10.0), 4.0);
-    watch.tape.fly((0.0, 6.0, 10.0), 4.0);
-    assert!(watch.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", watch.texts);
+    monitored.tape.fly((70.0, 6.0, 10.0), 4.0);
+    monitored.tape.fly((0.0, 6.0, 10.0), 4.0);
+    assert!(monitored.run().iter().all(|(_, cues)| cues & cue::OFF_PATH == 0), "{:?}", monitored.texts);
 }
 
 #[test]
-fn regress_hovering_beside_end_or_leaving_mid_path_is_off_path() {
+fn regress_hovering_beside_path_end_or_leaving_mid_path_is_off_path() {
     for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
-        let mut watch = MonitoredFlight::airborne();
-        watch.tape.fly((30.0, 0.0, 10.0), 4.0);
-        watch.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
-        watch.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
-        watch.tape.hold(3.0);
-        watch.run();
-        assert!(watch.has(cue::OFF_PATH), "{to_m:?}");
+        let mut monitored = MonitoredFlight::in_flight();
+        monitored.tape.fly((30.0, 0.0, 10.0), 4.0);
+        monitored.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
+        monitored.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
+        monitored.tape.hold(3.0);
+        monitored.run();
+        assert!(monitored.has(cue::OFF_PATH), "{to_m:?}");
     }
 }
 
 #[test]
 fn exact_too_close_cue_has_hysteresis() {
-    let mut watch = MonitoredFlight::airborne();
+    let mut monitored = MonitoredFlight::in_flight();
     for (meters, on) in [(3.0, false), (2.6, false), (2.4, true), (2.6, true), (2.79, true), (2.81, false), (2.6, false)] {
-        watch.tape.clearance(meters);
-        watch.tape.hold(0.1);
-        watch.run();
-        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{meters} m");
+        monitored.tape.clearance(meters);
+        monitored.tape.hold(0.1);
+        monitored.run();
+        assert_eq!(monitored.has(cue::TOO_CLOSE), on, "{meters} m");
     }
-    assert_eq!(watch.texts, ["Too close: 2.4 m"]);
+    assert_eq!(monitored.texts, ["Too close: 2.4 m"]);
 }
 
 #[test]
 fn exact_task_clearance_limit_applies_on_its_path() {
     let mut scenario = one_task();
     scenario.tasks[0].too_close_m = Some(1.0);
-    let mut watch = MonitoredFlight::of(scenario);
-    watch.tape.fly((30.0, 0.0, 10.0), 4.0);
+    let mut monitored = MonitoredFlight::of(scenario);
+    monitored.tape.fly((30.0, 0.0, 10.0), 4.0);
     for (meters, on) in [(1.5, false), (0.9, true), (1.2, true), (1.31, false)] {
-        watch.tape.clearance(meters);
-        watch.tape.hold(0.1);
-        watch.run();
-        assert_eq!(watch.has(cue::TOO_CLOSE), on, "{meters} m");
+        monitored.tape.clearance(meters);
+        monitored.tape.hold(0.1);
+        monitored.run();
+        assert_eq!(monitored.has(cue::TOO_CLOSE), on, "{meters} m");
     }
 }
 
@@ -142,99 +142,101 @@ fn exact_task_clearance_limit_applies_on_its_path() {
 fn regress_task_clearance_limit_applies_near_its_path() {
     let mut scenario = one_task();
     scenario.tasks[0].too_close_m = Some(1.0);
-    let mut watch = MonitoredFlight::of(scenario);
-    watch.tape.fly((30.0, 20.0, 10.0), 8.0);
-    watch.tape.fly((30.0, 6.0, 10.0), 4.0);
-    watch.tape.clearance(1.5);
-    watch.tape.hold(0.1);
-    watch.run();
-    assert!(!watch.has(cue::TOO_CLOSE));
-    watch.tape.fly((30.0, 12.0, 10.0), 4.0);
-    watch.run();
-    assert!(watch.has(cue::TOO_CLOSE), "away from the task, the scenario's limit applies");
+    let mut monitored = MonitoredFlight::of(scenario);
+    monitored.tape.fly((30.0, 20.0, 10.0), 8.0);
+    monitored.tape.fly((30.0, 6.0, 10.0), 4.0);
+    monitored.tape.clearance(1.5);
+    monitored.tape.hold(0.1);
+    monitored.run();
+    assert!(!monitored.has(cue::TOO_CLOSE));
+    monitored.tape.fly((30.0, 12.0, 10.0), 4.0);
+    monitored.run();
+    assert!(monitored.has(cue::TOO_CLOSE), "away from the task, the scenario's limit applies");
 }
 
 #[test]
-fn exact_no_too_close_cue_before_lift_off() {
-    let mut watch = MonitoredFlight { monitor: new_monitor(one_task()), tape: Tape::new(), texts: Vec::new() };
-    watch.tape.clearance(0.5);
-    watch.tape.hold(1.0);
-    watch.run();
-    assert!(!watch.has(cue::TOO_CLOSE));
+fn exact_too_close_cue_is_off_before_lift_off() {
+    let mut monitored = MonitoredFlight { monitor: new_monitor(one_task()), tape: Tape::new(), texts: Vec::new() };
+    monitored.tape.clearance(0.5);
+    monitored.tape.hold(1.0);
+    monitored.run();
+    assert!(!monitored.has(cue::TOO_CLOSE));
 }
 
 #[test]
-fn exact_speeding_cue_only_on_or_near_path() {
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.fly((30.0, 0.0, 10.0), 4.4);
-    watch.run();
-    assert!(!watch.has(cue::SPEEDING));
-    watch.tape.fly((40.0, 0.0, 10.0), 6.0);
-    watch.run();
-    assert!(watch.has(cue::SPEEDING));
-    assert_eq!(watch.texts.last().unwrap(), "Too fast: 13 mph, limit 10 mph");
-    watch.tape.hold(1.0);
-    watch.run();
-    assert!(!watch.has(cue::SPEEDING));
-    watch.tape.fly((40.0, 9.0, 10.0), 4.0);
-    watch.tape.fly((40.0, 40.0, 10.0), 6.0);
-    watch.run();
-    assert!(!watch.has(cue::SPEEDING));
+fn exact_speeding_cue_is_raised_only_on_or_near_path() {
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((30.0, 0.0, 10.0), 4.4);
+    monitored.run();
+    assert!(!monitored.has(cue::SPEEDING));
+    monitored.tape.fly((40.0, 0.0, 10.0), 6.0);
+    monitored.run();
+    assert!(monitored.has(cue::SPEEDING));
+    assert_eq!(monitored.texts.last().unwrap(), "Too fast: 13 mph, limit 10 mph");
+    monitored.tape.hold(1.0);
+    monitored.run();
+    assert!(!monitored.has(cue::SPEEDING));
+    monitored.tape.fly((40.0, 9.0, 10.0), 4.0);
+    monitored.tape.fly((40.0, 40.0, 10.0), 6.0);
+    monitored.run();
+    assert!(!monitored.has(cue::SPEEDING));
 }
 
 #[test]
 fn exact_texts_of_one_rule_are_rate_limited() {
-    let mut watch = MonitoredFlight::airborne();
+    let mut monitored = MonitoredFlight::in_flight();
     for _ in 0..20 {
-        watch.tape.clearance(2.4);
-        watch.tape.hold(0.1);
-        watch.tape.clearance(3.0);
-        watch.tape.hold(0.1);
+        monitored.tape.clearance(2.4);
+        monitored.tape.hold(0.1);
+        monitored.tape.clearance(3.0);
+        monitored.tape.hold(0.1);
     }
-    watch.run();
+    monitored.run();
     // The cue toggles for four seconds, but texts are at least five seconds apart.
-    assert_eq!(watch.texts.len(), 1);
+    assert_eq!(monitored.texts.len(), 1);
 }
 
 #[test]
 fn exact_crash_is_reported_immediately_and_first() {
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.clearance(2.0);
-    watch.tape.hold(0.02);
-    watch.tape.contact(1);
-    let cues = watch.run();
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.clearance(2.0);
+    monitored.tape.hold(0.02);
+    monitored.tape.contact(1);
+    let cues = monitored.run();
     assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is not on after the datagram with the contact");
-    assert_eq!(watch.texts, ["Too close: 2.0 m", "Crash: fence"]);
-    watch.tape.contact(0);
-    watch.tape.hold(1.9);
-    watch.run();
-    assert!(watch.has(cue::CRASH));
-    watch.tape.hold(0.2);
-    watch.run();
-    assert!(!watch.has(cue::CRASH));
+    assert_eq!(monitored.texts, ["Too close: 2.0 m", "Crash: fence"]);
+    monitored.tape.contact(0);
+    monitored.tape.hold(1.9);
+    monitored.run();
+    assert!(monitored.has(cue::CRASH));
+    monitored.tape.hold(0.2);
+    monitored.run();
+    assert!(!monitored.has(cue::CRASH));
 }
 
 #[test]
 fn exact_battery_cue_turns_yellow_then_red() {
-    let mut watch = MonitoredFlight::airborne();
+    let mut monitored = MonitoredFlight::in_flight();
     for (pct, bits) in [(70, 0), (69, cue::BATTERY_YELLOW), (30, cue::BATTERY_YELLOW), (29, cue::BATTERY_RED)] {
-        watch.tape.battery(pct);
-        watch.tape.hold(2.0);
-        watch.run();
-        assert_eq!(watch.monitor.cues(), bits, "{pct}%");
+        monitored.tape.battery(pct);
+        monitored.tape.hold(2.0);
+        monitored.run();
+        assert_eq!(monitored.monitor.cues(), bits, "{pct}%");
     }
-    assert_eq!(watch.texts, ["Battery 69%", "Battery 29%"]);
+    assert_eq!(monitored.texts, ["Battery 69%", "Battery 29%"]);
 }
 
 #[test]
 fn exact_cues_are_repeated_at_five_hertz() {
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.hold(10.0);
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.hold(10.0);
     let mut count = 0;
-    for datagram in std::mem::take(&mut watch.tape.datagrams) {
-        watch.monitor.handle_datagram(&datagram);
-        count +=
-            sent_messages(&mut watch.monitor).iter().filter(|message| matches!(message, MavMessage::NAMED_VALUE_INT(_))).count();
+    for datagram in std::mem::take(&mut monitored.tape.datagrams) {
+        monitored.monitor.handle_datagram(&datagram);
+        count += sent_messages(&mut monitored.monitor)
+            .iter()
+            .filter(|message| matches!(message, MavMessage::NAMED_VALUE_INT(_)))
+            .count();
     }
     assert_eq!(count, 50);
 }
@@ -242,46 +244,46 @@ fn exact_cues_are_repeated_at_five_hertz() {
 #[test]
 fn exact_too_close_cue_works_below_pad_height() {
     // In the TASBID job, the circle around the pier is 2 m below the pad.
-    let mut watch = MonitoredFlight::of(one_task());
-    watch.tape.fly((30.0, 0.0, 10.0), 10.0);
-    watch.tape.fly((30.0, 0.0, -2.0), 4.0);
-    watch.tape.clearance(2.0);
-    watch.tape.hold(0.1);
-    watch.run();
-    assert!(watch.has(cue::TOO_CLOSE));
-    assert_eq!(watch.texts.last().unwrap(), "Too close: 2.0 m");
+    let mut monitored = MonitoredFlight::of(one_task());
+    monitored.tape.fly((30.0, 0.0, 10.0), 10.0);
+    monitored.tape.fly((30.0, 0.0, -2.0), 4.0);
+    monitored.tape.clearance(2.0);
+    monitored.tape.hold(0.1);
+    monitored.run();
+    assert!(monitored.has(cue::TOO_CLOSE));
+    assert_eq!(monitored.texts.last().unwrap(), "Too close: 2.0 m");
 }
 
 #[test]
 fn exact_landing_on_pad_raises_no_too_close_cue() {
-    let mut watch = MonitoredFlight::airborne();
-    watch.tape.fly((0.0, 0.0, 0.2), 4.0);
-    watch.tape.clearance(0.2);
-    watch.tape.hold(0.1);
-    watch.run();
-    assert!(!watch.has(cue::TOO_CLOSE));
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((0.0, 0.0, 0.2), 4.0);
+    monitored.tape.clearance(0.2);
+    monitored.tape.hold(0.1);
+    monitored.run();
+    assert!(!monitored.has(cue::TOO_CLOSE));
 }
 
 #[test]
 fn exact_person_collision_text_is_not_rate_limited() {
-    let mut watch = MonitoredFlight::airborne();
+    let mut monitored = MonitoredFlight::in_flight();
     for code in [1, 5] {
-        watch.tape.contact(code);
-        watch.tape.hold(0.1);
+        monitored.tape.contact(code);
+        monitored.tape.hold(0.1);
     }
-    watch.run();
-    assert_eq!(watch.texts, ["Crash: fence", "Crash: person"]);
+    monitored.run();
+    assert_eq!(monitored.texts, ["Crash: fence", "Crash: person"]);
 }
 
 #[test]
 fn exact_texts_continue_after_simulator_restart_on_ground() {
-    let mut watch = MonitoredFlight { monitor: new_monitor(one_task()), tape: Tape::new(), texts: Vec::new() };
+    let mut monitored = MonitoredFlight { monitor: new_monitor(one_task()), tape: Tape::new(), texts: Vec::new() };
     for seconds in [20.0, 0.2] {
-        watch.tape.hold(seconds);
-        watch.tape.battery(60);
-        watch.tape.hold(2.0);
-        watch.run();
-        watch.tape = Tape::new();
+        monitored.tape.hold(seconds);
+        monitored.tape.battery(60);
+        monitored.tape.hold(2.0);
+        monitored.run();
+        monitored.tape = Tape::new();
     }
-    assert_eq!(watch.texts, ["Battery 60%", "Battery 60%"]);
+    assert_eq!(monitored.texts, ["Battery 60%", "Battery 60%"]);
 }

@@ -41,11 +41,11 @@ fn counts(datagrams: &[Vec<u8>]) -> spandrel_mavlink::telemetry::timeline::LinkC
 }
 
 /// Simulation time at which a 32-bit millisecond counter wraps to zero.
-const WRAP_MS: u64 = 1 << 32;
+const COUNTER_WRAP_MS: u64 = 1 << 32;
 
 #[test]
 fn regress_flight_continues_across_32_bit_millisecond_wrap() {
-    let epoch_ms = WRAP_MS - 10_000;
+    let epoch_ms = COUNTER_WRAP_MS - 10_000;
     let flights = [0, epoch_ms].map(|epoch_ms| {
         let tape = busy_flight_at(epoch_ms);
         assert!(tape.now_ms > 20_000, "the clock wraps during the flight");
@@ -81,11 +81,11 @@ fn prop_reordered_and_duplicate_datagrams_change_no_frame() {
             let at = stream.below(datagrams.len() - 8);
             datagrams.swap(at, at + 1 + stream.below(7));
         }
-        let graded = score_tape(&datagrams);
-        let first = graded.frames.iter().zip(&clean.frames).find(|(a, b)| a != b);
+        let assessed_session = score_tape(&datagrams);
+        let first = assessed_session.frames.iter().zip(&clean.frames).find(|(a, b)| a != b);
         assert_eq!(first, None, "seed {seed}");
-        assert_eq!(graded.frames.len(), clean.frames.len(), "seed {seed}");
-        assert!(graded.assessment == clean.assessment, "seed {seed}");
+        assert_eq!(assessed_session.frames.len(), clean.frames.len(), "seed {seed}");
+        assert!(assessed_session.assessment == clean.assessment, "seed {seed}");
     }
 }
 

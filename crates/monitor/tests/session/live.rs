@@ -8,7 +8,7 @@ use spandrel_monitor::assessment::{AssessError, assess_log};
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput, export};
 use spandrel_testkit::job::*;
 
-const START_US: u64 = 1_700_000_000_000_000;
+const SESSION_START_US: u64 = 1_700_000_000_000_000;
 
 pub fn new_monitor(scenario: Scenario) -> Monitor {
     Monitor::new(config(scenario))
@@ -20,7 +20,7 @@ fn config(scenario: Scenario) -> MonitorConfig {
         vehicle: vehicle(),
         trainee: "tester".to_owned(),
         purpose: None,
-        started_unix_us: START_US,
+        started_unix_us: SESSION_START_US,
         system_id: 1,
         seed: None,
         survey_builder: test_survey,
@@ -51,7 +51,7 @@ fn session_output(monitor: &mut Monitor) -> (Vec<u8>, Vec<String>) {
 }
 
 #[test]
-fn exact_live_session_and_replay_are_identical() {
+fn exact_replay_matches_live_session() {
     let mut monitor = new_monitor(one_task());
     for datagram in &clean_flight().datagrams {
         monitor.handle_datagram(datagram);
@@ -78,15 +78,15 @@ fn exact_timestamps_are_session_start_plus_simulation_time() {
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     let (log, _) = session_output(&mut monitor);
     let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
-    assert_eq!(stamps.first(), Some(&START_US));
-    assert_eq!(stamps.last(), Some(&(START_US + 2_000_000)));
+    assert_eq!(stamps.first(), Some(&SESSION_START_US));
+    assert_eq!(stamps.last(), Some(&(SESSION_START_US + 2_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
-    assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(START_US));
+    assert_eq!(spandrel_mavlink::telemetry::tlog::session_start_us(&log), Some(SESSION_START_US));
 }
 
 /// A monitor that starts an hour after the vehicle must still send the current simulation time.
 #[test]
-fn regress_timestamps_of_late_monitor_start_at_session_start() {
+fn regress_late_monitor_log_starts_at_session_start() {
     let mut tape = Tape::new();
     tape.hold(62.0);
     let late = tape.datagrams.len() * 30 / 31;
@@ -97,11 +97,11 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
         spandrel_mavlink::telemetry::tlog::TlogReader::new(log).map(|record| record.timestamp_us).collect()
     };
     let (first, last) = (stamps(&log)[0], *stamps(&log).last().unwrap());
-    assert_eq!(first, START_US);
-    assert!((START_US + 1_900_000..=START_US + 2_100_000).contains(&last), "{} us", last - START_US);
+    assert_eq!(first, SESSION_START_US);
+    assert!((SESSION_START_US + 1_900_000..=SESSION_START_US + 2_100_000).contains(&last), "{} us", last - SESSION_START_US);
     let zero = spandrel_mavlink::telemetry::tlog::simulation_zero_us(&log).unwrap();
-    assert!((59_900_000..=60_100_000).contains(&(START_US - zero)), "{} us", START_US - zero);
-    assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, START_US);
+    assert!((59_900_000..=60_100_000).contains(&(SESSION_START_US - zero)), "{} us", SESSION_START_US - zero);
+    assert_eq!(monitor.session_info(b"", b"", String::new(), 1).started_unix_us, SESSION_START_US);
     // A monitor that was killed and resumed continues with the same clock.
     let mut second = Monitor::resume(config(one_task()), &log).unwrap();
     let mut more = Tape::new();
@@ -110,7 +110,7 @@ fn regress_timestamps_of_late_monitor_start_at_session_start() {
     more.datagrams[rest..].iter().for_each(|datagram| second.handle_datagram(datagram));
     log = session_output(&mut second).0;
     let last = *stamps(&log).last().unwrap();
-    assert!((START_US + 4_900_000..=START_US + 5_100_000).contains(&last), "{} us", last - START_US);
+    assert!((SESSION_START_US + 4_900_000..=SESSION_START_US + 5_100_000).contains(&last), "{} us", last - SESSION_START_US);
 }
 
 /// The monitor accepts only datagrams from an autopilot. Once there is a scored flight, it accepts only that vehicle's
@@ -151,7 +151,7 @@ fn exact_timestamps_increase_after_simulator_restart() {
     }
     let (log, _) = session_output(&mut monitor);
     let stamps: Vec<u64> = spandrel_mavlink::telemetry::tlog::TlogReader::new(&log).map(|record| record.timestamp_us).collect();
-    assert_eq!(stamps.last(), Some(&(START_US + 22_000_000)));
+    assert_eq!(stamps.last(), Some(&(SESSION_START_US + 22_000_000)));
     assert!(stamps.windows(2).all(|pair| pair[0] <= pair[1]));
 }
 
@@ -196,7 +196,7 @@ fn exact_timesync_reply_is_last_and_addressed_to_sender() {
 }
 
 #[test]
-fn exact_timesync_replies_and_foreign_requests_are_ignored() {
+fn exact_timesync_replies_and_requests_to_other_systems_are_ignored() {
     let mut monitor = new_monitor(one_task());
     let mut encoder = Encoder::new(1, 1);
     for sync in [
@@ -209,7 +209,7 @@ fn exact_timesync_replies_and_foreign_requests_are_ignored() {
 }
 
 #[test]
-fn exact_commands_are_unsupported_and_parameter_requests_ignored() {
+fn exact_commands_are_rejected_and_parameter_requests_ignored() {
     let mut monitor = new_monitor(one_task());
     let mut encoder = Encoder::new(255, 190);
     let command = |target_component| {
@@ -265,9 +265,12 @@ fn exact_closing_in_flight_is_scored_as_abort() {
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
     monitor.close();
-    let graded = monitor.finished().unwrap().clone().unwrap();
-    assert_eq!(graded.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
-    assert!(!graded.assessment.certification.passed);
+    let assessed_session = monitor.finished().unwrap().clone().unwrap();
+    assert_eq!(assessed_session.assessment.end.reason, spandrel_monitor::session::EndReason::Abort);
+    assert!(!assessed_session.assessment.certification.passed);
     let (log, _) = session_output(&mut monitor);
-    assert!(assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap() == graded, "the replay gave different results");
+    assert!(
+        assess_log(&log, &one_task(), &vehicle(), test_survey).unwrap() == assessed_session,
+        "the replay gave different results"
+    );
 }

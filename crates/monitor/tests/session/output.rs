@@ -75,8 +75,8 @@ fn exact_job_without_defects_is_scored_out_of_300() {
         std::sync::Arc::new(TestSurvey::of(0))
     };
     let log = clean_flight().log(0);
-    let graded = spandrel_monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
-    let value = serde_json::to_value(&graded.assessment).unwrap();
+    let assessed_session = spandrel_monitor::assess_log(&log, &one_task(), &vehicle(), empty).unwrap();
+    let value = serde_json::to_value(&assessed_session.assessment).unwrap();
     assert!(value["scores"]["accuracy"].is_null() && value["snapshots"]["f_beta"].is_null());
     assert_eq!((&value["scores"]["overall"], &value["scores"]["overall_max"]), (&300.0.into(), &300.0.into()));
 }

@@ -63,8 +63,8 @@ fn flight_pictures_of_shipped_defects_are_hits() {
         tape.hold(0.1);
     }
     let log = tape.log(0);
-    let graded = assess_log(&log, &scenario, &vehicle, |_, _| site.clone()).unwrap();
-    let snapshots = &graded.assessment.snapshots;
+    let assessed_session = assess_log(&log, &scenario, &vehicle, |_, _| site.clone()).unwrap();
+    let snapshots = &assessed_session.assessment.snapshots;
     assert_eq!(snapshots.taken, stands.len());
     // Positions are sent with a resolution of 1 cm, so one picture near a limit may fail.
     assert!(snapshots.defects_found + 1 >= stands.len(), "{} found, {:#?}", snapshots.defects_found, snapshots.each);
@@ -95,8 +95,8 @@ fn flight_along_shipped_paths_has_full_conformity() {
     tape.fly((e, n, u + 5.0), 4.0);
     tape.fly((e, n, u), 0.8);
     tape.hold(4.0);
-    let graded = assess_log(&tape.log(0), &scenario, &vehicle, |_, _| site.clone()).unwrap();
-    let assessment = &graded.assessment;
+    let assessed_session = assess_log(&tape.log(0), &scenario, &vehicle, |_, _| site.clone()).unwrap();
+    let assessment = &assessed_session.assessment;
     assert!(assessment.tasks.iter().all(|task| task.attempted && task.speeding == 0.0), "{:?}", assessment.tasks);
     for (task, visits) in assessment.tasks.iter().zip(&assessment.certification.tasks) {
         assert!(task.on_path == 1.0 && visits.on_path == 1.0, "{task:?} {visits:?}");
@@ -112,7 +112,7 @@ fn regress_defects_are_placed_on_free_tasks_at_a_bridge() {
     let (mut scenario, _) = shipped();
     // Specifies the slab task's path point by point. Such a task has no bridge or viewing direction.
     let mut free = scenario.tasks[0].clone();
-    (free.kind, free.bridge, free.look) =
+    (free.kind, free.bridge, free.viewing_directions) =
         (spandrel_model::scenario::TaskKind::Free, None, vec![Vec3::new(1.0, 0.0, 0.0); free.path_m.len()]);
     scenario.tasks = vec![free];
     scenario.defects.count = 4;
@@ -135,7 +135,7 @@ fn regress_values_near_limits_are_shown_with_enough_digits() {
         extent_px: 9.96,
         width_px: 0.498,
         illuminance_lux: 49.7,
-        needed_lux: 50.0,
+        required_illuminance_lux: 50.0,
         distance_m: 3.0,
         hit: false,
         lamp_on: true,

@@ -15,8 +15,8 @@ use spandrel_testkit::job::*;
 
 #[test]
 fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
-    let graded = score_tape(&clean_flight(), &one_task());
-    let assessment = &graded.assessment;
+    let assessed_session = score_tape(&clean_flight(), &one_task());
+    let assessment = &assessed_session.assessment;
     assert_eq!(assessment.end.reason, EndReason::Landed);
     assert!(!assessment.end.battery_failed);
     assert_eq!(assessment.scores.conformity.unwrap().pct, 100.0);
@@ -24,13 +24,13 @@ fn exact_clean_flight_has_full_score_and_ends_at_touchdown() {
     assert_eq!(assessment.scores.safety.pct, 100.0);
     assert_eq!(assessment.scores.accuracy.unwrap().pct, 0.0);
     assert_eq!(assessment.scores.overall, 300.0);
-    let last = graded.frames.last().unwrap();
+    let last = assessed_session.frames.last().unwrap();
     assert_eq!(last.speed_m_s(), 0.0);
-    let before = &graded.frames[graded.frames.len() - 2];
+    let before = &assessed_session.frames[assessed_session.frames.len() - 2];
     assert!(before.speed_m_s() > 0.0, "the session ends with the first frame at rest");
-    assert_eq!(graded.frames[0].index, 1);
-    assert!(graded.frames[0].position_m.up() > 0.3);
-    assert_eq!(assessment.end.seconds, graded.frames.len() as f64 / RATE_HZ);
+    assert_eq!(assessed_session.frames[0].index, 1);
+    assert!(assessed_session.frames[0].position_m.up() > 0.3);
+    assert_eq!(assessment.end.seconds, assessed_session.frames.len() as f64 / RATE_HZ);
 }
 
 #[test]
@@ -46,8 +46,8 @@ fn exact_short_gaps_are_interpolated_and_long_gaps_stay_missing() {
         tape.hold_unrecorded(ms - 20);
         tape.hold(0.5);
         tape.land();
-        let graded = score_tape(&tape, &one_task());
-        let telemetry = graded.assessment.telemetry;
+        let assessed_session = score_tape(&tape, &one_task());
+        let telemetry = assessed_session.assessment.telemetry;
         let got = (telemetry.interpolated_frames, telemetry.missing_frames);
         // Frame sampling starts at lift-off, so the gap may contain one frame more or fewer.
         assert!(got.0.abs_diff(interpolated) <= 1 && got.1.abs_diff(missing) <= 1, "{ms} ms: {got:?}");
@@ -68,8 +68,8 @@ fn exact_missing_frames_repeat_position_without_contact() {
     tape.at_m = held + spandrel_model::frames::Vec3::new(4.0, 0.0, 0.0);
     tape.contact(0);
     tape.hold(1.0);
-    let graded = score_tape(&tape, &one_task());
-    let missing: Vec<_> = graded.frames.iter().filter(|frame| frame.missing).collect();
+    let assessed_session = score_tape(&tape, &one_task());
+    let missing: Vec<_> = assessed_session.frames.iter().filter(|frame| frame.missing).collect();
     assert!(missing.len() >= 74);
     for frame in missing {
         assert!((frame.position_m - held).norm() < 0.02, "the last position is repeated");
@@ -88,9 +88,9 @@ fn exact_frames_are_not_interpolated_across_respawn() {
     tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
     let put_back = tape.at_m;
     tape.hold(1.0);
-    let graded = score_tape(&tape, &one_task());
+    let assessed_session = score_tape(&tape, &one_task());
     let near = |p: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>, q| (p - q).norm() < 0.02;
-    let between = graded.frames.iter().filter(|f| f.time.ms() > i64::from(tape.now_ms) - 1_400);
+    let between = assessed_session.frames.iter().filter(|f| f.time.ms() > i64::from(tape.now_ms) - 1_400);
     for frame in between {
         assert!(near(frame.position_m, crashed) || near(frame.position_m, put_back), "{frame:?}");
     }
@@ -109,11 +109,11 @@ fn exact_empty_battery_ends_session_before_respawn() {
     tape.contact(0);
     tape.at_m = spandrel_model::frames::Vec3::new(28.0, 0.0, 12.0);
     tape.hold(5.0);
-    let graded = score_tape(&tape, &one_task());
-    assert_eq!(graded.assessment.end.reason, EndReason::Battery);
-    assert!(graded.assessment.end.battery_failed);
-    assert_eq!(graded.assessment.scores.efficiency.pct, 0.0);
-    assert!((graded.frames.last().unwrap().position_m.east() - 30.0).abs() < 0.02);
+    let assessed_session = score_tape(&tape, &one_task());
+    assert_eq!(assessed_session.assessment.end.reason, EndReason::Battery);
+    assert!(assessed_session.assessment.end.battery_failed);
+    assert_eq!(assessed_session.assessment.scores.efficiency.pct, 0.0);
+    assert!((assessed_session.frames.last().unwrap().position_m.east() - 30.0).abs() < 0.02);
 }
 
 #[test]
@@ -171,12 +171,12 @@ fn exact_long_contact_is_one_crash_and_short_contact_is_not_lost() {
     // Both messages for a contact are lost. Only the contact count shows that it happened.
     tape.int("hits", 3);
     tape.land();
-    let graded = score_tape(&tape, &one_task());
-    assert_eq!(graded.assessment.crashes.other, 3);
-    assert_eq!(graded.assessment.scores.safety.pct, 91.0);
-    let with = |contact| graded.frames.iter().filter(|frame| frame.contact == contact).count();
+    let assessed_session = score_tape(&tape, &one_task());
+    assert_eq!(assessed_session.assessment.crashes.other, 3);
+    assert_eq!(assessed_session.assessment.scores.safety.pct, 91.0);
+    let with = |contact| assessed_session.frames.iter().filter(|frame| frame.contact == contact).count();
     assert_eq!((with(ContactKind::Bridge) > 20, with(ContactKind::Terrain), with(ContactKind::Other)), (true, 1, 1));
-    assert_eq!(graded.assessment.crashes.by_task["outside"], 3);
+    assert_eq!(assessed_session.assessment.crashes.by_task["outside"], 3);
 }
 
 #[test]
@@ -187,11 +187,11 @@ fn exact_only_hard_pad_contact_is_a_crash() {
         tape.fly((0.0, 0.0, 0.15), speed);
         tape.contact(2);
         tape.hold(4.0);
-        let graded = score_tape(&tape, &one_task());
-        assert_eq!(graded.assessment.crashes.other, crashes, "{speed} m/s");
-        assert_eq!(graded.assessment.end.reason, EndReason::Landed);
+        let assessed_session = score_tape(&tape, &one_task());
+        assert_eq!(assessed_session.assessment.crashes.other, crashes, "{speed} m/s");
+        assert_eq!(assessed_session.assessment.end.reason, EndReason::Landed);
         if crashes == 0 {
-            assert!(graded.frames.iter().all(|frame| frame.contact == ContactKind::None));
+            assert!(assessed_session.frames.iter().all(|frame| frame.contact == ContactKind::None));
         }
     }
 }
@@ -210,7 +210,7 @@ fn exact_soft_ground_contact_away_from_home_is_a_crash() {
 }
 
 #[test]
-fn exact_overlapping_paths_count_for_relatively_nearer_task() {
+fn exact_overlap_counts_for_task_with_smaller_relative_distance() {
     let wide = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 6.0);
     let narrow = task(2, line((10.0, 2.0, 10.0), (60.0, 2.0, 10.0)), 2.0);
     let scenario = scenario(vec![wide, narrow]);
@@ -241,7 +241,7 @@ fn exact_unentered_task_has_no_window() {
 }
 
 #[test]
-fn exact_certification_without_entered_task_has_no_evidence() {
+fn exact_certification_has_no_evidence_if_no_task_was_entered() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 3.0), 2.0);
     tape.land();
@@ -266,7 +266,7 @@ fn exact_short_path_visit_earns_no_certification_credit() {
 }
 
 #[test]
-fn exact_pictures_count_once_and_dark_ones_have_reason() {
+fn exact_pictures_count_once_and_dark_pictures_have_a_reason() {
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((20.0, 0.0, 10.0), 4.0);
@@ -305,10 +305,10 @@ fn exact_simulator_restart_in_flight_ends_session_and_keeps_frames() {
     assert_eq!((timeline.epoch_count(), timeline.counts().restarts), (2, 1));
     let flown_before = [0, 1].map(|epoch| timeline.elapsed_before_epoch(epoch).ms());
     assert_eq!(flown_before, [0, i64::from(flown)]);
-    let graded = score_tape(&tape, &one_task());
-    assert_eq!(graded.assessment.end.reason, EndReason::Restart);
-    assert_eq!(graded.frames.last().unwrap().time.ms() / 40, i64::from(flown) / 40);
-    assert_eq!(graded.assessment.tasks[0].on_path, 1.0);
+    let assessed_session = score_tape(&tape, &one_task());
+    assert_eq!(assessed_session.assessment.end.reason, EndReason::Restart);
+    assert_eq!(assessed_session.frames.last().unwrap().time.ms() / 40, i64::from(flown) / 40);
+    assert_eq!(assessed_session.assessment.tasks[0].on_path, 1.0);
 }
 
 /// A site with defects visible only in pictures with a narrow field of view.
@@ -355,8 +355,8 @@ fn exact_pictures_use_reported_field_of_view() {
     tape.land();
     let build =
         |_: &Scenario, _: u64| -> std::sync::Arc<dyn SiteSurvey> { std::sync::Arc::new(NarrowViewSite(TestSurvey::of(10))) };
-    let graded = assess_log(&tape.log(1_000_000), &one_task(), &vehicle(), build).unwrap();
-    let hits: Vec<bool> = graded.assessment.snapshots.each.iter().map(|snapshot| snapshot.hit).collect();
+    let assessed_session = assess_log(&tape.log(1_000_000), &one_task(), &vehicle(), build).unwrap();
+    let hits: Vec<bool> = assessed_session.assessment.snapshots.each.iter().map(|snapshot| snapshot.hit).collect();
     assert_eq!(hits, [false, true, true, false]);
 }
 

@@ -117,7 +117,7 @@ impl Autopilot {
     /// Returns true if the vehicle is armed and receives no stick input.
     #[must_use]
     pub fn is_unattended(&self, now: SimTime) -> bool {
-        self.armed && !self.failsafe.links.sticks_fresh(self.tuning.manual_timeout_s(), now)
+        self.armed && !self.failsafe.links.has_recent_sticks(self.tuning.manual_timeout_s(), now)
     }
 
     /// Returns the airframe's limits without parameter overrides.
@@ -125,14 +125,14 @@ impl Autopilot {
     pub fn airframe_envelope(&self) -> FlightEnvelope {
         let (limits, automatic) = (&self.airframe.limits, MotionLimits::automatic(&self.control.gains));
         FlightEnvelope {
-            manual_m_s: limits.forward_m_s,
-            manual_up_m_s: limits.climb_m_s,
-            manual_down_m_s: limits.descend_m_s,
-            manual_yaw_rad_s: limits.yaw_rate_rad_s,
+            manual_speed_m_s: limits.forward_m_s,
+            manual_climb_rate_m_s: limits.climb_m_s,
+            manual_descent_rate_m_s: limits.descend_m_s,
+            manual_yaw_rate_rad_s: limits.yaw_rate_rad_s,
             manual_tilt_rad: self.control.gains.tilt_rad,
-            acceleration_m_s2: automatic.horizontal_m_s2,
-            climb_acceleration_m_s2: automatic.vertical_m_s2,
-            landing_m_s: limits.descend_m_s,
+            acceleration_m_s2: automatic.horizontal_acceleration_m_s2,
+            climb_acceleration_m_s2: automatic.vertical_acceleration_m_s2,
+            landing_descent_rate_m_s: limits.descend_m_s,
         }
     }
 
@@ -164,7 +164,7 @@ impl Autopilot {
     #[must_use]
     pub fn arming_reasons(&self, now: SimTime) -> Vec<String> {
         let (tuning, estimate) = (&self.tuning, &self.estimate);
-        self.failsafe.arming_reasons(&FailsafeInput { tuning, estimate, flight: self.summary(), now })
+        self.failsafe.arming_reasons(&FailsafeInput { tuning, estimate, flight: self.flight_summary(), now })
     }
 
     /// Returns and clears the events since the last call, in order.
@@ -181,7 +181,7 @@ impl Autopilot {
 
     /// Processes the pilot's stick input. Values are clamped to -1 to 1; NaN is treated as centered.
     pub fn sticks(&mut self, sticks: Sticks, now: SimTime) {
-        self.failsafe.links.take_sticks(sticks, self.tuning.stick_deadband, now);
+        self.failsafe.links.update_sticks(sticks, self.tuning.stick_deadband, now);
         let tick = Tick::between_steps(now);
         let request = self.supervise(tick, Failsafe::check_stick_takeover);
         self.apply_failsafe_request(request, tick);
@@ -206,7 +206,7 @@ impl Autopilot {
     }
 
     /// Records a heartbeat from a ground station.
-    pub fn ground_station_alive(&mut self, now: SimTime) {
+    pub fn record_ground_station_heartbeat(&mut self, now: SimTime) {
         self.failsafe.links.ground_station = Some(now);
     }
 
@@ -230,7 +230,7 @@ impl Autopilot {
     /// Marks the mission items whose heights are relative to home. Call it immediately after setting the mission, with
     /// heights computed from the home position at that time.
     pub fn set_home_relative_steps(&mut self, home_relative: Vec<bool>) {
-        self.navigator.mission.set_home_relative(home_relative);
+        self.navigator.mission.set_home_relative_items(home_relative);
     }
 
     /// Sets the fields that mission items take from the vehicle position when they start. Call it immediately after
@@ -290,7 +290,7 @@ impl Autopilot {
         self.status.intended = self.navigator.modes.intended;
         let t = &self.tuning;
         (self.status.battery_low_pct, self.status.battery_critical_pct) = (t.battery_low_pct, t.battery_critical_pct);
-        let actuators = if self.armed { self.fly(tick) } else { self.control.stay_disarmed(&self.estimate) };
+        let actuators = if self.armed { self.fly(tick) } else { self.control.keep_motors_stopped(&self.estimate) };
         self.update_status();
         actuators
     }
@@ -410,13 +410,13 @@ impl Autopilot {
 
     /// Calls the failsafes with their inputs, and collects their events.
     fn supervise<T>(&mut self, tick: Tick, call: impl FnOnce(&mut Failsafe, &FailsafeInput) -> T) -> T {
-        let (tuning, estimate, flight) = (&self.tuning, &self.estimate, self.summary());
+        let (tuning, estimate, flight) = (&self.tuning, &self.estimate, self.flight_summary());
         let result = call(&mut self.failsafe, &FailsafeInput { tuning, estimate, flight, now: tick.now });
         self.events.append(&mut self.failsafe.events);
         result
     }
 
-    fn summary(&self) -> FlightSummary {
+    fn flight_summary(&self) -> FlightSummary {
         let modes = &self.navigator.modes;
         FlightSummary {
             armed: self.armed,
@@ -457,11 +457,11 @@ impl Autopilot {
         self.apply_failsafe_request(request, tick);
         self.supervise(tick, Failsafe::update_fence);
         if !self.armed {
-            self.status.arming_reasons = self.supervise(tick, Failsafe::check_on_ground);
+            self.status.arming_blockers = self.supervise(tick, Failsafe::check_on_ground);
             self.navigator.follow_request();
             return;
         }
-        self.status.arming_reasons.clear();
+        self.status.arming_blockers.clear();
         for check in [Failsafe::check_attitude_tracking, Failsafe::check_crash] {
             let request = self.supervise(tick, check);
             self.apply_failsafe_request(request, tick);
@@ -507,7 +507,7 @@ impl Autopilot {
             estimate: &self.estimate,
             range_down_m: self.unfused.range_down_m,
             resting_height_m: self.airframe.resting_height_m,
-            wants_to_fly,
+            takeoff_commanded: wants_to_fly,
             ground_time_limits_s: [self.tuning.disarm_before_flight_s, self.tuning.disarm_after_landing_s],
             now: tick.now,
             dt_s: tick.dt_s,

@@ -25,7 +25,7 @@ pub struct AutopilotStatus {
     /// Whether a takeoff climb is in progress, as a mode or a mission item.
     pub climbing_out: bool,
     /// Conditions that currently prevent arming; empty if there are none.
-    pub arming_reasons: Vec<String>,
+    pub arming_blockers: Vec<String>,
     /// Reason for the active failsafe.
     pub failsafe: Option<String>,
     /// Home relative to the origin, m; `None` before the first fix.
@@ -68,7 +68,7 @@ impl AutopilotStatus {
             battery_critical_pct: 0.0,
             landed: LandedState::OnGround,
             climbing_out: false,
-            arming_reasons: vec!["Booting".into()],
+            arming_blockers: vec!["Booting".into()],
             failsafe: None,
             home_m: None,
             target_m: None,
@@ -82,7 +82,7 @@ impl AutopilotStatus {
             fence: FenceState::default(),
             orbit: None,
             position_resets: 0,
-            health: SensorStatus::GOOD,
+            health: SensorStatus::ALL_GOOD,
         }
     }
 }

@@ -24,10 +24,10 @@ pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
             drag_coefficient_n_s2_m: 3.0e-5,
             efficiency: 0.55,
         },
-        drag: Drag { area_m2: [0.015, 0.018, 0.03], angular_n_m_s: [0.003, 0.003, 0.003] },
+        drag: Drag { area_m2: [0.015, 0.018, 0.03], angular_damping_n_m_s: [0.003, 0.003, 0.003] },
         hull: Hull {
             tip_to_tip_m: 0.59,
-            caged: false,
+            has_propeller_guard: false,
             body_half_extent_m: [0.09, 0.09, 0.05],
             feet_m: vec![
                 Vec3::new(0.1, 0.1, 0.12),
@@ -43,13 +43,13 @@ pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
             capacity_ah: 5.2,
             internal_resistance_ohm: 0.03,
             ocv_cell_v: [3.3, 3.6, 3.69, 3.74, 3.78, 3.82, 3.87, 3.93, 4.0, 4.09, 4.2],
-            avionics_w: 6.0,
-            lamp_w: 0.0,
+            avionics_power_w: 6.0,
+            lamp_power_w: 0.0,
             paper_endurance_s: 1500.0,
         },
         limits: FlightLimits {
             forward_m_s: 10.0,
-            sideward_m_s: 8.0,
+            sideways_speed_m_s: 8.0,
             climb_m_s: 4.0,
             descend_m_s: 2.0,
             yaw_rate_rad_s: 1.5,
@@ -66,11 +66,11 @@ pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
             zoom_max: 1.0,
             f_number: 2.8,
             iso_max: 1600.0,
-            exposure_max_s: 0.02,
+            max_exposure_time_s: 0.02,
             gimbal_pitch_min_rad: -1.57,
             gimbal_pitch_max_rad: 1.57,
             gimbal_rate_rad_s: 1.5,
         },
-        lamp: Lamp { flux_lm: 0.0, beam_rad: 1.0 },
+        lamp: Lamp { luminous_flux_lm: 0.0, beam_angle_rad: 1.0 },
     }
 }

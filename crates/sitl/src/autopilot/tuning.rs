@@ -51,7 +51,7 @@ pub struct Tuning {
     /// `MPC_XY_VEL_MAX`: maximum horizontal speed in automatic modes, m/s.
     pub horizontal_speed_max_m_s: f64,
     /// `MPC_XY_CRUISE`: horizontal speed in missions, returns and go-to commands, m/s.
-    pub cruise_m_s: f64,
+    pub cruise_speed_m_s: f64,
     /// `MPC_Z_V_AUTO_UP`: climb rate in automatic modes, m/s.
     pub climb_m_s: f64,
     /// `MPC_Z_V_AUTO_DN`: descent rate in automatic modes, m/s.
@@ -63,25 +63,25 @@ pub struct Tuning {
     /// `MPC_LAND_SPEED`: descent rate in the last meters of a landing, m/s.
     pub land_speed_m_s: f64,
     /// `MPC_LAND_ALT2`: height above ground (or home) below which the vehicle lands slowly, m.
-    pub land_slow_below_m: f64,
+    pub slow_landing_height_m: f64,
     /// `MIS_TAKEOFF_ALT`: default takeoff height above home, m.
     pub takeoff_height_m: f64,
     /// `RTL_RETURN_ALT`: return height above home, m.
     pub return_height_m: f64,
     /// `NAV_ACC_RAD`: acceptance radius of waypoints, m.
-    pub accept_radius_m: f64,
+    pub default_acceptance_radius_m: f64,
     /// `COM_RC_LOSS_T`: manual control timeout, s.
-    pub manual_loss_s: f64,
+    pub manual_loss_timeout_s: f64,
     /// `COM_FAIL_ACT_T`: hold time before a failsafe action, s.
     pub failsafe_delay_s: f64,
     /// `NAV_RCL_ACT`: action on loss of manual control.
     pub manual_loss: LinkLossAction,
     /// `COM_DL_LOSS_T`: ground station link timeout, s.
-    pub data_link_loss_s: f64,
+    pub data_link_loss_timeout_s: f64,
     /// `NAV_DLL_ACT`: action on loss of the ground station.
     pub data_link_loss: LinkLossAction,
     /// `COM_OF_LOSS_T`: external setpoint timeout, s.
-    pub offboard_loss_s: f64,
+    pub offboard_loss_timeout_s: f64,
     /// Simulation seconds per second of the clients' clocks without lockstep. Client timeouts scale with it.
     pub client_speed_factor: f64,
     /// `BAT_LOW_THR`: low battery level, %.
@@ -113,7 +113,7 @@ pub struct Tuning {
     pub arming_depends_on_mode: bool,
     /// After a completed mission, the vehicle stays in mission mode and takes off again once the throttle is raised
     /// (ArduPilot).
-    pub keeps_mission_mode: bool,
+    pub stays_in_mission_mode: bool,
     /// Displayed number of the first mission item: 1 if home is item 0 (ArduPilot).
     pub first_item: usize,
     /// `CIRCLE_RATE` (ArduPilot): angular rate of a circle entered by a mode change, rad/s, clockwise positive. Not
@@ -133,19 +133,19 @@ impl Tuning {
     /// Manual control timeout, s of simulation time.
     #[must_use]
     pub fn manual_timeout_s(&self) -> f64 {
-        self.manual_loss_s * self.client_speed_factor
+        self.manual_loss_timeout_s * self.client_speed_factor
     }
 
     /// External setpoint timeout, s of simulation time.
     #[must_use]
     pub fn offboard_timeout_s(&self) -> f64 {
-        self.offboard_loss_s * self.client_speed_factor
+        self.offboard_loss_timeout_s * self.client_speed_factor
     }
 
     /// Ground station link timeout, s of simulation time.
     #[must_use]
     pub fn data_link_timeout_s(&self) -> f64 {
-        self.data_link_loss_s * self.client_speed_factor
+        self.data_link_loss_timeout_s * self.client_speed_factor
     }
 }
 
@@ -153,22 +153,22 @@ impl Default for Tuning {
     fn default() -> Self {
         Self {
             horizontal_speed_max_m_s: 12.0,
-            cruise_m_s: 5.0,
+            cruise_speed_m_s: 5.0,
             climb_m_s: 3.0,
             descend_m_s: 1.5,
             takeoff_speed_m_s: 1.5,
             takeoff_at_climb_speed: false,
             land_speed_m_s: 0.7,
-            land_slow_below_m: 5.0,
+            slow_landing_height_m: 5.0,
             takeoff_height_m: 2.5,
             return_height_m: 30.0,
-            accept_radius_m: 2.0,
-            manual_loss_s: 0.5,
+            default_acceptance_radius_m: 2.0,
+            manual_loss_timeout_s: 0.5,
             failsafe_delay_s: 5.0,
             manual_loss: LinkLossAction::Hold,
-            data_link_loss_s: 10.0,
+            data_link_loss_timeout_s: 10.0,
             data_link_loss: LinkLossAction::Ignore,
-            offboard_loss_s: 1.0,
+            offboard_loss_timeout_s: 1.0,
             client_speed_factor: 1.0,
             battery_low_pct: 15.0,
             battery_critical_pct: 7.0,
@@ -182,7 +182,7 @@ impl Default for Tuning {
             stick_takeover: true,
             setpoint_end_is_normal: false,
             arming_depends_on_mode: false,
-            keeps_mission_mode: false,
+            stays_in_mission_mode: false,
             first_item: 0,
             // ArduCopter's defaults: 10 m, 20 deg/s.
             circle_rate_rad_s: 0.349,

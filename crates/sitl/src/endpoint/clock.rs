@@ -9,7 +9,7 @@ pub struct VehicleClock {
     /// Simulation time.
     pub now: SimTime,
     /// Simulation time of the last autopilot boot.
-    pub autopilot_booted: SimTime,
+    pub autopilot_boot_time: SimTime,
     /// UTC at simulation start, in seconds since the Unix epoch.
     pub start_unix_s: i64,
     /// Kind of link that receives the times.
@@ -27,37 +27,37 @@ impl VehicleClock {
     /// simulation time instead, so that scoring uses a single clock.
     #[must_use]
     pub fn since_boot(&self, at: SimTime) -> SimTime {
-        if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_booted) }
+        if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_boot_time) }
     }
 
     /// Returns the time since autopilot boot in ms, modulo 2^32 because MAVLink's field has 32 bits.
     #[must_use]
-    pub fn boot_ms(&self) -> u32 {
+    pub fn boot_time_ms(&self) -> u32 {
         self.since_boot(self.now).ms() as u32
     }
 
     /// Returns the time since autopilot boot in microseconds.
     #[must_use]
-    pub fn boot_us(&self) -> u64 {
+    pub fn boot_time_us(&self) -> u64 {
         self.since_boot(self.now).us().max(0).cast_unsigned()
     }
 
     /// Returns the time since simulation start in ms, modulo 2^32. The camera and the scoring data use this clock,
     /// which does not restart when the autopilot reboots.
     #[must_use]
-    pub fn sim_ms(&self) -> u32 {
+    pub fn sim_time_ms(&self) -> u32 {
         self.now.ms() as u32
     }
 
     /// Returns the time since simulation start in microseconds.
     #[must_use]
-    pub fn sim_us(&self) -> u64 {
+    pub fn sim_time_us(&self) -> u64 {
         self.now.us().max(0).cast_unsigned()
     }
 
     /// Returns the time since the Unix epoch in microseconds.
     #[must_use]
-    pub fn unix_us(&self) -> u64 {
+    pub fn unix_time_us(&self) -> u64 {
         (self.start_unix_s * 1_000_000 + self.now.us()).max(0).cast_unsigned()
     }
 }

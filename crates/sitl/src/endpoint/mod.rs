@@ -99,8 +99,8 @@ impl Endpoint {
     ///
     /// # Errors
     /// Returns all invalid lines. No parameter is set in that case.
-    pub fn read_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::ParamFileProblem>> {
-        self.vehicle.read_parameters(text, autopilot, &mut self.payload.equipment, &self.links)
+    pub fn load_parameters(&mut self, text: &str, autopilot: &mut Autopilot) -> Result<(), Vec<params::text::ParamFileProblem>> {
+        self.vehicle.load_parameters(text, autopilot, &mut self.payload.equipment, &self.links)
     }
 
     /// Returns the inputs recorded for the digest since the last call.

@@ -54,7 +54,7 @@ impl Endpoint {
             let now = aircraft.clock.now;
             if admission != FrameAdmission::Reject {
                 if frame.message_id == HEARTBEAT_DATA::ID {
-                    self.links.wake(id, now);
+                    self.links.start_streams(id, now);
                 }
                 self.links.route(id, &frame, now);
             }

@@ -4,7 +4,7 @@ use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::MISSION_ITEM_INT_DATA;
 
 /// Coordinates that mean "not set", in degrees E7; none is a valid position.
-const UNSET: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
+const UNSET_COORDINATES: [i32; 3] = [i32::MAX, i32::MIN, 0x7ff8_0000];
 
 /// A command from COMMAND_LONG, COMMAND_INT or a mission item.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +27,8 @@ pub struct VehicleCommand {
     pub own: bool,
 }
 
-const LONG: u32 = 76;
-const INT: u32 = 75;
+const COMMAND_LONG_ID: u32 = 76;
+const COMMAND_INT_ID: u32 = 75;
 
 impl VehicleCommand {
     /// Reads a command from a received frame; `None` for other messages. Parses the raw bytes so that unknown command
@@ -37,22 +37,22 @@ impl VehicleCommand {
     pub fn of(frame: &ReceivedFrame) -> Option<Self> {
         let from = (frame.system_id, frame.component_id);
         let b = match frame.message_id {
-            LONG => frame.payload(33),
-            INT => frame.payload(35),
+            COMMAND_LONG_ID => frame.payload(33),
+            COMMAND_INT_ID => frame.payload(35),
             _ => return None,
         };
         let four = |at: usize| [b[at], b[at + 1], b[at + 2], b[at + 3]];
         let real = |at: usize| f64::from(f32::from_le_bytes(four(at)));
         let number = u16::from_le_bytes([b[28], b[29]]);
         let mut p = [real(0), real(4), real(8), real(12), real(16), real(20), real(24)];
-        if frame.message_id == LONG {
+        if frame.message_id == COMMAND_LONG_ID {
             return Some(Self { number, p, frame: 0, component: b[31], system: b[30], from, whole: false, own: false });
         }
         let scaled = |at: usize| {
             let whole = i32::from_le_bytes(four(at));
             // INT32_MAX means "not set" (MAVLink: COMMAND_INT); the other values result from clients that convert NaN
             // to an integer.
-            if UNSET.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
+            if UNSET_COORDINATES.contains(&whole) { f64::NAN } else { f64::from(whole) * 1e-7 }
         };
         (p[4], p[5]) = (scaled(16), scaled(20));
         Some(Self { number, p, frame: b[32], component: b[31], system: b[30], from, whole: true, own: false })

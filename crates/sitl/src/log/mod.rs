@@ -27,7 +27,7 @@ impl FlightLogEncoder {
     /// Starts a log: writes header information, parameter values and topic formats.
     pub fn begin<'a>(view: &VehicleSnapshot, version: &str, parameters: impl Iterator<Item = (&'a str, UlogValue<'a>)>) -> Self {
         let mut writer = UlogWriter::default();
-        writer.begin(view.clock.sim_us());
+        writer.begin(view.clock.sim_time_us());
         let hardware = format!("Spandrel SITL, {}", view.vehicle.name);
         writer.information("sys_name", UlogValue::Text("Spandrel"));
         writer.information("ver_sw", UlogValue::Text(version));
@@ -52,7 +52,7 @@ impl FlightLogEncoder {
             if !due.fire(view.clock.now) && !last {
                 continue;
             }
-            let mut row = LogRow::at(view.clock.sim_us());
+            let mut row = LogRow::at(view.clock.sim_time_us());
             if (topic.fill)(view, &mut row).is_some() {
                 self.writer.row(number, row.bytes());
             }
@@ -130,7 +130,7 @@ impl FlightRecorder {
             return;
         }
         if self.log.is_none() && view.status.armed {
-            self.out.push_back(LogOutput::Begin(view.clock.unix_us()));
+            self.out.push_back(LogOutput::Begin(view.clock.unix_time_us()));
             let log = FlightLogEncoder::begin(view, env!("CARGO_PKG_VERSION"), parameters());
             self.log = Some((log, FoxgloveScene::begin(view)));
         }

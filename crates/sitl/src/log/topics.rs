@@ -143,9 +143,9 @@ fn magnetometer(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
 
 fn range_down(v: &VehicleSnapshot, row: &mut LogRow) -> Option<()> {
     /// ROTATION_DOWNWARD_FACING of PX4's `distance_sensor`.
-    const DOWN: u8 = 25;
+    const DOWNWARD_FACING: u8 = 25;
     let range = v.readings.range_down_m.filter(|range| range.is_finite())?;
-    row.f32(range).u8(DOWN);
+    row.f32(range).u8(DOWNWARD_FACING);
     Some(())
 }
 

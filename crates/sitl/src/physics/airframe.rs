@@ -46,7 +46,7 @@ impl AirframeModel {
             rotors: vehicle.rotors.clone(),
             rotor: vehicle.rotor,
             drag_area_m2: Vector3::from(vehicle.drag.area_m2),
-            angular_damping: Vector3::from(vehicle.drag.angular_n_m_s),
+            angular_damping: Vector3::from(vehicle.drag.angular_damping_n_m_s),
             probes,
             hull_radius_m,
             restitution: vehicle.hull.restitution,

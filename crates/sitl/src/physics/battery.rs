@@ -7,7 +7,7 @@ use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 
 /// Cell voltage below which the pack counts as empty, V (estimate; usual LiPo practice).
-const EMPTY_CELL_V: f64 = 3.2;
+const EMPTY_CELL_VOLTAGE_V: f64 = 3.2;
 
 /// Returns the pack's open-circuit voltage at a state of charge, in V. Interpolates linearly between the eleven points
 /// in the vehicle file.
@@ -22,8 +22,8 @@ pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f6
 fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
     let rotor = &model.rotor;
     let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();
-    let lamp = if load.lamp_on && model.lamp.flux_lm > 0.0 { model.battery.lamp_w } else { 0.0 };
-    shaft / rotor.efficiency + model.battery.avionics_w + lamp
+    let lamp = if load.lamp_on && model.lamp.luminous_flux_lm > 0.0 { model.battery.lamp_power_w } else { 0.0 };
+    shaft / rotor.efficiency + model.battery.avionics_power_w + lamp
 }
 
 /// Advances charge, voltage and voltage sag by one step.
@@ -56,7 +56,7 @@ pub fn advance(model: &AirframeModel, physics: &mut Physics, load: PowerLoad, dt
             state.charge = (state.charge - state.current_a * dt_s / (battery.capacity_ah * 3600.0)).max(0.0);
             let full = open_circuit_v(battery, 1.0);
             state.speed_factor = (state.voltage_v / full).clamp(0.0, 1.0);
-            if state.voltage_v < EMPTY_CELL_V * f64::from(live) {
+            if state.voltage_v < EMPTY_CELL_VOLTAGE_V * f64::from(live) {
                 state.charge = 0.0;
             }
         }

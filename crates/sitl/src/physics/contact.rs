@@ -72,7 +72,7 @@ pub fn resolve(
         // Repeats the step from its start with the velocities that the contacts allow.
         state.rigid.position_m = start.position_m + state.rigid.velocity_m_s * dt_s + penetration_correction(&constraints);
         state.rigid.attitude = start.attitude.rotated_by(state.rigid.rates_rad_s * dt_s);
-        strike_rotors(&constraints, &mut state.rigid, dt_s);
+        slow_struck_rotors(&constraints, &mut state.rigid, dt_s);
     }
     state.contact = report(&constraints, dt_s);
     state.initial_guess.impulses = constraints.iter().filter(|c| c.active).map(|c| (c.key, c.impulse)).collect();
@@ -238,7 +238,7 @@ fn penetration_correction(constraints: &[ContactConstraint]) -> Vec3<Ned> {
     })
 }
 
-fn strike_rotors(constraints: &[ContactConstraint], rigid: &mut RigidState, dt_s: f64) {
+fn slow_struck_rotors(constraints: &[ContactConstraint], rigid: &mut RigidState, dt_s: f64) {
     let keep = spandrel_model::math::exp(-dt_s / ROTOR_STRIKE_TIME_CONSTANT_S);
     for rotor in constraints.iter().filter(|c| c.active).filter_map(|c| c.rotor) {
         rigid.rotor_rad_s[rotor] *= keep;
@@ -253,7 +253,7 @@ fn report(constraints: &[ContactConstraint], dt_s: f64) -> ContactReport {
             _ => (c.surface, c.object),
         });
         out.impact_m_s = out.impact_m_s.max(c.approach);
-        out.normal_n += c.impulse.dot(&c.normal) / dt_s;
+        out.normal_force_n += c.impulse.dot(&c.normal) / dt_s;
     }
     out
 }

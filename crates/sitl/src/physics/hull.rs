@@ -51,7 +51,7 @@ impl BodyProbe {
 pub fn probes(vehicle: &Vehicle) -> Vec<BodyProbe> {
     let hull = &vehicle.hull;
     let mut out: Vec<BodyProbe> = hull.feet_m.iter().map(|foot| BodyProbe::ball(*foot, HALF_THICKNESS_M)).collect();
-    if hull.caged {
+    if hull.has_propeller_guard {
         out.push(BodyProbe::ball(Vec3::zero(), 0.5 * hull.tip_to_tip_m));
         return out;
     }

@@ -122,7 +122,7 @@ pub struct ContactReport {
     /// Largest approach speed stopped in this step, m/s.
     pub impact_m_s: f64,
     /// Sum of normal forces, N.
-    pub normal_n: f64,
+    pub normal_force_n: f64,
 }
 
 impl ContactReport {

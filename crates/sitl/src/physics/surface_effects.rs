@@ -8,12 +8,12 @@ use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
 /// Range of surface effects in rotor radii. Farther surfaces change thrust by less than 0.3% (Cheeseman-Bennett at 5 R: 1.0025).
-const REACH_RADII: f64 = 5.0;
+const RANGE_ROTOR_RADII: f64 = 5.0;
 
 /// Returns the range of surface effects, in meters.
 #[must_use]
 pub fn reach_m(model: &AirframeModel) -> f64 {
-    REACH_RADII * model.rotor.radius_m
+    RANGE_ROTOR_RADII * model.rotor.radius_m
 }
 
 /// Returns the thrust in ground effect divided by the thrust out of ground effect at equal power, after Cheeseman and
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_factor_scales_only_thrust() {
+    fn exact_thrust_factor_scales_only_thrust() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);

@@ -10,11 +10,11 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
 /// Minimum light for feature tracking, lx (manufacturers of vision positioning systems specify more than 15 lx).
-pub const MIN_LUX: f64 = 15.0;
+pub const MIN_ILLUMINANCE_LUX: f64 = 15.0;
 /// Scale error, constant over a session, as a fraction of velocity (estimate).
 pub const SCALE_ERROR: f64 = 0.01;
 /// Sample rate, Hz (estimate: typical for on-board flow sensors).
-const RATE_HZ: f64 = 20.0;
+const SAMPLE_RATE_HZ: f64 = 20.0;
 
 /// State of the flow sensor.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +33,7 @@ impl OpticalFlow {
         let mut stream = RandomStream::new(seed, "flow");
         let fitted = sensors.flow_velocity_m_s > 0.0;
         Self {
-            due: Schedule::new(SimTime::ZERO, if fitted { RATE_HZ } else { 0.0 }),
+            due: Schedule::new(SimTime::ZERO, if fitted { SAMPLE_RATE_HZ } else { 0.0 }),
             noise_m_s: sensors.flow_velocity_m_s,
             reach_m: sensors.range_max_m,
             scale: 1.0 + SCALE_ERROR * stream.normal(),
@@ -50,7 +50,7 @@ impl OpticalFlow {
     /// is impossible.
     pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
         let (a, b) = (self.stream.normal(), self.stream.normal());
-        if lux < MIN_LUX || nearest_m >= self.reach_m {
+        if lux < MIN_ILLUMINANCE_LUX || nearest_m >= self.reach_m {
             return None;
         }
         let (s, c) = math::sin_cos(rigid.attitude.yaw_rad());
@@ -58,7 +58,7 @@ impl OpticalFlow {
         Some(FlowReading {
             forward_m_s: (c * v.north() + s * v.east()) * self.scale + a * self.noise_m_s,
             right_m_s: (c * v.east() - s * v.north()) * self.scale + b * self.noise_m_s,
-            quality: (lux / (4.0 * MIN_LUX)).min(1.0) * (1.0 - 0.5 * nearest_m / self.reach_m),
+            quality: (lux / (4.0 * MIN_ILLUMINANCE_LUX)).min(1.0) * (1.0 - 0.5 * nearest_m / self.reach_m),
         })
     }
 }

@@ -13,9 +13,9 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
 /// Satellites above the elevation mask (estimate: four constellations, one frequency).
-pub const SATELLITES: usize = 22;
+pub const SATELLITE_COUNT: usize = 22;
 /// Elevation mask, rad (10 degrees, common in receivers).
-const MASK_RAD: f64 = 0.174_533;
+const ELEVATION_MASK_RAD: f64 = 0.174_533;
 /// Minimum number of satellites for a fix (four for the four unknowns, and one for a consistency check).
 const MIN_SATELLITES: usize = 5;
 /// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
@@ -24,13 +24,13 @@ const MAX_HDOP: f64 = 8.0;
 const BLOCKING_RANGE_M: f64 = 400.0;
 /// Slowly drifting fraction of the position noise; the white-noise fraction accounts for the remaining variance.
 pub const DRIFT_FRACTION: f64 = 0.8;
-/// White-noise fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_FRACTION`² = 1.
-pub const WHITE_FRACTION: f64 = 0.6;
+/// White-noise fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_NOISE_FRACTION`² = 1.
+pub const WHITE_NOISE_FRACTION: f64 = 0.6;
 /// Time constant of the drift, s (estimate: ionosphere and orbit errors at one receiver change over minutes).
-pub const DRIFT_TIME_S: f64 = 120.0;
+pub const DRIFT_TIME_CONSTANT_S: f64 = 120.0;
 /// Multipath error with nearly all satellites hidden, m (estimate), and its time constant, s.
-const MULTIPATH_M: f64 = 3.0;
-const MULTIPATH_TIME_S: f64 = 8.0;
+const MAX_MULTIPATH_ERROR_M: f64 = 3.0;
+const MULTIPATH_TIME_CONSTANT_S: f64 = 8.0;
 
 /// State of the receiver.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +46,7 @@ pub struct GnssReceiver {
     open: (f64, f64),
     drift: Vec3<Ned>,
     multipath: Vec3<Ned>,
-    multipath_m2: f64,
+    multipath_variance_m2: f64,
 }
 
 impl GnssReceiver {
@@ -60,17 +60,17 @@ impl GnssReceiver {
             due: Schedule::new(SimTime::ZERO, sensors.gnss_rate_hz),
             period_s: 1.0 / sensors.gnss_rate_hz,
             shadow,
-            horizontal_m: sensors.gnss_horizontal_m,
-            vertical_m: sensors.gnss_vertical_m,
-            velocity_m_s: sensors.gnss_velocity_m_s,
+            horizontal_m: sensors.gnss_horizontal_noise_m,
+            vertical_m: sensors.gnss_vertical_noise_m,
+            velocity_m_s: sensors.gnss_velocity_noise_m_s,
             sky,
             open,
             drift: Vec3::zero(),
             multipath: Vec3::zero(),
-            multipath_m2: 0.0,
+            multipath_variance_m2: 0.0,
             stream: stream.clone(),
         };
-        gnss.drift = gnss.scaled(&mut stream, DRIFT_FRACTION);
+        gnss.drift = gnss.random_error(&mut stream, DRIFT_FRACTION);
         gnss.stream = stream;
         gnss
     }
@@ -83,7 +83,7 @@ impl GnssReceiver {
         let position_m = rigid.position_m.enu();
         let visible: Vec<Vec3<Enu>> = self.sky.iter().copied().filter(|d| self.is_visible(position_m, *d, site, now)).collect();
         let hidden = 1.0 - visible.len() as f64 / self.sky.len() as f64;
-        self.step_errors(hidden);
+        self.advance_errors(hidden);
         Some(self.fix(rigid, &visible))
     }
 
@@ -91,26 +91,26 @@ impl GnssReceiver {
         !self.shadow || site.ray_m(position_m, direction, BLOCKING_RANGE_M, now).is_none()
     }
 
-    fn step_errors(&mut self, hidden: f64) {
+    fn advance_errors(&mut self, hidden: f64) {
         let mut stream = self.stream.clone();
-        let keep = math::exp(-self.period_s / DRIFT_TIME_S);
-        self.drift = self.drift * keep + self.scaled(&mut stream, DRIFT_FRACTION * (1.0 - keep * keep).sqrt());
-        let keep = math::exp(-self.period_s / MULTIPATH_TIME_S);
-        let push = MULTIPATH_M * hidden * (1.0 - keep * keep).sqrt();
+        let keep = math::exp(-self.period_s / DRIFT_TIME_CONSTANT_S);
+        self.drift = self.drift * keep + self.random_error(&mut stream, DRIFT_FRACTION * (1.0 - keep * keep).sqrt());
+        let keep = math::exp(-self.period_s / MULTIPATH_TIME_CONSTANT_S);
+        let push = MAX_MULTIPATH_ERROR_M * hidden * (1.0 - keep * keep).sqrt();
         self.multipath = self.multipath * keep + normal3(&mut stream) * push;
-        self.multipath_m2 = self.multipath_m2 * keep * keep + push * push;
+        self.multipath_variance_m2 = self.multipath_variance_m2 * keep * keep + push * push;
         self.stream = stream;
     }
 
     /// Returns a random error with the receiver's horizontal and vertical noise multiplied by `share`.
-    fn scaled(&self, stream: &mut RandomStream, share: f64) -> Vec3<Ned> {
+    fn random_error(&self, stream: &mut RandomStream, share: f64) -> Vec3<Ned> {
         let [n, e, d] = stream.normal3();
         Vec3::new(n * self.horizontal_m, e * self.horizontal_m, d * self.vertical_m) * share
     }
 
     fn fix(&mut self, rigid: &RigidState, visible: &[Vec3<Enu>]) -> GnssReading {
         let mut stream = self.stream.clone();
-        let white = self.scaled(&mut stream, WHITE_FRACTION);
+        let white = self.random_error(&mut stream, WHITE_NOISE_FRACTION);
         let speed = normal3(&mut stream) * self.velocity_m_s;
         self.stream = stream;
         let satellites = u8::try_from(visible.len()).unwrap_or(u8::MAX);
@@ -120,7 +120,7 @@ impl GnssReceiver {
         };
         let (sh, sv) = (hdop / self.open.0, vdop / self.open.1);
         let stretch = |v: Vec3<Ned>| Vec3::<Ned>::new(v.north() * sh, v.east() * sh, v.down() * sv);
-        let multipath_m = self.multipath_m2.sqrt();
+        let multipath_m = self.multipath_variance_m2.sqrt();
         GnssReading {
             fix: 3,
             satellites,
@@ -161,10 +161,10 @@ fn no_fix() -> GnssReading {
 /// Returns unit vectors to the satellites, spread evenly above the mask with the golden angle.
 fn sky() -> Vec<Vec3<Enu>> {
     let golden = math::PI * (3.0 - 5.0_f64.sqrt());
-    let low = math::sin(MASK_RAD);
-    (0..SATELLITES)
+    let low = math::sin(ELEVATION_MASK_RAD);
+    (0..SATELLITE_COUNT)
         .map(|i| {
-            let up = low + (1.0 - low) * (i as f64 + 0.5) / SATELLITES as f64;
+            let up = low + (1.0 - low) * (i as f64 + 0.5) / SATELLITE_COUNT as f64;
             let (s, c) = math::sin_cos(golden * i as f64);
             let flat = (1.0 - up * up).sqrt();
             Vec3::new(flat * s, flat * c, up)

@@ -36,7 +36,7 @@ impl Imu {
         let mut stream = RandomStream::new(seed, "imu");
         let period_s = 1.0 / sensors.imu_rate_hz;
         let walk = BIAS_WALK_FRACTION * (period_s * f64::from(BIAS_WALK_SAMPLES)).sqrt();
-        let (accel, gyro) = normal_pair_3d(&mut stream);
+        let (accel, gyro) = two_normal_vectors(&mut stream);
         Self {
             accel_sigma: sensors.accel_noise_density / period_s.sqrt(),
             gyro_sigma: sensors.gyro_noise_density / period_s.sqrt(),
@@ -68,12 +68,12 @@ impl Imu {
         }
         if self.samples_until_walk == 0 {
             self.samples_until_walk = BIAS_WALK_SAMPLES;
-            let (accel, gyro) = normal_pair_3d(&mut self.stream);
+            let (accel, gyro) = two_normal_vectors(&mut self.stream);
             self.accel_bias += accel * self.accel_walk;
             self.gyro_bias += gyro * self.gyro_walk;
         }
         self.samples_until_walk -= 1;
-        let (accel, gyro) = normal_pair_3d(&mut self.stream);
+        let (accel, gyro) = two_normal_vectors(&mut self.stream);
         let force = self.force_sum / self.time_s + self.accel_bias + accel * self.accel_sigma;
         let rates = self.rate_sum / self.time_s + self.gyro_bias + gyro * self.gyro_sigma;
         self.force_sum = Vec3::zero();
@@ -90,7 +90,7 @@ impl Imu {
 }
 
 /// Returns six independent standard normal values as two vectors.
-fn normal_pair_3d(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
+fn two_normal_vectors(stream: &mut RandomStream) -> (Vec3<Frd>, Vec3<Frd>) {
     let ((a, b), (c, d), (e, f)) = (stream.normal_pair(), stream.normal_pair(), stream.normal_pair());
     (Vec3::new(a, b, c), Vec3::new(d, e, f))
 }

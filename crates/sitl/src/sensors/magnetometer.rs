@@ -10,13 +10,13 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
 
 /// First-degree IGRF-13 coefficients g10, g11, h11 for 2020, gauss.
-const DIPOLE_GAUSS: [f64; 3] = [-0.294_048, -0.014_509, 0.046_525];
+const DIPOLE_COEFFICIENTS_GAUSS: [f64; 3] = [-0.294_048, -0.014_509, 0.046_525];
 
 /// Returns the Earth's magnetic field, in gauss, modeled as a tilted centered dipole. Its direction is accurate to a
 /// few degrees.
 #[must_use]
 pub fn earth_field_gauss(place: Geo) -> Vec3<Ned> {
-    let [g10, g11, h11] = DIPOLE_GAUSS;
+    let [g10, g11, h11] = DIPOLE_COEFFICIENTS_GAUSS;
     let (sin_lat, cos_lat) = math::sin_cos(place.latitude_deg.to_radians());
     let (sin_lon, cos_lon) = math::sin_cos(place.longitude_deg.to_radians());
     let equatorial = g11 * cos_lon + h11 * sin_lon;

@@ -49,9 +49,9 @@ pub struct Sensors {
 }
 
 /// Rate of the power module, Hz (estimate).
-const POWER_RATE_HZ: f64 = 10.0;
+const POWER_MODULE_RATE_HZ: f64 = 10.0;
 /// Update rate of ambient light for the flow sensor, Hz.
-const LIGHT_RATE_HZ: f64 = 2.0;
+const AMBIENT_LIGHT_RATE_HZ: f64 = 2.0;
 
 impl Sensors {
     /// Creates the sensors. `gnss_shadow` and `origin` come from the scenario.
@@ -61,8 +61,8 @@ impl Sensors {
         let fitted = spec.flow_velocity_m_s > 0.0;
         Self {
             imu_due: Schedule::new(SimTime::ZERO, spec.imu_rate_hz),
-            power_due: Schedule::new(SimTime::ZERO, POWER_RATE_HZ),
-            light_due: Schedule::new(SimTime::ZERO, if fitted { LIGHT_RATE_HZ } else { 0.0 }),
+            power_due: Schedule::new(SimTime::ZERO, POWER_MODULE_RATE_HZ),
+            light_due: Schedule::new(SimTime::ZERO, if fitted { AMBIENT_LIGHT_RATE_HZ } else { 0.0 }),
             imu: imu::Imu::new(spec, seed),
             gnss: gnss::GnssReceiver::new(spec, gnss_shadow, seed),
             baro: baro::Barometer::new(spec, origin.altitude_m, seed),
@@ -116,11 +116,11 @@ impl Sensors {
 
     /// Returns the illuminance, in lx, that the lamp would produce on the nearest surface if it pointed there.
     fn lamp_lux(&self, on: bool) -> f64 {
-        if !on || self.lamp.flux_lm <= 0.0 {
+        if !on || self.lamp.luminous_flux_lm <= 0.0 {
             return 0.0;
         }
-        let solid_angle = math::TAU * (1.0 - math::cos(0.5 * self.lamp.beam_rad));
-        self.lamp.flux_lm / solid_angle.max(1e-3) / self.nearest_m.max(0.5) / self.nearest_m.max(0.5)
+        let solid_angle = math::TAU * (1.0 - math::cos(0.5 * self.lamp.beam_angle_rad));
+        self.lamp.luminous_flux_lm / solid_angle.max(1e-3) / self.nearest_m.max(0.5) / self.nearest_m.max(0.5)
     }
 
     /// Returns the inertial sensors, for estimator tests.
@@ -158,9 +158,9 @@ pub(crate) mod tests {
             gyro_noise_density: 0.0,
             gyro_bias_rad_s: 0.0,
             gnss_rate_hz: 5.0,
-            gnss_horizontal_m: 0.0,
-            gnss_vertical_m: 0.0,
-            gnss_velocity_m_s: 0.0,
+            gnss_horizontal_noise_m: 0.0,
+            gnss_vertical_noise_m: 0.0,
+            gnss_velocity_noise_m_s: 0.0,
             baro_rate_hz: 50.0,
             baro_noise_m: 0.0,
             baro_drift_m_sqrt_s: 0.0,
@@ -214,7 +214,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn exact_flow_requires_light_and_a_surface_in_range() {
+    fn exact_flow_requires_light_and_surface_in_range() {
         let mut flow = flow::OpticalFlow::new(&error_free_sensors(), 1);
         assert!(flow.read(&still(), 5.0, 100.0).is_some());
         assert!(flow.read(&still(), 5.0, 14.0).is_none());

@@ -12,15 +12,15 @@ use spandrel_model::site::Surface;
 /// Height above the start position that counts as liftoff, m (docs/src/reference/assessment.md, "Frames").
 const LIFTOFF_HEIGHT_M: f64 = 0.3;
 /// Minimum clearance of a safe hover, m.
-const SAFE_CLEARANCE_M: f64 = 1.0;
+const MIN_SAFE_CLEARANCE_M: f64 = 1.0;
 /// Speed below which the vehicle counts as motionless, m/s.
-const MOTIONLESS_M_S: f64 = 0.3;
+const MOTIONLESS_SPEED_M_S: f64 = 0.3;
 /// Speed below which contact with the landing pad or the ground around it is a landing, m/s (docs/src/reference/assessment.md,
 /// "Crashes").
-const GENTLE_CONTACT_M_S: f64 = 1.0;
+const GENTLE_CONTACT_SPEED_M_S: f64 = 1.0;
 /// Time without contact after which the vehicle counts as flying, s (estimate: a body at rest can rock off its contact for a step
 /// or two).
-const AIRBORNE_AFTER_S: f64 = 0.5;
+const CONTACT_FREE_FLIGHT_TIME_S: f64 = 0.5;
 
 impl Sim {
     /// Handles liftoff, contact, empty battery and respawn.
@@ -53,7 +53,7 @@ impl Sim {
         let report = self.state.contact;
         let contact = match report.surface {
             Some((surface, _)) if self.has_lifted_off && !self.is_gentle_touch(surface, report.impact_m_s) => {
-                contact_with(surface)
+                contact_kind(surface)
             }
             _ => ContactKind::None,
         };
@@ -81,7 +81,7 @@ impl Sim {
         let here = self.state.rigid.position_m.enu() - team.pad_m;
         let home = here.horizontal_norm() <= team.home_radius_m;
         let place = surface == Surface::Pad || (surface == Surface::Terrain && home);
-        place && impact_m_s < GENTLE_CONTACT_M_S
+        place && impact_m_s < GENTLE_CONTACT_SPEED_M_S
     }
 
     /// Returns true if the vehicle is lying on its side or back. Near home, this is gentle contact and not a crash, but
@@ -109,13 +109,13 @@ impl Sim {
         }
         let rigid = &self.state.rigid;
         let touching = self.scoring.contact != ContactKind::None || self.is_upside_down();
-        let still = rigid.velocity_m_s.norm() < MOTIONLESS_M_S;
+        let still = rigid.velocity_m_s.norm() < MOTIONLESS_SPEED_M_S;
         let wet = self.scoring.contact == ContactKind::Water;
         if touching {
             self.touched_at = self.now;
         }
-        self.hard_contact |= touching && self.state.contact.impact_m_s >= GENTLE_CONTACT_M_S;
-        if !touching && (self.now - self.touched_at).s() > AIRBORNE_AFTER_S {
+        self.hard_contact |= touching && self.state.contact.impact_m_s >= GENTLE_CONTACT_SPEED_M_S;
+        if !touching && (self.now - self.touched_at).s() > CONTACT_FREE_FLIGHT_TIME_S {
             self.hard_contact = false;
         }
         if self.has_landed_upright() {
@@ -123,7 +123,7 @@ impl Sim {
             return;
         }
         if !(touching && (still || wet)) {
-            let flies = !still || (self.now - self.touched_at).s() > AIRBORNE_AFTER_S;
+            let flies = !still || (self.now - self.touched_at).s() > CONTACT_FREE_FLIGHT_TIME_S;
             if !touching && flies {
                 self.crashed_since = None;
             }
@@ -170,14 +170,14 @@ impl Sim {
         let (roll, pitch, yaw) = rigid.attitude.euler();
         let calm = rigid.velocity_m_s.norm() < 2.0 && roll.abs() < 0.4 && pitch.abs() < 0.4 && rigid.rates_rad_s.norm() < 1.0;
         let flying = self.backend.builtin().is_some_and(|a| a.status().landed == LandedState::InAir);
-        if calm && flying && self.scoring.clearance_m > SAFE_CLEARANCE_M && self.crashed_since.is_none() {
+        if calm && flying && self.scoring.clearance_m > MIN_SAFE_CLEARANCE_M && self.crashed_since.is_none() {
             self.last_safe_hover = (rigid.position_m, yaw);
         }
     }
 }
 
 /// Maps a surface to a contact kind. A landing pad counts as another object because gentle landings on it are excluded earlier.
-fn contact_with(surface: Surface) -> ContactKind {
+fn contact_kind(surface: Surface) -> ContactKind {
     match surface {
         Surface::Bridge => ContactKind::Bridge,
         Surface::Terrain => ContactKind::Terrain,
@@ -202,10 +202,10 @@ mod tests {
 
     const MS: SimTime = SimTime::from_ms(1);
     /// Last safe hover position in these tests, NED, m.
-    const SAFE: (f64, f64, f64) = (3.0, 4.0, -6.0);
+    const SAFE_HOVER_POSITION: (f64, f64, f64) = (3.0, 4.0, -6.0);
 
     /// A vehicle that has flown and is now 50 m from the landing pad, level and at rest.
-    fn airborne_sim(change: impl Fn(&mut Scenario)) -> Sim {
+    fn sim_in_flight(change: impl Fn(&mut Scenario)) -> Sim {
         let text = include_str!("../../../../scenarios/drill-hover.toml");
         let mut scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).expect("shipped");
         change(&mut scenario);
@@ -217,7 +217,7 @@ mod tests {
             site,
         );
         sim.has_lifted_off = true;
-        sim.last_safe_hover = (Vec3::new(SAFE.0, SAFE.1, SAFE.2), 0.3);
+        sim.last_safe_hover = (Vec3::new(SAFE_HOVER_POSITION.0, SAFE_HOVER_POSITION.1, SAFE_HOVER_POSITION.2), 0.3);
         put(&mut sim, Vec3::new(50.0, 0.0, 0.1));
         sim
     }
@@ -227,7 +227,7 @@ mod tests {
     }
 
     fn set_contact(sim: &mut Sim, surface: Option<Surface>, impact_m_s: f64) {
-        sim.state.contact = ContactReport { surface: surface.map(|s| (s, ObjectId(0))), impact_m_s, normal_n: 1.0 };
+        sim.state.contact = ContactReport { surface: surface.map(|s| (s, ObjectId(0))), impact_m_s, normal_force_n: 1.0 };
     }
 
     /// Runs crash handling for `ms` ticks on an unchanging physical state.
@@ -253,7 +253,7 @@ mod tests {
             (Surface::Water, going, true),
             (Surface::Bridge, going, false),
         ] {
-            let mut sim = airborne_sim(|_| ());
+            let mut sim = sim_in_flight(|_| ());
             set_contact(&mut sim, Some(surface), 2.0);
             sim.state.rigid.velocity_m_s = velocity;
             // The crash counts from the first tick.
@@ -263,7 +263,10 @@ mod tests {
             assert_eq!(events.contains(&SimEvent::Respawn), back, "{surface:?} {events:?}");
             assert_eq!(sim.scoring.respawns, i32::from(back));
             if back {
-                assert_eq!(sim.state.rigid.position_m, Vec3::new(SAFE.0, SAFE.1, SAFE.2));
+                assert_eq!(
+                    sim.state.rigid.position_m,
+                    Vec3::new(SAFE_HOVER_POSITION.0, SAFE_HOVER_POSITION.1, SAFE_HOVER_POSITION.2)
+                );
                 assert_eq!(sim.state.rigid.velocity_m_s.norm(), 0.0);
             }
         }
@@ -279,7 +282,7 @@ mod tests {
             (Surface::Terrain, 0.7, Some(tipped), true),
             (Surface::Water, 0.7, None, true),
         ] {
-            let mut sim = airborne_sim(|_| ());
+            let mut sim = sim_in_flight(|_| ());
             sim.state.rigid.attitude = attitude.unwrap_or(sim.state.rigid.attitude);
             set_contact(&mut sim, Some(surface), impact_m_s);
             run_ticks(&mut sim, 1);
@@ -290,12 +293,12 @@ mod tests {
     }
 
     #[test]
-    fn exact_other_crash_rules_leave_vehicle_or_end_session() {
-        let mut sim = airborne_sim(|s| s.rules.after_crash = AfterCrash::Continue);
+    fn exact_other_crash_rules_prevent_respawn_or_end_session() {
+        let mut sim = sim_in_flight(|s| s.rules.after_crash = AfterCrash::Continue);
         set_contact(&mut sim, Some(Surface::Bridge), 2.0);
         let events = run_ticks(&mut sim, 20_000);
         assert!(crashes(&events) == 1 && events.len() == 1 && sim.ended().is_none(), "{events:?}");
-        let mut sim = airborne_sim(|s| s.rules.after_crash = AfterCrash::End);
+        let mut sim = sim_in_flight(|s| s.rules.after_crash = AfterCrash::End);
         set_contact(&mut sim, Some(Surface::Bridge), 2.0);
         let events = run_ticks(&mut sim, 1);
         assert!(sim.ended().is_some_and(|why| why.starts_with("crashed into")), "{events:?}");
@@ -305,7 +308,7 @@ mod tests {
     fn exact_hitting_person_or_vehicle_always_ends_session() {
         for rule in [AfterCrash::Continue, AfterCrash::Respawn, AfterCrash::End] {
             for surface in [Surface::Person, Surface::Vehicle] {
-                let mut sim = airborne_sim(|s| s.rules.after_crash = rule);
+                let mut sim = sim_in_flight(|s| s.rules.after_crash = rule);
                 if rule != AfterCrash::End {
                     set_contact(&mut sim, Some(Surface::Bridge), 1.0);
                     run_ticks(&mut sim, 10);
@@ -323,7 +326,7 @@ mod tests {
     fn exact_empty_battery_prevents_respawn() {
         // One millisecond before the respawn, and exactly at the respawn.
         for ms in [2_999, 3_000] {
-            let mut sim = airborne_sim(|_| ());
+            let mut sim = sim_in_flight(|_| ());
             set_contact(&mut sim, Some(Surface::Bridge), 2.0);
             run_ticks(&mut sim, ms);
             sim.state.battery.charge = 0.0;
@@ -334,8 +337,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_vehicle_still_flying_after_contact_is_not_respawned() {
-        let mut sim = airborne_sim(|_| ());
+    fn exact_vehicle_flying_after_contact_does_not_respawn() {
+        let mut sim = sim_in_flight(|_| ());
         set_contact(&mut sim, Some(Surface::Bridge), 0.2);
         run_ticks(&mut sim, 100);
         // Below the motionless threshold, but in the air.
@@ -351,7 +354,7 @@ mod tests {
     fn exact_pad_contact_is_crash_only_above_1_m_s() {
         for (impact_m_s, expected) in [(0.99, 0), (1.01, 1), (6.0, 1)] {
             for surface in [Surface::Pad, Surface::Terrain] {
-                let mut sim = airborne_sim(|_| ());
+                let mut sim = sim_in_flight(|_| ());
                 let pad = sim.config.scenario.ground_team.pad_m;
                 put(&mut sim, pad + Vec3::new(0.3, 0.0, 0.1));
                 set_contact(&mut sim, Some(surface), impact_m_s);

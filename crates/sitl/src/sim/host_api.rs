@@ -86,9 +86,9 @@ impl Sim {
     ///
     /// # Errors
     /// Returns all invalid lines. In that case, no parameter is changed.
-    pub fn read_parameters(&mut self, text: &str) -> Result<(), Vec<ParamFileProblem>> {
+    pub fn load_parameters(&mut self, text: &str) -> Result<(), Vec<ParamFileProblem>> {
         let Backend::Builtin(autopilot) = &mut self.backend;
-        self.endpoint.read_parameters(text, autopilot)
+        self.endpoint.load_parameters(text, autopilot)
     }
 
     /// Enables parameter storage by the host ([`Sim::take_storage_request`]).
@@ -134,7 +134,7 @@ impl Sim {
     }
 
     /// Reports the result of a file job.
-    pub fn file_job_done(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
+    pub fn finish_file_job(&mut self, ticket: u64, outcome: Result<FileJobResult, FileError>) {
         file_jobs::finish(&mut self.endpoint.vehicle, ticket, outcome, self.now);
     }
 }

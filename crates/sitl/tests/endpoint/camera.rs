@@ -20,7 +20,7 @@ const VIDEO_MIB_S: f32 = 60e6 / 8.0 / 1_048_576.0;
 const TIMING_TOLERANCE_S: f32 = 0.01;
 
 /// The only shipped aircraft that has a zoom lens.
-const ZOOMS: &str = "m30";
+const ZOOM_AIRCRAFT: &str = "m30";
 
 fn on_the_pad(vehicle: &str) -> Station {
     let mut station = Station::of(scenario("drill-hover"), vehicle, 7);
@@ -108,14 +108,14 @@ fn wire_formatting_empties_the_card_and_is_rejected_while_recording() {
 }
 
 /// Returns the field of view at a zoom level in degrees.
-fn field_deg(level: f64) -> f64 {
+fn field_of_view_deg(level: f64) -> f64 {
     let (wide_deg, most) = (84.0_f64, 3.1);
     (2.0 * math::atan2(math::tan(0.5 * wide_deg.to_radians()), 1.0 + level * (most - 1.0))).to_degrees()
 }
 
 #[test]
 fn wire_every_zoom_type_works_within_the_zoom_range() {
-    let mut station = on_the_pad(ZOOMS);
+    let mut station = on_the_pad(ZOOM_AIRCRAFT);
     let zoom = MavCmd::MAV_CMD_SET_CAMERA_ZOOM;
     let wide_mm = 0.5 * 6.17 / (0.5 * 84.0_f32.to_radians()).tan();
     let half_mm = wide_mm * (1.0 + 0.5 * 2.1);
@@ -125,7 +125,7 @@ fn wire_every_zoom_type_works_within_the_zoom_range() {
         (0.0, -1.0, 50.0),
         (1.0, 1.0, 100.0),
         (3.0, half_mm, 50.0),
-        (4.0, field_deg(0.25) as f32, 25.0),
+        (4.0, field_of_view_deg(0.25) as f32, 25.0),
         (1.0, -1.0, 0.0),
     ] {
         assert_eq!(station.command(CAMERA, zoom, p(&[kind, value])), OK, "{kind} {value}");
@@ -137,7 +137,7 @@ fn wire_every_zoom_type_works_within_the_zoom_range() {
         let field =
             station.last_message(|m| if let MavMessage::CAMERA_FOV_STATUS(f) = m { Some((f.hfov, f.vfov)) } else { None });
         let (hfov, vfov) = field.unwrap();
-        assert!((f64::from(hfov) - field_deg(f64::from(level) / 100.0)).abs() < 0.01, "{level}: {hfov}");
+        assert!((f64::from(hfov) - field_of_view_deg(f64::from(level) / 100.0)).abs() < 0.01, "{level}: {hfov}");
         let tall = (0.5 * vfov.to_radians()).tan() / (0.5 * hfov.to_radians()).tan();
         assert!((tall - 0.75).abs() < 1e-4, "a sensor of 4000 by 3000 pixels: ratio {tall}");
         assert_eq!(ask(&mut station, 269), OK);
@@ -160,7 +160,7 @@ fn wire_every_zoom_type_works_within_the_zoom_range() {
 
 #[test]
 fn wire_continuous_zoom_stops_on_command_and_reset_zooms_out() {
-    let mut station = on_the_pad(ZOOMS);
+    let mut station = on_the_pad(ZOOM_AIRCRAFT);
     let zoom = MavCmd::MAV_CMD_SET_CAMERA_ZOOM;
     assert_eq!(station.command(CAMERA, zoom, p(&[1.0, 0.5])), OK);
     station.run_ms(1_200);
@@ -180,7 +180,7 @@ fn wire_continuous_zoom_stops_on_command_and_reset_zooms_out() {
 
 #[test]
 fn wire_field_of_view_precedes_every_picture() {
-    let mut station = on_the_pad(ZOOMS);
+    let mut station = on_the_pad(ZOOM_AIRCRAFT);
     station.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, p(&[1.0, 1.0]));
     for _ in 0..5 {
         station.run_ms(430);
@@ -200,7 +200,7 @@ fn wire_field_of_view_precedes_every_picture() {
         assert_eq!((field.time_boot_ms, field.q), (image.time_boot_ms, image.q));
         let level = f64::from(image.time_boot_ms - 100) / 3_000.0;
         // The lens moves in control ticks, which are 2.5 ms apart.
-        assert!((f64::from(field.hfov) - field_deg(level)).abs() < 0.2, "{} at {level}", field.hfov);
+        assert!((f64::from(field.hfov) - field_of_view_deg(level)).abs() < 0.2, "{} at {level}", field.hfov);
     }
 }
 
@@ -338,7 +338,7 @@ fn wire_missed_pictures_can_be_requested_again() {
 }
 
 /// Returns a mission item with a payload command. It has seven parameters, with 5 and 6 as transmitted.
-fn act(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_INT_DATA {
+fn payload_item(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_INT_DATA {
     let [param1, param2, param3, param4] = p;
     let frame = MavFrame::MAV_FRAME_MISSION;
     MISSION_ITEM_INT_DATA { param1, param2, param3, param4, x, y: 0, frame, ..item(seq, command, 0.0, z) }
@@ -347,26 +347,26 @@ fn act(seq: u16, command: MavCmd, p: [f32; 4], x: i32, z: f32) -> MISSION_ITEM_I
 #[test]
 fn wire_mission_items_have_the_same_effect_as_commands() {
     use MavCmd as M;
-    let mut station = on_the_pad(ZOOMS);
+    let mut station = on_the_pad(ZOOM_AIRCRAFT);
     station.run_ms(2_500);
     let north = home_north(&station);
     let items = [
         item(0, M::MAV_CMD_NAV_TAKEOFF, north, 6.0),
-        act(1, M::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, NAN, NAN], 0, NAN),
-        act(2, M::MAV_CMD_VIDEO_START_CAPTURE, [0.0, 0.0, 0.0, NAN], 0, NAN),
-        act(3, M::MAV_CMD_SET_CAMERA_ZOOM, [2.0, 50.0, 0.0, NAN], 0, NAN),
-        act(4, M::MAV_CMD_SET_CAMERA_FOCUS, [4.0, NAN, 0.0, NAN], 0, NAN),
-        act(5, M::MAV_CMD_DO_SET_SERVO, [9.0, 1_900.0, 0.0, 0.0], 0, 0.0),
-        act(6, M::MAV_CMD_DO_MOUNT_CONFIGURE, [2.0, 1.0, 1.0, 0.0], 0, 0.0),
-        act(7, M::MAV_CMD_DO_MOUNT_CONTROL, [-50.0, 0.0, 0.0, 0.0], 0, 2.0),
+        payload_item(1, M::MAV_CMD_SET_CAMERA_MODE, [0.0, 1.0, NAN, NAN], 0, NAN),
+        payload_item(2, M::MAV_CMD_VIDEO_START_CAPTURE, [0.0, 0.0, 0.0, NAN], 0, NAN),
+        payload_item(3, M::MAV_CMD_SET_CAMERA_ZOOM, [2.0, 50.0, 0.0, NAN], 0, NAN),
+        payload_item(4, M::MAV_CMD_SET_CAMERA_FOCUS, [4.0, NAN, 0.0, NAN], 0, NAN),
+        payload_item(5, M::MAV_CMD_DO_SET_SERVO, [9.0, 1_900.0, 0.0, 0.0], 0, 0.0),
+        payload_item(6, M::MAV_CMD_DO_MOUNT_CONFIGURE, [2.0, 1.0, 1.0, 0.0], 0, 0.0),
+        payload_item(7, M::MAV_CMD_DO_MOUNT_CONTROL, [-50.0, 0.0, 0.0, 0.0], 0, 2.0),
         item(8, M::MAV_CMD_NAV_WAYPOINT, north + 8.0, 6.0),
         // One command as MAVLink defines it, and one as sent by stations that always scale parameter 5.
-        act(9, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 1, 0.0),
+        payload_item(9, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 1, 0.0),
         item(10, M::MAV_CMD_NAV_WAYPOINT, north, 6.0),
-        act(11, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 10_000_000, 0.0),
-        act(12, M::MAV_CMD_VIDEO_STOP_CAPTURE, [0.0, 0.0, NAN, NAN], 0, NAN),
-        act(13, M::MAV_CMD_DO_REPEAT_RELAY, [0.0, 2.0, 0.2, 0.0], 0, 0.0),
-        act(14, M::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [NAN, NAN, NAN, NAN], 2, 1.0),
+        payload_item(11, M::MAV_CMD_DO_DIGICAM_CONTROL, [0.0; 4], 10_000_000, 0.0),
+        payload_item(12, M::MAV_CMD_VIDEO_STOP_CAPTURE, [0.0, 0.0, NAN, NAN], 0, NAN),
+        payload_item(13, M::MAV_CMD_DO_REPEAT_RELAY, [0.0, 2.0, 0.2, 0.0], 0, 0.0),
+        payload_item(14, M::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [NAN, NAN, NAN, NAN], 2, 1.0),
         item(15, M::MAV_CMD_NAV_LAND, north, 0.0),
     ];
     assert_eq!(upload(&mut station, &items), MavMissionResult::MAV_MISSION_ACCEPTED);

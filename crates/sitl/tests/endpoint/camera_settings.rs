@@ -161,7 +161,7 @@ fn wire_camera_serves_only_its_definition_file() {
     while (file.len() as u32) < size {
         let part = transfer(&mut station, CAMERA, Opcode::ReadFile, (opened.session, file.len() as u32), &[], 200);
         assert_eq!(part.opcode, ACK);
-        file.extend_from_slice(part.sized().unwrap());
+        file.extend_from_slice(part.data_in_use().unwrap());
     }
     let xml = String::from_utf8(file).unwrap();
     assert!(xml.starts_with("<?xml") && xml.trim_end().ends_with("</mavlinkcamera>"), "{xml}");

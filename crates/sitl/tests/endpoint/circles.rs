@@ -20,7 +20,7 @@ fn angle_between(a: f32, b: f32) -> f32 {
 }
 
 #[test]
-fn flight_orbit_keeps_radius_and_speed_facing_the_center() {
+fn flight_orbit_keeps_radius_and_speed_and_faces_the_center() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sticks(0, 0, 500, 0);
     let center = station.place();
@@ -154,7 +154,7 @@ fn flight_yaw_command_does_not_interrupt_the_mission() {
 
 /// Sets a home position relative to home; its height is relative to the current home.
 #[test]
-fn wire_home_accepts_relative_heights_and_rejects_other_frames() {
+fn wire_set_home_accepts_relative_heights_and_rejects_other_frames() {
     let mut station = ready(7);
     let home_mm = |s: &mut Station| {
         s.run_ms(2_100);

@@ -20,10 +20,10 @@ const RTL: f32 = 6.0;
 const POSHOLD: f32 = 16.0;
 pub(super) const BRAKE: f32 = 17.0;
 /// Tolerance within which a height counts as reached, m (the autopilot's 0.4 m, plus deceleration).
-const HEIGHT_M: f32 = 0.6;
+const HEIGHT_TOLERANCE_M: f32 = 0.6;
 /// Position of the drill's pad in 1e-7 degrees, and meters north per 1e-7 degree.
 pub(super) const PAD: (i32, i32) = (467_052_000, 83_814_000);
-pub(super) const M_PER_E7: f64 = 0.011_132;
+pub(super) const METERS_PER_E7_DEGREE: f64 = 0.011_132;
 
 pub(super) fn mode(number: f32) -> [f32; 7] {
     [1.0, number, 0.0, 0.0, 0.0, 0.0, 0.0]
@@ -63,7 +63,11 @@ pub(super) fn copter_at(height_m: f32) -> Station {
     let take_off = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, height_m];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, take_off), ACCEPTED);
     let ground = station.local_position_after(100)[2];
-    assert!(station.run_until(30.0, |s| ground - s.place()[2] > height_m - HEIGHT_M), "no takeoff: {:?}", station.texts());
+    assert!(
+        station.run_until(30.0, |s| ground - s.place()[2] > height_m - HEIGHT_TOLERANCE_M),
+        "no takeoff: {:?}",
+        station.texts()
+    );
     station.run_ms(3_000);
     station
 }
@@ -152,10 +156,10 @@ fn flight_guided_takeoff_is_relative_to_home_and_stays_in_guided() {
     assert!(station.run_until(5.0, |s| beat(s).system_status == MavState::MAV_STATE_ACTIVE));
     assert_eq!(flying.custom_mode, GUIDED as u32, "the mode must stay GUIDED during takeoff");
     let ground = 0.0;
-    assert!(station.run_until(30.0, |s| ground - s.place()[2] > 6.0 - HEIGHT_M));
+    assert!(station.run_until(30.0, |s| ground - s.place()[2] > 6.0 - HEIGHT_TOLERANCE_M));
     station.run_ms(2_000);
     let height = -station.local_position_after(100)[2];
-    assert!((height - 6.0).abs() < 2.0 * HEIGHT_M, "the height must count from home, not from sea level: {height}");
+    assert!((height - 6.0).abs() < 2.0 * HEIGHT_TOLERANCE_M, "the height must count from home, not from sea level: {height}");
     assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32, "the mode must stay GUIDED after takeoff");
     assert_eq!(station.command(1, command, take_off(9.0)), FAILED, "a second takeoff in the air must be rejected");
     assert_eq!(station.command(1, ARM, one(0.0)), FAILED, "disarming in the air must be rejected");
@@ -216,7 +220,7 @@ fn flight_goto_requires_or_enters_guided_and_brake_stops_it() {
             param1: -1.0,
             param2: flags,
             param4: f32::NAN,
-            x: PAD.0 + (40.0 / M_PER_E7) as i32,
+            x: PAD.0 + (40.0 / METERS_PER_E7_DEGREE) as i32,
             y: PAD.1,
             z: 5.0,
             ..Default::default()

@@ -1,13 +1,13 @@
 //! ArduCopter's GUIDED mode: effects of GUID_OPTIONS, reported targets, and pause.
 
-use super::copter::{ARM, BRAKE, GUIDED, M_PER_E7, SET_MODE, copter, copter_at, mode, next_heartbeat};
+use super::copter::{ARM, BRAKE, GUIDED, METERS_PER_E7_DEGREE, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::station::{Station, one};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const REQUEST: MavCmd = MavCmd::MAV_CMD_REQUEST_MESSAGE;
 /// Heading tolerance, degrees (ArduPilot's autotest: 5).
-const HEADING_DEG: f32 = 5.0;
+const HEADING_TOLERANCE_DEG: f32 = 5.0;
 
 fn set_options(station: &mut Station, bits: f32) {
     assert_eq!(station.set("GUID_OPTIONS", bits, MavParamType::MAV_PARAM_TYPE_INT32), Some(bits));
@@ -75,12 +75,15 @@ fn regress_yaw_stick_in_guided_follows_guid_options() {
     let after = heading_deg(&mut station);
     assert!(turned_deg(before, after) > 20.0, "{before} to {after} deg");
     hold_yaw(&mut station, 1500, 2_000);
-    assert!(turned_deg(after, heading_deg(&mut station)).abs() < HEADING_DEG, "the heading must stay where the pilot left it");
+    assert!(
+        turned_deg(after, heading_deg(&mut station)).abs() < HEADING_TOLERANCE_DEG,
+        "the heading must stay where the pilot left it"
+    );
     assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
     set_options(&mut station, 4.0);
     hold_yaw(&mut station, 1900, 2_000);
     let ignored = turned_deg(after, heading_deg(&mut station));
-    assert!(ignored.abs() < HEADING_DEG, "{ignored} deg");
+    assert!(ignored.abs() < HEADING_TOLERANCE_DEG, "{ignored} deg");
     assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
 }
 
@@ -114,7 +117,7 @@ fn regress_attitude_thrust_in_guided_follows_guid_options() {
 }
 
 /// Tolerance within which a speed counts as reached, m/s (ArduPilot's autotest: 0.5).
-const SPEED_M_S: f32 = 0.5;
+const SPEED_TOLERANCE_M_S: f32 = 0.5;
 /// Bits of a type mask that mark values to ignore, three bits each (MAVLink: POSITION_TARGET_TYPEMASK).
 const IGNORE_POSITION: u16 = 0o7;
 const IGNORE_VELOCITY: u16 = 0o70;
@@ -197,7 +200,7 @@ fn regress_global_target_is_reported_only_for_positions() {
     station.send(&target(IGNORE_VELOCITY | IGNORE_ACCELERATION, [north + 10.0, east, down], [0.0; 3], [0.0; 3]));
     station.run_ms(200);
     let (there, _) = shown(&mut station).expect("a place");
-    assert!((f64::from(there - here) * M_PER_E7 - 10.0).abs() < 0.1, "{here} to {there}");
+    assert!((f64::from(there - here) * METERS_PER_E7_DEGREE - 10.0).abs() < 0.1, "{here} to {there}");
     station.send(&target(IGNORE_POSITION | IGNORE_ACCELERATION, [0.0; 3], [1.0, 0.0, 0.0], [0.0; 3]));
     station.run_ms(200);
     assert_eq!(shown(&mut station), None, "a velocity target must not have a position");
@@ -214,7 +217,7 @@ fn regress_guided_velocity_can_be_paused_and_continued() {
         move |station: &mut Station| {
             let at =
                 station.last_message(|m| if let MavMessage::LOCAL_POSITION_NED(p) = m { Some([p.vx, p.vy, p.vz]) } else { None });
-            at.is_some_and(|v| v.iter().zip(wanted).all(|(v, w)| (v - w).abs() < SPEED_M_S))
+            at.is_some_and(|v| v.iter().zip(wanted).all(|(v, w)| (v - w).abs() < SPEED_TOLERANCE_M_S))
         }
     };
     assert!(station.run_until(10.0, flies(velocity)));

@@ -2,7 +2,9 @@
 //! landing sequence, pause, mode switch, and the streams of ArduPilot's dialect.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{ARM, AUTO, BRAKE, GUIDED, LOITER, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
+use super::copter::{
+    ARM, AUTO, BRAKE, GUIDED, LOITER, METERS_PER_E7_DEGREE, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat,
+};
 use super::copter_plans::item;
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::upload;
@@ -11,12 +13,12 @@ use spandrel_testkit::station::{Station, one, p};
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 /// Tolerance within which a position counts as reached, m (the autopilot's 0.4 m, plus deceleration).
-const NEAR_M: f32 = 0.7;
+const POSITION_TOLERANCE_M: f32 = 0.7;
 /// Maximum deviation from the path on the way back, m (Smart RTL's accuracy of 2 m, at which it turns to the next
 /// point, and the deviations of both flights).
-const PATH_M: f32 = 3.0;
+const MAX_PATH_DEVIATION_M: f32 = 3.0;
 /// Minimum braking deceleration, m/s2 (WPNAV_ACCEL).
-const BRAKING_M_S2: f32 = 2.5;
+const MIN_DECELERATION_M_S2: f32 = 2.5;
 const SMART_RTL: f32 = 21.0;
 const CIRCLE: f32 = 7.0;
 
@@ -64,8 +66,8 @@ fn regress_qgroundcontrols_altitude_slider_climbs_a_copter() {
         station.send(&local(MavFrame::MAV_FRAME_LOCAL_OFFSET_NED, 0xFFF8, [0.0, 0.0, -3.0]));
         station.run_ms(12_000);
         let end = station.place();
-        assert!((start[2] - end[2] - 3.0).abs() < NEAR_M, "{start:?} to {end:?}: {:?}", station.texts());
-        assert!((start[0] - end[0]).hypot(start[1] - end[1]) < NEAR_M);
+        assert!((start[2] - end[2] - 3.0).abs() < POSITION_TOLERANCE_M, "{start:?} to {end:?}: {:?}", station.texts());
+        assert!((start[0] - end[0]).hypot(start[1] - end[1]) < POSITION_TOLERANCE_M);
         assert!(!station.has_text("Setpoint"), "{:?}", station.texts());
     }
 }
@@ -117,7 +119,7 @@ fn regress_smart_rtl_retraces_its_path_and_lands_at_the_start() {
     let off =
         |here: &[f32; 3]| path.iter().map(|there| (here[0] - there[0]).hypot(here[1] - there[1])).fold(f32::INFINITY, f32::min);
     let farthest_off = path_back.iter().map(off).fold(0.0, f32::max);
-    assert!(nearest < PATH_M && farthest_off < PATH_M, "corner {nearest} m, path {farthest_off} m");
+    assert!(nearest < MAX_PATH_DEVIATION_M && farthest_off < MAX_PATH_DEVIATION_M, "corner {nearest} m, path {farthest_off} m");
     let here = station.place();
     assert!((here[0] - pad[0]).hypot(here[1] - pad[1]) < 1.0, "{here:?} is not above {pad:?}");
 }
@@ -153,7 +155,7 @@ fn regress_available_modes_match_copters_names_numbers_and_order() {
 }
 
 #[test]
-fn regress_circle_mode_orbits_a_point_ahead() {
+fn regress_circle_mode_orbits_a_point_ahead_of_the_vehicle() {
     let mut station = copter_at(5.0);
     let (start, heading) = (station.place(), yaw(&mut station));
     set_param(&mut station, "CIRCLE_RADIUS", 600.0, MavParamType::MAV_PARAM_TYPE_REAL32);
@@ -165,7 +167,7 @@ fn regress_circle_mode_orbits_a_point_ahead() {
     for _ in 0..40 {
         station.run_ms(100);
         let radius = (station.place()[0] - middle[0]).hypot(station.place()[1] - middle[1]);
-        assert!((radius - 6.0).abs() < NEAR_M, "{radius}");
+        assert!((radius - 6.0).abs() < POSITION_TOLERANCE_M, "{radius}");
     }
     let turned = (bearing(&station) - before).rem_euclid(std::f32::consts::TAU).to_degrees();
     // CIRCLE_RATE is 20 deg/s clockwise.
@@ -185,14 +187,14 @@ fn regress_loiter_without_sticks_holds_and_reports_loiter() {
         station.run_ms(8_000);
         let beat = next_heartbeat(&mut station);
         assert_eq!((beat.custom_mode, beat.system_status), (LOITER as u32, MavState::MAV_STATE_ACTIVE), "{:?}", station.texts());
-        assert!(distance(start, station.local_position_after(100)) < NEAR_M);
+        assert!(distance(start, station.local_position_after(100)) < POSITION_TOLERANCE_M);
         // Centered sticks must have no effect.
         for _ in 0..60 {
             station.sticks(0, 0, 500, 0);
             station.run_ms(50);
         }
         assert_eq!(next_heartbeat(&mut station).custom_mode, LOITER as u32);
-        assert!(distance(start, station.local_position_after(100)) < NEAR_M);
+        assert!(distance(start, station.local_position_after(100)) < POSITION_TOLERANCE_M);
     }
 }
 
@@ -258,7 +260,7 @@ fn regress_pause_holds_and_continue_resumes_in_guided() {
     station.run_ms(4_000);
     let [first, second] = [station.place(), station.local_position_after(3_000)];
     assert!(distance(first, second) < 0.4 && distance(second, target) > 2.0, "{first:?} {second:?}");
-    let stopping_m = speed * speed / (2.0 * BRAKING_M_S2);
+    let stopping_m = speed * speed / (2.0 * MIN_DECELERATION_M_S2);
     assert!(first[0] - from[0] < stopping_m, "paused at {from:?}, {speed} m/s: {first:?}");
     assert_eq!(next_heartbeat(&mut station).custom_mode, GUIDED as u32);
     assert_eq!(station.command(1, pause, one(1.0)), ACCEPTED);
@@ -360,13 +362,13 @@ fn regress_follow_mode_keeps_its_offset() {
     assert_eq!(station.command(1, SET_MODE, mode(23.0)), ACCEPTED);
     // A person on the ground walks east at 1.5 m/s, starting 10 m north of the pad. Here, a degree of longitude is
     // 0.6858 times as long as a degree of latitude.
-    let east_m_per_e7 = M_PER_E7 * 0.6858;
+    let east_m_per_e7 = METERS_PER_E7_DEGREE * 0.6858;
     let mut east = 0.0;
     for k in 0..120 {
         east = 0.3 * f64::from(k);
         station.send_as(42, 1);
         station.send(&MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
-            lat: PAD.0 + (10.0 / M_PER_E7) as i32,
+            lat: PAD.0 + (10.0 / METERS_PER_E7_DEGREE) as i32,
             lon: PAD.1 + (east / east_m_per_e7) as i32,
             alt,
             vy: 150,

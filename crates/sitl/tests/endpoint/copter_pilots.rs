@@ -207,7 +207,7 @@ fn flight_auto_takeoff_requires_raised_throttle() {
 }
 
 #[test]
-fn wire_delay_without_seconds_waits_for_a_time_of_day() {
+fn wire_delay_item_without_seconds_waits_for_a_time_of_day() {
     let mut station = copter();
     let clock =
         station.last_message(|m| if let MavMessage::SYSTEM_TIME(t) = m { Some(t.time_unix_usec / 1_000_000) } else { None });
@@ -296,15 +296,15 @@ fn flight_return_uses_the_rally_points_height_and_restores_the_heading() {
         s.has_text("Rally point reached")
     });
     assert!(there, "{:?}", station.texts());
-    assert!((highest - 12.0).abs() < HEIGHT_M, "{highest} m");
+    assert!((highest - 12.0).abs() < HEIGHT_TOLERANCE_M, "{highest} m");
     station.run_ms(4_500);
     let off = (heading(&mut station) - armed + 540.0).rem_euclid(360.0) - 180.0;
-    assert!(off.abs() < HEADING_DEG, "heading {off} degrees off the one at arming");
+    assert!(off.abs() < HEADING_TOLERANCE_DEG, "heading {off} degrees off the one at arming");
 }
 
 /// Height tolerance, m, and heading tolerance, degrees, during a return (ArduPilot's autotest: 5 degrees).
-const HEIGHT_M: f32 = 1.0;
-const HEADING_DEG: f32 = 5.0;
+const HEIGHT_TOLERANCE_M: f32 = 1.0;
+const HEADING_TOLERANCE_DEG: f32 = 5.0;
 
 #[test]
 fn flight_fence_autoenable_follows_takeoff_and_landing() {
@@ -348,5 +348,5 @@ fn flight_guided_faces_a_position_without_heading() {
     station.send(&target);
     station.run_ms(2_500);
     let looks = yaw(&mut station);
-    assert!((looks - 90.0).abs() < HEADING_DEG, "{looks}");
+    assert!((looks - 90.0).abs() < HEADING_TOLERANCE_DEG, "{looks}");
 }

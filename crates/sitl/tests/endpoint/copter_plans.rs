@@ -2,7 +2,7 @@
 //! enables it.
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
-use super::copter::{ARM, AUTO, BRAKE, GUIDED, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
+use super::copter::{ARM, AUTO, BRAKE, GUIDED, METERS_PER_E7_DEGREE, PAD, SET_MODE, copter, copter_at, mode, next_heartbeat};
 use spandrel_mavlink::dialect::*;
 use spandrel_testkit::plans::upload;
 use spandrel_testkit::station::{Station, one};
@@ -15,7 +15,7 @@ pub(super) fn item(seq: u16, command: MavCmd, north_m: f64, z: f32) -> MISSION_I
         seq,
         command,
         frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
-        x: PAD.0 + (north_m / M_PER_E7) as i32,
+        x: PAD.0 + (north_m / METERS_PER_E7_DEGREE) as i32,
         y: PAD.1,
         z,
         target_system: 1,
@@ -38,7 +38,7 @@ fn current(station: &mut Station) -> (u16, u16) {
 }
 
 #[test]
-fn flight_fence_acts_only_if_enabled() {
+fn flight_fence_takes_effect_only_if_enabled() {
     let mut station = copter_at(5.0);
     let circle = MISSION_ITEM_INT_DATA {
         param1: 30.0,
@@ -46,7 +46,7 @@ fn flight_fence_acts_only_if_enabled() {
         ..item(0, MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION, 0.0, 0.0)
     };
     assert_eq!(upload(&mut station, &[circle]), MavMissionResult::MAV_MISSION_ACCEPTED);
-    let north = PAD.0 + (60.0 / M_PER_E7) as i32;
+    let north = PAD.0 + (60.0 / METERS_PER_E7_DEGREE) as i32;
     let there = [-1.0, 1.0, 0.0, f32::NAN, (f64::from(north) * 1e-7) as f32, (f64::from(PAD.1) * 1e-7) as f32, 470.0];
     for (enabled, result) in [(1.0, FAILED), (0.0, ACCEPTED)] {
         station.send(&MavMessage::PARAM_SET(PARAM_SET_DATA {

@@ -57,7 +57,7 @@ fn has_text(station: &Station, what: &str) -> bool {
 }
 
 /// Returns a vehicle that holds its position at a given height, with failure injection enabled.
-fn holding() -> Station {
+fn holding_vehicle() -> Station {
     let mut station = Station::airborne("drill-hover", 7);
     set_whole(&mut station, "SYS_FAILURE_EN", 1);
     let hold = [1.0, 4.0, 3.0, 0.0, 0.0, 0.0, 0.0];
@@ -81,7 +81,7 @@ fn wire_failure_injection_requires_permission_and_a_supported_failure() {
 
 #[test]
 fn flight_gnss_loss_and_recovery_are_reported() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     let seen = |s: &Station| {
         let healthy = s.last_message(|m| match m {
             MavMessage::SYS_STATUS(s) => {
@@ -104,7 +104,7 @@ fn flight_gnss_loss_and_recovery_are_reported() {
 #[test]
 fn flight_gnss_jump_does_not_cause_a_crash() {
     const INCONSISTENT: f32 = 4.0;
-    let mut station = holding();
+    let mut station = holding_vehicle();
     let before = station.sim.truth().rigid.position_m;
     assert_eq!(inject(&mut station, GNSS, INCONSISTENT, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(15_000);
@@ -153,7 +153,7 @@ fn wire_missing_compass_or_barometer_prevents_arming() {
 /// Without a compass, the gyroscopes maintain the heading well enough to hold position and land.
 #[test]
 fn flight_compass_loss_is_reported_and_hold_continues() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     let before = station.sim.truth().rigid.position_m;
     assert_eq!(inject(&mut station, COMPASS, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(DETECTION_LIMIT_S, |s| has_text(s, "Compass lost")));
@@ -170,7 +170,7 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
     // Time limit, s: two seconds with the same value, SYS_STATUS twice per second, plus margin.
-    const WITHIN_S: f64 = 4.0;
+    const REPORT_LIMIT_S: f64 = 4.0;
     let arm = p(&[1.0]);
     for (flavor, unit, bit, words) in [
         (&px4::FLAVOR, BAROMETER, S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, "BARO #0 failed: STALE!"),
@@ -191,10 +191,10 @@ fn wire_stuck_sensor_is_announced_and_prevents_arming() {
         assert_eq!(inject(&mut station, unit, STUCK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
         station.received.clear();
         let gone = |s: &mut Station| health(s).is_some_and(|now| !now.intersects(bit)) && has_text(s, words);
-        assert!(station.run_until(WITHIN_S, gone), "{words}: {:?}", station.texts());
+        assert!(station.run_until(REPORT_LIMIT_S, gone), "{words}: {:?}", station.texts());
         assert_ne!(station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, arm), MavResult::MAV_RESULT_ACCEPTED, "{words}");
         assert_eq!(inject(&mut station, unit, OK, 0.0), MavResult::MAV_RESULT_ACCEPTED);
-        assert!(station.run_until(WITHIN_S, |s| health(s).is_some_and(|now| now.contains(bit))), "{words}");
+        assert!(station.run_until(REPORT_LIMIT_S, |s| health(s).is_some_and(|now| now.contains(bit))), "{words}");
     }
 }
 
@@ -204,8 +204,8 @@ fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     const STUCK: f32 = 2.0;
     const BAROMETER: f32 = 3.0;
     // Height tolerance, m, when only the GNSS height remains.
-    const HEIGHT_M: f64 = 2.5;
-    let mut station = holding();
+    const HEIGHT_TOLERANCE_M: f64 = 2.5;
+    let mut station = holding_vehicle();
     let before = station.sim.truth().rigid.position_m.enu();
     let altitude =
         station.last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None });
@@ -218,16 +218,16 @@ fn regress_stuck_barometer_is_announced_and_the_climb_succeeds() {
     for _ in 0..60 {
         station.run_ms(1_000);
         let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
-        assert!(climbed < 7.0 + HEIGHT_M, "{climbed} m instead of 7 m");
+        assert!(climbed < 7.0 + HEIGHT_TOLERANCE_M, "{climbed} m instead of 7 m");
     }
     let climbed = station.sim.truth().rigid.position_m.enu().up() - before.up();
-    assert!((climbed - 7.0).abs() < HEIGHT_M, "{climbed} m instead of 7 m");
+    assert!((climbed - 7.0).abs() < HEIGHT_TOLERANCE_M, "{climbed} m instead of 7 m");
 }
 
 /// With one motor stopped, the vehicle tilts and spins; it must report this before it has fallen.
 #[test]
 fn flight_motor_failure_changes_attitude_and_is_reported() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     let level = |s: &Station| s.last_message(|m| if let MavMessage::ATTITUDE(a) = m { Some(a.clone()) } else { None }).unwrap();
     let before = level(&station);
     assert!(before.roll.hypot(before.pitch) < 0.2 && !has_text(&station, "Attitude control lost"), "{before:?}");
@@ -245,7 +245,7 @@ fn flight_motor_failure_changes_attitude_and_is_reported() {
 
 #[test]
 fn flight_vehicle_falls_after_a_motor_failure() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     let before = station.sim.truth().rigid.position_m.down();
     assert_eq!(inject(&mut station, MOTOR, OFF, 2.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(
@@ -274,7 +274,7 @@ fn flight_manual_control_loss_holds_until_it_returns() {
 
 #[test]
 fn wire_battery_failure_is_reported() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     assert_eq!(inject(&mut station, BATTERY, OFF, 0.0), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(5.0, |s| has_text(s, "Low battery")));
     station.run_ms(600);
@@ -285,7 +285,7 @@ fn wire_battery_failure_is_reported() {
 /// A failed cell must be reported, must reduce the pack voltage, and must be able to recover.
 #[test]
 fn wire_failed_cell_is_reported_and_reduces_the_voltage() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     let cells =
         |s: &Station| s.last_message(|m| if let MavMessage::BATTERY_STATUS(b) = m { Some(b.voltages) } else { None }).unwrap();
     let pack = |s: &Station| {
@@ -306,7 +306,7 @@ fn wire_failed_cell_is_reported_and_reduces_the_voltage() {
 
 #[test]
 fn flight_instructor_wind_takes_effect() {
-    let mut station = holding();
+    let mut station = holding_vehicle();
     set_real(&mut station, "SIM_WIND_DIR", 270.0);
     set_real(&mut station, "SIM_WIND_SPD", 8.0);
     station.run_ms(10_000);

@@ -34,7 +34,7 @@ fn fly(station: &mut Station, forward: i16, right: i16, z: i16, ms: i64) {
 }
 
 #[test]
-fn wire_fence_breach_holds_once_and_the_pilot_can_return() {
+fn wire_fence_breach_triggers_one_hold_and_the_pilot_can_return() {
     let mut station = Station::airborne("drill-hover", 7);
     let home = home_north(&station);
     assert_eq!(upload(&mut station, &circle(home, 15.0)), ACCEPTED);

@@ -46,7 +46,7 @@ fn wire_each_flavor_identifies_as_its_autopilot() {
 }
 
 #[test]
-fn wire_every_available_mode_can_be_entered_by_each_message() {
+fn wire_every_available_mode_can_be_entered_with_each_message() {
     for flavor in [&px4::FLAVOR, &ardupilot::FLAVOR, &generic::FLAVOR] {
         let mut station = Station::with_flavor(flavor, "drill-hover", 7);
         station.run_ms(2_500);
@@ -174,13 +174,13 @@ fn wire_only_ardupilot_serves_packed_parameters_over_ftp() {
         if !there {
             continue;
         }
-        let size = u32::from_le_bytes(open.sized().unwrap().try_into().unwrap());
+        let size = u32::from_le_bytes(open.data_in_use().unwrap().try_into().unwrap());
         let mut bytes = Vec::new();
         let mut sequence = 3;
         while (bytes.len() as u32) < size {
             let part = file(&mut station, Opcode::ReadFile, open.session, bytes.len() as u32, &[0; 200], sequence);
             assert_eq!(part.opcode, ACK);
-            bytes.extend_from_slice(part.sized().unwrap());
+            bytes.extend_from_slice(part.data_in_use().unwrap());
             sequence += 2;
         }
         let number = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
@@ -204,7 +204,7 @@ fn file(station: &mut Station, opcode: Opcode, session: u8, offset: u32, data: &
 }
 
 #[test]
-fn wire_copter_sends_only_heartbeats_until_requested_except_to_the_sidecar() {
+fn wire_copter_sends_only_heartbeats_until_other_streams_are_requested() {
     let mut station = Station::with_flavor(&ardupilot::FLAVOR, "drill-hover", 7);
     station.run_ms(3_000);
     let unasked: std::collections::BTreeSet<u32> = station.received.iter().map(|f| f.message_id).collect();

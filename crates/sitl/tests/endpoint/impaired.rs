@@ -81,7 +81,7 @@ impl Client {
         sim.handle_timeout(sim.poll_timeout());
         while let Some(job) = sim.poll_file_job() {
             let outcome = self.disk.work(&job.action);
-            sim.file_job_done(job.ticket, outcome);
+            sim.finish_file_job(job.ticket, outcome);
         }
         while let Some(transmit) = sim.poll_transmit() {
             self.back.send(&transmit.bytes, sim.now());

@@ -129,7 +129,7 @@ impl Ftp {
             for packet in heard.iter().filter(|p| p.request == Opcode::BurstReadFile as u8 && p.session == session) {
                 silent_since = self.client.station.sim.now();
                 match packet.opcode {
-                    ACK => drop(parts.insert(packet.offset as usize, packet.sized().unwrap().to_vec())),
+                    ACK => drop(parts.insert(packet.offset as usize, packet.data_in_use().unwrap().to_vec())),
                     NAK => assert_eq!(packet.data[0], FtpError::EndOfFile as u8),
                     other => panic!("opcode {other}"),
                 }
@@ -142,12 +142,12 @@ impl Ftp {
         assert_eq!(created.opcode, ACK);
         for (k, piece) in content.chunks(DATA_MAX).enumerate() {
             let written = self.ask(Opcode::WriteFile, created.session, (k * DATA_MAX) as u32, piece);
-            assert_eq!(written.opcode, ACK, "piece {k}: {:?}", written.sized());
+            assert_eq!(written.opcode, ACK, "piece {k}: {:?}", written.data_in_use());
         }
         let ended = self.ask(Opcode::TerminateSession, created.session, 0, &[]);
-        assert_eq!(ended.opcode, ACK, "{:?}", ended.sized());
+        assert_eq!(ended.opcode, ACK, "{:?}", ended.data_in_use());
         let sum = self.ask(Opcode::CalcFileCrc32, 0, 0, path.as_bytes());
-        assert_eq!(sum.sized(), Some(checksum(0, content).to_le_bytes().as_slice()));
+        assert_eq!(sum.data_in_use(), Some(checksum(0, content).to_le_bytes().as_slice()));
     }
 }
 
@@ -162,7 +162,7 @@ fn wire_file_download_survives_a_bad_link() {
     let mut file: Vec<u8> = Vec::new();
     while file.len() < size {
         let part = ftp.ask(Opcode::ReadFile, session, file.len() as u32, &[]);
-        let piece = part.sized().unwrap();
+        let piece = part.data_in_use().unwrap();
         assert!(!piece.is_empty() && part.offset == file.len() as u32);
         file.extend(piece);
     }
@@ -238,7 +238,7 @@ fn responses_in_one_second(at_once_ms: i64) -> (Vec<FtpPacket>, usize) {
             tick = sim.now();
             while let Some(job) = sim.poll_file_job() {
                 let outcome = disk.work(&job.action);
-                sim.file_job_done(job.ticket, outcome);
+                sim.finish_file_job(job.ticket, outcome);
                 jobs += 1;
             }
             most = most.max(jobs);
@@ -262,7 +262,7 @@ fn regress_file_jobs_run_in_slices_between_ticks() {
     let last = one.last().map(|packet| packet.request);
     assert_eq!(last, Some(Opcode::CalcFileCrc32 as u8), "the other client's request must be served between the slices");
     let sum = checksum(0, &long_file());
-    assert_eq!(one.last().and_then(|packet| packet.sized().map(<[u8]>::to_vec)), Some(sum.to_le_bytes().to_vec()));
+    assert_eq!(one.last().and_then(|packet| packet.data_in_use().map(<[u8]>::to_vec)), Some(sum.to_le_bytes().to_vec()));
     for at_once_ms in [7, 50] {
         assert!(responses_in_one_second(at_once_ms).0 == one, "time steps of {at_once_ms} ms");
     }

@@ -84,7 +84,7 @@ fn flight_mission_circles_have_the_specified_turns_and_direction() {
 }
 
 #[test]
-fn flight_conditions_act_between_waypoints_and_the_speed_is_restored() {
+fn flight_conditions_apply_between_waypoints_and_speed_is_restored() {
     let mut station = Station::airborne("drill-hover", 7);
     let north = home_north(&station);
     let items = numbered(vec![

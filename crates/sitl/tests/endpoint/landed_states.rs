@@ -7,10 +7,10 @@ use spandrel_testkit::station::{Station, one, p};
 
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 /// Height above the ground, m, well above the liftoff detection height.
-const CLEAR_M: f64 = 1.5;
+const CLEAR_HEIGHT_M: f64 = 1.5;
 /// Takeoff height in these tests, m above home, and distance within which it counts as reached (the autopilot's 0.4 m
 /// and the error of the estimate).
-const HEIGHT_M: f32 = 8.0;
+const TAKEOFF_HEIGHT_M: f32 = 8.0;
 const HEIGHT_TOLERANCE_M: f64 = 1.0;
 
 const GLOBAL_POSITION_INT: u32 = 33;
@@ -40,7 +40,10 @@ fn assert_take_off_states(seen: &[(MavLandedState, f64)]) {
     let order: Vec<L> = seen.iter().map(|(state, _)| *state).filter(|state| *state != L::MAV_LANDED_STATE_ON_GROUND).collect();
     assert_eq!(order, [L::MAV_LANDED_STATE_TAKEOFF, L::MAV_LANDED_STATE_IN_AIR], "{seen:?}");
     let up = seen.last().map_or(0.0, |(_, up)| *up);
-    assert!(up > CLEAR_M && up > f64::from(HEIGHT_M) - HEIGHT_TOLERANCE_M, "IN_AIR was first reported at {up} m: {seen:?}");
+    assert!(
+        up > CLEAR_HEIGHT_M && up > f64::from(TAKEOFF_HEIGHT_M) - HEIGHT_TOLERANCE_M,
+        "IN_AIR was first reported at {up} m: {seen:?}"
+    );
 }
 
 #[test]
@@ -52,7 +55,7 @@ fn regress_px4_landed_state_covers_takeoff_and_landing() {
         .last_message(|m| if let MavMessage::GLOBAL_POSITION_INT(g) = m { Some(g.alt as f32 * 1e-3) } else { None })
         .unwrap();
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    let up = [0.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, ground + HEIGHT_M];
+    let up = [0.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, ground + TAKEOFF_HEIGHT_M];
     assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, up), ACCEPTED);
     assert_take_off_states(&states(&mut station, 30.0, L::MAV_LANDED_STATE_IN_AIR));
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 6.0])), ACCEPTED);
@@ -64,8 +67,10 @@ fn regress_px4_landed_state_covers_takeoff_and_landing() {
 fn regress_mission_and_copter_takeoffs_report_takeoff_until_their_height() {
     let mut mission = ready(7);
     let north = home_north(&mission);
-    let plan =
-        [item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, HEIGHT_M), item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 20.0, HEIGHT_M)];
+    let plan = [
+        item(0, MavCmd::MAV_CMD_NAV_TAKEOFF, north, TAKEOFF_HEIGHT_M),
+        item(1, MavCmd::MAV_CMD_NAV_WAYPOINT, north + 20.0, TAKEOFF_HEIGHT_M),
+    ];
     assert_eq!(upload(&mut mission, &plan), MavMissionResult::MAV_MISSION_ACCEPTED);
     assert_eq!(mission.command(1, ARM, one(1.0)), ACCEPTED);
     assert_eq!(mission.command(1, MavCmd::MAV_CMD_MISSION_START, p(&[])), ACCEPTED);
@@ -73,6 +78,6 @@ fn regress_mission_and_copter_takeoffs_report_takeoff_until_their_height() {
     let mut station = copter();
     assert_eq!(station.command(1, SET_MODE, mode(GUIDED)), ACCEPTED);
     assert_eq!(station.command(1, ARM, one(1.0)), ACCEPTED);
-    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, HEIGHT_M])), ACCEPTED);
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, TAKEOFF_HEIGHT_M])), ACCEPTED);
     assert_take_off_states(&states(&mut station, 30.0, MavLandedState::MAV_LANDED_STATE_IN_AIR));
 }

@@ -12,7 +12,7 @@ use spandrel_testkit::station::{Station, p};
 /// m), averaged over the first eight fixes.
 const SETTLED_TOLERANCE_M: f32 = 0.5;
 /// Maximum rounding difference between degrees E7, millimeters and single-precision meters, m.
-const ROUNDING_M: f64 = 0.03;
+const ROUNDING_TOLERANCE_M: f64 = 0.03;
 /// Maximum height error in the vehicle's own estimate, m.
 const HOLD_TOLERANCE_M: f32 = 0.5;
 
@@ -64,23 +64,23 @@ fn regress_local_position_on_the_pad_is_zero_and_matches_origin_and_home() {
                 _ => None,
             });
             let at = local(&mut station);
-            assert!(off(&plane, here, at) < ROUNDING_M, "{here:?} {at:?}");
+            assert!(off(&plane, here, at) < ROUNDING_TOLERANCE_M, "{here:?} {at:?}");
             let (home, home_local) = requested(&mut station, 242, |m| match m {
                 MavMessage::HOME_POSITION(h) => Some((place(h.latitude, h.longitude, h.altitude), [h.x, h.y, h.z])),
                 _ => None,
             });
-            assert!(off(&plane, home, home_local) < ROUNDING_M, "{home:?} {home_local:?}");
+            assert!(off(&plane, home, home_local) < ROUNDING_TOLERANCE_M, "{home:?} {home_local:?}");
             assert!(home_local.iter().all(|c| c.abs() < SETTLED_TOLERANCE_M), "{home_local:?}");
             let odometry =
                 requested(&mut station, 331, |m| if let MavMessage::ODOMETRY(o) = m { Some([o.x, o.y, o.z]) } else { None });
             let at = local(&mut station);
             let apart = (0..3).map(|k| (odometry[k] - at[k]).abs()).fold(0.0, f32::max);
-            assert!(f64::from(apart) < ROUNDING_M, "{odometry:?} {at:?}");
+            assert!(f64::from(apart) < ROUNDING_TOLERANCE_M, "{odometry:?} {at:?}");
             let altitude = requested(&mut station, 141, |m| match m {
                 MavMessage::ALTITUDE(a) => Some(a.altitude_local),
                 _ => None,
             });
-            assert!(f64::from((altitude + at[2]).abs()) < ROUNDING_M, "{altitude} {at:?}");
+            assert!(f64::from((altitude + at[2]).abs()) < ROUNDING_TOLERANCE_M, "{altitude} {at:?}");
         }
     }
 }

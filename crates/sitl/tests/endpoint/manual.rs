@@ -10,7 +10,7 @@ use spandrel_testkit::station::{GCS, Station};
 const HOLD: u32 = 4 << 16 | 3 << 24;
 const POSITION: u32 = 3 << 16;
 /// Maximum drift while holding a position, m (gusts plus drift of the estimate).
-const DRIFT_M: f32 = 0.7;
+const MAX_DRIFT_M: f32 = 0.7;
 
 fn channels(station: &mut Station, pitch: u16, throttle: u16) {
     station.send(&MavMessage::RC_CHANNELS_OVERRIDE(RC_CHANNELS_OVERRIDE_DATA {
@@ -25,7 +25,7 @@ fn channels(station: &mut Station, pitch: u16, throttle: u16) {
 }
 
 #[test]
-fn wire_rc_override_acts_like_sticks_with_transmitter_pitch() {
+fn wire_rc_override_acts_like_sticks_with_reversed_pitch() {
     let mut station = Station::airborne("drill-hover", 7);
     // The first sender keeps stick control until it releases the sticks.
     station.run_ms(600);
@@ -122,7 +122,7 @@ fn wire_sidecar_receives_every_stick_sample() {
 
 /// The first negative value shows that a sender's throttle ranges from -1000 to 1000; this is remembered per sender.
 #[test]
-fn wire_negative_throttle_selects_the_symmetric_range() {
+fn wire_negative_throttle_selects_the_signed_range() {
     let mut station = Station::new("drill-hover", 7);
     let up = |station: &mut Station, z: i16| {
         station.sticks(0, 0, z, 0);
@@ -225,7 +225,7 @@ fn wire_client_timeouts_scale_with_the_speed_without_lockstep() {
 }
 
 #[test]
-fn wire_stick_loss_holds_and_returning_sticks_resume() {
+fn wire_stick_loss_leads_to_hold_and_returning_sticks_resume_control() {
     let mut station = Station::airborne("drill-hover", 7);
     station.run_ms(1_700);
     assert_eq!(station.mode(), Some(HOLD));
@@ -244,7 +244,7 @@ fn wire_stick_loss_holds_and_returning_sticks_resume() {
     let [north, east, down] = station.place();
     let later = station.local_position_after(3_000);
     assert!(
-        (later[0] - north).hypot(later[1] - east) < DRIFT_M && (later[2] - down).abs() < DRIFT_M,
+        (later[0] - north).hypot(later[1] - east) < MAX_DRIFT_M && (later[2] - down).abs() < MAX_DRIFT_M,
         "the vehicle must hold its position: {later:?}"
     );
     for _ in 0..60 {
@@ -303,7 +303,7 @@ fn roll_echo(station: &Station) -> u16 {
 }
 
 #[test]
-fn wire_first_sender_keeps_the_sticks_until_its_timeout() {
+fn wire_first_sender_keeps_stick_control_until_its_timeout() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.open_link(OTHER_LINK, LinkKind::GroundStation, false);
     for _ in 0..100 {
@@ -323,7 +323,7 @@ fn wire_first_sender_keeps_the_sticks_until_its_timeout() {
 }
 
 #[test]
-fn wire_parameter_gives_control_to_the_last_moved_sticks() {
+fn wire_parameter_can_give_control_to_the_last_sender_to_move_a_stick() {
     let mut station = Station::airborne("drill-hover", 7);
     station.sim.open_link(OTHER_LINK, LinkKind::GroundStation, false);
     set(&mut station, "SPAN_STICKS", 1);
@@ -338,7 +338,7 @@ fn wire_parameter_gives_control_to_the_last_moved_sticks() {
 }
 
 #[test]
-fn wire_unset_channels_keep_their_value_until_all_are_released() {
+fn wire_unset_channels_keep_their_values_until_all_are_released() {
     let mut station = Station::airborne("drill-hover", 7);
     station.run_ms(600);
     channels(&mut station, 1300, 1500);

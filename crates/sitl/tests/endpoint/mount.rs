@@ -209,7 +209,7 @@ fn lamp(station: &Station) -> Option<bool> {
 }
 
 #[test]
-fn wire_lamp_responds_to_all_of_its_interfaces() {
+fn wire_lamp_responds_through_every_interface() {
     let mut station = on_the_pad();
     use MavCmd as M;
     for (command, values, on) in [
@@ -249,7 +249,7 @@ fn wire_lamp_responds_to_all_of_its_interfaces() {
 }
 
 #[test]
-fn wire_repeated_relay_blinks_the_lamp_and_restores_its_state() {
+fn wire_relay_repeat_command_blinks_the_lamp_and_restores_its_state() {
     let mut station = on_the_pad();
     station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_REPEAT_RELAY, p(&[0.0, 3.0, 0.4])), OK);

@@ -16,7 +16,7 @@ const FLOOD_HZ: u32 = 50_000;
 /// Capacity of a radio at 57,600 baud, bytes per second.
 const RADIO_BYTES_S: f64 = 5_760.0;
 /// Maximum burst after a silent period, bytes, including the last datagram, which is not split.
-const RADIO_BURST: usize = 600;
+const MAX_RADIO_BURST_BYTES: usize = 600;
 
 fn drain(sim: &mut Sim) -> BTreeMap<LinkId, Vec<ReceivedFrame>> {
     let mut heard: BTreeMap<LinkId, Vec<ReceivedFrame>> = BTreeMap::new();
@@ -98,7 +98,7 @@ fn max_frames_per_tick(first: bool) -> usize {
 
 /// Runs one vehicle with and one without a flooding peer, each with fifty additional ground stations.
 #[test]
-fn wire_flood_is_bounded_per_tick_and_does_not_affect_fifty_peers() {
+fn wire_flooding_peer_is_limited_per_tick_and_does_not_affect_fifty_peers() {
     const TICKS: i64 = 1_000;
     let mut calm = Station::new("drill-hover", 7).vehicle.sim;
     let peers: Vec<LinkId> = (10..60).map(LinkId).collect();
@@ -181,7 +181,7 @@ fn wire_fifty_peers_receive_the_same_streams_as_one() {
 fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
     let mut sim = Station::new("drill-hover", 7).vehicle.sim;
     sim.open_link(RADIO, LinkKind::Serial, false);
-    sim.limit_link(RADIO, RADIO_BYTES_S);
+    sim.limit_link_rate(RADIO, RADIO_BYTES_S);
     let mut encoder = Encoder::new(250, 190);
     let list = MavMessage::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA { target_system: 1, target_component: 1 });
     sim.handle_datagram(RADIO, &encoder.encode(&list));
@@ -206,7 +206,7 @@ fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
             }
         }
         worst_ms = worst_ms.max(answered.unwrap_or(1_000));
-        let carried = (RADIO_BYTES_S as usize) * (second + 1) + RADIO_BURST;
+        let carried = (RADIO_BYTES_S as usize) * (second + 1) + MAX_RADIO_BURST_BYTES;
         assert!(bytes <= carried, "{bytes} of {carried} bytes after {second} s");
     }
     // One per second, and another after each camera heartbeat, every 4 s.
@@ -218,7 +218,7 @@ fn wire_radio_stays_within_its_capacity_with_prompt_responses() {
 }
 
 /// Encodes a frame in MAVLink 1.
-fn old_frame(sequence: u8, id: u8, payload: &[u8]) -> Vec<u8> {
+fn mavlink1_frame(sequence: u8, id: u8, payload: &[u8]) -> Vec<u8> {
     use mavlink::Message;
     let mut out = vec![0xFE, payload.len() as u8, sequence, 255, 190, id];
     out.extend(payload);
@@ -235,7 +235,7 @@ fn wire_mavlink_1_clients_are_supported() {
     lamp[..4].copy_from_slice(&1f32.to_le_bytes());
     lamp[28..30].copy_from_slice(&405u16.to_le_bytes());
     (lamp[30], lamp[31]) = (1, 1);
-    station.sim.handle_datagram(GCS, &old_frame(0, 76, &lamp));
+    station.sim.handle_datagram(GCS, &mavlink1_frame(0, 76, &lamp));
     station.run_ms(600);
     assert_eq!(station.last_message(|m| if let MavMessage::ILLUMINATOR_STATUS(s) = m { Some(s.enable) } else { None }), Some(1));
 }

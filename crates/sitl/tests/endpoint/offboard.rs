@@ -165,7 +165,7 @@ fn wire_setpoints_for_other_vehicles_are_ignored() {
 }
 
 #[test]
-fn wire_lost_setpoints_lead_to_hold_and_are_reported() {
+fn wire_setpoint_loss_is_reported_and_leads_to_hold() {
     let mut station = level();
     let ahead = local(MavFrame::MAV_FRAME_LOCAL_NED, VELOCITY, |t| t.vx = 2.0);
     offboard(&mut station, &ahead);

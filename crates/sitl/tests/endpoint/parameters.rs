@@ -17,7 +17,7 @@ use std::io::Cursor;
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 /// Minimum fraction of these names that must exist (issue 16).
-const MIN_FRACTION: f64 = 0.9;
+const MIN_SUPPORTED_FRACTION: f64 = 0.9;
 
 const QGROUNDCONTROL_PX4: &str = include_str!("names/qgroundcontrol-px4.tsv");
 const QGROUNDCONTROL_COPTER: &str = include_str!("names/qgroundcontrol-copter.tsv");
@@ -88,11 +88,16 @@ fn regress_90_percent_of_setup_page_and_test_suite_parameters_exist() {
         let missing: Vec<&&str> = all.iter().filter(|name| own.find(name).is_none()).collect();
         let share = 1.0 - missing.len() as f64 / all.len() as f64;
         println!("flavor {}: {} of {} names, {:.1}%", face.number, all.len() - missing.len(), all.len(), 100.0 * share);
-        assert!(share >= MIN_FRACTION, "flavor {}: {share}, missing {missing:?}", face.number);
+        assert!(share >= MIN_SUPPORTED_FRACTION, "flavor {}: {share}, missing {missing:?}", face.number);
         let suite = names(lists[1]);
         let known = suite.iter().filter(|(name, _)| own.find(name).is_some()).count();
         println!("flavor {}: suite only, {known} of {}", face.number, suite.len());
-        assert!(known as f64 >= MIN_FRACTION * suite.len() as f64, "flavor {}: {known} of {}", face.number, suite.len());
+        assert!(
+            known as f64 >= MIN_SUPPORTED_FRACTION * suite.len() as f64,
+            "flavor {}: {known} of {}",
+            face.number,
+            suite.len()
+        );
     }
 }
 
@@ -128,10 +133,10 @@ type Check = fn(&Tuning) -> bool;
 fn exact_px4_parameters_change_their_settings() {
     let checks: [(&str, f64, Check); 23] = [
         ("COM_RCL_EXCEPT", 5.0, |t| {
-            t.rules.responses.manual_loss_except
+            t.rules.responses.manual_loss_exceptions
                 == LinkLossExceptions { mission: true, hold: false, offboard: true, manual: false }
         }),
-        ("COM_DLL_EXCEPT", 2.0, |t| t.rules.responses.data_link_loss_except.hold),
+        ("COM_DLL_EXCEPT", 2.0, |t| t.rules.responses.data_link_loss_exceptions.hold),
         ("COM_OBL_RC_ACT", 4.0, |t| t.rules.responses.offboard_loss == OffboardLoss::Fixed(FailsafeResponse::Land)),
         ("COM_ACT_FAIL_ACT", 3.0, |t| t.rules.responses.motor_failure == FailsafeResponse::Return),
         ("COM_LOW_BAT_ACT", 3.0, |t| {
@@ -141,7 +146,7 @@ fn exact_px4_parameters_change_their_settings() {
         ("COM_RC_OVERRIDE", 2.0, |t| !t.stick_takeover && t.rules.responses.takeover_in_offboard),
         ("COM_RC_STICK_OV", 50.0, |t| t.rules.responses.takeover_deflection == 0.5),
         ("COM_ARM_MIS_REQ", 1.0, |t| t.rules.responses.arming_requires_mission),
-        ("COM_ARM_BAT_MIN", 0.5, |t| t.rules.responses.arm_charge_pct == 50.0),
+        ("COM_ARM_BAT_MIN", 0.5, |t| t.rules.responses.min_arming_charge_pct == 50.0),
         ("COM_POSCTL_NAVL", 1.0, |t| t.rules.responses.lands_without_position),
         ("NAV_RCL_ACT", 5.0, |t| t.manual_loss == LinkLossAction::Terminate),
         ("RTL_TYPE", 1.0, |t| t.rules.return_rules.places == ReturnTargets { home: false, rally: true, mission_landing: true }),
@@ -149,8 +154,8 @@ fn exact_px4_parameters_change_their_settings() {
         ("RTL_DESCEND_ALT", 7.0, |t| t.rules.return_rules.loiter_height_m == Some(7.0)),
         ("RTL_CONE_ANG", 45.0, |t| (t.rules.return_rules.cone_slope - 1.0).abs() < 1e-9),
         ("MPC_ACC_HOR", 2.0, |t| t.rules.envelope.acceleration_m_s2 == 2.0),
-        ("MPC_VEL_MANUAL", 3.0, |t| t.rules.envelope.manual_m_s == 3.0),
-        ("MPC_MAN_Y_MAX", 90.0, |t| (t.rules.envelope.manual_yaw_rad_s - 90f64.to_radians()).abs() < 1e-12),
+        ("MPC_VEL_MANUAL", 3.0, |t| t.rules.envelope.manual_speed_m_s == 3.0),
+        ("MPC_MAN_Y_MAX", 90.0, |t| (t.rules.envelope.manual_yaw_rate_rad_s - 90f64.to_radians()).abs() < 1e-12),
         ("MPC_YAW_MODE", 5.0, |t| t.rules.heading == HeadingRule::Fixed),
         ("MPC_Z_V_AUTO_UP", 1.0, |t| t.climb_m_s == 1.0),
         ("MIS_TKO_LAND_REQ", 4.0, |t| t.rules.mission_requirement == MissionRequirement::BothOrNeither),
@@ -165,30 +170,34 @@ fn exact_px4_parameters_change_their_settings() {
 #[test]
 fn exact_copter_parameters_change_their_settings() {
     let checks: [(&str, f64, Check); 24] = [
-        ("FS_OPTIONS", 1.0, |t| t.rules.responses.manual_loss_except.mission && !t.rules.responses.data_link_loss_except.manual),
+        ("FS_OPTIONS", 1.0, |t| {
+            t.rules.responses.manual_loss_exceptions.mission && !t.rules.responses.data_link_loss_exceptions.manual
+        }),
         ("FS_OPTIONS", 18.0, |t| {
-            t.rules.responses.data_link_loss_except.mission && t.rules.responses.data_link_loss_except.manual
+            t.rules.responses.data_link_loss_exceptions.mission && t.rules.responses.data_link_loss_exceptions.manual
         }),
         ("BATT_FS_LOW_ACT", 2.0, |t| t.rules.responses.battery[0] == Some(FailsafeResponse::Return)),
         ("BATT_FS_CRT_ACT", 5.0, |t| t.rules.responses.battery[1] == Some(FailsafeResponse::Terminate)),
         ("BATT_LOW_VOLT", 10.5, |t| t.rules.responses.battery_low_v == [10.5, 0.0]),
-        ("BATT_ARM_VOLT", 11.0, |t| t.rules.responses.arm_voltage_v == 11.0),
+        ("BATT_ARM_VOLT", 11.0, |t| t.rules.responses.min_arming_voltage_v == 11.0),
         ("FS_EKF_ACTION", 1.0, |t| t.rules.responses.lands_without_position),
         ("FS_CRASH_CHECK", 0.0, |t| !t.rules.responses.crash_check),
         ("RTL_SPEED", 250.0, |t| t.rules.return_rules.speed_m_s == Some(2.5)),
         ("RTL_ALT_FINAL", 300.0, |t| t.rules.return_rules.final_height_m == 3.0),
         ("RTL_LOIT_TIME", 2_000.0, |t| t.rules.return_rules.wait_s == 2.0),
-        ("RTL_CLIMB_MIN", 400.0, |t| t.rules.return_rules.climb_min_m == 4.0),
+        ("RTL_CLIMB_MIN", 400.0, |t| t.rules.return_rules.min_climb_m == 4.0),
         ("RTL_CONE_SLOPE", 3.0, |t| t.rules.return_rules.cone_slope == 3.0),
         ("RALLY_INCL_HOME", 0.0, |t| !t.rules.return_rules.places.home),
         ("WP_YAW_BEHAVIOR", 0.0, |t| t.rules.heading == HeadingRule::Fixed),
         ("MIS_RESTART", 1.0, |t| t.rules.mission_restarts),
         ("CIRCLE_RADIUS", 1_200.0, |t| t.rules.orbit_radius_m == 12.0),
         ("FENCE_TYPE", 8.0, |t| !t.rules.fence.areas && t.rules.fence.floor_m == Some(-10.0)),
-        ("LAND_SPEED_HIGH", 100.0, |t| t.rules.envelope.landing_m_s == 1.0),
-        ("LAND_ALT_LOW", 800.0, |t| t.land_slow_below_m == 8.0),
-        ("LOIT_SPEED", 300.0, |t| t.rules.envelope.manual_m_s == 3.0),
-        ("PILOT_SPEED_UP", 100.0, |t| t.rules.envelope.manual_up_m_s == 1.0 && t.rules.envelope.manual_down_m_s == 1.0),
+        ("LAND_SPEED_HIGH", 100.0, |t| t.rules.envelope.landing_descent_rate_m_s == 1.0),
+        ("LAND_ALT_LOW", 800.0, |t| t.slow_landing_height_m == 8.0),
+        ("LOIT_SPEED", 300.0, |t| t.rules.envelope.manual_speed_m_s == 3.0),
+        ("PILOT_SPEED_UP", 100.0, |t| {
+            t.rules.envelope.manual_climb_rate_m_s == 1.0 && t.rules.envelope.manual_descent_rate_m_s == 1.0
+        }),
         ("WPNAV_ACCEL", 150.0, |t| t.rules.envelope.acceleration_m_s2 == 1.5),
         ("ANGLE_MAX", 2_000.0, |t| (t.rules.envelope.manual_tilt_rad - 20f64.to_radians()).abs() < 1e-9),
     ];
@@ -327,7 +336,7 @@ fn flight_com_act_fail_act_terminates_on_a_failed_motor() {
 }
 
 #[test]
-fn exact_rc_loss_exceptions_cover_the_right_modes() {
+fn exact_rc_loss_exceptions_apply_to_the_right_modes() {
     for mode in [FlightMode::Land, FlightMode::Return] {
         assert!(LinkLossExceptions::default().includes(mode), "{mode:?}");
     }

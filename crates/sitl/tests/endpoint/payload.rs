@@ -7,7 +7,7 @@ use std::f32::consts::FRAC_PI_2;
 /// Time within which the gimbal must have reached its target at its limited rate, ms.
 const GIMBAL_MOVE_MS: i64 = 4_000;
 /// Maximum angle error at the target, rad.
-const NEAR: f32 = 0.01;
+const ANGLE_TOLERANCE_RAD: f32 = 0.01;
 
 fn pitch(station: &Station) -> f32 {
     station
@@ -19,7 +19,7 @@ fn pitch(station: &Station) -> f32 {
 }
 
 #[test]
-fn wire_gimbal_range_is_straight_down_to_straight_up() {
+fn wire_gimbal_moves_from_straight_down_to_straight_up() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(100);
     let aim = |deg: f32| [deg, 0.0, f32::NAN, f32::NAN, 0.0, 0.0, 0.0];
@@ -27,7 +27,7 @@ fn wire_gimbal_range_is_straight_down_to_straight_up() {
         let result = station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, aim(deg));
         assert_eq!(result, MavResult::MAV_RESULT_ACCEPTED);
         station.run_ms(GIMBAL_MOVE_MS);
-        assert!((pitch(&station) - deg.to_radians()).abs() < NEAR, "{deg}: {}", pitch(&station));
+        assert!((pitch(&station) - deg.to_radians()).abs() < ANGLE_TOLERANCE_RAD, "{deg}: {}", pitch(&station));
     }
     for deg in [-120.0, 91.5] {
         let result = station.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, aim(deg));
@@ -79,7 +79,11 @@ fn wire_gimbal_follows_manager_messages() {
     ] {
         station.send(&message);
         station.run_ms(GIMBAL_MOVE_MS);
-        assert!((pitch(&station) - expected).abs() < 2.0 * NEAR, "{message:?}: {} instead of {expected}", pitch(&station));
+        assert!(
+            (pitch(&station) - expected).abs() < 2.0 * ANGLE_TOLERANCE_RAD,
+            "{message:?}: {} instead of {expected}",
+            pitch(&station)
+        );
     }
 }
 

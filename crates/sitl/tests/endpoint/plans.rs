@@ -113,7 +113,7 @@ fn wire_stalled_upload_is_aborted_and_a_second_station_waits() {
 }
 
 #[test]
-fn wire_clearing_affects_only_its_plan() {
+fn wire_clear_command_affects_only_its_plan_type() {
     let mut station = ready(7);
     let fence = MISSION_ITEM_INT_DATA {
         mission_type: MavMissionType::MAV_MISSION_TYPE_FENCE,
@@ -265,7 +265,7 @@ fn wire_superseded_and_partial_requests_are_always_answered() {
 
 /// A station that connects later must be able to tell from the ID whether it has the current plan or must download it.
 #[test]
-fn wire_plan_ids_change_with_their_plans() {
+fn wire_plan_id_changes_when_its_plan_changes() {
     let mut station = ready(7);
     let id_in_ack =
         |s: &Station| s.last_message(|m| if let MavMessage::MISSION_ACK(a) = m { Some(a.opaque_id) } else { None }).unwrap();

@@ -43,7 +43,7 @@ fn assert_shown(station: &Station, message: &str, level: u8) {
 }
 
 #[test]
-fn regress_rejections_takeoff_landing_and_rc_loss_are_defined_events() {
+fn regress_rejections_takeoff_landing_and_rc_loss_are_sent_as_events() {
     let mut station = Station::new("drill-hover", 7);
     station.run_ms(2_500);
     assert_ne!(station.command(1, SET_MODE, p(&[1.0, 4.0, 4.0])), MavResult::MAV_RESULT_ACCEPTED);

@@ -6,7 +6,7 @@ use spandrel_testkit::station::{Station, one, p};
 const ACCEPTED: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const CALIBRATE: MavCmd = MavCmd::MAV_CMD_PREFLIGHT_CALIBRATION;
 /// Maximum gyroscope offset found by a calibration: this aircraft class's bias plus the noise of the mean, rad/s.
-const OFFSET_RAD_S: f32 = 0.05;
+const MAX_GYRO_OFFSET_RAD_S: f32 = 0.05;
 
 fn ready() -> Station {
     let mut station = Station::new("drill-hover", 7);
@@ -42,7 +42,7 @@ fn regress_gyro_calibration_sends_the_texts_that_qgroundcontrol_parses() {
     assert_eq!(texts, expected);
     let offsets = ["CAL_GYRO0_XOFF", "CAL_GYRO0_YOFF", "CAL_GYRO0_ZOFF"].map(|name| param(&mut station, name));
     assert!(
-        offsets.iter().all(|offset| offset.abs() < OFFSET_RAD_S) && offsets.iter().any(|offset| *offset != 0.0),
+        offsets.iter().all(|offset| offset.abs() < MAX_GYRO_OFFSET_RAD_S) && offsets.iter().any(|offset| *offset != 0.0),
         "{offsets:?}"
     );
 }

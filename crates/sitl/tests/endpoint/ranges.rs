@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_4;
 /// Five sigma of noise (2 cm) and bias (1 cm) combined, plus the resolution of the message (1 cm), m; the drone does
 /// not move.
 const TOLERANCE_M: f64 = 0.12;
-const REACH_M: f64 = 10.0;
+const MAX_RANGE_M: f64 = 10.0;
 
 /// Returns the directions of the range finders: down, up, then clockwise from the nose.
 fn finders() -> Vec<(MavSensorOrientation, Vec3<Frd>)> {
@@ -57,8 +57,8 @@ fn positions_near_objects(job: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
             let (sin, cos) = math::sin_cos(k as f64 * FRAC_PI_4);
             Vec3::new(sin, cos, 0.0)
         };
-        let beside = (0..8).filter(|k| site.ray(*place, level(*k), REACH_M, SimTime::ZERO).is_some()).count();
-        let over = site.ray(*place, Vec3::new(0.0, 0.0, 1.0), REACH_M, SimTime::ZERO).is_some();
+        let beside = (0..8).filter(|k| site.ray(*place, level(*k), MAX_RANGE_M, SimTime::ZERO).is_some()).count();
+        let over = site.ray(*place, Vec3::new(0.0, 0.0, 1.0), MAX_RANGE_M, SimTime::ZERO).is_some();
         beside + if over { 2 } else { 0 }
     };
     job.tasks.iter().filter_map(|task| task.path_m.iter().copied().max_by_key(hits)).collect()
@@ -77,11 +77,11 @@ fn reported_range(station: &Station, orientation: MavSensorOrientation) -> (f64,
 
 fn assert_range(told: f64, there: Option<f64>, what: &str) {
     match there {
-        Some(distance) if distance < REACH_M - TOLERANCE_M => {
+        Some(distance) if distance < MAX_RANGE_M - TOLERANCE_M => {
             assert!((told - distance).abs() < TOLERANCE_M, "{what}: {told} instead of {distance}");
         }
-        Some(_) => assert!(told > REACH_M - 2.0 * TOLERANCE_M, "{what}: {told} near the maximum range"),
-        None => assert!(told > REACH_M, "{what}: {told} without an obstacle"),
+        Some(_) => assert!(told > MAX_RANGE_M - 2.0 * TOLERANCE_M, "{what}: {told} near the maximum range"),
+        None => assert!(told > MAX_RANGE_M, "{what}: {told} without an obstacle"),
     }
 }
 
@@ -98,13 +98,13 @@ fn wire_range_finders_report_the_distance_in_their_direction() {
         let (truth, now) = (station.sim.truth().rigid, station.sim.now());
         let ray = |direction: Vec3<Frd>| {
             let way: Vec3<Enu> = (truth.attitude * direction).enu();
-            site.ray(truth.position_m.enu(), way, REACH_M, now).map(|hit| hit.distance_m)
+            site.ray(truth.position_m.enu(), way, MAX_RANGE_M, now).map(|hit| hit.distance_m)
         };
         let map =
             station.last_message(|m| if let MavMessage::OBSTACLE_DISTANCE(o) = m { Some(o.clone()) } else { None }).unwrap();
         assert_eq!((map.frame, map.angle_offset, map.increment_f), (MavFrame::MAV_FRAME_BODY_FRD, 0.0, 5.0));
         assert_eq!(map.increment, 5, "QGroundControl reads 72 sectors of 5 deg");
-        assert_eq!((map.min_distance, f64::from(map.max_distance) / 100.0), (10, REACH_M));
+        assert_eq!((map.min_distance, f64::from(map.max_distance) / 100.0), (10, MAX_RANGE_M));
         for (sector, slot) in map.distances.iter().enumerate() {
             let nearest = (5.0 * sector as f64 / 45.0).round() as usize % 8;
             assert_eq!(*slot, map.distances[9 * nearest], "sector {sector}");
@@ -113,12 +113,12 @@ fn wire_range_finders_report_the_distance_in_their_direction() {
             let there = ray(direction);
             let what = format!("{orientation:?} at {place:?} heading {heading_deg}");
             let (distance, reach) = reported_range(&station, orientation);
-            assert_eq!(reach, REACH_M);
+            assert_eq!(reach, MAX_RANGE_M);
             assert_range(distance, there, &what);
             if let Some(sector) = k.checked_sub(2) {
                 assert_range(f64::from(map.distances[9 * sector]) / 100.0, there, &what);
             }
-            met[k] += usize::from(there.is_some_and(|distance| distance < REACH_M - TOLERANCE_M));
+            met[k] += usize::from(there.is_some_and(|distance| distance < MAX_RANGE_M - TOLERANCE_M));
         }
     }
     assert!(met.iter().all(|times| *times >= 2), "the test must cover obstacles in every direction: {met:?}");

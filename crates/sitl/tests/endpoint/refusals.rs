@@ -17,7 +17,7 @@ const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 const NAN: f32 = f32::NAN;
 const ARM: MavCmd = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
 const SIDECAR: LinkId = LinkId(2);
-const STAMP: u64 = 30_000_000_000_000;
+const TIMESTAMP: u64 = 30_000_000_000_000;
 
 fn p(values: &[f32]) -> [f32; 7] {
     std::array::from_fn(|k| values.get(k).copied().unwrap_or(0.0))
@@ -98,13 +98,13 @@ fn wire_lockstep_response_must_be_addressed_and_signed() {
     let mut encoder = Encoder::new(1, 191);
     sim.handle_datagram(SIDECAR, &timesync(&mut encoder, token, 200));
     assert!(sim.waiting(), "a response to another client must not advance time");
-    sim.require_signatures(SigningKey::from_passphrase("bridge over water"), STAMP, &[]);
-    sim.set_signing_time(STAMP);
+    sim.require_signatures(SigningKey::from_passphrase("bridge over water"), TIMESTAMP, &[]);
+    sim.set_signing_time(TIMESTAMP);
     let bare = timesync(&mut encoder, token, 0);
     sim.handle_datagram(SIDECAR, &bare);
     assert!(sim.waiting(), "unsigned");
-    let mut signing = Signing::new(SigningKey::from_passphrase("bridge over water"), 9, STAMP);
-    let signed = signing.sign(timesync(&mut encoder, token, 1), STAMP);
+    let mut signing = Signing::new(SigningKey::from_passphrase("bridge over water"), 9, TIMESTAMP);
+    let signed = signing.sign(timesync(&mut encoder, token, 1), TIMESTAMP);
     sim.handle_datagram(SIDECAR, &signed);
     assert!(!sim.waiting());
     let refused = sim.rejected_frames();
@@ -188,7 +188,7 @@ fn wire_home_item_is_not_a_jump_target() {
 }
 
 #[test]
-fn wire_vehicles_have_unique_ids_and_the_products_vendor() {
+fn wire_vehicles_have_unique_ids_and_the_product_vendor_id() {
     let of = |instance| {
         let mut station = Station::with_instance("drill-hover", 7, instance);
         station.run_ms(1_000);

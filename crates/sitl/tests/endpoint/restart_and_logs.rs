@@ -9,10 +9,10 @@ const OK: MavResult = MavResult::MAV_RESULT_ACCEPTED;
 const NAN: f32 = f32::NAN;
 const ARM: MavCmd = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM;
 /// Distance within which a Copter's waypoint counts as reached, m (WPNAV_RADIUS, and deceleration).
-const NEAR_M: f64 = 2.5;
+const WAYPOINT_TOLERANCE_M: f64 = 2.5;
 
 /// Takes off, flies some distance at the usual speed, and lands; returns the maximum speed in m/s.
-fn fastest_of_a_flight(station: &mut Station, slow: Option<f32>) -> f32 {
+fn max_flight_speed_m_s(station: &mut Station, slow: Option<f32>) -> f32 {
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 4.0, 2.0])), OK);
     assert_eq!(station.command(1, ARM, one(1.0)), OK);
     station.run_ms(8_000);
@@ -66,12 +66,12 @@ fn heading_deg(station: &Station) -> f32 {
 
 /// One flight's speed and region of interest must not affect the next flight.
 #[test]
-fn flight_speed_and_region_of_interest_end_with_the_flight() {
+fn flight_speed_and_region_of_interest_are_reset_after_the_flight() {
     let mut station = ready(7);
-    let slow = fastest_of_a_flight(&mut station, Some(1.5));
+    let slow = max_flight_speed_m_s(&mut station, Some(1.5));
     assert!((1.2..2.0).contains(&slow), "{slow}");
     let looked = heading_deg(&station);
-    let usual = fastest_of_a_flight(&mut station, None);
+    let usual = max_flight_speed_m_s(&mut station, None);
     assert!(usual > 3.0, "{usual}");
     let ahead = heading_deg(&station);
     assert!((ahead - looked).abs() > 20.0, "{ahead} after {looked}: the region of interest must be cleared");
@@ -115,7 +115,7 @@ fn flight_copter_spline_is_flown_as_a_waypoint() {
     station.received.clear();
     assert_eq!(station.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, AUTO])), OK);
     assert!(station.run_until(60.0, |s| reached(s) == [1, 2]), "{:?}", reached(&station));
-    assert!((f64::from(station.place()[0]) - north - 14.0).abs() < NEAR_M, "{:?}", station.place());
+    assert!((f64::from(station.place()[0]) - north - 14.0).abs() < WAYPOINT_TOLERANCE_M, "{:?}", station.place());
 }
 
 /// The controlling client must keep gimbal control, but any client may clear the vehicle's region of interest.

@@ -90,7 +90,7 @@ fn wire_all_outgoing_frames_are_signed() {
 }
 
 #[test]
-fn wire_unsigned_sidecar_is_forwarded_but_cannot_command() {
+fn wire_unsigned_sidecar_messages_are_forwarded_but_not_executed() {
     let mut sim = signed_vehicle();
     let mut monitor = Encoder::new(1, 191);
     sim.handle_datagram(SIDECAR, &monitor.encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default())));

@@ -2,7 +2,7 @@
 //! for mission items, and items without a position.
 #![allow(deprecated, reason = "simple clients support nothing newer")]
 
-use super::copter::{ARM, AUTO, M_PER_E7, PAD, SET_MODE, copter, copter_at, mode};
+use super::copter::{ARM, AUTO, METERS_PER_E7_DEGREE, PAD, SET_MODE, copter, copter_at, mode};
 use super::copter_plans::item;
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
@@ -50,7 +50,7 @@ fn regress_autopilot_heartbeat_is_first_and_last_in_every_datagram() {
 }
 
 #[test]
-fn regress_camera_heartbeat_depends_on_its_use() {
+fn regress_camera_heartbeat_depends_on_camera_use() {
     let mut station = ready(7);
     station.command(100, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(259.0));
     let used = heartbeat_senders(&mut station, 10_000);
@@ -164,7 +164,7 @@ fn regress_copter_requests_items_with_mission_request() {
 }
 
 #[test]
-fn regress_upload_uses_the_request_form_that_the_client_answers() {
+fn regress_upload_uses_the_request_message_that_the_client_answers() {
     let mut station = ready(7);
     let items = [0, 1, 2].map(|seq| item(seq, MavCmd::MAV_CMD_NAV_WAYPOINT, 5.0 * f64::from(seq), 5.0));
     // A client that responds only to the older request.
@@ -190,7 +190,9 @@ fn place(station: &mut Station) -> (f64, f64) {
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, one(33.0));
     station
         .last_message(|m| match m {
-            MavMessage::GLOBAL_POSITION_INT(g) => Some((f64::from(g.lat - PAD.0) * M_PER_E7, f64::from(g.alt) * 1e-3)),
+            MavMessage::GLOBAL_POSITION_INT(g) => {
+                Some((f64::from(g.lat - PAD.0) * METERS_PER_E7_DEGREE, f64::from(g.alt) * 1e-3))
+            }
             _ => None,
         })
         .unwrap()

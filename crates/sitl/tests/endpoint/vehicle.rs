@@ -6,7 +6,7 @@ use spandrel_mavlink::dialect::{
 use spandrel_testkit::station::Station;
 
 #[test]
-fn wire_heartbeat_is_immediate_and_arming_possible_within_2_s() {
+fn wire_heartbeat_is_immediate_and_vehicle_can_arm_within_2_s() {
     let mut station = Station::new("two-bridges", 7);
     station.run_ms(100);
     assert!(
@@ -119,7 +119,7 @@ fn wire_manual_flight_with_pictures_and_lamp() {
 }
 
 #[test]
-fn flight_same_inputs_give_the_same_digest_also_from_a_snapshot() {
+fn flight_same_inputs_give_the_same_digest_even_from_a_snapshot() {
     let mut a = Station::airborne("two-bridges", 7);
     let mut b = Station::airborne("two-bridges", 7);
     let mut snapshot = a.sim.clone();

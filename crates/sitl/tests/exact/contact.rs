@@ -56,7 +56,7 @@ impl Obstacles for Plate {
 
 const GROUND: Plate = Plate { top_m: 0.0, thick_m: 100.0 };
 /// Height of the center of mass when the feet (0.12 m below, balls with a radius of 15 mm) are on the ground.
-const STANDING_M: f64 = 0.135;
+const STANDING_HEIGHT_M: f64 = 0.135;
 
 fn at(up: f64) -> PhysicsState {
     PhysicsState::at_rest(Vec3::new(0.0, 0.0, -up), 0.0)
@@ -73,21 +73,21 @@ fn run(plate: &Plate, state: &mut PhysicsState, steps: i64, mut each: impl FnMut
 #[test]
 fn exact_aircraft_at_rest_does_not_drift() {
     // Maximum drift in 60 s, m, and relative force tolerance.
-    const DRIFT_M: f64 = 1e-6;
-    const FORCE: f64 = 1e-6;
-    let mut state = at(STANDING_M);
+    const MAX_DRIFT_M: f64 = 1e-6;
+    const FORCE_TOLERANCE: f64 = 1e-6;
+    let mut state = at(STANDING_HEIGHT_M);
     let (mut steps, mut start, mut force) = (0, Vec3::zero(), 0.0);
     run(&GROUND, &mut state, 61_000, |s| {
         steps += 1;
         if steps == 1000 {
             start = s.rigid.position_m;
         } else if steps > 1000 {
-            force += s.contact.normal_n;
+            force += s.contact.normal_force_n;
         }
     });
-    assert!((state.rigid.position_m - start).norm() < DRIFT_M, "{:?}", state.rigid.position_m - start);
-    assert!((force / 60_000.0 / (1.3 * GRAVITY_M_S2) - 1.0).abs() < FORCE, "{}", force / 60_000.0);
-    assert!((state.specific_force_m_s2.down() + GRAVITY_M_S2).abs() < FORCE);
+    assert!((state.rigid.position_m - start).norm() < MAX_DRIFT_M, "{:?}", state.rigid.position_m - start);
+    assert!((force / 60_000.0 / (1.3 * GRAVITY_M_S2) - 1.0).abs() < FORCE_TOLERANCE, "{}", force / 60_000.0);
+    assert!((state.specific_force_m_s2.down() + GRAVITY_M_S2).abs() < FORCE_TOLERANCE);
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn exact_dropped_aircraft_comes_to_rest_on_its_feet() {
     const TOLERANCE: f64 = 1e-3;
     let mut state = at(0.8);
     run(&GROUND, &mut state, 5000, |_| ());
-    assert!((-state.rigid.position_m.down() - STANDING_M).abs() < TOLERANCE, "{:?}", state.rigid.position_m);
+    assert!((-state.rigid.position_m.down() - STANDING_HEIGHT_M).abs() < TOLERANCE, "{:?}", state.rigid.position_m);
     assert!(state.rigid.velocity_m_s.norm() < TOLERANCE);
 }
 
@@ -120,14 +120,14 @@ fn exact_bounce_does_not_gain_energy() {
 }
 
 #[test]
-fn exact_friction_stays_within_its_cone() {
-    let mut state = at(STANDING_M);
+fn exact_friction_force_stays_within_the_friction_cone() {
+    let mut state = at(STANDING_HEIGHT_M);
     state.rigid.velocity_m_s = Vec3::new(3.0, 0.0, 0.0);
     let mut before = 3.0;
     run(&GROUND, &mut state, 200, |s| {
         let now = s.rigid.velocity_m_s.north();
         // Coulomb friction decelerates by at most mu times the normal force over the mass.
-        let bound = 0.6 * s.contact.normal_n / 1.3 * DT.s() + 0.001;
+        let bound = 0.6 * s.contact.normal_force_n / 1.3 * DT.s() + 0.001;
         assert!(before - now <= bound, "{before} -> {now}, bound {bound}");
         before = now;
     });

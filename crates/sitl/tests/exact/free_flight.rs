@@ -17,7 +17,7 @@ fn bare() -> Vehicle {
     let mut vehicle = quad();
     vehicle.rotors.clear();
     vehicle.drag.area_m2 = [0.0; 3];
-    vehicle.drag.angular_n_m_s = [0.0; 3];
+    vehicle.drag.angular_damping_n_m_s = [0.0; 3];
     vehicle
 }
 
@@ -92,7 +92,7 @@ fn exact_hover_thrust_balances_weight() {
 }
 
 #[test]
-fn exact_motor_step_follows_its_time_constant() {
+fn exact_motor_step_response_follows_the_time_constant() {
     // Relative tolerance; the exponential is exact.
     const TOLERANCE: f64 = 1e-12;
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
@@ -134,7 +134,7 @@ fn val_tumbling_brick_matches_nesc_case_02() {
 }
 
 #[test]
-fn exact_tumbling_keeps_energy_and_angular_momentum() {
+fn exact_tumbling_conserves_energy_and_angular_momentum() {
     // Relative tolerance over 30 s.
     const TOLERANCE: f64 = 1e-12;
     const KG_M2_PER_SLUG_FT2: f64 = 1.355_817_948_331_400_4;
@@ -248,14 +248,14 @@ fn exact_tasbid_battery_is_empty_after_its_endurance() {
 fn exact_physical_battery_follows_ohms_law_and_integrates_charge() {
     // Rounding tolerance, V and A, and relative charge tolerance, because the current changes slightly during the
     // second.
-    const ROUNDING: f64 = 1e-9;
+    const ROUNDING_TOLERANCE: f64 = 1e-9;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Physical);
     let mut state = start();
     state.rigid.rotor_rad_s = [600.0; MAX_ROTORS];
     state.rigid.rotor_rad_s[4..].fill(0.0);
     let b = &vehicle.battery;
-    let power = 4.0 * 1.6e-7 * 600.0 * 600.0 * 600.0 / 0.5 + b.avionics_w + b.lamp_w;
+    let power = 4.0 * 1.6e-7 * 600.0 * 600.0 * 600.0 / 0.5 + b.avionics_power_w + b.lamp_power_w;
     let mut drawn_as = 0.0;
     let load = PowerLoad { airborne: true, lamp_on: true };
     // Commands that keep the rotor speeds constant.
@@ -265,13 +265,13 @@ fn exact_physical_battery_follows_ohms_law_and_integrates_charge() {
         model.advance(&mut state, &actuators, &AirState::STILL, &OpenSky, load, SimTime::from_ms(k), DT);
         let (v, i) = (state.battery.voltage_v, state.battery.current_a);
         drawn_as += i * DT.s();
-        assert!((state.rigid.rotor_rad_s[0] - 600.0).abs() < ROUNDING);
+        assert!((state.rigid.rotor_rad_s[0] - 600.0).abs() < ROUNDING_TOLERANCE);
         assert!((v * i - power).abs() < 1e-6 * power, "{v} V, {i} A, {power} W");
         // The charge is between the two highest points of the curve.
         let before = state.battery.charge + i * DT.s() / (b.capacity_ah * 3600.0);
         let open = 3.0 * (4.1 + (4.2 - 4.1) * (before - 0.9) * 10.0);
-        assert!((open - i * b.internal_resistance_ohm - v).abs() < ROUNDING, "{open} V open, {v} V");
-        assert!((state.battery.speed_factor - v / (3.0 * 4.2)).abs() < ROUNDING);
+        assert!((open - i * b.internal_resistance_ohm - v).abs() < ROUNDING_TOLERANCE, "{open} V open, {v} V");
+        assert!((state.battery.speed_factor - v / (3.0 * 4.2)).abs() < ROUNDING_TOLERANCE);
     }
-    assert!((1.0 - state.battery.charge - drawn_as / (b.capacity_ah * 3600.0)).abs() < ROUNDING);
+    assert!((1.0 - state.battery.charge - drawn_as / (b.capacity_ah * 3600.0)).abs() < ROUNDING_TOLERANCE);
 }

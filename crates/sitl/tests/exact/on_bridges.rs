@@ -11,7 +11,7 @@ use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, Obstacles, Phys
 
 const DT: SimTime = SimTime::from_ms(1);
 /// Radius of the balls at the feet, m (crates/sitl/src/physics/hull.rs).
-const FOOT_M: f64 = 0.015;
+const FOOT_RADIUS_M: f64 = 0.015;
 
 fn scenario() -> Scenario {
     let text = spandrel_model::shipped::TWO_BRIDGES;
@@ -74,22 +74,22 @@ fn on_top(scenario: &Scenario, site: &Site, member: &str, [x, y]: [f64; 2]) -> V
 }
 
 /// Returns how far the lowest part of a level aircraft is below its center, in meters.
-fn lowest_m(vehicle: &Vehicle) -> f64 {
-    let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_M;
-    if vehicle.hull.caged { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }
+fn lowest_part_below_center_m(vehicle: &Vehicle) -> f64 {
+    let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + FOOT_RADIUS_M;
+    if vehicle.hull.has_propeller_guard { feet.max(0.5 * vehicle.hull.tip_to_tip_m) } else { feet }
 }
 
 #[test]
 fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
     // Maximum drift in 5 s, m, after one second of settling from a height of about a centimeter.
-    const DRIFT_M: f64 = 1e-3;
+    const MAX_DRIFT_M: f64 = 1e-3;
     // Relative tolerance for the mean force over 5 s.
-    const FORCE: f64 = 1e-3;
+    const FORCE_TOLERANCE: f64 = 1e-3;
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     for vehicle in vehicles() {
         let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
-        let low = lowest_m(&vehicle);
+        let low = lowest_part_below_center_m(&vehicle);
         for (member, place) in [
             ("arch/slab/08", [3.0, 1.2]),
             ("arch/rib-left/14", [1.75, 2.9]),
@@ -106,14 +106,14 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
             let (start, mut force) = (s.rigid.position_m, 0.0);
             let mut worst: f64 = 0.0;
             run_from(1000, &model, &site, &mut s, 5000, |s| {
-                force += s.contact.normal_n;
+                force += s.contact.normal_force_n;
                 worst = worst.max((s.rigid.position_m - start).norm());
             });
-            assert!(worst < DRIFT_M, "{} on {member}: drifted {worst} m", vehicle.id);
+            assert!(worst < MAX_DRIFT_M, "{} on {member}: drifted {worst} m", vehicle.id);
             let share = force / 5000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
             // On the sloping rib, friction carries part of the weight.
-            let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE };
-            assert!((least..1.0 + FORCE).contains(&share), "{} on {member}: {share} of its weight", vehicle.id);
+            let least = if member.contains("rib") { 0.9 } else { 1.0 - FORCE_TOLERANCE };
+            assert!((least..1.0 + FORCE_TOLERANCE).contains(&share), "{} on {member}: {share} of its weight", vehicle.id);
         }
     }
 }
@@ -121,23 +121,23 @@ fn exact_aircraft_on_a_bridge_stays_within_a_millimeter() {
 #[test]
 fn exact_aircraft_on_the_pad_does_not_drift() {
     // Maximum drift in 60 s, m, and relative tolerance for the mean normal force.
-    const DRIFT_M: f64 = 1e-6;
-    const FORCE: f64 = 1e-6;
+    const MAX_DRIFT_M: f64 = 1e-6;
+    const FORCE_TOLERANCE: f64 = 1e-6;
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     for vehicle in vehicles() {
         let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
-        let low = lowest_m(&vehicle);
+        let low = lowest_part_below_center_m(&vehicle);
         let mut s = PhysicsState::at_rest((scenario.ground_team.pad_m + Vec3::new(0.0, 0.0, low + 0.01)).ned(), 0.6);
         run(&model, &site, &mut s, 2000, |_| ());
         let (start, mut worst, mut force): (_, f64, f64) = (s.rigid.position_m, 0.0, 0.0);
         run_from(2000, &model, &site, &mut s, 60_000, |s| {
             worst = worst.max((s.rigid.position_m - start).norm());
-            force += s.contact.normal_n;
+            force += s.contact.normal_force_n;
         });
         let share = force / 60_000.0 / (vehicle.mass_kg * GRAVITY_M_S2);
-        assert!(worst < DRIFT_M, "{}: {worst} m", vehicle.id);
-        assert!((share - 1.0).abs() < FORCE, "{}: {share} of its weight", vehicle.id);
+        assert!(worst < MAX_DRIFT_M, "{}: {worst} m", vehicle.id);
+        assert!((share - 1.0).abs() < FORCE_TOLERANCE, "{}: {share} of its weight", vehicle.id);
     }
 }
 
@@ -190,7 +190,7 @@ fn is_free_of_obstacles(vehicle: &Vehicle, site: &Site, s: &PhysicsState) -> boo
 
 #[test]
 fn exact_members_stop_aircraft_at_30_m_s() {
-    const SPEED_M_S: f64 = 30.0;
+    const IMPACT_SPEED_M_S: f64 = 30.0;
     let site = Site::build(&scenario(), 3);
     let mut random = RandomStream::new(5, "shots");
     let members = [
@@ -228,7 +228,7 @@ fn exact_members_stop_aircraft_at_30_m_s() {
                 let mut s = state(start);
                 s.rigid.attitude =
                     Rotation::from_euler(random.range(-3.1, 3.1), random.range(-1.5, 1.5), random.range(-3.1, 3.1));
-                s.rigid.velocity_m_s = (towards * SPEED_M_S).ned();
+                s.rigid.velocity_m_s = (towards * IMPACT_SPEED_M_S).ned();
                 shots += 1;
                 let mut before = start;
                 let mut touched = false;
@@ -249,9 +249,9 @@ fn exact_members_stop_aircraft_at_30_m_s() {
 }
 
 /// A site that performs contact queries in every step.
-struct Always<'a>(&'a Site);
+struct AlwaysQueriedSite<'a>(&'a Site);
 
-impl Obstacles for Always<'_> {
+impl Obstacles for AlwaysQueriedSite<'_> {
     fn contacts(&self, probe: &HullProbe, margin_m: f64, at: SimTime, out: &mut Vec<Contact>) {
         Obstacles::contacts(self.0, probe, margin_m, at, out);
     }
@@ -264,7 +264,7 @@ impl Obstacles for Always<'_> {
 }
 
 #[test]
-fn exact_skipping_contact_queries_in_clear_space_changes_nothing() {
+fn exact_skipping_contact_queries_far_from_obstacles_changes_nothing() {
     let scenario = scenario();
     let site = Site::build(&scenario, 3);
     let model = AirframeModel::new(&vehicles()[0], BatteryModel::Paper);
@@ -289,7 +289,7 @@ fn exact_skipping_contact_queries_in_clear_space_changes_nothing() {
         let mut flown = Vec::new();
         run(&model, &site, &mut a, 1500, |s| flown.push(s.rigid));
         let mut step = 0;
-        run(&model, &Always(&site), &mut b, 1500, |s| {
+        run(&model, &AlwaysQueriedSite(&site), &mut b, 1500, |s| {
             assert_eq!(s.rigid, flown[step], "shot {k}, step {step}");
             step += 1;
             touched += usize::from(s.contact.touching());

@@ -9,7 +9,7 @@ use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
 /// Position tolerance, m: receiver and control errors.
-const NEAR_M: f64 = 1.5;
+const POSITION_TOLERANCE_M: f64 = 1.5;
 
 #[test]
 fn flight_every_aircraft_can_arm_within_2_s() {
@@ -18,7 +18,7 @@ fn flight_every_aircraft_can_arm_within_2_s() {
         let reasons = bench.autopilot.arming_reasons(bench.now);
         assert!(!reasons.is_empty(), "{name} could be armed before its sensors were ready");
         bench.run(2.0, |_| ());
-        let reasons = bench.autopilot.status().arming_reasons.clone();
+        let reasons = bench.autopilot.status().arming_blockers.clone();
         assert!(reasons.is_empty(), "{name}: {reasons:?}");
     }
 }
@@ -38,15 +38,15 @@ fn flight_arming_rejection_lists_all_reasons() {
 }
 
 #[test]
-fn flight_takeoff_hold_and_landing_at_the_same_position() {
+fn flight_takeoff_hold_and_landing_stay_at_the_same_position() {
     // Height tolerance, m: barometer offset, plus the receiver's contribution to the height error.
-    const HEIGHT_M: f64 = 0.8;
+    const HEIGHT_TOLERANCE_M: f64 = 0.8;
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 1, 5.0);
         let mut worst: f64 = 0.0;
         bench.run(20.0, |b| worst = worst.max(b.position().horizontal_norm()));
-        assert!(worst < NEAR_M, "{name}: strayed {worst} m");
-        assert!((bench.position().down() + 5.0).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
+        assert!(worst < POSITION_TOLERANCE_M, "{name}: strayed {worst} m");
+        assert!((bench.position().down() + 5.0).abs() < HEIGHT_TOLERANCE_M, "{name}: {:?}", bench.position());
         bench.ask(AutopilotRequest::Land);
         let mut impact: f64 = 0.0;
         bench.run(20.0, |b| impact = impact.max(b.state.contact.impact_m_s));
@@ -88,13 +88,13 @@ fn flight_return_lands_at_home() {
         bench.autopilot.tuning.return_height_m = 12.0;
         bench.ask(AutopilotRequest::GoTo { north_east_m: Some((20.0, 10.0)), up_m: None, yaw_rad: None, speed_m_s: None });
         bench.run(15.0, |_| ());
-        assert!((bench.position() - Vec3::new(20.0, 10.0, -6.0)).norm() < NEAR_M, "{name}: {:?}", bench.position());
+        assert!((bench.position() - Vec3::new(20.0, 10.0, -6.0)).norm() < POSITION_TOLERANCE_M, "{name}: {:?}", bench.position());
         bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
         let mut top: f64 = 0.0;
         bench.run(70.0, |b| top = top.max(-b.position().down()));
         assert!(!bench.autopilot.status().armed, "{name}: {:?} {:?}", bench.autopilot.status(), bench.position());
         assert!(
-            bench.position().horizontal_norm() < NEAR_M && (top - 12.0).abs() < NEAR_M,
+            bench.position().horizontal_norm() < POSITION_TOLERANCE_M && (top - 12.0).abs() < POSITION_TOLERANCE_M,
             "{name}: {:?}, {top}",
             bench.position()
         );
@@ -102,7 +102,7 @@ fn flight_return_lands_at_home() {
 }
 
 fn point(north: f64, east: f64, up: f64) -> MissionStep {
-    MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), accept_m: 1.0, hold_s: 0.0, yaw_rad: None }
+    MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), acceptance_radius_m: 1.0, hold_s: 0.0, yaw_rad: None }
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn flight_mission_is_flown_in_order_and_lands() {
     assert_eq!(reached, [0, 1, 2, 3, 4, 5, 6, 2, 3, 4, 5, 6, 7]);
     let status = bench.autopilot.status();
     assert!(status.mission_finished && !status.armed, "{status:?} {:?}", bench.position());
-    assert!(bench.position().horizontal_norm() < NEAR_M, "{:?}", bench.position());
+    assert!(bench.position().horizontal_norm() < POSITION_TOLERANCE_M, "{:?}", bench.position());
     // Maximum speed including overshoot, m/s.
     assert!(fastest < 4.4, "{fastest}");
 }

@@ -29,15 +29,15 @@ fn velocity(t: f64) -> Vec3<Ned> {
 }
 
 /// Returns the turn rates; on the ground, the body rocks as much as alignment tolerates.
-fn rates(t: f64, rocking_rad_s: Vec3<Frd>) -> Vec3<Frd> {
+fn rates(t: f64, rocking_rate_rad_s: Vec3<Frd>) -> Vec3<Frd> {
     if t < 1.0 {
-        return rocking_rad_s;
+        return rocking_rate_rad_s;
     }
     Vec3::new(0.35 * math::cos(0.7 * t), 0.25 * math::cos(0.9 * t), 0.3 * math::sin(0.2 * t))
 }
 
 /// A plain whose sky is covered between two times, and whose ground may move.
-struct Shadow {
+struct ShadowedPlain {
     from: SimTime,
     until: SimTime,
     ground_up_m: fn(SimTime) -> f64,
@@ -48,7 +48,7 @@ pub(super) fn flat(_: SimTime) -> f64 {
     0.0
 }
 
-impl Surroundings for Shadow {
+impl Surroundings for ShadowedPlain {
     fn ray_m(&self, origin: Vec3<Enu>, d: Vec3<Enu>, max: f64, at: SimTime) -> Option<f64> {
         if d.up() > 0.0 && at >= self.from && at < self.until {
             Some(3.0)
@@ -65,8 +65,8 @@ pub(super) struct Run {
     rigid: RigidState,
     sensors: Sensors,
     pub(super) filter: Estimator,
-    site: Shadow,
-    rocking_rad_s: Vec3<Frd>,
+    site: ShadowedPlain,
+    rocking_rate_rad_s: Vec3<Frd>,
     pub(super) now: SimTime,
 }
 
@@ -76,7 +76,7 @@ impl Run {
         let mut vehicle = vehicle("phantom2");
         vehicle.sensors.flow_velocity_m_s = 0.0;
         vehicle.sensors.range_max_m = 30.0;
-        Self::with(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m }, &vehicle)
+        Self::with(seed, ShadowedPlain { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m }, &vehicle)
     }
 
     /// Returns the error of the estimated height in meters.
@@ -84,14 +84,14 @@ impl Run {
         self.error()[P + 2]
     }
 
-    fn new(seed: u64, site: Shadow) -> Self {
+    fn new(seed: u64, site: ShadowedPlain) -> Self {
         let mut vehicle = vehicle("phantom2");
         // Optical flow would compensate for the loss of GNSS.
         vehicle.sensors.flow_velocity_m_s = 0.0;
         Self::with(seed, site, &vehicle)
     }
 
-    fn with(seed: u64, site: Shadow, vehicle: &Vehicle) -> Self {
+    fn with(seed: u64, site: ShadowedPlain, vehicle: &Vehicle) -> Self {
         let rigid = RigidState {
             position_m: Vec3::new(3.0, -2.0, -1.0),
             velocity_m_s: Vec3::zero(),
@@ -102,7 +102,7 @@ impl Run {
         let [x, y, z] = RandomStream::new(seed, "rocking").normal3();
         Self {
             rigid,
-            rocking_rad_s: Vec3::new(x, y, z) * (ROCKING_BIAS_FRACTION * vehicle.sensors.gyro_bias_rad_s),
+            rocking_rate_rad_s: Vec3::new(x, y, z) * (ROCKING_BIAS_FRACTION * vehicle.sensors.gyro_bias_rad_s),
             sensors: Sensors::new(vehicle, true, ORIGIN, seed),
             filter: Estimator::new(&vehicle.sensors, ORIGIN),
             site,
@@ -119,11 +119,11 @@ impl Run {
         let dt = SimTime::from_ns(TICK.ns() / SUBSTEPS);
         for _ in 0..SUBSTEPS {
             let (a, b) = (velocity(self.now.s()), velocity((self.now + dt).s()));
-            let mid = self.rigid.attitude.rotated_by(rates(self.now.s(), self.rocking_rad_s) * (0.5 * dt.s()));
+            let mid = self.rigid.attitude.rotated_by(rates(self.now.s(), self.rocking_rate_rad_s) * (0.5 * dt.s()));
             let felt = mid.inverse() * ((b - a) / dt.s() - Vec3::new(0.0, 0.0, math::GRAVITY_M_S2));
             self.rigid.position_m += (a + b) * (0.5 * dt.s());
             self.rigid.velocity_m_s = b;
-            self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rad_s);
+            self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rate_rad_s);
             self.rigid.attitude = self.rigid.attitude.rotated_by(self.rigid.rates_rad_s * dt.s());
             self.sensors.integrate_imu(&self.rigid, felt, dt);
             self.now += dt;
@@ -174,12 +174,12 @@ fn band(n: usize) -> (f64, f64) {
 
 /// Checks that the means over all seeds are within their bands at four times, both for all states together and for
 /// position, velocity and attitude separately.
-fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
+fn assert_consistent(what: &str, new: impl Fn(u64, ShadowedPlain) -> Run) {
     let times = [5, 20, 40, 60];
     let mut sums = [[0.0; 4]; 4];
     let blocks = [(0, 15), (P, 3), (V, 3), (THETA, 3)];
     for seed in 0..SEEDS {
-        let mut run = new(seed, Shadow { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m: flat });
+        let mut run = new(seed, ShadowedPlain { from: SimTime::NEVER, until: SimTime::NEVER, ground_up_m: flat });
         for (row, t) in sums.iter_mut().zip(times) {
             run.run_until(SimTime::from_ms(t * 1000));
             for (sum, (from, count)) in row.iter_mut().zip(blocks) {
@@ -197,7 +197,7 @@ fn assert_consistent(what: &str, new: impl Fn(u64, Shadow) -> Run) {
 }
 
 #[test]
-fn prop_normalized_error_is_within_its_95_percent_band() {
+fn prop_normalized_error_stays_within_its_95_percent_band() {
     assert_consistent("without flow", Run::new);
 }
 
@@ -211,12 +211,12 @@ fn prop_normalized_error_is_within_its_band_for_every_shipped_aircraft() {
 }
 
 #[test]
-fn prop_error_and_covariance_grow_and_recover_together_without_gnss() {
+fn prop_error_and_covariance_grow_together_without_gnss_and_then_recover() {
     let (from, until) = (SimTime::from_ms(20_000), SimTime::from_ms(30_000));
     let (mut before, mut blind, mut after) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let mut nees = 0.0;
     for seed in 0..SEEDS {
-        let mut run = Run::new(seed, Shadow { from, until, ground_up_m: flat });
+        let mut run = Run::new(seed, ShadowedPlain { from, until, ground_up_m: flat });
         for (t, sums) in [(20_000, &mut before), (29_900, &mut blind), (60_000, &mut after)] {
             run.run_until(SimTime::from_ms(t));
             let e = run.error();

@@ -25,7 +25,7 @@ fn flight_stick_loss_holds_and_recovery_restores_the_mode() {
 }
 
 #[test]
-fn flight_lost_sticks_return_or_land_if_enabled() {
+fn flight_stick_loss_triggers_return_or_landing_if_enabled() {
     for (action, mode) in [(LinkLossAction::Return, FlightMode::Return), (LinkLossAction::Land, FlightMode::Land)] {
         let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 6.0);
         bench.autopilot.tuning.manual_loss = action;
@@ -40,11 +40,11 @@ fn flight_lost_sticks_return_or_land_if_enabled() {
 }
 
 #[test]
-fn flight_ground_station_loss_acts_if_enabled() {
+fn flight_ground_station_loss_triggers_a_failsafe_if_enabled() {
     for (action, mode) in [(LinkLossAction::Ignore, FlightMode::Hold), (LinkLossAction::Return, FlightMode::Return)] {
         let mut bench = Bench::airborne(&vehicle("phantom2"), 6, 6.0);
         bench.autopilot.tuning.data_link_loss = action;
-        bench.autopilot.ground_station_alive(bench.now);
+        bench.autopilot.record_ground_station_heartbeat(bench.now);
         bench.run(9.0, |_| ());
         assert_eq!(bench.autopilot.status().mode, FlightMode::Hold);
         bench.run(2.0, |_| ());
@@ -53,9 +53,9 @@ fn flight_ground_station_loss_acts_if_enabled() {
 }
 
 #[test]
-fn flight_without_gnss_is_controllable_with_optical_flow() {
+fn flight_is_controllable_with_optical_flow_and_no_gnss() {
     // Maximum drift in two minutes, m.
-    const DRIFT_M: f64 = 2.0;
+    const MAX_DRIFT_M: f64 = 2.0;
     for name in VEHICLES {
         let mut bench = Bench::in_position_mode(&vehicle(name), 7, 6.0);
         let start = bench.position();
@@ -64,14 +64,14 @@ fn flight_without_gnss_is_controllable_with_optical_flow() {
         let status = bench.autopilot.status();
         assert_eq!((status.mode, status.failsafe.clone()), (FlightMode::Position, None), "{name}");
         let drift = (bench.position() - start).horizontal_norm();
-        assert!(drift < DRIFT_M, "{name}: drifted {drift} m");
+        assert!(drift < MAX_DRIFT_M, "{name}: drifted {drift} m");
     }
 }
 
 #[test]
-fn flight_without_position_keeps_height_and_tilt_control() {
+fn flight_keeps_height_and_tilt_control_without_position() {
     // Maximum height change in two minutes, m: barometer drift.
-    const HEIGHT_M: f64 = 1.0;
+    const MAX_HEIGHT_CHANGE_M: f64 = 1.0;
     for name in VEHICLES {
         let mut bench = Bench::in_position_mode(&vehicle(name), 8, 8.0);
         let height = bench.position().down();
@@ -81,7 +81,11 @@ fn flight_without_position_keeps_height_and_tilt_control() {
         assert_eq!(status.mode, FlightMode::Altitude, "{name}");
         assert!(status.failsafe.is_some_and(|f| f.contains("position lost")), "{name}");
         let e = bench.autopilot.estimate();
-        assert!(!e.position_valid && (bench.position().down() - height).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
+        assert!(
+            !e.position_valid && (bench.position().down() - height).abs() < MAX_HEIGHT_CHANGE_M,
+            "{name}: {:?}",
+            bench.position()
+        );
         bench.sticks = Some(Sticks { forward: 0.3, ..Sticks::default() });
         bench.run(1.5, |_| ());
         let (_, pitch, _) = bench.state.rigid.attitude.euler();
@@ -96,7 +100,7 @@ fn flight_without_position_keeps_height_and_tilt_control() {
 }
 
 #[test]
-fn flight_without_position_and_pilot_lands() {
+fn flight_lands_without_position_and_pilot() {
     let mut bench = Bench::airborne(&vehicle("phantom2"), 9, 4.0);
     (bench.gnss_lost, bench.flow_lost) = (true, true);
     bench.run(90.0, |_| ());
@@ -105,7 +109,7 @@ fn flight_without_position_and_pilot_lands() {
 }
 
 #[test]
-fn flight_low_battery_returns_if_enabled() {
+fn flight_low_battery_triggers_a_return_if_enabled() {
     for (returns, mode) in [(false, FlightMode::Hold), (true, FlightMode::Return)] {
         let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
         bench.take_off(6.0);
@@ -122,7 +126,7 @@ fn flight_low_battery_returns_if_enabled() {
 }
 
 #[test]
-fn flight_critical_battery_lands_if_enabled() {
+fn flight_critical_battery_triggers_a_landing_if_enabled() {
     for (returns, mode) in [(false, FlightMode::Hold), (true, FlightMode::Land)] {
         let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = returns);
         bench.take_off(6.0);
@@ -140,7 +144,7 @@ fn flight_critical_battery_lands_if_enabled() {
 }
 
 #[test]
-fn flight_takeoff_with_low_battery_returns_once() {
+fn flight_takeoff_with_low_battery_triggers_one_return() {
     let mut bench = Bench::with_rules(&vehicle("phantom2"), 10, |rules| rules.low_battery_return = true);
     bench.state.battery.charge = 0.01 * (bench.autopilot.tuning.battery_low_pct - 0.5);
     bench.run(2.0, |_| ());
@@ -159,17 +163,17 @@ fn flight_takeoff_with_low_battery_returns_once() {
 }
 
 #[test]
-fn flight_recovers_from_an_upset() {
+fn flight_recovers_from_an_upset_attitude() {
     // Maximum height loss, m, and maximum recovery time, s, for a vehicle that was turned upside down.
     const MAX_HEIGHT_LOSS_M: f64 = 14.0;
-    const RECOVERY_S: f64 = 5.0;
+    const MAX_RECOVERY_TIME_S: f64 = 5.0;
     for name in VEHICLES {
         let mut bench = Bench::airborne(&vehicle(name), 12, 25.0);
         let height = bench.position().down();
         bench.state.rigid.rates_rad_s = Vec3::new(14.0, 3.0, 2.0);
         bench.run(0.2, |_| ());
         let mut fall: f64 = 0.0;
-        bench.run(RECOVERY_S, |b| fall = fall.max(b.position().down() - height));
+        bench.run(MAX_RECOVERY_TIME_S, |b| fall = fall.max(b.position().down() - height));
         let down = (bench.state.rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
         assert!(down > 0.95 && fall < MAX_HEIGHT_LOSS_M, "{name}: fell {fall} m, upright {down}");
         bench.run(10.0, |_| ());

@@ -7,14 +7,14 @@ use spandrel_sitl::autopilot::operator_rules::HeightReference;
 use spandrel_sitl::sensors::Readings;
 
 /// Final value of a sensor's slowly growing error, m, and the times at which the growth starts and ends, s.
-const ERROR_M: f64 = 6.0;
+const FINAL_ERROR_M: f64 = 6.0;
 const GROWTH_INTERVAL_S: (f64, f64) = (20.0, 80.0);
 /// The height counts as following a sensor if it is within this distance of the sensor's height, m, and as not
 /// following it if it includes less than this much of the sensor's error, m (the receiver alone: 0.64 m, 1 sigma).
-const NEAR_M: f64 = 1.5;
+const FOLLOW_TOLERANCE_M: f64 = 1.5;
 
 fn error_at_m(now: SimTime) -> f64 {
-    ERROR_M * ((now.s() - GROWTH_INTERVAL_S.0) / (GROWTH_INTERVAL_S.1 - GROWTH_INTERVAL_S.0)).clamp(0.0, 1.0)
+    FINAL_ERROR_M * ((now.s() - GROWTH_INTERVAL_S.0) / (GROWTH_INTERVAL_S.1 - GROWTH_INTERVAL_S.0)).clamp(0.0, 1.0)
 }
 
 /// A test case with a slow change in either the readings or the ground.
@@ -23,12 +23,12 @@ struct Case {
     change: fn(&mut Readings, SimTime),
     ground_up_m: fn(SimTime) -> f64,
     /// Expected final error of the estimated height, m.
-    wanted_m: f64,
+    expected_error_m: f64,
 }
 
 impl Case {
     /// Returns the error of the estimated height, m, and whether all sensors were used until the end.
-    fn height_off_m(&self) -> (f64, bool) {
+    fn height_error_and_sensor_use(&self) -> (f64, bool) {
         let mut run = Run::under_open_sky(3, self.ground_up_m);
         run.filter.configured_reference = self.reference;
         let mut used = true;
@@ -58,20 +58,25 @@ fn raise_receiver(readings: &mut Readings, now: SimTime) {
 }
 
 #[test]
-fn regress_height_follows_its_reference_sensor() {
+fn regress_height_estimate_follows_its_reference_sensor() {
     use HeightReference::{Barometer, Gnss, RangeFinder};
-    let case = |reference, change, ground_up_m, wanted_m| Case { reference, change, ground_up_m, wanted_m };
+    let case = |reference, change, ground_up_m, wanted_m| Case { reference, change, ground_up_m, expected_error_m: wanted_m };
     let cases = [
-        case(Barometer, raise_barometer, flat, ERROR_M),
+        case(Barometer, raise_barometer, flat, FINAL_ERROR_M),
         case(Gnss, raise_barometer, flat, 0.0),
         case(Barometer, raise_receiver, flat, 0.0),
-        case(RangeFinder, no_change, lower_ground, ERROR_M),
+        case(RangeFinder, no_change, lower_ground, FINAL_ERROR_M),
         case(RangeFinder, raise_barometer, flat, 0.0),
         case(Gnss, no_change, lower_ground, 0.0),
     ];
     for (k, case) in cases.iter().enumerate() {
-        let (off, used) = case.height_off_m();
-        assert!((off - case.wanted_m).abs() < NEAR_M, "case {k}, {:?}: {off} m, not {}", case.reference, case.wanted_m);
+        let (off, used) = case.height_error_and_sensor_use();
+        assert!(
+            (off - case.expected_error_m).abs() < FOLLOW_TOLERANCE_M,
+            "case {k}, {:?}: {off} m, not {}",
+            case.reference,
+            case.expected_error_m
+        );
         assert!(used || case.reference == Gnss, "case {k}, {:?}: a sensor was dropped", case.reference);
     }
 }
@@ -96,6 +101,6 @@ fn regress_gnss_replaces_a_lost_height_reference() {
         }
         before = down;
     }
-    assert!(run.height_error_m().abs() < 2.0 * NEAR_M, "{} m", run.height_error_m());
+    assert!(run.height_error_m().abs() < 2.0 * FOLLOW_TOLERANCE_M, "{} m", run.height_error_m());
     assert!(largest_step < 0.5, "{largest_step} m in a tick");
 }

@@ -21,7 +21,7 @@ fn flight_hover_is_steady() {
     // Maximum tilt, rad: one and a half degrees.
     const MAX_TILT_RAD: f64 = 0.026;
     // Maximum speed, m/s.
-    const SPEED_M_S: f64 = 0.25;
+    const MAX_SPEED_M_S: f64 = 0.25;
     for name in VEHICLES {
         let mut bench = Bench::in_position_mode(&vehicle(name), 1, 6.0);
         let start = bench.position();
@@ -33,28 +33,28 @@ fn flight_hover_is_steady() {
             speed = speed.max(b.state.rigid.velocity_m_s.norm());
         });
         assert!(
-            stray < MAX_DEVIATION_M && lean < MAX_TILT_RAD && speed < SPEED_M_S,
+            stray < MAX_DEVIATION_M && lean < MAX_TILT_RAD && speed < MAX_SPEED_M_S,
             "{name}: {stray} m, {lean} rad, {speed} m/s"
         );
     }
 }
 
 #[test]
-fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
+fn flight_stick_step_reaches_its_speed_and_release_stops_the_vehicle() {
     // Velocity estimate tolerance, m/s.
-    const SPEED_M_S: f64 = 0.2;
+    const MAX_SPEED_M_S: f64 = 0.2;
     // Limits as fractions of the speed: overshoot, and remaining speed that counts as stopped.
-    const OVERSHOOT: f64 = 0.08;
-    const STOPPED: f64 = 0.1;
+    const MAX_SPEED_OVERSHOOT: f64 = 0.08;
+    const STOPPED_SPEED_FRACTION: f64 = 0.1;
     // Maximum backward speed after the stop, m/s.
     const MAX_BACKWARD_M_S: f64 = 0.2;
     // Maximum height change during the maneuver, m.
-    const HEIGHT_M: f64 = 0.3;
+    const MAX_HEIGHT_CHANGE_M: f64 = 0.3;
     // The highest speed that inspection requires: 4.5 m/s, the job's speed limit.
-    const INSPECTION_M_S: f64 = 4.5;
+    const INSPECTION_SPEED_M_S: f64 = 4.5;
     for name in VEHICLES {
         let aircraft = vehicle(name);
-        let wanted = INSPECTION_M_S.min(0.5 * aircraft.limits.forward_m_s);
+        let wanted = INSPECTION_SPEED_M_S.min(0.5 * aircraft.limits.forward_m_s);
         let mut bench = Bench::in_position_mode(&aircraft, 2, 8.0);
         let height = bench.position().down();
         bench.sticks = Some(Sticks { forward: stick(wanted / aircraft.limits.forward_m_s), ..Sticks::default() });
@@ -65,19 +65,19 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_in_time() {
         });
         let speed = bench.state.rigid.velocity_m_s.north();
         assert!(
-            (speed - wanted).abs() < SPEED_M_S && peak < wanted * (1.0 + OVERSHOOT),
+            (speed - wanted).abs() < MAX_SPEED_M_S && peak < wanted * (1.0 + MAX_SPEED_OVERSHOOT),
             "{name}: speed {speed}, peak {peak}, target {wanted}"
         );
         bench.sticks = Some(Sticks::default());
         bench.run(aircraft.limits.slow_down_time_s, |_| ());
         let left = bench.state.rigid.velocity_m_s.horizontal_norm();
-        assert!(left < STOPPED * wanted, "{name}: {left} m/s after the stopping time");
+        assert!(left < STOPPED_SPEED_FRACTION * wanted, "{name}: {left} m/s after the stopping time");
         let mut back: f64 = 0.0;
         bench.run(4.0, |b| {
             back = back.min(b.state.rigid.velocity_m_s.north());
             sag = sag.max((b.position().down() - height).abs());
         });
-        assert!(back > -MAX_BACKWARD_M_S && sag < HEIGHT_M, "{name}: {back} m/s backward, lost {sag} m of height");
+        assert!(back > -MAX_BACKWARD_M_S && sag < MAX_HEIGHT_CHANGE_M, "{name}: {back} m/s backward, lost {sag} m of height");
     }
 }
 
@@ -98,7 +98,7 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
             bench.run(4.0, |_| ());
         };
         check(Sticks { forward: 1.0, ..Sticks::default() }, 9.0, l.forward_m_s, &|b| b.state.rigid.velocity_m_s.north());
-        check(Sticks { right: 1.0, ..Sticks::default() }, 9.0, l.sideward_m_s, &|b| b.state.rigid.velocity_m_s.east());
+        check(Sticks { right: 1.0, ..Sticks::default() }, 9.0, l.sideways_speed_m_s, &|b| b.state.rigid.velocity_m_s.east());
         check(Sticks { up: 1.0, ..Sticks::default() }, 4.0, l.climb_m_s, &|b| -b.state.rigid.velocity_m_s.down());
         check(Sticks { up: -1.0, ..Sticks::default() }, 4.0, l.descend_m_s, &|b| b.state.rigid.velocity_m_s.down());
         check(Sticks { yaw: 1.0, ..Sticks::default() }, 4.0, l.yaw_rate_rad_s, &|b| b.state.rigid.rates_rad_s.down());
@@ -134,7 +134,7 @@ fn flight_manually_flown_circle_is_round() {
 fn flight_recovers_from_a_gust() {
     // Maximum deviation after a wind step of 6 m/s, m, and deviation that remains after a quarter of a minute.
     const MAX_DEVIATION_M: f64 = 0.9;
-    const MAX_REMAINING_M: f64 = 0.6;
+    const MAX_REMAINING_DEVIATION_M: f64 = 0.6;
     for name in VEHICLES {
         let mut bench = Bench::in_position_mode(&vehicle(name), 4, 8.0);
         let start = bench.position();
@@ -142,7 +142,7 @@ fn flight_recovers_from_a_gust() {
         let mut worst: f64 = 0.0;
         bench.run(15.0, |b| worst = worst.max((b.position() - start).norm()));
         let left = (bench.position() - start).norm();
-        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_M, "{name}: strayed {worst} m, {left} m remain");
+        assert!(worst < MAX_DEVIATION_M && left < MAX_REMAINING_DEVIATION_M, "{name}: strayed {worst} m, {left} m remain");
         let nose = bench.state.rigid.attitude * Vec3::<Frd>::new(1.0, 0.0, 0.0);
         assert!(nose.down() < 0.0, "{name} must lean back against wind from behind: {nose:?}");
     }
@@ -179,7 +179,7 @@ fn flight_saturated_motors_keep_the_vehicle_upright() {
 #[test]
 fn flight_stops_from_full_speed_in_time() {
     // Fraction of full speed that counts as stopped.
-    const STOPPED: f64 = 0.1;
+    const STOPPED_SPEED_FRACTION: f64 = 0.1;
     for name in VEHICLES {
         let aircraft = vehicle(name);
         for sticks in [Sticks { forward: 1.0, ..Sticks::default() }, Sticks { right: -1.0, ..Sticks::default() }] {
@@ -190,7 +190,7 @@ fn flight_stops_from_full_speed_in_time() {
             bench.sticks = Some(Sticks::default());
             bench.run(aircraft.limits.slow_down_time_s, |_| ());
             let left = bench.state.rigid.velocity_m_s.horizontal_norm();
-            assert!(left < STOPPED * full, "{name}: {left} of {full} m/s remain after the stopping time");
+            assert!(left < STOPPED_SPEED_FRACTION * full, "{name}: {left} of {full} m/s remain after the stopping time");
         }
     }
 }
@@ -214,11 +214,11 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
 }
 
 #[test]
-fn regress_yaw_release_does_not_swing_back() {
+fn regress_nose_does_not_swing_back_after_yaw_release() {
     // Limit from issue 16, rad (1 deg); a real PX4 swings back by 0.4 deg.
     const MAX_SWING_BACK_RAD: f64 = 0.017_453;
     // Stopping from 100 deg/s in 0.3 s takes 15 deg; the limit adds half as much again for lag, rad.
-    const MAX_OVERSHOOT_RAD: f64 = 0.393;
+    const MAX_YAW_OVERSHOOT_RAD: f64 = 0.393;
     // Starting height, m; in Stabilized mode, the vehicle sinks with the throttle stick centered.
     const START_HEIGHT_M: f64 = 40.0;
     for name in VEHICLES {
@@ -230,7 +230,7 @@ fn regress_yaw_release_does_not_swing_back() {
                 let (swing, on) = release_yaw(&mut bench, yaw);
                 assert!(bench.position().down() < -1.0, "{name}, {mode:?}: on the ground");
                 assert!(swing < MAX_SWING_BACK_RAD, "{name}, {mode:?}, stick {yaw}: swings back {} deg", swing.to_degrees());
-                assert!(on < MAX_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: keeps turning for {} deg", on.to_degrees());
+                assert!(on < MAX_YAW_OVERSHOOT_RAD, "{name}, {mode:?}, stick {yaw}: keeps turning for {} deg", on.to_degrees());
             }
         }
     }

@@ -8,14 +8,14 @@ use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
 
 const STEP_S: f64 = 0.0025;
-const SPEEDS: SpeedLimits = SpeedLimits { default_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
+const SPEEDS: SpeedLimits = SpeedLimits { default_speed_m_s: 5.0, max_m_s: 12.0, up_m_s: 3.0, down_m_s: 1.5 };
 /// Maximum acceleration, m/s²: along and across the leg combined, each limited to 2.
-const ACCELERATION_M_S2: f64 = 3.0;
+const MAX_ACCELERATION_M_S2: f64 = 3.0;
 /// Maximum jerk, m/s³: 4 for the speed and 2.5 for the corner, plus the effect of speed changes within a corner.
-const JERK_M_S3: f64 = 10.0;
+const MAX_JERK_M_S3: f64 = 10.0;
 
 fn point(north: f64, east: f64, up: f64) -> MissionStep {
-    MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), accept_m: 0.0, hold_s: 0.0, yaw_rad: None }
+    MissionStep::Waypoint { position_m: Vec3::new(north, east, -up), acceptance_radius_m: 0.0, hold_s: 0.0, yaw_rad: None }
 }
 
 fn random_position(stream: &mut RandomStream, reach_m: f64) -> Vec3<Ned> {
@@ -32,7 +32,7 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             .map(|_| Waypoint {
                 position_m: random_position(&mut stream, reach_m),
                 speed_m_s: Some(stream.range(1.0, 6.0)),
-                accept_m,
+                acceptance_radius_m: accept_m,
             })
             .collect();
         let mut way = Trajectory::join(TrajectoryPoint::default(), &waypoints, AccelerationLimits::within(6.0, 4.0))
@@ -43,8 +43,8 @@ fn prop_planned_trajectory_is_smooth_and_passes_all_waypoints() {
             let now = way.advance(&SPEEDS, 0.0, STEP_S);
             let jerk = (now.acceleration_m_s2 - before.acceleration_m_s2) / STEP_S;
             let velocity = (now.position_m - before.position_m) / STEP_S;
-            assert!(now.acceleration_m_s2.norm() < ACCELERATION_M_S2, "case {case}: {now:?}");
-            assert!(jerk.norm() < JERK_M_S3, "case {case}: jerk {}", jerk.norm());
+            assert!(now.acceleration_m_s2.norm() < MAX_ACCELERATION_M_S2, "case {case}: {now:?}");
+            assert!(jerk.norm() < MAX_JERK_M_S3, "case {case}: jerk {}", jerk.norm());
             // Velocity tolerance, m/s: half a step's acceleration.
             assert!((velocity - now.velocity_m_s).norm() < 0.02, "case {case}: {velocity:?} {now:?}");
             for (least, waypoint) in nearest.iter_mut().zip(&waypoints) {
@@ -67,7 +67,7 @@ fn prop_trajectory_joined_in_flight_continues_the_motion() {
             velocity_m_s: random_position(&mut stream, 2.0),
             acceleration_m_s2: random_position(&mut stream, 1.0),
         };
-        let to = Waypoint { position_m: random_position(&mut stream, 30.0), speed_m_s: None, accept_m: 2.0 };
+        let to = Waypoint { position_m: random_position(&mut stream, 30.0), speed_m_s: None, acceptance_radius_m: 2.0 };
         let mut way = Trajectory::join(from, &[to], AccelerationLimits::within(6.0, 4.0)).expect("a waypoint");
         let begins = way.planned();
         // Rounding tolerances, m, m/s, m/s².
@@ -82,9 +82,9 @@ fn prop_trajectory_joined_in_flight_continues_the_motion() {
 }
 
 #[test]
-fn regress_straight_leg_keeps_its_speed_through_waypoints() {
+fn regress_vehicle_keeps_its_speed_through_waypoints_on_a_straight_leg() {
     // Minimum speed of 5 m/s that PX4's integration test requires when flying through waypoints.
-    const HELD_M_S: f64 = 4.0;
+    const MIN_HELD_SPEED_M_S: f64 = 4.0;
     for name in VEHICLES {
         let mut bench = Bench::new(&vehicle(name), 3);
         let mut steps = vec![MissionStep::Takeoff { up_m: Some(10.0) }, MissionStep::Speed(Some(5.0))];
@@ -103,12 +103,12 @@ fn regress_straight_leg_keeps_its_speed_through_waypoints() {
         });
         assert!(bench.autopilot.status().mission_finished, "{name}: {:?}", bench.position());
         // Mission speed overshoot, m/s: the estimation error.
-        assert!(slowest >= HELD_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
+        assert!(slowest >= MIN_HELD_SPEED_M_S && fastest < 5.5, "{name}: {slowest} to {fastest} m/s");
     }
 }
 
 #[test]
-fn regress_takeoff_item_below_the_ground_still_takes_off() {
+fn regress_takeoff_item_below_ground_level_still_takes_off() {
     for up_m in [-5.0, -0.5, 0.0] {
         let mut bench = Bench::new(&vehicle("phantom2"), 5);
         bench.autopilot.set_mission(vec![MissionStep::Takeoff { up_m: Some(up_m) }, point(10.0, 0.0, 6.0)]);
@@ -130,7 +130,7 @@ fn regress_takeoff_item_below_the_ground_still_takes_off() {
 #[test]
 fn regress_takeoff_uses_its_own_climb_rate() {
     // Speed tolerance, m/s.
-    const NEAR_M_S: f64 = 0.3;
+    const SPEED_TOLERANCE_M_S: f64 = 0.3;
     for (own_m_s, climb_m_s, at_climb_speed, expected_m_s) in
         [(1.0, 3.0, false, 1.0), (2.5, 3.0, false, 2.5), (1.0, 2.0, true, 2.0), (1.0, 4.0, true, 4.0)]
     {
@@ -154,7 +154,10 @@ fn regress_takeoff_uses_its_own_climb_rate() {
                     fastest = fastest.max(-b.state.rigid.velocity_m_s.down());
                 }
             });
-            assert!((fastest - expected_m_s).abs() < NEAR_M_S, "{own_m_s}, {climb_m_s}, mission {by_mission}: {fastest} m/s");
+            assert!(
+                (fastest - expected_m_s).abs() < SPEED_TOLERANCE_M_S,
+                "{own_m_s}, {climb_m_s}, mission {by_mission}: {fastest} m/s"
+            );
         }
     }
 }
@@ -162,7 +165,7 @@ fn regress_takeoff_uses_its_own_climb_rate() {
 #[test]
 fn regress_mission_without_takeoff_item_climbs_first() {
     // Maximum drift, m: a quarter of the takeoff height.
-    const DRIFT_M: f64 = 0.6;
+    const MAX_DRIFT_M: f64 = 0.6;
     let mut bench = Bench::new(&vehicle("phantom2"), 7);
     bench.autopilot.set_mission(vec![point(60.0, 0.0, 6.0)]);
     bench.run(2.0, |_| ());
@@ -174,7 +177,7 @@ fn regress_mission_without_takeoff_item_climbs_first() {
             worst = worst.max(b.position().horizontal_norm());
         }
     });
-    assert!(worst < DRIFT_M, "drifted {worst} m below a height of 1.5 m");
+    assert!(worst < MAX_DRIFT_M, "drifted {worst} m below a height of 1.5 m");
     let status = bench.autopilot.status();
     assert!(status.mission_finished && status.mode == FlightMode::Hold, "{status:?} {:?}", bench.position());
 }

@@ -14,11 +14,11 @@ use spandrel_testkit::bench::Bench;
 use spandrel_testkit::shipped::vehicle;
 
 /// Overshoot factor for speed limits: the velocity loop overshoots slightly.
-const SPEED_OVERSHOOT: f64 = 1.1;
+const SPEED_OVERSHOOT_FACTOR: f64 = 1.1;
 /// Acceleration tolerance, m/s²: contribution of the control loops.
-const ACCELERATION_M_S2: f64 = 0.5;
+const ACCELERATION_TOLERANCE_M_S2: f64 = 0.5;
 /// Height tolerance, m: barometer noise and control loops.
-const HEIGHT_M: f64 = 0.8;
+const HEIGHT_TOLERANCE_M: f64 = 0.8;
 
 fn airborne(change: impl Fn(&mut Tuning)) -> Bench {
     let mut bench = Bench::new(&vehicle("phantom2"), 5);
@@ -38,7 +38,12 @@ fn mode(bench: &Bench) -> FlightMode {
 
 fn waypoints() -> Vec<MissionStep> {
     [20.0, 40.0, 60.0]
-        .map(|n| MissionStep::Waypoint { position_m: Vec3::new(n, 0.0, -6.0), accept_m: 1.0, hold_s: 0.0, yaw_rad: None })
+        .map(|n| MissionStep::Waypoint {
+            position_m: Vec3::new(n, 0.0, -6.0),
+            acceptance_radius_m: 1.0,
+            hold_s: 0.0,
+            yaw_rad: None,
+        })
         .to_vec()
 }
 
@@ -48,7 +53,8 @@ fn flight_stick_loss_ends_a_mission_unless_excepted_or_released() {
         [(false, false, FlightMode::Hold), (true, false, FlightMode::Mission), (false, true, FlightMode::Mission)]
     {
         let mut bench = airborne(|tuning| {
-            tuning.rules.responses.manual_loss_except = LinkLossExceptions { mission: except, ..LinkLossExceptions::default() };
+            tuning.rules.responses.manual_loss_exceptions =
+                LinkLossExceptions { mission: except, ..LinkLossExceptions::default() };
         });
         bench.sticks = Some(Sticks::default());
         bench.run(0.5, |_| ());
@@ -66,7 +72,7 @@ fn flight_stick_loss_ends_a_mission_unless_excepted_or_released() {
 
 #[test]
 fn flight_mission_without_stick_input_continues() {
-    let mut bench = airborne(|tuning| tuning.rules.responses.manual_loss_except = LinkLossExceptions::default());
+    let mut bench = airborne(|tuning| tuning.rules.responses.manual_loss_exceptions = LinkLossExceptions::default());
     bench.autopilot.set_mission(waypoints());
     bench.ask(AutopilotRequest::StartMission { first: None });
     bench.run(5.0, |_| ());
@@ -118,7 +124,7 @@ fn flight_battery_actions_follow_their_settings() {
     // The voltage must be low for the specified time before the failsafe acts.
     let mut bench = airborne(|_| ());
     let responses = &mut bench.autopilot.tuning.rules.responses;
-    (responses.battery, responses.battery_low_v, responses.battery_low_s) = ([land, None, None], [100.0, 0.0], 5.0);
+    (responses.battery, responses.battery_low_v, responses.battery_low_time_s) = ([land, None, None], [100.0, 0.0], 5.0);
     bench.run(4.5, |_| ());
     assert_eq!(mode(&bench), FlightMode::Hold, "the failsafe must not trigger yet");
     bench.run(1.0, |_| ());
@@ -132,11 +138,11 @@ fn flight_arming_requirements_follow_their_settings() {
     bench.ask(AutopilotRequest::Arm { force: false });
     bench.ask(AutopilotRequest::Disarm { force: true });
     bench.autopilot.tuning.rules.responses.arming_requires_mission = true;
-    bench.autopilot.tuning.rules.responses.arm_voltage_v = 100.0;
+    bench.autopilot.tuning.rules.responses.min_arming_voltage_v = 100.0;
     let reasons = bench.autopilot.arming_reasons(bench.now);
     assert_eq!(reasons, ["Battery voltage too low", "No mission"]);
     bench.autopilot.set_mission(waypoints());
-    bench.autopilot.tuning.rules.responses.arm_voltage_v = 0.0;
+    bench.autopilot.tuning.rules.responses.min_arming_voltage_v = 0.0;
     bench.ask(AutopilotRequest::Arm { force: false });
 }
 
@@ -158,15 +164,15 @@ fn flight_return_respects_speed_delay_and_final_height() {
             over_home_s += 0.001;
         }
     });
-    assert!(fastest < 2.0 * SPEED_OVERSHOOT && fastest > 1.5, "{fastest} m/s");
+    assert!(fastest < 2.0 * SPEED_OVERSHOOT_FACTOR && fastest > 1.5, "{fastest} m/s");
     assert!(over_home_s > 4.0, "waited {over_home_s} s");
     let status = bench.autopilot.status();
     assert!(status.armed && status.landed == LandedState::InAir, "{status:?}");
-    assert!((-bench.position().down() - 3.0).abs() < HEIGHT_M, "{:?}", bench.position());
+    assert!((-bench.position().down() - 3.0).abs() < HEIGHT_TOLERANCE_M, "{:?}", bench.position());
 }
 
 #[test]
-fn flight_negative_delay_keeps_the_return_hovering() {
+fn flight_negative_landing_delay_keeps_the_vehicle_hovering_after_a_return() {
     let mut bench = airborne(|tuning| {
         tuning.return_height_m = 8.0;
         (tuning.rules.return_rules.loiter_height_m, tuning.rules.return_rules.wait_s) = (Some(5.0), -1.0);
@@ -175,7 +181,7 @@ fn flight_negative_delay_keeps_the_return_hovering() {
     bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
     bench.run(60.0, |_| ());
     assert!(bench.autopilot.status().armed);
-    assert!((-bench.position().down() - 5.0).abs() < HEIGHT_M, "{:?}", bench.position());
+    assert!((-bench.position().down() - 5.0).abs() < HEIGHT_TOLERANCE_M, "{:?}", bench.position());
 }
 
 #[test]
@@ -184,13 +190,13 @@ fn flight_return_height_follows_cone_and_minimum_climb() {
         let mut bench = airborne(|tuning| {
             tuning.return_height_m = 20.0;
             let rules = &mut tuning.rules.return_rules;
-            (rules.cone_slope, rules.climb_min_m, rules.loiter_height_m) = (cone_slope, climb_min_m, None);
+            (rules.cone_slope, rules.min_climb_m, rules.loiter_height_m) = (cone_slope, climb_min_m, None);
         });
         away(&mut bench, 20.0);
         bench.ask(AutopilotRequest::SetMode(FlightMode::Return));
         let mut highest = 0.0_f64;
         bench.run(20.0, |bench| highest = highest.max(-bench.position().down()));
-        assert!((highest - height_m).abs() < HEIGHT_M, "slope {cone_slope}, climb {climb_min_m}: {highest} m");
+        assert!((highest - height_m).abs() < HEIGHT_TOLERANCE_M, "slope {cone_slope}, climb {climb_min_m}: {highest} m");
     }
 }
 
@@ -258,13 +264,14 @@ fn flight_manual_and_automatic_limits_are_respected() {
         bench.ask(AutopilotRequest::GoTo { north_east_m: Some((40.0, 0.0)), up_m: None, yaw_rad: None, speed_m_s: Some(5.0) });
         bench.run(2.0, |_| ());
         let speed = bench.state.rigid.velocity_m_s.horizontal_norm();
-        let kept = speed < 2.0 * (1.0 + ACCELERATION_M_S2);
+        let kept = speed < 2.0 * (1.0 + ACCELERATION_TOLERANCE_M_S2);
         assert_eq!(kept, limit.is_finite(), "limit {limit}: {speed} m/s after 2 s");
     }
     // Check speed, climb rate, descent rate and yaw rate under stick control.
     let mut bench = Bench::in_position_mode(&vehicle("phantom2"), 5, 12.0);
     let set = &mut bench.autopilot.tuning.rules.envelope;
-    (set.manual_m_s, set.manual_up_m_s, set.manual_down_m_s, set.manual_yaw_rad_s) = (2.0, 0.8, 0.5, 0.5);
+    (set.manual_speed_m_s, set.manual_climb_rate_m_s, set.manual_descent_rate_m_s, set.manual_yaw_rate_rad_s) =
+        (2.0, 0.8, 0.5, 0.5);
     let centered = Sticks::default();
     let cases = [
         (Sticks { forward: 1.0, ..centered }, 2.0),
@@ -279,7 +286,7 @@ fn flight_manual_and_automatic_limits_are_respected() {
         bench.run(3.0, |_| ());
         let (v, rate) = (bench.state.rigid.velocity_m_s, bench.state.rigid.rates_rad_s.down());
         let seen = [v.horizontal_norm(), -v.down(), v.down(), rate][k];
-        assert!(seen < limit * SPEED_OVERSHOOT && seen > 0.7 * limit, "stick {k}: {seen}, limit {limit}");
+        assert!(seen < limit * SPEED_OVERSHOOT_FACTOR && seen > 0.7 * limit, "stick {k}: {seen}, limit {limit}");
     }
     // Check the tilt limit.
     bench.sticks = Some(centered);
@@ -315,14 +322,14 @@ fn flight_incomplete_mission_is_rejected() {
     }
     bench.ask(AutopilotRequest::SetMode(FlightMode::Hold));
     bench.autopilot.tuning.rules.mission_requirement = MissionRequirement::Nothing;
-    bench.autopilot.tuning.rules.first_waypoint_m = 15.0;
+    bench.autopilot.tuning.rules.max_first_waypoint_distance_m = 15.0;
     bench.autopilot.set_mission(waypoints());
     let outcome = bench.autopilot.request(AutopilotRequest::StartMission { first: None }, bench.now);
     assert_eq!(outcome, RequestOutcome::Denied("First waypoint too far from home: 20 m, limit 15 m".into()));
 }
 
 #[test]
-fn flight_restarting_mission_starts_from_its_first_item() {
+fn flight_restarted_mission_starts_at_its_first_item() {
     for restarts in [false, true] {
         let mut bench = airborne(|tuning| tuning.rules.mission_restarts = restarts);
         bench.autopilot.set_mission(waypoints());
@@ -340,7 +347,7 @@ fn flight_restarting_mission_starts_from_its_first_item() {
 }
 
 #[test]
-fn flight_only_enabled_fence_parts_act() {
+fn flight_only_enabled_fence_parts_take_effect() {
     let parts = |height, floor_m| FenceParts { height, distance: true, areas: true, floor_m, auto: FenceAutoEnable::Never };
     let up = |up_m| AutopilotRequest::GoTo { north_east_m: None, up_m: Some(up_m), yaw_rad: None, speed_m_s: None };
     for height in [true, false] {

@@ -10,7 +10,7 @@ use spandrel_testkit::shipped::vehicle;
 
 /// Height tolerance, m: without its barometer, the vehicle holds its height with GNSS alone, which drifts by 0.64 m (1
 /// sigma).
-const HEIGHT_M: f64 = 2.5;
+const HEIGHT_TOLERANCE_M: f64 = 2.5;
 /// Horizontal tolerance, m, with the receiver (0.4 m, 1 sigma) or optical flow.
 const POSITION_TOLERANCE_M: f64 = 2.5;
 
@@ -61,14 +61,17 @@ fn regress_stuck_barometer_is_announced_and_the_climb_is_correct() {
         let mut highest: f64 = 0.0;
         bench.run(60.0, |b| highest = highest.max(-b.position().down()));
         let texts = take_texts(&mut bench);
-        assert!((highest - 12.0).abs() < HEIGHT_M && (bench.position().down() + 12.0).abs() < HEIGHT_M, "{name}: {highest} m");
+        assert!(
+            (highest - 12.0).abs() < HEIGHT_TOLERANCE_M && (bench.position().down() + 12.0).abs() < HEIGHT_TOLERANCE_M,
+            "{name}: {highest} m"
+        );
         assert!(texts.iter().any(|text| text.contains("Barometer stuck")), "{name}: {texts:?}");
         assert_eq!(bench.autopilot.status().mode, FlightMode::Hold, "{name}");
         assert!(bench.faults.inject(FailureUnit::Barometer, None, 0, 4));
         bench.run(10.0, |_| ());
         let texts = take_texts(&mut bench);
         assert!(texts.iter().any(|text| text.contains("Barometer recovered")), "{name}: {texts:?}");
-        assert!((bench.position().down() + 12.0).abs() < HEIGHT_M, "{name}: {:?}", bench.position());
+        assert!((bench.position().down() + 12.0).abs() < HEIGHT_TOLERANCE_M, "{name}: {:?}", bench.position());
     }
 }
 
@@ -79,7 +82,7 @@ fn regress_stuck_sensor_is_announced_and_excluded() {
             [(FailureUnit::Barometer, "Barometer"), (FailureUnit::Magnetometer, "Compass"), (FailureUnit::Gnss, "GNSS")]
         {
             let (flat, up, texts) = square(name, unit, FailureType::Stuck);
-            assert!(flat < POSITION_TOLERANCE_M && up < HEIGHT_M, "{name}, {unit:?}: {flat} m off, {up} m in height");
+            assert!(flat < POSITION_TOLERANCE_M && up < HEIGHT_TOLERANCE_M, "{name}, {unit:?}: {flat} m off, {up} m in height");
             assert!(texts.iter().any(|t| t.contains(&format!("{text} stuck"))), "{name}, {unit:?}: {texts:?}");
         }
     }
@@ -96,19 +99,22 @@ fn regress_inconsistent_sensor_is_announced_and_excluded() {
             (FailureUnit::Gnss, FailureType::Garbage, "GNSS"),
         ] {
             let (flat, up, texts) = square(name, unit, kind);
-            assert!(flat < POSITION_TOLERANCE_M && up < HEIGHT_M, "{name}, {unit:?} {kind:?}: {flat} m off, {up} m in height");
+            assert!(
+                flat < POSITION_TOLERANCE_M && up < HEIGHT_TOLERANCE_M,
+                "{name}, {unit:?} {kind:?}: {flat} m off, {up} m in height"
+            );
             assert!(texts.iter().any(|t| t.contains(&format!("{text} inconsistent"))), "{name}, {unit:?}: {texts:?}");
         }
     }
 }
 
 /// Drift rate of a falsified height, m/s: too slow for any single reading to be an outlier.
-const DRIFT_M_S: f64 = 0.4;
+const DRIFT_RATE_M_S: f64 = 0.4;
 /// Time at which the drift begins, when the vehicle hovers, s.
 const DRIFT_START_S: f64 = 30.0;
 
 fn drift_at_m(now: SimTime) -> f64 {
-    DRIFT_M_S * (now.s() - DRIFT_START_S).max(0.0)
+    DRIFT_RATE_M_S * (now.s() - DRIFT_START_S).max(0.0)
 }
 
 fn drifting_barometer(readings: &mut Readings, now: SimTime) {
@@ -124,10 +130,10 @@ fn drifting_receiver(readings: &mut Readings, now: SimTime) {
 /// The vehicle must follow the height on which two of receiver, barometer and range finder agree, when one of the first
 /// two drifts away.
 #[test]
-fn regress_slow_altitude_drift_is_not_tracked() {
+fn regress_estimate_does_not_follow_a_slow_altitude_drift() {
     // The receiver's height counts as contradicted at five times its error of 0.8 m; up to that error, the vehicle
     // follows it, m.
-    const FOLLOWED_ERROR_M: f64 = 4.5;
+    const MAX_FOLLOWED_ERROR_M: f64 = 4.5;
     for name in VEHICLES {
         for (modify_readings, text) in [
             (drifting_barometer as fn(&mut Readings, SimTime), "Barometer inconsistent"),
@@ -139,7 +145,7 @@ fn regress_slow_altitude_drift_is_not_tracked() {
             bench.run(90.0, |b| worst = worst.max((b.position().down() + 8.0).abs()));
             let now = (bench.position().down() + 8.0).abs();
             let texts = take_texts(&mut bench);
-            assert!(worst < FOLLOWED_ERROR_M && now < HEIGHT_M, "{name}, {text}: {worst} m, at the end {now} m");
+            assert!(worst < MAX_FOLLOWED_ERROR_M && now < HEIGHT_TOLERANCE_M, "{name}, {text}: {worst} m, at the end {now} m");
             assert!(texts.iter().any(|t| t.contains(text)), "{name}: {texts:?}");
         }
     }

@@ -57,7 +57,7 @@ impl Vehicle {
                 (_, FileAction::Checksum { from, .. }) => Ok(FileJobResult::Checksum { sum: u32::MAX, bytes: from ^ u32::MAX }),
                 _ => Ok(FileJobResult::Nothing),
             };
-            self.0.file_job_done(job.ticket, outcome);
+            self.0.finish_file_job(job.ticket, outcome);
         }
     }
 }
@@ -170,7 +170,7 @@ impl Driver<'_> {
             }
             count += frames.len();
             for frame in frames.iter().filter(|f| f.system_id == 1 && matches!(f.component_id, 1 | 100)) {
-                self.note(frame);
+                self.record_coverage(frame);
                 if !frame.message.as_ref().is_none_or(finite) {
                     return Err(format!("NaN or infinity in {:?}", frame.message));
                 }
@@ -179,7 +179,7 @@ impl Driver<'_> {
         Ok(count)
     }
 
-    fn note(&mut self, frame: &ReceivedFrame) {
+    fn record_coverage(&mut self, frame: &ReceivedFrame) {
         let coverage = &mut self.coverage;
         *coverage.answers.entry(frame.message_id).or_default() += 1;
         match &frame.message {

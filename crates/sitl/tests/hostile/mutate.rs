@@ -29,7 +29,7 @@ const BYTES: [u8; 10] = [0, 1, 2, 3, 7, 8, 127, 128, 254, 255];
 /// PX4's number for the mission mode.
 const MISSION_MODE: u32 = 4 << 16 | 4 << 24;
 /// Bytes that are not valid UTF-8.
-const TEXT: [u8; 4] = [0xC3, 0x28, 0xFF, 0xFE];
+const INVALID_UTF8: [u8; 4] = [0xC3, 0x28, 0xFF, 0xFE];
 
 /// Returns a complete frame around a payload, with a correct checksum.
 pub fn frame(id: u32, payload: &[u8], sender: (u8, u8), stream: &mut RandomStream) -> Vec<u8> {
@@ -80,7 +80,7 @@ pub fn field(bytes: &mut [u8], stream: &mut RandomStream) {
             let end = (at + 1 + stream.below(8)).min(bytes.len());
             bytes[at..end].fill(if stream.below(2) == 0 { 0xFF } else { stream.bits() as u8 });
         }
-        _ => put(bytes, TEXT, stream),
+        _ => put(bytes, INVALID_UTF8, stream),
     }
 }
 

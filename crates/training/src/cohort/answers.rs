@@ -13,7 +13,7 @@ const MIN_GOOD_SELF_RATING: f64 = 4.0;
 
 /// Answer distribution for one question.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Likert {
+pub struct AnswerDistribution {
     /// Question key.
     pub question: String,
     /// The group's repetition, from 1; `None` for all first sessions.
@@ -59,8 +59,8 @@ pub struct Contradiction {
     pub words: String,
 }
 
-pub fn likert(firsts: &[&SessionRecord], group: &SessionsByTrainee<'_>, repetitions: usize) -> Vec<Likert> {
-    let mut rows = count(firsts, None);
+pub fn likert(first_sessions: &[&SessionRecord], group: &SessionsByTrainee<'_>, repetitions: usize) -> Vec<AnswerDistribution> {
+    let mut rows = count(first_sessions, None);
     for k in 0..repetitions {
         let records: Vec<&SessionRecord> = group.values().map(|sessions| sessions[k]).collect();
         rows.extend(count(&records, Some(k + 1)));
@@ -68,7 +68,7 @@ pub fn likert(firsts: &[&SessionRecord], group: &SessionsByTrainee<'_>, repetiti
     rows
 }
 
-fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
+fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<AnswerDistribution> {
     let mut tasks: Vec<u32> = records.iter().flat_map(|record| record.task_ids()).collect();
     tasks.sort_unstable();
     tasks.dedup();
@@ -79,7 +79,13 @@ fn count(records: &[&SessionRecord], repetition: Option<usize>) -> Vec<Likert> {
         }
         let n: usize = counts.iter().sum();
         let agreeing: usize = counts[..usize::from(MAX_AGREEING_ANSWER)].iter().sum();
-        (n > 0).then(|| Likert { question: item.to_string(), repetition, counts, n, agree: agreeing as f64 / n as f64 })
+        (n > 0).then(|| AnswerDistribution {
+            question: item.to_string(),
+            repetition,
+            counts,
+            n,
+            agree: agreeing as f64 / n as f64,
+        })
     };
     QuestionnaireItem::all(&tasks).into_iter().filter_map(row).collect()
 }
@@ -89,31 +95,31 @@ pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
 
-pub fn self_rating(firsts: &[&SessionRecord]) -> SelfRating {
+pub fn self_rating(first_sessions: &[&SessionRecord]) -> SelfRating {
     let pair = |record: &&SessionRecord| {
         let self_rating = record.scales()?.self_rating?;
         Some(SelfRatingPair { trainee: record.trainee.clone(), self_rating, measured_pct: measured_pct(record) })
     };
-    let people: Vec<SelfRatingPair> = firsts.iter().filter_map(pair).collect();
+    let people: Vec<SelfRatingPair> = first_sessions.iter().filter_map(pair).collect();
     let (own, measured): (Vec<f64>, Vec<f64>) = people.iter().map(|pair| (pair.self_rating, pair.measured_pct)).unzip();
-    let mut tasks: Vec<u32> = firsts.iter().flat_map(|record| record.task_ids()).collect();
+    let mut tasks: Vec<u32> = first_sessions.iter().flat_map(|record| record.task_ids()).collect();
     tasks.sort_unstable();
     tasks.dedup();
     SelfRating {
         overall: spearman(&own, &measured).ok(),
-        tasks: tasks.into_iter().map(|id| (id, task_correlation(firsts, id))).collect(),
-        contradictions: contradictions(firsts, &people),
+        tasks: tasks.into_iter().map(|id| (id, task_correlation(first_sessions, id))).collect(),
+        contradictions: contradictions(first_sessions, &people),
         people,
     }
 }
 
-fn task_correlation(firsts: &[&SessionRecord], id: u32) -> Option<Correlation> {
+fn task_correlation(first_sessions: &[&SessionRecord], id: u32) -> Option<Correlation> {
     let pair = |record: &&SessionRecord| {
         let answer = answer_value(record, QuestionnaireItem::Phase(InspectionPhase::Task(id), PhaseAspect::Performance))?;
         let task = record.tasks.iter().find(|task| task.id == id)?;
         Some((f64::from(STRONGLY_AGREE + STRONGLY_DISAGREE - answer), task.on_path))
     };
-    let (own, measured): (Vec<f64>, Vec<f64>) = firsts.iter().filter_map(pair).unzip();
+    let (own, measured): (Vec<f64>, Vec<f64>) = first_sessions.iter().filter_map(pair).unzip();
     spearman(&own, &measured).ok()
 }
 
@@ -124,7 +130,7 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
 /// Returns contradictions as defined in the TASBID paper: a high self-rating with a score in the bottom quarter, a low
 /// self-rating with a score in the top quarter, no time pressure despite one of the slowest flights, or time pressure
 /// despite one of the fastest.
-fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
+fn contradictions(first_sessions: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
     let mut found = Vec::new();
     let ends = |mut values: Vec<f64>| {
         values.sort_by(f64::total_cmp);
@@ -143,8 +149,8 @@ fn contradictions(firsts: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<C
             found.push(Contradiction { trainee: pair.trainee.clone(), words });
         }
     }
-    if let Some((quick, slow)) = ends(firsts.iter().map(|record| record.seconds).collect()) {
-        for record in firsts {
+    if let Some((quick, slow)) = ends(first_sessions.iter().map(|record| record.seconds).collect()) {
+        for record in first_sessions {
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {

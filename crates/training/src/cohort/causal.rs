@@ -61,8 +61,8 @@ struct Respondent {
 }
 
 /// Estimates the model and appends its limitations to `warnings`.
-pub fn causal(firsts: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
-    let people: Vec<Respondent> = firsts.iter().filter_map(|record| respondent(record)).collect();
+pub fn causal(first_sessions: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
+    let people: Vec<Respondent> = first_sessions.iter().filter_map(|record| respondent(record)).collect();
     let n = people.len();
     if n < RECOMMENDED_TRAINEES {
         warnings.push(format!(

@@ -11,7 +11,7 @@ mod samples;
 mod scores;
 mod tables;
 
-pub use answers::{Contradiction, Likert, SelfRating, SelfRatingPair};
+pub use answers::{AnswerDistribution, Contradiction, SelfRating, SelfRatingPair};
 pub use causal::{IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
 pub use learning::GroupCurve;
 pub use progress::{JobProgress, Repetition, ScoreCurve, TraineeProgress, by_job};
@@ -66,7 +66,7 @@ pub struct Cohort {
     /// Tests of whether the group's scores are distributed like the other trainees' scores.
     pub homogeneity: Vec<GroupHomogeneityTest>,
     /// Answer counts for all first sessions and for each of the group's repetitions.
-    pub likert: Vec<Likert>,
+    pub likert: Vec<AnswerDistribution>,
     /// Self-ratings compared with measured scores.
     pub self_rating: SelfRating,
     /// Model of demand, strain and performance with feedback as moderator; `None` if it cannot be estimated.
@@ -93,12 +93,12 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     for sessions in runs.values_mut() {
         sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
     }
-    let firsts: Vec<&SessionRecord> = runs.values().filter_map(|sessions| sessions.first().copied()).collect();
+    let first_sessions: Vec<&SessionRecord> = runs.values().filter_map(|sessions| sessions.first().copied()).collect();
     let repetitions = selection.repetitions.max(1);
     let group: SessionsByTrainee<'_> =
         runs.iter().filter(|(_, sessions)| sessions.len() >= repetitions).map(|(k, v)| (*k, v.clone())).collect();
     let mut warnings = Vec::new();
-    let causal = causal::causal(&firsts, &mut warnings);
+    let causal = causal::causal(&first_sessions, &mut warnings);
     if repetitions > 1 && group.len() < RECOMMENDED_PAIRS {
         warnings.push(format!(
             "only {} trainees flew {repetitions} times; with fewer than {RECOMMENDED_PAIRS}, a paired test can miss medium effects",
@@ -106,21 +106,21 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         ));
     }
     let progress: Vec<TraineeProgress> = runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions)).collect();
-    let homogeneity = scores::homogeneity_of(&firsts, &group, &mut warnings);
+    let homogeneity = scores::test_group_homogeneity(&first_sessions, &group, &mut warnings);
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
         left_out: left_out.len(),
         trainees: runs.len(),
         repetitions,
         group: group.keys().map(|trainee| (*trainee).to_owned()).collect(),
-        distributions: scores::distributions(&firsts),
-        individuals: firsts.iter().map(|record| scores::first_session(record)).collect(),
-        crashes: scores::crash_table(&firsts),
+        distributions: scores::distributions(&first_sessions),
+        individuals: first_sessions.iter().map(|record| scores::first_session(record)).collect(),
+        crashes: scores::crash_table(&first_sessions),
         boxes: scores::boxes(&group, repetitions),
         tests: scores::comparisons(&group, repetitions, &mut warnings),
         homogeneity,
-        likert: answers::likert(&firsts, &group, repetitions),
-        self_rating: answers::self_rating(&firsts),
+        likert: answers::likert(&first_sessions, &group, repetitions),
+        self_rating: answers::self_rating(&first_sessions),
         causal,
         learning: learning::learning(&progress),
         progress,

@@ -138,10 +138,10 @@ fn values(records: &[&SessionRecord], pick: ScorePicker) -> Vec<f64> {
     records.iter().filter_map(|record| pick(record)).collect()
 }
 
-pub fn distributions(firsts: &[&SessionRecord]) -> Vec<Distribution> {
+pub fn distributions(first_sessions: &[&SessionRecord]) -> Vec<Distribution> {
     let most = |score: &str| if score == OVERALL.0 { 400.0 } else { 100.0 };
     let one = |(score, pick): (&str, ScorePicker)| {
-        let values = values(firsts, pick);
+        let values = values(first_sessions, pick);
         let histogram = histogram(&values, (0.0, most(score)), HISTOGRAM_BINS);
         Some(Distribution { score: score.to_owned(), summary: summary(&values).ok()?, histogram })
     };
@@ -170,8 +170,8 @@ pub fn first_session(record: &SessionRecord) -> FirstSession {
     }
 }
 
-pub fn crash_table(firsts: &[&SessionRecord]) -> CrashTable {
-    let mut tasks: Vec<u32> = firsts.iter().flat_map(|record| record.task_ids()).collect();
+pub fn crash_table(first_sessions: &[&SessionRecord]) -> CrashTable {
+    let mut tasks: Vec<u32> = first_sessions.iter().flat_map(|record| record.task_ids()).collect();
     tasks.sort_unstable();
     tasks.dedup();
     let row = |record: &&SessionRecord| {
@@ -179,10 +179,10 @@ pub fn crash_table(firsts: &[&SessionRecord]) -> CrashTable {
         let by_task = tasks.iter().map(in_task).chain([record.crashes_outside.total()]).collect();
         CrashRow { trainee: record.trainee.clone(), by_task, total: record.crashes().total() }
     };
-    let rows: Vec<CrashRow> = firsts.iter().map(row).collect();
+    let rows: Vec<CrashRow> = first_sessions.iter().map(row).collect();
     CrashTable {
         total: rows.iter().map(|row| row.total).sum(),
-        by_kind: firsts.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::combined_with),
+        by_kind: first_sessions.iter().map(|record| record.crashes()).fold(Crashes::default(), Crashes::combined_with),
         by_task: (0..=tasks.len()).map(|k| rows.iter().map(|row| row.by_task[k]).sum()).collect(),
         tasks,
         rows,
@@ -243,22 +243,22 @@ fn apply_holm_correction(mut family: Vec<&mut Comparison>) {
     }
 }
 
-pub fn homogeneity_of(
-    firsts: &[&SessionRecord],
+pub fn test_group_homogeneity(
+    first_sessions: &[&SessionRecord],
     group: &SessionsByTrainee<'_>,
     warnings: &mut Vec<String>,
 ) -> Vec<GroupHomogeneityTest> {
     let mut tests = Vec::new();
-    if group.is_empty() || group.len() == firsts.len() {
+    if group.is_empty() || group.len() == first_sessions.len() {
         return tests;
     }
     for (score, pick) in SCORES {
-        let mut sorted = values(firsts, pick);
+        let mut sorted = values(first_sessions, pick);
         sorted.sort_by(f64::total_cmp);
         let (Some(low), Some(middle)) = (quantile(&sorted, 1.0 / 3.0), quantile(&sorted, 2.0 / 3.0)) else { continue };
         let count = |in_group: bool| {
             let mut counts = vec![0; 3];
-            let those = firsts.iter().filter(|record| group.contains_key(record.trainee.as_str()) == in_group);
+            let those = first_sessions.iter().filter(|record| group.contains_key(record.trainee.as_str()) == in_group);
             for value in those.filter_map(|record| pick(record)) {
                 counts[usize::from(value > low) + usize::from(value > middle)] += 1;
             }

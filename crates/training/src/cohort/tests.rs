@@ -42,7 +42,7 @@ fn analyzed(records: &[SessionRecord]) -> Cohort {
 }
 
 #[test]
-fn exact_tasbid_study_design_yields_its_tables() {
+fn exact_tasbid_study_design_yields_tables_of_expected_size() {
     let cohort = analyzed(&pilot_study_records());
     assert_eq!((cohort.trainees, cohort.sessions, cohort.group.len()), (22, 38, 8));
     assert_eq!(cohort.scenarios, ["two-bridges"]);
@@ -127,7 +127,7 @@ fn exact_learning_curve_requires_four_repetitions() {
 }
 
 #[test]
-fn exact_group_curve_fits_eligible_trainee_means() {
+fn exact_group_curve_fits_means_of_eligible_trainees() {
     let safety = |first: f64, k: usize| first * spandrel_model::math::pow(k as f64, 0.3);
     let mut records = Vec::new();
     // Two trainees' curves have the same exponent, so the curve of their mean has the same one. Only repetitions that

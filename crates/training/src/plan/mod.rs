@@ -5,7 +5,7 @@ mod changes;
 mod rules;
 
 pub use changes::{MeasureChange, SessionChanges};
-pub use rules::{PlanRule, PlanRules, RULES, RuleMeasure, read_rules};
+pub use rules::{DEFAULT_RULES, PlanRule, PlanRules, RuleMeasure, read_rules};
 
 use super::record::{Crashes, DefectRecord, IncompletePolicy, SessionOutcome, SessionRecord, TaskRecord};
 use serde::Serialize;
@@ -13,7 +13,7 @@ use spandrel_model::numbers::format_with_limit;
 use std::cmp::Ordering;
 
 /// Minimum condition state of a severe missed defect: poor (AASHTO MBEI).
-const MIN_SEVERE_STATE: u8 = 3;
+const MIN_SEVERE_CONDITION_STATE: u8 = 3;
 /// Maximum number of missed defects named in a reason.
 const MAX_DEFECTS_LISTED: usize = 3;
 /// Length of a day, µs.
@@ -272,7 +272,7 @@ fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecor
         | RuleMeasure::FalseSnapshots
         | RuleMeasure::Overtime
         | RuleMeasure::NotLanded
-        | RuleMeasure::BatteryLow => defect.condition_state >= MIN_SEVERE_STATE,
+        | RuleMeasure::BatteryLow => defect.condition_state >= MIN_SEVERE_CONDITION_STATE,
     };
     let mut missed: Vec<&DefectRecord> = record.defects.iter().filter(|defect| !defect.found).filter(about).collect();
     missed.sort_by(|a, b| {
@@ -308,7 +308,7 @@ fn count(rule: &PlanRule, crashes: Crashes) -> f64 {
 fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
     let task = finding.task.map_or(String::new(), |task| task.name.clone());
     let fastest = finding.task.map_or(0.0, |task| task.fastest_m_s);
-    let axis = finding.task.map_or("", axis);
+    let axis = finding.task.map_or("", deviation_direction);
     let words = rule.reason.replace("{value}", &displayed_value(rule.measure, finding.value, rule.limit));
     let words = words.replace("{limit}", &displayed_value(rule.measure, rule.limit, rule.limit));
     let words = words.replace("{defects}", &missed_summary(rule, finding.record));
@@ -318,7 +318,7 @@ fn reason(rule: &PlanRule, finding: &Finding<'_>) -> PlanReason {
 }
 
 /// Describes the direction of the deviation from the task's path.
-fn axis(task: &TaskRecord) -> &'static str {
+fn deviation_direction(task: &TaskRecord) -> &'static str {
     match (task.off_sideways_m, task.off_height_m) {
         (Some(sideways), Some(height)) if sideways > DOMINANCE_RATIO * height => "mainly sideways",
         (Some(sideways), Some(height)) if height > DOMINANCE_RATIO * sideways => "mainly vertically",

@@ -3,10 +3,10 @@
 use spandrel_model::toml::{Problems, Reader, Section};
 
 /// Default rules of the training plan, in TOML.
-pub const RULES: &str = include_str!("rules.toml");
+pub const DEFAULT_RULES: &str = include_str!("rules.toml");
 
 /// File format version.
-const FORMAT: i64 = 1;
+const FORMAT_VERSION: i64 = 1;
 
 /// Measure that a rule evaluates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -136,11 +136,11 @@ pub fn read_rules(file: &str, text: &str) -> Result<PlanRules, Problems> {
 }
 
 fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
-    reader.integer(root, "format", (FORMAT, FORMAT), None);
+    reader.integer(root, "format", (FORMAT_VERSION, FORMAT_VERSION), None);
     let steps = reader.integer(root, "steps", (1, 20), Some(3));
     let mut rules: Vec<PlanRule> = Vec::new();
     for mut section in reader.sections(root, "rules") {
-        let rule = one(reader, &mut section);
+        let rule = read_rule(reader, &mut section);
         if rules.iter().any(|other| other.name == rule.name) {
             reader.add_problem(&section, "name", &rule.name, "a unique name", "duplicate rule name");
         }
@@ -161,7 +161,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
     rules
 }
 
-fn one(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
+fn read_rule(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
     PlanRule {
         name: reader.text(section, "name", None),
         measure: reader.keyword(section, "measure", MEASURES, None),
@@ -181,12 +181,15 @@ mod tests {
 
     #[test]
     fn exact_shipped_rules_are_valid_and_errors_name_line_and_key() {
-        assert!(read_rules("rules.toml", RULES).unwrap().rules.len() > 20);
-        let wrong =
-            RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen("limit = 0.1\n", "limit = -1\n", 1);
+        assert!(read_rules("rules.toml", DEFAULT_RULES).unwrap().rules.len() > 20);
+        let wrong = DEFAULT_RULES.replacen("measure = \"off_path\"", "measure = \"elegance\"", 1).replacen(
+            "limit = 0.1\n",
+            "limit = -1\n",
+            1,
+        );
         let told = read_rules("rules.toml", &wrong).unwrap_err().to_string();
         assert!(told.contains("measure = \"elegance\"") && told.contains("limit = -1"), "{told}");
-        let twice = RULES.replace("name = \"crashes into water\"", "name = \"hit a person\"");
+        let twice = DEFAULT_RULES.replace("name = \"crashes into water\"", "name = \"hit a person\"");
         assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("duplicate rule name"));
     }
 }

@@ -4,7 +4,7 @@ use crate::testing::{aborted_record, perfect_record};
 const NOW: u64 = 1_700_000_000_000_000 + 864_000_000_000;
 
 fn rules() -> PlanRules {
-    read_rules("rules.toml", RULES).unwrap()
+    read_rules("rules.toml", DEFAULT_RULES).unwrap()
 }
 
 /// Returns a record in which the rule's measure is `factor` times its limit.
@@ -82,7 +82,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
 }
 
 #[test]
-fn exact_good_drill_recommends_job() {
+fn exact_good_drill_flight_recommends_job() {
     let mut job = perfect_record("anna", 1);
     job.tasks[2].on_path = 0.3;
     let mut drill = perfect_record("anna", 2);
@@ -96,7 +96,7 @@ fn exact_good_drill_recommends_job() {
 }
 
 #[test]
-fn exact_refresher_is_recommended_after_long_pause() {
+fn exact_refresher_is_recommended_after_long_break() {
     let record = perfect_record("anna", 0);
     let day = 86_400_000_000;
     let at = |days: u64| plan(std::slice::from_ref(&record), &rules(), record.started_unix_us + days * day).unwrap();

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 pub const ANSWERS: &str = "answers.json";
 
 /// File format version.
-const FORMAT: u64 = 1;
+const FORMAT_VERSION: u64 = 1;
 /// Maximum file size, bytes; far more than 24 answers need.
 const MAX_FILE_BYTES: usize = 64 * 1024;
 
@@ -48,7 +48,7 @@ impl Serialize for Answers {
         let given: serde_json::Map<String, Value> = words(self.given.iter().map(|(item, a)| (item.to_string(), *a)).collect());
         let tlx: serde_json::Map<String, Value> = words(self.tlx.iter().map(|(scale, a)| (scale.key().to_owned(), *a)).collect());
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("format", &FORMAT)?;
+        map.serialize_entry("format", &FORMAT_VERSION)?;
         map.serialize_entry("language", &self.language)?;
         map.serialize_entry("answers", &given)?;
         if !tlx.is_empty() {
@@ -104,7 +104,7 @@ pub fn read_answers(file: &str, text: &str, tasks: &[u32]) -> Result<Answers, Pr
         }
         Err(error) => {
             let message = error.to_string();
-            reading.at(error.line(), "syntax", "", "JSON", &message);
+            reading.add_problem_at(error.line(), "syntax", "", "JSON", &message);
             Answers::default()
         }
     };
@@ -124,11 +124,11 @@ impl AnswerReader<'_> {
             self.invalid_answer(key, &json_text(value), keys, "unknown key");
         }
         match map.get("format").map(|value| (value.as_u64(), value)) {
-            Some((Some(FORMAT), _)) => {}
+            Some((Some(FORMAT_VERSION), _)) => {}
             Some((_, value)) => {
-                self.invalid_answer("format", &json_text(value), &FORMAT.to_string(), "unsupported format version")
+                self.invalid_answer("format", &json_text(value), &FORMAT_VERSION.to_string(), "unsupported format version")
             }
-            None => self.invalid_answer("format", "", &FORMAT.to_string(), "missing"),
+            None => self.invalid_answer("format", "", &FORMAT_VERSION.to_string(), "missing"),
         }
         let language = map.get("language").and_then(Value::as_str).filter(|tag| is_language_tag(tag));
         if language.is_none() {
@@ -184,10 +184,10 @@ impl AnswerReader<'_> {
         let quoted = Value::from(key).to_string();
         let offset = if key.is_empty() { Some(0) } else { self.text.find(&quoted) };
         let line = offset.map_or(1, |offset| 1 + self.text[..offset].matches('\n').count());
-        self.at(line, key, value, allowed, message);
+        self.add_problem_at(line, key, value, allowed, message);
     }
 
-    fn at(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
+    fn add_problem_at(&mut self, line: usize, key: &str, value: &str, allowed: &str, message: &str) {
         let short = |text: &str| text.chars().filter(|c| !c.is_control()).take(60).collect::<String>();
         self.problems.push(Problem {
             file: self.file.to_owned(),

@@ -7,7 +7,7 @@ use super::{
 use spandrel_model::toml::{Problems, Reader, Section};
 
 /// File format version.
-const FORMAT: i64 = 1;
+const FORMAT_VERSION: i64 = 1;
 /// Placeholder for a task number; the next one is for the task name.
 const NUMBER_PLACEHOLDER: &str = "{number}";
 const NAME_PLACEHOLDER: &str = "{name}";
@@ -86,7 +86,7 @@ pub fn read_wording(file: &str, text: &str) -> Result<Wording, Problems> {
 }
 
 fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Wording {
-    reader.integer(root, "format", (FORMAT, FORMAT), None);
+    reader.integer(root, "format", (FORMAT_VERSION, FORMAT_VERSION), None);
     let [language, language_name, title, introduction] =
         read_texts(reader, root, ["language", "language_name", "title", "introduction"]);
     if root.has("language") && !is_language_tag(&language) {

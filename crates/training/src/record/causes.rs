@@ -13,7 +13,7 @@ use spandrel_monitor::measures::on_speed;
 
 /// Maximum distance from a path at which the drone counts as off that path, m. Farther away, it counts as elsewhere
 /// (docs/src/reference/assessment.md, "Feedback during the flight").
-const MAX_OFF_PATH_M: f64 = 8.0;
+const MAX_OFF_PATH_DISTANCE_M: f64 = 8.0;
 
 /// The parts of a session record computed from frames.
 pub struct ScoreCauses {
@@ -36,7 +36,7 @@ struct FlownSession<'a> {
 
 /// Computes the causes of a session's scores.
 pub fn causes(source: &RecordSource<'_>) -> ScoreCauses {
-    let (scenario, frames) = (source.scenario, &source.graded.frames);
+    let (scenario, frames) = (source.scenario, &source.assessed_session.frames);
     let paths = ReferencePaths::new(scenario);
     let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
     let speeds: Vec<f64> = frames.iter().map(Frame::speed_m_s).collect();
@@ -57,7 +57,7 @@ pub fn causes(source: &RecordSource<'_>) -> ScoreCauses {
 }
 
 fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize, defects: &[DefectRecord]) -> TaskRecord {
-    let (described, result) = (&source.scenario.tasks[task], &source.graded.assessment.tasks[task]);
+    let (described, result) = (&source.scenario.tasks[task], &source.assessed_session.assessment.tasks[task]);
     let window = flown.on_path.windows[task];
     let range = window.map_or(0..0, |window| window.first..window.last + 1);
     let speeding = flown.speeding[range.clone()].iter().filter(|speeding| **speeding).count();
@@ -93,7 +93,7 @@ fn off_path(flown: &FlownSession<'_>, task: usize, window: TaskWindow) -> Vec<(f
         let position_m = flown.frames[k].position_m;
         flown.paths.path(task).closest_position(position_m).map(|foot_m| position_m - foot_m)
     };
-    let near = frames.filter_map(offset).filter(|offset| offset.norm() <= MAX_OFF_PATH_M);
+    let near = frames.filter_map(offset).filter(|offset| offset.norm() <= MAX_OFF_PATH_DISTANCE_M);
     near.map(|offset: Vec3<Enu>| (offset.horizontal_norm(), offset.up().abs())).collect()
 }
 
@@ -106,7 +106,7 @@ fn crashes(flown: &FlownSession<'_>, task: Option<usize>) -> Crashes {
 }
 
 fn defects(source: &RecordSource<'_>, paths: &ReferencePaths) -> Vec<DefectRecord> {
-    let pictures = &source.graded.assessment.snapshots;
+    let pictures = &source.assessed_session.assessment.snapshots;
     source.placed.iter().map(|defect| defect_causes(source, paths, defect, pictures)).collect()
 }
 
@@ -133,6 +133,6 @@ fn defect_causes(
 }
 
 fn nearest_task(paths: &ReferencePaths, position_m: Vec3<Enu>) -> Option<usize> {
-    let distance = |task: &usize| paths.path(*task).exact(position_m).map_or(f64::INFINITY, |nearest| nearest.distance_m);
+    let distance = |task: &usize| paths.path(*task).nearest_exact(position_m).map_or(f64::INFINITY, |nearest| nearest.distance_m);
     (0..paths.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

@@ -7,7 +7,7 @@ mod source;
 mod task_record;
 
 pub use outcome::SessionOutcome;
-pub use source::{FORMAT, RecordSource, SourceHashes};
+pub use source::{FORMAT_VERSION, RecordSource, SourceHashes};
 pub use task_record::{Crashes, DefectRecord, TaskRecord};
 
 use super::questionnaire::{Answers, ScaleScores, scales};
@@ -152,7 +152,7 @@ impl IncompletePolicy {
 
 /// Returns a note with the number of excluded sessions; `None` if it is 0.
 #[must_use]
-pub fn omitted_summary(count: usize) -> Option<String> {
+pub fn excluded_sessions_note(count: usize) -> Option<String> {
     match count {
         0 => None,
         1 => Some("1 incomplete session excluded".to_owned()),
@@ -172,11 +172,11 @@ impl SessionOutcome for SessionListEntry {
 /// Creates a session record.
 #[must_use]
 pub fn record(source: &RecordSource<'_>) -> SessionRecord {
-    let assessment = &source.graded.assessment;
+    let assessment = &source.assessed_session.assessment;
     let pct = |score: Score| score.pct;
     let causes = causes::causes(source);
     SessionRecord {
-        format: FORMAT,
+        format: FORMAT_VERSION,
         id: source.id.to_owned(),
         fingerprint: source.hashes.fingerprint(),
         trainee: source.trainee.to_owned(),
@@ -189,7 +189,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         vehicle: source.vehicle.to_owned(),
         vehicle_sha256: source.hashes.vehicle.clone(),
         telemetry_sha256: source.hashes.telemetry.clone(),
-        seed: source.graded.seed,
+        seed: source.assessed_session.seed,
         scores: Scores {
             conformity: assessment.scores.conformity.map(pct),
             efficiency: assessment.scores.efficiency.pct,
@@ -269,8 +269,8 @@ impl SessionRecord {
             }
         }
         // Older formats lack this data, so such a session counts as incomplete.
-        if !(1..=FORMAT).contains(&self.format) {
-            return Err(format!("format = {} (allowed: 1 to {FORMAT})", self.format));
+        if !(1..=FORMAT_VERSION).contains(&self.format) {
+            return Err(format!("format = {} (allowed: 1 to {FORMAT_VERSION})", self.format));
         }
         Ok(())
     }

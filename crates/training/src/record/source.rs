@@ -7,7 +7,7 @@ use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::score::SCORER_VERSION;
 
 /// Record format version. It is incremented when fields are added so that older records are recreated.
-pub const FORMAT: u32 = 2;
+pub const FORMAT_VERSION: u32 = 2;
 
 /// Inputs used to create a record.
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +29,7 @@ pub struct RecordSource<'a> {
     /// Source file hashes.
     pub hashes: &'a SourceHashes,
     /// The session's assessment and frames.
-    pub graded: &'a AssessedSession,
+    pub assessed_session: &'a AssessedSession,
     /// Defects placed according to the session's seed.
     pub placed: &'a [PlacedDefect],
     /// Questionnaire answers; `None` if the questionnaire was not started.
@@ -62,6 +62,6 @@ impl SourceHashes {
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let Self { scenario, vehicle, telemetry, answers } = self;
-        sha256_hex(format!("{FORMAT} {SCORER_VERSION} {scenario} {vehicle} {telemetry} {answers}").as_bytes())
+        sha256_hex(format!("{FORMAT_VERSION} {SCORER_VERSION} {scenario} {vehicle} {telemetry} {answers}").as_bytes())
     }
 }

@@ -43,7 +43,7 @@ pub struct BestApproach {
 impl DefectOutcome {
     /// Describes the outcome for the report.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn description(&self) -> String {
         let Some(best_approach) = &self.best_approach else {
             return self.found_by.map_or_else(|| "found".into(), |number| format!("found by picture {number}"));
         };
@@ -79,12 +79,12 @@ impl DefectOutcome {
 pub fn defect_outcomes(scene: &ReviewContext<'_>, assessment: &Assessment) -> Vec<DefectOutcome> {
     let each = &assessment.snapshots.each;
     let number = |id: u32| each.iter().position(|s| s.found.contains(&id)).map(|k| u32::try_from(k + 1).unwrap_or(u32::MAX));
-    let fate = |defect: &PlacedDefect| {
+    let defect_outcome = |defect: &PlacedDefect| {
         let found_by = number(defect.id);
         let best_approach = if found_by.is_none() { Some(best_approach(scene, defect)) } else { None };
         DefectOutcome { defect: defect.clone(), found_by, best_approach }
     };
-    scene.site.defects().iter().map(fate).collect()
+    scene.site.defects().iter().map(defect_outcome).collect()
 }
 
 fn best_approach(scene: &ReviewContext<'_>, defect: &PlacedDefect) -> BestApproach {

@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_median_of_odd_even_and_empty_lists() {
+    fn exact_median_handles_odd_even_and_empty_lists() {
         assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
         assert_eq!(median(Vec::new()), None);

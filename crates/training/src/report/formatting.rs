@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_number_and_time_formats() {
+    fn exact_numbers_and_times_are_formatted() {
         assert_eq!(number(1.25, 1), "1.2");
         assert_eq!(number(-0.04, 1), "0.0");
         assert_eq!(number(-0.06, 1), "-0.1");

@@ -21,7 +21,7 @@ pub mod task_proximity;
 
 pub use context::ReviewContext;
 
-use crate::plan::{self, PlanStep, RULES, read_rules};
+use crate::plan::{self, DEFAULT_RULES, PlanStep, read_rules};
 use crate::record::{RecordSource, SourceHashes, record};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
@@ -70,7 +70,7 @@ pub struct Jpeg {
 #[derive(Debug)]
 pub struct Review {
     /// Metadata from the session folder.
-    pub about: SessionMetadata,
+    pub metadata: SessionMetadata,
     /// The session's scenario.
     pub scenario: Scenario,
     /// Aircraft flown in the session.
@@ -114,7 +114,7 @@ impl Review {
         log: &(impl TelemetryLog + ?Sized),
         scenario: &Scenario,
         vehicle: &Vehicle,
-        about: SessionMetadata,
+        metadata: SessionMetadata,
     ) -> Result<Self, AssessError> {
         // The replay runs first because the monitor keeps its own copy of the flight until it is dropped.
         let events = feedback::events(log, scenario, vehicle)?;
@@ -134,9 +134,9 @@ impl Review {
         let (crashes, tasks) = (crash::crashes(&frames, &on_path), task_proximity::tasks(&scene, &on_path, &track));
         let (feedback, defects) =
             (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, &assessment));
-        let graded = AssessedSession { assessment, frames, seed };
-        let next = next(&about, scenario, vehicle, &graded, (&site, &defects));
-        let AssessedSession { assessment, frames, .. } = graded;
+        let assessed_session = AssessedSession { assessment, frames, seed };
+        let next = next(&metadata, scenario, vehicle, &assessed_session, (&site, &defects));
+        let AssessedSession { assessment, frames, .. } = assessed_session;
         Ok(Self {
             crashes,
             tasks,
@@ -145,7 +145,7 @@ impl Review {
             coverage,
             next,
             link,
-            about,
+            metadata,
             scenario: scenario.clone(),
             vehicle: vehicle.clone(),
             seed,
@@ -169,35 +169,37 @@ impl Review {
 /// Returns the scenarios recommended by the default rules for this session alone; empty if the rules are invalid, which
 /// a test rules out.
 fn next(
-    about: &SessionMetadata,
+    metadata: &SessionMetadata,
     scenario: &Scenario,
     vehicle: &Vehicle,
-    graded: &AssessedSession,
+    assessed_session: &AssessedSession,
     (site, defect_outcomes): (&Site, &[defects::DefectOutcome]),
 ) -> Vec<PlanStep> {
     let hashes = SourceHashes {
-        scenario: about.scenario_sha256.clone(),
-        vehicle: about.vehicle_sha256.clone(),
-        telemetry: about.telemetry_sha256.clone(),
+        scenario: metadata.scenario_sha256.clone(),
+        vehicle: metadata.vehicle_sha256.clone(),
+        telemetry: metadata.telemetry_sha256.clone(),
         answers: String::new(),
     };
     let mut record = record(&RecordSource {
-        id: &about.folder,
-        trainee: &about.trainee,
-        purpose: about.purpose.as_deref(),
-        started_unix_us: about.started_unix_us,
+        id: &metadata.folder,
+        trainee: &metadata.trainee,
+        purpose: metadata.purpose.as_deref(),
+        started_unix_us: metadata.started_unix_us,
         spandrel_version: env!("CARGO_PKG_VERSION"),
         scenario,
         vehicle: &vehicle.id,
         hashes: &hashes,
-        graded,
+        assessed_session,
         placed: site.defects(),
         answers: None,
     });
     for defect in &mut record.defects {
-        let fate = defect_outcomes.iter().find(|fate| fate.defect.id == defect.id);
-        defect.in_view_s = fate.and_then(|fate| fate.best_approach.as_ref()).map(|best_approach| best_approach.in_view_s);
+        let defect_outcome = defect_outcomes.iter().find(|defect_outcome| defect_outcome.defect.id == defect.id);
+        defect.in_view_s = defect_outcome
+            .and_then(|defect_outcome| defect_outcome.best_approach.as_ref())
+            .map(|best_approach| best_approach.in_view_s);
     }
-    let rules = read_rules("rules.toml", RULES).ok();
-    rules.and_then(|rules| plan::plan(&[record], &rules, about.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
+    let rules = read_rules("rules.toml", DEFAULT_RULES).ok();
+    rules.and_then(|rules| plan::plan(&[record], &rules, metadata.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
 }

@@ -3,7 +3,7 @@
 use super::context::ReviewContext;
 use super::task_proximity::TaskProximityStep;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::visibility::{lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{lamp_lux, required_illuminance_lux};
 use spandrel_model::site::{CameraPose, DefectView, ObjectId, Surface};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
@@ -73,7 +73,7 @@ pub struct PictureSubject {
     /// Illuminance including lamp light, lx.
     pub lux: f64,
     /// Illuminance that the camera needs for a usable exposure, lx.
-    pub needed_lux: f64,
+    pub required_illuminance_lux: f64,
     /// Motion blur caused by the drone's speed across the line of sight at the shortest exposure possible in this
     /// light, px.
     pub blur_px: f64,
@@ -195,7 +195,7 @@ fn target(
         incidence_rad: spandrel_model::math::acos((-pose.forward.dot(hit.normal)).clamp(-1.0, 1.0)),
         gsd_m,
         lux,
-        needed_lux: needed_lux(camera),
+        required_illuminance_lux: required_illuminance_lux(camera),
         blur_px: across.norm() * exposure_s(camera, lux) / gsd_m,
     })
 }
@@ -208,7 +208,7 @@ fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
 /// the camera's maximum exposure.
 #[must_use]
 pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {
-    (needed_lux(camera) * camera.exposure_max_s / lux.max(f64::MIN_POSITIVE)).min(camera.exposure_max_s)
+    (required_illuminance_lux(camera) * camera.max_exposure_time_s / lux.max(f64::MIN_POSITIVE)).min(camera.max_exposure_time_s)
 }
 
 #[cfg(test)]
@@ -224,7 +224,7 @@ mod tests {
             extent_px: 100.0,
             width_px: 50.0,
             illuminance_lux: 1000.0,
-            needed_lux: 100.0,
+            required_illuminance_lux: 100.0,
             distance_m: 2.0,
             line: false,
             lamp_on: false,

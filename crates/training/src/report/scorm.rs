@@ -26,7 +26,7 @@ fn manifest(review: &Review) -> String {
     let title = title(review);
     // maud's HTML escaping is also valid for XML.
     let body = html! {
-        manifest identifier={ "spandrel-" (review.about.telemetry_sha256.get(..16).unwrap_or_default()) } version="1.0"
+        manifest identifier={ "spandrel-" (review.metadata.telemetry_sha256.get(..16).unwrap_or_default()) } version="1.0"
             xmlns="http://www.imsproject.org/xsd/imscp_rootv1p1p2" xmlns:adlcp="http://www.adlnet.org/xsd/adlcp_rootv1p2" {
             metadata { schema { "ADL SCORM" } schemaversion { "1.2" } }
             organizations default="organization" {
@@ -46,7 +46,7 @@ fn manifest(review: &Review) -> String {
 }
 
 fn title(review: &Review) -> String {
-    format!("{}, {}", review.scenario.title, review.about.started_utc)
+    format!("{}, {}", review.scenario.title, review.metadata.started_utc)
 }
 
 /// Returns the result as SCORM data and as text. An incomplete session has no score, because a partial sum would be misleading.

@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 /// Width of a drawing, px; the height follows the camera's aspect ratio.
 pub const WIDTH_PX: usize = 400;
 /// Distance of the near clipping plane, m.
-const NEAR_M: f64 = 0.05;
+const NEAR_PLANE_DISTANCE_M: f64 = 0.05;
 /// Maximum distance at which members are drawn, m.
 const MAX_DISTANCE_M: f64 = 400.0;
 /// Side length of the ground and water squares, m.
-const GROUND_STEP_M: f64 = 12.0;
+const GROUND_SQUARE_SIZE_M: f64 = 12.0;
 /// Distance at which haze hides about two thirds of an object's color, m (for appearance only).
-const HAZE_M: f64 = 700.0;
-const SKY: [f64; 3] = [0.80, 0.87, 0.93];
+const HAZE_DISTANCE_M: f64 = 700.0;
+const SKY_COLOR: [f64; 3] = [0.80, 0.87, 0.93];
 
 struct Facet {
     corners: [Vec3<Enu>; 3],
@@ -40,7 +40,7 @@ struct Palette {
 
 impl Palette {
     fn new() -> Self {
-        Self { colors: vec![SKY], numbers: [(SKY.map(f64::to_bits), SKY_INDEX)].into() }
+        Self { colors: vec![SKY_COLOR], numbers: [(SKY_COLOR.map(f64::to_bits), SKY_INDEX)].into() }
     }
 
     fn number(&mut self, color: [f64; 3]) -> ShadeIndex {
@@ -133,7 +133,7 @@ fn facet(corners: [Vec3<Enu>; 3], base: [f64; 3], sun: Vec3<Enu>, palette: &mut 
 fn ground(site: &Site, scenario: &Scenario, sun: Vec3<Enu>, palette: &mut Palette) -> Vec<ShadedBody> {
     let half = 0.5 * scenario.terrain.size_m;
     let water_m = scenario.terrain.water_level_m;
-    let count = (scenario.terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 200.0) as usize;
+    let count = (scenario.terrain.size_m / GROUND_SQUARE_SIZE_M).floor().clamp(1.0, 200.0) as usize;
     let step = 2.0 * half / count as f64;
     let mut bodies = Vec::new();
     for row in 0..count {
@@ -181,7 +181,10 @@ impl SketchCamera<'_> {
         let [x, y, depth] = self.project(body.center_m);
         let r = body.radius_m;
         let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
-        depth + r >= NEAR_M && depth - r <= MAX_DISTANCE_M && !beside(x, self.slopes[0]) && !beside(y, self.slopes[1])
+        depth + r >= NEAR_PLANE_DISTANCE_M
+            && depth - r <= MAX_DISTANCE_M
+            && !beside(x, self.slopes[0])
+            && !beside(y, self.slopes[1])
     }
 }
 
@@ -252,8 +255,8 @@ impl SketchCanvas {
                     if self.is_edge(x, y) {
                         color = color.map(|c| 0.72 * c);
                     }
-                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_M));
-                    color = [0, 1, 2].map(|k| math::lerp(color[k], SKY[k], haze));
+                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_DISTANCE_M));
+                    color = [0, 1, 2].map(|k| math::lerp(color[k], SKY_COLOR[k], haze));
                 }
                 let lit = dim * if exposure.by_lamp { self.lamp_falloff(x, y) } else { 1.0 };
                 rgb.extend(color.map(|c| (255.0 * (c * lit).clamp(0.0, 1.0) + 0.5) as u8));
@@ -300,11 +303,11 @@ fn clip(corners: &[[f64; 3]; 3]) -> Vec<[f64; 3]> {
     let mut kept = Vec::with_capacity(4);
     for k in 0..3 {
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
-        if a[2] >= NEAR_M {
+        if a[2] >= NEAR_PLANE_DISTANCE_M {
             kept.push(a);
         }
-        if (a[2] >= NEAR_M) != (b[2] >= NEAR_M) {
-            let t = (NEAR_M - a[2]) / (b[2] - a[2]);
+        if (a[2] >= NEAR_PLANE_DISTANCE_M) != (b[2] >= NEAR_PLANE_DISTANCE_M) {
+            let t = (NEAR_PLANE_DISTANCE_M - a[2]) / (b[2] - a[2]);
             kept.push([0, 1, 2].map(|i| math::lerp(a[i], b[i], t)));
         }
     }
@@ -333,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_nearer_face_hides_farther_in_any_order() {
+    fn exact_nearer_face_hides_farther_face_in_any_order() {
         let pose = CameraPose {
             position_m: Vec3::zero(),
             forward: Vec3::new(0.0, 1.0, 0.0),
@@ -354,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_front_face_fills_pixels_and_back_face_none() {
+    fn exact_front_face_fills_pixels_and_back_face_does_not() {
         // Vertices at pixels (10, 10), (10, 30), (30, 10), counterclockwise in the image; focal length 100 px, 1 m
         // away.
         let corner = |x: f64, y: f64| [(x - 200.0) / 100.0, (y - 150.0) / 100.0, 1.0];
@@ -374,14 +377,14 @@ mod tests {
         assert!(clip(&[[0.0, 0.0, -1.0]; 3]).is_empty());
         let cut = clip(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 0.0, -1.0]]);
         assert_eq!(cut.len(), 4);
-        assert!(cut.iter().all(|corner| corner[2] >= NEAR_M - 1e-12));
+        assert!(cut.iter().all(|corner| corner[2] >= NEAR_PLANE_DISTANCE_M - 1e-12));
     }
 
     #[test]
     fn exact_palette_indices_are_unique_and_sky_is_first() {
         let mut palette = Palette::new();
-        let numbers = [[0.1, 0.2, 0.3], SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|color| palette.number(color));
+        let numbers = [[0.1, 0.2, 0.3], SKY_COLOR, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]].map(|color| palette.number(color));
         assert_eq!(numbers, [1, SKY_INDEX, 1, 2]);
-        assert_eq!(palette.colors, [SKY, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
+        assert_eq!(palette.colors, [SKY_COLOR, [0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]);
     }
 }

@@ -132,7 +132,7 @@ impl Table {
 
 /// Renders a download link with the file as a data URL.
 #[must_use]
-pub fn download(name: &str, csv: &str, words: &str) -> Markup {
+pub fn download(name: &str, csv: &str, label: &str) -> Markup {
     let mut link = String::from("data:text/csv;charset=utf-8,");
     for byte in csv.bytes() {
         // Unreserved characters (RFC 3986).
@@ -142,7 +142,7 @@ pub fn download(name: &str, csv: &str, words: &str) -> Markup {
             link.push_str(&format!("%{byte:02X}"));
         }
     }
-    html! { a download=(name) href=(link) { (words) } }
+    html! { a download=(name) href=(link) { (label) } }
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub struct Correlation {
 /// # Errors
 /// Fails if there are fewer than two pairs, if one list is constant, or if a value is not finite.
 pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
-    StatisticsError::pairs(x, y, 2)?;
+    StatisticsError::check_pairs(x, y, 2)?;
     let n = x.len();
     let (mean_x, mean_y) = (mean(x).unwrap_or_default(), mean(y).unwrap_or_default());
     let sum = |f: &dyn Fn(f64, f64) -> f64| x.iter().zip(y).map(|(x, y)| f(x - mean_x, y - mean_y)).sum::<f64>();
@@ -41,7 +41,7 @@ pub fn pearson(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
 /// # Errors
 /// See [`pearson`].
 pub fn spearman(x: &[f64], y: &[f64]) -> Result<Correlation, StatisticsError> {
-    StatisticsError::pairs(x, y, 2)?;
+    StatisticsError::check_pairs(x, y, 2)?;
     pearson(&ranks(x), &ranks(y))
 }
 
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_correlation_of_line_is_1_and_of_cross_is_0() {
+    fn exact_line_has_correlation_1_and_cross_has_0() {
         let line = pearson(&[1.0, 2.0, 3.0], &[2.0, 4.0, 6.0]).unwrap();
         assert!((line.r - 1.0).abs() < 1e-15 && line.p.unwrap() < 1e-6);
         assert!(pearson(&[-1.0, 1.0, 1.0, -1.0], &[1.0, 1.0, -1.0, -1.0]).unwrap().r.abs() < 1e-15);

@@ -21,7 +21,7 @@ pub struct TailProbabilities {
 /// Returns the p values of `t` with `df` degrees of freedom; `None` if `df` is not positive or `t` is NaN.
 #[must_use]
 pub fn t_tail_probabilities(t: f64, df: f64) -> Option<TailProbabilities> {
-    let student = student(df)?;
+    let student = student_t_distribution(df)?;
     if t.is_nan() {
         return None;
     }
@@ -31,7 +31,7 @@ pub fn t_tail_probabilities(t: f64, df: f64) -> Option<TailProbabilities> {
 
 /// Returns the quantile of the t distribution for probability `share`.
 pub(super) fn t_quantile(share: f64, df: f64) -> Option<f64> {
-    let student = student(df).filter(|_| share > 0.0 && share < 1.0)?;
+    let student = student_t_distribution(df).filter(|_| share > 0.0 && share < 1.0)?;
     let mut t = student.inverse_cdf(share);
     for _ in 0..NEWTON_STEPS {
         let slope = student.pdf(t);
@@ -54,7 +54,7 @@ pub(super) fn f_upper_tail(statistic: f64, df_model: f64, df_residual: f64) -> O
     (statistic >= 0.0).then(|| if statistic.is_finite() { distribution.sf(statistic) } else { 0.0 })
 }
 
-fn student(df: f64) -> Option<StudentsT> {
+fn student_t_distribution(df: f64) -> Option<StudentsT> {
     StudentsT::new(0.0, 1.0, df).ok()
 }
 

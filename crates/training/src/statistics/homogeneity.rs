@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_equal_groups_have_p_1_and_small_counts_warn() {
+    fn exact_equal_groups_have_p_1_and_small_counts_have_a_warning() {
         let test = homogeneity(&[vec![2, 0, 4], vec![1, 0, 2], vec![0, 0, 0]]).unwrap();
         assert_eq!((test.chi_squared, test.df, test.p), (0.0, 1, 1.0));
         assert!(test.warning.unwrap().contains("below 5"));

@@ -45,7 +45,7 @@ pub fn learning_curve(values: &[f64]) -> Result<LearningCurve, StatisticsError> 
     if values.len() < MIN_LEARNING_REPETITIONS {
         return Err(StatisticsError::TooFew { n: values.len(), needed: MIN_LEARNING_REPETITIONS });
     }
-    StatisticsError::finite(values)?;
+    StatisticsError::check_finite(values)?;
     let (low, high) = EXPONENT_RANGE;
     let at = |k: usize| low + (high - low) * k as f64 / GRID_STEPS as f64;
     let best = (0..=GRID_STEPS).min_by(|a, b| residual(values, at(*a)).total_cmp(&residual(values, at(*b)))).unwrap_or(0);

@@ -54,21 +54,21 @@ pub enum StatisticsError {
 }
 
 impl StatisticsError {
-    fn finite(values: &[f64]) -> Result<(), Self> {
+    fn check_finite(values: &[f64]) -> Result<(), Self> {
         match values.iter().position(|value| !value.is_finite()) {
             Some(k) => Err(Self::NotFinite { at: k + 1, value: values[k] }),
             None => Ok(()),
         }
     }
 
-    fn pairs(left: &[f64], right: &[f64], needed: usize) -> Result<(), Self> {
+    fn check_pairs(left: &[f64], right: &[f64], needed: usize) -> Result<(), Self> {
         if left.len() != right.len() {
             return Err(Self::Unpaired { left: left.len(), right: right.len() });
         }
         if left.len() < needed {
             return Err(Self::TooFew { n: left.len(), needed });
         }
-        Self::finite(left)?;
-        Self::finite(right)
+        Self::check_finite(left)?;
+        Self::check_finite(right)
     }
 }

@@ -34,7 +34,7 @@ pub struct PairedTest {
 /// # Errors
 /// Fails if the lists differ in length, if there are fewer than two pairs, or if a value is not finite.
 pub fn paired_t(earlier: &[f64], later: &[f64]) -> Result<PairedTest, StatisticsError> {
-    StatisticsError::pairs(earlier, later, 2)?;
+    StatisticsError::check_pairs(earlier, later, 2)?;
     let differences: Vec<f64> = earlier.iter().zip(later).map(|(earlier, later)| later - earlier).collect();
     let n = differences.len();
     let (mean, sd) = (mean(&differences).unwrap_or_default(), sd(&differences).unwrap_or_default());
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     /// Tolerance for rounding errors in a few operations.
-    const EXACT: f64 = 1e-12;
+    const ROUNDING_TOLERANCE: f64 = 1e-12;
 
     #[test]
     fn exact_paired_test_matches_closed_form() {
@@ -82,8 +82,8 @@ mod tests {
         let test = paired_t(&[10.0, 20.0, 30.0], &[11.0, 22.0, 33.0]).unwrap();
         let t = 2.0 * 3.0f64.sqrt();
         assert_eq!((test.n, test.df, test.mean_difference, test.sd_difference), (3, 2, 2.0, 1.0));
-        assert!((test.t.unwrap() - t).abs() < EXACT);
-        assert!((test.p.unwrap().upper - (0.5 - t / (2.0 * (2.0 + t * t).sqrt()))).abs() < EXACT);
+        assert!((test.t.unwrap() - t).abs() < ROUNDING_TOLERANCE);
+        assert!((test.p.unwrap().upper - (0.5 - t / (2.0 * (2.0 + t * t).sqrt()))).abs() < ROUNDING_TOLERANCE);
         assert_eq!(test.effect_size_dz, Some(2.0));
         // The 97.5% quantile with two degrees of freedom is 0.95 sqrt (2 / (1 - 0.95^2)).
         let reach = 0.95 * (2.0f64 / (1.0 - 0.95 * 0.95)).sqrt() / 3.0f64.sqrt();
@@ -103,7 +103,7 @@ mod tests {
         // Expected by hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 (raised to the preceding 0.06), 0.9 x 1.
         let corrected = holm(&[0.03, 0.01, 0.9, 0.02]);
         for (ours, hand) in corrected.iter().zip([0.06, 0.04, 0.9, 0.06]) {
-            assert!((ours - hand).abs() < EXACT, "{corrected:?}");
+            assert!((ours - hand).abs() < ROUNDING_TOLERANCE, "{corrected:?}");
         }
         assert_eq!(holm(&[0.6, 0.7]), [1.0, 1.0]);
         assert!(holm(&[]).is_empty());

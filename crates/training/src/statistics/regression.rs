@@ -53,9 +53,9 @@ pub struct Regression {
 pub fn least_squares(outcome: &[f64], predictors: &[(&str, &[f64])]) -> Result<Regression, StatisticsError> {
     let (n, p) = (outcome.len(), predictors.len() + 1);
     for (_, values) in predictors {
-        StatisticsError::pairs(outcome, values, p + 1)?;
+        StatisticsError::check_pairs(outcome, values, p + 1)?;
     }
-    StatisticsError::pairs(outcome, outcome, p + 1)?;
+    StatisticsError::check_pairs(outcome, outcome, p + 1)?;
     let x = DMatrix::from_fn(n, p, |row, column| if column == 0 { 1.0 } else { predictors[column - 1].1[row] });
     let y = DVector::from_column_slice(outcome);
     let lengths: Vec<f64> = (0..p).map(|column| x.column(column).norm()).collect();
@@ -132,20 +132,23 @@ mod tests {
     use super::*;
 
     /// Tolerance for rounding errors in a small decomposition.
-    const EXACT: f64 = 1e-11;
+    const ROUNDING_TOLERANCE: f64 = 1e-11;
 
     #[test]
     fn exact_line_fit_to_three_points_matches_closed_form() {
         // y = 1, 3, 2 at x = 0, 1, 2: slope 1/2, intercept 3/2, residual sum of squares 3/2, standard error of the slope
         // sqrt(3/2/2) = sqrt 3/2.
         let model = least_squares(&[1.0, 3.0, 2.0], &[("x", &[0.0, 1.0, 2.0])]).unwrap();
-        assert!((model.coefficients[0].estimate - 1.5).abs() < EXACT && (model.coefficients[1].estimate - 0.5).abs() < EXACT);
-        assert!((model.coefficients[1].standard_error - 0.75f64.sqrt()).abs() < EXACT);
-        assert!((model.r_squared.unwrap() - 0.25).abs() < EXACT);
+        assert!(
+            (model.coefficients[0].estimate - 1.5).abs() < ROUNDING_TOLERANCE
+                && (model.coefficients[1].estimate - 0.5).abs() < ROUNDING_TOLERANCE
+        );
+        assert!((model.coefficients[1].standard_error - 0.75f64.sqrt()).abs() < ROUNDING_TOLERANCE);
+        assert!((model.r_squared.unwrap() - 0.25).abs() < ROUNDING_TOLERANCE);
         // With a single predictor, F is the square of t and has the same p value.
         let t = model.coefficients[1].t.unwrap();
-        assert!((model.f.unwrap() - t * t).abs() < EXACT);
-        assert!((model.p.unwrap() - model.coefficients[1].p.unwrap()).abs() < EXACT);
+        assert!((model.f.unwrap() - t * t).abs() < ROUNDING_TOLERANCE);
+        assert!((model.p.unwrap() - model.coefficients[1].p.unwrap()).abs() < ROUNDING_TOLERANCE);
     }
 
     #[test]
@@ -155,11 +158,11 @@ mod tests {
         let y: Vec<f64> = a.iter().zip(&b).map(|(a, b)| 3.0 - 2.0 * a + 0.25 * b).collect();
         let model = least_squares(&y, &[("a", &a), ("b", &b)]).unwrap();
         for (found, true_value) in model.coefficients.iter().zip([3.0, -2.0, 0.25]) {
-            assert!((found.estimate - true_value).abs() < EXACT, "{found:?}");
+            assert!((found.estimate - true_value).abs() < ROUNDING_TOLERANCE, "{found:?}");
         }
         let rows: Vec<[f64; 2]> = a.iter().zip(&b).map(|(a, b)| [*a, *b]).collect();
         let quick = solve(&rows, &y, &[1; 12]).unwrap();
-        assert!((quick[1] + 2.0).abs() < EXACT && (quick[2] - 0.25).abs() < EXACT);
+        assert!((quick[1] + 2.0).abs() < ROUNDING_TOLERANCE && (quick[2] - 0.25).abs() < ROUNDING_TOLERANCE);
     }
 
     #[test]
@@ -167,7 +170,7 @@ mod tests {
         let rows = [[0.0], [1.0], [3.0]];
         let weighted = solve(&rows, &[1.0, 4.0, 2.0], &[2, 1, 1]).unwrap();
         let repeated = solve(&[[0.0], [0.0], [1.0], [3.0]], &[1.0, 1.0, 4.0, 2.0], &[1; 4]).unwrap();
-        assert!((weighted[0] - repeated[0]).abs() < EXACT && (weighted[1] - repeated[1]).abs() < EXACT);
+        assert!((weighted[0] - repeated[0]).abs() < ROUNDING_TOLERANCE && (weighted[1] - repeated[1]).abs() < ROUNDING_TOLERANCE);
         assert_eq!(solve(&rows, &[1.0, 4.0, 2.0], &[3, 0, 0]), None);
     }
 

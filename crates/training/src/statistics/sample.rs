@@ -4,7 +4,7 @@ use super::StatisticsError;
 use serde::Serialize;
 
 /// Maximum length of the whiskers, in interquartile ranges (Tukey 1977).
-const WHISKER_IQR: f64 = 1.5;
+const MAX_WHISKER_LENGTH_IQR: f64 = 1.5;
 
 /// Summary statistics of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -125,7 +125,7 @@ pub fn box_plot(values: &[f64]) -> Result<BoxPlot, StatisticsError> {
     let sorted = ascending(values)?;
     let quarter = |share| quantile(&sorted, share).unwrap_or_default();
     let (q1, q3) = (quarter(0.25), quarter(0.75));
-    let reach = WHISKER_IQR * (q3 - q1);
+    let reach = MAX_WHISKER_LENGTH_IQR * (q3 - q1);
     let inside = |value: &&f64| **value >= q1 - reach && **value <= q3 + reach;
     Ok(BoxPlot {
         q1,
@@ -158,7 +158,7 @@ fn ascending(values: &[f64]) -> Result<Vec<f64>, StatisticsError> {
     if values.is_empty() {
         return Err(StatisticsError::TooFew { n: 0, needed: 1 });
     }
-    StatisticsError::finite(values)?;
+    StatisticsError::check_finite(values)?;
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     Ok(sorted)
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     /// Tolerance for rounding errors in a few additions.
-    const EXACT: f64 = 1e-12;
+    const ROUNDING_TOLERANCE: f64 = 1e-12;
 
     #[test]
     fn exact_quantiles_are_interpolated() {
@@ -180,12 +180,12 @@ mod tests {
     }
 
     #[test]
-    fn exact_small_sample_summary() {
+    fn exact_small_sample_summary_is_correct() {
         let told = summary(&[2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]).unwrap();
         assert_eq!((told.n, told.mean, told.median, told.range), (8, 5.0, 4.5, 7.0));
-        assert!((told.sd.unwrap() - (32.0f64 / 7.0).sqrt()).abs() < EXACT);
+        assert!((told.sd.unwrap() - (32.0f64 / 7.0).sqrt()).abs() < ROUNDING_TOLERANCE);
         // Third central moment 42/8, variance 4, so the skewness is 5.25/8.
-        assert!((told.skewness.unwrap() - 5.25 / 8.0).abs() < EXACT);
+        assert!((told.skewness.unwrap() - 5.25 / 8.0).abs() < ROUNDING_TOLERANCE);
         assert_eq!(summary(&[3.0, 3.0]).unwrap().skewness, None);
         assert!(summary(&[1.0, f64::NAN]).is_err());
     }

@@ -14,20 +14,20 @@ pub const LIVE_NAME: &str = "live.js";
 /// File name of the script for the trainee's own flight page.
 pub const FLIGHT_NAME: &str = "flight.js";
 
-const STYLE: &str = include_str!("assets/web.css");
-const FORM: &str = include_str!("assets/form.js");
-const LIVE: &str = include_str!("assets/live.js");
-const FLIGHT: &str = include_str!("assets/flight.js");
+const STYLE_SHEET: &str = include_str!("assets/web.css");
+const FORM_SCRIPT: &str = include_str!("assets/form.js");
+const LIVE_SCRIPT: &str = include_str!("assets/live.js");
+const FLIGHT_SCRIPT: &str = include_str!("assets/flight.js");
 
 /// Returns the content and media type of a file; `None` if there is no such file.
 #[must_use]
 pub fn file(name: &str) -> Option<(String, &'static str)> {
     let script = "text/javascript; charset=utf-8";
     match name {
-        STYLE_NAME => Some((format!("{}{STYLE}", report::STYLE), "text/css; charset=utf-8")),
-        FORM_NAME => Some((FORM.to_owned(), script)),
-        LIVE_NAME => Some((LIVE.to_owned(), script)),
-        FLIGHT_NAME => Some((FLIGHT.to_owned(), script)),
+        STYLE_NAME => Some((format!("{}{STYLE_SHEET}", report::STYLE), "text/css; charset=utf-8")),
+        FORM_NAME => Some((FORM_SCRIPT.to_owned(), script)),
+        LIVE_NAME => Some((LIVE_SCRIPT.to_owned(), script)),
+        FLIGHT_NAME => Some((FLIGHT_SCRIPT.to_owned(), script)),
         _ => None,
     }
 }

@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_constant_time_comparison() {
+    fn exact_constant_time_comparison_detects_differences() {
         assert!(constant_time_eq("ab", "ab") && constant_time_eq("", ""));
         assert!(!constant_time_eq("ab", "ac") && !constant_time_eq("ab", "abc") && !constant_time_eq("", "a"));
     }

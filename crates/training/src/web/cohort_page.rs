@@ -3,7 +3,7 @@
 use super::access::Visitor;
 use super::layout::{page, section};
 use crate::cohort::Cohort;
-use crate::record::{IncompletePolicy, omitted_summary};
+use crate::record::{IncompletePolicy, excluded_sessions_note};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
 
@@ -24,38 +24,38 @@ pub struct CohortPageSelection<'a> {
 
 /// Renders the page; without sessions, only the form and a note.
 #[must_use]
-pub fn cohort_page(visitor: &Visitor, chosen: &CohortPageSelection<'_>, cohort: Option<&Cohort>) -> Markup {
+pub fn cohort_page(visitor: &Visitor, selection: &CohortPageSelection<'_>, cohort: Option<&Cohort>) -> Markup {
     let body = html! {
         section {
             form.inline method="get" action="/cohort" {
                 fieldset {
                     legend { "Scenarios to include" }
-                    @for name in chosen.flown_scenarios {
-                        label { input type="checkbox" name="scenario" value=(name) checked[chosen.scenarios.contains(name)]; " " (name) }
+                    @for name in selection.flown_scenarios {
+                        label { input type="checkbox" name="scenario" value=(name) checked[selection.scenarios.contains(name)]; " " (name) }
                     }
                 }
-                label { "Repetitions " input type="number" name="repetitions" min="1" max="100" value=(chosen.repetitions); }
-                label { input type="checkbox" name="incomplete" value="1" checked[chosen.incomplete == IncompletePolicy::Include]; " Include incomplete sessions" }
+                label { "Repetitions " input type="number" name="repetitions" min="1" max="100" value=(selection.repetitions); }
+                label { input type="checkbox" name="incomplete" value="1" checked[selection.incomplete == IncompletePolicy::Include]; " Include incomplete sessions" }
                 button type="submit" { "Show" }
-                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(chosen)) } { "Download as offline page" } }
+                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(selection)) } { "Download as offline page" } }
             }
             @match cohort {
                 Some(cohort) => (summary_lines(cohort)),
-                None => p.calm { "No sessions yet." @if let Some(words) = omitted_summary(chosen.left_out) { " " (words) "." } },
+                None => p.calm { "No sessions yet." @if let Some(words) = excluded_sessions_note(selection.left_out) { " " (words) "." } },
             }
         }
         @if let Some(cohort) = cohort {
-            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(chosen)))) { (section(id, name, &body)) }
+            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(selection)))) { (section(id, name, &body)) }
         }
     };
     page(visitor, "/cohort", "Cohort", &body)
 }
 
-fn query(chosen: &CohortPageSelection<'_>) -> String {
+fn query(selection: &CohortPageSelection<'_>) -> String {
     let mut query = form_urlencoded::Serializer::new(String::new());
-    query.extend_pairs(chosen.scenarios.iter().map(|name| ("scenario", name)));
-    query.append_pair("repetitions", &chosen.repetitions.to_string());
-    if chosen.incomplete == IncompletePolicy::Include {
+    query.extend_pairs(selection.scenarios.iter().map(|name| ("scenario", name)));
+    query.append_pair("repetitions", &selection.repetitions.to_string());
+    if selection.incomplete == IncompletePolicy::Include {
         query.append_pair("incomplete", "1");
     }
     query.finish()
@@ -76,20 +76,20 @@ mod tests {
         let cohort =
             cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
         let names = [HOSTILE_NAME.to_owned()];
-        let chosen = CohortPageSelection {
+        let selection = CohortPageSelection {
             flown_scenarios: &names,
             scenarios: &names,
             repetitions: 1,
             incomplete: IncompletePolicy::Exclude,
             left_out: 0,
         };
-        let text = cohort_page(&administrator(), &chosen, Some(&cohort)).into_string();
+        let text = cohort_page(&administrator(), &selection, Some(&cohort)).into_string();
         check(&text);
         assert!(text.contains("href=\"/cohort/tables/t_tests.csv?scenario="), "{text}");
         assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
-        assert!(cohort_page(&administrator(), &chosen, None).into_string().contains("No sessions yet"));
-        let chosen = CohortPageSelection { incomplete: IncompletePolicy::Include, ..chosen };
-        let text = cohort_page(&administrator(), &chosen, Some(&cohort)).into_string();
+        assert!(cohort_page(&administrator(), &selection, None).into_string().contains("No sessions yet"));
+        let selection = CohortPageSelection { incomplete: IncompletePolicy::Include, ..selection };
+        let text = cohort_page(&administrator(), &selection, Some(&cohort)).into_string();
         assert!(text.contains("incomplete=1") && text.contains("value=\"1\" checked"), "{text}");
     }
 }

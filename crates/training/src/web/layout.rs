@@ -5,11 +5,11 @@ use super::assets;
 use maud::{DOCTYPE, Markup, html};
 
 /// URL of the trainee's own flight page; instructors use the live page.
-const OWN_FLIGHT: &str = "/flight";
+const OWN_FLIGHT_URL: &str = "/flight";
 /// Navigation entries: URL, label, required access.
 const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 8] = [
     ("/sessions", "Sessions", AccessLevel::Login),
-    (OWN_FLIGHT, "My flight", AccessLevel::Login),
+    (OWN_FLIGHT_URL, "My flight", AccessLevel::Login),
     ("/live", "Live", AccessLevel::Instructor),
     ("/trainees", "Trainees", AccessLevel::Instructor),
     ("/cohort", "Cohort", AccessLevel::Instructor),
@@ -53,21 +53,21 @@ pub fn page_in_language(
             }
             body.web {
                 a.skip href="#main" lang="en" { "Skip to content" }
-                (bar(visitor, at))
+                (navigation_bar(visitor, at))
                 main id="main" { h1 { (title) } (body) }
             }
         }
     }
 }
 
-fn bar(visitor: &Visitor, at: &str) -> Markup {
+fn navigation_bar(visitor: &Visitor, at: &str) -> Markup {
     html! {
         header.bar lang="en" {
             a.brand href="/" { "Spandrel" }
             nav aria-label="Main" {
-                @for (address, words, needs) in NAVIGATION_ENTRIES {
-                    @if visitor.satisfies(needs) && !(visitor.open && address == "/account") && !(visitor.satisfies(AccessLevel::Instructor) && address == OWN_FLIGHT) {
-                        a href=(address) aria-current=[(address == at).then_some("page")] { (words) }
+                @for (address, text, needs) in NAVIGATION_ENTRIES {
+                    @if visitor.satisfies(needs) && !(visitor.open && address == "/account") && !(visitor.satisfies(AccessLevel::Instructor) && address == OWN_FLIGHT_URL) {
+                        a href=(address) aria-current=[(address == at).then_some("page")] { (text) }
                     }
                 }
             }
@@ -92,8 +92,8 @@ pub fn token(visitor: &Visitor) -> Markup {
 
 /// Renders a message box; `kind` is its CSS class.
 #[must_use]
-pub fn message(kind: &str, words: &str) -> Markup {
-    html! { p class={ "message " (kind) } role="status" { (words) } }
+pub fn message(kind: &str, text: &str) -> Markup {
+    html! { p class={ "message " (kind) } role="status" { (text) } }
 }
 
 /// Renders a section with its heading.
@@ -118,9 +118,9 @@ pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
 
 /// Renders page navigation for a list; page numbers start at 1.
 #[must_use]
-pub fn pages(address: &str, at: u32, last: u32) -> Markup {
-    let link = |page: u32, words: &str, here: bool| {
-        html! { @if here { a href={ (address) "page=" (page) } { (words) } } @else { span.off { (words) } } }
+pub fn page_navigation(address: &str, at: u32, last: u32) -> Markup {
+    let link = |page: u32, text: &str, here: bool| {
+        html! { @if here { a href={ (address) "page=" (page) } { (text) } } @else { span.off { (text) } } }
     };
     html! {
         @if last > 1 {
@@ -137,12 +137,12 @@ pub fn pages(address: &str, at: u32, last: u32) -> Markup {
 
 /// Renders an error page.
 #[must_use]
-pub fn refusal(visitor: &Visitor, title: &str, words: &str) -> Markup {
+pub fn refusal(visitor: &Visitor, title: &str, text: &str) -> Markup {
     page(
         visitor,
         "",
         title,
-        &html! { section { @for line in words.lines() { p { (line) } } p { a href="/" { "Back to the home page" } } } },
+        &html! { section { @for line in text.lines() { p { (line) } } p { a href="/" { "Back to the home page" } } } },
     )
 }
 
@@ -187,8 +187,8 @@ pub(super) mod tests {
 
     #[test]
     fn exact_single_page_list_has_no_links() {
-        assert_eq!(pages("/x?", 1, 1).into_string(), "");
-        let text = pages("/x?trainee=a&", 2, 3).into_string();
+        assert_eq!(page_navigation("/x?", 1, 1).into_string(), "");
+        let text = page_navigation("/x?trainee=a&", 2, 3).into_string();
         assert!(text.contains("/x?trainee=a&amp;page=1") && text.contains("page=3") && text.contains("page 2 of 3"), "{text}");
     }
 }

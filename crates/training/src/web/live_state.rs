@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::contract::named_values::Named;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
 use spandrel_mavlink::telemetry::sample;
@@ -120,7 +120,7 @@ impl LiveFlightState {
                 self.push_message(kind, words);
             }
             Some(message) => {
-                if let Some(Named::Cues(cues)) = Named::of(message) {
+                if let Some(NamedValue::Cues(cues)) = NamedValue::of(message) {
                     self.cues = cues;
                 }
             }
@@ -176,7 +176,7 @@ impl LiveFlightState {
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
         }
-        self.current_task = job.paths.on(truth.motion.position_m, self.current_task).map(|(task, _)| task);
+        self.current_task = job.paths.task_on_path(truth.motion.position_m, self.current_task).map(|(task, _)| task);
         self.truth = Some(truth);
     }
 
@@ -232,28 +232,31 @@ mod tests {
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA};
     use spandrel_model::scenario::read;
 
-    fn feed_message(watch: &mut LiveFlightState, message: &MavMessage) {
+    fn feed_message(live_state: &mut LiveFlightState, message: &MavMessage) {
         let bytes = Encoder::new(1, 1).encode(message);
-        Decoder::new().datagram(&bytes).iter().for_each(|frame| watch.handle_frame(frame));
+        Decoder::new().datagram(&bytes).iter().for_each(|frame| live_state.handle_frame(frame));
     }
 
-    fn number(watch: &mut LiveFlightState, name: &str, value: i32) {
-        feed_message(watch, &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() }));
+    fn number(live_state: &mut LiveFlightState, name: &str, value: i32) {
+        feed_message(
+            live_state,
+            &MavMessage::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA { time_boot_ms: 0, value, name: name.into() }),
+        );
     }
 
     #[test]
     fn wire_flight_is_tracked_once_job_is_known() {
         let scenario = read("j.toml", include_str!("../../../../scenarios/two-bridges.toml"), &|_| Err("none".into())).unwrap();
-        let mut watch = LiveFlightState::new();
-        assert_eq!(watch.to_json(false)["place"], Value::Null);
-        number(&mut watch, "seed", 7);
-        number(&mut watch, "scn_crc", scenario.crc.cast_signed());
+        let mut live_state = LiveFlightState::new();
+        assert_eq!(live_state.to_json(false)["place"], Value::Null);
+        number(&mut live_state, "seed", 7);
+        number(&mut live_state, "scn_crc", scenario.crc.cast_signed());
         let key = JobIdentity { crc: scenario.crc, seed: 7 };
-        assert_eq!((watch.announced_job(), watch.job()), (Some(key), None));
-        watch.set_job(key, &scenario);
+        assert_eq!((live_state.announced_job(), live_state.job()), (Some(key), None));
+        live_state.set_job(key, &scenario);
         let origin = scenario.origin;
         feed_message(
-            &mut watch,
+            &mut live_state,
             &MavMessage::HIL_STATE_QUATERNION(HIL_STATE_QUATERNION_DATA {
                 time_usec: 2_000_000,
                 attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
@@ -264,10 +267,10 @@ mod tests {
                 ..HIL_STATE_QUATERNION_DATA::default()
             }),
         );
-        number(&mut watch, "cues", cue::TOO_CLOSE | cue::SPEEDING);
-        assert_eq!(watch.to_json(true)["traffic"], json!("open"));
-        number(&mut watch, "traffic", -1_500);
-        let moment = watch.to_json(true);
+        number(&mut live_state, "cues", cue::TOO_CLOSE | cue::SPEEDING);
+        assert_eq!(live_state.to_json(true)["traffic"], json!("open"));
+        number(&mut live_state, "traffic", -1_500);
+        let moment = live_state.to_json(true);
         assert_eq!(moment["traffic"], json!("closed"));
         // The resolution is about 1 cm for degE7 and 1 mm for MAVLink altitudes.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
@@ -278,22 +281,22 @@ mod tests {
 
     #[test]
     fn wire_messages_are_ordered_and_bounded() {
-        let mut watch = LiveFlightState::new();
+        let mut live_state = LiveFlightState::new();
         feed_message(
-            &mut watch,
+            &mut live_state,
             &MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..HEARTBEAT_DATA::default() }),
         );
-        assert_eq!(watch.system, Some(1));
+        assert_eq!(live_state.system, Some(1));
         for k in 0..100 {
             feed_message(
-                &mut watch,
+                &mut live_state,
                 &MavMessage::STATUSTEXT(STATUSTEXT_DATA {
                     text: format!("<b>{k}\n").as_str().into(),
                     ..STATUSTEXT_DATA::default()
                 }),
             );
         }
-        let moment = watch.to_json(true);
+        let moment = live_state.to_json(true);
         let words = moment["words"].as_array().unwrap();
         assert_eq!((words.len(), &words[39]["words"], &words[39]["id"]), (MAX_MESSAGES, &json!("<b>99"), &json!(100)));
     }

@@ -5,7 +5,7 @@ use super::layout::{message, page, section, token};
 use maud::{Markup, html};
 
 /// Allowed password length, characters.
-pub const PASSWORD_LENGTHS: std::ops::RangeInclusive<usize> = 12..=256;
+pub const PASSWORD_LENGTH_RANGE: std::ops::RangeInclusive<usize> = 12..=256;
 
 /// Minimum strength of a new password: more than 10^8 guesses as estimated by zxcvbn, which considers this safe against
 /// offline attacks on a slow hash.
@@ -24,7 +24,7 @@ pub fn login(visitor: &Visitor, name: &str, wrong: Option<&str>) -> Markup {
                 form.stacked method="post" action="/login" {
                     (token(visitor))
                     label { "Name" input name="name" value=(name) required maxlength="32" autocomplete="username" autocapitalize="none"; }
-                    label { "Password" input type="password" name="password" required maxlength=(PASSWORD_LENGTHS.end()) autocomplete="current-password"; }
+                    label { "Password" input type="password" name="password" required maxlength=(PASSWORD_LENGTH_RANGE.end()) autocomplete="current-password"; }
                     button type="submit" { "Log in" }
                 }
             }
@@ -40,8 +40,8 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
         @if let Some((kind, words)) = told { (message(kind, words)) }
         form.stacked method="post" action="/account" {
             (token(visitor))
-            label { "Current password" input type="password" name="present" required maxlength=(PASSWORD_LENGTHS.end()) autocomplete="current-password"; }
-            label { "New password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="new" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
+            label { "Current password" input type="password" name="present" required maxlength=(PASSWORD_LENGTH_RANGE.end()) autocomplete="current-password"; }
+            label { "New password, at least " (PASSWORD_LENGTH_RANGE.start()) " characters" input type="password" name="new" required minlength=(PASSWORD_LENGTH_RANGE.start()) maxlength=(PASSWORD_LENGTH_RANGE.end()) autocomplete="new-password"; }
             button type="submit" { "Change password" }
         }
     };
@@ -66,8 +66,8 @@ pub fn account(visitor: &Visitor, told: Option<(&str, &str)>) -> Markup {
 /// Returns the problem as text that never includes the password.
 pub fn check(password: &str, name: &str) -> Result<(), String> {
     let length = password.chars().count();
-    let (least, most) = (PASSWORD_LENGTHS.start(), PASSWORD_LENGTHS.end());
-    if !PASSWORD_LENGTHS.contains(&length) || password.len() > 4 * most {
+    let (least, most) = (PASSWORD_LENGTH_RANGE.start(), PASSWORD_LENGTH_RANGE.end());
+    if !PASSWORD_LENGTH_RANGE.contains(&length) || password.len() > 4 * most {
         return Err(format!("the password has {length} characters (allowed: {least} to {most})"));
     }
     // Detects common passwords, names, keyboard patterns, repeated characters and dates, including slight variations.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::net::IpAddr;
 
 /// Time for which failures are remembered, µs.
-const WINDOW_US: u64 = 15 * 60_000_000;
+const FAILURE_WINDOW_US: u64 = 15 * 60_000_000;
 /// First wait after the limit is reached, µs; doubles with each further failure (estimate: long enough to slow down
 /// guessing, short enough after a typo).
 const FIRST_WAIT_US: u64 = 4_000_000;
@@ -48,7 +48,8 @@ impl LoginThrottle {
     #[must_use]
     pub fn wait_us(&self, from: LoginOrigin, name: &str, now_us: u64) -> Option<u64> {
         let failures = self.0.get(&from)?;
-        let recent: Vec<&(u64, String)> = failures.iter().filter(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US).collect();
+        let recent: Vec<&(u64, String)> =
+            failures.iter().filter(|(at, _)| now_us.saturating_sub(*at) < FAILURE_WINDOW_US).collect();
         let left = |times: Vec<u64>, most: usize| {
             let waits_until = times.last()?.saturating_add(wait_after(times.len().checked_sub(most)?));
             waits_until.checked_sub(now_us).filter(|left| *left > 0)
@@ -63,7 +64,7 @@ impl LoginThrottle {
             self.evict_oldest(now_us);
         }
         let failures = self.0.entry(from).or_default();
-        failures.retain(|(at, _)| now_us.saturating_sub(*at) < WINDOW_US);
+        failures.retain(|(at, _)| now_us.saturating_sub(*at) < FAILURE_WINDOW_US);
         failures.push((now_us, truncate_name(name)));
     }
 
@@ -77,7 +78,7 @@ impl LoginThrottle {
 
     fn evict_oldest(&mut self, now_us: u64) {
         let newest = |failures: &Vec<(u64, String)>| failures.last().map_or(0, |(at, _)| *at);
-        self.0.retain(|_, failures| now_us.saturating_sub(newest(failures)) < WINDOW_US);
+        self.0.retain(|_, failures| now_us.saturating_sub(newest(failures)) < FAILURE_WINDOW_US);
         if self.0.len() >= MAX_ORIGINS
             && let Some(oldest) = self.0.iter().min_by_key(|(_, failures)| newest(failures)).map(|(address, _)| *address)
         {

@@ -1,7 +1,7 @@
 //! Session lists and session pages.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{page, pages, section, table};
+use super::layout::{page, page_navigation, section, table};
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
@@ -50,7 +50,7 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
                 p.calm { "No sessions yet. Flights appear here after they end." }
             } @else {
                 (lines(visitor, &format!("{} sessions, newest first", listing.count), listing.lines))
-                (pages(&address, listing.page, listing.last))
+                (page_navigation(&address, listing.page, listing.last))
             }
         }
     };
@@ -105,28 +105,28 @@ pub struct SessionPageData<'a> {
 
 /// Renders a session's page.
 #[must_use]
-pub fn session(visitor: &Visitor, record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
+pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
             "flight time " (formatting::duration(record.seconds)) ", ended: " (record.end_reason.replace('_', " "))
         }
-        (actions(record, beside))
+        (actions(record, page_data))
         (section("scores", "Scores", &scores(record)))
         @if !record.tasks.is_empty() { (section("tasks", "Tasks", &tasks(record))) }
         @if !record.defects.is_empty() { (section("defects", "Defects", &defects(record))) }
-        (section("compare", "Compare with", &compare(record, beside.others)))
+        (section("compare", "Compare with", &compare(record, page_data.others)))
     };
     page(visitor, "/sessions", &format!("Session: {}", record.scenario), &body)
 }
 
-fn actions(record: &SessionRecord, beside: &SessionPageData<'_>) -> Markup {
+fn actions(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     let tasks: Vec<u32> = record.tasks.iter().map(|task| task.id).collect();
     let all = QuestionnaireItem::all(&tasks).len();
     let answered = record.answers.as_ref().map_or(0, |answers| all - answers.open(&tasks).len());
     html! {
-        @if beside.folder {
+        @if page_data.folder {
             ul.actions {
                 li { a.button href={ "/sessions/" (record.id) "/report" } { "Open the report" } }
                 li { a.button href={ "/sessions/" (record.id) "/questions" } {
@@ -208,7 +208,7 @@ fn tasks(record: &SessionRecord) -> Markup {
 /// Describes a task's completion.
 fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
-    task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.words(covered, done_share))
+    task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.description(covered, done_share))
 }
 
 fn defects(record: &SessionRecord) -> Markup {

@@ -2,7 +2,7 @@
 
 use super::access::Visitor;
 use super::layout::{message, page, section, table, token};
-use super::login::PASSWORD_LENGTHS;
+use super::login::PASSWORD_LENGTH_RANGE;
 use crate::trainee::{Role, Trainee};
 use maud::{Markup, html};
 
@@ -72,7 +72,7 @@ fn add(visitor: &Visitor) -> Markup {
             (token(visitor))
             label { "Pseudonym" input name="name" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocomplete="off" autocapitalize="none"; }
             label { "Role" select name="role" { @for role in Role::ALL { option value=(role.word()) { (role.word()) } } } }
-            label { "Password, at least " (PASSWORD_LENGTHS.start()) " characters" input type="password" name="password" required minlength=(PASSWORD_LENGTHS.start()) maxlength=(PASSWORD_LENGTHS.end()) autocomplete="new-password"; }
+            label { "Password, at least " (PASSWORD_LENGTH_RANGE.start()) " characters" input type="password" name="password" required minlength=(PASSWORD_LENGTH_RANGE.start()) maxlength=(PASSWORD_LENGTH_RANGE.end()) autocomplete="new-password"; }
             button type="submit" { "Save" }
         }
     }

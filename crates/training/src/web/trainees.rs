@@ -5,10 +5,10 @@ use super::layout::{page, section, table, token};
 use super::sessions::lines;
 use crate::cohort::by_job;
 use crate::plan::{MeasureChange, TrainingPlan};
-use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, omitted_summary};
+use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
 use crate::report::formatting;
 use crate::report::page::progress::job_progress;
-use crate::trainee::{AGE_BANDS, EXPERIENCE, Trainee};
+use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 
@@ -56,16 +56,16 @@ pub struct TraineeProfile<'a> {
 
 /// Renders a trainee's page.
 #[must_use]
-pub fn trainee_page(visitor: &Visitor, about: &TraineeProfile<'_>) -> Markup {
-    let name = &about.person.pseudonym;
+pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
+    let name = &profile.person.pseudonym;
     let body = html! {
-        @if let Some(plan) = about.plan { (section("plan", "Next flights", &next(plan))) }
-        @if !about.records.is_empty() { (section("progress", "Progress", &progress(name, about.records, about.incomplete))) }
+        @if let Some(plan) = profile.plan { (section("plan", "Next flights", &next(plan))) }
+        @if !profile.records.is_empty() { (section("progress", "Progress", &progress(name, profile.records, profile.incomplete))) }
         (section("sessions", "Sessions", &html! {
-            @if about.listed.is_empty() { p.calm { "No sessions yet." } }
-            @else { (lines(visitor, &format!("{} sessions, newest first", about.listed.len()), about.listed)) }
+            @if profile.listed.is_empty() { p.calm { "No sessions yet." } }
+            @else { (lines(visitor, &format!("{} sessions, newest first", profile.listed.len()), profile.listed)) }
         }))
-        (section("details", "Details", &details(visitor, about.person)))
+        (section("details", "Details", &details(visitor, profile.person)))
         (section("data", "Data", &html! {
             p { a href={ "/trainees/" (name) "/export.json" } { "Download all data for " (name) } }
             @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
@@ -83,7 +83,7 @@ fn next(plan: &TrainingPlan) -> Markup {
                 li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
             }
         }
-        @if let Some(words) = omitted_summary(plan.left_out) { p.note { (words) "." } }
+        @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "Changes" }
             p.note { "Compared with " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
@@ -131,8 +131,8 @@ fn details(visitor: &Visitor, person: &Trainee) -> Markup {
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
             (choice("age_band", "Age (years)", person.age_band.as_deref(), AGE_BANDS))
-            (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE))
-            (choice("gaming_experience", "Experience with video games", person.gaming_experience.as_deref(), EXPERIENCE))
+            (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE_LEVELS))
+            (choice("gaming_experience", "Experience with video games", person.gaming_experience.as_deref(), EXPERIENCE_LEVELS))
             button type="submit" { "Save" }
         }
     }
@@ -156,7 +156,7 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
 mod tests {
     use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
-    use crate::plan::{RULES, plan, read_rules};
+    use crate::plan::{DEFAULT_RULES, plan, read_rules};
     use crate::testing::{aborted_record, perfect_record};
     use crate::trainee::Role;
 
@@ -165,15 +165,15 @@ mod tests {
         let mut records = vec![perfect_record(HOSTILE_NAME, 1), perfect_record(HOSTILE_NAME, 2), perfect_record(HOSTILE_NAME, 3)];
         records[0].scenario = HOSTILE_NAME.into();
         let person = Trainee { age_band: Some(HOSTILE_NAME.into()), ..Trainee::new(HOSTILE_NAME) };
-        let plan = plan(&records, &read_rules("rules.toml", RULES).unwrap(), records[2].started_unix_us);
-        let about = TraineeProfile {
+        let plan = plan(&records, &read_rules("rules.toml", DEFAULT_RULES).unwrap(), records[2].started_unix_us);
+        let profile = TraineeProfile {
             person: &person,
             records: &records,
             listed: &[],
             plan: plan.as_ref(),
             incomplete: IncompletePolicy::Exclude,
         };
-        let text = trainee_page(&administrator(), &about).into_string();
+        let text = trainee_page(&administrator(), &profile).into_string();
         check(&text);
         assert!(text.contains("Erase permanently") && text.contains("class=\"lines\"") && text.contains("Next flights"));
         assert_eq!(
@@ -184,7 +184,7 @@ mod tests {
         assert!(text.contains(", 1 session<") && text.contains(", 2 sessions<"), "{text}");
         let unfinished = vec![perfect_record("anna", 1), aborted_record("anna", 2)];
         let text = |incomplete: IncompletePolicy| {
-            trainee_page(&administrator(), &TraineeProfile { records: &unfinished, plan: None, incomplete, ..about })
+            trainee_page(&administrator(), &TraineeProfile { records: &unfinished, plan: None, incomplete, ..profile })
                 .into_string()
         };
         let (without, with) = (text(IncompletePolicy::Exclude), text(IncompletePolicy::Include));
@@ -194,7 +194,7 @@ mod tests {
         );
         assert!(with.contains(", 2 sessions<") && !with.contains("excluded.") && with.contains("Exclude incomplete"), "{with}");
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
-        assert!(!trainee_page(&instructor, &about).into_string().contains("Erase permanently"));
+        assert!(!trainee_page(&instructor, &profile).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());
     }
 }

@@ -2,7 +2,7 @@
 //! calibration wizard.
 
 use super::menu::{self, MenuRow};
-use super::sheet::{PageWriter, SMALL, TEXT, TITLE};
+use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE};
 use crate::hud::{HudColor, TextAlign};
 
 /// Current state of the controller.
@@ -82,13 +82,13 @@ fn stick_functions(mode: i64) -> [(&'static str, &'static str); 2] {
 pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow], focus: usize) {
     let left = 0.04;
     let half = 0.42 * pen.width;
-    pen.text((left, 0.08), TextAlign::Left, TITLE, HudColor::White, "Check the controller");
-    let mut y = pen.lines((left, 0.165), half, TEXT, HudColor::Yellow, &controls.status_line());
+    pen.text((left, 0.08), TextAlign::Left, TITLE_SIZE, HudColor::White, "Check the controller");
+    let mut y = pen.lines((left, 0.165), half, TEXT_SIZE, HudColor::Yellow, &controls.status_line());
     if let Some(prompt) = &controls.wizard {
-        y = pen.lines((left, y + 0.02), half, 1.1 * TEXT, HudColor::White, prompt) + 0.02;
+        y = pen.lines((left, y + 0.02), half, 1.1 * TEXT_SIZE, HudColor::White, prompt) + 0.02;
     }
     let y = menu::draw(pen, (left, y + 0.01), half, rows, focus);
-    let y = pen.lines((left, y + 0.035), half, SMALL, HudColor::Gray, &controls.note);
+    let y = pen.lines((left, y + 0.035), half, SMALL_TEXT_SIZE, HudColor::Gray, &controls.note);
     let x = left + half + 0.08;
     let room = pen.width - x - 0.02;
     let size = (0.5 * (room - 0.1)).min(0.36);
@@ -103,7 +103,7 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
         pen.lines(
             (x, below),
             room,
-            SMALL,
+            SMALL_TEXT_SIZE,
             HudColor::White,
             "Press the flight keys; the dots should follow. To continue, use Tab and Enter or the mouse.",
         );
@@ -111,41 +111,41 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
         axes(pen, (x, below), room, &controls.axes);
     } else {
         let words = "Move the sticks; the dots should follow, return to the center, and reach all edges.";
-        pen.lines((x, below), room, SMALL, HudColor::White, words);
+        pen.lines((x, below), room, SMALL_TEXT_SIZE, HudColor::White, words);
     }
 }
 
 /// Draws a square with a dot that follows the stick.
 fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
-    const DOT_SIZE: f64 = 0.018;
+    const DOT_RADIUS: f64 = 0.018;
     let (mx, my, r) = (x + 0.5 * size, y + 0.5 * size, 0.5 * size);
     pen.panel((x, y), (size, size), HudColor::InputField);
     pen.line(&[(x, my), (x + size, my)], 0.002, HudColor::Gray);
     pen.line(&[(mx, y), (mx, y + size)], 0.002, HudColor::Gray);
-    let (dx, dy) = (mx + (r - DOT_SIZE) * right.clamp(-1.0, 1.0), my - (r - DOT_SIZE) * up.clamp(-1.0, 1.0));
+    let (dx, dy) = (mx + (r - DOT_RADIUS) * right.clamp(-1.0, 1.0), my - (r - DOT_RADIUS) * up.clamp(-1.0, 1.0));
     pen.line(&[(mx, my), (dx, dy)], 0.005, HudColor::Yellow);
     let dot: Vec<(f64, f64)> = (0..16)
         .map(|k| {
             let (s, c) = spandrel_model::math::sin_cos(spandrel_model::math::TAU * f64::from(k) / 16.0);
-            (dx + DOT_SIZE * s, dy + DOT_SIZE * c)
+            (dx + DOT_RADIUS * s, dy + DOT_RADIUS * c)
         })
         .collect();
     pen.fill(&dot, HudColor::Yellow);
-    pen.text((mx, y - 0.035), TextAlign::Middle, TEXT, HudColor::White, name);
-    pen.text((mx, y + size + 0.03), TextAlign::Middle, SMALL, HudColor::Gray, format!("vertical: {vertical}"));
-    pen.text((mx, y + size + 0.07), TextAlign::Middle, SMALL, HudColor::Gray, format!("horizontal: {across}"));
+    pen.text((mx, y - 0.035), TextAlign::Center, TEXT_SIZE, HudColor::White, name);
+    pen.text((mx, y + size + 0.03), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Gray, format!("vertical: {vertical}"));
+    pen.text((mx, y + size + 0.07), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Gray, format!("horizontal: {across}"));
 }
 
 /// Draws each raw axis as a bar with its range and value.
 fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, (f64, f64))]) {
-    const MAX_AXES: usize = 7;
+    const MAX_SHOWN_AXES: usize = 7;
     const BAR_HEIGHT: f64 = 0.024;
     let (from, full) = (x + 0.16, width - 0.18);
     let at = |value: f64| from + full * (0.5 + 0.5 * value.clamp(-1.0, 1.0));
-    for (k, (axis, value, (low, high))) in all.iter().take(MAX_AXES).enumerate() {
+    for (k, (axis, value, (low, high))) in all.iter().take(MAX_SHOWN_AXES).enumerate() {
         let y = y + 0.042 * k as f64;
         // On Linux, the upper half of the number is the event type; users know only the lower half, which starts at 0.
-        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Gray, format!("axis {}", axis & 0xffff));
+        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, format!("axis {}", axis & 0xffff));
         pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
         pen.fill(
             &[(at(*low), y), (at(*high), y), (at(*high), y + BAR_HEIGHT), (at(*low), y + BAR_HEIGHT)],
@@ -154,17 +154,17 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
         pen.panel((at(*value) - 0.004, y - 0.004), (0.008, BAR_HEIGHT + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
-        pen.text((x, y), TextAlign::Left, SMALL, HudColor::Gray, "No axis has moved yet.");
+        pen.text((x, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, "No axis has moved yet.");
     }
 }
 
 /// Draws the key bindings in two columns, each with the key and its function. Shrinks the text to fit.
 fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
-    const COLUMNS: usize = 2;
+    const COLUMN_COUNT: usize = 2;
     const KEY_COLUMN_WIDTH: f64 = 0.17;
     let lines: Vec<&str> = text.lines().collect();
-    let rows = lines.len().div_ceil(COLUMNS).max(1);
-    let step = (1.3 * SMALL).min((0.985 - y) / rows as f64);
+    let rows = lines.len().div_ceil(COLUMN_COUNT).max(1);
+    let step = (1.3 * SMALL_TEXT_SIZE).min((0.985 - y) / rows as f64);
     let height = (step / 1.3).max(0.0);
     for (k, line) in lines.iter().enumerate() {
         let place = (x + 0.5 * width * (k / rows) as f64, y + step * ((k % rows) as f64 + 0.5));

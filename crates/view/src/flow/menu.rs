@@ -1,7 +1,7 @@
 //! Menu rows: buttons, choices, and text fields, operated with keys or clicks.
 
 use super::KeyPress;
-use super::sheet::{PageWriter, SMALL, TEXT, text_width};
+use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, text_width};
 use crate::hud::{HudColor, TextAlign};
 
 /// Row height and row spacing.
@@ -73,7 +73,7 @@ pub enum RowKind {
     /// The left and right keys change the value.
     Choice,
     /// Typing changes the value; the left and right keys select a known value.
-    Typed,
+    TextField,
 }
 
 /// A menu row.
@@ -101,8 +101,8 @@ impl MenuRow {
     }
 
     /// Creates a row with a text value.
-    pub fn typed_row(action: MenuAction, label: &str, value: impl Into<String>) -> Self {
-        Self { kind: RowKind::Typed, ..Self::choice(action, label, value) }
+    pub fn text_field(action: MenuAction, label: &str, value: impl Into<String>) -> Self {
+        Self { kind: RowKind::TextField, ..Self::choice(action, label, value) }
     }
 }
 
@@ -123,15 +123,15 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
         pen.panel((x - 0.014, y), (0.008, ROW_HEIGHT), HudColor::White);
     }
     let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Gray };
-    pen.text((x + 0.02, middle), TextAlign::Left, TEXT, label, row.label.clone());
+    pen.text((x + 0.02, middle), TextAlign::Left, TEXT_SIZE, label, row.label.clone());
     if row.kind == RowKind::Button {
         return;
     }
     let (from, to) = (x + VALUE_START * width, x + width);
-    let words = if row.kind == RowKind::Typed && lit { format!("{}_", row.value) } else { row.value.clone() };
+    let words = if row.kind == RowKind::TextField && lit { format!("{}_", row.value) } else { row.value.clone() };
     let room = to - from - 2.0 * ARROW_WIDTH;
-    let height = TEXT.min(TEXT * room / text_width(&words, TEXT).max(1e-9)).max(0.6 * SMALL);
-    pen.text((0.5 * (from + to), middle), TextAlign::Middle, height, HudColor::White, words);
+    let height = TEXT_SIZE.min(TEXT_SIZE * room / text_width(&words, TEXT_SIZE).max(1e-9)).max(0.6 * SMALL_TEXT_SIZE);
+    pen.text((0.5 * (from + to), middle), TextAlign::Center, height, HudColor::White, words);
     for (edge, way, on) in [(from, -1.0, false), (to - ARROW_WIDTH, 1.0, true)] {
         let tip = edge + 0.5 * ARROW_WIDTH + way * 0.011;
         let base = edge + 0.5 * ARROW_WIDTH - way * 0.011;

@@ -104,7 +104,7 @@ impl WindowFlow {
     /// Checks whether a dialog is shown over the flight.
     #[must_use]
     pub fn is_dialog_open(&self) -> bool {
-        matches!(self.page, Page::Paused | Page::Leaving)
+        matches!(self.page, Page::Paused | Page::ConfirmEnd)
     }
 
     /// Checks whether the simulation is paused.
@@ -163,8 +163,8 @@ impl WindowFlow {
             | Page::Waiting
             | Page::Flight
             | Page::Paused
-            | Page::Leaving
-            | Page::Over => {}
+            | Page::ConfirmEnd
+            | Page::Results => {}
         }
         // Disconnecting a device removes rows from the page.
         self.focus = self.focus.min(self.rows().len().saturating_sub(1));
@@ -209,7 +209,7 @@ impl WindowFlow {
                     self.tutorial_done.insert(flown.choice.trainee);
                 }
                 self.out.push_back(WindowRequest::LeaveFlight);
-                self.show_page(Page::Over);
+                self.show_page(Page::Results);
             }
         }
     }
@@ -219,8 +219,8 @@ impl WindowFlow {
         match (self.page, &self.flying) {
             (Page::Paused, _) => self.send(FromWindow::Resume),
             (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => self.send(FromWindow::Pause),
-            (Page::Flight, Some(_)) => self.show_page(Page::Leaving),
-            (Page::Leaving, _) => self.show_page(Page::Flight),
+            (Page::Flight, Some(_)) => self.show_page(Page::ConfirmEnd),
+            (Page::ConfirmEnd, _) => self.show_page(Page::Flight),
             _ => {}
         }
     }

@@ -58,9 +58,9 @@ pub enum Page {
     /// The flight is paused.
     Paused,
     /// Confirmation to end an assessment. The flight continues in the background.
-    Leaving,
+    ConfirmEnd,
     /// The scores after the flight.
-    Over,
+    Results,
 }
 
 /// A request to the program that hosts the window.

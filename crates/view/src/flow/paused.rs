@@ -2,7 +2,7 @@
 
 use super::menu::{self, MenuRow};
 use super::pipe::Purpose;
-use super::sheet::{PageLayout, PageWriter, SMALL, TITLE, text_width};
+use super::sheet::{PageLayout, PageWriter, SMALL_TEXT_SIZE, TITLE_SIZE, text_width};
 use super::{KeyPress, WindowFlow};
 use crate::hud::{HudColor, TextAlign};
 
@@ -16,11 +16,11 @@ pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], fo
     let width = 0.95_f64.min(pen.width - 0.04);
     let left = 0.5 * (pen.width - width);
     pen.panel((left, 0.22), (width, 0.53), HudColor::PageBackground);
-    pen.text((left + 0.05, 0.30), TextAlign::Left, TITLE, HudColor::White, *head);
-    pen.text((left + 0.05, 0.375), TextAlign::Left, SMALL, HudColor::Gray, *means);
+    pen.text((left + 0.05, 0.30), TextAlign::Left, TITLE_SIZE, HudColor::White, *head);
+    pen.text((left + 0.05, 0.375), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, *means);
     menu::draw(&mut pen, (left + 0.05, 0.42), width - 0.1, rows, focus);
     let help = "Up/down select, Enter confirm; or click.";
-    pen.text((left + 0.05, 0.68), TextAlign::Left, SMALL, HudColor::Gray, help);
+    pen.text((left + 0.05, 0.68), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, help);
     pen.done()
 }
 
@@ -33,12 +33,12 @@ pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
             Purpose::Practice => flow.names.fill("Pause ({pause})"),
             Purpose::Assessment => flow.names.fill("End ({pause})"),
         };
-        let (width, height) = (text_width(&words, SMALL) + 0.03, 0.045);
+        let (width, height) = (text_width(&words, SMALL_TEXT_SIZE) + 0.03, 0.045);
         let middle = pen.across(across);
         let (x, y) = (middle - 0.5 * width, down - 0.5 * height);
         pen.panel((x, y), (width, height), HudColor::TextBackground);
         pen.click_area((x, y), (width, height), KeyPress::Escape);
-        pen.text((middle, down), TextAlign::Middle, SMALL, HudColor::White, words);
+        pen.text((middle, down), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::White, words);
     }
     pen.done()
 }

@@ -177,9 +177,9 @@ pub fn line<T: Serialize>(message: &T) -> String {
 /// Returns a description of the problem and the beginning of the line.
 pub fn read<T: DeserializeOwned>(line: &str) -> Result<T, String> {
     /// Maximum number of characters of a line that an error message quotes.
-    const MAX_SHOWN_CHARS: usize = 120;
+    const MAX_QUOTED_CHARS: usize = 120;
     serde_json::from_str(line).map_err(|error| {
-        let shown: String = line.chars().take(MAX_SHOWN_CHARS).collect();
+        let shown: String = line.chars().take(MAX_QUOTED_CHARS).collect();
         format!("'{shown}' is not a valid message between `spandrel train` and its window: {error}")
     })
 }

@@ -27,10 +27,10 @@ impl WindowFlow {
             KeyPress::Right => self.step(&rows, true),
             KeyPress::Enter => self.activate(&rows),
             KeyPress::Escape => self.back(),
-            KeyPress::Backspace if kind == Some(RowKind::Typed) => {
+            KeyPress::Backspace if kind == Some(RowKind::TextField) => {
                 self.choice.trainee.pop();
             }
-            KeyPress::Char(sign) if kind == Some(RowKind::Typed) => self.type_character(sign),
+            KeyPress::Char(sign) if kind == Some(RowKind::TextField) => self.type_character(sign),
             KeyPress::Backspace | KeyPress::Char(_) => {}
             KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
@@ -197,7 +197,7 @@ impl WindowFlow {
 
     fn turn_tutorial_page(&mut self) {
         if let Page::Tutorial(page, flight) = self.page {
-            if page + 1 < tutorial::PAGES {
+            if page + 1 < tutorial::PAGE_COUNT {
                 self.show_page(Page::Tutorial(page + 1, flight));
             } else {
                 self.finish_tutorial();
@@ -217,8 +217,8 @@ impl WindowFlow {
             | Page::Waiting
             | Page::Flight
             | Page::Paused
-            | Page::Leaving
-            | Page::Over => self.show_page(Page::Start),
+            | Page::ConfirmEnd
+            | Page::Results => self.show_page(Page::Start),
         }
     }
 
@@ -235,8 +235,8 @@ impl WindowFlow {
             Page::Tutorial(page, flight) => self.show_page(Page::Tutorial(page - 1, flight)),
             Page::Calibrating => self.out.push_back(WindowRequest::Cancel),
             Page::Paused => self.send(FromWindow::Resume),
-            Page::Leaving => self.show_page(Page::Flight),
-            Page::Opening | Page::Start | Page::Waiting | Page::Flight | Page::Over => {}
+            Page::ConfirmEnd => self.show_page(Page::Flight),
+            Page::Opening | Page::Start | Page::Waiting | Page::Flight | Page::Results => {}
         }
     }
 }

@@ -23,13 +23,13 @@ impl WindowFlow {
                 MenuRow::button(MenuAction::Restart, "Restart"),
                 MenuRow::button(MenuAction::End, "End session"),
             ],
-            Page::Leaving => {
+            Page::ConfirmEnd => {
                 vec![
                     MenuRow::button(MenuAction::KeepFlying, "Keep flying (Esc)"),
                     MenuRow::button(MenuAction::End, "End and score flight"),
                 ]
             }
-            Page::Over => summary::rows(self.ended.as_ref()),
+            Page::Results => summary::rows(self.ended.as_ref()),
         }
     }
 
@@ -37,7 +37,7 @@ impl WindowFlow {
         let job = self.offers.as_ref().and_then(|offers| offers.scenarios.iter().find(|job| job.name == self.choice.scenario));
         let title = job.map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
         vec![
-            MenuRow::typed_row(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
+            MenuRow::text_field(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, "Job", title),
             MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
             MenuRow::button(MenuAction::CheckController, "Next: check controller"),
@@ -66,7 +66,7 @@ impl WindowFlow {
 }
 
 fn tutorial_rows(page: usize, flight: bool) -> Vec<MenuRow> {
-    let last = page + 1 == tutorial::PAGES;
+    let last = page + 1 == tutorial::PAGE_COUNT;
     let next = match (last, flight) {
         (false, _) => "Next page",
         (true, true) => "Fly",

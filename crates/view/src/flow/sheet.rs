@@ -6,11 +6,11 @@ use super::KeyPress;
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// Font size of titles, as a fraction of the window's height (the unit of all sizes in this module).
-pub const TITLE: f64 = 0.075;
+pub const TITLE_SIZE: f64 = 0.075;
 /// Font size of body text.
-pub const TEXT: f64 = 0.038;
+pub const TEXT_SIZE: f64 = 0.038;
 /// Font size of secondary text.
-pub const SMALL: f64 = 0.032;
+pub const SMALL_TEXT_SIZE: f64 = 0.032;
 /// Line spacing in multiples of the font size.
 pub const LINE_SPACING: f64 = 1.35;
 /// Mean character width as a fraction of the font size (egui's Ubuntu Light, lowercase; slightly wide to prevent
@@ -199,8 +199,8 @@ mod tests {
     fn prop_wrapped_lines_fit_and_keep_all_words() {
         let text = "The drone keeps its place when you let go of the sticks.\n\nfile:///a/very/long/address/that/has/no/blank/in/it/at/all.html";
         for width in [0.4, 0.7, 1.5] {
-            let lines = wrap_text(text, width, TEXT);
-            let most = (width / (CHAR_WIDTH * TEXT)).floor() as usize;
+            let lines = wrap_text(text, width, TEXT_SIZE);
+            let most = (width / (CHAR_WIDTH * TEXT_SIZE)).floor() as usize;
             assert!(lines.iter().all(|line| line.chars().count() <= most), "{lines:?}");
             let solid = |s: &str| s.chars().filter(|c| !c.is_whitespace()).collect::<String>();
             assert_eq!(solid(&lines.concat()), solid(text));

@@ -1,7 +1,7 @@
 //! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
 
 use super::pipe::Purpose;
-use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL, TEXT, TITLE, wrap_text};
+use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, wrap_text};
 use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
@@ -15,22 +15,22 @@ impl WindowFlow {
         match self.page {
             Page::Flight => return paused::button(self, pen),
             Page::Paused => return paused::page(pen, &paused::PAUSE_TEXT, &rows, self.focus),
-            Page::Leaving => return paused::page(pen, &paused::END_TEXT, &rows, self.focus),
+            Page::ConfirmEnd => return paused::page(pen, &paused::END_TEXT, &rows, self.focus),
             Page::Opening
             | Page::Start
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
             | Page::Waiting
-            | Page::Over => pen.ground(HudColor::PageBackground),
+            | Page::Results => pen.ground(HudColor::PageBackground),
         }
         match self.page {
             Page::Start => self.start(&mut pen, &rows),
             Page::Controls | Page::Calibrating => controls::page(&mut pen, &self.controls, &rows, self.focus),
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
-            Page::Over => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
+            Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
             Page::Waiting => waiting(&mut pen, self.waiting_for),
-            Page::Opening | Page::Flight | Page::Paused | Page::Leaving => waiting(&mut pen, "Spandrel"),
+            Page::Opening | Page::Flight | Page::Paused | Page::ConfirmEnd => waiting(&mut pen, "Spandrel"),
         }
         if let Some(words) = &self.notice {
             draw_notice(&mut pen, words);
@@ -40,16 +40,16 @@ impl WindowFlow {
 
     fn start(&self, pen: &mut PageWriter, rows: &[menu::MenuRow]) {
         let left = 0.04;
-        pen.text((left, 0.08), TextAlign::Left, TITLE, HudColor::White, "Spandrel: inspect a bridge with a drone");
+        pen.text((left, 0.08), TextAlign::Left, TITLE_SIZE, HudColor::White, "Spandrel: inspect a bridge with a drone");
         let half = 0.56 * pen.width;
         menu::draw(pen, (left, 0.17), half, rows, self.focus);
         let help = "Up/down select, left/right change, Enter confirm; or click.";
-        pen.text((left, 0.70), TextAlign::Left, SMALL, HudColor::Gray, help);
+        pen.text((left, 0.70), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, help);
         let (x, width) = (left + half + 0.06, pen.width - half - left - 0.08);
         let mut y = 0.19;
         for (head, words) in self.choice_explanation() {
-            pen.text((x, y), TextAlign::Left, TEXT, HudColor::Yellow, head);
-            y = pen.lines((x, y + 0.052), width, SMALL, HudColor::White, &words) + 0.03;
+            pen.text((x, y), TextAlign::Left, TEXT_SIZE, HudColor::Yellow, head);
+            y = pen.lines((x, y + 0.052), width, SMALL_TEXT_SIZE, HudColor::White, &words) + 0.03;
         }
     }
 
@@ -82,19 +82,19 @@ impl WindowFlow {
 /// Draws a notice along the bottom of the page, over its content.
 fn draw_notice(pen: &mut PageWriter, words: &str) {
     let (width, margin) = (pen.width, 0.04);
-    let lines = wrap_text(words, width - 2.0 * margin, TEXT);
-    let high = LINE_SPACING * TEXT * lines.len() as f64 + 0.025;
+    let lines = wrap_text(words, width - 2.0 * margin, TEXT_SIZE);
+    let high = LINE_SPACING * TEXT_SIZE * lines.len() as f64 + 0.025;
     let top = (0.985 - high).max(0.0);
     pen.panel((0.0, top), (width, high), HudColor::InputField);
     for (k, line) in lines.into_iter().enumerate() {
-        let y = top + 0.0125 + LINE_SPACING * TEXT * (k as f64 + 0.5);
+        let y = top + 0.0125 + LINE_SPACING * TEXT_SIZE * (k as f64 + 0.5);
         if y < 0.985 {
-            pen.text((0.5 * width, y), TextAlign::Middle, TEXT, HudColor::Yellow, line);
+            pen.text((0.5 * width, y), TextAlign::Center, TEXT_SIZE, HudColor::Yellow, line);
         }
     }
 }
 
 fn waiting(pen: &mut PageWriter, words: &str) {
     let middle = 0.5 * pen.width;
-    pen.text((middle, 0.45), TextAlign::Middle, TITLE, HudColor::White, words);
+    pen.text((middle, 0.45), TextAlign::Center, TITLE_SIZE, HudColor::White, words);
 }

@@ -2,7 +2,7 @@
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{FlightSummary, SCORE_NAMES};
-use super::sheet::{PageWriter, SMALL, TEXT, TITLE, text_width};
+use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, text_width};
 use crate::hud::{HudColor, TextAlign};
 
 /// Checks whether a browser can open the address.
@@ -34,9 +34,9 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
         _ => ("Flight ended", ended.why.clone()),
     };
     // Shrinks the headline to fit on one line; its length depends on the job.
-    let height = TITLE.min((pen.width - 2.0 * left) / text_width(title, 1.0));
+    let height = TITLE_SIZE.min((pen.width - 2.0 * left) / text_width(title, 1.0));
     pen.text((left, 0.08), TextAlign::Left, height, HudColor::White, title);
-    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL, HudColor::Gray, &note);
+    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL_TEXT_SIZE, HudColor::Gray, &note);
     for (k, (name, score)) in SCORE_NAMES.iter().zip(&ended.scores).enumerate() {
         bar(pen, (left, 0.21 + 0.085 * k as f64), half, name, score.map(|score| score.pct));
     }
@@ -46,17 +46,17 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     };
     let mut y = if overall.is_some() { 0.64 } else { 0.58 };
     if let Some(words) = overall {
-        pen.text((left, 0.59), TextAlign::Left, 1.3 * TEXT, HudColor::White, words);
+        pen.text((left, 0.59), TextAlign::Left, 1.3 * TEXT_SIZE, HudColor::White, words);
     }
     if let Some(verdict) = &ended.verdict {
-        y = pen.lines((left, y), half, SMALL, HudColor::White, verdict);
+        y = pen.lines((left, y), half, SMALL_TEXT_SIZE, HudColor::White, verdict);
     }
     y = y.max(0.68) + 0.02;
     for (name, address) in
         [("report", ended.report.as_deref().unwrap_or("not available")), ("questionnaire", ended.questionnaire.as_str())]
     {
-        pen.text((left, y), TextAlign::Left, SMALL, HudColor::Yellow, name);
-        y = pen.lines((left + 0.26, y), pen.width - left - 0.30, SMALL, HudColor::White, address) + 0.02;
+        pen.text((left, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);
+        y = pen.lines((left + 0.26, y), pen.width - left - 0.30, SMALL_TEXT_SIZE, HudColor::White, address) + 0.02;
     }
     menu::draw(pen, (left + half + 0.08, 0.20), pen.width - half - 2.0 * left - 0.08, rows, focus);
 }
@@ -65,15 +65,15 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
 fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Option<f64>) {
     const BAR_HEIGHT: f64 = 0.05;
     let (from, full) = (x + 0.28, width - 0.44);
-    pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, TEXT, HudColor::White, name);
+    pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, TEXT_SIZE, HudColor::White, name);
     pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
     let Some(pct) = pct else {
-        pen.text((from + 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL, HudColor::Gray, "not applicable");
+        pen.text((from + 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, "not applicable");
         return;
     };
     let long = full * (pct / 100.0).clamp(0.0, 1.0);
     if long > 0.0 {
         pen.fill(&[(from, y), (from + long, y), (from + long, y + BAR_HEIGHT), (from, y + BAR_HEIGHT)], HudColor::Blue);
     }
-    pen.text((x + width - 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Right, TEXT, HudColor::White, format!("{pct:.1}"));
+    pen.text((x + width - 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Right, TEXT_SIZE, HudColor::White, format!("{pct:.1}"));
 }

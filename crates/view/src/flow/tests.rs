@@ -89,7 +89,7 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     assert_eq!(flow.page(), Page::Flight);
     assert!(matches!(pending_requests(&mut flow).as_slice(), [WindowRequest::ShowFlight(flying)] if flying.choice == wanted));
     flow.handle_message(ToWindow::Ended(ended()));
-    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Over, vec![WindowRequest::LeaveFlight]));
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Results, vec![WindowRequest::LeaveFlight]));
     press(&mut flow, &[KeyPress::Enter, KeyPress::Down, KeyPress::Enter, KeyPress::Down, KeyPress::Enter]);
     let told = pending_requests(&mut flow);
     assert!(matches!(&told[0], WindowRequest::Open(address) if address.starts_with("file:")), "{told:?}");
@@ -156,7 +156,7 @@ fn exact_flight_keys_have_no_effect_on_a_newly_opened_page() {
     flow.handle_message(ToWindow::Ended(ended()));
     pending_requests(&mut flow);
     press(&mut flow, &[KeyPress::Left, KeyPress::Right, KeyPress::Down, KeyPress::Right, KeyPress::Up]);
-    assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Over, 0));
+    assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Results, 0));
     let mut flow = started();
     assert!(!flow.is_key_test());
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Right, KeyPress::Left]);
@@ -261,7 +261,7 @@ fn exact_pause_and_restart_are_available_only_in_practice() {
     flow.restart();
     assert!(flow.notice().is_some_and(|words| words.contains("restarted")));
     flow.pause();
-    assert!(flow.page() == Page::Leaving && !flow.is_paused(), "the flight must continue");
+    assert!(flow.page() == Page::ConfirmEnd && !flow.is_paused(), "the flight must continue");
     flow.press(KeyPress::Escape);
     assert_eq!(flow.page(), Page::Flight);
     flow.pause();

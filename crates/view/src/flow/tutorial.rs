@@ -3,7 +3,7 @@
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
-use super::sheet::{PageWriter, SMALL, TITLE, text_width};
+use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TITLE_SIZE, text_width};
 use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, layout};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
@@ -28,7 +28,7 @@ const PICTURE_ASPECT: f64 = 16.0 / 9.0;
 /// name.
 type TutorialPage = (&'static str, fn(&mut PageWriter, PictureFrame, &KeyNames), &'static str);
 
-const TUTORIAL_PAGES: [TutorialPage; PAGES] = [
+const TUTORIAL_PAGES: [TutorialPage; PAGE_COUNT] = [
     (
         "the job",
         job,
@@ -72,7 +72,7 @@ const TUTORIAL_PAGES: [TutorialPage; PAGES] = [
 ];
 
 /// Number of pages.
-pub const PAGES: usize = 6;
+pub const PAGE_COUNT: usize = 6;
 
 /// Position of a picture, in units of the window's height.
 #[derive(Debug, Clone, Copy)]
@@ -97,25 +97,37 @@ impl PictureFrame {
 pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, names: &KeyNames) {
     let Some((title, picture, words)) = TUTORIAL_PAGES.get(page) else { return };
     let left = 0.04;
-    pen.text((left, 0.07), TextAlign::Left, TITLE, HudColor::White, format!("Tutorial {} of {PAGES}: {title}", page + 1));
+    pen.text(
+        (left, 0.07),
+        TextAlign::Left,
+        TITLE_SIZE,
+        HudColor::White,
+        format!("Tutorial {} of {PAGE_COUNT}: {title}", page + 1),
+    );
     let width = (0.60 * pen.width).min(0.70 * PICTURE_ASPECT);
     picture(pen, PictureFrame { x: left, y: 0.15, width, height: width / PICTURE_ASPECT }, names);
     let x = left + width + 0.06;
     let room = pen.width - x - 0.03;
-    pen.lines((x, 0.17), room, if room < 0.6 { 0.92 * SMALL } else { SMALL }, HudColor::White, &names.fill(words));
+    pen.lines(
+        (x, 0.17),
+        room,
+        if room < 0.6 { 0.92 * SMALL_TEXT_SIZE } else { SMALL_TEXT_SIZE },
+        HudColor::White,
+        &names.fill(words),
+    );
     menu::draw(pen, (x, 0.97 - ROW_SPACING * rows.len() as f64), room, rows, focus);
 }
 
 /// Draws a label with an arrow; both positions are fractions of the frame.
 fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64), to: (f64, f64)) {
-    let half = 0.5 * text_width(words, SMALL) + 0.012;
+    let half = 0.5 * text_width(words, SMALL_TEXT_SIZE) + 0.012;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
     // The arrow starts on the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
     pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::PageBackground);
-    pen.text((x, y), TextAlign::Middle, SMALL, HudColor::Yellow, words);
+    pen.text((x, y), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Yellow, words);
 }
 
 fn job(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
@@ -140,7 +152,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.lines(
         (x, y),
         frame.width,
-        SMALL,
+        SMALL_TEXT_SIZE,
         HudColor::Gray,
         "The bracket in your view marks the drone and shows its distance. On the map, the triangle is the drone, the square is the \
          pad, and the lines are the tasks' paths.",
@@ -181,12 +193,12 @@ fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         let width = (4.0 * strip.height).min(strip.width);
         pen.picture(name, strip.at(0.0, 0.0), (width, 0.25 * width));
         let end = strip.x + width;
-        pen.text((end + 0.02, strip.y + 0.5 * strip.height), TextAlign::Left, SMALL, HudColor::Yellow, words);
+        pen.text((end + 0.02, strip.y + 0.5 * strip.height), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, words);
     }
     for (k, words) in ["1 m", "3 m", "8 m"].into_iter().enumerate() {
         let width = (4.0 * 0.24 * frame.height).min(frame.width);
         let x = frame.x + width * (k as f64 + 0.5) / 3.0;
-        pen.text((x, frame.y + 1.06 * frame.height), TextAlign::Middle, SMALL, HudColor::Yellow, words);
+        pen.text((x, frame.y + 1.06 * frame.height), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Yellow, words);
     }
 }
 
@@ -202,7 +214,7 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     let words = "Release the sticks to hover. Keys: {arm} arm, {take_off} take off, {up} {down} up and down, {turn_left} \
                  {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} tilt \
                  the camera, {land} land, {pause} pause.";
-    pen.lines((x, y), frame.width, SMALL, HudColor::Gray, &names.fill(words));
+    pen.lines((x, y), frame.width, SMALL_TEXT_SIZE, HudColor::Gray, &names.fill(words));
 }
 
 /// Returns an example HUD in flight.
@@ -216,14 +228,14 @@ fn example(cues: i32) -> Hud {
         speed_m_s: 2.4,
         limit_m_s: 10.0 * spandrel_model::math::M_S_PER_MPH,
         battery_pct: Some(86.0),
-        green_pct: 70.0,
-        yellow_pct: 30.0,
+        min_green_pct: 70.0,
+        min_yellow_pct: 30.0,
         cues,
         hit: None,
         height_m: 12.0,
         home_distance_m: 118.0,
         mode: "Position".into(),
-        gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
+        gnss: Some(GnssStatus { has_fix: true, satellites: 17 }),
         telemetry_age_s: 0.0,
         gimbal_rad: 0.1,
         zoom: 1.0,

@@ -132,7 +132,7 @@ fn paint_item(painter: &egui::Painter, item: &DrawItem, rect: Rect) {
         DrawItem::Text { place, side, height, color: ink, words } => {
             let align = match side {
                 TextAlign::Left => Align2::LEFT_CENTER,
-                TextAlign::Middle => Align2::CENTER_CENTER,
+                TextAlign::Center => Align2::CENTER_CENTER,
                 TextAlign::Right => Align2::RIGHT_CENTER,
             };
             painter.text(px(place), align, words, FontId::proportional(*height as f32 * size.y), color(*ink));

@@ -263,11 +263,12 @@ impl Renderer {
         counts: &mut DrawCounts,
     ) {
         let shows = |fixed: &&StaticCell| {
-            shown.cell_may_be_visible(&fixed.bounds) && fixed.visible_range.shows(in_lake, fixed.bounds.ball.distance_to_m(eye_m))
+            shown.cell_may_be_visible(&fixed.bounds)
+                && fixed.visible_range.shows(in_lake, fixed.bounds.sphere.distance_to_m(eye_m))
         };
         let mut still: Vec<&StaticCell> = self.fixed.iter().filter(shows).collect();
         // Draws front to back, so that hidden surfaces are not shaded.
-        still.sort_by(|a, b| a.bounds.ball.distance_to_m(eye_m).total_cmp(&b.bounds.ball.distance_to_m(eye_m)));
+        still.sort_by(|a, b| a.bounds.sphere.distance_to_m(eye_m).total_cmp(&b.bounds.sphere.distance_to_m(eye_m)));
         for (look, pipeline) in pipelines {
             pass.set_pipeline(pipeline);
             let still = still.iter().map(|fixed| (&*fixed.solid, &fixed.copies));
@@ -319,7 +320,7 @@ impl Renderer {
         pass.draw(0..3, 0..1);
         counts.draw_calls += 1;
         pass.set_pipeline(&self.pipelines.translucent);
-        for (model, copies) in moving.iter().filter(|(model, _)| *model == MoverModel::Disc) {
+        for (model, copies) in moving.iter().filter(|(model, _)| *model == MoverModel::PropellerDisk) {
             let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
             count(&mut counts, solid.triangles(), copies);
             solid.draw(&mut pass, copies);
@@ -344,7 +345,7 @@ fn solids<'a>(
     moving: &'a [(MoverModel, MeshInstances)],
 ) -> impl Iterator<Item = (&'a GpuMesh, &'a MeshInstances)> {
     let of = |(model, copies): &'a (MoverModel, MeshInstances)| Some((models.get(*model as usize)?.as_ref()?, copies));
-    moving.iter().filter(|(model, _)| *model != MoverModel::Disc).filter_map(of)
+    moving.iter().filter(|(model, _)| *model != MoverModel::PropellerDisk).filter_map(of)
 }
 
 fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {

@@ -11,7 +11,7 @@ use spandrel_model::math;
 /// Maximum number of shadow maps in a shader.
 pub const MAX_SHADOW_MAPS: usize = 5;
 /// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by the range).
-const HAZE_PER_M: f64 = 3.9 / 12_000.0;
+const HAZE_EXTINCTION_PER_M: f64 = 3.9 / 12_000.0;
 
 /// Uniforms of the `Globals` shader structure.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -69,13 +69,13 @@ impl Globals {
         let eye = if mirrored { Vec3::new(eye_m.east(), eye_m.north(), 2.0 * water_m - eye_m.up()) } else { eye_m };
         let projection = shot.eye.view_projection(shot.aspect());
         let projection = if mirrored { projection.after(&Matrix::mirror(water_m)) } else { projection };
-        let (half_w, half_h) = shot.eye.half_sizes(shot.aspect());
+        let (half_w, half_h) = shot.eye.half_extents(shot.aspect());
         let pixel_rad = 2.0 * half_w / f64::from(shot.size_px.0.max(1));
         let sky = &shot.sky;
         let wind = math::hypot(shot.wind_m_s.0, shot.wind_m_s.1);
         let towards = if wind > 1e-6 { (shot.wind_m_s.0 / wind, shot.wind_m_s.1 / wind) } else { (1.0, 0.0) };
         let (lamp, lamp_dir) = shot.beam.map_or(([0.0; 4], [0.0; 4]), |beam| {
-            (with_w(beam.position_m, math::cos(beam.half_rad)), with_w(beam.forward, beam.candela))
+            (with_w(beam.position_m, math::cos(beam.half_angle_rad)), with_w(beam.forward, beam.intensity_cd))
         });
         let mut shadow_proj = [Matrix::mirror(0.0).columns(); MAX_SHADOW_MAPS];
         let mut texel = [0.0; 4];
@@ -95,7 +95,7 @@ impl Globals {
             sun: with_w(sky.sun, sky.direct_lux),
             sun_rgb: color_with_w(sky.sun_rgb, sky.cloud),
             sky_rgb: color_with_w(sky.sky_rgb, sky.sky_lux),
-            scene: [sky.scale as f32, water_m as f32, HAZE_PER_M as f32, 0.0],
+            scene: [sky.scale as f32, water_m as f32, HAZE_EXTINCTION_PER_M as f32, 0.0],
             lamp,
             lamp_dir,
             look: [(1.0 / shot.finish.exposure.white_lux) as f32, wind as f32, towards.0 as f32, towards.1 as f32],

@@ -1,7 +1,7 @@
 //! Battery display at the upper right: level bar, percentage, and status icon.
 
 use super::icons::IconShape;
-use super::metrics::{EDGE, MIDDLE};
+use super::metrics::{EDGE_MARGIN, MEDIUM_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::{DrawItem, HudColor, TextAlign};
@@ -10,7 +10,7 @@ use super::{DrawItem, HudColor, TextAlign};
 pub const PANEL_WIDTH: f64 = 0.27;
 const PANEL_HEIGHT: f64 = 0.075;
 /// Blink rate, Hz (noticeable, but well below rates that can trigger seizures).
-const BLINK_HZ: f64 = 2.0;
+const BLINK_RATE_HZ: f64 = 2.0;
 
 /// Appearance of a battery level.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,25 +25,25 @@ pub struct ChargeStyle {
 
 /// Returns the appearance for a battery level in %.
 pub fn charge_style(hud: &Hud, pct: f64) -> ChargeStyle {
-    let (color, shape) = if pct >= hud.green_pct {
+    let (color, shape) = if pct >= hud.min_green_pct {
         (HudColor::Green, IconShape::Disc)
-    } else if pct >= hud.yellow_pct {
+    } else if pct >= hud.min_yellow_pct {
         (HudColor::Yellow, IconShape::Triangle)
     } else {
         (HudColor::Red, IconShape::Octagon)
     };
-    let dark = color == HudColor::Red && (hud.time_s * BLINK_HZ).rem_euclid(1.0) >= 0.5;
+    let dark = color == HudColor::Red && (hud.time_s * BLINK_RATE_HZ).rem_euclid(1.0) >= 0.5;
     ChargeStyle { color, shape, blinked_off: dark }
 }
 
 pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let right = pane.width - EDGE;
-    let (from, y) = (right - PANEL_WIDTH, EDGE + 0.5 * PANEL_HEIGHT);
+    let right = pane.width - EDGE_MARGIN;
+    let (from, y) = (right - PANEL_WIDTH, EDGE_MARGIN + 0.5 * PANEL_HEIGHT);
     let words_at = (right - 0.016, y);
-    let mut items = vec![pane.panel((from, EDGE), (right, EDGE + PANEL_HEIGHT))];
+    let mut items = vec![pane.panel((from, EDGE_MARGIN), (right, EDGE_MARGIN + PANEL_HEIGHT))];
     let Some(pct) = hud.battery_pct else {
-        let place = (words_at.0, EDGE + 0.037);
-        items.push(pane.text(place, TextAlign::Right, MIDDLE, HudColor::Gray, "no battery data"));
+        let place = (words_at.0, EDGE_MARGIN + 0.037);
+        items.push(pane.text(place, TextAlign::Right, MEDIUM_FONT_SIZE, HudColor::Gray, "no battery data"));
         return items;
     };
     let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);
@@ -52,7 +52,7 @@ pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     }
     let filled = (!dark).then_some((pct / 100.0).clamp(0.0, 1.0));
     items.extend(battery_symbol(pane, (from + 0.062, y), filled, color));
-    items.push(pane.text(words_at, TextAlign::Right, MIDDLE, color, format!("{pct:.0}%")));
+    items.push(pane.text(words_at, TextAlign::Right, MEDIUM_FONT_SIZE, color, format!("{pct:.0}%")));
     items
 }
 

@@ -3,7 +3,7 @@
 use super::battery::battery;
 use super::map::map;
 use super::messages::messages;
-use super::metrics::{EDGE, SMALL};
+use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::small_view::essential_items;
 use super::speed::speed;
@@ -13,7 +13,7 @@ use super::{DrawItem, HudColor, TextAlign};
 
 /// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; the font size in a picture 360 px
 /// high is 9.7 px).
-const MIN_FONT_PX: f64 = 9.5;
+const MIN_FONT_SIZE_PX: f64 = 9.5;
 /// Central fraction of the picture in which a defect must be to count.
 const CENTRAL_FRACTION: f64 = 0.8;
 
@@ -36,7 +36,11 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
 #[must_use]
 pub fn layout_px(hud: &Hud, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let size_px = (width.max(1.0), height.max(1.0));
-    if SMALL * Pane::unit(size_px) >= MIN_FONT_PX { layout(hud, size_px.0 / size_px.1) } else { essential_items(hud, size_px) }
+    if SMALL_FONT_SIZE * Pane::unit(size_px) >= MIN_FONT_SIZE_PX {
+        layout(hud, size_px.0 / size_px.1)
+    } else {
+        essential_items(hud, size_px)
+    }
 }
 
 /// Returns the crosshair and the corner marks of the area where a defect counts. They are drawn below all other items.
@@ -57,7 +61,7 @@ fn crosshair(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
 
 /// Returns the values below the battery: height, distance from home, gimbal, time, lamp, pictures.
 fn readouts(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let (right, top) = (pane.width - EDGE, EDGE + 0.085);
+    let (right, top) = (pane.width - EDGE_MARGIN, EDGE_MARGIN + 0.085);
     let left = hud.remaining_s.max(0.0);
     let mut lines = vec![
         ("height", format!("{:.1} m", hud.height_m)),
@@ -77,9 +81,9 @@ fn readouts(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     for (k, (name, value)) in lines.into_iter().enumerate() {
         let y = top + 0.006 + step * (k as f64 + 0.5);
         let lit = name == "lamp" && hud.lamp;
-        items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL, HudColor::Gray, name));
+        items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, name));
         let color = if lit { HudColor::Yellow } else { HudColor::White };
-        items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL, color, value));
+        items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL_FONT_SIZE, color, value));
     }
     items
 }

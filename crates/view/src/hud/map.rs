@@ -39,14 +39,14 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         let start = points[0];
         items.push(pane.line(&points, 0.004, HudColor::Blue));
         let label = free_label_position(&labels, (start.0, start.1 - 0.014), x + HALF_SIZE - 0.5 * LABEL_WIDTH);
-        items.push(pane.text(label, TextAlign::Middle, FONT_SIZE, HudColor::Gray, format!("{}", track.id)));
+        items.push(pane.text(label, TextAlign::Center, FONT_SIZE, HudColor::Gray, format!("{}", track.id)));
         labels.push(label);
     }
     let (pad, side) = (place(hud.pad_m), 0.007);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
     items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
     items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), HudColor::Yellow));
-    items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Middle, FONT_SIZE, HudColor::Gray, "N"));
+    items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Center, FONT_SIZE, HudColor::Gray, "N"));
     items
 }
 

@@ -50,7 +50,7 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
     let ground = (0.5 * (text_width(&words, FONT_SIZE) + 0.4 * FONT_SIZE) / aspect, 0.6 * FONT_SIZE);
     let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
     items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), color: HudColor::TextBackground });
-    items.push(DrawItem::Text { place, side: TextAlign::Middle, height: FONT_SIZE, color, words });
+    items.push(DrawItem::Text { place, side: TextAlign::Center, height: FONT_SIZE, color, words });
     items
 }
 

@@ -1,7 +1,7 @@
 //! Warnings at the lower left, with the most serious at the bottom.
 
 use super::icons::IconShape;
-use super::metrics::{EDGE, GAP, M_S_PER_MPH, MIDDLE};
+use super::metrics::{BLOCK_GAP, EDGE_MARGIN, M_S_PER_MPH, MEDIUM_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{text_width, wrap_text};
@@ -11,9 +11,9 @@ use spandrel_mavlink::contract::cue;
 /// Mean width of a capital letter.
 const CAPITAL_WIDTH: f64 = 0.0205;
 /// Left padding of a message, which contains its icon.
-const INDENT: f64 = 0.07;
+const ICON_INDENT: f64 = 0.07;
 /// Right padding of a message.
-const MARGIN: f64 = 0.015;
+const TEXT_MARGIN: f64 = 0.015;
 /// Height of a single-line message, and height of each additional line.
 const MESSAGE_HEIGHT: f64 = 0.06;
 const LINE_HEIGHT: f64 = 0.045;
@@ -47,26 +47,26 @@ pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
 }
 
 fn width(words: &str) -> f64 {
-    (CAPITAL_WIDTH * words.chars().count() as f64).max(text_width(words, MIDDLE))
+    (CAPITAL_WIDTH * words.chars().count() as f64).max(text_width(words, MEDIUM_FONT_SIZE))
 }
 
 pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let right = map::left(hud, pane).map_or(pane.width - EDGE, |left| left - GAP);
-    let room = right - EDGE - INDENT - MARGIN;
-    let mut bottom = pane.height - EDGE;
+    let right = map::left(hud, pane).map_or(pane.width - EDGE_MARGIN, |left| left - BLOCK_GAP);
+    let room = right - EDGE_MARGIN - ICON_INDENT - TEXT_MARGIN;
+    let mut bottom = pane.height - EDGE_MARGIN;
     let mut items = Vec::new();
     for ActiveCue { shape, color, text: words, detail } in warnings(hud) {
         let words = detail.map_or_else(|| words.to_owned(), |detail| format!("{words}: {detail}"));
         let lines = wrap_text(&words, MAX_LINES, |line| width(line) <= room);
         let top = bottom - MESSAGE_HEIGHT - LINE_HEIGHT * (lines.len() - 1) as f64;
-        let wide = INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + MARGIN;
-        items.push(pane.panel((EDGE, top), (EDGE + wide, bottom)));
-        items.extend(pane.icon(shape, (EDGE + 0.5 * INDENT, 0.5 * (top + bottom)), 0.04, color));
+        let wide = ICON_INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + TEXT_MARGIN;
+        items.push(pane.panel((EDGE_MARGIN, top), (EDGE_MARGIN + wide, bottom)));
+        items.extend(pane.icon(shape, (EDGE_MARGIN + 0.5 * ICON_INDENT, 0.5 * (top + bottom)), 0.04, color));
         for (k, line) in lines.into_iter().enumerate() {
             let y = top + 0.5 * MESSAGE_HEIGHT + LINE_HEIGHT * k as f64;
-            items.push(pane.text((EDGE + INDENT, y), TextAlign::Left, MIDDLE, color, line));
+            items.push(pane.text((EDGE_MARGIN + ICON_INDENT, y), TextAlign::Left, MEDIUM_FONT_SIZE, color, line));
         }
-        bottom = top - GAP;
+        bottom = top - BLOCK_GAP;
     }
     items
 }

@@ -1,12 +1,12 @@
 //! Margins and font sizes of the HUD, as fractions of the height.
 
 /// Margin between blocks and the edges of the picture.
-pub(super) const EDGE: f64 = 0.025;
+pub(super) const EDGE_MARGIN: f64 = 0.025;
 /// Minimum gap between blocks.
-pub(super) const GAP: f64 = 0.01;
+pub(super) const BLOCK_GAP: f64 = 0.01;
 /// Font sizes: large, medium, and small.
-pub(super) const LARGE: f64 = 0.052;
-pub(super) const MIDDLE: f64 = 0.034;
-pub(super) const SMALL: f64 = 0.027;
+pub(super) const LARGE_FONT_SIZE: f64 = 0.052;
+pub(super) const MEDIUM_FONT_SIZE: f64 = 0.034;
+pub(super) const SMALL_FONT_SIZE: f64 = 0.027;
 /// Meters per second in one mile per hour.
 pub(super) const M_S_PER_MPH: f64 = spandrel_model::math::M_S_PER_MPH;

@@ -97,7 +97,7 @@ pub enum TextAlign {
     /// Left-aligned.
     Left,
     /// Centered.
-    Middle,
+    Center,
     /// Right-aligned.
     Right,
 }

@@ -15,7 +15,7 @@ const TOLERANCE: f64 = 1e-9;
 /// A block of the HUD: its background and contents.
 #[derive(Debug)]
 struct DisplayBlock {
-    ground: PictureRect,
+    background: PictureRect,
     texts: Vec<(PictureRect, String)>,
     shapes: Vec<PictureRect>,
 }
@@ -30,7 +30,7 @@ fn text_rect(place: ScreenPoint, side: TextAlign, height: f64, words: &str, aspe
     let left = place.x * aspect
         - match side {
             TextAlign::Left => 0.0,
-            TextAlign::Middle => 0.5 * wide,
+            TextAlign::Center => 0.5 * wide,
             TextAlign::Right => wide,
         };
     [left, place.y - 0.5 * height, left + wide, place.y + 0.5 * height]
@@ -42,7 +42,7 @@ fn blocks(items: Vec<DrawItem>, aspect: f64) -> Vec<DisplayBlock> {
     let mut found: Vec<DisplayBlock> = Vec::new();
     for item in items {
         if let DrawItem::Panel { from, to, .. } = item {
-            found.push(DisplayBlock { ground: around(&[from, to], aspect), texts: Vec::new(), shapes: Vec::new() });
+            found.push(DisplayBlock { background: around(&[from, to], aspect), texts: Vec::new(), shapes: Vec::new() });
             continue;
         }
         let Some(block) = found.last_mut() else {
@@ -87,13 +87,13 @@ fn is_map(block: &DisplayBlock) -> bool {
 
 fn check_block(block: &DisplayBlock, what: &str) {
     for shape in &block.shapes {
-        assert!(contains(&block.ground, shape), "{what}: a shape at {shape:?} extends beyond {:?}", block.ground);
+        assert!(contains(&block.background, shape), "{what}: a shape at {shape:?} extends beyond {:?}", block.background);
     }
     if is_map(block) {
         return;
     }
     for (k, (place, words)) in block.texts.iter().enumerate() {
-        assert!(contains(&block.ground, place), "{what}: '{words}' at {place:?} extends beyond {:?}", block.ground);
+        assert!(contains(&block.background, place), "{what}: '{words}' at {place:?} extends beyond {:?}", block.background);
         for (other, over) in &block.texts[..k] {
             assert!(are_separate(place, other), "{what}: '{words}' overlaps '{over}'");
         }
@@ -110,9 +110,9 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     let found = blocks(items, aspect);
     for (k, block) in found.iter().enumerate() {
         check_block(block, what);
-        assert!(contains(&[0.0, 0.0, aspect, 1.0], &block.ground), "{what}: {block:?} extends beyond the picture");
+        assert!(contains(&[0.0, 0.0, aspect, 1.0], &block.background), "{what}: {block:?} extends beyond the picture");
         for other in &found[..k] {
-            assert!(are_separate(&block.ground, &other.ground), "{what}: {block:?} overlaps {other:?}");
+            assert!(are_separate(&block.background, &other.background), "{what}: {block:?} overlaps {other:?}");
         }
     }
 }
@@ -120,7 +120,7 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
 /// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the
 /// map.
 fn states() -> Vec<(&'static str, Hud)> {
-    let dark = |satellites| Some(GnssStatus { fixed: false, satellites });
+    let dark = |satellites| Some(GnssStatus { has_fix: false, satellites });
     let hit = |words: &str| Hud { cues: ALL_CUES, hit: Some(words.to_owned()), ..hud() };
     let track =
         |id, east| MapPath { id, path_m: vec![Vec3::new(east, 150.0, 30.0), Vec3::new(-90.0, 20.0, 30.0)], closed: id == 2 };
@@ -187,20 +187,20 @@ fn prop_items_do_not_overlap_at_any_size() {
 fn prop_status_text_does_not_cover_the_hud() {
     // Height of six lines in the window's font with their background. They end above the center of the picture, which
     // the pilot uses for aiming.
-    const TEXT_HEIGHT: f64 = 0.2;
+    const STATUS_TEXT_HEIGHT: f64 = 0.2;
     let words = ViewLayout::Camera.words();
     let [_, eyes] = ViewLayout::Camera.view_rects();
     assert!(words.extends_down);
-    assert!(words.left_edge >= eyes.left + eyes.width && words.edge + TEXT_HEIGHT < 0.48, "{words:?}");
-    let room = [words.left_edge, words.edge, words.left_edge + words.width, words.edge + TEXT_HEIGHT];
+    assert!(words.left_edge >= eyes.left + eyes.width && words.edge + STATUS_TEXT_HEIGHT < 0.48, "{words:?}");
+    let room = [words.left_edge, words.edge, words.left_edge + words.width, words.edge + STATUS_TEXT_HEIGHT];
     for (name, state) in states() {
         for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
             for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
                 // In a square window, where a wide picture starts lower, mode and link may be covered briefly, but
                 // warnings stay visible.
-                let counts = |block: &DisplayBlock| window > 1.0 || block.ground[1] > 0.5;
+                let counts = |block: &DisplayBlock| window > 1.0 || block.background[1] > 0.5;
                 for block in blocks(layout(&state, lens), lens).into_iter().filter(counts) {
-                    let covered = !are_separate(&in_window(&block.ground, lens, window), &room);
+                    let covered = !are_separate(&in_window(&block.background, lens, window), &room);
                     assert!(!covered, "{name}: {block:?} is covered by the status text, lens {lens}, window {window}");
                 }
             }
@@ -217,7 +217,7 @@ fn prop_inset_view_does_not_cover_the_hud() {
     for window in [4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
         for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
             for block in blocks(layout(&all, lens), lens) {
-                let covered = !are_separate(&in_window(&block.ground, lens, window), &small);
+                let covered = !are_separate(&in_window(&block.background, lens, window), &small);
                 assert!(!covered, "{block:?} is covered by the inset view, lens {lens}, window {window}");
             }
         }

@@ -5,7 +5,7 @@ use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// Minimum aspect ratio (width over height) for all blocks to fit at full size; in narrower pictures, everything scales
 /// with the width.
-const FULL_ASPECT: f64 = 4.0 / 3.0;
+const MIN_FULL_SIZE_ASPECT: f64 = 4.0 / 3.0;
 
 /// Size of a picture in HUD units. Positions increase to the right and down.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,13 +19,13 @@ pub struct Pane {
 impl Pane {
     /// Creates the pane for an aspect ratio. The unit is the picture's height, or less if the picture is narrow.
     pub fn of(aspect: f64) -> Self {
-        let unit = (aspect / FULL_ASPECT).min(1.0);
+        let unit = (aspect / MIN_FULL_SIZE_ASPECT).min(1.0);
         Self { width: aspect / unit, height: 1.0 / unit }
     }
 
     /// Returns the unit of [`Self::of`] for a picture size, in the units of that size.
     pub fn unit((width, height): (f64, f64)) -> f64 {
-        height.min(width / FULL_ASPECT)
+        height.min(width / MIN_FULL_SIZE_ASPECT)
     }
 
     /// Converts a size to a fraction of the picture's height.

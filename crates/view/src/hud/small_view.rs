@@ -11,16 +11,16 @@ use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, TextAlign};
 
 /// Font size that is legible at a glance, px (estimate: capitals 8 px high).
-const LEGIBLE_PX: f64 = 12.0;
+const LEGIBLE_FONT_SIZE_PX: f64 = 12.0;
 /// Font size as a fraction of the picture's height, used where it exceeds the legible size.
-const FONT_SHARE: f64 = 0.05;
+const FONT_FRACTION: f64 = 0.05;
 /// Minimum width (speed and battery side by side) and minimum height (rows for a lost link and a crash), in units of
 /// the font size. In smaller pictures, the font shrinks.
 const MIN_WIDTH: f64 = 12.0;
 const MIN_HEIGHT: f64 = 6.0;
 /// Margin at the picture edges and gap between blocks.
-const EDGE: f64 = 0.35;
-const GAP: f64 = 0.15;
+const EDGE_MARGIN: f64 = 0.35;
+const BLOCK_GAP: f64 = 0.15;
 /// Height of a block, horizontal padding, width of its icon column, and height of the icon.
 const ROW_HEIGHT: f64 = 1.5;
 const PADDING: f64 = 0.4;
@@ -29,21 +29,21 @@ const ICON_HEIGHT: f64 = 0.8;
 
 /// Returns the HUD items for a picture of the given size in pixels.
 pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<DrawItem> {
-    let wanted_px = (FONT_SHARE * Pane::unit((width_px, height_px))).max(LEGIBLE_PX);
+    let wanted_px = (FONT_FRACTION * Pane::unit((width_px, height_px))).max(LEGIBLE_FONT_SIZE_PX);
     let type_px = wanted_px.min(width_px / MIN_WIDTH).min(height_px / MIN_HEIGHT);
     let pane = Pane { width: width_px / type_px, height: height_px / type_px };
     let (color, words) = speed_text(hud);
-    let mut items = block(pane, (EDGE, EDGE), None, color, &words);
+    let mut items = block(pane, (EDGE_MARGIN, EDGE_MARGIN), None, color, &words);
     items.extend(battery(hud, pane));
-    let mut top = EDGE + ROW_HEIGHT + GAP;
+    let mut top = EDGE_MARGIN + ROW_HEIGHT + BLOCK_GAP;
     if let Some(words) = alarm(hud) {
-        items.extend(block(pane, (EDGE, top), None, HudColor::Orange, &words));
-        top += ROW_HEIGHT + GAP;
+        items.extend(block(pane, (EDGE_MARGIN, top), None, HudColor::Orange, &words));
+        top += ROW_HEIGHT + BLOCK_GAP;
     }
-    let rows = ((pane.height - EDGE - top + GAP) / (ROW_HEIGHT + GAP)).floor().max(0.0) as usize;
+    let rows = ((pane.height - EDGE_MARGIN - top + BLOCK_GAP) / (ROW_HEIGHT + BLOCK_GAP)).floor().max(0.0) as usize;
     for (k, ActiveCue { shape, color, text: words, .. }) in warnings(hud).into_iter().take(rows).enumerate() {
-        let y = pane.height - EDGE - ROW_HEIGHT - (ROW_HEIGHT + GAP) * k as f64;
-        items.extend(block(pane, (EDGE, y), Some((shape, true)), color, words));
+        let y = pane.height - EDGE_MARGIN - ROW_HEIGHT - (ROW_HEIGHT + BLOCK_GAP) * k as f64;
+        items.extend(block(pane, (EDGE_MARGIN, y), Some((shape, true)), color, words));
     }
     items
 }
@@ -51,11 +51,11 @@ pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<Draw
 fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let Some(pct) = hud.battery_pct else {
         let words = "battery ?";
-        return block(pane, (pane.width - EDGE - width(words, false), EDGE), None, HudColor::Gray, words);
+        return block(pane, (pane.width - EDGE_MARGIN - width(words, false), EDGE_MARGIN), None, HudColor::Gray, words);
     };
     let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);
     let words = format!("{pct:.0}%");
-    block(pane, (pane.width - EDGE - width(&words, true), EDGE), Some((shape, !dark)), color, &words)
+    block(pane, (pane.width - EDGE_MARGIN - width(&words, true), EDGE_MARGIN), Some((shape, !dark)), color, &words)
 }
 
 fn width(words: &str, signed: bool) -> f64 {

@@ -6,7 +6,7 @@ use spandrel_model::frames::{Enu, Vec3};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GnssStatus {
     /// Whether there is a 3D fix.
-    pub fixed: bool,
+    pub has_fix: bool,
     /// Number of satellites as received; see [`Self::known`].
     pub satellites: u8,
 }
@@ -43,9 +43,9 @@ pub struct Hud {
     /// Battery level, %.
     pub battery_pct: Option<f64>,
     /// Minimum battery level for a green display, %.
-    pub green_pct: f64,
+    pub min_green_pct: f64,
     /// Minimum battery level for a yellow display, %.
-    pub yellow_pct: f64,
+    pub min_yellow_pct: f64,
     /// Mask of active cues, encoded as in `cues` (docs/src/reference/wire.md, "The monitor").
     pub cues: i32,
     /// Object that the drone hit, if the monitor has reported it.

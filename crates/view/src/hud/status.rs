@@ -1,6 +1,6 @@
 //! Status at the top center: flight mode, satellites, link.
 
-use super::metrics::{EDGE, GAP, SMALL};
+use super::metrics::{BLOCK_GAP, EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::{GnssStatus, Hud};
 use super::{DrawItem, HudColor, TextAlign, battery};
@@ -14,7 +14,7 @@ const PANEL_HEIGHT: f64 = 0.048;
 const LINE_HEIGHT: f64 = 0.037;
 
 fn satellites(gnss: GnssStatus) -> String {
-    match (gnss.fixed, gnss.known()) {
+    match (gnss.has_fix, gnss.known()) {
         (true, Some(count)) => format!("GNSS {count}"),
         (true, None) => "GNSS ok".into(),
         (false, Some(count)) => format!("GNSS lost ({count})"),
@@ -33,25 +33,25 @@ fn link(hud: &Hud) -> String {
 /// Returns the active alarm as a short line. While the link is lost, the satellite status is unknown, so only the link
 /// is reported.
 pub fn alarm(hud: &Hud) -> Option<String> {
-    if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.fixed).map(satellites) }
+    if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.has_fix).map(satellites) }
 }
 
 pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let place = format!("{}   {}", hud.mode, hud.gnss.map_or_else(|| "GNSS ?".to_owned(), satellites));
     // Available width between speed and battery; the battery panel is the wider of the two.
-    let room = pane.width - 2.0 * (EDGE + battery::PANEL_WIDTH + GAP);
+    let room = pane.width - 2.0 * (EDGE_MARGIN + battery::PANEL_WIDTH + BLOCK_GAP);
     let width = |words: &str| CHAR_WIDTH * words.chars().count() as f64;
     let whole = format!("{place}   {}", link(hud));
     let lines = if width(&whole) <= room { vec![whole] } else { vec![place, link(hud)] };
     let half = 0.5 * lines.iter().map(|line| width(line)).fold(0.0, f64::max);
-    let (middle, bottom) = (0.5 * pane.width, EDGE + PANEL_HEIGHT + LINE_HEIGHT * (lines.len() - 1) as f64);
+    let (middle, bottom) = (0.5 * pane.width, EDGE_MARGIN + PANEL_HEIGHT + LINE_HEIGHT * (lines.len() - 1) as f64);
     let color = if alarm(hud).is_some() { HudColor::Orange } else { HudColor::White };
-    let mut items = vec![pane.panel((middle - half, EDGE), (middle + half, bottom))];
+    let mut items = vec![pane.panel((middle - half, EDGE_MARGIN), (middle + half, bottom))];
     for (k, line) in lines.into_iter().enumerate() {
         items.push(pane.text(
-            (middle, EDGE + 0.5 * PANEL_HEIGHT + LINE_HEIGHT * k as f64),
-            TextAlign::Middle,
-            SMALL,
+            (middle, EDGE_MARGIN + 0.5 * PANEL_HEIGHT + LINE_HEIGHT * k as f64),
+            TextAlign::Center,
+            SMALL_FONT_SIZE,
             color,
             line,
         ));

@@ -4,7 +4,7 @@ use super::*;
 use spandrel_mavlink::contract::cue;
 use spandrel_model::frames::Vec3;
 
-const WIDE: f64 = 16.0 / 9.0;
+const WIDE_ASPECT: f64 = 16.0 / 9.0;
 /// All cues shown in the lower left corner.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
 
@@ -14,14 +14,14 @@ pub(super) fn hud() -> Hud {
         speed_m_s: 3.2,
         limit_m_s: 4.4704,
         battery_pct: Some(76.0),
-        green_pct: 70.0,
-        yellow_pct: 30.0,
+        min_green_pct: 70.0,
+        min_yellow_pct: 30.0,
         cues: 0,
         hit: None,
         height_m: 21.4,
         home_distance_m: 118.0,
         mode: "Position".into(),
-        gnss: Some(GnssStatus { fixed: true, satellites: 14 }),
+        gnss: Some(GnssStatus { has_fix: true, satellites: 14 }),
         telemetry_age_s: 0.02,
         gimbal_rad: 0.35,
         zoom: 1.0,
@@ -42,7 +42,7 @@ fn texts(hud: &Hud) -> Vec<(ScreenPoint, HudColor, String)> {
         DrawItem::Text { place, color, words, .. } => Some((place, color, words)),
         DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
     };
-    layout(hud, WIDE).into_iter().filter_map(of).collect()
+    layout(hud, WIDE_ASPECT).into_iter().filter_map(of).collect()
 }
 
 fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
@@ -87,7 +87,7 @@ fn exact_battery_color_changes_at_70_and_30_and_red_blinks() {
     assert_eq!(find(&at(69.9, 0.0), "70%").unwrap().1, HudColor::Yellow);
     assert_eq!(find(&at(30.0, 0.0), "30%").unwrap().1, HudColor::Yellow);
     assert_eq!(find(&at(29.0, 0.0), "29%").unwrap().1, HudColor::Red);
-    let fills = |hud: &Hud| layout(hud, WIDE).iter().filter(|i| matches!(i, DrawItem::Fill { .. })).count();
+    let fills = |hud: &Hud| layout(hud, WIDE_ASPECT).iter().filter(|i| matches!(i, DrawItem::Fill { .. })).count();
     assert!(fills(&at(29.0, 0.1)) > fills(&at(29.0, 0.3)), "red must blink");
     assert_eq!(fills(&at(50.0, 0.1)), fills(&at(50.0, 0.3)), "yellow must not blink");
     assert!(find(&Hud { battery_pct: None, ..hud() }, "no battery").is_some());
@@ -97,14 +97,14 @@ fn exact_battery_color_changes_at_70_and_30_and_red_blinks() {
 fn exact_lost_link_and_lost_fix_are_shown() {
     let lost = Hud { telemetry_age_s: 3.0, ..hud() };
     assert_eq!(find(&lost, "LINK LOST 3 s").unwrap().1, HudColor::Orange);
-    let dark = Hud { gnss: Some(GnssStatus { fixed: false, satellites: 4 }), ..hud() };
+    let dark = Hud { gnss: Some(GnssStatus { has_fix: false, satellites: 4 }), ..hud() };
     assert_eq!(find(&dark, "GNSS lost (4)").unwrap().1, HudColor::Orange);
 }
 
 #[test]
 fn prop_items_stay_inside_at_any_aspect_ratio() {
     let states = [hud(), Hud { cues: ALL_CUES, hit: Some("pedestrian 3".into()), zoom: 2.0, ..hud() }];
-    for aspect in [4.0 / 3.0, WIDE, 21.0 / 9.0] {
+    for aspect in [4.0 / 3.0, WIDE_ASPECT, 21.0 / 9.0] {
         for state in &states {
             for item in layout(state, aspect) {
                 let points = match item {
@@ -123,7 +123,7 @@ fn prop_items_stay_inside_at_any_aspect_ratio() {
 #[test]
 fn exact_icons_differ_in_shape_and_color() {
     let corners = |pct: f64| {
-        layout(&Hud { battery_pct: Some(pct), tracks: vec![], ..hud() }, WIDE).into_iter().find_map(|item| match item {
+        layout(&Hud { battery_pct: Some(pct), tracks: vec![], ..hud() }, WIDE_ASPECT).into_iter().find_map(|item| match item {
             DrawItem::Fill { points, .. } => Some(points.len()),
             DrawItem::Panel { .. } | DrawItem::Text { .. } | DrawItem::Line { .. } => None,
         })
@@ -139,8 +139,8 @@ fn changed_texts(hud: &Hud) -> Vec<String> {
 }
 
 #[test]
-fn exact_texts_in_every_abnormal_state() {
-    let gnss = |fixed, satellites| Hud { gnss: Some(GnssStatus { fixed, satellites }), ..hud() };
+fn exact_texts_are_correct_in_every_abnormal_state() {
+    let gnss = |fixed, satellites| Hud { gnss: Some(GnssStatus { has_fix: fixed, satellites }), ..hud() };
     let warned = |cues| Hud { cues, ..hud() };
     let crash = "Red: CRASH: bridge member arch/rib-left/07";
     let hit = Some("bridge member arch/rib-left/07".to_owned());

@@ -11,9 +11,9 @@ pub const PLAYBACK_DELAY_S: f64 = 0.06;
 /// Wall time period for measuring the speed of the vehicle's clock.
 const SPEED_WINDOW: SimTime = SimTime::from_ms(1_000);
 /// Minimum playback error at which the playback time jumps to the target, s of wall time.
-const JUMP_S: f64 = 0.5;
+const JUMP_THRESHOLD_S: f64 = 0.5;
 /// Time constant for correcting smaller errors, s.
-const SETTLE_S: f64 = 0.25;
+const CORRECTION_TIME_S: f64 = 0.25;
 /// Maximum gap in telemetry that counts as jitter, s; in a longer gap, the picture freezes at the latest sample.
 const JITTER_LIMIT_S: f64 = 0.1;
 
@@ -64,11 +64,11 @@ impl Playhead {
                 let step_s = (wall - before).s().max(0.0);
                 let even_s = shown.s() + speed_factor * step_s;
                 let error_s = target_s - even_s;
-                if error_s.abs() > JUMP_S * speed_factor.max(1.0) {
+                if error_s.abs() > JUMP_THRESHOLD_S * speed_factor.max(1.0) {
                     target_s
                 } else {
                     // Playback never runs backward, because reversed motion is conspicuous.
-                    (even_s + error_s * (step_s / SETTLE_S).min(1.0)).max(shown.s())
+                    (even_s + error_s * (step_s / CORRECTION_TIME_S).min(1.0)).max(shown.s())
                 }
             }
         };

@@ -13,7 +13,7 @@ pub use video::VideoStatus;
 
 use super::feed::Feed;
 use super::scene::DronePose;
-use super::stage::{HudInputs, LIFT_OFF_M, SceneMoment};
+use super::stage::{HudInputs, LIFTOFF_HEIGHT_M, SceneMoment};
 use clock::Playhead;
 use estimate::EstimatedPose;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
@@ -51,7 +51,7 @@ const ROTOR_STREAM: (u32, f32) = (36, 20.0);
 /// FLIGHT_INFORMATION, which contains the takeoff time, for viewers that connect during a flight.
 const FLIGHT_INFORMATION_ID: u32 = 264;
 /// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
-const PULSE_US: (f64, f64) = (1_000.0, 2_000.0);
+const PULSE_RANGE_US: (f64, f64) = (1_000.0, 2_000.0);
 /// Maximum time between pictures of an active video stream; a hidden window renders no pictures.
 const VIDEO_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 
@@ -59,7 +59,7 @@ const VIDEO_TIMEOUT: SimTime = SimTime::from_ms(3_000);
 #[derive(Debug, Clone)]
 pub struct LiveFlight {
     plane: LocalPlane,
-    pad_up_m: f64,
+    pad_height_m: f64,
     decoder: Decoder,
     encoder: Encoder,
     out: VecDeque<Vec<u8>>,
@@ -118,7 +118,7 @@ impl LiveFlight {
     pub fn new(scenario: &Scenario) -> Self {
         Self {
             plane: LocalPlane::new(scenario.origin),
-            pad_up_m: scenario.ground_team.pad_m.up(),
+            pad_height_m: scenario.ground_team.pad_m.up(),
             decoder: Decoder::new(),
             encoder: Encoder::new(SYSTEM_ID, COMPONENT_ID),
             out: VecDeque::new(),
@@ -200,9 +200,10 @@ impl LiveFlight {
         if let Some(MavMessage::SERVO_OUTPUT_RAW(servos)) = &frame.message {
             self.next_rotors = self.next_rotors.map(|_| wall + REQUEST_INTERVAL);
             let pulses = [servos.servo1_raw, servos.servo2_raw, servos.servo3_raw, servos.servo4_raw].map(f64::from);
-            let turn = pulses.iter().any(|pulse| *pulse >= PULSE_US.0);
-            self.state.outputs =
-                turn.then(|| pulses.map(|pulse| ((pulse - PULSE_US.0) / (PULSE_US.1 - PULSE_US.0)).clamp(0.0, 1.0)));
+            let turn = pulses.iter().any(|pulse| *pulse >= PULSE_RANGE_US.0);
+            self.state.outputs = turn.then(|| {
+                pulses.map(|pulse| ((pulse - PULSE_RANGE_US.0) / (PULSE_RANGE_US.1 - PULSE_RANGE_US.0)).clamp(0.0, 1.0))
+            });
         }
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.next_takeoff_request)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
@@ -274,7 +275,7 @@ impl LiveFlight {
         self.time_reversals = 0;
         self.last_sample_at = Some(wall);
         self.playhead.handle_sample_time(wall, truth.time);
-        if self.state.lift_off.is_none() && truth.motion.position_m.up() - self.pad_up_m > LIFT_OFF_M {
+        if self.state.lift_off.is_none() && truth.motion.position_m.up() - self.pad_height_m > LIFTOFF_HEIGHT_M {
             self.state.lift_off = Some(truth.time);
             self.state.next_takeoff_request = self.state.trace.newest().is_none().then_some(wall);
         }

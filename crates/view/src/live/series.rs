@@ -60,7 +60,7 @@ pub(super) fn time_fraction(from: SimTime, to: SimTime, at: SimTime) -> f64 {
 mod tests {
     use super::*;
 
-    const ROUNDING: f64 = 1e-12;
+    const ROUNDING_ERROR: f64 = 1e-12;
 
     #[test]
     fn exact_value_is_interpolated_between_samples_and_clamped_outside() {
@@ -70,7 +70,7 @@ mod tests {
             series.push(SimTime::from_ms(ms), value);
         }
         let at = |ms: i64| series.at(SimTime::from_ms(ms)).unwrap();
-        assert!((at(350) - 1.3).abs() < ROUNDING && (series.rate_at(SimTime::from_ms(350)) - 2.0).abs() < ROUNDING);
+        assert!((at(350) - 1.3).abs() < ROUNDING_ERROR && (series.rate_at(SimTime::from_ms(350)) - 2.0).abs() < ROUNDING_ERROR);
         assert_eq!((at(500), at(1_999), at(2_000), at(9_000)), (1.6, 1.6, 9.0, 9.0), "long gaps must not be interpolated");
         assert_eq!((series.rate_at(SimTime::from_ms(1_200)), series.rate_at(SimTime::from_ms(9_000))), (0.0, 0.0));
     }

@@ -29,7 +29,7 @@ impl FakeVehicle {
 
     /// Sends ground truth for a simulation time, at a position `east_m` east of the origin.
     fn truth(&mut self, sim_ms: i64, wall_ms: i64, east_m: f64) {
-        let geo = self.live.plane.geo_from_enu(spandrel_model::frames::Vec3::new(east_m, 0.0, self.live.pad_up_m + 20.0));
+        let geo = self.live.plane.geo_from_enu(spandrel_model::frames::Vec3::new(east_m, 0.0, self.live.pad_height_m + 20.0));
         let truth = HIL_STATE_QUATERNION_DATA {
             time_usec: (sim_ms * 1000) as u64,
             attitude_quaternion: [1.0, 0.0, 0.0, 0.0],
@@ -255,7 +255,7 @@ fn exact_late_viewer_requests_the_takeoff_time() {
 }
 
 #[test]
-fn exact_stream_status_is_sent_while_running_and_once_at_its_end() {
+fn exact_stream_status_is_sent_while_running_and_once_at_the_end() {
     let mut wire = FakeVehicle::new();
     let video = VideoStatus { width_px: 640, height_px: 360, rate_hz: 20.0, bits_s: 1_000_000 };
     let mut decoder = Decoder::new();

@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 /// Additional delay of the camera's field of view, which is sent at 5 Hz. Together with the playback delay
 /// ([`PLAYBACK_DELAY_S`](super::clock::PLAYBACK_DELAY_S)), it leaves enough time for the next sample to arrive,
 /// including 20 ms of jitter (estimate).
-const LENS_DELAY: SimTime = SimTime::from_ms(160);
+const FIELD_OF_VIEW_DELAY: SimTime = SimTime::from_ms(160);
 
 /// Recent samples in time order.
 #[derive(Debug, Clone, Default)]
@@ -78,7 +78,7 @@ impl MotionHistory {
     /// without samples.
     #[must_use]
     pub fn lens_at(&self, time: SimTime) -> Option<f64> {
-        self.lens.at(time.saturating_sub(LENS_DELAY))
+        self.lens.at(time.saturating_sub(FIELD_OF_VIEW_DELAY))
     }
 
     /// Returns the horizontal field of view at the given time of a fully recorded flight, in radians; `None` without
@@ -96,7 +96,7 @@ impl MotionHistory {
             math::wrap_pi(next.motion.ned_from_frd.yaw_rad() - before.motion.ned_from_frd.yaw_rad())
                 / (next.time - before.time).s()
         });
-        CameraTurnRate { heading_rad_s, pitch_rad_s: self.gimbal.rate_at(time) }
+        CameraTurnRate { heading_rate_rad_s: heading_rad_s, pitch_rate_rad_s: self.gimbal.rate_at(time) }
     }
 
     /// Returns the samples before and after the given time, used to interpolate motion.
@@ -156,8 +156,11 @@ mod tests {
         trace.push_gimbal(SimTime::from_ms(0), 0.0);
         trace.push_gimbal(SimTime::from_ms(40), -0.02);
         let turn = trace.turn_at(SimTime::from_ms(5));
-        assert!((turn.heading_rad_s.to_degrees() - 100.0).abs() < 1e-6 && (turn.pitch_rad_s + 0.5).abs() < 1e-12, "{turn:?}");
-        assert!(trace.turn_at(SimTime::from_ms(25)).heading_rad_s.abs() < 1e-9);
+        assert!(
+            (turn.heading_rate_rad_s.to_degrees() - 100.0).abs() < 1e-6 && (turn.pitch_rate_rad_s + 0.5).abs() < 1e-12,
+            "{turn:?}"
+        );
+        assert!(trace.turn_at(SimTime::from_ms(25)).heading_rate_rad_s.abs() < 1e-9);
         assert_eq!(trace.turn_at(SimTime::from_ms(40)), CameraTurnRate::default(), "the rate must be zero after the last sample");
     }
 

@@ -26,13 +26,13 @@ pub struct PhotoInfo {
     /// Position of the lens.
     pub place: Geo,
     /// Height above the takeoff pad, m.
-    pub over_pad_m: f64,
+    pub height_over_pad_m: f64,
     /// Heading of the optical axis, degrees clockwise from true north, 0 to 360.
     pub yaw_deg: f64,
     /// Pitch of the optical axis above the horizon, degrees, down negative.
     pub pitch_deg: f64,
     /// Heading, pitch, and roll of the aircraft, degrees.
-    pub aircraft_deg: [f64; 3],
+    pub aircraft_attitude_deg: [f64; 3],
     /// Lens at its current zoom.
     pub lens: Camera,
     /// Exposure time, s.

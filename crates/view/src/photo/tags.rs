@@ -7,7 +7,7 @@ use spandrel_model::vehicle::SENSOR_WIDTH_MM;
 use std::io::Cursor;
 
 /// Width of a 35 mm film frame, mm.
-const FILM_MM: f64 = 36.0;
+const FILM_WIDTH_MM: f64 = 36.0;
 
 /// Returns the TIFF structure of an EXIF segment.
 pub fn write(about: &PhotoInfo, size_px: (u32, u32)) -> Result<Vec<u8>, PhotoError> {
@@ -54,7 +54,7 @@ fn camera(about: &PhotoInfo, (width, height): (u32, u32)) -> Vec<(Tag, Value)> {
         (Tag::PixelXDimension, Value::Long(vec![width])),
         (Tag::PixelYDimension, Value::Long(vec![height])),
         (Tag::FocalLength, rational_value(focal_mm, 1000)),
-        (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_MM / SENSOR_WIDTH_MM).round() as u16])),
+        (Tag::FocalLengthIn35mmFilm, Value::Short(vec![(focal_mm * FILM_WIDTH_MM / SENSOR_WIDTH_MM).round() as u16])),
         // Picture pixels per centimeter of the sensor; bundle adjustment needs only this and the focal length. EXIF
         // defines only inches and centimeters; millimeters (4) come from TIFF/EP, which not all programs read.
         (Tag::FocalPlaneXResolution, rational_value(10.0 * f64::from(width) / SENSOR_WIDTH_MM, 1000)),

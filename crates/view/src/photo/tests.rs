@@ -11,10 +11,10 @@ fn about() -> PhotoInfo {
         taken_utc: ("2026:06:20".into(), "08:15:30".into()),
         at_s: 95.25,
         place: Geo { latitude_deg: 47.123_456_78, longitude_deg: -8.999_999_99, altitude_m: 432.1 },
-        over_pad_m: 20.5,
+        height_over_pad_m: 20.5,
         yaw_deg: 271.5,
         pitch_deg: 30.25,
-        aircraft_deg: [271.5, -1.0, 2.0],
+        aircraft_attitude_deg: [271.5, -1.0, 2.0],
         lens: Camera {
             width_px: 4000,
             height_px: 3000,

@@ -10,11 +10,11 @@ pub fn write(about: &PhotoInfo, (width, height): (u32, u32)) -> String {
     let mut field = |name: &str, value: String| {
         let _ = write!(fields, "\n   {name}=\"{value}\"");
     };
-    let [yaw, pitch, roll] = about.aircraft_deg;
+    let [yaw, pitch, roll] = about.aircraft_attitude_deg;
     // DJI's yaw ranges from -180 to 180.
     let signed = |deg: f64| (deg + 180.0).rem_euclid(360.0) - 180.0;
     field("drone-dji:AbsoluteAltitude", format!("{:+.3}", about.place.altitude_m));
-    field("drone-dji:RelativeAltitude", format!("{:+.3}", about.over_pad_m));
+    field("drone-dji:RelativeAltitude", format!("{:+.3}", about.height_over_pad_m));
     field("drone-dji:GpsLatitude", format!("{:.8}", about.place.latitude_deg));
     field("drone-dji:GpsLongitude", format!("{:.8}", about.place.longitude_deg));
     field("drone-dji:GimbalYawDegree", format!("{:+.2}", signed(about.yaw_deg)));

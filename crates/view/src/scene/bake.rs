@@ -6,11 +6,11 @@ use spandrel_model::site::light::ray_bundle;
 use spandrel_model::site::{QueryTime, RayHit, Site};
 
 /// Distance between samples and the edges of their face, m; prevents adjoining members from darkening them.
-pub const INSET_M: f64 = 0.25;
+pub const SAMPLE_INSET_M: f64 = 0.25;
 /// Maximum distance between a probe and a solid that covers the sample, m.
 const COVERED_DISTANCE_M: f64 = 0.04;
 /// Height of the probe above the surface, m.
-const PROBE_M: f64 = 0.05;
+const PROBE_HEIGHT_M: f64 = 0.05;
 
 /// Height above a face at which a test point shows whether another member covers the face, m (touching members leave no
 /// gap this wide).
@@ -38,7 +38,7 @@ impl<'a> LightBaker<'a> {
 
     /// Returns the same fractions for a point on a member's face, or `None` if another member covers the point.
     pub fn on_member(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> Option<[f32; 2]> {
-        let near = self.site.geometry().nearest_member(position_m + normal * PROBE_M, PROBE_M);
+        let near = self.site.geometry().nearest_member(position_m + normal * PROBE_HEIGHT_M, PROBE_HEIGHT_M);
         let buried = near.is_some_and(|n| n.distance_m < COVERED_DISTANCE_M);
         (!buried).then(|| self.at(position_m, normal))
     }

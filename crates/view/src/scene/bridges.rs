@@ -2,7 +2,7 @@
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::super::quality::Quality;
-use super::bake::{INSET_M, LightBaker, fill_gaps};
+use super::bake::{LightBaker, SAMPLE_INSET_M, fill_gaps};
 use super::item::{SceneItem, VisibleRange};
 use spandrel_model::elements::{Element, ElementGroup, ElementMaterial};
 use spandrel_model::frames::{Enu, Vec3};
@@ -14,12 +14,12 @@ pub(super) const STEEL_PAINT: [u8; 3] = [38, 68, 56];
 /// Paint of railings.
 const RAILING_PAINT: [u8; 3] = [58, 76, 74];
 /// Bearings: bare, greased steel.
-const BEARING: [u8; 3] = [38, 34, 30];
+const BEARING_COLOR: [u8; 3] = [38, 34, 30];
 /// Galvanized wire.
-const WIRE: [u8; 3] = [92, 94, 92];
+const WIRE_COLOR: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
 /// Maximum width of a face with constant light across it, m.
-const NARROW_FACE_M: f64 = 0.8;
+const MAX_NARROW_FACE_WIDTH_M: f64 = 0.8;
 /// Tolerance for the sky and sun light fractions in presets that save triangles (a hundredth of the open-air value is
 /// invisible; lean presets have noisier rays).
 const LIGHT_TOLERANCE: f32 = 0.03;
@@ -29,8 +29,8 @@ const SLENDER_LIGHT_TOLERANCE: f32 = 0.12;
 /// Material and paint of an element.
 pub(super) fn material_and_paint(element: Element) -> (Material, [u8; 3]) {
     match (element.group(), element.material()) {
-        (ElementGroup::Cable, _) => (Material::Cable, WIRE),
-        (ElementGroup::Bearing, _) => (Material::Steel, BEARING),
+        (ElementGroup::Cable, _) => (Material::Cable, WIRE_COLOR),
+        (ElementGroup::Bearing, _) => (Material::Steel, BEARING_COLOR),
         (ElementGroup::Railing, ElementMaterial::Steel) => (Material::Steel, RAILING_PAINT),
         (_, ElementMaterial::Steel) => (Material::Steel, STEEL_PAINT),
         _ => (Material::Concrete, WHITE),
@@ -47,7 +47,7 @@ struct TextureAxes {
 
 /// Spacing of the probes that test whether a face is covered, and their distance from the edges, m (estimate: smaller
 /// gaps are not visible).
-const COVER_PROBE_M: (f64, f64) = (0.5, 0.02);
+const COVER_PROBE_SPACING_M: (f64, f64) = (0.5, 0.02);
 /// Minimum number of probe steps, so that the center is always probed.
 const MIN_PROBE_STEPS: f64 = 2.0;
 /// Minimum vertical component of an upward face's normal; the lake's reflection never shows such faces.
@@ -119,7 +119,7 @@ fn add(
             continue;
         }
         let road = member.element.group() == ElementGroup::Deck && normal.up() > 0.9;
-        let look = FaceLook {
+        let look = FaceAppearance {
             element: member.element,
             normal,
             material: if road { Material::Deck } else { material },
@@ -159,19 +159,19 @@ fn middle(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
 fn is_covered(corners: &[Vec3<Enu>], normal: Vec3<Enu>, bake: &LightBaker) -> bool {
     let Ok(quad) = <[Vec3<Enu>; 4]>::try_from(corners).map(Quad) else {
         let middle = middle(corners);
-        let near = |corner: &Vec3<Enu>| corner.lerp(middle, (COVER_PROBE_M.1 / (*corner - middle).norm()).min(1.0));
+        let near = |corner: &Vec3<Enu>| corner.lerp(middle, (COVER_PROBE_SPACING_M.1 / (*corner - middle).norm()).min(1.0));
         return bake.is_inside(middle, normal) && corners.iter().all(|corner| bake.is_inside(near(corner), normal));
     };
     let shares = |length: f64| {
-        let steps = (length / COVER_PROBE_M.0).ceil().max(MIN_PROBE_STEPS);
-        let edge = (COVER_PROBE_M.1 / length).min(0.5);
+        let steps = (length / COVER_PROBE_SPACING_M.0).ceil().max(MIN_PROBE_STEPS);
+        let edge = (COVER_PROBE_SPACING_M.1 / length).min(0.5);
         (0..=steps as u32).map(move |k| (f64::from(k) / steps).clamp(edge, 1.0 - edge))
     };
     let (along, across) = quad.lengths_m();
     shares(along).all(|s| shares(across).all(|t| bake.is_inside(quad.at(s, t), normal)))
 }
 
-struct FaceLook {
+struct FaceAppearance {
     element: Element,
     normal: Vec3<Enu>,
     material: Material,
@@ -194,7 +194,7 @@ fn uv(p: Vec3<Enu>, normal: Vec3<Enu>, axes: &TextureAxes) -> [f32; 2] {
     [from.dot(level) as f32, from.dot(normal.cross(level)) as f32]
 }
 
-fn corner(p: Vec3<Enu>, look: &FaceLook, axes: &TextureAxes, light: [f32; 2]) -> Vertex {
+fn corner(p: Vec3<Enu>, look: &FaceAppearance, axes: &TextureAxes, light: [f32; 2]) -> Vertex {
     let [r, g, b] = look.tint;
     Vertex {
         position: single(p),
@@ -211,7 +211,13 @@ fn corner(p: Vec3<Enu>, look: &FaceLook, axes: &TextureAxes, light: [f32; 2]) ->
 trait FaceMeshes<'a>: Iterator<Item = (&'a mut Mesh, f32)> {}
 impl<'a, T: Iterator<Item = (&'a mut Mesh, f32)>> FaceMeshes<'a> for T {}
 
-fn fan_face<'a>(wanted: impl FaceMeshes<'a>, corners: &[Vec3<Enu>], look: &FaceLook, axes: &TextureAxes, bake: &LightBaker) {
+fn fan_face<'a>(
+    wanted: impl FaceMeshes<'a>,
+    corners: &[Vec3<Enu>],
+    look: &FaceAppearance,
+    axes: &TextureAxes,
+    bake: &LightBaker,
+) {
     let light = bake.on_member(middle(corners), look.normal).unwrap_or([0.0, 0.0]);
     for (mesh, _) in wanted {
         let first = mesh.vertices.len() as u32;
@@ -226,7 +232,7 @@ fn quad_face<'a>(
     wanted: impl FaceMeshes<'a>,
     member: &Member,
     quad: &Quad,
-    look: &FaceLook,
+    look: &FaceAppearance,
     axes: &TextureAxes,
     bake: &LightBaker,
     light_cell_m: f64,
@@ -236,16 +242,16 @@ fn quad_face<'a>(
     let (nu, nv) = if look.smooth { (1, 1) } else { (steps(lengths.0), steps(lengths.1)) };
     // Samples are inset from the edges; a narrow face needs only one sample across its width.
     let inside = |k: usize, n: usize, length: f64| {
-        let margin = (INSET_M / length).min(0.25);
-        if length < NARROW_FACE_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
+        let margin = (SAMPLE_INSET_M / length).min(0.25);
+        if length < MAX_NARROW_FACE_WIDTH_M { 0.5 } else { (k as f64 / n as f64).clamp(margin, 1.0 - margin) }
     };
     let (columns, rows) = (nu + 1, nv + 1);
     let mut samples: Vec<Option<[f32; 2]>> = Vec::with_capacity(columns * rows);
     for row in 0..rows {
         for column in 0..columns {
-            let same = if column > 0 && lengths.0 < NARROW_FACE_M {
+            let same = if column > 0 && lengths.0 < MAX_NARROW_FACE_WIDTH_M {
                 Some(samples.len() - 1)
-            } else if row > 0 && lengths.1 < NARROW_FACE_M {
+            } else if row > 0 && lengths.1 < MAX_NARROW_FACE_WIDTH_M {
                 Some(samples.len() - columns)
             } else {
                 None

@@ -8,7 +8,7 @@ use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::Site;
 
 /// Number of rays used to compute the light on a patch; the same as for scoring.
-const RAYS: usize = 64;
+const RAYS_PER_PATCH: usize = 64;
 /// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
 const LEAKAGE_MARGIN_M: f64 = 0.03;
 /// Size factor of an area, which leaves space for its ragged edge.
@@ -35,7 +35,7 @@ pub struct DefectPatch {
 
 /// Returns the patches for all of a site's defects.
 pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
-    let bake = LightBaker::new(site, sun, RAYS);
+    let bake = LightBaker::new(site, sun, RAYS_PER_PATCH);
     site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
 }
 

@@ -53,7 +53,7 @@ pub fn body(vehicle: &Vehicle) -> Mesh {
     let lens = at(vehicle.camera.position_m);
     mesh.ball(lens - Vec3::new(0.012, 0.0, 0.0), [0.03, 0.028, 0.028], 0.0, DARK);
     mesh.round((lens, 0.017), (lens + Vec3::new(0.02, 0.0, 0.0), 0.015), 12, LENS);
-    if vehicle.hull.caged {
+    if vehicle.hull.has_propeller_guard {
         cage(&mut mesh, 0.5 * vehicle.hull.tip_to_tip_m);
     }
     mesh
@@ -107,7 +107,7 @@ pub fn propeller(vehicle: &Vehicle) -> Mesh {
 }
 
 /// Builds the disk of a fast-spinning propeller, visible from both sides.
-pub fn disc(vehicle: &Vehicle) -> Mesh {
+pub fn propeller_disk(vehicle: &Vehicle) -> Mesh {
     const SIDES: u32 = 32;
     let mut mesh = Mesh::default();
     let ring: Vec<Vec3<Enu>> = (0..SIDES)

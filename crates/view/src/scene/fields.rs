@@ -17,7 +17,7 @@ const HEIGHT_TOLERANCE_M: (f64, f64) = (0.15, 3.0);
 /// below the water, m.
 const SHORE_TOLERANCE: (f64, f64) = (0.4, 1.0);
 /// Maximum depth of a visible lake bed, m (in the `water` shader, 99% of the light is lost on the way down and back).
-pub const INVISIBLE_DEPTH_M: f64 = 5.0;
+pub const MAX_VISIBLE_DEPTH_M: f64 = 5.0;
 /// Range around a bridge within which the light varies between cells, m, and the maximum square size there, cells.
 const BRIDGE_DETAIL: (f64, usize) = (30.0, 2);
 
@@ -26,19 +26,26 @@ pub fn all(site: &Site) -> Vec<[u32; 3]> {
     site.geometry().terrain.ground.triangles().1
 }
 
-/// Returns the ground with fewer triangles; the error tolerance is `rough` times that of the direct view.
-pub fn sparse(scenario: &Scenario, site: &Site, rough: f64) -> Vec<[u32; 3]> {
+/// Returns the ground with fewer triangles; the error tolerance is `tolerance_factor` times that of the direct view.
+pub fn sparse(scenario: &Scenario, site: &Site, tolerance_factor: f64) -> Vec<[u32; 3]> {
     let (points, triangles) = site.geometry().terrain.ground.triangles();
     let side = points.len().isqrt();
     if side * side != points.len() {
         return triangles;
     }
-    let field = GroundField { scenario, site, points: &points, side, viewpoints_m: viewpoints_m(scenario), rough };
+    let field = GroundField {
+        scenario,
+        site,
+        points: &points,
+        side,
+        viewpoints_m: viewpoints_m(scenario),
+        tolerance_factor: tolerance_factor,
+    };
     sparse::triangles(side, MAX_SQUARE_CELLS, &|square| field.is_flat(square))
 }
 
 /// Returns the triangles that are at most `under_m` below the lake's surface.
-pub fn shallow(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m: f64) -> Vec<[u32; 3]> {
+pub fn shallow_triangles(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]], under_m: f64) -> Vec<[u32; 3]> {
     let (points, _) = site.geometry().terrain.ground.triangles();
     let bottom_m = scenario.terrain.water_level_m - under_m;
     triangles.iter().filter(|corners| corners.iter().any(|k| points[*k as usize].up() > bottom_m)).copied().collect()
@@ -57,7 +64,7 @@ struct GroundField<'a> {
     points: &'a [Vec3<Enu>],
     side: usize,
     viewpoints_m: Vec<Vec3<Enu>>,
-    rough: f64,
+    tolerance_factor: f64,
 }
 
 impl GroundField<'_> {
@@ -70,13 +77,13 @@ impl GroundField<'_> {
             return false;
         }
         let over_water_m = |p: &Vec3<Enu>| p.up() - self.scenario.terrain.water_level_m;
-        if self.inside(square).all(|p| over_water_m(&p) < -INVISIBLE_DEPTH_M) {
+        if self.inside(square).all(|p| over_water_m(&p) < -MAX_VISIBLE_DEPTH_M) {
             return true;
         }
         let from_m = |eye: &Vec3<Enu>| math::hypot(eye.east() - middle.east(), eye.north() - middle.north()) - half_m;
         let nearest_m = self.viewpoints_m.iter().map(from_m).fold(f64::INFINITY, f64::min);
         let shore = self.inside(square).any(|p| over_water_m(&p).abs() < SHORE_TOLERANCE.1);
-        let tolerance_m = self.rough
+        let tolerance_m = self.tolerance_factor
             * (MAX_ANGULAR_ERROR_RAD * nearest_m).clamp(HEIGHT_TOLERANCE_M.0, HEIGHT_TOLERANCE_M.1)
             * if shore { SHORE_TOLERANCE.0 } else { 1.0 };
         self.inside(square).all(|p| (p.up() - surface_height_m(&corners, p)).abs() <= tolerance_m)

@@ -26,7 +26,7 @@ const LAKE_EXTENT_M: f64 = 9_000.0;
 /// Minimum depth that hides the lake bed, m.
 const OPAQUE_DEPTH_M: f64 = 30.0;
 
-fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m: f64) -> Vertex {
+fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], height_over_water_m: f64) -> Vertex {
     Vertex {
         position: single(p),
         normal: single(normal),
@@ -34,7 +34,7 @@ fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], over_water_m:
         light,
         material: Material::Ground as u32,
         tint: [255; 4],
-        aux: over_water_m as f32,
+        aux: height_over_water_m as f32,
     }
 }
 
@@ -100,7 +100,7 @@ pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
             let up = match ring {
                 0 => rim_up - RIM_OVERLAP_M,
                 1 => rim_up,
-                _ => slope_up_m(rim_up - water, *share, east, north) + water,
+                _ => slope_height_m(rim_up - water, *share, east, north) + water,
             };
             points.push(Vec3::new(east, north, up));
         }
@@ -133,20 +133,20 @@ fn rim(k: usize) -> (f64, f64) {
 
 /// Returns the terrain's height above the water beyond the rim. The terrain starts at the rim's height and continues
 /// with ridges; the lake extends for some distance.
-fn slope_up_m(rim_up_m: f64, share: f64, east: f64, north: f64) -> f64 {
+fn slope_height_m(rim_height_m: f64, share: f64, east: f64, north: f64) -> f64 {
     let ridges = 0.5
         + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
         + 0.20 * math::sin(east / 233.0 + 2.0) * math::sin(north / 271.0 + math::cos(east / 350.0));
     // Blends between lake and land along the rim to avoid a vertical wall.
     let wet = {
-        let t = ((LAND_HEIGHT_M - rim_up_m) / LAND_HEIGHT_M).clamp(0.0, 1.0);
+        let t = ((LAND_HEIGHT_M - rim_height_m) / LAND_HEIGHT_M).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     };
     let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
     // The slope starts gently and steepens, like the end of a valley.
     let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
     let far = PEAK_HEIGHT_M * climb * (0.35 + 0.9 * ridges);
-    rim_up_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
+    rim_height_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
 }
 
 /// Builds the lake: inside the field, one vertex with depth per ground vertex; outside, a frame around the field.

@@ -78,15 +78,15 @@ pub struct VisibleRange {
 
 impl VisibleRange {
     /// Matches any distance.
-    pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    pub const ANY_DISTANCE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
     /// Matches no distance.
-    pub const NEVER: [f64; 2] = [f64::INFINITY, f64::INFINITY];
+    pub const NO_DISTANCE: [f64; 2] = [f64::INFINITY, f64::INFINITY];
     /// Visible in the direct view and in the lake's reflection at any distance.
-    pub const EVERYWHERE: Self = Self { direct_m: Self::ALWAYS, in_lake_m: Self::ALWAYS };
+    pub const EVERYWHERE: Self = Self { direct_m: Self::ANY_DISTANCE, in_lake_m: Self::ANY_DISTANCE };
     /// Visible only in the direct view.
-    pub const DIRECT_ONLY: Self = Self { in_lake_m: Self::NEVER, ..Self::EVERYWHERE };
+    pub const DIRECT_ONLY: Self = Self { in_lake_m: Self::NO_DISTANCE, ..Self::EVERYWHERE };
     /// Visible only in the lake's reflection, for simplified substitutes.
-    pub const LAKE_ONLY: Self = Self { direct_m: Self::NEVER, ..Self::EVERYWHERE };
+    pub const LAKE_ONLY: Self = Self { direct_m: Self::NO_DISTANCE, ..Self::EVERYWHERE };
 
     /// Returns the range of distances up to `most_m`.
     #[must_use]

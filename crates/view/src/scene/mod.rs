@@ -40,12 +40,12 @@ pub enum MoverModel {
     /// One propeller.
     Propeller,
     /// The motion-blur disk of a fast-spinning propeller.
-    Disc,
+    PropellerDisk,
 }
 
 impl MoverModel {
     /// All models in order.
-    pub const ALL: [Self; 6] = [Self::Car, Self::Truck, Self::Person, Self::Drone, Self::Propeller, Self::Disc];
+    pub const ALL: [Self; 6] = [Self::Car, Self::Truck, Self::Person, Self::Drone, Self::Propeller, Self::PropellerDisk];
 }
 
 /// Pose of the aircraft for rendering.
@@ -89,9 +89,9 @@ impl Scene {
         let shown = if quality.sparse { fields::sparse(scenario, site, 1.0) } else { fields::all(site) };
         let rounds = if quality.sparse { props::RoundDetail::Plain } else { props::RoundDetail::Fine };
         let ground = |triangles: &[[u32; 3]], under_m: f64| {
-            ground::mesh(scenario, site, &bake, &fields::shallow(scenario, site, triangles, under_m))
+            ground::mesh(scenario, site, &bake, &fields::shallow_triangles(scenario, site, triangles, under_m))
         };
-        let bottom_m = if quality.sparse { fields::INVISIBLE_DEPTH_M } else { f64::INFINITY };
+        let bottom_m = if quality.sparse { fields::MAX_VISIBLE_DEPTH_M } else { f64::INFINITY };
         let mut parts = bridges::parts(scenario, &bake, quality);
         let ground_at = parts.len();
         parts.extend([
@@ -118,7 +118,7 @@ impl Scene {
                 props::person(rounds),
                 drone::body(vehicle),
                 drone::propeller(vehicle),
-                drone::disc(vehicle),
+                drone::propeller_disk(vehicle),
             ],
             bounds_m: bounds(site),
             rotors: vehicle.rotors.iter().map(|rotor| (rotor.position_m, rotor.spin)).collect(),
@@ -161,11 +161,11 @@ impl Scene {
         };
         all.push((
             MoverModel::Truck,
-            place_on_ground(team.truck_m, facing(team.truck_heading_deg), OPEN_AIR_LIGHT).with_material(props::CREW_TRUCK),
+            place_on_ground(team.truck_m, facing(team.truck_heading_deg), OPEN_AIR_LIGHT).with_material(props::CREW_TRUCK_COLOR),
         ));
         all.push((
             MoverModel::Person,
-            place_on_ground(team.inspector_m, facing(team.pad_heading_deg), OPEN_AIR_LIGHT).with_material(props::VEST),
+            place_on_ground(team.inspector_m, facing(team.pad_heading_deg), OPEN_AIR_LIGHT).with_material(props::VEST_COLOR),
         ));
         if let Some(drone) = drone {
             self.aircraft(site, drone, at, &mut all);
@@ -185,7 +185,7 @@ impl Scene {
             let turned = [axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]];
             out.push((MoverModel::Propeller, Instance::placed(hub, turned, around)));
             if drone.spinning {
-                out.push((MoverModel::Disc, Instance::placed(hub, axes, around)));
+                out.push((MoverModel::PropellerDisk, Instance::placed(hub, axes, around)));
             }
         }
     }

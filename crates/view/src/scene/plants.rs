@@ -119,10 +119,10 @@ fn tree_density(east: f64, north: f64) -> f64 {
 }
 
 /// Returns the point on the ground if it has enough clearance for a plant.
-fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, over_water_m: f64) -> Option<Vec3<Enu>> {
+fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, height_over_water_m: f64) -> Option<Vec3<Enu>> {
     let (up, normal) = site.geometry().terrain.ground.ground(east, north);
     let at = Vec3::new(east, north, up);
-    let fits = up - scenario.terrain.water_level_m >= over_water_m && normal.up() >= MIN_NORMAL_UP;
+    let fits = up - scenario.terrain.water_level_m >= height_over_water_m && normal.up() >= MIN_NORMAL_UP;
     let clear = |p: &Vec3<Enu>, room_m: f64| math::hypot(p.east() - east, p.north() - north) >= room_m;
     let team = &scenario.ground_team;
     let from_team = clear(&team.pad_m, PAD_CLEARANCE_M) && clear(&team.truck_m, 12.0) && clear(&team.inspector_m, 12.0);
@@ -253,6 +253,6 @@ fn soften_normals(mesh: &mut Mesh) {
 
 fn boulder(sides: u32) -> Mesh {
     let mut mesh = Mesh::default();
-    mesh.ball_with_detail((sides.min(8), sides + 1), Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
+    mesh.sphere_with_detail((sides.min(8), sides + 1), Vec3::new(0.0, 0.0, 0.15), [0.62, 0.5, 0.42], 0.35, STONE);
     mesh
 }

@@ -17,7 +17,7 @@ const PANTS: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [16, 20, 34]);
 const HAIR: SurfaceFinish = SurfaceFinish::new(Material::Cloth, [22, 14, 8]);
 
 /// Common car colors, linear.
-const CARS: [[f32; 3]; 8] = [
+const CAR_COLORS: [[f32; 3]; 8] = [
     [0.62, 0.62, 0.60],
     [0.02, 0.02, 0.022],
     [0.19, 0.20, 0.21],
@@ -28,23 +28,23 @@ const CARS: [[f32; 3]; 8] = [
     [0.03, 0.09, 0.05],
 ];
 /// Truck cab colors.
-const CABS: [[f32; 3]; 4] = [[0.45, 0.02, 0.015], [0.02, 0.08, 0.28], [0.6, 0.6, 0.58], [0.55, 0.25, 0.02]];
+const CAB_COLORS: [[f32; 3]; 4] = [[0.45, 0.02, 0.015], [0.02, 0.08, 0.28], [0.6, 0.6, 0.58], [0.55, 0.25, 0.02]];
 /// Jacket colors.
-const JACKETS: [[f32; 3]; 6] =
+const JACKET_COLORS: [[f32; 3]; 6] =
     [[0.35, 0.03, 0.03], [0.03, 0.07, 0.25], [0.4, 0.3, 0.05], [0.05, 0.2, 0.08], [0.3, 0.3, 0.3], [0.25, 0.05, 0.2]];
 /// The inspector's high-visibility vest.
-pub const VEST: [f32; 3] = [0.85, 0.28, 0.01];
+pub const VEST_COLOR: [f32; 3] = [0.85, 0.28, 0.01];
 /// Color of the crew's truck: safety yellow, which is visible from a distance and, unlike white, does not look bare
 /// without a company logo.
-pub const CREW_TRUCK: [f32; 3] = [0.75, 0.48, 0.03];
+pub const CREW_TRUCK_COLOR: [f32; 3] = [0.75, 0.48, 0.03];
 
 /// Returns the color of the k-th mover.
 pub fn color(kind: MoverKind, k: usize) -> [f32; 3] {
     let pick = k.wrapping_mul(7) + 3;
     match kind {
-        MoverKind::Car => CARS[pick % CARS.len()],
-        MoverKind::Truck => CABS[pick % CABS.len()],
-        MoverKind::Pedestrian => JACKETS[pick % JACKETS.len()],
+        MoverKind::Car => CAR_COLORS[pick % CAR_COLORS.len()],
+        MoverKind::Truck => CAB_COLORS[pick % CAB_COLORS.len()],
+        MoverKind::Pedestrian => JACKET_COLORS[pick % JACKET_COLORS.len()],
     }
 }
 
@@ -155,12 +155,12 @@ pub fn person(rounds: RoundDetail) -> Mesh {
     for y in [0.225, -0.225] {
         mesh.round((p(0.04, y * 1.02, 0.82), 0.035), (p(0.0, y * 0.96, 1.12), 0.045), rounds.sides(7), PAINT);
         mesh.round((p(0.0, y * 0.96, 1.12), 0.045), (p(0.0, y * 0.88, 1.42), 0.055), rounds.sides(7), PAINT);
-        mesh.ball_with_detail(rounds.ball(), p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
+        mesh.sphere_with_detail(rounds.ball(), p(0.05, y * 1.03, 0.78), [0.04, 0.03, 0.05], 0.0, SKIN);
     }
     mesh.block([-0.11, -0.17, 0.84], [0.11, 0.17, 1.46], [0.02, 0.02, -0.03], PAINT);
     mesh.round((p(0.0, 0.0, 1.44), 0.055), (p(0.0, 0.0, 1.54), 0.05), rounds.sides(8), SKIN);
-    mesh.ball_with_detail(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
-    mesh.ball_with_detail(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
+    mesh.sphere_with_detail(rounds.ball(), p(0.01, 0.0, 1.62), [0.095, 0.08, 0.115], 0.0, SKIN);
+    mesh.sphere_with_detail(rounds.ball(), p(-0.015, 0.0, 1.665), [0.098, 0.086, 0.085], 0.0, HAIR);
     mesh
 }
 

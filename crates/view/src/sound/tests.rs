@@ -1,6 +1,6 @@
 //! Tests of frequencies, levels, silence, and absence of clicks.
 
-use super::propellers::BLADES;
+use super::propellers::BLADES_PER_PROPELLER;
 use super::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, spoken};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
@@ -38,10 +38,10 @@ fn exact_propeller_sound_consists_of_blade_harmonics() {
     // 120 revolutions per second: two blades pass 240 times per second.
     let rad_s = 120.0 * math::TAU;
     let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(rad_s, 1.0, 0), 1.0);
-    let first = amplitude(&samples, BLADES * 120.0);
+    let first = amplitude(&samples, BLADES_PER_PROPELLER * 120.0);
     assert!(first > 0.05, "{first}");
     for (k, share) in [(2.0, 0.5), (3.0, 0.25)] {
-        let ratio = amplitude(&samples, k * BLADES * 120.0) / first;
+        let ratio = amplitude(&samples, k * BLADES_PER_PROPELLER * 120.0) / first;
         assert!((ratio - share).abs() < 0.01, "harmonic {k}: {ratio}");
     }
     for hz in [120.0, 200.0, 350.0, 1_000.0] {
@@ -53,7 +53,7 @@ fn exact_propeller_sound_consists_of_blade_harmonics() {
 fn exact_level_depends_on_speed_squared_and_distance() {
     let level = |turns: f64, distance_m: f64| {
         let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(turns * math::TAU, distance_m, 0), 1.0);
-        amplitude(&samples, BLADES * turns)
+        amplitude(&samples, BLADES_PER_PROPELLER * turns)
     };
     let near = level(80.0, 1.0);
     assert!((level(160.0, 1.0) / near - 4.0).abs() < 0.05);
@@ -98,7 +98,7 @@ fn exact_disabled_sounds_are_silent() {
 #[test]
 fn prop_sound_never_clips_or_clicks() {
     // Steepest possible slope in steady state: every source at full level with all harmonics in phase.
-    let top_hz = BLADES * 2.0 * 1_100.0 / math::TAU;
+    let top_hz = BLADES_PER_PROPELLER * 2.0 * 1_100.0 / math::TAU;
     let harmonics: f64 = (1..=6).map(|k| f64::from(k) * math::pow(0.5, f64::from(k - 1))).sum::<f64>() / 1.968_75;
     let slope = |amplitude: f64, hz: f64| amplitude * math::TAU * hz / f64::from(SAMPLE_RATE_HZ);
     // Additional allowance for transitions of tones and levels.

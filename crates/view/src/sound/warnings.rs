@@ -5,13 +5,13 @@ use spandrel_mavlink::contract::cue;
 use spandrel_model::math;
 
 /// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.
-const FADE_S: f64 = 0.008;
+const FADE_DURATION_S: f64 = 0.008;
 
 /// Tone of a cue: pitch (Hz), on-time (s), and period (s).
 struct Tone {
     cue: i32,
     hz: f64,
-    on_s: f64,
+    on_time_s: f64,
     period_s: f64,
     speech: &'static str,
 }
@@ -19,11 +19,11 @@ struct Tone {
 /// Tones in order of severity. Pitches and rhythms are estimates: a fifth or more apart, with faster rhythms for more
 /// urgent warnings (modeled on the bursts in ISO 7731 and IEC 60601-1-8).
 const TONES: [Tone; 5] = [
-    Tone { cue: cue::CRASH, hz: 220.0, on_s: 0.35, period_s: 0.5, speech: "Crash" },
-    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_s: 0.09, period_s: 0.18, speech: "Too close" },
-    Tone { cue: cue::SPEEDING, hz: 700.0, on_s: 0.15, period_s: 0.6, speech: "Too fast" },
-    Tone { cue: cue::OFF_PATH, hz: 440.0, on_s: 0.25, period_s: 1.2, speech: "Off the path" },
-    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_s: 0.4, period_s: 3.0, speech: "Battery low" },
+    Tone { cue: cue::CRASH, hz: 220.0, on_time_s: 0.35, period_s: 0.5, speech: "Crash" },
+    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_time_s: 0.09, period_s: 0.18, speech: "Too close" },
+    Tone { cue: cue::SPEEDING, hz: 700.0, on_time_s: 0.15, period_s: 0.6, speech: "Too fast" },
+    Tone { cue: cue::OFF_PATH, hz: 440.0, on_time_s: 0.25, period_s: 1.2, speech: "Off the path" },
+    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_time_s: 0.4, period_s: 3.0, speech: "Battery low" },
 ];
 
 /// Returns the spoken warning for the most serious cue that has just become active.
@@ -51,9 +51,9 @@ impl WarningTones {
             (self.tone, self.clock_s) = (wanted, 0.0);
         }
         let Some(tone) = self.tone.map(|k| &TONES[k]) else { return 0.0 };
-        let sounds = wanted == self.tone && self.clock_s.rem_euclid(tone.period_s) < tone.on_s;
+        let sounds = wanted == self.tone && self.clock_s.rem_euclid(tone.period_s) < tone.on_time_s;
         let way = if sounds { 1.0 } else { -1.0 };
-        self.gate = (self.gate + way * step_s / FADE_S).clamp(0.0, 1.0);
+        self.gate = (self.gate + way * step_s / FADE_DURATION_S).clamp(0.0, 1.0);
         self.clock_s += step_s;
         self.phase = (self.phase + tone.hz * step_s).rem_euclid(1.0);
         // A raised cosine is smooth at both ends.

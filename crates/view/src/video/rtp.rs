@@ -5,7 +5,7 @@ use spandrel_model::random::RandomStream;
 /// Payload type of the stream: the first dynamic type, as ground stations expect.
 pub const PAYLOAD_TYPE: u8 = 96;
 /// RTP clock rate for video, Hz.
-pub const CLOCK_HZ: f64 = 90_000.0;
+pub const CLOCK_RATE_HZ: f64 = 90_000.0;
 /// Maximum packet size, bytes. With IP and UDP headers, it stays below an Ethernet MTU of 1500.
 const MAX_PACKET_BYTES: usize = 1_400;
 const HEADER_BYTES: usize = 12;
@@ -33,7 +33,7 @@ impl RtpPacketizer {
 
     /// Returns the packets for a picture taken at `at_s` (in seconds); the last packet has the marker bit set.
     pub fn picture(&mut self, units: &[Vec<u8>], at_s: f64) -> Vec<Vec<u8>> {
-        let stamp = self.start_timestamp.wrapping_add(((at_s * CLOCK_HZ).round() as i64) as u32);
+        let stamp = self.start_timestamp.wrapping_add(((at_s * CLOCK_RATE_HZ).round() as i64) as u32);
         let payloads: Vec<Vec<u8>> = units.iter().flat_map(|unit| payloads(unit)).collect();
         let last = payloads.len().saturating_sub(1);
         payloads.into_iter().enumerate().map(|(k, payload)| self.packet(&payload, stamp, k == last)).collect()

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 /// Side of the squares that are averaged before comparison, px. Averaging reduces grain and JPEG artifacts but keeps
 /// shapes.
-const BLOCK: u32 = 2;
+const BLOCK_PX: u32 = 2;
 /// Maximum mean absolute difference per channel over the picture, out of 255. JPEG at quality 90 causes about half of
 /// that.
-const MAX_MEAN: f64 = 1.5;
+const MAX_MEAN_DIFFERENCE: f64 = 1.5;
 /// Maximum for the worst tile. A missing or moved object the size of a tile exceeds it.
-const MAX_TILE: f64 = 7.0;
+const MAX_TILE_DIFFERENCE: f64 = 7.0;
 /// Side of a tile, blocks: 24 px.
-const TILE: u32 = 12;
+const TILE_BLOCKS: u32 = 12;
 /// JPEG quality of committed pictures, 1 to 100.
 const JPEG_QUALITY: u8 = 90;
 
@@ -27,18 +27,18 @@ pub struct Difference {
 
 impl Difference {
     pub fn is_within_limits(&self) -> bool {
-        self.mean <= MAX_MEAN && self.tile <= MAX_TILE
+        self.mean <= MAX_MEAN_DIFFERENCE && self.tile <= MAX_TILE_DIFFERENCE
     }
 }
 
 /// Returns the differences of all blocks, row by row, and the number of blocks per row.
 fn blocks(a: &Picture, b: &Picture) -> (Vec<f64>, u32) {
-    let (columns, rows) = (a.width / BLOCK, a.height / BLOCK);
+    let (columns, rows) = (a.width / BLOCK_PX, a.height / BLOCK_PX);
     let mean = |p: &Picture, x: u32, y: u32| {
         let mut sum = [0.0; 3];
-        for k in 0..BLOCK * BLOCK {
-            let rgb = p.at(x * BLOCK + k % BLOCK, y * BLOCK + k / BLOCK);
-            sum = [0, 1, 2].map(|c| sum[c] + f64::from(rgb[c]) / f64::from(BLOCK * BLOCK));
+        for k in 0..BLOCK_PX * BLOCK_PX {
+            let rgb = p.at(x * BLOCK_PX + k % BLOCK_PX, y * BLOCK_PX + k / BLOCK_PX);
+            sum = [0, 1, 2].map(|c| sum[c] + f64::from(rgb[c]) / f64::from(BLOCK_PX * BLOCK_PX));
         }
         sum
     };
@@ -61,8 +61,8 @@ pub fn difference(a: &Picture, b: &Picture) -> Option<Difference> {
         let count = f64::from((to.0 - from.0) * (to.1 - from.1));
         inside.map(|k| all[k as usize]).sum::<f64>() / count
     };
-    let tiles = (0..rows / TILE).flat_map(|y| (0..columns / TILE).map(move |x| (x * TILE, y * TILE)));
-    let worst = tiles.map(|(x, y)| mean((x, y), (x + TILE, y + TILE))).fold(0.0, f64::max);
+    let tiles = (0..rows / TILE_BLOCKS).flat_map(|y| (0..columns / TILE_BLOCKS).map(move |x| (x * TILE_BLOCKS, y * TILE_BLOCKS)));
+    let worst = tiles.map(|(x, y)| mean((x, y), (x + TILE_BLOCKS, y + TILE_BLOCKS))).fold(0.0, f64::max);
     Some(Difference { mean: mean((0, 0), (columns, rows)), tile: worst })
 }
 
@@ -97,7 +97,7 @@ pub fn check_picture_at(committed: &Path, name: &str, drawn: &Picture) -> Result
     let (drawn_at, difference_at) =
         (save(&format!("{name}.png"), drawn), save(&format!("{name}-difference.png"), &difference_picture(drawn, &expected)));
     Err(format!(
-        "{name}: mean {:.2} (at most {MAX_MEAN}), worst tile {:.2} (at most {MAX_TILE}); rendered: {}, difference: {}",
+        "{name}: mean {:.2} (at most {MAX_MEAN_DIFFERENCE}), worst tile {:.2} (at most {MAX_TILE_DIFFERENCE}); rendered: {}, difference: {}",
         found.mean,
         found.tile,
         drawn_at.display(),
@@ -139,7 +139,7 @@ fn load(path: &Path) -> Result<Picture, image::ImageError> {
 }
 
 /// Joins pictures of the same height side by side.
-pub fn beside(pictures: &[Picture]) -> Picture {
+pub fn side_by_side(pictures: &[Picture]) -> Picture {
     let height = pictures.iter().map(|p| p.height).min().unwrap_or(0);
     let row = |p: &Picture, y: u32| p.rgba[(4 * y * p.width) as usize..(4 * (y + 1) * p.width) as usize].to_vec();
     let rgba = (0..height).flat_map(|y| pictures.iter().flat_map(move |p| row(p, y))).collect();

@@ -5,14 +5,14 @@ use spandrel_model::defect_codes;
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::time::SimTime;
-use spandrel_testkit::studio::{Studio, at, sunny};
+use spandrel_testkit::studio::{Studio, at, sunny_job};
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::DefectPatch;
 use spandrel_view::scene::defects::patch;
 
 /// Size of the crops from the camera's picture at full resolution, px.
 const CROP_PX: (u32, u32) = (160, 200);
-const WIDTH_M: f64 = 0.0025;
+const CRACK_WIDTH_M: f64 = 0.0025;
 /// Random numbers that make defect.wgsl draw a crack without lime deposits, and one with them.
 const SEED_WITHOUT_LIME: f32 = 0.05;
 const SEED_WITH_LIME: f32 = 0.12;
@@ -31,7 +31,7 @@ impl Wall {
 
     /// Creates a wall; `own` decides whether the crack has lime deposits.
     fn of(kind: u32, own: f32) -> Self {
-        let studio = Studio::new(sunny(), 7, "low", SimTime::ZERO);
+        let studio = Studio::new(sunny_job(), 7, "low", SimTime::ZERO);
         let (from, towards) = (at(-55.0, -15.0, 24.0), at(0.0, 1.0, 0.0));
         let hit = studio.site.ray(from, towards, 200.0, SimTime::ZERO).unwrap();
         let crack = PlacedDefect {
@@ -44,7 +44,7 @@ impl Wall {
             normal: hit.normal,
             along: at(0.0, 0.0, -1.0),
             length_m: 8.0,
-            width_m: WIDTH_M,
+            width_m: CRACK_WIDTH_M,
             line: true,
         };
         let mut bare = patch(&crack, [0.6, 0.1]);
@@ -110,9 +110,9 @@ fn wall_variation(without: &Picture) -> f64 {
 fn val_crack_visibility_depends_on_its_width_in_pixels() {
     // As multiples of the bare wall's variation. The value 5 is Rose's limit of visibility (1948). Distinguishing a
     // crack from a stain or a formwork line requires more (estimate: four times that).
-    const DETECTED: f64 = 5.0;
-    const IDENTIFIED: f64 = 20.0;
-    const UNDETECTED: f64 = 2.0;
+    const DETECTION_THRESHOLD: f64 = 5.0;
+    const IDENTIFICATION_THRESHOLD: f64 = 20.0;
+    const NON_DETECTION_THRESHOLD: f64 = 2.0;
     // A line narrower than a pixel covers a fraction of it, so a line of half the width has half the contrast. The tone
     // curve causes a small deviation.
     const HALF_CONTRAST: f64 = 0.5;
@@ -120,15 +120,15 @@ fn val_crack_visibility_depends_on_its_width_in_pixels() {
     let mut wall = Wall::new();
     let mut found = Vec::new();
     for share in [2.0, 1.0, 0.5, 0.1] {
-        let gsd_m = WIDTH_M / share;
+        let gsd_m = CRACK_WIDTH_M / share;
         let pair = wall.pair(gsd_m);
         let (seen, bare) = (contrast(&pair), wall_variation(&pair[1]));
         println!("{share} px ({:.1} m): contrast {seen:.3}, bare wall {bare:.3}", gsd_m / wall.gsd_m(1.0));
         found.push((seen, seen / bare));
     }
-    assert!(found[1].1 >= IDENTIFIED && found[0].1 >= IDENTIFIED, "one and two pixels: {found:?}");
-    assert!(found[2].1 >= DETECTED, "half a pixel: {found:?}");
-    assert!(found[3].1 <= UNDETECTED, "a tenth of a pixel: {found:?}");
+    assert!(found[1].1 >= IDENTIFICATION_THRESHOLD && found[0].1 >= IDENTIFICATION_THRESHOLD, "one and two pixels: {found:?}");
+    assert!(found[2].1 >= DETECTION_THRESHOLD, "half a pixel: {found:?}");
+    assert!(found[3].1 <= NON_DETECTION_THRESHOLD, "a tenth of a pixel: {found:?}");
     assert!(
         (found[2].0 / found[1].0 - HALF_CONTRAST).abs() <= HALF_TOLERANCE,
         "contrast at half a pixel relative to one: {found:?}"
@@ -148,7 +148,7 @@ fn prop_contrast_decreases_smoothly() {
     let mut before: Option<f64> = None;
     let mut share = 4.0;
     while share > 0.1 {
-        let seen = contrast(&wall.pair(WIDTH_M / share));
+        let seen = contrast(&wall.pair(CRACK_WIDTH_M / share));
         if let Some(before) = before {
             let change = seen - before;
             assert!((-MAX_FALL..=MAX_RISE).contains(&change), "{share:.3} px: {before:.3}, then {seen:.3}");
@@ -171,7 +171,7 @@ fn prop_leakage_contrast_decreases_smoothly() {
         let mut before: Option<f64> = None;
         let mut share = 4.0;
         while share > 0.1 {
-            let seen = peak_difference(&wall.pair(WIDTH_M / share), |with, without| (with - without).abs());
+            let seen = peak_difference(&wall.pair(CRACK_WIDTH_M / share), |with, without| (with - without).abs());
             if let Some(before) = before {
                 let change = seen - before;
                 assert!((-MAX_FALL..=MAX_RISE).contains(&change), "{kind}: {share:.3} px: {before:.3}, then {seen:.3}");

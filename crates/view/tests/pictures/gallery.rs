@@ -1,6 +1,6 @@
 //! Pictures whose content any viewer must recognize, compared with committed pictures.
 
-use super::compare::{Difference, beside, check_picture, check_picture_at};
+use super::compare::{Difference, check_picture, check_picture_at, side_by_side};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::defect_codes;
 use spandrel_model::elements::Element;
@@ -8,7 +8,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::time::SimTime;
-use spandrel_testkit::studio::{Studio, at, dusk, sunny};
+use spandrel_testkit::studio::{Studio, at, dusk_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
 use spandrel_view::hud::{self, GnssStatus, Hud, MapPath};
@@ -56,7 +56,7 @@ impl Gallery {
 
 #[test]
 fn regress_bridges_in_summer_light() {
-    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Gallery::default();
     for (name, from, look, hfov_deg) in [
         ("arch-from-the-shore", at(-62.0, -70.0, 9.0), at(4.0, 0.0, 19.0), 74.0),
@@ -73,7 +73,7 @@ fn regress_bridges_in_summer_light() {
 /// The pad: truck, crew, and the aircraft above it with its propellers turning.
 #[test]
 fn regress_crew_and_drone_at_the_pad() {
-    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Gallery::default();
     for (name, from, drone, look, vfov_deg) in [
         ("crew-and-truck", at(-105.0, 71.0, 7.4), at(-110.2, 75.3, 6.6), at(-116.0, 79.0, 6.0), 40.0),
@@ -93,7 +93,7 @@ fn regress_crew_and_drone_at_the_pad() {
 /// streaks, and droppings are also visible.
 #[test]
 fn regress_distractors() {
-    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
     studio.without_defects();
     let mut wall = Gallery::default();
     let pictures = [
@@ -105,7 +105,7 @@ fn regress_distractors() {
         let shot = studio.seen(from, look, hfov_deg, false, CLOSE_UP_PX);
         studio.draw(&shot)
     });
-    wall.check("false-friends", &beside(&pictures));
+    wall.check("false-friends", &side_by_side(&pictures));
     wall.assert_no_errors();
 }
 
@@ -116,7 +116,7 @@ fn regress_lamp_lights_dark_places() {
     // it.
     const MAX_DARK_LUMA: f64 = 75.0;
     const MIN_LAMP_FACTOR: f64 = 1.5;
-    let mut studio = Studio::new(dusk(), 7, "medium", SimTime::ZERO);
+    let mut studio = Studio::new(dusk_job(), 7, "medium", SimTime::ZERO);
     let mut wall = Gallery::default();
     for (name, from, look) in
         [("under-the-arch", at(-12.0, 0.0, 24.2), at(-8.6, 2.3, 27.6)), ("interlayer", at(12.0, 0.3, 30.6), at(8.6, 1.0, 33.2))]
@@ -139,7 +139,7 @@ fn regress_lamp_lights_dark_places() {
 
 /// Returns a defect where a line of sight hits a bridge. Its longest extent points down or, otherwise, to the side and
 /// slightly up.
-fn placed(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m: (f64, f64), down: bool) -> PlacedDefect {
+fn place_defect(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, size_m: (f64, f64), down: bool) -> PlacedDefect {
     let ray = (to - from).unit();
     let hit = studio.site.ray(from, ray, 200.0, SimTime::ZERO).unwrap();
     let level = Vec3::new(0.0, 0.0, 1.0).cross(hit.normal).unit();
@@ -190,7 +190,7 @@ fn girder_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
 
 #[test]
 fn regress_defects_at_1_3_and_8_m() {
-    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
     let (wall_at, girder_at) = (wall_sight_line(), girder_sight_line());
     let mut wall = Gallery::default();
     for (name, sight, kind, size_m, down) in [
@@ -203,13 +203,13 @@ fn regress_defects_at_1_3_and_8_m() {
         ("fatigue-crack", girder_at, defect_codes::FATIGUE, (0.22, 0.0004), false),
         ("missing-bolts", girder_at, defect_codes::CONNECTION, (0.30, 0.16), false),
     ] {
-        let defect = placed(&studio, sight, kind, size_m, down);
+        let defect = place_defect(&studio, sight, kind, size_m, down);
         show_only_defect(&mut studio, &defect);
         let focal_px = studio.vehicle.camera.focal_px();
         let crop_deg = 2.0 * math::atan(0.5 * f64::from(CLOSE_UP_PX.0) / focal_px).to_degrees();
         let pictures = [(1.0, CLOSE_UP_FOV_DEG[0]), (3.0, CLOSE_UP_FOV_DEG[1]), (8.0, crop_deg)]
             .map(|(distance_m, hfov_deg)| close_up(&mut studio, &defect, distance_m, hfov_deg, CLOSE_UP_PX));
-        wall.check(&format!("defect-{name}"), &beside(&pictures));
+        wall.check(&format!("defect-{name}"), &side_by_side(&pictures));
     }
     wall.assert_no_errors();
 }
@@ -218,7 +218,7 @@ fn regress_defects_at_1_3_and_8_m() {
 /// distance.
 #[test]
 fn regress_tutorial_shows_defects_at_true_scale() {
-    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Gallery::default();
     for (name, sight, kind, size_m, down) in [
         ("crack", wall_sight_line(), defect_codes::CRACK, (0.9, 0.003), true),
@@ -226,12 +226,12 @@ fn regress_tutorial_shows_defects_at_true_scale() {
         ("efflorescence", wall_sight_line(), defect_codes::EFFLORESCENCE, (0.8, 0.42), true),
         ("corrosion", girder_sight_line(), defect_codes::CORROSION, (0.42, 0.3), false),
     ] {
-        let defect = placed(&studio, sight, kind, size_m, down);
+        let defect = place_defect(&studio, sight, kind, size_m, down);
         show_only_defect(&mut studio, &defect);
         let row = [1.0, 3.0, 8.0].map(|distance_m| close_up(&mut studio, &defect, distance_m, TUTORIAL_FOV_DEG, TUTORIAL_PX));
         let taught =
             Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(format!("crates/view/src/flow/pictures/{name}.jpg"));
-        wall.record(name, check_picture_at(&taught, &format!("tutorial-{name}"), &beside(&row)));
+        wall.record(name, check_picture_at(&taught, &format!("tutorial-{name}"), &side_by_side(&row)));
     }
     wall.assert_no_errors();
 }
@@ -243,14 +243,14 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,
         battery_pct: Some(86.0),
-        green_pct: 70.0,
-        yellow_pct: 30.0,
+        min_green_pct: 70.0,
+        min_yellow_pct: 30.0,
         cues: 0,
         hit: None,
         height_m: position_m.up() - studio.scenario.ground_team.pad_m.up(),
         home_distance_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
         mode: "Position".into(),
-        gnss: Some(GnssStatus { fixed: true, satellites: 17 }),
+        gnss: Some(GnssStatus { has_fix: true, satellites: 17 }),
         telemetry_age_s: 0.02,
         gimbal_rad: 0.1,
         zoom: 1.0,
@@ -269,7 +269,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
 /// Compares both views side by side in every state of the HUD.
 #[test]
 fn regress_both_views_in_every_hud_state() {
-    let mut studio = Studio::new(sunny(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
     let mut wall = Gallery::default();
     let slab = (at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5));
     let below = (at(-22.0, -8.0, 17.0), at(-20.0, 0.0, 24.0));
@@ -292,7 +292,7 @@ fn regress_both_views_in_every_hud_state() {
         ("lamp-zoom-no-satellites", between, |hud| {
             hud.lamp = true;
             hud.zoom = 2.0;
-            hud.gnss = Some(GnssStatus { fixed: false, satellites: 4 });
+            hud.gnss = Some(GnssStatus { has_fix: false, satellites: 4 });
             hud.mode = "Altitude".into();
         }),
         ("assessment-link-lost", slab, |hud| {
@@ -312,7 +312,7 @@ fn regress_both_views_in_every_hud_state() {
         let camera = studio.stage().camera(&moment, seen);
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));
         let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &shown)];
-        wall.check(&format!("views-{name}"), &beside(&views));
+        wall.check(&format!("views-{name}"), &side_by_side(&views));
     }
     wall.assert_no_errors();
 }

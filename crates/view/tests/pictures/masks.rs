@@ -6,7 +6,7 @@ use spandrel_model::site::Surface;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, two_bridges};
 
-const SIZE: (u32, u32) = (160, 120);
+const SIZE_PX: (u32, u32) = (160, 120);
 /// Maximum fraction of pixels with a label that differs from the ray's: edges, where rendering and rays round
 /// differently, and trees, which hide surfaces but do not collide.
 const MAX_MISMATCH: f64 = 0.03;
@@ -19,21 +19,21 @@ fn val_pixel_labels_match_ray_hits() {
         (at(14.0, 0.3, 30.8), at(0.0, 0.0, 31.5)),
         (at(-72.0, 139.0, 3.5), at(-72.0, 150.0, 3.0)),
     ] {
-        let shot = studio.seen(from, look, 78.8, false, SIZE);
+        let shot = studio.seen(from, look, 78.8, false, SIZE_PX);
         let aspect = shot.aspect();
         let masks = {
             let (gpu, renderer) = studio.renderer();
             renderer.labels(gpu, &shot).unwrap()
         };
         let hit = |k: u32| {
-            let (x, y) = (f64::from(k % SIZE.0) + 0.5, f64::from(k / SIZE.0) + 0.5);
-            let ray = shot.eye.ray(2.0 * x / f64::from(SIZE.0) - 1.0, 1.0 - 2.0 * y / f64::from(SIZE.1), aspect);
+            let (x, y) = (f64::from(k % SIZE_PX.0) + 0.5, f64::from(k / SIZE_PX.0) + 0.5);
+            let ray = shot.eye.ray(2.0 * x / f64::from(SIZE_PX.0) - 1.0, 1.0 - 2.0 * y / f64::from(SIZE_PX.1), aspect);
             let found = studio.site.geometry().ray(from, ray, 2_000.0)?;
             (found.surface == Surface::Bridge).then(|| studio.site.members()[found.object.0 as usize].element.number())
         };
-        let apart = (0..SIZE.0 * SIZE.1).filter(|k| hit(*k).unwrap_or(0) != masks.elements[*k as usize]).count();
+        let apart = (0..SIZE_PX.0 * SIZE_PX.1).filter(|k| hit(*k).unwrap_or(0) != masks.elements[*k as usize]).count();
         let bridge = masks.elements.iter().filter(|element| **element != 0).count();
-        let all = f64::from(SIZE.0 * SIZE.1);
+        let all = f64::from(SIZE_PX.0 * SIZE_PX.1);
         assert!(bridge as f64 > 0.2 * all, "the picture must show a bridge: {bridge} pixels");
         assert!(apart as f64 <= MAX_MISMATCH * all, "{from:?}: {apart} of {all} pixels");
     }

@@ -22,7 +22,7 @@ const TRIES_PER_DEFECT: usize = 4;
 /// Size of the rendered area around each defect, in camera pixels.
 const CROP_PX: (u32, u32) = (192, 144);
 /// Size of the picture for metering the exposure, px; any size works.
-const FRAME: (u32, u32) = (400, 300);
+const FRAME_PX: (u32, u32) = (400, 300);
 
 /// A photo of one defect.
 struct Snapshot {
@@ -58,7 +58,7 @@ fn render_pair(studio: &mut Studio, snapshot: &Snapshot, defect: &PlacedDefect) 
         Some(&snapshot.pose),
         &lens,
         None,
-        (SimTime::ZERO, FRAME),
+        (SimTime::ZERO, FRAME_PX),
     );
     let hfov_rad = 2.0 * math::atan(0.5 * f64::from(CROP_PX.0) / lens.focal_px());
     let towards = camera_aimed_at(snapshot.pose.position_m, defect.position_m, snapshot.pose.lamp_on);
@@ -134,7 +134,7 @@ fn from_behind(site: &Site, vehicle: &Vehicle, defect: &PlacedDefect) -> Option<
 #[test]
 fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
     // Rose's limit (1948): a signal five times the noise is reliably visible.
-    const VISIBLE_SNR: f64 = 5.0;
+    const MIN_VISIBLE_SNR: f64 = 5.0;
     let mut studio = Studio::new(two_bridges(), 1, "low", SimTime::ZERO);
     let mut stream = RandomStream::new(20, "view.snapshots");
     let (mut shown, mut behind, mut kinds): (Vec<DefectVisibility>, Vec<DefectVisibility>, BTreeMap<u32, usize>) =
@@ -155,7 +155,7 @@ fn prop_defects_counted_as_visible_are_visible_in_the_picture() {
                     &render_pair(&mut studio, &snapshot, &defect),
                     &defect_mask(&snapshot, &defect, &studio.vehicle.camera),
                 );
-                let seen = found.signal_to_noise >= VISIBLE_SNR;
+                let seen = found.signal_to_noise >= MIN_VISIBLE_SNR;
                 if seen != snapshot.view.hit {
                     wrong.push(format!("seed {seed}, defect {}, {}: {found:?}, {:?}", defect.id, defect.kind, snapshot.view));
                 }

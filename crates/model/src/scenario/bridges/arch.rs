@@ -95,7 +95,7 @@ impl Arch {
 
     /// Returns the height of the floorbeams' undersides in meters.
     #[must_use]
-    pub fn floorbeam_z_m(&self) -> f64 {
+    pub fn floorbeam_bottom_z_m(&self) -> f64 {
         -self.slab_m - self.floorbeam_depth_m
     }
 
@@ -168,7 +168,7 @@ impl Arch {
 
     fn columns(&self, b: &mut MemberBuilder) {
         let half = 0.5 * self.column_m;
-        let top = self.floorbeam_z_m();
+        let top = self.floorbeam_bottom_z_m();
         for (k, x) in self.panel_points().into_iter().enumerate() {
             // The rib slopes under the column, so the column starts where both of its edges are inside the rib.
             let foot = self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
@@ -210,7 +210,7 @@ impl Arch {
             b.add_box(
                 &format!("floorbeam/{k:02}"),
                 Element::RcFloorBeam,
-                [x - half, -beam_half, self.floorbeam_z_m()],
+                [x - half, -beam_half, self.floorbeam_bottom_z_m()],
                 [x + half, beam_half, soffit],
             );
         }
@@ -240,7 +240,7 @@ impl Arch {
 
     /// Returns the height of the abutment and skewback undersides in meters.
     #[must_use]
-    pub fn foundation_z_m(&self) -> f64 {
+    pub fn foundation_bottom_z_m(&self) -> f64 {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M
     }
 
@@ -248,8 +248,8 @@ impl Arch {
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
         let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
-        let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_m());
-        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foundation_z_m() };
+        let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_length_m());
+        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foundation_bottom_z_m() };
         vec![
             at(-outer, -inner - 1.0, half),
             at(inner + 1.0, outer, half),
@@ -258,7 +258,7 @@ impl Arch {
         ]
     }
 
-    fn skewback_half_m(&self) -> f64 {
+    fn skewback_half_length_m(&self) -> f64 {
         0.5 * (self.rib_spacing_m + self.rib_width_m) + 0.5
     }
 

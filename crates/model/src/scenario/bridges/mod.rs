@@ -120,7 +120,7 @@ impl Bridge {
 
     /// Returns half the length, in meters, of the opening under the bridge, which must stay free of terrain.
     #[must_use]
-    pub fn opening_half_m(&self) -> f64 {
+    pub fn opening_half_length_m(&self) -> f64 {
         match &self.kind {
             BridgeKind::Arch(arch) => 0.5 * arch.span_m,
             BridgeKind::Suspension(suspension) => 0.5 * suspension.deck_length_m() - suspension.anchorage_m,

@@ -30,7 +30,7 @@ pub struct TaskPath {
     /// Points, at most 1 m apart, m. A closed path does not repeat its first point.
     pub path_m: Vec<Vec3<Enu>>,
     /// Unit vectors toward the inspected surface.
-    pub look: Vec<Vec3<Enu>>,
+    pub viewing_directions: Vec<Vec3<Enu>>,
     /// True if the path returns to its start.
     pub closed: bool,
 }
@@ -39,7 +39,7 @@ pub struct TaskPath {
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalPath {
     points: Vec<LocalPoint>,
-    look: Vec<LocalPoint>,
+    viewing_directions: Vec<LocalPoint>,
     closed: bool,
 }
 
@@ -49,7 +49,7 @@ impl LocalPath {
     pub fn to_site(&self, placement: &Placement) -> TaskPath {
         TaskPath {
             path_m: self.points.iter().map(|p| placement.point(*p)).collect(),
-            look: self.look.iter().map(|d| placement.direction(*d).unit()).collect(),
+            viewing_directions: self.viewing_directions.iter().map(|d| placement.direction(*d).unit()).collect(),
             closed: self.closed,
         }
     }
@@ -66,7 +66,7 @@ pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
     let half = 0.5 * arch.span_m;
     let y = -0.5 * arch.deck_width_m - stand_off_m;
     let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
-    LocalPath { look: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
+    LocalPath { viewing_directions: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
 }
 
 /// Returns the path of task 2: under the arch between the ribs, at the stand-off distance perpendicular to the intrados. The
@@ -87,13 +87,13 @@ pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
             [x - off * fall / stretch, 0.0, arch.intrados_z_m(x) - off / stretch]
         })
         .collect();
-    let look = points.iter().enumerate().map(|(k, p)| under_arch_look(arch, *p, off, k)).collect();
-    LocalPath { points, look, closed: false }
+    let viewing_directions = points.iter().enumerate().map(|(k, p)| under_arch_viewing_direction(arch, *p, off, k)).collect();
+    LocalPath { points, viewing_directions, closed: false }
 }
 
 /// Returns the viewing direction of task 2 at point `k`: up at the soffits and slightly ahead, panning slowly between
 /// the left and right ribs.
-fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
+fn under_arch_viewing_direction(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 30.0;
     let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
     // The closest point of the arch is not vertically above the path point but farther from the crown.
@@ -107,15 +107,15 @@ fn under_arch_look(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPo
 /// floorbeams and the crown.
 pub(super) fn interlayer(arch: &Arch) -> LocalPath {
     let half = 0.3 * arch.span_m;
-    let z = 0.5 * (arch.floorbeam_z_m() + arch.extrados_z_m(0.0));
+    let z = 0.5 * (arch.floorbeam_bottom_z_m() + arch.extrados_z_m(0.0));
     let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
-    let look = (0..points.len()).map(interlayer_look).collect();
-    LocalPath { points, look, closed: false }
+    let viewing_directions = (0..points.len()).map(interlayer_viewing_direction).collect();
+    LocalPath { points, viewing_directions, closed: false }
 }
 
 /// Returns the viewing direction of task 3 at point `k`: alternately up at the deck's underside and down at the ribs, panning to
 /// both sides.
-fn interlayer_look(k: usize) -> LocalPoint {
+fn interlayer_viewing_direction(k: usize) -> LocalPoint {
     const PERIOD_POINTS: f64 = 20.0;
     let phase = math::TAU * k as f64 / PERIOD_POINTS;
     [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
@@ -126,15 +126,15 @@ fn interlayer_look(k: usize) -> LocalPoint {
 pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
     let center = [-0.5 * suspension.main_span_m, 0.0];
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
-    let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_z_m() - stand_off_m);
+    let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_bottom_z_m() - stand_off_m);
     if z < -suspension.pier_top_m - suspension.pier_height_m {
         return Err("a pier that extends to stand_off_m below the girders".into());
     }
     let mut points = Vec::new();
-    let mut look = Vec::new();
+    let mut viewing_directions = Vec::new();
     let mut add = |x: f64, y: f64, nx: f64, ny: f64| {
         points.push([center[0] + x, center[1] + y, z]);
-        look.push([-nx, -ny, 0.0]);
+        viewing_directions.push([-nx, -ny, 0.0]);
     };
     let corner_steps = (0.5 * math::PI * stand_off_m / SPACING_M).ceil() as i32;
     let corners = [(hx, -hy, -math::FRAC_PI_2), (hx, hy, 0.0), (-hx, hy, math::FRAC_PI_2), (-hx, -hy, math::PI)];
@@ -154,5 +154,5 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
             add(x + stand_off_m * c, y + stand_off_m * s, c, s);
         }
     }
-    Ok(LocalPath { points, look, closed: true })
+    Ok(LocalPath { points, viewing_directions, closed: true })
 }

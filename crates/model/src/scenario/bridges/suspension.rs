@@ -14,7 +14,7 @@ const FLOORBEAM_PLATES: PlateThickness = PlateThickness { flange_m: 0.025, web_m
 /// Plate thicknesses of the stringers, which are rolled W21 shapes (estimate).
 const STRINGER_PLATES: PlateThickness = PlateThickness { flange_m: 0.02, web_m: 0.012 };
 /// Gap between girder and tower leg, m (estimate).
-const LEG_GAP_M: f64 = 0.02;
+const TOWER_LEG_GAP_M: f64 = 0.02;
 /// Height of the bearings below the girders, m (estimate).
 const BEARING_HEIGHT_M: f64 = 0.2;
 /// Depth of the towers' portal struts, m (estimate).
@@ -22,7 +22,7 @@ const PORTAL_DEPTH_M: f64 = 1.2;
 /// Depth of the anchorages below the deck, m (estimate).
 const ANCHORAGE_DEPTH_M: f64 = 12.0;
 /// Length of the cables inside the anchorage blocks, m (estimate). The blocks are twice as long.
-const CABLE_EMBEDMENT_M: f64 = 1.0;
+const CABLE_EMBEDMENT_LENGTH_M: f64 = 1.0;
 /// Height of the saddle between cable and tower leg, m (estimate).
 const SADDLE_HEIGHT_M: f64 = 0.1;
 
@@ -76,12 +76,12 @@ impl Suspension {
     /// the legs clear of the girders.
     #[must_use]
     pub fn cable_y_m(&self) -> f64 {
-        0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + LEG_GAP_M + 0.5 * self.leg_y_m
+        0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M + TOWER_LEG_GAP_M + 0.5 * self.leg_y_m
     }
 
     /// Returns the height of the girders' underside in meters.
     #[must_use]
-    pub fn girder_z_m(&self) -> f64 {
+    pub fn girder_bottom_z_m(&self) -> f64 {
         -self.slab_m - self.girder_depth_m
     }
 
@@ -121,7 +121,7 @@ impl Suspension {
     #[must_use]
     pub fn inconsistencies(&self) -> Vec<Inconsistency> {
         let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
-        let portal_m = BEARING_HEIGHT_M + PORTAL_DEPTH_M - self.girder_z_m();
+        let portal_m = BEARING_HEIGHT_M + PORTAL_DEPTH_M - self.girder_bottom_z_m();
         let mut m = InconsistencyList::default();
         m.require_at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
         m.require_at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
@@ -156,7 +156,7 @@ impl Suspension {
     }
 
     /// Returns the height of the tower leg tops, which are below the cables on both sides of the saddle, in meters.
-    fn leg_top_m(&self) -> f64 {
+    fn leg_top_z_m(&self) -> f64 {
         self.saddle_edge_z_m() - self.cable_radius_m - SADDLE_HEIGHT_M
     }
 
@@ -167,7 +167,7 @@ impl Suspension {
     }
 
     fn towers(&self, b: &mut MemberBuilder) {
-        let top = self.leg_top_m();
+        let top = self.leg_top_z_m();
         for (name, x) in [("start", -0.5 * self.main_span_m), ("end", 0.5 * self.main_span_m)] {
             let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
             let foot = -self.pier_top_m;
@@ -181,7 +181,7 @@ impl Suspension {
                 self.bearing(b, &format!("bearing-{name}/{side}"), element, x, y.signum());
             }
             let inner = self.cable_y_m() - ly;
-            for (part, z) in [("portal-top", top), ("portal-deck", self.girder_z_m() - BEARING_HEIGHT_M)] {
+            for (part, z) in [("portal-top", top), ("portal-deck", self.girder_bottom_z_m() - BEARING_HEIGHT_M)] {
                 b.add_box(
                     &format!("tower-{name}/{part}"),
                     Element::SteelTower,
@@ -195,7 +195,7 @@ impl Suspension {
     /// Adds a saddle, which fills the space between a tower leg and the axis of the cable.
     fn saddle(&self, b: &mut MemberBuilder, name: &str, x: f64, y: f64) {
         let (reach, half) = (0.5 * self.leg_x_m, self.cable_radius_m + SADDLE_HEIGHT_M);
-        let (low, edge, crown) = (self.leg_top_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
+        let (low, edge, crown) = (self.leg_top_z_m(), self.saddle_edge_z_m(), self.cable_z_m(0.5 * self.main_span_m));
         let profile = [[x - reach, low], [x + reach, low], [x + reach, edge], [x, crown], [x - reach, edge]];
         b.add_extrusion(name, Element::SteelTower, &profile, y - half, y + half);
     }
@@ -203,13 +203,13 @@ impl Suspension {
     /// Adds a bearing between a girder and its support.
     fn bearing(&self, b: &mut MemberBuilder, name: &str, element: Element, x: f64, side: f64) {
         let y = side * 0.5 * self.deck_width_m;
-        let z = self.girder_z_m();
+        let z = self.girder_bottom_z_m();
         b.add_box(name, element, [x - 0.3, y - 0.15, z - BEARING_HEIGHT_M], [x + 0.3, y + 0.15, z]);
     }
 
     fn cables(&self, b: &mut MemberBuilder) {
         let half = 0.5 * self.main_span_m;
-        let grip = self.anchor_x_m() + CABLE_EMBEDMENT_M;
+        let grip = self.anchor_x_m() + CABLE_EMBEDMENT_LENGTH_M;
         let mut xs = vec![-grip, -half];
         xs.extend(self.hangers());
         xs.extend([half, grip]);
@@ -237,7 +237,7 @@ impl Suspension {
             b.add_box(&format!("slab/{k:02}"), Element::RcDeck, [pair[0], -half_width, soffit], [pair[1], half_width, 0.0]);
             for (side, y) in [("left", half_width - GIRDER_HALF_WIDTH_M), ("right", -half_width - GIRDER_HALF_WIDTH_M)] {
                 let name = format!("girder-{side}/{k:02}");
-                let corners = ([pair[0], y, self.girder_z_m()], [pair[1], y + 2.0 * GIRDER_HALF_WIDTH_M, soffit]);
+                let corners = ([pair[0], y, self.girder_bottom_z_m()], [pair[1], y + 2.0 * GIRDER_HALF_WIDTH_M, soffit]);
                 b.add_steel_beam(&name, Element::SteelGirder, corners, BeamDirection::Along, GIRDER_PLATES);
             }
             for (line, y) in [(0, -0.25), (1, 0.25)] {
@@ -258,7 +258,7 @@ impl Suspension {
     }
 
     /// Returns half the width of an anchorage in meters.
-    fn anchorage_half_m(&self) -> f64 {
+    fn anchorage_half_width_m(&self) -> f64 {
         self.cable_y_m() + self.cable_radius_m + 0.45
     }
 
@@ -268,32 +268,32 @@ impl Suspension {
         let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
         let (inner, outer) = (self.anchor_x_m(), self.anchor_x_m() + self.anchorage_m);
         let half = 0.5 * self.main_span_m;
-        let anchor_up_m = -ANCHORAGE_DEPTH_M.max(3.0 - self.girder_z_m());
+        let anchor_up_m = -ANCHORAGE_DEPTH_M.max(3.0 - self.girder_bottom_z_m());
         let at = |low: f64, high: f64, y: f64, up_m: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m };
         let pier_up_m = -self.pier_top_m - self.pier_height_m;
         vec![
             at(-half - px, px - half, py, pier_up_m),
             at(half - px, half + px, py, pier_up_m),
-            at(-outer, -inner, self.anchorage_half_m(), anchor_up_m),
-            at(inner, outer, self.anchorage_half_m(), anchor_up_m),
+            at(-outer, -inner, self.anchorage_half_width_m(), anchor_up_m),
+            at(inner, outer, self.anchorage_half_width_m(), anchor_up_m),
         ]
     }
 
     fn anchorages(&self, b: &mut MemberBuilder) {
         let near = (self.cable_y_m() - self.cable_radius_m - 0.45).max(0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M);
-        let top = self.girder_z_m() - BEARING_HEIGHT_M;
+        let top = self.girder_bottom_z_m() - BEARING_HEIGHT_M;
         for (name, foot) in ["start", "end"].into_iter().zip(&self.footings()[2..]) {
             let (low, high, far) = (foot.x_m.0, foot.x_m.1, foot.y_m.1);
             b.add_box(&format!("anchorage-{name}"), Element::RcFooting, [low, -far, foot.up_m], [high, far, top]);
             // On each side of the deck, the cable enters a block. The girders end on movable bearings.
             for (side, low_y, high_y) in [("left", near, far), ("right", -far, -near)] {
-                let grip = if low < 0.0 { high - 2.0 * CABLE_EMBEDMENT_M } else { low };
+                let grip = if low < 0.0 { high - 2.0 * CABLE_EMBEDMENT_LENGTH_M } else { low };
                 let block = format!("anchorage-{name}/{side}");
                 b.add_box(
                     &block,
                     Element::RcFooting,
                     [grip, low_y, top],
-                    [grip + 2.0 * CABLE_EMBEDMENT_M, high_y, self.cable_radius_m + 0.45],
+                    [grip + 2.0 * CABLE_EMBEDMENT_LENGTH_M, high_y, self.cable_radius_m + 0.45],
                 );
                 for (end, x) in [("low", low + 0.5), ("high", high - 0.5)] {
                     self.bearing(b, &format!("bearing-{name}/{side}-{end}"), Element::MovableBearing, x, low_y.signum());

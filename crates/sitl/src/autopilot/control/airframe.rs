@@ -11,7 +11,7 @@ pub struct Airframe {
     /// Flight limits.
     pub limits: FlightLimits,
     /// Battery voltage at full charge, V.
-    pub full_v: f64,
+    pub full_battery_v: f64,
     /// Whether voltage sag affects the motors.
     pub models_voltage_sag: bool,
     /// Height of the center of mass above the ground when the vehicle stands on its landing gear, m.
@@ -26,7 +26,7 @@ impl Airframe {
         Self {
             mass_kg: vehicle.mass_kg,
             limits: vehicle.limits,
-            full_v: f64::from(battery.cells) * battery.ocv_cell_v[10],
+            full_battery_v: f64::from(battery.cells) * battery.ocv_cell_v[10],
             models_voltage_sag: rules.battery == BatteryModel::Physical,
             resting_height_m: vehicle.hull.feet_m.iter().map(|f| f.down()).fold(vehicle.hull.body_half_extent_m[2], f64::max),
         }

@@ -71,7 +71,7 @@ impl AttitudeLoop {
 
 /// Limits body rate setpoints to the aircraft's maximum rates.
 #[must_use]
-pub fn within_limits(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
+pub fn limit_rates(gains: &Gains, rates: Vec3<Frd>) -> Vec3<Frd> {
     let tilt = Vec3::<Frd>::new(rates.forward(), rates.right(), 0.0).limited(gains.rate_max_rad_s);
     Vec3::new(tilt.forward(), tilt.right(), rates.down().clamp(-gains.yaw_rate_max_rad_s, gains.yaw_rate_max_rad_s))
 }

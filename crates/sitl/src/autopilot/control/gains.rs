@@ -7,7 +7,7 @@ use spandrel_model::vehicle::Vehicle;
 /// Lead factor that compensates for motor lag (first order; a higher factor would amplify gyroscope noise).
 const MOTOR_LEAD_FACTOR: f64 = 2.0;
 /// Delay from sampling, filtering and computation, s: one and a half control ticks.
-const DELAY_S: f64 = 0.004;
+const CONTROL_DELAY_S: f64 = 0.004;
 /// Product of rate-loop bandwidth and lag; 0.35 gives a damping ratio of 0.85 for an integrator with a first-order lag.
 const RATE_BANDWIDTH_LAG_PRODUCT: f64 = 0.35;
 /// Maximum bandwidth of the rate loop, rad/s.
@@ -24,7 +24,7 @@ const PLANNED_ACCELERATION_FRACTION: f64 = 0.85;
 /// Air density at sea level, kg/m³ (ISA).
 const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// Fraction of the maximum collective thrust reserved for roll and pitch.
-const CONTROL_RESERVE: f64 = 0.08;
+const CONTROL_THRUST_RESERVE_FRACTION: f64 = 0.08;
 
 /// All gains and limits of the control cascade.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +72,7 @@ pub struct Gains {
     /// Maximum yaw rate, rad/s.
     pub yaw_rate_max_rad_s: f64,
     /// Collective thrust at hover, N.
-    pub hover_n: f64,
+    pub hover_thrust_n: f64,
     /// Maximum collective thrust that leaves control authority, N.
     pub thrust_max_n: f64,
     /// Minimum collective thrust in flight, N.
@@ -84,7 +84,7 @@ impl Gains {
     #[must_use]
     pub fn new(vehicle: &Vehicle) -> Self {
         let r = &vehicle.rotor;
-        let lag_s = r.time_constant_s / MOTOR_LEAD_FACTOR + DELAY_S;
+        let lag_s = r.time_constant_s / MOTOR_LEAD_FACTOR + CONTROL_DELAY_S;
         let rate = (RATE_BANDWIDTH_LAG_PRODUCT / lag_s).min(RATE_BANDWIDTH_MAX_RAD_S);
         let attitude = ATTITUDE_BANDWIDTH_RATIO * rate;
         let velocity = VELOCITY_BANDWIDTH_RATIO * attitude;
@@ -92,7 +92,7 @@ impl Gains {
         let n = vehicle.rotors.len() as f64;
         let hover_n = vehicle.mass_kg * GRAVITY_M_S2;
         let full_n = n * r.thrust_coefficient_n_s2 * r.max_speed_rad_s * r.max_speed_rad_s;
-        let thrust_max_n = full_n * (1.0 - CONTROL_RESERVE);
+        let thrust_max_n = full_n * (1.0 - CONTROL_THRUST_RESERVE_FRACTION);
         let idle_n = n * r.thrust_coefficient_n_s2 * r.idle_speed_rad_s * r.idle_speed_rad_s;
         // The vehicle must hold its height at full tilt, so the available thrust also limits the tilt.
         let tilt_rad = vehicle.limits.tilt_rad.min(math::acos((1.05 * hover_n / thrust_max_n).min(1.0)));
@@ -120,7 +120,7 @@ impl Gains {
             drag: drag(vehicle, hover_n / n),
             rate_max_rad_s: vehicle.limits.rate_rad_s,
             yaw_rate_max_rad_s: vehicle.limits.yaw_rate_rad_s,
-            hover_n,
+            hover_thrust_n: hover_n,
             thrust_max_n,
             thrust_min_n: idle_n.max(0.12 * hover_n),
         }

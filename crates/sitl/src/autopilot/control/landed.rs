@@ -7,23 +7,23 @@ use spandrel_model::time::SimTime;
 
 /// Vertical speed below which the vehicle counts as stopped during a commanded descent, m/s, and the minimum duration,
 /// s.
-const STOPPED_M_S: f64 = 0.2;
+const STOPPED_SPEED_M_S: f64 = 0.2;
 const STOPPED_DURATION_S: f64 = 0.3;
 /// Minimum commanded descent rate, m/s.
-const DESCENT_MIN_M_S: f64 = 0.25;
+const MIN_DESCENT_RATE_M_S: f64 = 0.25;
 /// Time over which the thrust fades out after ground contact, s. After that, the landing is complete.
-const THRUST_FADE_S: f64 = 0.5;
+const THRUST_FADE_TIME_S: f64 = 0.5;
 /// Margin above the range finder reading on the ground within which the vehicle still counts as on the ground, m.
 const RANGE_MARGIN_M: f64 = 0.35;
 /// Minimum tilt cosine on the ground (40 degrees).
 const MIN_TILT_COSINE: f64 = 0.766;
 /// Height (m) or climb rate (m/s) above which the vehicle counts as off the ground.
-const OFF_GROUND_M: f64 = 0.35;
-const OFF_GROUND_M_S: f64 = 0.4;
+const OFF_GROUND_HEIGHT_M: f64 = 0.35;
+const OFF_GROUND_CLIMB_RATE_M_S: f64 = 0.4;
 /// Time without a takeoff command after which a vehicle still on the ground abandons the takeoff, s.
 const TAKEOFF_TIMEOUT_S: f64 = 1.0;
 /// Thrust ramp time at takeoff, s.
-const SPOOL_UP_S: f64 = 0.6;
+const SPOOL_UP_TIME_S: f64 = 0.6;
 
 /// Flight phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,7 +65,7 @@ pub struct LandingInput<'a> {
     /// Height of the center of mass above the ground when the vehicle stands on its landing gear, m.
     pub resting_height_m: f64,
     /// Whether the mode commands a takeoff.
-    pub wants_to_fly: bool,
+    pub takeoff_commanded: bool,
     /// Time on the ground after which the vehicle disarms, before and after a flight, s; 0 or less disables this.
     pub ground_time_limits_s: [f64; 2],
     /// Time of this tick.
@@ -84,14 +84,14 @@ pub struct LandingDetector {
     /// Ground level where the vehicle last stood on the ground, m down.
     pub ground_down_m: f64,
     /// Commanded descent rate, m/s.
-    pub descent_m_s: f64,
+    pub descent_rate_m_s: f64,
     /// Whether the vehicle has flown since arming.
     flown: bool,
     /// Time of the last liftoff.
     liftoff_started: SimTime,
-    stopped_s: f64,
-    fade_s: f64,
-    abandoned_s: f64,
+    stopped_time_s: f64,
+    fade_time_s: f64,
+    takeoff_wait_time_s: f64,
 }
 
 impl LandingDetector {
@@ -109,24 +109,24 @@ impl LandingDetector {
     /// Continues in the air at full thrust after a respawn. Marks the vehicle as having flown.
     pub fn continue_in_air(&mut self, now: SimTime) {
         (self.phase, self.flown) = (FlightPhase::InAir, true);
-        self.liftoff_started = now - SimTime::from_s(SPOOL_UP_S);
+        self.liftoff_started = now - SimTime::from_s(SPOOL_UP_TIME_S);
         self.clear_timers();
     }
 
     fn clear_timers(&mut self) {
-        (self.descent_m_s, self.stopped_s, self.fade_s, self.abandoned_s) = (0.0, 0.0, 0.0, 0.0);
+        (self.descent_rate_m_s, self.stopped_time_s, self.fade_time_s, self.takeoff_wait_time_s) = (0.0, 0.0, 0.0, 0.0);
     }
 
     /// Returns the available fraction of the maximum thrust while the motors spool up, 0 to 1.
     #[must_use]
     pub fn spool_up_fraction(&self, now: SimTime) -> f64 {
-        ((now - self.liftoff_started).s() / SPOOL_UP_S).clamp(0.0, 1.0)
+        ((now - self.liftoff_started).s() / SPOOL_UP_TIME_S).clamp(0.0, 1.0)
     }
 
     /// Returns the remaining thrust fraction as the thrust fades out after ground contact, 0 to 1.
     #[must_use]
     pub fn thrust_fraction(&self) -> f64 {
-        1.0 - self.fade_s / THRUST_FADE_S
+        1.0 - self.fade_time_s / THRUST_FADE_TIME_S
     }
 
     /// Advances by one tick while armed. Returns the phase change, if any.
@@ -144,11 +144,11 @@ impl LandingDetector {
 
     fn has_left_ground(&self, estimate: &Estimate) -> bool {
         let up = self.ground_down_m - estimate.position_m.down();
-        up > OFF_GROUND_M || (up > 0.5 * OFF_GROUND_M && estimate.velocity_m_s.down() < -OFF_GROUND_M_S)
+        up > OFF_GROUND_HEIGHT_M || (up > 0.5 * OFF_GROUND_HEIGHT_M && estimate.velocity_m_s.down() < -OFF_GROUND_CLIMB_RATE_M_S)
     }
 
     fn update_on_ground(&mut self, input: &LandingInput) -> Option<PhaseChange> {
-        if input.wants_to_fly {
+        if input.takeoff_commanded {
             self.phase = FlightPhase::TakingOff;
             self.liftoff_started = input.now;
             self.ground_down_m = input.estimate.position_m.down();
@@ -163,12 +163,12 @@ impl LandingDetector {
     }
 
     fn wait_for_liftoff(&mut self, input: &LandingInput) -> Option<PhaseChange> {
-        if input.wants_to_fly {
-            self.abandoned_s = 0.0;
+        if input.takeoff_commanded {
+            self.takeoff_wait_time_s = 0.0;
             return None;
         }
-        self.abandoned_s += input.dt_s;
-        (self.abandoned_s > TAKEOFF_TIMEOUT_S).then(|| {
+        self.takeoff_wait_time_s += input.dt_s;
+        (self.takeoff_wait_time_s > TAKEOFF_TIMEOUT_S).then(|| {
             self.touch_down(input.now);
             PhaseChange::TakeoffAbandoned
         })
@@ -178,18 +178,18 @@ impl LandingDetector {
         let estimate = input.estimate;
         let upright = (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
         let near = input.range_down_m.is_none_or(|range| range * upright < input.resting_height_m + RANGE_MARGIN_M);
-        let still = estimate.velocity_m_s.down().abs() < STOPPED_M_S;
-        let commanded = self.descent_m_s > DESCENT_MIN_M_S;
+        let still = estimate.velocity_m_s.down().abs() < STOPPED_SPEED_M_S;
+        let commanded = self.descent_rate_m_s > MIN_DESCENT_RATE_M_S;
         if !(near && still && commanded && upright > MIN_TILT_COSINE) {
-            self.stopped_s = 0.0;
-            self.fade_s = (self.fade_s - input.dt_s).max(0.0);
+            self.stopped_time_s = 0.0;
+            self.fade_time_s = (self.fade_time_s - input.dt_s).max(0.0);
             return None;
         }
-        self.stopped_s += input.dt_s;
-        if self.stopped_s > STOPPED_DURATION_S {
-            self.fade_s = (self.fade_s + input.dt_s).min(THRUST_FADE_S);
+        self.stopped_time_s += input.dt_s;
+        if self.stopped_time_s > STOPPED_DURATION_S {
+            self.fade_time_s = (self.fade_time_s + input.dt_s).min(THRUST_FADE_TIME_S);
         }
-        (self.fade_s >= THRUST_FADE_S).then(|| {
+        (self.fade_time_s >= THRUST_FADE_TIME_S).then(|| {
             self.touch_down(input.now);
             PhaseChange::Landed
         })

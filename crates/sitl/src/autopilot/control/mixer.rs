@@ -27,7 +27,7 @@ pub struct AllocationStatus {
 
 impl AllocationStatus {
     /// The entire demand was allocated.
-    pub const COMPLETE: Self = Self { tilt: 1.0, yaw: 1.0 };
+    pub const FULLY_ALLOCATED: Self = Self { tilt: 1.0, yaw: 1.0 };
 }
 
 /// Rotor geometry and motor model. The estimated rotor speeds and the filtered yaw torque are its only state.
@@ -44,7 +44,7 @@ pub struct Mixer {
     /// Rotor inertia divided by the slope of its drag torque at hover, s.
     spin_time_s: f64,
     speeds: [f64; MAX_ROTORS],
-    yaw_n_m: f64,
+    yaw_torque_n_m: f64,
 }
 
 impl Mixer {
@@ -81,7 +81,7 @@ impl Mixer {
             lead,
             spin_time_s: r.inertia_kg_m2 / (2.0 * r.torque_coefficient_n_m_s2 * hover).max(1e-9),
             speeds: [0.0; MAX_ROTORS],
-            yaw_n_m: 0.0,
+            yaw_torque_n_m: 0.0,
         }
     }
 
@@ -108,8 +108,8 @@ impl Mixer {
     /// Compensates for rotor inertia. An accelerating rotor applies torque immediately through its inertia and
     /// permanently through its drag. Filtering the yaw torque with a lag makes the total torque follow the demand.
     fn compensate_rotor_spin(&mut self, torque: Vec3<Frd>, dt_s: f64) -> Vec3<Frd> {
-        self.yaw_n_m += (torque.down() - self.yaw_n_m) * dt_s / (dt_s + self.spin_time_s);
-        Vec3::new(torque.forward(), torque.right(), self.yaw_n_m)
+        self.yaw_torque_n_m += (torque.down() - self.yaw_torque_n_m) * dt_s / (dt_s + self.spin_time_s);
+        Vec3::new(torque.forward(), torque.right(), self.yaw_torque_n_m)
     }
 
     /// Sets all motors to idle.
@@ -123,7 +123,7 @@ impl Mixer {
     /// Stops all motors.
     pub fn stop(&mut self) -> Actuators {
         self.speeds = [0.0; MAX_ROTORS];
-        self.yaw_n_m = 0.0;
+        self.yaw_torque_n_m = 0.0;
         Actuators::default()
     }
 
@@ -166,7 +166,7 @@ mod tests {
     use crate::sensors::tests::error_free_sensors;
 
     /// Rounding error of about a dozen products, N and N m.
-    const ROUNDING: f64 = 1e-10;
+    const ROUNDING_TOLERANCE: f64 = 1e-10;
 
     fn wrench(vehicle: &Vehicle, thrusts: &[f64; MAX_ROTORS]) -> [f64; 4] {
         let reach = vehicle.rotor.torque_coefficient_n_m_s2 / vehicle.rotor.thrust_coefficient_n_s2;
@@ -181,14 +181,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_modest_demand_is_allocated_fully() {
+    fn exact_moderate_demand_is_fully_allocated() {
         let v = vehicle_with(error_free_sensors());
         let (low, high) = limits(&v);
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.1, -0.2, 0.03), thrust_n: 13.0 };
         let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
         let got = wrench(&v, &thrusts);
         for (got, wanted) in got.iter().zip([0.1, -0.2, 0.03, 13.0]) {
-            assert!((got - wanted).abs() < ROUNDING, "{got} {wanted}");
+            assert!((got - wanted).abs() < ROUNDING_TOLERANCE, "{got} {wanted}");
         }
         assert_eq!(given, AllocationStatus { tilt: 1.0, yaw: 1.0 });
     }
@@ -200,9 +200,9 @@ mod tests {
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(1.0, 0.0, 2.0), thrust_n: 20.0 };
         let (thrusts, given) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
         let got = wrench(&v, &thrusts);
-        assert!((got[0] - 1.0).abs() < ROUNDING && got[1].abs() < ROUNDING, "{got:?}");
+        assert!((got[0] - 1.0).abs() < ROUNDING_TOLERANCE && got[1].abs() < ROUNDING_TOLERANCE, "{got:?}");
         assert!(given.yaw < 1.0 && got[2] > 0.0 && got[2] < 2.0, "{got:?}");
-        assert!(thrusts.iter().take(4).all(|t| *t >= low - ROUNDING && *t <= high + ROUNDING));
+        assert!(thrusts.iter().take(4).all(|t| *t >= low - ROUNDING_TOLERANCE && *t <= high + ROUNDING_TOLERANCE));
     }
 
     #[test]
@@ -212,6 +212,6 @@ mod tests {
         let demand = TorqueThrustSetpoint { torque_n_m: Vec3::new(0.5, 0.5, 0.0), thrust_n: 1e3 };
         let (thrusts, _) = Mixer::new(&v, 2.0).allocate(&demand, low, high);
         let got = wrench(&v, &thrusts);
-        assert!((got[0] - 0.5).abs() < ROUNDING && (got[1] - 0.5).abs() < ROUNDING, "{got:?}");
+        assert!((got[0] - 0.5).abs() < ROUNDING_TOLERANCE && (got[1] - 0.5).abs() < ROUNDING_TOLERANCE, "{got:?}");
     }
 }

@@ -11,7 +11,7 @@ pub mod shaper;
 pub mod velocity;
 
 use self::airframe::Airframe;
-use self::attitude::{AttitudeLoop, within_limits};
+use self::attitude::{AttitudeLoop, limit_rates};
 use self::gains::Gains;
 use self::landed::LandingDetector;
 use self::mixer::{AllocationStatus, Mixer, TorqueThrustSetpoint};
@@ -77,7 +77,7 @@ impl Control {
             velocity_loop: VelocityLoop::default(),
             attitude_loop: AttitudeLoop::default(),
             mixer: Mixer::new(vehicle, gains.lead),
-            allocation: AllocationStatus::COMPLETE,
+            allocation: AllocationStatus::FULLY_ALLOCATED,
         }
     }
 
@@ -91,7 +91,7 @@ impl Control {
     pub fn reset(&mut self) {
         self.velocity_loop.reset();
         self.attitude_loop.reset();
-        self.allocation = AllocationStatus::COMPLETE;
+        self.allocation = AllocationStatus::FULLY_ALLOCATED;
     }
 
     /// Stops the motors.
@@ -100,7 +100,7 @@ impl Control {
     }
 
     /// Keeps the motors stopped while disarmed.
-    pub fn stay_disarmed(&mut self, estimate: &Estimate) -> Actuators {
+    pub fn keep_motors_stopped(&mut self, estimate: &Estimate) -> Actuators {
         self.clear_targets(estimate);
         self.mixer.stop()
     }
@@ -119,26 +119,26 @@ impl Control {
                 self.mixer.idle(input.dt_s)
             }
             Setpoint::Velocity(motion) => {
-                self.landing.descent_m_s = motion.velocity_m_s.down();
+                self.landing.descent_rate_m_s = motion.velocity_m_s.down();
                 let target = self.velocity_loop.fly(gains, mass_kg, input.estimate, &motion, input.dt_s);
                 self.run_attitude_loop(&target, input)
             }
             Setpoint::Level { motion, tilt } => {
-                self.landing.descent_m_s = motion.velocity_m_s.down();
+                self.landing.descent_rate_m_s = motion.velocity_m_s.down();
                 self.velocity_loop.reset_horizontal();
                 let target = self.velocity_loop.fly_level(gains, mass_kg, input.estimate, &motion, tilt, input.dt_s);
                 self.run_attitude_loop(&target, input)
             }
-            Setpoint::AttitudeThrust { target, descent_m_s } => {
-                self.landing.descent_m_s = descent_m_s;
+            Setpoint::AttitudeThrust { target, descent_rate_m_s: descent_m_s } => {
+                self.landing.descent_rate_m_s = descent_m_s;
                 self.run_attitude_loop(&target, input)
             }
-            Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s } => {
-                self.landing.descent_m_s = descent_m_s;
+            Setpoint::Rates { rates_rad_s, thrust_n, descent_rate_m_s: descent_m_s } => {
+                self.landing.descent_rate_m_s = descent_m_s;
                 self.run_rate_loop(rates_rad_s, thrust_n, input)
             }
-            Setpoint::RatesAndClimb { rates_rad_s, motion, descent_m_s } => {
-                self.landing.descent_m_s = descent_m_s;
+            Setpoint::RatesAndClimb { rates_rad_s, motion, descent_rate_m_s: descent_m_s } => {
+                self.landing.descent_rate_m_s = descent_m_s;
                 let level = self.velocity_loop.fly_level(gains, mass_kg, input.estimate, &motion, (0.0, 0.0), input.dt_s);
                 self.run_rate_loop(rates_rad_s, level.thrust_n, input)
             }
@@ -148,7 +148,7 @@ impl Control {
     fn run_attitude_loop(&mut self, target: &AttitudeThrustSetpoint, input: &ControlInput) -> Actuators {
         let thrust_n = self.ramp_thrust(target.thrust_n, input.now);
         self.attitude_target = target.attitude;
-        self.attitude_error_cosine = thrust_cosine(input.estimate.attitude, target.attitude);
+        self.attitude_error_cosine = thrust_direction_cosine(input.estimate.attitude, target.attitude);
         let torque_n_m = self.attitude_loop.torque(
             &self.gains,
             input.estimate,
@@ -164,7 +164,7 @@ impl Control {
         let thrust_n = self.ramp_thrust(thrust_n, input.now);
         self.attitude_target = input.estimate.attitude;
         self.attitude_error_cosine = 1.0;
-        let rates = within_limits(&self.gains, rates_rad_s);
+        let rates = limit_rates(&self.gains, rates_rad_s);
         let torque_n_m = self.attitude_loop.rate_torque(&self.gains, input.estimate, rates, self.allocation, input.dt_s);
         self.mix(&TorqueThrustSetpoint { torque_n_m, thrust_n }, input)
     }
@@ -178,22 +178,24 @@ impl Control {
     }
 
     fn mix(&mut self, demand: &TorqueThrustSetpoint, input: &ControlInput) -> Actuators {
-        let (actuators, allocation) = self.mixer.mix(demand, voltage_share(input), input.dt_s);
+        let (actuators, allocation) = self.mixer.mix(demand, battery_voltage_fraction(input), input.dt_s);
         self.allocation = allocation;
         actuators
     }
 }
 
 /// Battery voltage as a fraction of the full-charge voltage.
-fn voltage_share(input: &ControlInput) -> f64 {
+fn battery_voltage_fraction(input: &ControlInput) -> f64 {
     match input.battery {
-        Some(b) if input.airframe.models_voltage_sag => (b.voltage_v / input.airframe.full_v).clamp(MIN_VOLTAGE_FRACTION, 1.0),
+        Some(b) if input.airframe.models_voltage_sag => {
+            (b.voltage_v / input.airframe.full_battery_v).clamp(MIN_VOLTAGE_FRACTION, 1.0)
+        }
         _ => 1.0,
     }
 }
 
 /// Cosine of the angle between the thrust directions of two attitudes.
-fn thrust_cosine(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
+fn thrust_direction_cosine(a: Rotation<Frd, Ned>, b: Rotation<Frd, Ned>) -> f64 {
     let z = Vec3::<Frd>::new(0.0, 0.0, 1.0);
     (a * z).dot(b * z)
 }

@@ -22,7 +22,7 @@ pub enum Setpoint {
         /// Attitude and collective thrust.
         target: AttitudeThrustSetpoint,
         /// Intended descent rate for landing detection, m/s.
-        descent_m_s: f64,
+        descent_rate_m_s: f64,
     },
     /// Body rates and thrust.
     Rates {
@@ -31,7 +31,7 @@ pub enum Setpoint {
         /// Collective thrust, N.
         thrust_n: f64,
         /// Intended descent rate for landing detection, m/s.
-        descent_m_s: f64,
+        descent_rate_m_s: f64,
     },
     /// Body rates and vertical velocity.
     RatesAndClimb {
@@ -40,6 +40,6 @@ pub enum Setpoint {
         /// Vertical velocity.
         motion: VelocitySetpoint,
         /// Intended descent rate for landing detection, m/s.
-        descent_m_s: f64,
+        descent_rate_m_s: f64,
     },
 }

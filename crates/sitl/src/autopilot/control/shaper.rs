@@ -6,7 +6,7 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
 /// Time constant of the final approach to the target velocity, s.
-const APPROACH_S: f64 = 0.25;
+const APPROACH_TIME_CONSTANT_S: f64 = 0.25;
 /// Time to build up full acceleration, s.
 pub const ACCELERATION_RAMP_S: f64 = 0.15;
 /// Time to build up full horizontal acceleration in a mission or return, s (estimate: a tilt rate of about 50 deg/s).
@@ -16,11 +16,11 @@ pub const AUTO_ACCELERATION_RAMP_S: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLimits {
     /// Horizontal acceleration, m/s².
-    pub horizontal_m_s2: f64,
+    pub horizontal_acceleration_m_s2: f64,
     /// Vertical acceleration, m/s².
-    pub vertical_m_s2: f64,
+    pub vertical_acceleration_m_s2: f64,
     /// Time to build up full horizontal acceleration, s.
-    pub build_up_s: f64,
+    pub acceleration_ramp_s: f64,
 }
 
 impl MotionLimits {
@@ -28,7 +28,11 @@ impl MotionLimits {
     #[must_use]
     pub fn automatic(gains: &Gains) -> Self {
         let (horizontal_m_s2, vertical_m_s2) = (0.7 * gains.acceleration_m_s2, 0.7 * gains.climb_acceleration_m_s2);
-        Self { horizontal_m_s2, vertical_m_s2, build_up_s: ACCELERATION_RAMP_S }
+        Self {
+            horizontal_acceleration_m_s2: horizontal_m_s2,
+            vertical_acceleration_m_s2: vertical_m_s2,
+            acceleration_ramp_s: ACCELERATION_RAMP_S,
+        }
     }
 }
 
@@ -49,13 +53,13 @@ impl MotionShaper {
 
     /// Advances one step toward a target velocity.
     pub fn advance(&mut self, target_velocity_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
-        let wanted = (target_velocity_m_s - self.velocity_m_s) / APPROACH_S;
-        let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(limits.horizontal_m_s2);
-        let down = wanted.down().clamp(-limits.vertical_m_s2, limits.vertical_m_s2);
+        let wanted = (target_velocity_m_s - self.velocity_m_s) / APPROACH_TIME_CONSTANT_S;
+        let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(limits.horizontal_acceleration_m_s2);
+        let down = wanted.down().clamp(-limits.vertical_acceleration_m_s2, limits.vertical_acceleration_m_s2);
         let step = flat + Vec3::new(0.0, 0.0, down) - self.acceleration_m_s2;
-        let horizontal =
-            Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(limits.horizontal_m_s2 / limits.build_up_s * dt_s);
-        let max_step = limits.vertical_m_s2 / ACCELERATION_RAMP_S * dt_s;
+        let horizontal = Vec3::<Ned>::new(step.north(), step.east(), 0.0)
+            .limited(limits.horizontal_acceleration_m_s2 / limits.acceleration_ramp_s * dt_s);
+        let max_step = limits.vertical_acceleration_m_s2 / ACCELERATION_RAMP_S * dt_s;
         self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-max_step, max_step));
         self.velocity_m_s += self.acceleration_m_s2 * dt_s;
     }
@@ -115,7 +119,11 @@ mod tests {
 
     #[test]
     fn prop_shaped_stop_does_not_overshoot() {
-        let limits = MotionLimits { horizontal_m_s2: 4.0, vertical_m_s2: 2.0, build_up_s: ACCELERATION_RAMP_S };
+        let limits = MotionLimits {
+            horizontal_acceleration_m_s2: 4.0,
+            vertical_acceleration_m_s2: 2.0,
+            acceleration_ramp_s: ACCELERATION_RAMP_S,
+        };
         let mut shaper = MotionShaper::default();
         shaper.start(Vec3::new(8.0, 0.0, 0.0));
         let mut least: f64 = 8.0;

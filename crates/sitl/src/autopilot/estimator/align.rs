@@ -5,13 +5,13 @@ use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 
 /// Averaging time for the alignment, s.
-pub const ALIGN_S: f64 = 0.5;
+pub const ALIGNMENT_TIME_S: f64 = 0.5;
 /// Maximum angular rate at rest, rad/s.
-const REST_RATE_MAX_RAD_S: f64 = 0.15;
+const MAX_REST_RATE_RAD_S: f64 = 0.15;
 /// Maximum deviation of the specific force from 1 g at rest, m/s².
 const REST_FORCE_TOLERANCE_M_S2: f64 = 1.5;
 /// Mean rates beyond this many standard deviations of the gyroscope bias count as motion.
-const BIAS_SIGMAS: f64 = 5.0;
+const MAX_BIAS_SIGMAS: f64 = 5.0;
 /// Residual rocking of a vehicle at rest, as a fraction of the gyroscope bias (1 sigma, estimate). It limits how
 /// accurately the mean rate determines the bias; the filter estimates the rest of the bias in flight.
 pub const ROCKING_BIAS_FRACTION: f64 = 0.1;
@@ -22,14 +22,14 @@ pub struct GyroSpec {
     /// Bias after calibration, rad/s (1 sigma).
     pub bias_rad_s: f64,
     /// White noise of one sample, rad/s (1 sigma).
-    pub sample_rad_s: f64,
+    pub white_noise_rad_s: f64,
 }
 
 impl GyroSpec {
     /// Returns true if a mean rate at rest is plausible as the bias of this gyroscope.
-    fn allows(&self, mean_rad_s: Vec3<Frd>, samples: f64) -> bool {
-        let sigma = math::hypot(self.bias_rad_s, self.sample_rad_s / samples.sqrt());
-        mean_rad_s.array().iter().all(|rate| rate.abs() <= BIAS_SIGMAS * sigma)
+    fn is_plausible_bias(&self, mean_rad_s: Vec3<Frd>, samples: f64) -> bool {
+        let sigma = math::hypot(self.bias_rad_s, self.white_noise_rad_s / samples.sqrt());
+        mean_rad_s.array().iter().all(|rate| rate.abs() <= MAX_BIAS_SIGMAS * sigma)
     }
 }
 
@@ -70,9 +70,9 @@ impl Alignment {
 
     /// Adds an inertial sample. Motion, or a mean rate too large for a bias, restarts the alignment.
     pub fn imu(&mut self, reading: &ImuReading, dt_s: f64) {
-        let moving = reading.rates_rad_s.norm() > REST_RATE_MAX_RAD_S
+        let moving = reading.rates_rad_s.norm() > MAX_REST_RATE_RAD_S
             || (reading.specific_force_m_s2.norm() - math::GRAVITY_M_S2).abs() > REST_FORCE_TOLERANCE_M_S2;
-        let turning = self.time_s >= ALIGN_S && !self.gyro.allows(self.mean_rate(), f64::from(self.samples));
+        let turning = self.time_s >= ALIGNMENT_TIME_S && !self.gyro.is_plausible_bias(self.mean_rate(), f64::from(self.samples));
         if moving || turning {
             *self = Self::new(self.gyro);
             return;
@@ -95,17 +95,17 @@ impl Alignment {
 
     fn gyro_variance(&self, samples: f64) -> f64 {
         let least = ROCKING_BIAS_FRACTION * self.gyro.bias_rad_s;
-        self.gyro.sample_rad_s * self.gyro.sample_rad_s / samples + least * least
+        self.gyro.white_noise_rad_s * self.gyro.white_noise_rad_s / samples + least * least
     }
 
     /// Returns the result once enough samples have been averaged. `field` is the Earth's magnetic field at the site.
     #[must_use]
     pub fn result(&self, field: Vec3<Ned>) -> Option<AlignmentResult> {
-        if self.time_s < ALIGN_S || self.mag_samples == 0 {
+        if self.time_s < ALIGNMENT_TIME_S || self.mag_samples == 0 {
             return None;
         }
         let samples = f64::from(self.samples);
-        if !self.gyro.allows(self.mean_rate(), samples) {
+        if !self.gyro.is_plausible_bias(self.mean_rate(), samples) {
             return None;
         }
         let force = self.force / samples;
@@ -127,11 +127,11 @@ impl Alignment {
 mod tests {
     use super::*;
 
-    const GYRO: GyroSpec = GyroSpec { bias_rad_s: 0.02, sample_rad_s: 0.002 };
+    const GYRO: GyroSpec = GyroSpec { bias_rad_s: 0.02, white_noise_rad_s: 0.002 };
 
     #[test]
-    fn regress_rocking_body_is_not_aligned_and_bias_stays_uncertain_at_rest() {
-        let gyro = GyroSpec { bias_rad_s: 0.003, sample_rad_s: 0.002 };
+    fn regress_rocking_vehicle_does_not_align_and_bias_stays_uncertain() {
+        let gyro = GyroSpec { bias_rad_s: 0.003, white_noise_rad_s: 0.002 };
         let mut alignment = Alignment::new(gyro);
         let field = Vec3::new(0.2, 0.02, 0.4);
         let mut feed = |rate: f64, samples: u32| {
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_alignment_recovers_attitude_of_tilted_body() {
+    fn exact_alignment_recovers_tilted_attitude() {
         let truth = Rotation::from_euler(0.2, -0.1, 2.0);
         let field = Vec3::new(0.2, 0.02, 0.4);
         let mut alignment = Alignment::new(GYRO);

@@ -5,14 +5,14 @@ use spandrel_model::time::SimTime;
 
 /// Time constant of the average rejection rate, s (estimate: one second of rejected measurements drops a source, but
 /// single outliers do not).
-const REJECTION_AVERAGING_S: f64 = 0.5;
+const REJECTION_AVERAGING_TIME_S: f64 = 0.5;
 /// Rejection rate above which a source is dropped.
 const DROP_THRESHOLD: f64 = 0.8;
 /// Rejection rate below which a source is used again; reached after 2 s of consistent measurements.
 const RECOVERY_THRESHOLD: f64 = 0.02;
 /// Cap on the interval between measurements in the average, s. Without it, one rejection after a long gap could drop a
 /// source.
-const MAX_INTERVAL_S: f64 = 0.25;
+const MAX_MEASUREMENT_INTERVAL_S: f64 = 0.25;
 /// Time after which a rejected source is used again if no better source remains, s.
 pub const REJECTION_TIMEOUT_S: f64 = 3.0;
 
@@ -27,10 +27,10 @@ pub struct InnovationCheck {
 impl InnovationCheck {
     /// Records whether a measurement passed its gate. Returns true if it should be fused.
     pub fn should_fuse(&mut self, fits: bool, now: SimTime) -> bool {
-        let gap_s = self.last.map_or(MAX_INTERVAL_S, |last| (now - last).s()).min(MAX_INTERVAL_S);
+        let gap_s = self.last.map_or(MAX_MEASUREMENT_INTERVAL_S, |last| (now - last).s()).min(MAX_MEASUREMENT_INTERVAL_S);
         self.last = Some(now);
         let refused = if fits { 0.0 } else { 1.0 };
-        self.rejection_rate += (refused - self.rejection_rate) * (gap_s / REJECTION_AVERAGING_S);
+        self.rejection_rate += (refused - self.rejection_rate) * (gap_s / REJECTION_AVERAGING_TIME_S);
         self.dropped = self.rejection_rate > if self.dropped { RECOVERY_THRESHOLD } else { DROP_THRESHOLD };
         fits && !self.dropped
     }
@@ -61,7 +61,7 @@ pub struct OffsetMonitor {
 impl OffsetMonitor {
     /// Records an offset from the filter, m. Returns how many seconds the offset has stayed constant within
     /// `tolerance_m`.
-    pub fn hold_s(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
+    pub fn record_offset(&mut self, distance_m: Vec3<Ned>, tolerance_m: f64, now: SimTime) -> f64 {
         match self.previous {
             Some((then, since)) if (distance_m - then).norm() <= tolerance_m => (now - since).s(),
             _ => {

@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// Number of error states.
-pub const STATES: usize = 23;
+pub const STATE_COUNT: usize = 23;
 /// Index of the position error.
 pub const P: usize = 0;
 /// Index of the velocity error.
@@ -48,22 +48,22 @@ pub struct ProcessNoise {
 }
 
 /// Correction for each error state.
-pub type StateCorrection = [f64; STATES];
+pub type StateCorrection = [f64; STATE_COUNT];
 
 /// Row length, padded to a multiple of four so that loops over a row have no remainder. The padding stays zero.
-const WIDTH: usize = STATES.next_multiple_of(4);
+const ROW_LENGTH: usize = STATE_COUNT.next_multiple_of(4);
 
 /// Symmetric covariance matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Covariance {
-    m: [[f64; WIDTH]; STATES],
+    m: [[f64; ROW_LENGTH]; STATE_COUNT],
 }
 
 impl Covariance {
     /// Creates a diagonal covariance from variances.
     #[must_use]
-    pub fn diagonal(variances: &[f64; STATES]) -> Self {
-        let mut m = [[0.0; WIDTH]; STATES];
+    pub fn diagonal(variances: &[f64; STATE_COUNT]) -> Self {
+        let mut m = [[0.0; ROW_LENGTH]; STATE_COUNT];
         for (i, v) in variances.iter().enumerate() {
             m[i][i] = *v;
         }
@@ -91,7 +91,7 @@ impl Covariance {
     /// Resets `count` error states starting at `first` to one variance, uncorrelated with all other states.
     pub fn reset(&mut self, first: usize, count: usize, variance: f64) {
         for i in first..first + count {
-            for j in 0..STATES {
+            for j in 0..STATE_COUNT {
                 self.set(i, j, 0.0);
             }
         }
@@ -190,7 +190,7 @@ impl Covariance {
 
     /// Copies one triangle to the other so that rounding cannot make them diverge.
     fn mirror(&mut self) {
-        for i in 1..STATES {
+        for i in 1..STATE_COUNT {
             for j in 0..i {
                 self.m[i][j] = self.m[j][i];
             }
@@ -209,7 +209,7 @@ impl Covariance {
     /// `innovation` is measured minus expected. Returns `None`, without changing the covariance, if the innovation
     /// exceeds `gate` standard deviations.
     pub fn fuse(&mut self, slopes: &[(usize, f64)], innovation: f64, variance: f64, gate: f64) -> Option<StateCorrection> {
-        let mut ph = [0.0; WIDTH];
+        let mut ph = [0.0; ROW_LENGTH];
         for (index, slope) in slopes {
             for (sum, value) in ph.iter_mut().zip(&self.m[*index]) {
                 *sum += slope * value;
@@ -220,7 +220,7 @@ impl Covariance {
             return None;
         }
         let inverse = 1.0 / expected;
-        for i in 0..STATES {
+        for i in 0..STATE_COUNT {
             let gain = ph[i] * inverse;
             for (value, other) in self.m[i].iter_mut().zip(&ph) {
                 *value -= gain * other;
@@ -236,9 +236,9 @@ mod tests {
     use super::*;
     use nalgebra::SMatrix;
 
-    type SquareMatrix = SMatrix<f64, STATES, STATES>;
+    type SquareMatrix = SMatrix<f64, STATE_COUNT, STATE_COUNT>;
     /// Rounding error of sums of terms of order one, dimensionless.
-    const ROUNDING: f64 = 1e-12;
+    const ROUNDING_TOLERANCE: f64 = 1e-12;
 
     fn full(c: &Covariance) -> SquareMatrix {
         SquareMatrix::from_fn(|i, j| c.m[i][j])
@@ -247,9 +247,9 @@ mod tests {
     fn sample_covariance() -> Covariance {
         let root = SquareMatrix::from_fn(|i, j| ((i * 7 + j * 13) % 11) as f64 / 11.0 - 0.4);
         let m = root * root.transpose();
-        let mut c = Covariance::diagonal(&[0.0; STATES]);
-        for i in 0..STATES {
-            for j in 0..STATES {
+        let mut c = Covariance::diagonal(&[0.0; STATE_COUNT]);
+        for i in 0..STATE_COUNT {
+            for j in 0..STATE_COUNT {
                 c.m[i][j] = m[(i.min(j), i.max(j))];
             }
         }
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sparse_propagation_equals_full_product() {
+    fn exact_sparse_propagation_matches_full_product() {
         let noise = ProcessNoise {
             accel: 0.1,
             gyro: 0.2,
@@ -293,21 +293,21 @@ mod tests {
         }
         expected[(BARO, BARO)] += 0.8 * dt;
         c.propagate(&r, &g, dt, &noise, 0.001);
-        assert!((full(&c) - expected).abs().max() < ROUNDING);
+        assert!((full(&c) - expected).abs().max() < ROUNDING_TOLERANCE);
     }
 
     #[test]
     fn exact_scalar_fusion_matches_textbook_update() {
         let mut c = sample_covariance();
         let before = full(&c);
-        let mut h = SMatrix::<f64, 1, STATES>::zeros();
+        let mut h = SMatrix::<f64, 1, STATE_COUNT>::zeros();
         h[(0, P)] = 1.0;
         h[(0, DRIFT)] = 0.5;
         let s = (h * before * h.transpose())[(0, 0)] + 0.2;
         let k = before * h.transpose() / s;
-        let dx = c.fuse(&[(P, 1.0), (DRIFT, 0.5)], 0.3, 0.2, 5.0).unwrap_or([0.0; STATES]);
-        assert!((full(&c) - (SquareMatrix::identity() - k * h) * before).abs().max() < ROUNDING);
-        assert!((0..STATES).all(|i| (dx[i] - k[(i, 0)] * 0.3).abs() < ROUNDING));
+        let dx = c.fuse(&[(P, 1.0), (DRIFT, 0.5)], 0.3, 0.2, 5.0).unwrap_or([0.0; STATE_COUNT]);
+        assert!((full(&c) - (SquareMatrix::identity() - k * h) * before).abs().max() < ROUNDING_TOLERANCE);
+        assert!((0..STATE_COUNT).all(|i| (dx[i] - k[(i, 0)] * 0.3).abs() < ROUNDING_TOLERANCE));
     }
 
     #[test]

@@ -16,15 +16,15 @@ pub(super) const INNOVATION_GATE: f64 = 5.0;
 /// white noise.
 const MULTIPATH_WEIGHT: f64 = 40.0;
 /// Time after its last fusion for which optical flow counts as an independent velocity source, s.
-const FLOW_FRESH_S: f64 = 1.0;
+const FLOW_VALIDITY_TIME_S: f64 = 1.0;
 /// Time for which a fix counts as current, s (estimate: five fixes at the usual rate).
-const FIX_FRESH_S: f64 = 1.0;
+const FIX_VALIDITY_TIME_S: f64 = 1.0;
 /// Deviation beyond which the barometer contradicts the GNSS drift, standard deviations.
-const DRIFT_SIGMAS: f64 = 4.0;
+const BARO_CONFLICT_SIGMAS: f64 = 4.0;
 /// Deviation within which GNSS and filter agree on height, standard deviations.
 const AGREEMENT_SIGMAS: f64 = 1.5;
 /// Standard deviation of the barometer offset after a reset, m (estimate).
-const RESET_OFFSET_SIGMA_M: f64 = 0.3;
+const RESET_BARO_OFFSET_SIGMA_M: f64 = 0.3;
 
 /// Non-zero elements of the Jacobian of one measurement.
 type MeasurementJacobian<'a> = &'a [(usize, f64)];
@@ -46,21 +46,21 @@ impl Estimator {
         self.fuse_fix(fix, rh, now);
         self.fuse_fix_height(fix, rv, now);
         let stretch = (rh.sqrt() / n.gnss_white_m[0].max(1e-6)).max(1.0);
-        self.fuse_fix_velocity(fix, (n.gnss_velocity_m_s * stretch) * (n.gnss_velocity_m_s * stretch), now);
+        self.fuse_fix_velocity(fix, (n.gnss_velocity_noise_m_s * stretch) * (n.gnss_velocity_noise_m_s * stretch), now);
     }
 
     /// Offset of a fix from the filter, m.
-    fn fix_offset_m(&self, fix: &GnssReading) -> Vec3<Ned> {
+    fn gnss_offset_m(&self, fix: &GnssReading) -> Vec3<Ned> {
         fix.position_m - self.position_m - self.drift_m
     }
 
     fn fuse_fix(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
-        let off = self.fix_offset_m(fix).array();
+        let off = self.gnss_offset_m(fix).array();
         let slopes = [[(P, 1.0), (DRIFT, 1.0)], [(P + 1, 1.0), (DRIFT + 1, 1.0)]];
         let fits = (0..2).all(|i| self.accepts(&slopes[i], off[i], variance));
         if self.checks.gnss.should_fuse(fits, now) {
             self.fuse(&slopes[0], off[0], variance);
-            let off = self.fix_offset_m(fix);
+            let off = self.gnss_offset_m(fix);
             self.fuse(&slopes[1], off.east(), variance);
         }
         if fits {
@@ -69,10 +69,10 @@ impl Estimator {
         }
         // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, the filter accepts a constant
         // offset but not noise.
-        let off = self.fix_offset_m(fix);
+        let off = self.gnss_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
-        let steady_s = self.checks.gnss_offset_monitor.hold_s(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
-        let flow_is_fresh = (now - self.last_fused.flow).s() < FLOW_FRESH_S;
+        let steady_s = self.checks.gnss_offset_monitor.record_offset(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
+        let flow_is_fresh = (now - self.last_fused.flow).s() < FLOW_VALIDITY_TIME_S;
         if steady_s > REJECTION_TIMEOUT_S && !flow_is_fresh {
             self.reset_position(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
@@ -83,14 +83,14 @@ impl Estimator {
 
     /// Resets the position to the GNSS position.
     fn reset_position(&mut self, position_m: Vec3<Ned>) {
-        self.position_step_m = Some(self.position_step_m.unwrap_or_default() + (position_m - self.position_m));
+        self.position_reset_m = Some(self.position_reset_m.unwrap_or_default() + (position_m - self.position_m));
         self.position_m = position_m;
     }
 
     fn fuse_fix_height(&mut self, fix: &GnssReading, variance: f64, now: SimTime) {
         let slow = self.slow_height_error_m(fix, now);
         let slopes = [(P + 2, 1.0), (DRIFT + 2, 1.0)];
-        let off = self.fix_offset_m(fix).down();
+        let off = self.gnss_offset_m(fix).down();
         let fits = self.accepts(&slopes, off, variance);
         if self.checks.gnss_height.should_fuse(fits, now) && !self.checks.gnss.dropped() {
             self.fuse(&slopes, off, variance);
@@ -101,7 +101,7 @@ impl Estimator {
             self.ground.record_agreement(self.position_m.down(), fix.position_m.down());
         }
         // With another height reference, the GNSS height may have a permanent offset.
-        let drifted = self.follows_gnss() && self.drift_m.down().abs() > DRIFT_SIGMAS * slow;
+        let drifted = self.gnss_is_reference() && self.drift_m.down().abs() > BARO_CONFLICT_SIGMAS * slow;
         let contradicted = self.checks.gnss_height.dropped() || drifted;
         if contradicted && !self.checks.gnss.dropped() {
             self.resolve_height_conflict(fix, now);
@@ -115,8 +115,8 @@ impl Estimator {
         self.latest_fix = Some((*fix, now));
         let keep = (1.0 - since_s / self.process.drift_time_s).max(0.0);
         let claimed = (fix.epv_m * fix.epv_m - drift * drift - white * white).max(0.0);
-        self.multipath_m2 = claimed.max(self.multipath_m2 * keep);
-        (drift * drift + self.multipath_m2).sqrt()
+        self.multipath_variance_m2 = claimed.max(self.multipath_variance_m2 * keep);
+        (drift * drift + self.multipath_variance_m2).sqrt()
     }
 
     /// Resolves a height conflict between GNSS and barometer with the range finder, or in favor of GNSS if the range finder
@@ -127,7 +127,7 @@ impl Estimator {
             return;
         }
         let sides = || self.ground.agrees_with_filter(self.position_m.down(), fix.position_m.down());
-        if !alone && (!self.follows_gnss() || sides()) {
+        if !alone && (!self.gnss_is_reference() || sides()) {
             self.checks.gnss_height.reject();
             self.reset_height_drift();
             return;
@@ -148,7 +148,7 @@ impl Estimator {
         self.position_m = Vec3::new(p.north(), p.east(), fix.position_m.down());
         self.velocity_m_s = Vec3::new(v.north(), v.east(), fix.velocity_m_s.down());
         self.covariance.reset(P + 2, 1, fix.epv_m * fix.epv_m);
-        let speed = self.noise.gnss_velocity_m_s;
+        let speed = self.noise.gnss_velocity_noise_m_s;
         self.covariance.reset(V + 2, 1, 4.0 * speed * speed);
         self.checks.gnss_height.clear();
         self.last_fused.height = now;
@@ -194,15 +194,15 @@ impl Estimator {
     /// current height with the barometer if its offset is constant.
     fn recover_height(&mut self, innovation_m: f64, now: SimTime) {
         let tolerance_m = INNOVATION_GATE * (2.0 * self.noise.baro_m * self.noise.baro_m).sqrt();
-        let steady_s = self.checks.baro_offset_monitor.hold_s(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
+        let steady_s = self.checks.baro_offset_monitor.record_offset(Vec3::new(0.0, 0.0, innovation_m), tolerance_m, now);
         if (now - self.last_fused.height).s() <= REJECTION_TIMEOUT_S {
             return;
         }
         match self.latest_fix {
-            Some((fix, at)) if (now - at).s() < FIX_FRESH_S && !self.checks.gnss.dropped() => self.set_height(&fix, now),
+            Some((fix, at)) if (now - at).s() < FIX_VALIDITY_TIME_S && !self.checks.gnss.dropped() => self.set_height(&fix, now),
             _ if steady_s > REJECTION_TIMEOUT_S => {
                 self.baro_offset_m -= innovation_m;
-                self.covariance.reset(BARO, 1, RESET_OFFSET_SIGMA_M * RESET_OFFSET_SIGMA_M);
+                self.covariance.reset(BARO, 1, RESET_BARO_OFFSET_SIGMA_M * RESET_BARO_OFFSET_SIGMA_M);
                 self.checks.baro.clear();
                 self.checks.baro_offset_monitor.clear();
                 self.last_fused.height = now;

@@ -21,7 +21,7 @@ const GROUND_ROUGHNESS_M: f64 = 0.05;
 
 impl Estimator {
     /// Returns true if GNSS is the configured reference.
-    pub(super) fn follows_gnss(&self) -> bool {
+    pub(super) fn gnss_is_reference(&self) -> bool {
         self.configured_reference == HeightReference::Gnss
     }
 
@@ -37,7 +37,7 @@ impl Estimator {
         if reference != self.height_reference.reference {
             self.height_reference.reference = reference;
             self.set_height_weights(reference);
-            if self.follows_gnss() {
+            if self.gnss_is_reference() {
                 self.move_height_to_gnss();
             }
         }
@@ -71,7 +71,7 @@ impl Estimator {
 
     /// Corrects the height with the measured distance `below_m` to the ground. If the surface changes abruptly (an
     /// edge, a truck), keeps the height and adopts the new ground level.
-    pub(super) fn follow_range(&mut self, below_m: f64, now: SimTime) {
+    pub(super) fn correct_height_by_range(&mut self, below_m: f64, now: SimTime) {
         if self.configured_reference != HeightReference::RangeFinder || !below_m.is_finite() {
             self.height_reference.ground_down_m = None;
             return;
@@ -89,13 +89,13 @@ impl Estimator {
         }
         if fits {
             self.height_reference.off.clear();
-        } else if self.height_reference.off.hold_s(
+        } else if self.height_reference.off.record_offset(
             Vec3::new(0.0, 0.0, innovation_m),
             INNOVATION_GATE * (2.0 * variance).sqrt(),
             now,
         ) > REJECTION_TIMEOUT_S
         {
-            self.height_reference.clear_ground();
+            self.height_reference.clear_ground_level();
         }
     }
 }

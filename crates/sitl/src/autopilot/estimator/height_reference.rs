@@ -46,7 +46,7 @@ impl HeightReferenceState {
     }
 
     /// Clears the ground level after the vehicle has been moved.
-    pub fn clear_ground(&mut self) {
+    pub fn clear_ground_level(&mut self) {
         (self.ground_down_m, self.check, self.off) = (None, InnovationCheck::default(), OffsetMonitor::default());
     }
 }

@@ -17,7 +17,7 @@ pub mod height_reference;
 use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
 use align::{Alignment, AlignmentResult, GyroSpec};
 use checks::InnovationChecks;
-use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATES, THETA, V};
+use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATE_COUNT, THETA, V};
 use estimate::Estimate;
 use ground::GroundEstimate;
 use height_reference::{HeightReference, HeightReferenceState};
@@ -31,16 +31,16 @@ use spandrel_model::vehicle;
 /// Propagation interval of the covariance, s.
 const COVARIANCE_PERIOD_S: f64 = 0.0099;
 /// Maximum standard deviations at which horizontal velocity and position are usable for control, m/s and m.
-const USABLE_VELOCITY_M_S: f64 = 0.7;
-const USABLE_POSITION_M: f64 = 12.0;
+const MAX_USABLE_VELOCITY_SIGMA_M_S: f64 = 0.7;
+const MAX_USABLE_POSITION_SIGMA_M: f64 = 12.0;
 /// Fraction of these limits below which an estimate becomes valid again.
-const REGAIN_FRACTION: f64 = 0.5;
+const REVALIDATION_FRACTION: f64 = 0.5;
 /// Specific force above which the sampling blurs the direction of a shock, m/s², and the fraction of it treated as uncertain.
-const SHOCK_M_S2: f64 = 40.0;
-const SHOCK_UNCERTAIN_FRACTION: f64 = 0.1;
+const SHOCK_SPECIFIC_FORCE_M_S2: f64 = 40.0;
+const SHOCK_UNCERTAINTY_FRACTION: f64 = 0.1;
 /// Time over which fixes are averaged before the local frame's origin is set, s (estimate; PX4 requires 10 s of good
 /// fixes, EKF2_REQ_GPS_H).
-const LOCAL_ORIGIN_AFTER_S: f64 = 1.5;
+const LOCAL_ORIGIN_AVERAGING_TIME_S: f64 = 1.5;
 
 /// Default dead-reckoning time limit, s. PX4 allows 5 s. Below a deck over water, an aircraft often has neither GNSS
 /// nor optical flow, and this estimator's drift stays within its limits for about this long
@@ -50,7 +50,7 @@ pub const DEAD_RECKONING_LIMIT_S: f64 = 60.0;
 /// Measurement noise from the sensors' data sheets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct MeasurementNoise {
-    gnss_velocity_m_s: f64,
+    gnss_velocity_noise_m_s: f64,
     gnss_white_m: [f64; 2],
     gnss_drift_m: [f64; 2],
     baro_m: f64,
@@ -113,8 +113,8 @@ pub struct Estimator {
     flow_scale: f64,
     mag_bias: Vec3<Frd>,
     covariance: Covariance,
-    unpropagated_m_s: Vec3<Ned>,
-    unpropagated_s: f64,
+    unpropagated_velocity_m_s: Vec3<Ned>,
+    unpropagated_time_s: f64,
     shock_variance: f64,
     rates_rad_s: Vec3<Frd>,
     acceleration_m_s2: Vec3<Ned>,
@@ -124,7 +124,7 @@ pub struct Estimator {
     ground: GroundEstimate,
     latest_fix: Option<(GnssReading, SimTime)>,
     /// Variance of the GNSS height due to recently reported multipath, m².
-    multipath_m2: f64,
+    multipath_variance_m2: f64,
     /// Whether the motors are off.
     motors_off: bool,
     /// Time without a fused velocity after which the position becomes invalid, s.
@@ -133,7 +133,7 @@ pub struct Estimator {
     pub configured_reference: HeightReference,
     height_reference: HeightReferenceState,
     /// Accumulated position resets since the last query, m.
-    position_step_m: Option<Vec3<Ned>>,
+    position_reset_m: Option<Vec3<Ned>>,
     /// Number of position resets returned by queries so far.
     position_resets: u32,
     usable: bool,
@@ -144,7 +144,8 @@ impl Estimator {
     #[must_use]
     pub fn new(sensors: &vehicle::SensorSpec, origin: Geo) -> Self {
         let sq = |x: f64| x * x;
-        let drift = [sensors.gnss_horizontal_m * gnss::DRIFT_FRACTION, sensors.gnss_vertical_m * gnss::DRIFT_FRACTION];
+        let drift =
+            [sensors.gnss_horizontal_noise_m * gnss::DRIFT_FRACTION, sensors.gnss_vertical_noise_m * gnss::DRIFT_FRACTION];
         let rate = sensors.imu_rate_hz.sqrt();
         Self {
             process: ProcessNoise {
@@ -153,12 +154,15 @@ impl Estimator {
                 accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_FRACTION),
                 gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_FRACTION),
                 drift: [sq(drift[0]), sq(drift[0]), sq(drift[1])],
-                drift_time_s: gnss::DRIFT_TIME_S,
+                drift_time_s: gnss::DRIFT_TIME_CONSTANT_S,
                 baro_walk: sq(sensors.baro_drift_m_sqrt_s),
             },
             noise: MeasurementNoise {
-                gnss_velocity_m_s: sensors.gnss_velocity_m_s,
-                gnss_white_m: [sensors.gnss_horizontal_m * gnss::WHITE_FRACTION, sensors.gnss_vertical_m * gnss::WHITE_FRACTION],
+                gnss_velocity_noise_m_s: sensors.gnss_velocity_noise_m_s,
+                gnss_white_m: [
+                    sensors.gnss_horizontal_noise_m * gnss::WHITE_NOISE_FRACTION,
+                    sensors.gnss_vertical_noise_m * gnss::WHITE_NOISE_FRACTION,
+                ],
                 gnss_drift_m: drift,
                 baro_m: sensors.baro_noise_m,
                 mag_gauss: sensors.mag_noise_gauss,
@@ -173,7 +177,7 @@ impl Estimator {
             field_gauss: magnetometer::earth_field_gauss(origin),
             alignment: Alignment::new(GyroSpec {
                 bias_rad_s: sensors.gyro_bias_rad_s,
-                sample_rad_s: sensors.gyro_noise_density * rate,
+                white_noise_rad_s: sensors.gyro_noise_density * rate,
             }),
             aligned: false,
             global_position_known: false,
@@ -189,9 +193,9 @@ impl Estimator {
             baro_offset_m: 0.0,
             flow_scale: 1.0,
             mag_bias: Vec3::zero(),
-            covariance: Covariance::diagonal(&[0.0; STATES]),
-            unpropagated_m_s: Vec3::zero(),
-            unpropagated_s: 0.0,
+            covariance: Covariance::diagonal(&[0.0; STATE_COUNT]),
+            unpropagated_velocity_m_s: Vec3::zero(),
+            unpropagated_time_s: 0.0,
             shock_variance: 0.0,
             rates_rad_s: Vec3::zero(),
             acceleration_m_s2: Vec3::zero(),
@@ -200,12 +204,12 @@ impl Estimator {
             checks: InnovationChecks::default(),
             ground: GroundEstimate::default(),
             latest_fix: None,
-            multipath_m2: 0.0,
+            multipath_variance_m2: 0.0,
             motors_off: true,
             dead_reckoning_limit_s: DEAD_RECKONING_LIMIT_S,
             configured_reference: HeightReference::default(),
             height_reference: HeightReferenceState::default(),
-            position_step_m: None,
+            position_reset_m: None,
             position_resets: 0,
             usable: false,
         }
@@ -230,7 +234,7 @@ impl Estimator {
         if let Some(range_m) = readings.range_down_m {
             let below_m = range_m * (self.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
             self.ground.add_measurement(below_m);
-            self.follow_range(below_m, now);
+            self.correct_height_by_range(below_m, now);
         }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
             self.propagate_covariance();
@@ -253,7 +257,7 @@ impl Estimator {
         let first = *self.first_fix.get_or_insert(now);
         if !self.local_origin_set {
             self.local_origin_m = self.position_m;
-            self.local_origin_set = (now - first).s() >= LOCAL_ORIGIN_AFTER_S;
+            self.local_origin_set = (now - first).s() >= LOCAL_ORIGIN_AVERAGING_TIME_S;
         }
     }
 
@@ -333,13 +337,13 @@ impl Estimator {
         self.attitude = self.attitude.rotated_by(turn);
         self.rates_rad_s = rates;
         self.acceleration_m_s2 = if dt_s > 0.0 { dv / dt_s } else { Vec3::zero() };
-        self.unpropagated_m_s += gained;
-        self.unpropagated_s += dt_s;
+        self.unpropagated_velocity_m_s += gained;
+        self.unpropagated_time_s += dt_s;
         let shock = force.norm();
-        if shock > SHOCK_M_S2 {
-            self.shock_variance += (SHOCK_UNCERTAIN_FRACTION * shock * dt_s) * (SHOCK_UNCERTAIN_FRACTION * shock * dt_s);
+        if shock > SHOCK_SPECIFIC_FORCE_M_S2 {
+            self.shock_variance += (SHOCK_UNCERTAINTY_FRACTION * shock * dt_s) * (SHOCK_UNCERTAINTY_FRACTION * shock * dt_s);
         }
-        if self.unpropagated_s >= COVARIANCE_PERIOD_S {
+        if self.unpropagated_time_s >= COVARIANCE_PERIOD_S {
             self.propagate_covariance();
             self.update_validity(now);
         }
@@ -347,23 +351,32 @@ impl Estimator {
 
     /// Propagates the covariance to the time of the state.
     fn propagate_covariance(&mut self) {
-        if self.unpropagated_s <= 0.0 {
+        if self.unpropagated_time_s <= 0.0 {
             return;
         }
         let r = self.attitude.matrix();
-        self.covariance.propagate(&r, &self.unpropagated_m_s.raw(), self.unpropagated_s, &self.process, self.shock_variance);
-        let keep = 1.0 - self.unpropagated_s / self.process.drift_time_s;
+        self.covariance.propagate(
+            &r,
+            &self.unpropagated_velocity_m_s.raw(),
+            self.unpropagated_time_s,
+            &self.process,
+            self.shock_variance,
+        );
+        let keep = 1.0 - self.unpropagated_time_s / self.process.drift_time_s;
         self.drift_m = self.drift_m * keep;
-        self.unpropagated_m_s = Vec3::zero();
-        self.unpropagated_s = 0.0;
+        self.unpropagated_velocity_m_s = Vec3::zero();
+        self.unpropagated_time_s = 0.0;
         self.shock_variance = 0.0;
     }
 
     fn update_validity(&mut self, now: SimTime) {
-        let share = if self.usable { 1.0 } else { REGAIN_FRACTION };
+        let share = if self.usable { 1.0 } else { REVALIDATION_FRACTION };
         let (v, p) = (self.velocity_sigma_m_s(), self.horizontal_sigma_m());
         let aided = (now - self.last_fused.velocity).s() < self.dead_reckoning_limit_s;
-        self.usable = self.global_position_known && aided && v < USABLE_VELOCITY_M_S * share && p < USABLE_POSITION_M * share;
+        self.usable = self.global_position_known
+            && aided
+            && v < MAX_USABLE_VELOCITY_SIGMA_M_S * share
+            && p < MAX_USABLE_POSITION_SIGMA_M * share;
     }
 
     /// Horizontal velocity accuracy, m/s (1 sigma of the worse axis).
@@ -396,7 +409,7 @@ impl Estimator {
 
     /// Returns the accumulated position reset to GNSS since the last call, in meters.
     pub fn take_position_reset(&mut self) -> Option<Vec3<Ned>> {
-        let step_m = self.position_step_m.take();
+        let step_m = self.position_reset_m.take();
         self.position_resets += u32::from(step_m.is_some());
         step_m
     }
@@ -412,14 +425,14 @@ impl Estimator {
         self.position_m = position_m;
         self.velocity_m_s = velocity_m_s;
         self.attitude = attitude;
-        self.unpropagated_m_s = Vec3::zero();
-        self.unpropagated_s = 0.0;
+        self.unpropagated_velocity_m_s = Vec3::zero();
+        self.unpropagated_time_s = 0.0;
         self.shock_variance = 0.0;
         if !self.aligned {
             let n = self.noise;
             let sq = |x: f64| x * x;
             let (g, a, d) = (sq(n.gyro_bias_rad_s), sq(n.accel_bias_m_s2), self.process.drift);
-            let mut variances = [0.0; STATES];
+            let mut variances = [0.0; STATE_COUNT];
             for i in 0..3 {
                 variances[BG + i] = g;
                 variances[BA + i] = a;
@@ -442,7 +455,7 @@ impl Estimator {
         self.usable = true;
         self.checks = InnovationChecks::default();
         self.ground = GroundEstimate::default();
-        self.height_reference.clear_ground();
+        self.height_reference.clear_ground_level();
         self.last_fused = LastFused::new(now);
     }
 

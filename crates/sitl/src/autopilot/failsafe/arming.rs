@@ -8,13 +8,13 @@ use super::sensor_health::SensorHealth;
 use spandrel_model::frames::{Frd, Vec3};
 
 /// Stick deflection that counts as centered for arming.
-const CENTERED: f64 = 0.2;
+const CENTERED_STICK_DEFLECTION: f64 = 0.2;
 /// Minimum tilt cosine for arming (20 degrees).
-const MIN_LEVEL_COSINE: f64 = 0.94;
+const MIN_TILT_COSINE: f64 = 0.94;
 /// Minimum clearance above the vehicle for arming, m.
 const MIN_OVERHEAD_CLEARANCE_M: f64 = 1.0;
 /// Maximum horizontal position error for arming, m (1 sigma).
-const ARMING_ACCURACY_M: f64 = 5.0;
+const MAX_ARMING_POSITION_SIGMA_M: f64 = 5.0;
 
 /// The arming checks.
 #[derive(Debug, Clone, Copy)]
@@ -35,30 +35,30 @@ impl ArmingCheck<'_> {
     /// Returns the conditions that currently prevent arming.
     #[must_use]
     pub fn reasons(&self) -> Vec<String> {
-        let mut out = self.ground_reasons();
+        let mut out = self.blockers_on_ground();
         out.extend(self.stick_refusal().map(str::to_owned));
         out
     }
 
     /// Returns the reasons why pre-arm checks failed.
     #[must_use]
-    pub fn prearm_reasons(&self) -> Vec<String> {
-        if self.input.tuning.arming_depends_on_mode { self.ground_reasons() } else { self.reasons() }
+    pub fn prearm_blockers(&self) -> Vec<String> {
+        if self.input.tuning.arming_depends_on_mode { self.blockers_on_ground() } else { self.reasons() }
     }
 
-    fn sticks_fresh(&self) -> bool {
-        self.links.sticks_fresh(self.input.tuning.manual_timeout_s(), self.input.now)
+    fn has_recent_sticks(&self) -> bool {
+        self.links.has_recent_sticks(self.input.tuning.manual_timeout_s(), self.input.now)
     }
 
     fn stick_refusal(&self) -> Option<&'static str> {
-        if !self.sticks_fresh() {
+        if !self.has_recent_sticks() {
             return None;
         }
         if !self.input.tuning.arming_depends_on_mode {
-            return (self.links.deflection() > CENTERED).then_some("Sticks not centered");
+            return (self.links.deflection() > CENTERED_STICK_DEFLECTION).then_some("Sticks not centered");
         }
         let climbs = self.input.flight.intended.is_manual() && self.links.sticks.up > 0.0;
-        if self.links.lateral_deflection() > CENTERED {
+        if self.links.deflection_without_throttle() > CENTERED_STICK_DEFLECTION {
             Some("Sticks not centered")
         } else {
             climbs.then_some("Throttle too high")
@@ -69,10 +69,10 @@ impl ArmingCheck<'_> {
     /// geofence.
     fn needs_position(&self) -> bool {
         let intended = self.input.flight.intended;
-        !self.input.tuning.arming_depends_on_mode || !self.sticks_fresh() || intended.needs_position() || self.fence_set
+        !self.input.tuning.arming_depends_on_mode || !self.has_recent_sticks() || intended.needs_position() || self.fence_set
     }
 
-    fn ground_reasons(&self) -> Vec<String> {
+    fn blockers_on_ground(&self) -> Vec<String> {
         let mut out: Vec<String> = Vec::new();
         let (estimate, tuning, flight) = (self.input.estimate, self.input.tuning, &self.input.flight);
         let rules = &tuning.rules.responses;
@@ -85,18 +85,18 @@ impl ArmingCheck<'_> {
             // A position estimate is not required.
         } else if !flight.global_position_known {
             out.push("No GNSS fix".into());
-        } else if !estimate.position_valid || estimate.horizontal_m > ARMING_ACCURACY_M {
+        } else if !estimate.position_valid || estimate.horizontal_m > MAX_ARMING_POSITION_SIGMA_M {
             out.push("Position not accurate enough".into());
         }
-        if (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down() < MIN_LEVEL_COSINE {
+        if (estimate.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down() < MIN_TILT_COSINE {
             out.push("Not level".into());
         }
         match flight.battery {
             None => out.push("No battery readings".into()),
-            Some(b) if b.remaining_pct < tuning.battery_critical_pct.max(rules.arm_charge_pct) => {
+            Some(b) if b.remaining_pct < tuning.battery_critical_pct.max(rules.min_arming_charge_pct) => {
                 out.push("Battery too low".into());
             }
-            Some(b) if b.voltage_v < rules.arm_voltage_v => out.push("Battery voltage too low".into()),
+            Some(b) if b.voltage_v < rules.min_arming_voltage_v => out.push("Battery voltage too low".into()),
             Some(_) => {}
         }
         if rules.arming_requires_mission && flight.mission_is_empty {

@@ -52,7 +52,7 @@ impl BatteryMonitor {
         for (k, limit_v) in rules.battery_low_v.into_iter().enumerate() {
             let since = &mut self.low_voltage_since[k];
             *since = if battery.voltage_v < limit_v { since.or(Some(input.now)) } else { None };
-            sagged[k] = since.is_some_and(|since| (input.now - since).s() >= rules.battery_low_s);
+            sagged[k] = since.is_some_and(|since| (input.now - since).s() >= rules.battery_low_time_s);
         }
         match battery.remaining_pct {
             left if left < rules.battery_emergency_pct.min(tuning.battery_critical_pct) => 3,

@@ -33,7 +33,7 @@ impl<'a> FenceCheck<'a> {
     }
 
     /// Returns true if any limit is active.
-    fn is_set(&self) -> bool {
+    fn has_active_limits(&self) -> bool {
         let (t, parts) = (self.tuning, self.tuning.rules.fence);
         let limits = parts.height && t.fence_height_m > 0.0 || parts.distance && t.fence_distance_m > 0.0;
         let areas = parts.areas && !self.fence.is_empty();
@@ -98,18 +98,18 @@ pub struct FenceMonitor {
     /// State for telemetry.
     pub state: FenceState,
     /// Whether the vehicle has been above the minimum fence height in this flight.
-    above_floor: bool,
+    has_been_above_floor: bool,
 }
 
 impl FenceMonitor {
     /// Resets the monitor at the start of a flight.
     pub fn begin_flight(&mut self) {
-        self.above_floor = false;
+        self.has_been_above_floor = false;
     }
 
     /// Updates the flag that shows whether any limit is active.
-    pub fn update_set(&mut self, fence: &FenceCheck) {
-        self.state.set = fence.is_set();
+    pub fn update_active_limits(&mut self, fence: &FenceCheck) {
+        self.state.set = fence.has_active_limits();
     }
 
     /// Returns the fence action request when a breach begins. The action triggers once per breach so that the pilot can
@@ -121,11 +121,11 @@ impl FenceMonitor {
         let here = input.estimate.position_m;
         // The minimum height applies once the vehicle has been above it, except while landing.
         let low = fence.below_floor(here);
-        self.above_floor |= !low && fence.is_active();
+        self.has_been_above_floor |= !low && fence.is_active();
         let flight = &input.flight;
         let coming_down = matches!(flight.mode, FlightMode::Land | FlightMode::Return) || flight.landed == LandedState::Landing;
-        self.above_floor &= !(low && coming_down);
-        let floor = (low && self.above_floor && !coming_down).then_some(Breach::Floor);
+        self.has_been_above_floor &= !(low && coming_down);
+        let floor = (low && self.has_been_above_floor && !coming_down).then_some(Breach::Floor);
         let breach = fence.breach_at(here).or(floor);
         let before = std::mem::replace(&mut self.state.breach, breach);
         match (before, breach) {

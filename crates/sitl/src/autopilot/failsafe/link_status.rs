@@ -20,7 +20,7 @@ pub struct LinkStatus {
 
 impl LinkStatus {
     /// Processes stick input.
-    pub fn take_sticks(&mut self, s: Sticks, deadband: f64, now: SimTime) {
+    pub fn update_sticks(&mut self, s: Sticks, deadband: f64, now: SimTime) {
         let shaped = |v: f64| stick(v, deadband);
         self.sticks = Sticks { forward: shaped(s.forward), right: shaped(s.right), up: shaped(s.up), yaw: shaped(s.yaw) };
         self.sticks_at = Some(now);
@@ -28,13 +28,13 @@ impl LinkStatus {
 
     /// Returns true if stick input arrived within `loss_s`.
     #[must_use]
-    pub fn sticks_fresh(&self, loss_s: f64, now: SimTime) -> bool {
+    pub fn has_recent_sticks(&self, loss_s: f64, now: SimTime) -> bool {
         self.sticks_at.is_some_and(|at| (now - at).s() <= loss_s)
     }
 
     /// Returns true if an external setpoint arrived within `loss_s`.
     #[must_use]
-    pub fn offboard_fresh(&self, loss_s: f64, now: SimTime) -> bool {
+    pub fn has_recent_offboard(&self, loss_s: f64, now: SimTime) -> bool {
         self.offboard.is_some_and(|(_, at)| (now - at).s() <= loss_s)
     }
 
@@ -51,12 +51,12 @@ impl LinkStatus {
     /// Returns the largest stick deflection.
     #[must_use]
     pub fn deflection(&self) -> f64 {
-        self.lateral_deflection().max(self.sticks.up.abs())
+        self.deflection_without_throttle().max(self.sticks.up.abs())
     }
 
     /// Returns the largest stick deflection, excluding the throttle.
     #[must_use]
-    pub fn lateral_deflection(&self) -> f64 {
+    pub fn deflection_without_throttle(&self) -> f64 {
         let s = &self.sticks;
         s.forward.abs().max(s.right.abs()).max(s.yaw.abs())
     }

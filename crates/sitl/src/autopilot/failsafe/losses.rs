@@ -75,7 +75,7 @@ impl LossMonitor {
         }
         let since = *self.no_position_since.get_or_insert(input.now);
         let lasting = (input.now - since).s() > POSITION_LOSS_TIMEOUT_S;
-        let pilot_flies = sticks_fresh(links, input) && !input.tuning.rules.responses.lands_without_position;
+        let pilot_flies = has_recent_sticks(links, input) && !input.tuning.rules.responses.lands_without_position;
         if pilot_flies {
             (intended.is_manual() || lasting).then_some((FlightMode::Altitude, "position lost, holding altitude only"))
         } else {
@@ -84,10 +84,10 @@ impl LossMonitor {
     }
 
     fn check_manual(&mut self, links: &LinkStatus, input: &FailsafeInput) -> Option<LossResponse> {
-        let fresh = sticks_fresh(links, input);
+        let fresh = has_recent_sticks(links, input);
         self.sticks_received |= fresh;
         let intended = input.flight.intended;
-        let except = input.tuning.rules.responses.manual_loss_except;
+        let except = input.tuning.rules.responses.manual_loss_exceptions;
         let counts = intended.is_manual() || self.sticks_received && !except.includes(intended);
         if fresh || !counts {
             self.manual_lost_since = None;
@@ -123,8 +123,8 @@ impl LossMonitor {
     }
 }
 
-fn sticks_fresh(links: &LinkStatus, input: &FailsafeInput) -> bool {
-    links.sticks_fresh(input.tuning.manual_timeout_s(), input.now)
+fn has_recent_sticks(links: &LinkStatus, input: &FailsafeInput) -> bool {
+    links.has_recent_sticks(input.tuning.manual_timeout_s(), input.now)
 }
 
 /// The mode that keeps the vehicle in place: hold, or land without a position estimate.
@@ -144,13 +144,13 @@ fn respond_to_loss(action: LinkLossAction, hold: FlightMode, why: &'static str, 
 
 fn check_links(links: &LinkStatus, input: &FailsafeInput) -> Option<LossResponse> {
     let (tuning, intended) = (input.tuning, input.flight.intended);
-    if intended == FlightMode::Offboard && !links.offboard_fresh(tuning.offboard_timeout_s(), input.now) {
+    if intended == FlightMode::Offboard && !links.has_recent_offboard(tuning.offboard_timeout_s(), input.now) {
         if tuning.setpoint_end_is_normal {
             return Some(LossResponse::Request(FailsafeRequest::EndOffboard));
         }
         return Some(respond_to_offboard_loss(links, input));
     }
-    let excepted = tuning.rules.responses.data_link_loss_except.includes(intended);
+    let excepted = tuning.rules.responses.data_link_loss_exceptions.includes(intended);
     let counts = tuning.data_link_loss != LinkLossAction::Ignore && !excepted;
     let silent = links.ground_station.is_some_and(|at| (input.now - at).s() > tuning.data_link_timeout_s());
     (counts && silent).then(|| respond_to_loss(tuning.data_link_loss, FlightMode::Hold, "ground station lost", input))
@@ -163,7 +163,11 @@ fn respond_to_offboard_loss(links: &LinkStatus, input: &FailsafeInput) -> LossRe
     match input.tuning.rules.responses.offboard_loss {
         OffboardLoss::Sticks(mode) => {
             let flyable = input.estimate.position_valid || !mode.needs_position();
-            if sticks_fresh(links, input) && flyable { LossResponse::Fly((mode, why)) } else { respond(input.tuning.manual_loss) }
+            if has_recent_sticks(links, input) && flyable {
+                LossResponse::Fly((mode, why))
+            } else {
+                respond(input.tuning.manual_loss)
+            }
         }
         OffboardLoss::Fixed(FailsafeResponse::Terminate) => respond(LinkLossAction::Terminate),
         OffboardLoss::Fixed(FailsafeResponse::Return) => respond(LinkLossAction::Return),

@@ -135,7 +135,7 @@ impl Failsafe {
 
     /// Updates the geofence state.
     pub fn update_fence(&mut self, input: &FailsafeInput) {
-        self.fence_monitor.update_set(&FenceCheck::new(&self.fence, input.tuning, input.flight.home_m));
+        self.fence_monitor.update_active_limits(&FenceCheck::new(&self.fence, input.tuning, input.flight.home_m));
     }
 
     /// Returns the geofence action request on a breach.
@@ -167,7 +167,7 @@ impl Failsafe {
     /// Clears the failsafes while disarmed. Returns the reasons why pre-arm checks failed.
     pub fn check_on_ground(&mut self, input: &FailsafeInput) -> Vec<String> {
         self.losses.reset();
-        self.arming_check(input).prearm_reasons()
+        self.arming_check(input).prearm_blockers()
     }
 
     /// Returns the conditions that currently prevent arming.

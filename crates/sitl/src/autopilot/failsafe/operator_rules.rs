@@ -88,9 +88,9 @@ pub const SCENARIO_BATTERY_ACTIONS: BatteryResponses = [Some(FailsafeResponse::R
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FailsafeResponses {
     /// `COM_RCL_EXCEPT`; `FS_OPTIONS`: modes in which loss of manual control is ignored.
-    pub manual_loss_except: LinkLossExceptions,
+    pub manual_loss_exceptions: LinkLossExceptions,
     /// `COM_DLL_EXCEPT`; `FS_OPTIONS`: modes in which loss of the ground station is ignored.
-    pub data_link_loss_except: LinkLossExceptions,
+    pub data_link_loss_exceptions: LinkLossExceptions,
     /// `COM_OBL_RC_ACT`: action on loss of external setpoints.
     pub offboard_loss: OffboardLoss,
     /// `COM_ACT_FAIL_ACT` with `FD_ACT_EN`: action on motor failure.
@@ -102,7 +102,7 @@ pub struct FailsafeResponses {
     /// `BATT_LOW_VOLT`, `BATT_CRT_VOLT`: low and critical voltage, V; 0 disables the check.
     pub battery_low_v: [f64; 2],
     /// `BATT_LOW_TIMER`: time the voltage must stay below a threshold before it counts, s.
-    pub battery_low_s: f64,
+    pub battery_low_time_s: f64,
     /// `COM_POSCTL_NAVL`; `FS_EKF_ACTION`: on loss of position, also land in manual position mode.
     pub lands_without_position: bool,
     /// `FS_CRASH_CHECK`: stop the motors after a crash.
@@ -112,9 +112,9 @@ pub struct FailsafeResponses {
     /// `COM_RC_OVERRIDE`: stick movement also takes over from external setpoints.
     pub takeover_in_offboard: bool,
     /// `COM_ARM_BAT_MIN`: minimum battery level for arming, %; 0: no minimum.
-    pub arm_charge_pct: f64,
+    pub min_arming_charge_pct: f64,
     /// `BATT_ARM_VOLT`: minimum voltage for arming, V; 0: no minimum.
-    pub arm_voltage_v: f64,
+    pub min_arming_voltage_v: f64,
     /// `COM_ARM_MIS_REQ`: arming requires a mission.
     pub arming_requires_mission: bool,
 }
@@ -204,7 +204,7 @@ pub struct ReturnRules {
     /// `RTL_SPEED`: horizontal speed, m/s; `None` for the cruise speed.
     pub speed_m_s: Option<f64>,
     /// `RTL_CLIMB_MIN`: minimum climb, m.
-    pub climb_min_m: f64,
+    pub min_climb_m: f64,
     /// `RTL_CONE_ANG`; `RTL_CONE_SLOPE`: slope (height over distance) of the cone around the destination within which
     /// the return height is lower; 0: no cone.
     pub cone_slope: f64,
@@ -215,7 +215,7 @@ pub struct ReturnRules {
     /// `RTL_LAND_DELAY`; `RTL_LOIT_TIME`: waiting time, s; negative to wait forever.
     pub wait_s: f64,
     /// Whether a rally point's height is the return height (ArduPilot).
-    pub rally_height: bool,
+    pub uses_rally_height: bool,
     /// `WP_YAW_BEHAVIOR` 1, 3: turn to the takeoff heading at the destination.
     pub turns_to_takeoff_heading: bool,
     /// `RTL_ALT_FINAL`: hold at this height instead of landing, m; 0: land.
@@ -252,13 +252,13 @@ impl HeadingRule {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightEnvelope {
     /// `MPC_VEL_MANUAL`; `LOIT_SPEED`: horizontal speed in manual flight, m/s.
-    pub manual_m_s: f64,
+    pub manual_speed_m_s: f64,
     /// `PILOT_SPEED_UP`: climb rate in manual flight, m/s.
-    pub manual_up_m_s: f64,
+    pub manual_climb_rate_m_s: f64,
     /// `PILOT_SPEED_DN`: descent rate in manual flight, m/s.
-    pub manual_down_m_s: f64,
+    pub manual_descent_rate_m_s: f64,
     /// `MPC_MAN_Y_MAX`; `PILOT_Y_RATE`: yaw rate in manual flight, rad/s.
-    pub manual_yaw_rad_s: f64,
+    pub manual_yaw_rate_rad_s: f64,
     /// `MPC_MAN_TILT_MAX`; `ANGLE_MAX`: tilt in manual flight, rad.
     pub manual_tilt_rad: f64,
     /// `MPC_ACC_HOR`; `WPNAV_ACCEL`: horizontal acceleration in automatic modes, m/s².
@@ -266,20 +266,20 @@ pub struct FlightEnvelope {
     /// `MPC_ACC_UP_MAX`, `MPC_ACC_DOWN_MAX`; `WPNAV_ACCEL_Z`: vertical acceleration in automatic modes, m/s².
     pub climb_acceleration_m_s2: f64,
     /// `LAND_SPEED_HIGH`: descent rate during a landing, except for the last few meters, m/s.
-    pub landing_m_s: f64,
+    pub landing_descent_rate_m_s: f64,
 }
 
 impl FlightEnvelope {
     /// No limits beyond the airframe's.
-    pub const OPEN: Self = Self {
-        manual_m_s: f64::INFINITY,
-        manual_up_m_s: f64::INFINITY,
-        manual_down_m_s: f64::INFINITY,
-        manual_yaw_rad_s: f64::INFINITY,
+    pub const UNLIMITED: Self = Self {
+        manual_speed_m_s: f64::INFINITY,
+        manual_climb_rate_m_s: f64::INFINITY,
+        manual_descent_rate_m_s: f64::INFINITY,
+        manual_yaw_rate_rad_s: f64::INFINITY,
         manual_tilt_rad: f64::INFINITY,
         acceleration_m_s2: f64::INFINITY,
         climb_acceleration_m_s2: f64::INFINITY,
-        landing_m_s: f64::INFINITY,
+        landing_descent_rate_m_s: f64::INFINITY,
     };
 }
 
@@ -357,12 +357,12 @@ pub struct OperatorRules {
     /// `MIS_TKO_LAND_REQ`: required mission items.
     pub mission_requirement: MissionRequirement,
     /// `MIS_DIST_1WP`: maximum distance of the first waypoint from home, m; 0 or less: no limit.
-    pub first_waypoint_m: f64,
+    pub max_first_waypoint_distance_m: f64,
     /// `MIS_RESTART`: restart the mission on every entry into mission mode.
     pub mission_restarts: bool,
     /// Bit 1 of `AUTO_OPTIONS`: a mission takes off immediately after arming. Otherwise it waits for a raised throttle
     /// or a start command.
-    pub mission_takes_off_when_armed: bool,
+    pub mission_takes_off_after_arming: bool,
     /// `FENCE_TYPE`, `FENCE_ALT_MIN`: parts of the geofence.
     pub fence: FenceParts,
     /// `CIRCLE_RADIUS`: default radius for an orbit, or for a circle entered by a mode change, m.
@@ -379,40 +379,40 @@ impl Default for OperatorRules {
     fn default() -> Self {
         Self {
             responses: FailsafeResponses {
-                manual_loss_except: LinkLossExceptions::from_bits(7),
-                data_link_loss_except: LinkLossExceptions::default(),
+                manual_loss_exceptions: LinkLossExceptions::from_bits(7),
+                data_link_loss_exceptions: LinkLossExceptions::default(),
                 offboard_loss: OffboardLoss::Sticks(FlightMode::Position),
                 motor_failure: FailsafeResponse::Warn,
                 battery: [None; 3],
                 battery_emergency_pct: 5.0,
                 battery_low_v: [0.0; 2],
-                battery_low_s: 10.0,
+                battery_low_time_s: 10.0,
                 lands_without_position: false,
                 crash_check: true,
                 takeover_deflection: 0.3,
                 takeover_in_offboard: false,
-                arm_charge_pct: 0.0,
-                arm_voltage_v: 0.0,
+                min_arming_charge_pct: 0.0,
+                min_arming_voltage_v: 0.0,
                 arming_requires_mission: false,
             },
             return_rules: ReturnRules {
                 places: ReturnTargets { home: true, rally: true, mission_landing: false },
                 speed_m_s: None,
-                climb_min_m: 0.0,
+                min_climb_m: 0.0,
                 cone_slope: 0.0,
                 no_climb_distance_m: 5.0,
                 loiter_height_m: Some(10.0),
                 wait_s: 0.0,
-                rally_height: false,
+                uses_rally_height: false,
                 turns_to_takeoff_heading: false,
                 final_height_m: 0.0,
             },
             heading: HeadingRule::Target,
-            envelope: FlightEnvelope::OPEN,
+            envelope: FlightEnvelope::UNLIMITED,
             mission_requirement: MissionRequirement::Nothing,
-            first_waypoint_m: 10_000.0,
+            max_first_waypoint_distance_m: 10_000.0,
             mission_restarts: false,
-            mission_takes_off_when_armed: true,
+            mission_takes_off_after_arming: true,
             fence: FenceParts { height: true, distance: true, areas: true, floor_m: None, auto: FenceAutoEnable::Never },
             orbit_radius_m: 5.0,
             guided: GuidedOptions::default(),

@@ -27,7 +27,7 @@ pub struct SensorStatus {
 
 impl SensorStatus {
     /// All sensors and controls work.
-    pub const GOOD: Self = Self { compass: true, barometer: true, gnss: true, tracks_attitude: true };
+    pub const ALL_GOOD: Self = Self { compass: true, barometer: true, gnss: true, tracks_attitude: true };
 }
 
 /// A monitored sensor.
@@ -144,7 +144,7 @@ impl SensorHealth {
         Self {
             compass: SensorMonitor::new(sensors.mag_noise_gauss > 0.0),
             barometer: SensorMonitor::new(sensors.baro_noise_m > 0.0),
-            gnss: SensorMonitor::new(sensors.gnss_horizontal_m > 0.0),
+            gnss: SensorMonitor::new(sensors.gnss_horizontal_noise_m > 0.0),
         }
     }
 
@@ -217,7 +217,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_repeated_value_is_ignored_and_becomes_fault_after_2_s() {
+    fn exact_repeated_values_are_ignored_and_become_a_fault_after_2_s() {
         let mut watched = SensorMonitor::new(true);
         let mut feed = |value: f64, from_ms: i64, until_ms: i64| {
             let mut used = 0;

@@ -14,11 +14,11 @@ use crate::autopilot::flight_state::{FlightMode, LandedState};
 use spandrel_model::frames::{Ned, Vec3};
 
 /// Height error within which a height counts as reached, m.
-pub(super) const HEIGHT_REACHED_M: f64 = 0.4;
+pub(super) const HEIGHT_TOLERANCE_M: f64 = 0.4;
 /// Height above ground below which a takeoff uses the takeoff climb rate, m (PX4: MPC_LAND_ALT1).
-const TAKEOFF_SLOW_BELOW_M: f64 = 10.0;
+const SLOW_TAKEOFF_HEIGHT_M: f64 = 10.0;
 /// Minimum climb for a takeoff from the ground, m (ArduCopter's AUTO).
-const TAKEOFF_MIN_M: f64 = 1.0;
+const MIN_TAKEOFF_CLIMB_M: f64 = 1.0;
 /// Distance to the target above which the nose turns toward it, m.
 pub(super) const TURN_MIN_DISTANCE_M: f64 = 2.0;
 /// Speed above which the nose turns along the path, m/s (estimate: well above the estimator's noise).
@@ -26,15 +26,15 @@ const TURN_MIN_SPEED_M_S: f64 = 1.0;
 /// Distance below which the heading to a region of interest is not updated, m.
 const HEADING_MIN_DISTANCE_M: f64 = 0.5;
 /// Maximum correction speed toward the landing position, m/s.
-const CORRECTION_M_S: f64 = 2.0;
+const LANDING_CORRECTION_SPEED_M_S: f64 = 2.0;
 
 impl Navigator {
     /// Returns the motion limits in automatic modes.
     pub(super) fn auto_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let (airframe, operator) = (MotionLimits::automatic(input.gains), &input.tuning.rules.envelope);
         MotionLimits {
-            horizontal_m_s2: airframe.horizontal_m_s2.min(operator.acceleration_m_s2),
-            vertical_m_s2: airframe.vertical_m_s2.min(operator.climb_acceleration_m_s2),
+            horizontal_acceleration_m_s2: airframe.horizontal_acceleration_m_s2.min(operator.acceleration_m_s2),
+            vertical_acceleration_m_s2: airframe.vertical_acceleration_m_s2.min(operator.climb_acceleration_m_s2),
             ..airframe
         }
     }
@@ -43,7 +43,10 @@ impl Navigator {
     /// rate that `stopping_point` assumes.
     fn travel_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let calm = matches!(self.modes.active, FlightMode::Mission | FlightMode::Return) && self.paused.is_none();
-        MotionLimits { build_up_s: if calm { AUTO_ACCELERATION_RAMP_S } else { ACCELERATION_RAMP_S }, ..self.auto_limits(input) }
+        MotionLimits {
+            acceleration_ramp_s: if calm { AUTO_ACCELERATION_RAMP_S } else { ACCELERATION_RAMP_S },
+            ..self.auto_limits(input)
+        }
     }
 
     /// Flies to the navigator's target and holds there.
@@ -89,12 +92,12 @@ impl Navigator {
     /// Climbs to the takeoff height, then holds.
     pub(super) fn take_off(&mut self, input: &NavigatorInput) -> Setpoint {
         let left = input.here().down() - self.target_m.down();
-        if left < HEIGHT_REACHED_M && self.landed(input) == LandedState::InAir {
+        if left < HEIGHT_TOLERANCE_M && self.landed(input) == LandedState::InAir {
             let target = self.target_m;
             self.modes.intended = FlightMode::Hold;
             self.enter(FlightMode::Hold, input);
             self.target_m = target;
-            self.commanded.takeoff_up_m = None;
+            self.commanded.takeoff_target_height_m = None;
         }
         let setpoint = self.climb_to_target(None, input);
         self.report.climbing_out = self.modes.active == FlightMode::Takeoff;
@@ -105,19 +108,19 @@ impl Navigator {
     pub(super) fn climb_to_target(&mut self, speed: Option<f64>, input: &NavigatorInput) -> Setpoint {
         self.report.climbing_out = true;
         let up = input.ground_down_m - input.here().down();
-        let slow = !input.tuning.takeoff_at_climb_speed && up < TAKEOFF_SLOW_BELOW_M;
+        let slow = !input.tuning.takeoff_at_climb_speed && up < SLOW_TAKEOFF_HEIGHT_M;
         let rate = if slow { input.tuning.takeoff_speed_m_s.min(input.tuning.climb_m_s) } else { input.tuning.climb_m_s };
         self.fly_within_limits(speed, rate, input.tuning.descend_m_s, input)
     }
 
     /// Returns the takeoff height, m above the origin. From the ground, it is at least high enough for a liftoff.
-    pub(super) fn above_ground(&self, up_m: f64, input: &NavigatorInput) -> f64 {
+    pub(super) fn raise_to_min_takeoff_height(&self, up_m: f64, input: &NavigatorInput) -> f64 {
         let standing = input.phase != FlightPhase::InAir;
-        if standing { up_m.max(TAKEOFF_MIN_M - input.here().down()) } else { up_m }
+        if standing { up_m.max(MIN_TAKEOFF_CLIMB_M - input.here().down()) } else { up_m }
     }
 
     /// Default takeoff height, m above the origin.
-    pub(super) fn default_takeoff_up_m(&self, input: &NavigatorInput) -> f64 {
+    pub(super) fn default_takeoff_height_m(&self, input: &NavigatorInput) -> f64 {
         self.home.up_m() + input.tuning.takeoff_height_m
     }
 
@@ -133,10 +136,10 @@ impl Navigator {
             return self.descend_without_position(input);
         }
         let here = input.here();
-        let speed = self.landing_speed(input);
+        let speed = self.landing_descent_rate(input);
         self.heading.turn_to(self.heading.target_rad, self.modes.active, input);
         let over = Vec3::new(self.target_m.north(), self.target_m.east(), here.down());
-        let flat = velocity_toward(input.gains, here, over, CORRECTION_M_S, 0.0, 0.0);
+        let flat = velocity_toward(input.gains, here, over, LANDING_CORRECTION_SPEED_M_S, 0.0, 0.0);
         let velocity_m_s = Vec3::new(flat.north(), flat.east(), speed);
         self.shaper.advance(velocity_m_s, &self.travel_limits(input), input.dt_s);
         self.report.target_m = Some(over);
@@ -144,15 +147,15 @@ impl Navigator {
     }
 
     /// Descent rate during a landing, m/s; lower near the ground.
-    fn landing_speed(&self, input: &NavigatorInput) -> f64 {
+    fn landing_descent_rate(&self, input: &NavigatorInput) -> f64 {
         let home = self.home.position_m.map_or(0.0, |h| h.down());
         let over_home = home - input.here().down();
         let below = input.range_down_m.unwrap_or(over_home) - input.airframe.resting_height_m;
-        let slow = below < input.tuning.land_slow_below_m;
+        let slow = below < input.tuning.slow_landing_height_m;
         if slow {
             return input.tuning.land_speed_m_s;
         }
-        let configured = input.tuning.rules.envelope.landing_m_s;
+        let configured = input.tuning.rules.envelope.landing_descent_rate_m_s;
         let wanted = if configured.is_finite() { configured } else { input.tuning.descend_m_s };
         wanted.min(input.airframe.limits.descend_m_s)
     }
@@ -161,7 +164,7 @@ impl Navigator {
     pub(super) fn descend_without_position(&mut self, input: &NavigatorInput) -> Setpoint {
         self.begin_descent(input);
         self.heading.turn_to(None, self.modes.active, input);
-        let velocity_m_s = Vec3::new(0.0, 0.0, self.landing_speed(input));
+        let velocity_m_s = Vec3::new(0.0, 0.0, self.landing_descent_rate(input));
         self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
         let motion = self.motion(self.shaper.velocity_m_s);
         Setpoint::Level { motion, tilt: (0.0, 0.0) }
@@ -174,7 +177,7 @@ impl Navigator {
 
     /// Cruise speed of missions, returns and go-to, m/s: the commanded speed, or the parameter if there is none.
     pub(super) fn cruise_m_s(&self, input: &NavigatorInput) -> f64 {
-        self.commanded.speed_m_s.unwrap_or(input.tuning.cruise_m_s).min(input.tuning.horizontal_speed_max_m_s)
+        self.commanded.speed_m_s.unwrap_or(input.tuning.cruise_speed_m_s).min(input.tuning.horizontal_speed_max_m_s)
     }
 
     /// Heading toward the region of interest, rad. `None` if there is none or the vehicle is directly above it.

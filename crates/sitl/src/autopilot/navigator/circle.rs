@@ -15,8 +15,8 @@ use spandrel_model::math;
 const RADIAL_GAIN_PER_S: f64 = 0.6;
 /// Integral gain on the remaining distance error, 1/s² (estimate: damping ratio 0.8 with the gain above), and its
 /// limit, m/s.
-const TRIM_PER_S2: f64 = 0.14;
-const TRIM_MAX_M_S: f64 = 2.0;
+const INTEGRAL_GAIN_PER_S2: f64 = 0.14;
+const MAX_INWARD_SPEED_M_S: f64 = 2.0;
 /// Fraction of the available acceleration that a circle may use.
 const CIRCLE_ACCELERATION_FRACTION: f64 = 0.5;
 /// Allowed orbit radii, m.
@@ -49,7 +49,7 @@ impl Navigator {
             .yaw
             .or(self.orbit.filter(|_| self.modes.active == FlightMode::Orbit).map(|orbit| orbit.yaw))
             .unwrap_or_default();
-        let top = self.max_speed_on(radius.abs(), input);
+        let top = self.max_circle_speed(radius.abs(), input);
         let speed = request.speed_m_s.unwrap_or(before.1);
         if !speed.is_finite() || speed == 0.0 {
             return RequestOutcome::Denied("Orbit speed out of range".into());
@@ -61,8 +61,14 @@ impl Navigator {
         }
         let signed = speed.abs().min(top) * radius.signum() * speed.signum();
         let left_rad = if request.arc_rad > 0.0 { request.arc_rad } else { f64::INFINITY };
-        self.orbit =
-            Some(Orbit { center_m, radius_m: radius.abs(), speed_m_s: signed, yaw, remaining_rad: left_rad, trim_m_s: 0.0 });
+        self.orbit = Some(Orbit {
+            center_m,
+            radius_m: radius.abs(),
+            speed_m_s: signed,
+            yaw,
+            remaining_arc_rad: left_rad,
+            inward_speed_m_s: 0.0,
+        });
         self.modes.intended = FlightMode::Orbit;
         self.modes.overridden = false;
         self.enter(FlightMode::Orbit, input);
@@ -94,7 +100,7 @@ impl Navigator {
     }
 
     /// Maximum speed on a circle, m/s.
-    fn max_speed_on(&self, radius_m: f64, input: &NavigatorInput) -> f64 {
+    fn max_circle_speed(&self, radius_m: f64, input: &NavigatorInput) -> f64 {
         let turn = (CIRCLE_ACCELERATION_FRACTION * input.gains.acceleration_m_s2 * radius_m).sqrt();
         turn.min(input.tuning.horizontal_speed_max_m_s).min(input.airframe.limits.forward_m_s)
     }
@@ -102,7 +108,7 @@ impl Navigator {
     /// Flies the active circle, then holds.
     pub(super) fn fly_orbit(&mut self, input: &NavigatorInput) -> Setpoint {
         let Some(wanted) = self.circle(input) else { return self.fly_to_target(None, input) };
-        if self.orbit.is_some_and(|orbit| orbit.remaining_rad <= 0.0) {
+        if self.orbit.is_some_and(|orbit| orbit.remaining_arc_rad <= 0.0) {
             self.events.push(Severity::Info, "Orbit finished");
             self.modes.intended = FlightMode::Hold;
             self.enter(FlightMode::Hold, input);
@@ -112,7 +118,7 @@ impl Navigator {
 
     /// Starts a mission circle at mission speed, with the nose toward its center or the region of interest.
     pub(super) fn begin_circle(&mut self, center_m: Vec3<Ned>, radius_m: f64, turns: f64, input: &NavigatorInput) {
-        let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s(input)).min(self.max_speed_on(radius_m.abs(), input));
+        let speed = self.mission.speed_m_s.unwrap_or(self.cruise_m_s(input)).min(self.max_circle_speed(radius_m.abs(), input));
         let speed_m_s = speed * radius_m.signum();
         let left_rad = self.mission.suspended_arc_rad.take().unwrap_or(turns * 2.0 * math::PI);
         self.orbit = Some(Orbit {
@@ -120,8 +126,8 @@ impl Navigator {
             radius_m: radius_m.abs(),
             speed_m_s,
             yaw: OrbitYaw::Center,
-            remaining_rad: left_rad,
-            trim_m_s: 0.0,
+            remaining_arc_rad: left_rad,
+            inward_speed_m_s: 0.0,
         });
         self.target_m = center_m;
     }
@@ -138,7 +144,8 @@ impl Navigator {
         let cruise = self.cruise_m_s(input).min(input.airframe.limits.forward_m_s);
         // Far from the circle, the vehicle flies toward it; on the circle, along it.
         let on_it = (1.0 - error.abs() / orbit.radius_m.max(2.0)).clamp(0.0, 1.0);
-        let flat = along * (orbit.speed_m_s * on_it) - away * (RADIAL_GAIN_PER_S * error + orbit.trim_m_s).clamp(-cruise, cruise);
+        let flat = along * (orbit.speed_m_s * on_it)
+            - away * (RADIAL_GAIN_PER_S * error + orbit.inward_speed_m_s).clamp(-cruise, cruise);
         let climb = RADIAL_GAIN_PER_S * (orbit.center_m.down() - here.down());
         let velocity_m_s = Vec3::new(flat.north(), flat.east(), climb.clamp(-input.tuning.climb_m_s, input.tuning.descend_m_s));
         match orbit.yaw {
@@ -155,8 +162,9 @@ impl Navigator {
         self.report.target_m = Some(orbit.center_m);
         self.report.orbit = Some(orbit);
         if error.abs() < 0.3 * orbit.radius_m {
-            orbit.trim_m_s = (orbit.trim_m_s + TRIM_PER_S2 * error * input.dt_s).clamp(-TRIM_MAX_M_S, TRIM_MAX_M_S);
-            orbit.remaining_rad -= orbit.speed_m_s.abs() * input.dt_s / orbit.radius_m;
+            orbit.inward_speed_m_s = (orbit.inward_speed_m_s + INTEGRAL_GAIN_PER_S2 * error * input.dt_s)
+                .clamp(-MAX_INWARD_SPEED_M_S, MAX_INWARD_SPEED_M_S);
+            orbit.remaining_arc_rad -= orbit.speed_m_s.abs() * input.dt_s / orbit.radius_m;
             self.orbit = Some(orbit);
         }
         Some(Setpoint::Velocity(self.motion(self.shaper.velocity_m_s)))

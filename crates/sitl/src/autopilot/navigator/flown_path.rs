@@ -4,13 +4,13 @@ use spandrel_model::frames::{Ned, Vec3};
 
 /// Distance between recorded points, m. Path sections closer together than this form a loop (ArduCopter:
 /// SRTL_ACCURACY).
-const ACCURACY_M: f64 = 2.0;
+const POINT_SPACING_M: f64 = 2.0;
 /// Maximum number of points (ArduCopter: SRTL_POINTS).
 const MAX_POINTS: usize = 300;
 /// Maximum deviation of the simplified path from the recorded one, m (ArduCopter: half of SRTL_ACCURACY).
-const SIMPLIFY_TOLERANCE_M: f64 = 0.5 * ACCURACY_M;
+const SIMPLIFY_TOLERANCE_M: f64 = 0.5 * POINT_SPACING_M;
 /// Acceptance radius of recorded points, m.
-const REACHED_M: f64 = 1.0;
+const ACCEPTANCE_RADIUS_M: f64 = 1.0;
 
 /// The path recorded since takeoff.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -33,11 +33,11 @@ impl FlownPath {
     /// Records a position. If the path comes close to an earlier section, the loop is removed.
     pub fn record(&mut self, position_m: Vec3<Ned>) {
         let Some(last) = self.points.last() else { return };
-        if (position_m - *last).norm() < ACCURACY_M {
+        if (position_m - *last).norm() < POINT_SPACING_M {
             return;
         }
         let before = &self.points[..self.points.len() - 1];
-        let near = before.windows(2).position(|leg| distance_to_leg(position_m, leg[0], leg[1]) < ACCURACY_M);
+        let near = before.windows(2).position(|leg| distance_to_leg(position_m, leg[0], leg[1]) < POINT_SPACING_M);
         if let Some(leg) = near {
             self.points.truncate(leg + 1);
         }
@@ -66,7 +66,7 @@ impl FlownPath {
     /// Returns the next point on the way back, and whether it is the takeoff point. Removes the point once it is
     /// reached.
     pub fn next_return_point(&mut self, here_m: Vec3<Ned>) -> Option<(Vec3<Ned>, bool)> {
-        if self.points.len() > 1 && self.points.last().is_some_and(|next| (*next - here_m).norm() < REACHED_M) {
+        if self.points.len() > 1 && self.points.last().is_some_and(|next| (*next - here_m).norm() < ACCEPTANCE_RADIUS_M) {
             self.points.pop();
         }
         Some((*self.points.last()?, self.points.len() == 1))

@@ -33,7 +33,7 @@ pub enum FollowPosition {
         /// Offset, m. `None` uses the offset at the first report.
         offset_m: Option<[f64; 3]>,
         /// Whether the offset rotates with the target's course.
-        along_course: bool,
+        rotates_with_course: bool,
     },
 }
 
@@ -119,7 +119,7 @@ impl Follower {
     }
 
     /// Returns the desired vehicle position for a target, in meters.
-    pub fn position_near(
+    pub fn desired_position(
         &mut self,
         target: &FollowTarget,
         rule: &FollowRule,
@@ -140,7 +140,7 @@ impl Follower {
                 let ground = if over_target { there } else { home_m.unwrap_or(there) };
                 Vec3::new(there.north() + flat.north(), there.east() + flat.east(), ground.down() - height_m)
             }
-            FollowPosition::Offset { offset_m: Some(offset), along_course } => {
+            FollowPosition::Offset { offset_m: Some(offset), rotates_with_course: along_course } => {
                 let course = self.course_rad.filter(|_| along_course).unwrap_or(0.0);
                 there + turned(course, offset)
             }

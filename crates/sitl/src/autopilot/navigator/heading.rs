@@ -6,15 +6,15 @@ use crate::autopilot::request::TurnCommand;
 use spandrel_model::math;
 
 /// Time to build up full yaw rate, s.
-const YAW_RATE_RAMP_S: f64 = 0.3;
+const YAW_RATE_RAMP_TIME_S: f64 = 0.3;
 /// Maximum lead of the heading setpoint over the actual heading, rad.
-const YAW_LEAD_RAD: f64 = 0.6;
+const MAX_YAW_LEAD_RAD: f64 = 0.6;
 /// Yaw rate above which the rate is controlled instead of the heading, rad/s, and the maximum lead in that case, rad.
-const TURNING_RAD_S: f64 = 0.1;
-const TURNING_LEAD_RAD: f64 = 0.08;
+const TURNING_YAW_RATE_RAD_S: f64 = 0.1;
+const MAX_TURNING_LEAD_RAD: f64 = 0.08;
 /// Yaw rate below which the heading is captured, rad/s. With the yaw loop's lag of a few tenths of a second, the
 /// heading then moves by less than half a degree.
-const CAPTURE_RATE_RAD_S: f64 = 0.02;
+const HEADING_CAPTURE_RATE_RAD_S: f64 = 0.02;
 /// Fraction of the full yaw rate used in automatic modes, and the gain on heading errors, 1/s.
 const AUTO_YAW_RATE_FRACTION: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
@@ -32,9 +32,9 @@ pub struct Heading {
     /// Heading rate setpoint, rad/s.
     rate_rad_s: f64,
     /// Addition to the heading rate setpoint while a turn slows down, rad/s.
-    brake_rad_s: f64,
+    braking_yaw_rate_rad_s: f64,
     /// Whether heading hold is off: a rate is commanded, or the rotation has not stopped since.
-    free: bool,
+    heading_hold_off: bool,
     /// A commanded turn.
     turn: Option<TurnCommand>,
     /// Whether the pilot has turned the nose in GUIDED. If so, the heading stays unchanged until the next request.
@@ -45,13 +45,13 @@ impl Heading {
     /// Starts a mode at the given heading, rad, without a target heading.
     pub fn begin_mode(&mut self, yaw_rad: f64) {
         (self.target_rad, self.turn, self.turned_by_pilot) = (None, None, false);
-        (self.yaw_rad, self.free) = (yaw_rad, true);
+        (self.yaw_rad, self.heading_hold_off) = (yaw_rad, true);
     }
 
     /// Heading rate feedforward, rad/s.
     #[must_use]
     pub fn feedforward_rad_s(&self) -> f64 {
-        self.rate_rad_s + self.brake_rad_s
+        self.rate_rad_s + self.braking_yaw_rate_rad_s
     }
 
     /// Stops the rate setpoint.
@@ -71,7 +71,7 @@ impl Heading {
 
     /// Turns at the rate of the yaw stick.
     pub fn turn_by_stick(&mut self, input: &NavigatorInput) {
-        let max_rad_s = input.airframe.limits.yaw_rate_rad_s.min(input.tuning.rules.envelope.manual_yaw_rad_s);
+        let max_rad_s = input.airframe.limits.yaw_rate_rad_s.min(input.tuning.rules.envelope.manual_yaw_rate_rad_s);
         self.turn_at(input.links.sticks.yaw * max_rad_s, input);
     }
 
@@ -80,27 +80,27 @@ impl Heading {
     pub fn turn_at(&mut self, rate_rad_s: f64, input: &NavigatorInput) {
         let turning = (input.estimate.attitude * input.estimate.rates_rad_s).down();
         if rate_rad_s != 0.0 {
-            self.free = true;
-        } else if turning.abs() < CAPTURE_RATE_RAD_S && self.rate_rad_s.abs() < CAPTURE_RATE_RAD_S {
-            self.free = false;
+            self.heading_hold_off = true;
+        } else if turning.abs() < HEADING_CAPTURE_RATE_RAD_S && self.rate_rad_s.abs() < HEADING_CAPTURE_RATE_RAD_S {
+            self.heading_hold_off = false;
         }
         let before = self.rate_rad_s;
         self.advance(rate_rad_s, input);
-        if rate_rad_s == 0.0 && self.free {
+        if rate_rad_s == 0.0 && self.heading_hold_off {
             self.yaw_rad = input.estimate.attitude.yaw_rad();
             // The rate loop lags by the inverse of its gain. With this lead, the rotation slows down as planned.
             let braking = if input.dt_s > 0.0 { (self.rate_rad_s - before) / input.dt_s } else { 0.0 };
-            self.brake_rad_s = braking / input.gains.yaw_rate;
+            self.braking_yaw_rate_rad_s = braking / input.gains.yaw_rate;
         }
     }
 
     /// Advances the heading setpoint at a rate that builds up gradually, rad/s.
     fn advance(&mut self, rate_rad_s: f64, input: &NavigatorInput) {
-        let step = input.airframe.limits.yaw_rate_rad_s / YAW_RATE_RAMP_S * input.dt_s;
-        self.brake_rad_s = 0.0;
+        let step = input.airframe.limits.yaw_rate_rad_s / YAW_RATE_RAMP_TIME_S * input.dt_s;
+        self.braking_yaw_rate_rad_s = 0.0;
         self.rate_rad_s += (rate_rad_s - self.rate_rad_s).clamp(-step, step);
         let nose = input.estimate.attitude.yaw_rad();
-        let max_lead = if self.rate_rad_s.abs() > TURNING_RAD_S { TURNING_LEAD_RAD } else { YAW_LEAD_RAD };
+        let max_lead = if self.rate_rad_s.abs() > TURNING_YAW_RATE_RAD_S { MAX_TURNING_LEAD_RAD } else { MAX_YAW_LEAD_RAD };
         let lead = math::wrap_pi(self.yaw_rad + self.rate_rad_s * input.dt_s - nose).clamp(-max_lead, max_lead);
         self.yaw_rad = math::wrap_pi(nose + lead);
     }
@@ -110,7 +110,7 @@ impl Heading {
     pub fn turn_by_pilot(&mut self, mode: FlightMode, input: &NavigatorInput) -> bool {
         let guided = input.links.guided && matches!(mode, FlightMode::Hold | FlightMode::Takeoff | FlightMode::Offboard);
         let enabled = guided && input.tuning.rules.guided.yaw_stick_enabled;
-        let fresh = input.links.sticks_fresh(input.tuning.manual_timeout_s(), input.last_step);
+        let fresh = input.links.has_recent_sticks(input.tuning.manual_timeout_s(), input.last_step);
         if enabled && fresh && input.links.sticks.yaw != 0.0 {
             (self.target_rad, self.turn, self.turned_by_pilot) = (None, None, true);
             self.turn_by_stick(input);
@@ -135,7 +135,7 @@ impl Heading {
             turn.and_then(|turn| turn.rate_rad_s).map_or(AUTO_YAW_RATE_FRACTION * full_rad_s, |rate| rate.min(full_rad_s));
         let left = math::wrap_pi(yaw_rad - self.yaw_rad);
         let left = turn.map_or(left, |turn| self.remaining_turn(turn, left));
-        self.free = false;
+        self.heading_hold_off = false;
         self.advance((AUTO_YAW_GAIN * left).clamp(-limit, limit), input);
     }
 

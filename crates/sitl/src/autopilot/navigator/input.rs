@@ -56,13 +56,13 @@ impl NavigatorInput<'_> {
 
     /// Returns true if stick input has not timed out.
     #[must_use]
-    pub fn sticks_fresh(&self) -> bool {
-        self.links.sticks_fresh(self.tuning.manual_timeout_s(), self.now)
+    pub fn has_recent_sticks(&self) -> bool {
+        self.links.has_recent_sticks(self.tuning.manual_timeout_s(), self.now)
     }
 
     /// Returns true if external setpoints have not timed out.
     #[must_use]
-    pub fn offboard_fresh(&self) -> bool {
-        self.links.offboard_fresh(self.tuning.offboard_timeout_s(), self.now)
+    pub fn has_recent_offboard(&self) -> bool {
+        self.links.has_recent_offboard(self.tuning.offboard_timeout_s(), self.now)
     }
 }

@@ -16,21 +16,25 @@ const LOCK_MAX_SPEED_M_S: f64 = 0.15;
 /// Tilt limit in manual flight without a position estimate, as a fraction of the maximum tilt.
 const NO_POSITION_TILT_FRACTION: f64 = 0.6;
 /// Fraction of the slowdown time within which the plan stops. The rest is reserved for the loop lag.
-const SLOW_DOWN_FRACTION: f64 = 0.55;
+const SLOWDOWN_TIME_FRACTION: f64 = 0.55;
 /// Maximum correction speed toward a locked position, m/s.
-const LOCK_SPEED_M_S: f64 = 2.0;
+const LOCK_CORRECTION_SPEED_M_S: f64 = 2.0;
 /// Leveling gain, 1/s, and the maximum lean angle it acts on, rad (ArduCopter: ACRO_BAL_ROLL 1, ACRO_LEVEL_MAX_ANGLE 30
 /// degrees).
-const LEVEL_PER_S: f64 = 1.0;
-const LEVEL_MAX_RAD: f64 = 0.524;
+const LEVELING_GAIN_PER_S: f64 = 1.0;
+const LEVELING_MAX_ANGLE_RAD: f64 = 0.524;
 /// Gain of the rate limit near the maximum lean angle, 1/s (estimate: slower than the attitude loop to prevent overshoot).
-const LIMIT_PER_S: f64 = 4.0;
+const TILT_LIMIT_GAIN_PER_S: f64 = 4.0;
 
 impl Navigator {
     /// Vertical velocity from the sticks, m/s down.
     fn stick_climb(&self, input: &NavigatorInput) -> f64 {
         let (up, l, set) = (input.links.sticks.up, &input.airframe.limits, &input.tuning.rules.envelope);
-        if up > 0.0 { -up * l.climb_m_s.min(set.manual_up_m_s) } else { -up * l.descend_m_s.min(set.manual_down_m_s) }
+        if up > 0.0 {
+            -up * l.climb_m_s.min(set.manual_climb_rate_m_s)
+        } else {
+            -up * l.descend_m_s.min(set.manual_descent_rate_m_s)
+        }
     }
 
     /// Roll and pitch from the sticks, rad. The combined tilt does not exceed the limit for a single axis.
@@ -46,7 +50,7 @@ impl Navigator {
         self.heading.turn_by_stick(input);
         let up = input.links.sticks.up;
         let tilt = self.stick_tilt(1.0, input);
-        let hover = input.gains.hover_n;
+        let hover = input.gains.hover_thrust_n;
         let thrust_n = if up > 0.0 {
             math::lerp(hover, input.gains.thrust_max_n, up)
         } else {
@@ -54,7 +58,7 @@ impl Navigator {
         };
         let descent_m_s = if up < -0.5 { input.airframe.limits.descend_m_s } else { 0.0 };
         let attitude = Rotation::from_euler(tilt.0, tilt.1, self.heading.yaw_rad);
-        Setpoint::AttitudeThrust { target: AttitudeThrustSetpoint { attitude, thrust_n }, descent_m_s }
+        Setpoint::AttitudeThrust { target: AttitudeThrustSetpoint { attitude, thrust_n }, descent_rate_m_s: descent_m_s }
     }
 
     /// Sticks control body rates and thrust.
@@ -63,17 +67,17 @@ impl Navigator {
         let (roll, pitch, yaw) = input.estimate.attitude.euler();
         let max_rad = input.gains.tilt_rad;
         let lean_rate = |stick: f64, angle: f64| {
-            let rate = stick * l.rate_rad_s - LEVEL_PER_S * angle.clamp(-LEVEL_MAX_RAD, LEVEL_MAX_RAD);
-            rate.clamp(LIMIT_PER_S * (-max_rad - angle), LIMIT_PER_S * (max_rad - angle))
+            let rate = stick * l.rate_rad_s - LEVELING_GAIN_PER_S * angle.clamp(-LEVELING_MAX_ANGLE_RAD, LEVELING_MAX_ANGLE_RAD);
+            rate.clamp(TILT_LIMIT_GAIN_PER_S * (-max_rad - angle), TILT_LIMIT_GAIN_PER_S * (max_rad - angle))
         };
         let rates_rad_s = Vec3::new(lean_rate(s.right, roll), lean_rate(-s.forward, pitch), s.yaw * l.yaw_rate_rad_s);
-        let low = math::lerp(input.gains.hover_n, input.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
-        let thrust_n = if s.up > 0.0 { math::lerp(input.gains.hover_n, input.gains.thrust_max_n, s.up) } else { low };
+        let low = math::lerp(input.gains.hover_thrust_n, input.gains.thrust_min_n, (-s.up).clamp(0.0, 1.0));
+        let thrust_n = if s.up > 0.0 { math::lerp(input.gains.hover_thrust_n, input.gains.thrust_max_n, s.up) } else { low };
         let descent_m_s = if s.up < -0.5 { l.descend_m_s } else { 0.0 };
         // If the next mode holds the heading, it starts with the current heading.
         self.heading.yaw_rad = yaw;
         self.heading.stop();
-        Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s }
+        Setpoint::Rates { rates_rad_s, thrust_n, descent_rate_m_s: descent_m_s }
     }
 
     /// Sticks control roll, pitch, yaw rate and climb rate.
@@ -98,8 +102,8 @@ impl Navigator {
         self.heading.turn_by_stick(input);
         let (s, l) = (input.links.sticks, input.airframe.limits);
         let (sine, cosine) = math::sin_cos(input.estimate.attitude.yaw_rad());
-        let max_m_s = input.tuning.rules.envelope.manual_m_s;
-        let (forward, right) = (s.forward * l.forward_m_s.min(max_m_s), s.right * l.sideward_m_s.min(max_m_s));
+        let max_m_s = input.tuning.rules.envelope.manual_speed_m_s;
+        let (forward, right) = (s.forward * l.forward_m_s.min(max_m_s), s.right * l.sideways_speed_m_s.min(max_m_s));
         let wanted_m_s = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
         let limits = self.stick_limits(input);
         let centered = s.forward == 0.0 && s.right == 0.0;
@@ -113,11 +117,11 @@ impl Navigator {
     /// Motion limits in manual flight.
     fn stick_limits(&self, input: &NavigatorInput) -> MotionLimits {
         let l = &input.airframe.limits;
-        let plan_s = (SLOW_DOWN_FRACTION * l.slow_down_time_s).max(0.1);
+        let plan_s = (SLOWDOWN_TIME_FRACTION * l.slow_down_time_s).max(0.1);
         MotionLimits {
-            horizontal_m_s2: (l.forward_m_s.max(l.sideward_m_s) / plan_s).min(input.gains.acceleration_m_s2),
-            vertical_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2),
-            build_up_s: ACCELERATION_RAMP_S,
+            horizontal_acceleration_m_s2: (l.forward_m_s.max(l.sideways_speed_m_s) / plan_s).min(input.gains.acceleration_m_s2),
+            vertical_acceleration_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2),
+            acceleration_ramp_s: ACCELERATION_RAMP_S,
         }
     }
 
@@ -125,8 +129,8 @@ impl Navigator {
     fn apply_position_locks(
         &mut self,
         target_velocity_m_s: Vec3<Ned>,
-        flat_free: bool,
-        down_free: bool,
+        horizontal_unlocked: bool,
+        height_unlocked: bool,
         limits: &MotionLimits,
         input: &NavigatorInput,
     ) -> Vec3<Ned> {
@@ -135,12 +139,12 @@ impl Navigator {
         let e = input.estimate;
         let rest = stopping_point(input.gains, e.position_m, e.velocity_m_s);
         let locks = &mut self.locks;
-        if !flat_free {
+        if !horizontal_unlocked {
             locks.horizontal = None;
         } else if locks.horizontal.is_none() && planned.horizontal_norm() < LOCK_MAX_SPEED_M_S {
             locks.horizontal = Some((rest.north(), rest.east()));
         }
-        if !down_free {
+        if !height_unlocked {
             locks.height_down_m = None;
         } else if locks.height_down_m.is_none() && planned.down().abs() < LOCK_MAX_SPEED_M_S {
             locks.height_down_m = Some(rest.down());
@@ -148,11 +152,11 @@ impl Navigator {
         let mut velocity = self.shaper.velocity_m_s;
         if let Some((n, e_)) = locks.horizontal {
             let offset = Vec3::<Ned>::new(n - e.position_m.north(), e_ - e.position_m.east(), 0.0);
-            velocity += (offset * input.gains.position).limited(LOCK_SPEED_M_S);
+            velocity += (offset * input.gains.position).limited(LOCK_CORRECTION_SPEED_M_S);
         }
         if let Some(d) = locks.height_down_m {
             let speed = input.gains.height * (d - e.position_m.down());
-            velocity += Vec3::new(0.0, 0.0, speed.clamp(-LOCK_SPEED_M_S, LOCK_SPEED_M_S));
+            velocity += Vec3::new(0.0, 0.0, speed.clamp(-LOCK_CORRECTION_SPEED_M_S, LOCK_CORRECTION_SPEED_M_S));
         }
         velocity
     }

@@ -7,7 +7,7 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
 /// Maximum number of consecutive non-flight items processed per tick. The rest follow in the next tick.
-const STEPS_PER_TICK_MAX: usize = 64;
+const MAX_STEPS_PER_TICK: usize = 64;
 /// Planning horizon of a trajectory, m (longer than any stopping distance), and its maximum number of waypoints.
 const PLANNING_HORIZON_M: f64 = 80.0;
 const PLANNING_MAX_WAYPOINTS: usize = 24;
@@ -50,7 +50,7 @@ pub struct Mission {
     /// Deferred fields of each item.
     deferred: Vec<DeferredFields>,
     /// Vehicle position at the start of the current item with deferred fields, m.
-    item_start_m: Option<Vec3<Ned>>,
+    item_start_position_m: Option<Vec3<Ned>>,
     /// Increase in home height since the mission was set, m.
     home_rise_m: f64,
     jumps_done: Vec<u32>,
@@ -67,9 +67,9 @@ pub struct Mission {
     /// Commands from passed items that have not been carried out yet.
     pub pending_commands: Vec<MissionStep>,
     /// Target of the initial climb of a mission without a takeoff item, m.
-    pub initial_climb_m: Option<Vec3<Ned>>,
+    pub initial_climb_target_m: Option<Vec3<Ned>>,
     /// Interruption point, m. The mission continues from there.
-    pub suspended_at_m: Option<Vec3<Ned>>,
+    pub interruption_point_m: Option<Vec3<Ned>>,
     /// Remaining wait of the interrupted item.
     pub suspended_wait: Option<SimTime>,
     /// Remaining arc of the interrupted circle, rad.
@@ -86,7 +86,7 @@ impl Mission {
     }
 
     /// Marks the items whose heights are relative to home and move with it.
-    pub fn set_home_relative(&mut self, home_relative: Vec<bool>) {
+    pub fn set_home_relative_items(&mut self, home_relative: Vec<bool>) {
         self.home_relative = home_relative;
     }
 
@@ -97,7 +97,7 @@ impl Mission {
 
     /// Records the vehicle position at the start of the current item, m.
     pub fn begin_at(&mut self, here_m: Vec3<Ned>) {
-        self.item_start_m.get_or_insert(here_m);
+        self.item_start_position_m.get_or_insert(here_m);
     }
 
     /// Accounts for an increase in home height, m.
@@ -113,7 +113,7 @@ impl Mission {
 
     /// Records an interruption of the current item at a position from which the mission can continue.
     pub fn suspend_at(&mut self, position_m: Vec3<Ned>, step: SuspendedStep, arc_rad: Option<f64>, now: SimTime) {
-        self.suspended_at_m = Some(position_m);
+        self.interruption_point_m = Some(position_m);
         self.suspended_step = Some(step);
         self.suspended_wait = self.wait_until.map(|until| until.saturating_sub(now));
         self.suspended_arc_rad = arc_rad;
@@ -121,8 +121,8 @@ impl Mission {
 
     /// Clears the saved state of an interrupted item.
     pub fn reset(&mut self) {
-        (self.suspended_at_m, self.suspended_wait, self.suspended_arc_rad, self.suspended_step) = (None, None, None, None);
-        self.initial_climb_m = None;
+        (self.interruption_point_m, self.suspended_wait, self.suspended_arc_rad, self.suspended_step) = (None, None, None, None);
+        self.initial_climb_target_m = None;
     }
 
     /// Landing position of the mission, m: the last landing item with a position.
@@ -165,21 +165,25 @@ impl Mission {
         (self.current + 1..self.steps.len()).find_map(|k| self.position_at(k))
     }
 
-    /// Waypoints from the current item up to the first at which the vehicle stops. `accept_m` is the default acceptance radius.
+    /// Waypoints from the current item up to the first at which the vehicle stops. `acceptance_radius_m` is the default acceptance radius.
     #[must_use]
-    pub fn ahead(&self, accept_m: f64) -> Vec<Waypoint> {
+    pub fn ahead(&self, acceptance_radius_m: f64) -> Vec<Waypoint> {
         let (mut at, mut jumps, mut speed) = (self.current, self.jumps_done.clone(), self.speed_m_s);
         // Items after a distance condition run en route, so the leg starts at the previous speed.
         let mut leg_speed: Option<Option<f64>> = None;
         let (mut ahead, mut length_m): (Vec<Waypoint>, f64) = (Vec::new(), 0.0);
-        for _ in 0..STEPS_PER_TICK_MAX {
+        for _ in 0..MAX_STEPS_PER_TICK {
             let here = at;
             at += 1;
             match self.step_at(here) {
-                Some(MissionStep::Waypoint { position_m, accept_m: own_m, hold_s, .. }) => {
+                Some(MissionStep::Waypoint { position_m, acceptance_radius_m: own_m, hold_s, .. }) => {
                     length_m += ahead.last().map_or(0.0, |last: &Waypoint| (position_m - last.position_m).norm());
-                    let accept_m = if own_m > 0.0 { own_m } else { accept_m };
-                    ahead.push(Waypoint { position_m, speed_m_s: leg_speed.take().unwrap_or(speed), accept_m });
+                    let accept_m = if own_m > 0.0 { own_m } else { acceptance_radius_m };
+                    ahead.push(Waypoint {
+                        position_m,
+                        speed_m_s: leg_speed.take().unwrap_or(speed),
+                        acceptance_radius_m: accept_m,
+                    });
                     if hold_s > 0.0 || ahead.len() >= PLANNING_MAX_WAYPOINTS || length_m > PLANNING_HORIZON_M {
                         break;
                     }
@@ -236,9 +240,12 @@ impl Mission {
         let hangs = self.home_relative.get(index).copied().unwrap_or(false);
         let rise_m = if hangs { self.home_rise_m } else { 0.0 };
         let mut step = match *self.steps.get(index)? {
-            MissionStep::Waypoint { position_m, accept_m, hold_s, yaw_rad } => {
-                MissionStep::Waypoint { position_m: position_m - Vec3::new(0.0, 0.0, rise_m), accept_m, hold_s, yaw_rad }
-            }
+            MissionStep::Waypoint { position_m, acceptance_radius_m: accept_m, hold_s, yaw_rad } => MissionStep::Waypoint {
+                position_m: position_m - Vec3::new(0.0, 0.0, rise_m),
+                acceptance_radius_m: accept_m,
+                hold_s,
+                yaw_rad,
+            },
             MissionStep::Takeoff { up_m } => MissionStep::Takeoff { up_m: up_m.map(|up_m| up_m + rise_m) },
             MissionStep::Circle { center_m, radius_m, turns } => {
                 MissionStep::Circle { center_m: center_m - Vec3::new(0.0, 0.0, rise_m), radius_m, turns }
@@ -261,7 +268,9 @@ impl Mission {
             | MissionStep::Payload) => unchanged,
         };
         let open = self.deferred.get(index).copied().unwrap_or_default();
-        if let (Some(place_m), Some(began_m)) = (step.position_mut(), self.item_start_m.filter(|_| index == self.current)) {
+        if let (Some(place_m), Some(began_m)) =
+            (step.position_mut(), self.item_start_position_m.filter(|_| index == self.current))
+        {
             *place_m = open.resolve_deferred(*place_m, began_m);
         }
         Some(step)
@@ -272,7 +281,7 @@ impl Mission {
         let known = index < self.steps.len();
         if known {
             self.current = index;
-            self.item_start_m = None;
+            self.item_start_position_m = None;
             self.wait_until = None;
             self.item_started = false;
             self.reset();
@@ -289,7 +298,7 @@ impl Mission {
 
     /// Processes and skips items that involve neither flight nor a wait. Returns false at the end.
     pub fn skip(&mut self, now: SimTime) -> bool {
-        for _ in 0..STEPS_PER_TICK_MAX {
+        for _ in 0..MAX_STEPS_PER_TICK {
             match self.step() {
                 None => return false,
                 Some(MissionStep::Speed(speed)) => {
@@ -315,7 +324,7 @@ impl Mission {
     fn next(&mut self) {
         self.reached.push(self.current);
         self.current += 1;
-        self.item_start_m = None;
+        self.item_start_position_m = None;
         self.wait_until = None;
         self.item_started = false;
         self.reset();
@@ -357,18 +366,18 @@ mod tests {
         // A tick processes a limited number of items, so this endless loop does not block it. The endpoint rejects such
         // a mission.
         assert!(mission.skip(SimTime::ZERO));
-        assert_eq!(mission.reached.len(), STEPS_PER_TICK_MAX);
+        assert_eq!(mission.reached.len(), MAX_STEPS_PER_TICK);
     }
 
     #[test]
-    fn exact_many_non_flight_items_take_several_ticks_and_can_restart() {
-        let mut steps = vec![MissionStep::Payload; 3 * STEPS_PER_TICK_MAX];
+    fn exact_non_flight_items_spread_over_ticks_and_can_restart() {
+        let mut steps = vec![MissionStep::Payload; 3 * MAX_STEPS_PER_TICK];
         steps[5] = MissionStep::Speed(Some(7.0));
         steps.push(MissionStep::Delay(1.0));
         let mut mission = Mission::new(steps);
         for tick in 1..=4 {
             assert!(mission.skip(SimTime::ZERO));
-            assert_eq!(mission.current, (tick * STEPS_PER_TICK_MAX).min(3 * STEPS_PER_TICK_MAX));
+            assert_eq!(mission.current, (tick * MAX_STEPS_PER_TICK).min(3 * MAX_STEPS_PER_TICK));
         }
         assert_eq!(mission.speed_m_s, Some(7.0));
         mission.restart();

@@ -1,7 +1,7 @@
 //! Executes mission items.
 
 use super::Navigator;
-use super::automatic::{HEIGHT_REACHED_M, TURN_MIN_DISTANCE_M};
+use super::automatic::{HEIGHT_TOLERANCE_M, TURN_MIN_DISTANCE_M};
 use super::input::NavigatorInput;
 use super::mission::SuspendedStep;
 use super::mission_step::MissionStep;
@@ -40,10 +40,10 @@ impl Navigator {
             return self.fly_to_target(None, input);
         };
         self.mission_status.current = self.mission.current;
-        if let Some(place) = self.mission.suspended_at_m {
+        if let Some(place) = self.mission.interruption_point_m {
             return self.return_to_route(place, input);
         }
-        if let Some(place) = self.mission.initial_climb_m.or_else(|| self.needs_takeoff_first(&step, input)) {
+        if let Some(place) = self.mission.initial_climb_target_m.or_else(|| self.needs_takeoff_first(&step, input)) {
             return self.climb_before_step(place, input);
         }
         if !self.mission.item_started {
@@ -91,7 +91,7 @@ impl Navigator {
 
     /// Extends the trajectory to the waypoints ahead, or joins a new one.
     fn extend_trajectory(&mut self, input: &NavigatorInput) {
-        let ahead = self.mission.ahead(input.tuning.accept_radius_m);
+        let ahead = self.mission.ahead(input.tuning.default_acceptance_radius_m);
         if self.trajectory.as_mut().is_some_and(|trajectory| trajectory.extend(&ahead)) {
             return;
         }
@@ -127,7 +127,7 @@ impl Navigator {
         let behind = self.tracking_error(&self.trajectory.as_ref()?.planned(), input);
         let l = &input.airframe.limits;
         let speeds = SpeedLimits {
-            default_m_s: self.cruise_m_s(input),
+            default_speed_m_s: self.cruise_m_s(input),
             max_m_s: input.tuning.horizontal_speed_max_m_s.min(l.forward_m_s),
             up_m_s: input.tuning.climb_m_s.min(l.climb_m_s),
             down_m_s: input.tuning.descend_m_s.min(l.descend_m_s),
@@ -163,14 +163,14 @@ impl Navigator {
     fn needs_takeoff_first(&self, step: &MissionStep, input: &NavigatorInput) -> Option<Vec3<Ned>> {
         let away = matches!(step, MissionStep::Waypoint { .. } | MissionStep::Near(_) | MissionStep::Circle { .. });
         let here = input.here();
-        let up_m = self.above_ground(self.default_takeoff_up_m(input), input);
+        let up_m = self.raise_to_min_takeoff_height(self.default_takeoff_height_m(input), input);
         (away && self.landed(input) == LandedState::TakingOff).then(|| Vec3::new(here.north(), here.east(), -up_m))
     }
 
     fn climb_before_step(&mut self, position_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
         let left = input.here().down() - position_m.down();
-        let there = self.landed(input) == LandedState::InAir && left < HEIGHT_REACHED_M;
-        self.mission.initial_climb_m = (!there).then_some(position_m);
+        let there = self.landed(input) == LandedState::InAir && left < HEIGHT_TOLERANCE_M;
+        self.mission.initial_climb_target_m = (!there).then_some(position_m);
         self.target_m = position_m;
         self.climb_to_target(None, input)
     }
@@ -178,7 +178,7 @@ impl Navigator {
     /// Start position of an item, m: the previous target if it was reached, otherwise the vehicle position.
     fn step_start(&self, input: &NavigatorInput) -> Vec3<Ned> {
         let (here, target) = (input.here(), self.target_m);
-        if (target - here).norm() < input.tuning.accept_radius_m { target } else { here }
+        if (target - here).norm() < input.tuning.default_acceptance_radius_m { target } else { here }
     }
 
     /// Carries out the commands from passed items.
@@ -244,7 +244,7 @@ impl Navigator {
     fn return_to_route(&mut self, position_m: Vec3<Ned>, input: &NavigatorInput) -> Setpoint {
         self.target_m = position_m;
         if (position_m - input.here()).norm() < ROUTE_REJOIN_DISTANCE_M {
-            self.mission.suspended_at_m = None;
+            self.mission.interruption_point_m = None;
             self.events.push(Severity::Info, "Mission resumed from interruption point");
         }
         self.fly_to_target(self.mission.speed_m_s.or(Some(self.cruise_m_s(input))), input)
@@ -265,8 +265,8 @@ impl Navigator {
                 self.extend_trajectory(input);
             }
             MissionStep::Takeoff { up_m } => {
-                let up_m = up_m.unwrap_or_else(|| self.default_takeoff_up_m(input));
-                self.target_m = Vec3::new(here.north(), here.east(), -self.above_ground(up_m, input));
+                let up_m = up_m.unwrap_or_else(|| self.default_takeoff_height_m(input));
+                self.target_m = Vec3::new(here.north(), here.east(), -self.raise_to_min_takeoff_height(up_m, input));
                 self.heading.target_rad = None;
             }
             MissionStep::Land { position_m } => {
@@ -340,7 +340,7 @@ impl Navigator {
     /// Flies to the landing position and lands.
     fn fly_landing_step(&mut self, step: &MissionStep, input: &NavigatorInput) -> Setpoint {
         if *step == MissionStep::Return {
-            return self.go_home(input);
+            return self.fly_return(input);
         }
         let away = (self.target_m - input.here()).horizontal_norm();
         if away < LANDING_POSITION_TOLERANCE_M {
@@ -357,16 +357,16 @@ impl Navigator {
     fn is_step_done(&mut self, step: &MissionStep, input: &NavigatorInput) -> bool {
         let left = self.target_m - input.here();
         match *step {
-            MissionStep::Waypoint { accept_m, hold_s, .. } => {
-                let accept = if accept_m > 0.0 { accept_m } else { input.tuning.accept_radius_m };
+            MissionStep::Waypoint { acceptance_radius_m: accept_m, hold_s, .. } => {
+                let accept = if accept_m > 0.0 { accept_m } else { input.tuning.default_acceptance_radius_m };
                 if self.mission.wait_until.is_none() && (left.norm() < accept || self.has_passed(input)) {
                     self.mission.wait_until = Some(input.now + SimTime::from_s(hold_s.clamp(0.0, 86_400.0)));
                 }
                 self.mission.wait_until.is_some_and(|until| input.now >= until)
             }
-            MissionStep::Takeoff { .. } => self.landed(input) == LandedState::InAir && left.down() > -HEIGHT_REACHED_M,
+            MissionStep::Takeoff { .. } => self.landed(input) == LandedState::InAir && left.down() > -HEIGHT_TOLERANCE_M,
             MissionStep::Delay(_) | MissionStep::DelayUntil(_) => self.mission.wait_until.is_some_and(|until| input.now >= until),
-            MissionStep::Circle { .. } => self.orbit.is_none_or(|orbit| orbit.remaining_rad <= 0.0),
+            MissionStep::Circle { .. } => self.orbit.is_none_or(|orbit| orbit.remaining_arc_rad <= 0.0),
             MissionStep::Near(within_m) => left.norm() < within_m || self.mission.next_position().is_none(),
             MissionStep::Turn { .. } => {
                 let yaw = input.estimate.attitude.yaw_rad();
@@ -389,13 +389,13 @@ impl Navigator {
         if !self.mission_status.finished {
             self.mission_status.finished = true;
             self.events.push(Severity::Info, "Mission finished");
-            if input.tuning.keeps_mission_mode {
+            if input.tuning.stays_in_mission_mode {
                 let e = input.estimate;
                 self.target_m = stopping_point(input.gains, e.position_m, e.velocity_m_s);
                 self.trajectory = None;
             }
         }
-        if input.tuning.keeps_mission_mode {
+        if input.tuning.stays_in_mission_mode {
             return;
         }
         self.modes.intended = FlightMode::Hold;

@@ -10,7 +10,7 @@ pub enum MissionStep {
         /// Position relative to the origin, m.
         position_m: Vec3<Ned>,
         /// Acceptance radius, m.
-        accept_m: f64,
+        acceptance_radius_m: f64,
         /// Hold time, s.
         hold_s: f64,
         /// Heading at the waypoint, rad; `None`: toward the target.

@@ -73,7 +73,7 @@ pub struct CommandedValues {
     /// Cruise speed, m/s.
     pub speed_m_s: Option<f64>,
     /// Takeoff height, m above the origin.
-    pub takeoff_up_m: Option<f64>,
+    pub takeoff_target_height_m: Option<f64>,
     /// Position at which automatic modes point the nose, m.
     pub look_at_m: Option<Vec3<Ned>>,
 }
@@ -260,7 +260,7 @@ impl Navigator {
             self.move_home(input.here());
         }
         // Without a pilot at the sticks, automatic modes stay active.
-        if self.modes.intended.is_manual() && !input.sticks_fresh() {
+        if self.modes.intended.is_manual() && !input.has_recent_sticks() {
             self.modes.intended = FlightMode::Hold;
         }
         self.enter(self.modes.intended, input);
@@ -270,7 +270,7 @@ impl Navigator {
     pub fn end_flight(&mut self, input: &NavigatorInput) {
         self.descends_to_land = false;
         self.commanded = CommandedValues::default();
-        let stays = self.modes.intended == FlightMode::Mission && input.tuning.keeps_mission_mode;
+        let stays = self.modes.intended == FlightMode::Mission && input.tuning.stays_in_mission_mode;
         if !self.modes.intended.is_manual() && !stays {
             (self.modes.intended, self.modes.active) = (FlightMode::Hold, FlightMode::Hold);
         }

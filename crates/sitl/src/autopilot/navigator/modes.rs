@@ -21,7 +21,7 @@ impl Navigator {
         self.suspend_mission(mode, input);
         // If a failsafe interrupts a takeoff, the takeoff resumes later.
         if self.modes.intended != FlightMode::Takeoff {
-            self.commanded.takeoff_up_m = None;
+            self.commanded.takeoff_target_height_m = None;
         }
         self.report.orbit = None;
         self.modes.active = mode;
@@ -34,11 +34,11 @@ impl Navigator {
         let in_air = input.phase == FlightPhase::InAir;
         let flying = input.armed && in_air && input.estimate.position_valid;
         // During the flight back to the route, the mission has not restarted the item yet.
-        let begun = self.mission.item_started || self.mission.suspended_at_m.is_some();
+        let begun = self.mission.item_started || self.mission.interruption_point_m.is_some();
         let under_way = self.modes.active == FlightMode::Mission && begun && self.mission.step().is_some();
         let left = flying && under_way && next != FlightMode::Mission;
-        if left && self.mission.suspended_at_m.is_none() && self.mission.step().is_some_and(|step| step.continues()) {
-            let arc_rad = self.report.orbit.map(|orbit| orbit.remaining_rad);
+        if left && self.mission.interruption_point_m.is_none() && self.mission.step().is_some_and(|step| step.continues()) {
+            let arc_rad = self.report.orbit.map(|orbit| orbit.remaining_arc_rad);
             let step =
                 SuspendedStep { target_m: self.target_m, phase: self.returning.phase, return_target_m: self.returning.target_m };
             self.mission.suspend_at(input.here(), step, arc_rad, input.last_step);
@@ -64,7 +64,7 @@ impl Navigator {
             FlightMode::Follow => self.follower.begin(),
             FlightMode::Mission => {
                 self.mission.item_started = false;
-                self.mission.initial_climb_m = None;
+                self.mission.initial_climb_target_m = None;
                 self.mission.wait_until = None;
                 if !self.mission.skip(input.now) {
                     self.end_mission(input);
@@ -83,7 +83,10 @@ impl Navigator {
     }
 
     fn begin_takeoff(&mut self, input: &NavigatorInput) {
-        let up = self.above_ground(self.commanded.takeoff_up_m.unwrap_or_else(|| self.default_takeoff_up_m(input)), input);
+        let up = self.raise_to_min_takeoff_height(
+            self.commanded.takeoff_target_height_m.unwrap_or_else(|| self.default_takeoff_height_m(input)),
+            input,
+        );
         let here = input.here();
         self.target_m = Vec3::new(here.north(), here.east(), (-up).min(here.down()));
     }
@@ -92,14 +95,14 @@ impl Navigator {
     pub fn commands_takeoff(&self, input: &NavigatorInput) -> bool {
         match self.modes.active {
             FlightMode::Stabilized | FlightMode::Altitude | FlightMode::Position | FlightMode::Acro => {
-                input.links.sticks.up > 0.1 && input.sticks_fresh()
+                input.links.sticks.up > 0.1 && input.has_recent_sticks()
             }
             FlightMode::Takeoff => true,
             FlightMode::Mission => {
                 use MissionStep as S;
-                let least = if input.tuning.keeps_mission_mode { RAISED_THROTTLE_THRESHOLD } else { 0.1 };
-                let raised = input.links.sticks.up > least && input.sticks_fresh();
-                let go = input.tuning.rules.mission_takes_off_when_armed || self.mission_status.started || raised;
+                let least = if input.tuning.stays_in_mission_mode { RAISED_THROTTLE_THRESHOLD } else { 0.1 };
+                let raised = input.links.sticks.up > least && input.has_recent_sticks();
+                let go = input.tuning.rules.mission_takes_off_after_arming || self.mission_status.started || raised;
                 go && matches!(self.mission.step(), Some(S::Takeoff { .. } | S::Waypoint { .. } | S::Circle { .. } | S::Near(_)))
             }
             FlightMode::Offboard => input.links.offboard.is_some_and(|(s, _)| is_upward(&s, input.here().down())),
@@ -135,7 +138,7 @@ impl Navigator {
             FlightMode::Hold => self.fly_to_target(self.speed_m_s, input),
             FlightMode::Orbit => self.fly_orbit(input),
             FlightMode::Takeoff => self.take_off(input),
-            FlightMode::Return => self.go_home(input),
+            FlightMode::Return => self.fly_return(input),
             FlightMode::SmartReturn => self.retrace_path(input),
             FlightMode::Follow => self.follow_target(input),
             FlightMode::Mission => self.fly_mission(input),

@@ -12,12 +12,12 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 /// Distance below which the heading no longer tracks the target, m.
 const HEADING_MIN_DISTANCE_M: f64 = 0.5;
 /// Thrust, 0 to 1, below which a setpoint counts as an intended descent.
-const DESCENT_THRUST: f64 = 0.1;
+const MAX_DESCENT_THRUST: f64 = 0.1;
 
 impl Navigator {
     /// The external setpoint if the mode uses it and it has not timed out.
     pub(super) fn active_setpoint(&self, input: &NavigatorInput) -> Option<OffboardSetpoint> {
-        let fresh = self.modes.active == FlightMode::Offboard && input.offboard_fresh();
+        let fresh = self.modes.active == FlightMode::Offboard && input.has_recent_offboard();
         input.links.offboard.filter(|_| fresh).map(|(setpoint, _)| setpoint)
     }
 
@@ -61,7 +61,10 @@ impl Navigator {
         if let Some((attitude, thrust)) = setpoint.attitude {
             let (thrust_n, descent_m_s) = direct_thrust(thrust, input);
             self.heading.stop();
-            return Setpoint::AttitudeThrust { target: AttitudeThrustSetpoint { attitude, thrust_n }, descent_m_s };
+            return Setpoint::AttitudeThrust {
+                target: AttitudeThrustSetpoint { attitude, thrust_n },
+                descent_rate_m_s: descent_m_s,
+            };
         }
         if let Some((rates_rad_s, thrust)) = setpoint.rates {
             return self.fly_rates(rates_rad_s, thrust, input);
@@ -72,7 +75,7 @@ impl Navigator {
         let velocity_m_s = self.offboard_velocity(&setpoint, input);
         self.shaper.advance(velocity_m_s, &self.auto_limits(input), input.dt_s);
         let mut motion = self.motion(self.shaper.velocity_m_s);
-        self.accelerate(&setpoint, &mut motion, input);
+        self.apply_acceleration_setpoints(&setpoint, &mut motion, input);
         Setpoint::Velocity(motion)
     }
 
@@ -96,7 +99,7 @@ impl Navigator {
         }
         let rates_rad_s = setpoint.rates.map_or(Vec3::zero(), |(rates, _)| rates);
         self.heading.yaw_rad = input.estimate.attitude.yaw_rad();
-        Setpoint::RatesAndClimb { rates_rad_s, motion, descent_m_s: -up_m_s }
+        Setpoint::RatesAndClimb { rates_rad_s, motion, descent_rate_m_s: -up_m_s }
     }
 
     /// Tracks body rates and thrust.
@@ -104,12 +107,12 @@ impl Navigator {
         let (thrust_n, descent_m_s) = direct_thrust(thrust, input);
         // The next mode continues from the current heading.
         self.heading.yaw_rad = input.estimate.attitude.yaw_rad();
-        Setpoint::Rates { rates_rad_s, thrust_n, descent_m_s }
+        Setpoint::Rates { rates_rad_s, thrust_n, descent_rate_m_s: descent_m_s }
     }
 
     /// Applies acceleration setpoints: directly on axes without a position or velocity, and as feedforward on the
     /// others.
-    fn accelerate(&mut self, s: &OffboardSetpoint, motion: &mut VelocitySetpoint, input: &NavigatorInput) {
+    fn apply_acceleration_setpoints(&mut self, s: &OffboardSetpoint, motion: &mut VelocitySetpoint, input: &NavigatorInput) {
         let free = |i: usize| s.position_m[i].is_none() && s.velocity_m_s[i].is_none();
         let flat = |i: usize| s.acceleration_m_s2[i].unwrap_or(0.0);
         let level = Vec3::<Ned>::new(flat(0), flat(1), 0.0).limited(input.gains.acceleration_m_s2);
@@ -155,7 +158,7 @@ impl Navigator {
             return self.fly_to_target(None, input);
         };
         let here = input.here();
-        let place = self.follower.position_near(&target, &input.tuning.follow, here, self.home.position_m);
+        let place = self.follower.desired_position(&target, &input.tuning.follow, here, self.home.position_m);
         // If the target is lost, the vehicle holds here.
         self.target_m = here;
         let yaw =
@@ -175,6 +178,6 @@ impl Navigator {
 
 /// Thrust, N, of a setpoint specified as a fraction of the maximum thrust, and the intended descent rate, m/s.
 fn direct_thrust(share: f64, input: &NavigatorInput) -> (f64, f64) {
-    let descent_m_s = if share < DESCENT_THRUST { input.airframe.limits.descend_m_s } else { 0.0 };
+    let descent_m_s = if share < MAX_DESCENT_THRUST { input.airframe.limits.descend_m_s } else { 0.0 };
     ((share.clamp(0.0, 1.0) * input.gains.thrust_max_n).max(input.gains.thrust_min_n), descent_m_s)
 }

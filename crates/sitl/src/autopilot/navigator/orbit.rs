@@ -36,9 +36,9 @@ pub struct Orbit {
     /// Heading behavior.
     pub yaw: OrbitYaw,
     /// Remaining arc, rad; infinite for an endless circle.
-    pub remaining_rad: f64,
+    pub remaining_arc_rad: f64,
     /// Learned inward speed that keeps the vehicle on the circle, m/s.
-    pub trim_m_s: f64,
+    pub inward_speed_m_s: f64,
 }
 
 /// A requested circle.

@@ -13,7 +13,7 @@ use spandrel_model::frames::{Ned, Vec3};
 /// Largest height or distance that a request may contain, m.
 const MAX_DISTANCE_M: f64 = 20_000.0;
 /// Throttle stick position above which thrust exceeds half of the hover thrust (ArduPilot: get_non_takeoff_throttle).
-const HALF_HOVER_THROTTLE: f64 = -0.5;
+const HALF_HOVER_THROTTLE_POSITION: f64 = -0.5;
 
 impl Navigator {
     /// Handles a request and returns its outcome.
@@ -83,7 +83,7 @@ impl Navigator {
         if mode == FlightMode::Orbit && self.orbit.is_none() {
             return Some(RequestOutcome::Denied("No orbit defined: send DO_ORBIT first".into()));
         }
-        if mode == FlightMode::Offboard && !input.offboard_fresh() {
+        if mode == FlightMode::Offboard && !input.has_recent_offboard() {
             return Some(RequestOutcome::TemporarilyRejected("Offboard rejected: no external setpoints".into()));
         }
         let counts = flying || input.armed && input.tuning.arming_depends_on_mode;
@@ -106,7 +106,7 @@ impl Navigator {
     /// mode with direct throttle.
     fn throttle_too_high(&self, mode: FlightMode, input: &NavigatorInput) -> bool {
         let direct = |mode: FlightMode| matches!(mode, FlightMode::Stabilized | FlightMode::Acro);
-        let high = input.links.sticks.up > HALF_HOVER_THROTTLE && input.sticks_fresh();
+        let high = input.links.sticks.up > HALF_HOVER_THROTTLE_POSITION && input.has_recent_sticks();
         let standing = !input.is_flying();
         input.tuning.arming_depends_on_mode && standing && high && direct(mode) && !direct(self.modes.intended)
     }
@@ -131,8 +131,10 @@ impl Navigator {
         }
         let home = self.home.position_m?;
         let away_m = (self.mission.first_position()? - home).horizontal_norm();
-        let too_far = rules.first_waypoint_m > 0.0 && away_m > rules.first_waypoint_m;
-        too_far.then(|| format!("First waypoint too far from home: {away_m:.0} m, limit {:.0} m", rules.first_waypoint_m))
+        let too_far = rules.max_first_waypoint_distance_m > 0.0 && away_m > rules.max_first_waypoint_distance_m;
+        too_far.then(|| {
+            format!("First waypoint too far from home: {away_m:.0} m, limit {:.0} m", rules.max_first_waypoint_distance_m)
+        })
     }
 
     pub(super) fn restart_finished_mission(&mut self) {
@@ -156,14 +158,14 @@ impl Navigator {
         {
             return refusal;
         }
-        let before = self.commanded.takeoff_up_m.replace(wanted_up);
-        if input.is_flying() && self.commanded.takeoff_up_m.is_some_and(|wanted| up >= wanted) {
+        let before = self.commanded.takeoff_target_height_m.replace(wanted_up);
+        if input.is_flying() && self.commanded.takeoff_target_height_m.is_some_and(|wanted| up >= wanted) {
             self.events.push(Severity::Info, "Already above takeoff altitude");
             return self.set_mode(FlightMode::Hold, input);
         }
         let outcome = self.set_mode(FlightMode::Takeoff, input);
         if outcome != RequestOutcome::Accepted {
-            self.commanded.takeoff_up_m = before;
+            self.commanded.takeoff_target_height_m = before;
         }
         if self.modes.active == FlightMode::Takeoff {
             self.enter(FlightMode::Takeoff, input);
@@ -310,7 +312,7 @@ impl Navigator {
                 MissionStep::Circle { center_m, .. } => center_m,
                 MissionStep::Takeoff { up_m } => {
                     let over = from.unwrap_or(home);
-                    Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.default_takeoff_up_m(input)))
+                    Vec3::new(over.north(), over.east(), -up_m.unwrap_or_else(|| self.default_takeoff_height_m(input)))
                 }
                 MissionStep::Land { position_m: None }
                 | MissionStep::Return
@@ -334,7 +336,7 @@ impl Navigator {
             }
             from = Some(to);
         }
-        let back = self.mission.suspended_at_m.filter(|_| flying && fence.breach_at(here).is_none());
+        let back = self.mission.interruption_point_m.filter(|_| flying && fence.breach_at(here).is_none());
         let cut_off = back.is_some_and(|place| fence.path_leaves_fence(here, place));
         cut_off.then(|| "Return path to mission leaves geofence".into())
     }

@@ -1,7 +1,7 @@
 //! Returns: to home or a rally point, and back along the recorded path (ArduCopter's Smart RTL).
 
 use super::Navigator;
-use super::automatic::HEIGHT_REACHED_M;
+use super::automatic::HEIGHT_TOLERANCE_M;
 use super::home::RallyPoint;
 use super::input::NavigatorInput;
 use super::return_state::ReturnPhase;
@@ -12,8 +12,8 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
 /// Distance and speed below which the vehicle counts as above the destination, m and m/s.
-const ARRIVED_M: f64 = 0.5;
-const ARRIVED_M_S: f64 = 0.5;
+const ARRIVAL_DISTANCE_M: f64 = 0.5;
+const ARRIVAL_SPEED_M_S: f64 = 0.5;
 /// Height above the takeoff point at which a Smart RTL begins its landing, m (ArduCopter: pre-land position).
 const SMART_RETURN_LANDING_HEIGHT_M: f64 = 2.0;
 
@@ -21,21 +21,21 @@ impl Navigator {
     /// Starts a return to the nearest allowed destination.
     pub(super) fn begin_return(&mut self, input: &NavigatorInput) {
         let here = input.here();
-        let home = self.nearest_rally_point(input);
+        let home = self.nearest_return_destination(input);
         self.returning.target_m = Some(home);
         let away = (here - home).horizontal_norm();
         let rules = input.tuning.rules.return_rules;
-        let by_rally = rules.rally_height && self.home.position_m != Some(home);
+        let by_rally = rules.uses_rally_height && self.home.position_m != Some(home);
         let up = -home.down() + if by_rally { 0.0 } else { self.return_height_over(away, input) };
         let near = away < rules.no_climb_distance_m;
         let phase = if near { ReturnPhase::Cruise } else { ReturnPhase::Climb };
-        let down = if near { here.down() } else { (-up).min(here.down() - rules.climb_min_m) };
+        let down = if near { here.down() } else { (-up).min(here.down() - rules.min_climb_m) };
         self.returning.phase = phase;
         self.target_m = Vec3::new(here.north(), here.east(), down);
     }
 
     /// The nearest allowed return destination, or home if there is none.
-    fn nearest_rally_point(&self, input: &NavigatorInput) -> Vec3<Ned> {
+    fn nearest_return_destination(&self, input: &NavigatorInput) -> Vec3<Ned> {
         let here = input.here();
         let home = self.home.position_m.unwrap_or(here);
         let allowed = input.tuning.rules.return_rules.places;
@@ -59,23 +59,23 @@ impl Navigator {
     }
 
     /// Flies to a return's destination, waits there and lands.
-    pub(super) fn go_home(&mut self, input: &NavigatorInput) -> Setpoint {
+    pub(super) fn fly_return(&mut self, input: &NavigatorInput) -> Setpoint {
         let here = input.here();
         let home = self.returning.target_m.or(self.home.position_m).unwrap_or(here);
         match self.returning.phase {
             ReturnPhase::Climb => {
-                if (self.target_m.down() - here.down()).abs() < HEIGHT_REACHED_M {
+                if (self.target_m.down() - here.down()).abs() < HEIGHT_TOLERANCE_M {
                     self.returning.phase = ReturnPhase::Cruise;
                 }
             }
             ReturnPhase::Cruise => {
                 self.target_m = Vec3::new(home.north(), home.east(), self.target_m.down());
                 let speed = input.estimate.velocity_m_s.horizontal_norm();
-                if (here - home).horizontal_norm() < ARRIVED_M && speed < ARRIVED_M_S {
-                    self.arrive_home(home, input);
+                if (here - home).horizontal_norm() < ARRIVAL_DISTANCE_M && speed < ARRIVAL_SPEED_M_S {
+                    self.handle_arrival(home, input);
                 }
             }
-            ReturnPhase::Wait => self.wait_over_home(home, input),
+            ReturnPhase::Wait => self.wait_above_destination(home, input),
             ReturnPhase::Stay => {}
             ReturnPhase::Land => {
                 self.target_m = home;
@@ -86,7 +86,7 @@ impl Navigator {
     }
 
     /// Handles arrival above the return target: waits there or lands.
-    fn arrive_home(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
+    fn handle_arrival(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
         let rules = input.tuning.rules.return_rules;
         let waits = rules.wait_s != 0.0 || rules.final_height_m > 0.0;
         let place = if self.home.position_m == Some(home) { "Home" } else { "Rally point" };
@@ -100,12 +100,12 @@ impl Navigator {
     }
 
     /// Waits above the destination for the configured time.
-    fn wait_over_home(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
+    fn wait_above_destination(&mut self, home: Vec3<Ned>, input: &NavigatorInput) {
         let rules = input.tuning.rules.return_rules;
         if rules.turns_to_takeoff_heading {
             self.heading.target_rad = self.home.arming_yaw_rad;
         }
-        if (self.target_m.down() - input.here().down()).abs() > HEIGHT_REACHED_M || rules.wait_s < 0.0 {
+        if (self.target_m.down() - input.here().down()).abs() > HEIGHT_TOLERANCE_M || rules.wait_s < 0.0 {
             return;
         }
         let until = *self.returning.wait_until.get_or_insert(input.last_step + SimTime::from_s(rules.wait_s));
@@ -146,8 +146,8 @@ impl Navigator {
         let Some((next, last)) = self.flown_path.next_return_point(here) else { return self.fly_to_target(None, input) };
         self.target_m = if last { next - Vec3::new(0.0, 0.0, SMART_RETURN_LANDING_HEIGHT_M) } else { next };
         let left = self.target_m - here;
-        let slow = input.estimate.velocity_m_s.norm() < ARRIVED_M_S;
-        if last && left.norm() < ARRIVED_M && slow {
+        let slow = input.estimate.velocity_m_s.norm() < ARRIVAL_SPEED_M_S;
+        if last && left.norm() < ARRIVAL_DISTANCE_M && slow {
             self.returning.phase = ReturnPhase::Land;
             self.target_m = next;
             self.events.push(Severity::Info, "Takeoff point reached, landing");

@@ -8,24 +8,24 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 
 /// Maximum acceleration in missions, m/s² (PX4: MPC_ACC_HOR 3; lower here to leave part of the tilt for wind).
-const HORIZONTAL_M_S2: f64 = 2.0;
-const VERTICAL_M_S2: f64 = 1.5;
+const MAX_HORIZONTAL_ACCELERATION_M_S2: f64 = 2.0;
+const MAX_VERTICAL_ACCELERATION_M_S2: f64 = 1.5;
 /// Maximum jerk along a leg and in a corner, m/s³ (PX4: MPC_JERK_AUTO 4).
-const JERK_M_S3: f64 = 4.0;
-const CORNER_JERK_M_S3: f64 = 2.5;
+const MAX_JERK_M_S3: f64 = 4.0;
+const MAX_CORNER_JERK_M_S3: f64 = 2.5;
 /// Time constant with which the speed approaches its limit, s.
-const APPROACH_S: f64 = 0.25;
+const SPEED_TIME_CONSTANT_S: f64 = 0.25;
 /// Maximum corner cut, as a fraction of the acceptance radius and as a distance, m.
 const CORNER_CUT_FRACTION: f64 = 0.5;
 const MAX_CORNER_CUT_M: f64 = 2.0;
 /// Corner cut per meter of reach and unit of direction change: 3/16 for the cubic blend below.
-const CUT_PER_REACH: f64 = 0.1875;
+const CORNER_CUT_PER_REACH: f64 = 0.1875;
 /// Sine of the slope above which a leg is flown at climb or descent speed (60 degrees).
 const STEEP_SLOPE_SINE: f64 = 0.866;
 /// Distance below which waypoints count as identical, m.
 const COINCIDENT_DISTANCE_M: f64 = 0.01;
 /// Decay rate of the initial cross-track velocity, 1/s (estimate: for 1 m/s, the jerk is below 7 m/s³).
-const JOIN_DECAY_PER_S: f64 = 1.5;
+const JOIN_DECAY_RATE_PER_S: f64 = 1.5;
 /// Tracking errors at which the plan starts to slow down and at which it stops, m (estimate).
 const SLOWDOWN_ERROR_M: f64 = 1.0;
 const STOP_ERROR_M: f64 = 3.0;
@@ -38,14 +38,14 @@ pub struct Waypoint {
     /// Speed toward it, m/s; `None` for the default.
     pub speed_m_s: Option<f64>,
     /// Acceptance radius, m.
-    pub accept_m: f64,
+    pub acceptance_radius_m: f64,
 }
 
 /// Speed limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedLimits {
     /// Default leg speed, m/s.
-    pub default_m_s: f64,
+    pub default_speed_m_s: f64,
     /// Maximum speed, m/s.
     pub max_m_s: f64,
     /// Climb rate, m/s.
@@ -57,25 +57,26 @@ pub struct SpeedLimits {
 /// Acceleration limits of a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AccelerationLimits {
-    horizontal_m_s2: f64,
-    vertical_m_s2: f64,
+    horizontal_acceleration_m_s2: f64,
+    vertical_acceleration_m_s2: f64,
 }
 
 impl AccelerationLimits {
     /// Creates limits for an aircraft with this acceleration. Reserves 50% of the horizontal and 30% of the vertical
     /// acceleration for wind and control errors.
     #[must_use]
-    pub fn within(horizontal_m_s2: f64, vertical_m_s2: f64) -> Self {
+    pub fn within(horizontal_acceleration_m_s2: f64, vertical_acceleration_m_s2: f64) -> Self {
         Self {
-            horizontal_m_s2: HORIZONTAL_M_S2.min(0.5 * horizontal_m_s2),
-            vertical_m_s2: VERTICAL_M_S2.min(0.7 * vertical_m_s2),
+            horizontal_acceleration_m_s2: MAX_HORIZONTAL_ACCELERATION_M_S2.min(0.5 * horizontal_acceleration_m_s2),
+            vertical_acceleration_m_s2: MAX_VERTICAL_ACCELERATION_M_S2.min(0.7 * vertical_acceleration_m_s2),
         }
     }
 
     /// Maximum acceleration in a direction, m/s².
     fn along(&self, direction: Vec3<Ned>) -> f64 {
         let unit = direction.unit();
-        (self.horizontal_m_s2 / unit.horizontal_norm().max(1e-9)).min(self.vertical_m_s2 / unit.down().abs().max(1e-9))
+        (self.horizontal_acceleration_m_s2 / unit.horizontal_norm().max(1e-9))
+            .min(self.vertical_acceleration_m_s2 / unit.down().abs().max(1e-9))
     }
 }
 
@@ -101,9 +102,9 @@ struct Segment {
     /// Half the length of the corner at its end, m; 0 for the last leg.
     reach_m: f64,
     /// Speed limit of that corner, m/s; 0 for the last leg.
-    corner_m_s: f64,
+    corner_speed_m_s: f64,
     /// Maximum acceleration along the leg, m/s².
-    max_m_s2: f64,
+    max_acceleration_m_s2: f64,
 }
 
 /// The trajectory and its progress.
@@ -111,7 +112,7 @@ struct Segment {
 pub struct Trajectory {
     bounds: AccelerationLimits,
     legs: Vec<Segment>,
-    along_m: f64,
+    path_distance_m: f64,
     speed_m_s: f64,
     acceleration_m_s2: f64,
     /// Remaining offset from the motion state at the time of joining.
@@ -131,22 +132,23 @@ impl Trajectory {
             velocity_m_s: from.velocity_m_s - first.unit * speed_m_s,
             acceleration_m_s2: from.acceleration_m_s2,
         };
-        Some(Self { bounds, legs, along_m: 0.0, speed_m_s, acceleration_m_s2: 0.0, join_offset: joining })
+        Some(Self { bounds, legs, path_distance_m: 0.0, speed_m_s, acceleration_m_s2: 0.0, join_offset: joining })
     }
 
     /// Replaces the waypoints from the first of `waypoints` onward. Returns false if that waypoint is not on this
     /// trajectory.
     pub fn extend(&mut self, waypoints: &[Waypoint]) -> bool {
         let Some(first) = waypoints.first() else { return false };
-        let now = self.leg_at(self.along_m);
+        let now = self.leg_at(self.path_distance_m);
         // A corner in progress still needs its incoming leg.
-        let keep = if now > 0 && self.along_m < self.legs[now].start_m + self.legs[now - 1].reach_m { now - 1 } else { now };
+        let keep =
+            if now > 0 && self.path_distance_m < self.legs[now].start_m + self.legs[now - 1].reach_m { now - 1 } else { now };
         let leads_there = |leg: &Segment| (leg.to.position_m - first.position_m).norm() < COINCIDENT_DISTANCE_M;
         let Some(next) = (keep..self.legs.len()).find(|k| leads_there(&self.legs[*k])) else { return false };
         let start = self.legs[keep];
         let kept = self.legs[keep..next].iter().map(|leg| leg.to);
         let ahead: Vec<Waypoint> = kept.chain(waypoints.iter().copied()).collect();
-        self.along_m -= start.start_m;
+        self.path_distance_m -= start.start_m;
         self.legs = legs(start.from_m, &ahead, &self.bounds);
         true
     }
@@ -157,28 +159,28 @@ impl Trajectory {
         let through = self.legs.iter().rev().skip(1);
         through
             .filter(|leg| (leg.to.position_m - position_m).norm() < COINCIDENT_DISTANCE_M)
-            .any(|leg| self.along_m >= leg.end_m())
+            .any(|leg| self.path_distance_m >= leg.end_m())
     }
 
     /// Advances the plan by one step. `behind_m` is the aircraft's tracking error.
     pub fn advance(&mut self, speeds: &SpeedLimits, behind_m: f64, dt_s: f64) -> TrajectoryPoint {
         let waits = ((STOP_ERROR_M - behind_m) / (STOP_ERROR_M - SLOWDOWN_ERROR_M)).clamp(0.0, 1.0);
-        let allowed = self.allowed_m_s(speeds) * waits;
-        let max_m_s2 = self.legs[self.leg_at(self.along_m)].max_m_s2;
-        let wanted = ((allowed - self.speed_m_s) / APPROACH_S).clamp(-max_m_s2, max_m_s2);
-        self.acceleration_m_s2 += (wanted - self.acceleration_m_s2).clamp(-JERK_M_S3 * dt_s, JERK_M_S3 * dt_s);
+        let allowed = self.allowed_speed_m_s(speeds) * waits;
+        let max_m_s2 = self.legs[self.leg_at(self.path_distance_m)].max_acceleration_m_s2;
+        let wanted = ((allowed - self.speed_m_s) / SPEED_TIME_CONSTANT_S).clamp(-max_m_s2, max_m_s2);
+        self.acceleration_m_s2 += (wanted - self.acceleration_m_s2).clamp(-MAX_JERK_M_S3 * dt_s, MAX_JERK_M_S3 * dt_s);
         self.speed_m_s += self.acceleration_m_s2 * dt_s;
         if self.speed_m_s < 0.0 {
             (self.speed_m_s, self.acceleration_m_s2) = (0.0, 0.0);
         }
-        self.along_m = (self.along_m + self.speed_m_s * dt_s).min(self.length_m());
+        self.path_distance_m = (self.path_distance_m + self.speed_m_s * dt_s).min(self.length_m());
         self.decay_join_offset(dt_s);
         self.planned()
     }
 
     /// Third-order critically damped decay, which keeps the acceleration continuous.
     fn decay_join_offset(&mut self, dt_s: f64) {
-        let (k, off) = (JOIN_DECAY_PER_S, &mut self.join_offset);
+        let (k, off) = (JOIN_DECAY_RATE_PER_S, &mut self.join_offset);
         let jerk = off.acceleration_m_s2 * (-3.0 * k) + off.velocity_m_s * (-3.0 * k * k) + off.position_m * (-k * k * k);
         off.acceleration_m_s2 += jerk * dt_s;
         off.velocity_m_s += off.acceleration_m_s2 * dt_s;
@@ -188,7 +190,7 @@ impl Trajectory {
     /// Current state of the plan.
     #[must_use]
     pub fn planned(&self) -> TrajectoryPoint {
-        let (place, along, bend) = self.shape(self.along_m);
+        let (place, along, bend) = self.shape(self.path_distance_m);
         TrajectoryPoint {
             position_m: place + self.join_offset.position_m,
             velocity_m_s: along * self.speed_m_s + self.join_offset.velocity_m_s,
@@ -202,38 +204,38 @@ impl Trajectory {
         self.legs.last().map_or(0.0, Segment::end_m)
     }
 
-    fn leg_at(&self, along_m: f64) -> usize {
-        self.legs.iter().position(|leg| along_m < leg.end_m()).unwrap_or(self.legs.len() - 1)
+    fn leg_at(&self, path_distance_m: f64) -> usize {
+        self.legs.iter().position(|leg| path_distance_m < leg.end_m()).unwrap_or(self.legs.len() - 1)
     }
 
     /// Position and its first and second derivatives with respect to arc length.
-    fn shape(&self, along_m: f64) -> (Vec3<Ned>, Vec3<Ned>, Vec3<Ned>) {
-        let k = self.leg_at(along_m);
+    fn shape(&self, path_distance_m: f64) -> (Vec3<Ned>, Vec3<Ned>, Vec3<Ned>) {
+        let k = self.leg_at(path_distance_m);
         let leg = &self.legs[k];
-        if leg.reach_m > 0.0 && along_m > leg.end_m() - leg.reach_m {
-            return leg.corner(&self.legs[k + 1], along_m);
+        if leg.reach_m > 0.0 && path_distance_m > leg.end_m() - leg.reach_m {
+            return leg.corner(&self.legs[k + 1], path_distance_m);
         }
-        if let Some(before) = k.checked_sub(1).map(|k| &self.legs[k]).filter(|b| along_m < leg.start_m + b.reach_m) {
-            return before.corner(leg, along_m);
+        if let Some(before) = k.checked_sub(1).map(|k| &self.legs[k]).filter(|b| path_distance_m < leg.start_m + b.reach_m) {
+            return before.corner(leg, path_distance_m);
         }
-        (leg.from_m + leg.unit * (along_m - leg.start_m), leg.unit, Vec3::zero())
+        (leg.from_m + leg.unit * (path_distance_m - leg.start_m), leg.unit, Vec3::zero())
     }
 
     /// Speed limit at this point from the leg and the corners ahead, m/s.
-    fn allowed_m_s(&self, speeds: &SpeedLimits) -> f64 {
-        let now = self.leg_at(self.along_m);
+    fn allowed_speed_m_s(&self, speeds: &SpeedLimits) -> f64 {
+        let now = self.leg_at(self.path_distance_m);
         let mut allowed = self.legs[now].speed_m_s(speeds);
         if let Some(before) = now.checked_sub(1).map(|k| &self.legs[k])
-            && self.along_m < self.legs[now].start_m + before.reach_m
+            && self.path_distance_m < self.legs[now].start_m + before.reach_m
         {
-            allowed = allowed.min(before.corner_m_s);
+            allowed = allowed.min(before.corner_speed_m_s);
         }
         // The speed lags its limit by the time constant.
-        let lead_m = self.speed_m_s * APPROACH_S;
+        let lead_m = self.speed_m_s * SPEED_TIME_CONSTANT_S;
         for (k, leg) in self.legs.iter().enumerate().skip(now) {
-            let after = self.legs.get(k + 1).map_or(0.0, |next| next.speed_m_s(speeds).min(leg.corner_m_s));
-            let left_m = (leg.end_m() - leg.reach_m - self.along_m - lead_m).max(0.0);
-            allowed = allowed.min(braking_speed(left_m, leg.max_m_s2, after));
+            let after = self.legs.get(k + 1).map_or(0.0, |next| next.speed_m_s(speeds).min(leg.corner_speed_m_s));
+            let left_m = (leg.end_m() - leg.reach_m - self.path_distance_m - lead_m).max(0.0);
+            allowed = allowed.min(braking_speed(left_m, leg.max_acceleration_m_s2, after));
         }
         allowed
     }
@@ -248,14 +250,14 @@ impl Segment {
         let (flat, down) = (self.unit.horizontal_norm(), self.unit.down());
         let vertical = if down < 0.0 { speeds.up_m_s } else { speeds.down_m_s };
         let climb = vertical / down.abs().max(1e-9);
-        let wanted = self.to.speed_m_s.unwrap_or(speeds.default_m_s).min(speeds.max_m_s).max(0.1);
+        let wanted = self.to.speed_m_s.unwrap_or(speeds.default_speed_m_s).min(speeds.max_m_s).max(0.1);
         if down.abs() > STEEP_SLOPE_SINE { climb.min(wanted / flat.max(1e-9)) } else { climb.min(wanted) }
     }
 
     /// Blend into the next leg: the direction follows the cubic 3x² - 2x³.
-    fn corner(&self, next: &Self, along_m: f64) -> (Vec3<Ned>, Vec3<Ned>, Vec3<Ned>) {
+    fn corner(&self, next: &Self, path_distance_m: f64) -> (Vec3<Ned>, Vec3<Ned>, Vec3<Ned>) {
         let reach = self.reach_m;
-        let x = ((along_m - (self.end_m() - reach)) / (2.0 * reach)).clamp(0.0, 1.0);
+        let x = ((path_distance_m - (self.end_m() - reach)) / (2.0 * reach)).clamp(0.0, 1.0);
         let (turned, sum) = (x * x * (3.0 - 2.0 * x), x * x * x * (1.0 - 0.5 * x));
         let turn = next.unit - self.unit;
         let from = self.to.position_m - self.unit * reach;
@@ -266,9 +268,9 @@ impl Segment {
 
 /// Maximum speed from which the vehicle can brake to another speed in the remaining distance, including the deceleration ramp,
 /// m/s.
-fn braking_speed(left_m: f64, max_m_s2: f64, after_m_s: f64) -> f64 {
-    let ramp = 4.0 * max_m_s2 * max_m_s2 / JERK_M_S3;
-    let speed = 0.5 * ((ramp * ramp + 4.0 * (2.0 * max_m_s2 * left_m + after_m_s * after_m_s)).sqrt() - ramp);
+fn braking_speed(left_m: f64, max_acceleration_m_s2: f64, after_m_s: f64) -> f64 {
+    let ramp = 4.0 * max_acceleration_m_s2 * max_acceleration_m_s2 / MAX_JERK_M_S3;
+    let speed = 0.5 * ((ramp * ramp + 4.0 * (2.0 * max_acceleration_m_s2 * left_m + after_m_s * after_m_s)).sqrt() - ramp);
     speed.max(after_m_s)
 }
 
@@ -292,14 +294,14 @@ fn legs(from_m: Vec3<Ned>, waypoints: &[Waypoint], bounds: &AccelerationLimits) 
             start_m,
             length_m,
             reach_m: 0.0,
-            corner_m_s: 0.0,
-            max_m_s2: bounds.along(unit),
+            corner_speed_m_s: 0.0,
+            max_acceleration_m_s2: bounds.along(unit),
         });
         at = to.position_m;
     }
     for k in 1..legs.len() {
         let (reach_m, corner_m_s) = corner(&legs[k - 1], &legs[k], bounds);
-        (legs[k - 1].reach_m, legs[k - 1].corner_m_s) = (reach_m, corner_m_s);
+        (legs[k - 1].reach_m, legs[k - 1].corner_speed_m_s) = (reach_m, corner_m_s);
     }
     legs
 }
@@ -312,9 +314,9 @@ fn corner(leg: &Segment, next: &Segment, bounds: &AccelerationLimits) -> (f64, f
     if bend < 1e-6 || room <= 0.0 {
         return (0.0, f64::INFINITY);
     }
-    let cut_m = (CORNER_CUT_FRACTION * leg.to.accept_m).min(MAX_CORNER_CUT_M);
-    let reach = room.min(cut_m / (CUT_PER_REACH * bend));
+    let cut_m = (CORNER_CUT_FRACTION * leg.to.acceptance_radius_m).min(MAX_CORNER_CUT_M);
+    let reach = room.min(cut_m / (CORNER_CUT_PER_REACH * bend));
     let by_acceleration = (bounds.along(turn) * 2.0 * reach / (1.5 * bend)).sqrt();
-    let by_jerk = math::cbrt(CORNER_JERK_M_S3 * 4.0 * reach * reach / (6.0 * bend));
+    let by_jerk = math::cbrt(MAX_CORNER_JERK_M_S3 * 4.0 * reach * reach / (6.0 * bend));
     (reach, by_acceleration.min(by_jerk))
 }

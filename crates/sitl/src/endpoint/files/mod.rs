@@ -114,7 +114,7 @@ impl FileServer {
         }
         self.sessions.expire(now);
         let size = content.len() as u32;
-        let path = request.sized().and_then(FilePath::of).map(|path| (path, false));
+        let path = request.data_in_use().and_then(FilePath::of).map(|path| (path, false));
         let answer = self.opened(client, request, path, size, now);
         if answer.opcode == ACK {
             self.sessions.set_content(client, answer.session, content.into());
@@ -178,14 +178,14 @@ impl FileServer {
         if *bytes < CHECKSUM_SLICE || waiting.checksummed_bytes > MAX_CHECKSUM_BYTES {
             return false;
         }
-        let Some(path) = waiting.request.sized().and_then(FilePath::of) else { return false };
+        let Some(path) = waiting.request.data_in_use().and_then(FilePath::of) else { return false };
         let action = FileAction::Checksum { path, from: waiting.checksummed_bytes, sum: *sum };
         self.jobs.push_back(FileJob { ticket, action });
         true
     }
 
     fn act(&mut self, client: FileClient, request: &FtpPacket) -> Result<RequestStep, FtpError> {
-        let data = request.sized().ok_or(FtpError::InvalidDataSize)?;
+        let data = request.data_in_use().ok_or(FtpError::InvalidDataSize)?;
         let opcode = Opcode::of(request.opcode).ok_or(FtpError::UnknownCommand)?;
         let path = || FilePath::of(data).ok_or(FtpError::FileNotFound);
         let act = match opcode {
@@ -354,7 +354,7 @@ impl FileServer {
         request: &FtpPacket,
         outcome: Result<FileJobResult, FileError>,
     ) -> Result<FileJobResult, FileError> {
-        let Some(path) = request.sized().and_then(FilePath::of) else { return outcome };
+        let Some(path) = request.data_in_use().and_then(FilePath::of) else { return outcome };
         let mut made_up: Vec<DirectoryEntry> = Vec::new();
         for (name, content) in &self.generated {
             let entry = name.below(&path).map(|rest| match rest.split_once('/') {

@@ -25,7 +25,7 @@ impl ReplyCache {
     /// Stores a reply and evicts the oldest if the cache is full. A late request to a closed session does not replace
     /// the reply to its close request, because that reply may have been lost.
     pub fn keep(&mut self, client: FileClient, request: &FtpPacket, answer: &FtpPacket) {
-        let ended = answer.sized() == Some(&[FtpError::InvalidSession as u8]) && answer.opcode == NAK;
+        let ended = answer.data_in_use() == Some(&[FtpError::InvalidSession as u8]) && answer.opcode == NAK;
         if ended && self.last.contains_key(&(client, request.session)) {
             return;
         }

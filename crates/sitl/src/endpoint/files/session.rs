@@ -12,7 +12,7 @@ const MAX_SESSIONS: usize = 32;
 /// Maximum number of open files per client; MAVProxy transfers up to five in parallel.
 const MAX_SESSIONS_PER_CLIENT: usize = 8;
 /// Timeout after which an idle session is closed, so that clients that have disappeared do not tie up resources.
-const IDLE: SimTime = SimTime::from_ms(60_000);
+const IDLE_TIMEOUT: SimTime = SimTime::from_ms(60_000);
 /// Time within which an identical open request counts as a repeat, regardless of what arrived in between, because
 /// networks duplicate and reorder datagrams. A later request comes from a client that has restarted its sequence
 /// numbers (estimate: longer than network delays).
@@ -104,6 +104,6 @@ impl FileSessions {
 
     /// Closes idle sessions.
     pub fn expire(&mut self, now: SimTime) {
-        self.0.retain(|_, session| now.saturating_sub(session.last_used) <= IDLE);
+        self.0.retain(|_, session| now.saturating_sub(session.last_used) <= IDLE_TIMEOUT);
     }
 }

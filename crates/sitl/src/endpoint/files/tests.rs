@@ -80,10 +80,10 @@ impl FtpHarness {
 
     fn put(&mut self, client: FileClient, packet: &FtpPacket) -> Vec<FtpPacket> {
         self.server.receive(client, packet, self.now);
-        self.turn(client)
+        self.advance(client)
     }
 
-    fn turn(&mut self, client: FileClient) -> Vec<FtpPacket> {
+    fn advance(&mut self, client: FileClient) -> Vec<FtpPacket> {
         while let Some(job) = self.server.poll_job() {
             let outcome = self.files.execute(&job.action);
             self.server.done(job.ticket, outcome, self.now);
@@ -101,7 +101,7 @@ impl FtpHarness {
 }
 
 fn result_of(answer: &FtpPacket) -> Result<Vec<u8>, u8> {
-    if answer.opcode == ACK { Ok(answer.sized().unwrap().to_vec()) } else { Err(answer.data[0]) }
+    if answer.opcode == ACK { Ok(answer.data_in_use().unwrap().to_vec()) } else { Err(answer.data[0]) }
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn exact_every_opcode_number_is_answered() {
 }
 
 #[test]
-fn exact_file_can_be_created_written_read_renamed_and_removed() {
+fn exact_files_can_be_created_written_read_renamed_and_removed() {
     let mut bench = FtpHarness::new();
     let session = bench.ask(Opcode::CreateFile, 0, 0, b"/notes.txt").session;
     assert_eq!(result_of(&bench.ask(Opcode::WriteFile, session, 0, b"hello")), Ok(Vec::new()));
@@ -154,7 +154,7 @@ fn exact_file_can_be_created_written_read_renamed_and_removed() {
 }
 
 #[test]
-fn exact_repeated_request_is_answered_again_but_executed_once() {
+fn exact_repeated_requests_are_answered_again_but_executed_once() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1]);
     let packet = bench.packet(Opcode::RemoveFile, 0, 0, b"a");
@@ -186,7 +186,7 @@ fn exact_sessions_are_private_and_limited_per_client() {
 
 /// MAVProxy matches replies by the session it chose; MAVSDK 4 always sends 0; session numbers are per client.
 #[test]
-fn regress_replies_contain_the_requested_session() {
+fn regress_replies_contain_the_requests_session_number() {
     let mut bench = FtpHarness::new();
     bench.files.0.insert("a".into(), vec![1; 10]);
     bench.files.0.insert("b".into(), vec![2; 10]);
@@ -219,7 +219,7 @@ fn regress_burst_to_the_end_of_the_file_completes_without_a_nak() {
     bench.ask(Opcode::OpenFileRo, 0, 0, b"a");
     let request = bench.packet(Opcode::BurstReadFile, 0, 0, &[0; DATA_MAX]);
     let mut heard = bench.put(CLIENT, &request);
-    heard.extend((0..10).flat_map(|_| bench.turn(CLIENT)));
+    heard.extend((0..10).flat_map(|_| bench.advance(CLIENT)));
     let shape: Vec<(u8, u32, u8, bool)> = heard.iter().map(|p| (p.opcode, p.offset, p.size, p.burst_complete)).collect();
     let full = DATA_MAX as u8;
     assert_eq!(shape, [(ACK, 0, full, false), (ACK, 239, full, false), (ACK, 478, 7, true)]);
@@ -270,7 +270,7 @@ fn regress_checksum_is_computed_in_slices() {
             jobs += 1;
         }
         assert_eq!(jobs, length / slice + 1);
-        assert_eq!(result_of(&bench.turn(CLIENT)[0]), Ok(checksum(0, &file).to_le_bytes().to_vec()), "{length} bytes");
+        assert_eq!(result_of(&bench.advance(CLIENT)[0]), Ok(checksum(0, &file).to_le_bytes().to_vec()), "{length} bytes");
     }
 }
 
@@ -369,10 +369,10 @@ fn prop_burst_download_survives_loss_duplication_and_reordering() {
                 heard.extend(bench.put(CLIENT, &asked));
             }
             for _ in 0..BURST_PACKETS {
-                heard.extend(bench.turn(CLIENT));
+                heard.extend(bench.advance(CLIENT));
             }
             for packet in impair(heard, &mut random).into_iter().filter(|packet| packet.opcode == ACK) {
-                got.insert(packet.offset, packet.sized().unwrap().to_vec());
+                got.insert(packet.offset, packet.data_in_use().unwrap().to_vec());
             }
         }
         let whole: Vec<u8> = got.into_values().flatten().collect();

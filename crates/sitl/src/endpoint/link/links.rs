@@ -51,14 +51,14 @@ impl Links {
     /// would amplify every datagram.
     pub fn await_heartbeat(&mut self, id: LinkId) {
         if let Some(link) = self.peers.get_mut(&id) {
-            link.answers_only = true;
+            link.sends_only_responses = true;
         }
     }
 
-    /// Limits a link's capacity to `bytes_s` bytes/s: streams slow down, lists wait, and scoring data is omitted.
-    pub fn limit(&mut self, id: LinkId, bytes_s: f64, now: SimTime) {
+    /// Limits a link's capacity to `capacity_bytes_s` bytes/s: streams slow down, lists wait, and scoring data is omitted.
+    pub fn limit(&mut self, id: LinkId, capacity_bytes_s: f64, now: SimTime) {
         if let Some(link) = self.peers.get_mut(&id) {
-            link.limit(bytes_s, now);
+            link.limit(capacity_bytes_s, now);
         }
     }
 
@@ -85,7 +85,7 @@ impl Links {
 
     /// Returns the links that receive unsolicited messages.
     pub fn listeners(&mut self) -> impl Iterator<Item = &mut PeerLink> {
-        self.peers.values_mut().filter(|link| !link.answers_only)
+        self.peers.values_mut().filter(|link| !link.sends_only_responses)
     }
 
     /// Returns a link's kind and whether the link runs in lockstep.
@@ -154,9 +154,9 @@ impl Links {
     }
 
     /// Starts a link's streams when a heartbeat arrives on it.
-    pub fn wake(&mut self, id: LinkId, now: SimTime) {
+    pub fn start_streams(&mut self, id: LinkId, now: SimTime) {
         if let Some(link) = self.peers.get_mut(&id) {
-            link.wake(now);
+            link.start_streams(now);
         }
     }
 
@@ -174,7 +174,7 @@ impl Links {
         }
         let to_all = router::target(frame).0 == 0;
         for target in targets {
-            if let Some(link) = self.peers.get_mut(&target).filter(|link| !(link.answers_only && to_all)) {
+            if let Some(link) = self.peers.get_mut(&target).filter(|link| !(link.sends_only_responses && to_all)) {
                 link.forward(frame.bytes.clone());
             }
         }

@@ -10,17 +10,17 @@ use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, VecDeque};
 
 /// Maximum size of a datagram that packs several frames, bytes (below the usual path MTU).
-const DATAGRAM: usize = 1_200;
+const MAX_DATAGRAM_BYTES: usize = 1_200;
 /// Datagram size on a rate-limited link, bytes: small, to keep latency low.
-const SMALL_DATAGRAM: usize = 280;
+const RATE_LIMITED_DATAGRAM_BYTES: usize = 280;
 /// Maximum backlog of an unlimited link, bytes; the host empties it in every iteration.
-const MAX_BACKLOG: usize = 4_194_304;
+const MAX_BACKLOG_BYTES: usize = 4_194_304;
 /// Maximum number of frames per tick forwarded from one link to other links.
-const FORWARDED_PER_TICK: usize = 16;
+const MAX_FORWARDED_FRAMES_PER_TICK: usize = 16;
 /// Interval between a component's heartbeats (MAVLink: 1 Hz).
 const HEARTBEAT_INTERVAL: SimTime = SimTime::from_ms(1_000);
 /// Message ID of HIL_STATE_QUATERNION, the ground truth.
-const TRUTH: u32 = 115;
+const GROUND_TRUTH_ID: u32 = 115;
 
 /// A peer's lockstep state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub struct PeerLink {
     /// Whether the peer runs in lockstep.
     pub lockstep: bool,
     /// Whether only responses are sent because no heartbeat has been received yet.
-    pub answers_only: bool,
+    pub sends_only_responses: bool,
     /// The peer's lockstep state.
     pub lockstep_state: LockstepState,
     /// Whether anything has been received from the peer.
@@ -59,7 +59,7 @@ pub struct PeerLink {
     budget: Option<LinkBudget>,
     signing: Option<Signing>,
     /// Current signing timestamp.
-    pub stamp: u64,
+    pub timestamp: u64,
     /// Stream rows requested with REQUEST_MESSAGE, to be sent after the acknowledgment.
     pub after_acknowledgment: Vec<usize>,
     /// Whether the peer must request its streams.
@@ -83,7 +83,7 @@ impl PeerLink {
         Self {
             kind,
             lockstep,
-            answers_only: false,
+            sends_only_responses: false,
             lockstep_state: LockstepState::Awaited,
             has_received: false,
             lockstep_token: None,
@@ -96,16 +96,16 @@ impl PeerLink {
             forwarded: (now, 0),
             budget: None,
             signing: None,
-            stamp: 0,
+            timestamp: 0,
             after_acknowledgment: Vec::new(),
             must_request_streams,
             uses_camera: false,
         }
     }
 
-    /// Limits the link's capacity to `bytes_s` bytes/s.
-    pub fn limit(&mut self, bytes_s: f64, now: SimTime) {
-        self.budget = Some(LinkBudget::new(bytes_s, self.streams.total_hz(), now));
+    /// Limits the link's capacity to `capacity_bytes_s` bytes/s.
+    pub fn limit(&mut self, capacity_bytes_s: f64, now: SimTime) {
+        self.budget = Some(LinkBudget::new(capacity_bytes_s, self.streams.total_hz(), now));
     }
 
     /// Checks whether simulation time waits for this peer.
@@ -159,7 +159,7 @@ impl PeerLink {
     /// Checks whether the peer receives the scoring data: either by default, or because it requested the ground truth.
     #[must_use]
     pub fn receives_truth(&self) -> bool {
-        !self.must_request_streams || self.streams.is_on(TRUTH)
+        !self.must_request_streams || self.streams.is_on(GROUND_TRUTH_ID)
     }
 
     /// Restores the default rate of every stream.
@@ -185,8 +185,8 @@ impl PeerLink {
     }
 
     /// Handles the first heartbeat: starts the streams.
-    pub fn wake(&mut self, now: SimTime) {
-        if std::mem::take(&mut self.answers_only) {
+    pub fn start_streams(&mut self, now: SimTime) {
+        if std::mem::take(&mut self.sends_only_responses) {
             self.streams.restart(now);
         }
     }
@@ -211,7 +211,7 @@ impl PeerLink {
             self.forwarded = (now, 0);
         }
         self.forwarded.1 += 1;
-        let may = self.forwarded.1 <= FORWARDED_PER_TICK;
+        let may = self.forwarded.1 <= MAX_FORWARDED_FRAMES_PER_TICK;
         self.dropped += u64::from(!may);
         may
     }
@@ -238,7 +238,7 @@ impl PeerLink {
     }
 
     fn queue_own(&mut self, frame: Vec<u8>) {
-        let stamp = self.stamp;
+        let stamp = self.timestamp;
         let frame = match &mut self.signing {
             Some(signing) => signing.sign(frame, stamp),
             None => frame,
@@ -253,8 +253,8 @@ impl PeerLink {
 
     fn queue(&mut self, frame: Vec<u8>) {
         let (most, datagram) = match &self.budget {
-            Some(budget) => (budget.max_backlog(), SMALL_DATAGRAM),
-            None => (MAX_BACKLOG, DATAGRAM),
+            Some(budget) => (budget.max_backlog(), RATE_LIMITED_DATAGRAM_BYTES),
+            None => (MAX_BACKLOG_BYTES, MAX_DATAGRAM_BYTES),
         };
         if self.waiting + frame.len() > most {
             self.dropped += 1;

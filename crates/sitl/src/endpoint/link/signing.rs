@@ -7,9 +7,9 @@ use spandrel_mavlink::signing::SigningKey;
 
 impl Links {
     /// Signs all outgoing frames and requires signatures with this key, except for unsigned frames on trusted kinds of
-    /// links. `stamp` is the current signing timestamp.
-    pub fn require_signatures(&mut self, key: SigningKey, stamp: u64, trusted: &[LinkKind]) {
-        self.signing = Some(SigningPolicy::new(key, stamp, trusted));
+    /// links. `timestamp` is the current signing timestamp.
+    pub fn require_signatures(&mut self, key: SigningKey, timestamp: u64, trusted: &[LinkKind]) {
+        self.signing = Some(SigningPolicy::new(key, timestamp, trusted));
         self.sign_links();
     }
 
@@ -23,7 +23,7 @@ impl Links {
     /// Returns the signing state to save for the next start; `None` if signing is off.
     #[must_use]
     pub fn signing_state(&self) -> Option<String> {
-        self.signing.as_ref().map(SigningPolicy::memory)
+        self.signing.as_ref().map(SigningPolicy::saved_state)
     }
 
     /// Restores the signing state of the previous run.
@@ -37,10 +37,10 @@ impl Links {
     }
 
     /// Sets the current signing timestamp.
-    pub fn set_signing_time(&mut self, stamp: u64) {
+    pub fn set_signing_time(&mut self, timestamp: u64) {
         if let Some(policy) = &mut self.signing {
-            policy.set_time(stamp);
-            self.peers.values_mut().for_each(|link| link.stamp = stamp);
+            policy.set_time(timestamp);
+            self.peers.values_mut().for_each(|link| link.timestamp = timestamp);
         }
     }
 

@@ -10,8 +10,8 @@ use spandrel_mavlink::signing::{SignatureVerdict, Signing, SigningKey, is_accept
 pub struct SigningPolicy {
     key: SigningKey,
     signing: Signing,
-    stamp: u64,
-    refused: u64,
+    timestamp: u64,
+    rejected_frames: u64,
     trusted: Vec<LinkKind>,
 }
 
@@ -27,22 +27,28 @@ pub enum FrameAdmission {
 }
 
 impl SigningPolicy {
-    /// Requires signatures with this key, starting at `stamp` (signing timestamp), except for unsigned frames on
+    /// Requires signatures with this key, starting at `timestamp` (signing timestamp), except for unsigned frames on
     /// trusted kinds of links. Signed frames must be valid there, too.
     #[must_use]
-    pub fn new(key: SigningKey, stamp: u64, trusted: &[LinkKind]) -> Self {
-        Self { signing: Signing::new(key.clone(), 0, stamp), key, stamp, refused: 0, trusted: trusted.to_vec() }
+    pub fn new(key: SigningKey, timestamp: u64, trusted: &[LinkKind]) -> Self {
+        Self {
+            signing: Signing::new(key.clone(), 0, timestamp),
+            key,
+            timestamp: timestamp,
+            rejected_frames: 0,
+            trusted: trusted.to_vec(),
+        }
     }
 
     /// Creates a signer with the same key for a link.
     #[must_use]
     pub fn signer(&self, link_id: u8) -> Signing {
-        Signing::new(self.key.clone(), link_id, self.stamp.max(self.signing.newest()))
+        Signing::new(self.key.clone(), link_id, self.timestamp.max(self.signing.newest()))
     }
 
     /// Returns the signing state to save for the next start.
     #[must_use]
-    pub fn memory(&self) -> String {
+    pub fn saved_state(&self) -> String {
         self.signing.save()
     }
 
@@ -55,26 +61,26 @@ impl SigningPolicy {
     }
 
     /// Sets the current signing timestamp.
-    pub fn set_time(&mut self, stamp: u64) {
-        self.stamp = stamp;
+    pub fn set_time(&mut self, timestamp: u64) {
+        self.timestamp = timestamp;
     }
 
     /// Returns the number of frames rejected so far.
     #[must_use]
     pub fn rejected(&self) -> u64 {
-        self.refused
+        self.rejected_frames
     }
 
     /// Returns how a frame may be handled. A payload process without a key may broadcast but not send commands.
     pub fn admit(&mut self, frame: &ReceivedFrame, kind: LinkKind) -> FrameAdmission {
-        let verdict = self.signing.verify(frame, self.stamp);
+        let verdict = self.signing.verify(frame, self.timestamp);
         if is_accepted(frame, verdict) || (verdict == SignatureVerdict::Unsigned && self.trusted.contains(&kind)) {
             return FrameAdmission::Execute;
         }
         if verdict == SignatureVerdict::Unsigned && kind == LinkKind::Payload && router::target(frame).0 == 0 {
             return FrameAdmission::ForwardOnly;
         }
-        self.refused += 1;
+        self.rejected_frames += 1;
         FrameAdmission::Reject
     }
 }

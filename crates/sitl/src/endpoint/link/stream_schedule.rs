@@ -5,7 +5,7 @@ use spandrel_model::time::SimTime;
 /// Maximum stream rate that clients can request, Hz: the control loop rate.
 const MAX_RATE_HZ: f64 = 400.0;
 /// Message ID of the heartbeat, which is never slowed down because clients use it to detect the vehicle.
-const HEARTBEAT: u32 = 0;
+const HEARTBEAT_ID: u32 = 0;
 
 /// One of a link's streams, in the order of the stream table.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +29,7 @@ impl ScheduledStream {
     /// Turns the stream off by default, unless it is a heartbeat: for clients that must request their streams.
     #[must_use]
     pub fn only_on_request(mut self) -> Self {
-        if self.message != HEARTBEAT {
+        if self.message != HEARTBEAT_ID {
             (self.default_interval, self.interval) = (None, None);
         }
         self
@@ -68,7 +68,7 @@ impl StreamSchedule {
         let mut soonest = SimTime::NEVER;
         for (row, stream) in self.streams.iter_mut().enumerate() {
             let Some(interval) = stream.interval else { continue };
-            let steady = stream.message == HEARTBEAT;
+            let steady = stream.message == HEARTBEAT_ID;
             if stream.next <= now {
                 if steady || !is_saturated {
                     out.push(row);
@@ -136,7 +136,7 @@ impl StreamSchedule {
     /// heartbeats.
     pub fn align_heartbeat(&mut self, component: u8, with: u8, interval: SimTime) {
         let row_of =
-            |component| self.streams.iter().position(|stream| stream.message == HEARTBEAT && stream.component == component);
+            |component| self.streams.iter().position(|stream| stream.message == HEARTBEAT_ID && stream.component == component);
         let (Some(row), Some(with)) = (row_of(component), row_of(with)) else { return };
         let next = self.streams[with].next;
         let stream = &mut self.streams[row];

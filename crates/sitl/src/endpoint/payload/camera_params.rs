@@ -8,7 +8,7 @@ use mavlink::types::CharArray;
 use spandrel_mavlink::dialect::*;
 
 /// The type of every setting.
-const TYPE: MavParamExtType = MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32;
+const SETTING_TYPE: MavParamExtType = MavParamExtType::MAV_PARAM_EXT_TYPE_UINT32;
 
 /// Checks whether the message targets the camera or all components; the autopilot has no extended parameters.
 fn is_for_camera(component: u8) -> bool {
@@ -28,7 +28,7 @@ fn value(p: &PayloadLink, index: usize, setting: &CameraSetting) -> MavMessage {
         param_index: index as u16,
         param_id: setting.name.into(),
         param_value: bytes(setting.value(&p.equipment.camera)),
-        param_type: TYPE,
+        param_type: SETTING_TYPE,
     })
 }
 
@@ -73,12 +73,14 @@ pub(super) fn set(p: &mut PayloadLink, m: &PARAM_EXT_SET_DATA, a: &mut PayloadMe
     let requested = u32::from_le_bytes([first, second, third, fourth]);
     let found = CameraSetting::named(m.param_id.to_str().unwrap_or_default());
     let done = match found {
-        Some((_, setting)) if m.param_type == TYPE => setting.change(&mut p.equipment.camera, requested).map_err(|refusal| {
-            refusal.text().map_or(ParamAck::PARAM_ACK_VALUE_UNSUPPORTED, |text| {
-                p.equipment.changes.add_warning(text);
-                ParamAck::PARAM_ACK_FAILED
+        Some((_, setting)) if m.param_type == SETTING_TYPE => {
+            setting.change(&mut p.equipment.camera, requested).map_err(|refusal| {
+                refusal.text().map_or(ParamAck::PARAM_ACK_VALUE_UNSUPPORTED, |text| {
+                    p.equipment.changes.add_warning(text);
+                    ParamAck::PARAM_ACK_FAILED
+                })
             })
-        }),
+        }
         Some(_) => Err(ParamAck::PARAM_ACK_VALUE_UNSUPPORTED),
         None => Err(ParamAck::PARAM_ACK_FAILED),
     };
@@ -86,7 +88,7 @@ pub(super) fn set(p: &mut PayloadLink, m: &PARAM_EXT_SET_DATA, a: &mut PayloadMe
     let acknowledgement = MavMessage::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA {
         param_id: m.param_id,
         param_value: bytes(now),
-        param_type: TYPE,
+        param_type: SETTING_TYPE,
         param_result: done.err().unwrap_or(ParamAck::PARAM_ACK_ACCEPTED),
     });
     a.answer(&acknowledgement);
@@ -103,7 +105,7 @@ pub(super) fn unknown_type(payload: &[u8], a: &mut PayloadMessage) {
     let refusal = MavMessage::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA {
         param_id: param_id.into(),
         param_value: bytes(0),
-        param_type: TYPE,
+        param_type: SETTING_TYPE,
         param_result: ParamAck::PARAM_ACK_VALUE_UNSUPPORTED,
     });
     a.answer(&refusal);

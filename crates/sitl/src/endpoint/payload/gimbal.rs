@@ -6,7 +6,7 @@ use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 
 /// ID of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
-pub const DEVICE: u8 = 1;
+pub const GIMBAL_DEVICE_ID: u8 = 1;
 /// Tolerance within which an angle beyond the limit is clamped instead of rejected, rad (about one degree, because
 /// clients round).
 const TOLERANCE_RAD: f64 = 0.02;
@@ -51,9 +51,9 @@ pub struct GimbalState {
     /// Secondary control: system and component ID.
     pub secondary: (u8, u8),
     /// Whether DO_MOUNT_CONTROL values are rates, as selected by DO_MOUNT_CONFIGURE.
-    pub mount_rates: bool,
+    pub mount_values_are_rates: bool,
     /// Whether the gimbal is at its limit and the target is beyond it.
-    pub at_stop: bool,
+    pub is_at_limit: bool,
     aim: GimbalTarget,
 }
 
@@ -66,8 +66,8 @@ impl GimbalState {
             rate_rad_s: 0.0,
             control: (0, 0),
             secondary: (0, 0),
-            mount_rates: false,
-            at_stop: false,
+            mount_values_are_rates: false,
+            is_at_limit: false,
             aim: GimbalTarget::Angle(0.0),
         }
     }
@@ -87,7 +87,7 @@ impl GimbalState {
     /// Converts a stick deflection in [-1, 1] (positive: up) to an angle. Full deflection corresponds to the limit on
     /// that side.
     #[must_use]
-    pub fn angle_for_stick(camera: &Camera, deflection: f64) -> GimbalTarget {
+    pub fn stick_to_angle(camera: &Camera, deflection: f64) -> GimbalTarget {
         let stop = if deflection < 0.0 { -camera.gimbal_pitch_min_rad } else { camera.gimbal_pitch_max_rad };
         GimbalTarget::Angle(deflection.clamp(-1.0, 1.0) * stop)
     }
@@ -130,7 +130,7 @@ impl GimbalState {
         self.pitch_rad = before + (target_rad - before).clamp(-limit, limit);
         self.rate_rad_s = (self.pitch_rad - before) / dt_s;
         let tolerance_rad = if let GimbalTarget::Rate(_) = self.aim { 0.0 } else { TOLERANCE_RAD };
-        self.at_stop = self.pitch_rad == target_rad && (requested_rad - target_rad).abs() > tolerance_rad;
+        self.is_at_limit = self.pitch_rad == target_rad && (requested_rad - target_rad).abs() > tolerance_rad;
     }
 }
 

@@ -52,7 +52,7 @@ impl PayloadInput<'_> {
 
     /// Returns the height of home above the site's origin in meters; 0 before home is set.
     #[must_use]
-    pub fn home_up_m(&self) -> f64 {
+    pub fn home_height_m(&self) -> f64 {
         self.home_m.map_or(0.0, |home| -home.down())
     }
 

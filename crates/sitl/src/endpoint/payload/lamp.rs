@@ -20,7 +20,7 @@ pub struct LampState {
 /// Remaining toggles of a blink sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BlinkSequence {
-    remaining: u32,
+    remaining_toggles: u32,
     half_period: SimTime,
     next: SimTime,
 }
@@ -40,7 +40,8 @@ impl LampState {
         let is_valid = ALLOWED_CYCLES.contains(&cycles) && ALLOWED_CYCLE_S.contains(&cycle_s);
         if is_valid {
             let left = 2 * cycles as u32;
-            self.blinking = Some(BlinkSequence { remaining: left, half_period: SimTime::from_s(0.5 * cycle_s), next: now });
+            self.blinking =
+                Some(BlinkSequence { remaining_toggles: left, half_period: SimTime::from_s(0.5 * cycle_s), next: now });
         }
         is_valid
     }
@@ -49,9 +50,9 @@ impl LampState {
     pub fn step(&mut self, now: SimTime, changes: &mut PayloadChange) {
         let Some(blinking) = self.blinking.as_mut().filter(|blinking| blinking.next <= now) else { return };
         self.on = !self.on;
-        blinking.remaining -= 1;
+        blinking.remaining_toggles -= 1;
         blinking.next += blinking.half_period;
-        if blinking.remaining == 0 {
+        if blinking.remaining_toggles == 0 {
             self.blinking = None;
         }
         changes.add_message(ILLUMINATOR_STATUS_DATA::ID);

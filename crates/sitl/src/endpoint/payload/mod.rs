@@ -50,7 +50,7 @@ impl PayloadLink {
     #[must_use]
     pub fn new() -> Self {
         let mut files = FileServer::default();
-        files.generate(settings::FILE, settings::definition().into_bytes());
+        files.generate(settings::DEFINITION_PATH, settings::definition().into_bytes());
         Self { equipment: Payload::new(), speed_factor: 1.0, files, scoring: ScoringFeed::new(), image_requests: BTreeMap::new() }
     }
 

@@ -32,7 +32,7 @@ impl PayloadLink {
     pub(crate) fn send_scoring(&mut self, input: &PayloadInput, links: &mut Links) {
         let clock = input.clock;
         let due = self.scoring.take_due(input.scoring, self.speed_factor, clock.now);
-        let messages: Vec<MavMessage> = due.into_iter().map(|value| value.message(clock.sim_ms())).collect();
+        let messages: Vec<MavMessage> = due.into_iter().map(|value| value.message(clock.sim_time_ms())).collect();
         for link in links.listeners().filter(|link| !link.is_limited() && link.receives_truth()) {
             messages.iter().for_each(|message| link.send(AUTOPILOT, message));
         }

@@ -2,7 +2,7 @@
 //! change and at its own rate.
 
 use super::scoring_truth::ScoringTruth;
-use spandrel_mavlink::contract::named_values::Named;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_model::time::{Schedule, SimTime};
 
 /// Schedules of the named values, and the values most recently sent.
@@ -25,34 +25,34 @@ impl ScoringFeed {
 
     /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns and traffic on change and with
     /// the slow values.
-    pub fn take_due(&mut self, truth: &ScoringTruth, speed_factor: f64, now: SimTime) -> Vec<Named> {
+    pub fn take_due(&mut self, truth: &ScoringTruth, speed_factor: f64, now: SimTime) -> Vec<NamedValue> {
         let mut out = Vec::new();
         if self.contact.fire(now) | (truth.contact != self.last.contact) {
-            out.push(Named::Contact(truth.contact));
+            out.push(NamedValue::Contact(truth.contact));
         }
         let slow = self.slow.fire(now);
         if slow || truth.hits != self.last.hits {
-            out.push(Named::Hits(truth.hits));
+            out.push(NamedValue::Hits(truth.hits));
         }
         if slow || truth.respawns != self.last.respawns {
-            out.push(Named::Respawns(truth.respawns));
+            out.push(NamedValue::Respawns(truth.respawns));
         }
         // Traffic that has never been stopped is omitted.
         if slow || truth.traffic != self.last.traffic {
-            out.extend(truth.traffic.into_iter().filter(|code| *code != 0).map(Named::Traffic));
+            out.extend(truth.traffic.into_iter().filter(|code| *code != 0).map(NamedValue::Traffic));
         }
         if slow {
-            out.push(Named::Seed(truth.seed.cast_unsigned()));
-            out.push(Named::ScenarioCrc(truth.scenario_crc));
+            out.push(NamedValue::Seed(truth.seed.cast_unsigned()));
+            out.push(NamedValue::ScenarioCrc(truth.scenario_crc));
             if speed_factor != 1.0 {
-                out.push(Named::Pace(speed_factor));
+                out.push(NamedValue::Pace(speed_factor));
             }
         }
         if self.clearance.fire(now) {
-            out.push(Named::ClearanceM(truth.clearance_m));
+            out.push(NamedValue::ClearanceM(truth.clearance_m));
         }
         if self.lux.fire(now) {
-            out.push(Named::Lux(truth.lux));
+            out.push(NamedValue::Lux(truth.lux));
         }
         self.last = *truth;
         out

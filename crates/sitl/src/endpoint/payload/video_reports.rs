@@ -25,7 +25,8 @@ pub(super) fn status(p: &mut PayloadLink, m: &VIDEO_STREAM_STATUS_DATA, a: &mut 
     let camera = &mut p.equipment.camera;
     let before = camera.stream.running(now);
     let runs = m.flags.contains(VideoStreamStatusFlags::VIDEO_STREAM_STATUS_FLAGS_RUNNING);
-    let stream = VideoStream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bits_s: m.bitrate };
+    let stream =
+        VideoStream { width_px: m.resolution_h, height_px: m.resolution_v, rate_hz: m.framerate, bit_rate_bits_s: m.bitrate };
     // The sender uses wall time, like other clients.
     let until = now + SimTime::from_s(REPORT_TIMEOUT_S * p.speed_factor);
     camera.stream = StreamReport::new(runs.then_some(stream), until);

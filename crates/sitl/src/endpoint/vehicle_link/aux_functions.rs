@@ -16,14 +16,14 @@ use spandrel_mavlink::units::deg_e7;
 /// Command number in ArduPilot's dialect. Not supported as a mission item.
 const DO_AUX_FUNCTION: u16 = 218;
 /// Maximum throttle pulse width that counts as throttle down, microseconds (ArduPilot: RC3_MIN and RC3_DZ).
-const THROTTLE_DOWN_US: u16 = 1_030;
+const MAX_THROTTLE_DOWN_US: u16 = 1_030;
 /// Minimum height of the takeoff item added before the first saved waypoint, m (ArduPilot: SAVE_WP).
-const MIN_TAKEOFF_M: f32 = 1.0;
+const MIN_TAKEOFF_HEIGHT_M: f32 = 1.0;
 /// First channel that is not a stick.
-const FIRST_CHANNEL: usize = 5;
+const FIRST_SWITCH_CHANNEL: usize = 5;
 
 /// Functions that enter a mode, with Copter's mode number (ArduPilot: RC_Channel::AUX_FUNC).
-const MODES: &[(u16, u32)] = &[
+const MODE_FUNCTIONS: &[(u16, u32)] = &[
     (4, 6),
     (16, 3),
     (18, 9),
@@ -43,12 +43,12 @@ const MODES: &[(u16, u32)] = &[
 /// Runs the function of every switch that has moved. The first reading of a switch does not count as a movement.
 pub(super) fn read_switches(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     for (k, us) in manual::aux_channels(c).into_iter().enumerate() {
-        if !manual::PULSES_US.contains(&us) {
+        if !manual::VALID_PULSES_US.contains(&us) {
             continue;
         }
         let position = SwitchPosition::from_pulse(us);
         let moved = v.switches[k].replace(position).is_some_and(|before| before != position);
-        let function = v.params.switch_function(FIRST_CHANNEL + k).filter(|function| moved && *function > 0);
+        let function = v.params.switch_function(FIRST_SWITCH_CHANNEL + k).filter(|function| moved && *function > 0);
         if let Some(function) = function {
             run(v, function, position, a);
         }
@@ -58,7 +58,7 @@ pub(super) fn read_switches(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, 
 /// Handles DO_AUX_FUNCTION: parameter 1 is the function, 2 the switch level. Returns `None` for other commands and for
 /// flavors without switches.
 pub(crate) fn command(v: &mut VehicleLink, c: &VehicleCommand, a: &mut InboundMessage) -> Option<MavResult> {
-    if c.number != DO_AUX_FUNCTION || v.params.switch_function(FIRST_CHANNEL).is_none() {
+    if c.number != DO_AUX_FUNCTION || v.params.switch_function(FIRST_SWITCH_CHANNEL).is_none() {
         return None;
     }
     let Some(position) = c.finite_param(1).and_then(SwitchPosition::from_number) else {
@@ -72,7 +72,7 @@ pub(crate) fn command(v: &mut VehicleLink, c: &VehicleCommand, a: &mut InboundMe
 /// Runs an auxiliary function. Returns false if this vehicle does not support it.
 fn run(v: &mut VehicleLink, function: u16, position: SwitchPosition, a: &mut InboundMessage) -> bool {
     let high = position == SwitchPosition::High;
-    if let Some((_, mode)) = MODES.iter().find(|(known, _)| *known == function) {
+    if let Some((_, mode)) = MODE_FUNCTIONS.iter().find(|(known, _)| *known == function) {
         switch_mode(v, *mode, high, a);
         return true;
     }
@@ -140,7 +140,7 @@ fn save_waypoint(v: &mut VehicleLink, a: &mut InboundMessage) {
     let here = a.autopilot.estimate().position_m;
     let geo = a.aircraft.plane.geo_from_enu(here.enu());
     let over_home_m = (home.down() - here.down()) as f32;
-    let down = v.manual.pulses_us(a.now()).is_some_and(|pulses| pulses[2] <= THROTTLE_DOWN_US);
+    let down = v.manual.pulses_us(a.now()).is_some_and(|pulses| pulses[2] <= MAX_THROTTLE_DOWN_US);
     let item = |command, (x, y), z| MISSION_ITEM_INT_DATA {
         command,
         frame: MavFrame::MAV_FRAME_GLOBAL_RELATIVE_ALT,
@@ -153,7 +153,7 @@ fn save_waypoint(v: &mut VehicleLink, a: &mut InboundMessage) {
     };
     let here = (deg_e7(geo.latitude_deg), deg_e7(geo.longitude_deg));
     if v.plans.mission().is_empty() {
-        v.plans.add(item(MavCmd::MAV_CMD_NAV_TAKEOFF, (0, 0), over_home_m.max(MIN_TAKEOFF_M)));
+        v.plans.add(item(MavCmd::MAV_CMD_NAV_TAKEOFF, (0, 0), over_home_m.max(MIN_TAKEOFF_HEIGHT_M)));
     }
     let command = if down { MavCmd::MAV_CMD_NAV_LAND } else { MavCmd::MAV_CMD_NAV_WAYPOINT };
     v.plans.add(item(command, here, over_home_m));

@@ -6,9 +6,9 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
 
 /// Number of buttons that have a parameter; other buttons are ignored.
-pub const COUNT: usize = 16;
+pub const BUTTON_COUNT: usize = 16;
 /// Names of the button parameters.
-pub const NAMES: [&str; COUNT] = [
+pub const PARAMETER_NAMES: [&str; BUTTON_COUNT] = [
     "BTN0_FUNCTION",
     "BTN1_FUNCTION",
     "BTN2_FUNCTION",
@@ -38,7 +38,7 @@ impl ButtonState {
     pub fn of(&mut self, m: &MANUAL_CONTROL_DATA) -> impl Iterator<Item = usize> + use<> {
         let before = self.down.replace(m.buttons).unwrap_or(m.buttons);
         let fresh = m.buttons & !before;
-        (0..COUNT).filter(move |k| fresh & 1 << k != 0)
+        (0..BUTTON_COUNT).filter(move |k| fresh & 1 << k != 0)
     }
 }
 
@@ -56,7 +56,7 @@ pub(super) struct ButtonContext {
 }
 
 /// Gimbal pitch change per press, degrees.
-const STEP_DEG: f64 = 10.0;
+const PITCH_STEP_DEG: f64 = 10.0;
 /// MAV_FRAME_GLOBAL_RELATIVE_ALT: altitude relative to home.
 const RELATIVE_ALT_FRAME: u8 = 3;
 
@@ -69,7 +69,7 @@ pub(super) fn command(button: usize, params: &Params, context: &ButtonContext, f
         let (low, high) = context.pitch_range_deg;
         (M::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [pitch_deg.clamp(low, high), f64::NAN, f64::NAN])
     };
-    let (number, [a, b, c]) = match params.whole(NAMES[button])? {
+    let (number, [a, b, c]) = match params.whole(PARAMETER_NAMES[button])? {
         1 => (M::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0]),
         2 => (M::MAV_CMD_COMPONENT_ARM_DISARM, [0.0; 3]),
         3 => (M::MAV_CMD_NAV_TAKEOFF, [0.0; 3]),
@@ -82,8 +82,8 @@ pub(super) fn command(button: usize, params: &Params, context: &ButtonContext, f
         10 => (M::MAV_CMD_IMAGE_START_CAPTURE, [0.0, 0.0, 1.0]),
         11 => (M::MAV_CMD_ILLUMINATOR_ON_OFF, [f64::from(u8::from(!context.lamp_on)), 0.0, 0.0]),
         12 => aim(0.0),
-        13 => aim(context.pitch_deg + STEP_DEG),
-        14 => aim(context.pitch_deg - STEP_DEG),
+        13 => aim(context.pitch_deg + PITCH_STEP_DEG),
+        14 => aim(context.pitch_deg - PITCH_STEP_DEG),
         _ => return None,
     };
     let p = [a, b, c, 0.0, 0.0, 0.0, if number == M::MAV_CMD_NAV_TAKEOFF { context.take_off_m } else { 0.0 }];

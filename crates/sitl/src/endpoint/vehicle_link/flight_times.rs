@@ -11,7 +11,7 @@ pub struct FlightTimes {
     /// Time of arming.
     pub armed: Option<SimTime>,
     /// Time of takeoff.
-    pub took_off: Option<SimTime>,
+    pub took_off_at: Option<SimTime>,
     /// Time of landing.
     pub landed: Option<SimTime>,
 }
@@ -24,9 +24,9 @@ impl FlightTimes {
         }
         let grounded = status.landed == LandedState::OnGround;
         if status.armed && !grounded {
-            self.took_off.get_or_insert(now);
+            self.took_off_at.get_or_insert(now);
             self.landed = None;
-        } else if grounded && self.took_off.is_some() {
+        } else if grounded && self.took_off_at.is_some() {
             self.landed.get_or_insert(now);
         }
     }

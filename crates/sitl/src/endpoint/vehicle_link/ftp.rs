@@ -17,5 +17,5 @@ pub(super) fn request(v: &mut VehicleLink, request: &FILE_TRANSFER_PROTOCOL_DATA
 /// Returns the packed parameter file if the flavor supports it and the request opens it.
 fn packed_parameters(v: &VehicleLink, packet: &FtpPacket) -> Option<Vec<u8>> {
     let opens = v.flavor.params.packed && packet.opcode == Opcode::OpenFileRo as u8;
-    packed::file(packet.sized().filter(|_| opens)?, &v.params, v.storage.defaults())
+    packed::file(packet.data_in_use().filter(|_| opens)?, &v.params, v.storage.defaults())
 }

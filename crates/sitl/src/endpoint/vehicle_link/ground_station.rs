@@ -6,7 +6,7 @@ use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavType};
 
 pub(super) fn heartbeat(v: &mut VehicleLink, beat: &HEARTBEAT_DATA, a: &mut InboundMessage) {
     if beat.mavtype == MavType::MAV_TYPE_GCS && is_accepted_station(v, a) {
-        a.autopilot.ground_station_alive(a.now());
+        a.autopilot.record_ground_station_heartbeat(a.now());
     }
 }
 

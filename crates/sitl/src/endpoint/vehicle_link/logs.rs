@@ -10,14 +10,14 @@ use std::collections::{BTreeMap, VecDeque};
 /// First ticket number of log jobs, chosen to avoid collisions with the file server's.
 const FIRST_TICKET: u64 = 1 << 63;
 /// Log folder, with a subfolder for each day.
-const FOLDER: &str = "log";
-const SUFFIX: &str = ".ulg";
+const LOG_FOLDER: &str = "log";
+const LOG_SUFFIX: &str = ".ulg";
 /// File extension of the recordings that are stored with the logs and erased along with them.
 const RECORDING_SUFFIX: &str = ".mcap";
 /// Data bytes in one LOG_DATA message.
 const DATA_BYTES: usize = 90;
 /// Bytes per file read.
-const CHUNK: u32 = 64 * DATA_BYTES as u32;
+const READ_CHUNK_BYTES: u32 = 64 * DATA_BYTES as u32;
 /// Messages per tick for each download: about 180 kB/s at 1000 ticks/s.
 const MESSAGES_PER_TICK: usize = 2;
 /// Entries per tick for each listing.
@@ -92,7 +92,7 @@ impl LogTransfers {
     fn begin(&mut self, purpose: ListingPurpose) {
         let again = self.listings.iter().any(|listing| listing.purpose == purpose);
         if !again && self.listings.len() < MAX_LISTINGS {
-            let folders = FilePath::of(FOLDER.as_bytes()).into_iter().collect();
+            let folders = FilePath::of(LOG_FOLDER.as_bytes()).into_iter().collect();
             self.listings.push_back(LogListing { purpose, folders, found: Vec::new() });
             self.continue_listing();
         }
@@ -204,7 +204,7 @@ impl LogTransfers {
             download.pieces.push_back(MavMessage::LOG_DATA(data));
         }
         // A short read marks the end of the log.
-        if bytes.len() < CHUNK as usize {
+        if bytes.len() < READ_CHUNK_BYTES as usize {
             download.end = download.at;
         }
     }
@@ -218,7 +218,7 @@ impl LogTransfers {
             match entry {
                 DirectoryEntry::Directory(name) => listing.folders.extend(inside(&name)),
                 DirectoryEntry::File(name, size)
-                    if name.ends_with(SUFFIX)
+                    if name.ends_with(LOG_SUFFIX)
                         || (listing.purpose == ListingPurpose::Erase && name.ends_with(RECORDING_SUFFIX)) =>
                 {
                     listing.found.extend(inside(&name).map(|path| LogEntry { path, size }));
@@ -241,7 +241,10 @@ impl LogTransfers {
             let few = download.pieces.len().min(MESSAGES_PER_TICK);
             out.extend(download.pieces.drain(..few).map(|piece| (*link, piece)));
             if download.pieces.is_empty() && download.reading.is_none() && download.at < download.end {
-                reads.push((*link, FileAction::Read(download.path.clone(), download.at, CHUNK.min(download.end - download.at))));
+                reads.push((
+                    *link,
+                    FileAction::Read(download.path.clone(), download.at, READ_CHUNK_BYTES.min(download.end - download.at)),
+                ));
             }
         }
         for (link, action) in reads {
@@ -343,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_log_downloads_completely_in_order_or_in_part() {
+    fn exact_logs_can_be_downloaded_completely_or_in_part() {
         let mut logs = logs();
         logs.list(LINK, 0, u16::MAX);
         run(&mut logs);
@@ -372,7 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_log_requests_without_a_folder_are_answered_with_no_logs() {
+    fn exact_log_list_is_empty_without_a_log_folder() {
         let mut logs = LogTransfers::default();
         logs.list(LINK, 0, u16::MAX);
         logs.read(LINK, 3, 0, 90);

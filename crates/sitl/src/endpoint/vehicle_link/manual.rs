@@ -10,24 +10,24 @@ use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
 /// Field value that means "not used".
-const UNUSED: i16 = i16::MAX;
+const UNUSED_VALUE: i16 = i16::MAX;
 /// Interval between reports about an ignored sender, s.
 const REPORT_INTERVAL_S: f64 = 5.0;
 /// Range of valid channel pulses, microseconds; other values are ignored (ArduPilot passes them on).
-pub const PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
-const MIDDLE_US: u16 = 1500;
+pub const VALID_PULSES_US: std::ops::RangeInclusive<u16> = 800..=2200;
+const CENTER_PULSE_US: u16 = 1500;
 /// Number of channels other than the sticks.
-pub const AUX_COUNT: usize = 12;
+pub const AUX_CHANNEL_COUNT: usize = 12;
 /// Number of these channels that a value of 0 releases: channels 5 to 8.
-const LOW_AUX_COUNT: usize = 4;
+const LOW_AUX_CHANNEL_COUNT: usize = 4;
 /// Default values of channels 5 to 16, microseconds (ArduPilot's SITL: SIM RC defaults).
-const AUX_US: [u16; AUX_COUNT] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
+const DEFAULT_AUX_PULSES_US: [u16; AUX_CHANNEL_COUNT] = [1800, 1000, 1000, 1800, 1500, 1500, 1500, 1500, 1500, 1500, 1500, 1500];
 /// Value that releases channels 9 and up; 0 releases channels 1 to 8 (MAVLink common).
-const RELEASE_HIGH: u16 = 65_534;
+const HIGH_CHANNEL_RELEASE_VALUE: u16 = 65_534;
 /// Maximum number of remembered senders with a signed throttle, to limit memory use.
-const MAX_FULL_RANGE_SENDERS: usize = 64;
+const MAX_SIGNED_THROTTLE_SENDERS: usize = 64;
 /// Minimum gimbal axis change that has an effect, as a fraction of full deflection.
-const GIMBAL_STEP: f64 = 0.01;
+const MIN_GIMBAL_AXIS_CHANGE: f64 = 0.01;
 /// Extension bits in `enabled_extensions`.
 const HAS_PITCH: u8 = 1;
 
@@ -41,13 +41,13 @@ pub struct ManualControl {
     pub release_timeout_s: f64,
     /// Arbitration policy for multiple senders.
     pub policy: StickPolicy,
-    holder: Option<StickSender>,
+    controlling_sender: Option<StickSender>,
     last_input: SimTime,
     sticks: Sticks,
     pulses_us: [u16; 4],
-    aux_us: [u16; AUX_COUNT],
+    aux_pulses_us: [u16; AUX_CHANNEL_COUNT],
     /// Senders with a throttle range of -1000 to 1000.
-    full_range: Vec<StickSender>,
+    signed_throttle_senders: Vec<StickSender>,
     gimbal: Option<f64>,
     last_report: Option<(StickSender, SimTime)>,
     texts: VecDeque<String>,
@@ -60,12 +60,12 @@ impl Default for ManualControl {
         Self {
             release_timeout_s: crate::autopilot::Tuning::default().manual_timeout_s(),
             policy: StickPolicy::FirstSenderKeeps,
-            holder: None,
+            controlling_sender: None,
             last_input: SimTime::ZERO,
             sticks: Sticks::default(),
-            pulses_us: [MIDDLE_US; 4],
-            aux_us: AUX_US,
-            full_range: Vec::new(),
+            pulses_us: [CENTER_PULSE_US; 4],
+            aux_pulses_us: DEFAULT_AUX_PULSES_US,
+            signed_throttle_senders: Vec::new(),
             gimbal: None,
             last_report: None,
             texts: VecDeque::new(),
@@ -78,46 +78,46 @@ impl ManualControl {
     /// Returns the stick positions, or `None` after the timeout.
     #[must_use]
     pub fn fresh(&self, now: SimTime) -> Option<Sticks> {
-        self.has_holder(now).then_some(self.sticks)
+        self.has_controlling_sender(now).then_some(self.sticks)
     }
 
     /// Returns the stick positions as transmitter pulse widths in microseconds, or `None` after the timeout.
     #[must_use]
     pub fn pulses_us(&self, now: SimTime) -> Option<[u16; 4]> {
-        self.has_holder(now).then_some(self.pulses_us)
+        self.has_controlling_sender(now).then_some(self.pulses_us)
     }
 
     /// Returns channels 5 to 16 in microseconds.
     #[must_use]
-    pub fn aux_us(&self) -> [u16; AUX_COUNT] {
-        self.aux_us
+    pub fn aux_us(&self) -> [u16; AUX_CHANNEL_COUNT] {
+        self.aux_pulses_us
     }
 
     /// Applies channels 5 to 16 of an override if this sender may take control.
-    pub fn take_aux(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
+    pub fn apply_aux_channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) {
         if self.policy == StickPolicy::FirstSenderKeeps
-            && self.holder.is_some_and(|holder| holder != from)
-            && self.has_holder(now)
+            && self.controlling_sender.is_some_and(|holder| holder != from)
+            && self.has_controlling_sender(now)
         {
             return;
         }
         for (k, us) in aux_channels(c).into_iter().enumerate() {
-            let released = if k < LOW_AUX_COUNT { us == 0 } else { us == RELEASE_HIGH };
+            let released = if k < LOW_AUX_CHANNEL_COUNT { us == 0 } else { us == HIGH_CHANNEL_RELEASE_VALUE };
             if released {
-                self.aux_us[k] = AUX_US[k];
-            } else if PULSES_US.contains(&us) {
-                self.aux_us[k] = us;
+                self.aux_pulses_us[k] = DEFAULT_AUX_PULSES_US[k];
+            } else if VALID_PULSES_US.contains(&us) {
+                self.aux_pulses_us[k] = us;
             }
         }
     }
 
     /// Releases the state of a closed link, because the link ID may be reused.
     pub fn forget(&mut self, link: LinkId) {
-        self.full_range.retain(|(known, _)| *known != link);
+        self.signed_throttle_senders.retain(|(known, _)| *known != link);
     }
 
-    fn has_holder(&self, now: SimTime) -> bool {
-        self.holder.is_some() && (now - self.last_input).s() <= self.release_timeout_s
+    fn has_controlling_sender(&self, now: SimTime) -> bool {
+        self.controlling_sender.is_some() && (now - self.last_input).s() <= self.release_timeout_s
     }
 
     /// Removes and returns the next text to broadcast.
@@ -126,7 +126,7 @@ impl ManualControl {
     }
 
     fn take(&mut self, from: StickSender, sticks: Sticks, pulses_us: [u16; 4], now: SimTime) -> Option<Sticks> {
-        let another = self.holder.filter(|holder| *holder != from && self.has_holder(now));
+        let another = self.controlling_sender.filter(|holder| *holder != from && self.has_controlling_sender(now));
         if let Some(holder) = another {
             let moved = [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > 0.1);
             if self.policy == StickPolicy::FirstSenderKeeps || !moved {
@@ -134,21 +134,21 @@ impl ManualControl {
                 return None;
             }
         }
-        if self.holder != Some(from) {
-            if self.holder.is_some() {
+        if self.controlling_sender != Some(from) {
+            if self.controlling_sender.is_some() {
                 self.texts.push_back(format!("{} took control of the sticks", sender_name(from)));
             }
             self.button_state = ButtonState::default();
             self.gimbal = None;
         }
-        (self.holder, self.last_input, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
+        (self.controlling_sender, self.last_input, self.sticks, self.pulses_us) = (Some(from), now, sticks, pulses_us);
         Some(sticks)
     }
 
-    fn report_ignored_sender(&mut self, from: StickSender, holder: StickSender, now: SimTime) {
+    fn report_ignored_sender(&mut self, from: StickSender, controlling_sender: StickSender, now: SimTime) {
         if self.last_report.is_none_or(|(known, at)| known != from || (now - at).s() >= REPORT_INTERVAL_S) {
             self.last_report = Some((from, now));
-            self.texts.push_back(format!("{} sticks ignored: {} in control", sender_name(from), sender_name(holder)));
+            self.texts.push_back(format!("{} sticks ignored: {} in control", sender_name(from), sender_name(controlling_sender)));
         }
     }
 
@@ -168,9 +168,9 @@ impl ManualControl {
 
     /// Checks whether a sender uses a signed throttle. Reports it once when first detected.
     fn has_signed_throttle(&mut self, from: StickSender, z: f64) -> bool {
-        let known = self.full_range.contains(&from);
-        if !known && z < 0.0 && self.full_range.len() < MAX_FULL_RANGE_SENDERS {
-            self.full_range.push(from);
+        let known = self.signed_throttle_senders.contains(&from);
+        if !known && z < 0.0 && self.signed_throttle_senders.len() < MAX_SIGNED_THROTTLE_SENDERS {
+            self.signed_throttle_senders.push(from);
             self.texts.push_back(format!("{} uses throttle range -1000 to 1000", sender_name(from)));
             return true;
         }
@@ -180,16 +180,17 @@ impl ManualControl {
     /// Returns the gimbal axis of MANUAL_CONTROL (extension `s`), from -1 (down) to 1 (up), when the sender in control
     /// moves it. Extension `t` (roll in MAVLink, yaw in QGroundControl) is ignored because the gimbal has neither axis.
     pub fn gimbal(&mut self, from: StickSender, m: &MANUAL_CONTROL_DATA) -> Option<f64> {
-        let pitch = (m.enabled_extensions & HAS_PITCH != 0 && self.holder == Some(from)).then(|| axis(m.s)).flatten()?;
+        let pitch =
+            (m.enabled_extensions & HAS_PITCH != 0 && self.controlling_sender == Some(from)).then(|| axis(m.s)).flatten()?;
         let before = self.gimbal.replace(pitch);
         // Ignore the initial position: a command may have set the gimbal's angle.
-        before.is_some_and(|before| (before - pitch).abs() > GIMBAL_STEP).then_some(pitch)
+        before.is_some_and(|before| (before - pitch).abs() > MIN_GIMBAL_AXIS_CHANGE).then_some(pitch)
     }
 
     /// Checks whether a sender has control.
     #[must_use]
-    pub fn is_holder(&self, from: StickSender) -> bool {
-        self.holder == Some(from)
+    pub fn is_controlling_sender(&self, from: StickSender) -> bool {
+        self.controlling_sender == Some(from)
     }
 
     /// Applies RC_CHANNELS_OVERRIDE: channels 1 to 4 are roll, pitch, throttle and yaw in microseconds. 65535 and
@@ -198,20 +199,20 @@ impl ManualControl {
     pub fn channels(&mut self, from: StickSender, c: &RC_CHANNELS_OVERRIDE_DATA, now: SimTime) -> Option<Sticks> {
         let all = [c.chan1_raw, c.chan2_raw, c.chan3_raw, c.chan4_raw];
         if all.iter().all(|us| *us == 0) {
-            if self.holder == Some(from) {
-                self.holder = None;
+            if self.controlling_sender == Some(from) {
+                self.controlling_sender = None;
             }
             return None;
         }
         // A message without a valid pulse does not take control.
-        if !all.iter().any(|us| PULSES_US.contains(us)) {
+        if !all.iter().any(|us| VALID_PULSES_US.contains(us)) {
             return None;
         }
-        let own = self.holder == Some(from) && self.has_holder(now);
-        let (before, pulses) = if own { (self.sticks, self.pulses_us) } else { (Sticks::default(), [MIDDLE_US; 4]) };
+        let own = self.controlling_sender == Some(from) && self.has_controlling_sender(now);
+        let (before, pulses) = if own { (self.sticks, self.pulses_us) } else { (Sticks::default(), [CENTER_PULSE_US; 4]) };
         let axis = |us: u16, before: f64| match us {
             0 => 0.0,
-            us if PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
+            us if VALID_PULSES_US.contains(&us) => ((f64::from(us) - 1500.0) / 500.0).clamp(-1.0, 1.0),
             _ => before,
         };
         let sticks = Sticks {
@@ -221,8 +222,8 @@ impl ManualControl {
             yaw: axis(all[3], before.yaw),
         };
         let pulse = |k: usize| match all[k] {
-            0 => MIDDLE_US,
-            us if PULSES_US.contains(&us) => us,
+            0 => CENTER_PULSE_US,
+            us if VALID_PULSES_US.contains(&us) => us,
             _ => pulses[k],
         };
         self.take(from, sticks, [pulse(0), pulse(1), pulse(2), pulse(3)], now)
@@ -230,7 +231,7 @@ impl ManualControl {
 }
 
 /// Returns channels 5 to 16 of an override in microseconds.
-pub fn aux_channels(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX_COUNT] {
+pub fn aux_channels(c: &RC_CHANNELS_OVERRIDE_DATA) -> [u16; AUX_CHANNEL_COUNT] {
     [
         c.chan5_raw,
         c.chan6_raw,
@@ -254,7 +255,7 @@ fn pulses_of(s: &Sticks) -> [u16; 4] {
 }
 
 fn axis(value: i16) -> Option<f64> {
-    (value != UNUSED && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
+    (value != UNUSED_VALUE && (-1000..=1000).contains(&value)).then(|| f64::from(value) / 1000.0)
 }
 
 /// Returns `system/component@link`, which is short enough for a 50-byte text.

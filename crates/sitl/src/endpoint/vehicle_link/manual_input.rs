@@ -28,9 +28,9 @@ pub(super) fn manual_control(v: &mut VehicleLink, m: &MANUAL_CONTROL_DATA, a: &m
         && a.payload.gimbal.accepts_control_from(a.from)
     {
         let camera = &a.aircraft.vehicle.camera;
-        a.payload.gimbal.set(GimbalState::angle_for_stick(camera, pitch), camera);
+        a.payload.gimbal.set(GimbalState::stick_to_angle(camera, pitch), camera);
     }
-    if v.manual.is_holder(from) {
+    if v.manual.is_controlling_sender(from) {
         press_buttons(v, m, a);
     }
     broadcast_stick_changes(v);
@@ -38,18 +38,18 @@ pub(super) fn manual_control(v: &mut VehicleLink, m: &MANUAL_CONTROL_DATA, a: &m
 
 pub(super) fn channels(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     // A receiver signals a lost transmitter with an unusually short throttle pulse; its channels are then ignored.
-    let lost = v.params.throttle_loss_us().is_some_and(|least| c.chan3_raw > 0 && c.chan3_raw < least);
+    let lost = v.params.throttle_loss_pulse_us().is_some_and(|least| c.chan3_raw > 0 && c.chan3_raw < least);
     if !v.accepts_sticks || !is_accepted_station(v, a) || lost {
         return;
     }
     let from = (a.link, a.from);
-    let was_holder = v.manual.is_holder(from);
+    let was_holder = v.manual.is_controlling_sender(from);
     if let Some(sticks) = v.manual.channels(from, c, a.now()) {
         apply_sticks(v, sticks, a);
-    } else if was_holder && !v.manual.is_holder((a.link, a.from)) {
+    } else if was_holder && !v.manual.is_controlling_sender((a.link, a.from)) {
         a.autopilot.release_sticks();
     }
-    v.manual.take_aux(from, c, a.now());
+    v.manual.apply_aux_channels(from, c, a.now());
     mode_requests::apply_mode_switch(v, c, a);
     aux_functions::read_switches(v, c, a);
     broadcast_stick_changes(v);

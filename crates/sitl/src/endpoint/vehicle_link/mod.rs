@@ -91,7 +91,7 @@ pub struct VehicleLink {
     /// Last position of the mode switch, from 0.
     mode_switch: Option<usize>,
     /// Last positions of the auxiliary switches on channels 5 to 16.
-    switches: [Option<SwitchPosition>; manual::AUX_COUNT],
+    switches: [Option<SwitchPosition>; manual::AUX_CHANNEL_COUNT],
     texts: TextQueue,
     /// Messages to broadcast once, with the next tick.
     announcements: BTreeSet<u32>,
@@ -137,7 +137,7 @@ impl VehicleLink {
                 .with_encoding(if flavor.uses_float_items { ItemEncoding::Float } else { ItemEncoding::Int }),
             manual: ManualControl::default(),
             mode_switch: None,
-            switches: [None; manual::AUX_COUNT],
+            switches: [None; manual::AUX_CHANNEL_COUNT],
             texts: TextQueue::default(),
             announcements: BTreeSet::new(),
             speed_factor: 1.0,
@@ -182,7 +182,7 @@ impl VehicleLink {
             scoring: aircraft.scoring,
             sticks: self.sticks(clock.now),
             pulses_us: self.manual.pulses_us(clock.now),
-            aux_us: self.manual.aux_us(),
+            aux_pulses_us: self.manual.aux_us(),
             gimbal: payload.gimbal,
             lamp: payload.lamp,
             camera: payload.camera.summary(clock.now),

@@ -16,7 +16,7 @@ const MODE_PARAMS: [&str; 6] = ["FLTMODE1", "FLTMODE2", "FLTMODE3", "FLTMODE4", 
 pub(super) fn apply_mode_switch(v: &mut VehicleLink, c: &RC_CHANNELS_OVERRIDE_DATA, a: &mut InboundMessage) {
     let pulses = manual::aux_channels(c);
     let channel = v.params.whole("FLTMODE_CH").and_then(|channel| usize::try_from(channel - 5).ok());
-    let Some(pulse) = channel.and_then(|k| pulses.get(k)).filter(|us| manual::PULSES_US.contains(us)) else { return };
+    let Some(pulse) = channel.and_then(|k| pulses.get(k)).filter(|us| manual::VALID_PULSES_US.contains(us)) else { return };
     let position = POSITION_LIMITS_US.iter().filter(|end| *pulse > **end).count();
     if v.mode_switch.replace(position) == Some(position) {
         return;

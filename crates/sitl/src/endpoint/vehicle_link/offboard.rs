@@ -13,11 +13,11 @@ use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::math;
 
 /// Maximum value of a field in m, m/s or m/s²; larger values are rejected.
-const MAX_VALUE: f32 = 1e5;
+const MAX_FIELD_VALUE: f32 = 1e5;
 /// Maximum distance of a position from the origin, m.
 const MAX_DISTANCE_M: f64 = 20_000.0;
 /// Maximum rotation rate, rad/s.
-const MAX_RATE_RAD_S: f32 = 100.0;
+const MAX_ANGULAR_RATE_RAD_S: f32 = 100.0;
 
 /// A setpoint, or the reason for its rejection.
 pub type SetpointResult = Result<OffboardSetpoint, &'static str>;
@@ -70,7 +70,7 @@ fn axes(values: [f32; 3], ignored: [bool; 3]) -> Result<AxisSetpoints, &'static 
         if ignored[k] || values[k].is_nan() {
             continue;
         }
-        if values[k].abs() > MAX_VALUE {
+        if values[k].abs() > MAX_FIELD_VALUE {
             return Err("Setpoint rejected: out of range");
         }
         out[k] = Some(f64::from(values[k]));
@@ -83,7 +83,7 @@ fn angle(value: f32, ignored: bool) -> Option<f64> {
 }
 
 fn rate(value: f32, ignored: bool) -> Option<f64> {
-    (!ignored && value.is_finite() && value.abs() <= MAX_RATE_RAD_S).then(|| f64::from(value))
+    (!ignored && value.is_finite() && value.abs() <= MAX_ANGULAR_RATE_RAD_S).then(|| f64::from(value))
 }
 
 /// Requires at least one of position, velocity and acceleration.

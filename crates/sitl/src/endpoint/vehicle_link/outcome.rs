@@ -16,7 +16,7 @@ impl VehicleLink {
         let refusals = &self.flavor.refusals;
         let (result, reason) = match outcome {
             RequestOutcome::Accepted => return MavResult::MAV_RESULT_ACCEPTED,
-            RequestOutcome::TemporarilyRejected(reason) => (refusals.temporarily, reason),
+            RequestOutcome::TemporarilyRejected(reason) => (refusals.temporary_rejection, reason),
             RequestOutcome::Denied(reason) => (refusals.denied, reason),
             RequestOutcome::Failed(reason) => (MavResult::MAV_RESULT_FAILED, reason),
             RequestOutcome::Unsupported => return MavResult::MAV_RESULT_UNSUPPORTED,

@@ -1,7 +1,7 @@
 //! Builds PARAM_VALUE messages.
 
 use super::VehicleLink;
-use super::params::{HASH, OutgoingParam};
+use super::params::{HASH_NAME, OutgoingParam};
 use spandrel_mavlink::dialect::{MavMessage, MavParamType, PARAM_VALUE_DATA};
 
 /// Creates the PARAM_VALUE message for a parameter.
@@ -36,7 +36,7 @@ pub(super) fn param_hash(v: &VehicleLink) -> MavMessage {
         param_value: f32::from_bits(v.params.hash()),
         param_count: v.params.count() as u16,
         param_index: u16::MAX,
-        param_id: HASH.into(),
+        param_id: HASH_NAME.into(),
         param_type: MavParamType::MAV_PARAM_TYPE_UINT32,
     })
 }

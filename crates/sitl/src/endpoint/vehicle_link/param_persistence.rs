@@ -4,7 +4,7 @@ use super::VehicleLink;
 use super::host_requests::StorageRequest;
 use super::param_messages::{param_named, param_value};
 use super::params::text::{self, ParamFileProblem};
-use super::params::{FENCE_SWITCH, ParamValue};
+use super::params::{FENCE_ENABLE_NAME, ParamValue};
 use crate::autopilot::{Autopilot, AutopilotRequest};
 use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::link::Links;
@@ -30,7 +30,7 @@ impl VehicleLink {
     ///
     /// # Errors
     /// Returns all invalid lines. No parameter is set in that case.
-    pub fn read_parameters(
+    pub fn load_parameters(
         &mut self,
         text: &str,
         autopilot: &mut Autopilot,
@@ -55,8 +55,8 @@ impl VehicleLink {
     /// Updates and broadcasts the geofence parameter after a command or mission has turned the geofence on or off.
     pub(super) fn sync_fence_parameter(&mut self, enabled: bool, links: &mut Links) {
         if self.params.fence_enabled().is_some_and(|shown| shown != enabled)
-            && self.params.set_value(FENCE_SWITCH, ParamValue::Int(i32::from(enabled))).is_ok()
-            && let Some(message) = param_named(self, FENCE_SWITCH)
+            && self.params.set_value(FENCE_ENABLE_NAME, ParamValue::Int(i32::from(enabled))).is_ok()
+            && let Some(message) = param_named(self, FENCE_ENABLE_NAME)
         {
             links.broadcast(AUTOPILOT, &message);
         }
@@ -64,9 +64,9 @@ impl VehicleLink {
 
     /// Applies the parameters to the autopilot, manual control and camera.
     pub(super) fn apply_parameters(&mut self, autopilot: &mut Autopilot, payload: &mut Payload) {
-        let cruise_m_s = autopilot.tuning.cruise_m_s;
+        let cruise_m_s = autopilot.tuning.cruise_speed_m_s;
         self.params.apply(&mut autopilot.tuning);
-        if autopilot.tuning.cruise_m_s != cruise_m_s {
+        if autopilot.tuning.cruise_speed_m_s != cruise_m_s {
             autopilot.request(AutopilotRequest::SetSpeed(None), autopilot.now());
         }
         (self.flavor.tune)(&mut autopilot.tuning);

@@ -3,7 +3,7 @@
 use super::VehicleLink;
 use super::inbound::InboundMessage;
 use super::param_messages::{param_at, param_hash, param_index, param_named};
-use super::params::{HASH, ParamRefusal};
+use super::params::{HASH_NAME, ParamRefusal};
 use spandrel_mavlink::dialect::{
     MavMessage, MavParamError, PARAM_ERROR_DATA, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA,
 };
@@ -31,7 +31,7 @@ pub(super) fn read(v: &mut VehicleLink, r: &PARAM_REQUEST_READ_DATA, a: &mut Inb
 }
 
 fn is_param_hash(v: &VehicleLink, name: &str) -> bool {
-    v.flavor.params.hash && name == HASH
+    v.flavor.params.hash && name == HASH_NAME
 }
 
 /// Changes a parameter. A change is broadcast to every link; a rejection is reported, followed by the old value as

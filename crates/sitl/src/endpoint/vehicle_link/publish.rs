@@ -98,8 +98,8 @@ impl VehicleLink {
 
     /// Applies parameters and plans to a restarted autopilot.
     pub(crate) fn boot(&mut self, plane: &LocalPlane, autopilot: &mut Autopilot, payload: &mut Payload) {
-        (self.mode_switch, self.switches) = (None, [None; super::manual::AUX_COUNT]);
-        if self.params.drops_mission_at_boot() {
+        (self.mode_switch, self.switches) = (None, [None; super::manual::AUX_CHANNEL_COUNT]);
+        if self.params.clears_mission_at_boot() {
             self.plans.clear_mission();
         }
         self.apply_parameters(autopilot, payload);

@@ -2,7 +2,7 @@
 
 use super::flavor::{Flavor, ModeRow};
 use super::flight_times::FlightTimes;
-use super::manual::AUX_COUNT;
+use super::manual::AUX_CHANNEL_COUNT;
 use super::mission::PlanSummary;
 use crate::autopilot::{AutopilotStatus, Estimate, Sticks};
 use crate::endpoint::clock::VehicleClock;
@@ -49,7 +49,7 @@ pub struct VehicleSnapshot<'a> {
     /// The same positions as transmitter channels 1 to 4, microseconds.
     pub pulses_us: Option<[u16; 4]>,
     /// Channels 5 to 16, microseconds.
-    pub aux_us: [u16; AUX_COUNT],
+    pub aux_pulses_us: [u16; AUX_CHANNEL_COUNT],
     /// Gimbal state.
     pub gimbal: GimbalState,
     /// Lamp state.

@@ -12,7 +12,7 @@ impl VehicleLink {
     /// Like PX4, appends a tab for ground stations if an event conveys the whole text.
     pub(crate) fn send_texts(&mut self, view: &VehicleSnapshot, links: &mut Links) {
         for (severity, text) in self.texts.take() {
-            self.send_notice(&text, view.clock.boot_ms(), links);
+            self.send_notice(&text, view.clock.boot_time_ms(), links);
             let marked = self.flavor.events && covers_whole_text(&text);
             let plain = chunks(&text);
             let tabbed = if marked { chunks(&format!("{text}\t")) } else { Vec::new() };
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_last_chunk_of_several_is_never_full() {
+    fn exact_last_of_several_chunks_is_never_full() {
         for (long, count) in [(0, 1), (49, 1), (50, 1), (51, 2), (99, 2), (100, 3), (150, 4)] {
             let text = "x".repeat(long);
             let pieces = chunks(&text);

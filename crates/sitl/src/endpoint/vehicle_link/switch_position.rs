@@ -2,8 +2,8 @@
 
 /// Pulse thresholds of the low and high switch positions, microseconds (ArduPilot: AUX_SWITCH_PWM_TRIGGER_LOW and
 /// _HIGH).
-const LOW_BELOW_US: u16 = 1_200;
-const HIGH_ABOVE_US: u16 = 1_800;
+const LOW_THRESHOLD_US: u16 = 1_200;
+const HIGH_THRESHOLD_US: u16 = 1_800;
 
 /// Position of a three-position switch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,8 +20,8 @@ impl SwitchPosition {
     /// Returns the position for a pulse width in microseconds.
     pub(super) fn from_pulse(us: u16) -> Self {
         match us {
-            us if us < LOW_BELOW_US => Self::Low,
-            us if us > HIGH_ABOVE_US => Self::High,
+            us if us < LOW_THRESHOLD_US => Self::Low,
+            us if us > HIGH_THRESHOLD_US => Self::High,
             _ => Self::Middle,
         }
     }

@@ -71,8 +71,8 @@ impl ElementSurface {
 
     fn merge(&mut self, other: &Self) {
         self.inspectable_m2 += other.inspectable_m2;
-        for (fate, area_m2) in &other.area_by_outcome_m2 {
-            *self.area_by_outcome_m2.entry(*fate).or_default() += area_m2;
+        for (surface_outcome, area_m2) in &other.area_by_outcome_m2 {
+            *self.area_by_outcome_m2.entry(*surface_outcome).or_default() += area_m2;
         }
         let (sums, more) = (&mut self.sums, &other.sums);
         sums.area_m2 += more.area_m2;

@@ -20,20 +20,20 @@ use spandrel_model::elements::Element;
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::visibility::{MAX_INCIDENCE_RAD, lamp_lux, needed_lux};
+use spandrel_model::site::visibility::{MAX_INCIDENCE_RAD, lamp_lux, required_illuminance_lux};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
 use std::collections::BTreeMap;
 
 /// Maximum motion blur, px (the published limit for defect detection).
-pub const BLUR_MAX_PX: f64 = 1.0;
+pub const MAX_MOTION_BLUR_PX: f64 = 1.0;
 /// A surface counts as background beyond this multiple of the distance at which pixels have the required size.
 const BACKGROUND_DISTANCE_FACTOR: f64 = 3.0;
 /// Sampling interval for evaluating the camera's view during the flight.
 const VIEW_SAMPLE_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// Size of the cells in which patches with the same orientation share ambient light, m.
-const LIGHT_CELL_M: f64 = 5.0;
+const LIGHT_CELL_SIZE_M: f64 = 5.0;
 
 /// A surface patch and the best picture of it.
 struct EvaluatedPatch {
@@ -55,13 +55,13 @@ pub fn compute_coverage(scene: &ReviewContext<'_>, pictures: &[ReviewedPicture])
     let mut elements: BTreeMap<Element, ElementSurface> = BTreeMap::new();
     for piece in &pieces {
         let SurfacePatch { element, area_m2, .. } = piece.patch;
-        elements.entry(element).or_default().add(area_m2, piece.fate(), piece.best.as_ref());
+        elements.entry(element).or_default().add(area_m2, piece.surface_outcome(), piece.best.as_ref());
     }
     SurfaceCoverage { elements }
 }
 
 impl EvaluatedPatch {
-    fn fate(&self) -> SurfaceOutcome {
+    fn surface_outcome(&self) -> SurfaceOutcome {
         let unpictured = if self.in_view { SurfaceOutcome::NotPhotographed } else { SurfaceOutcome::NeverInView };
         self.best.map_or(unpictured, |best| best.outcome)
     }
@@ -101,7 +101,7 @@ fn add_picture(pieces: &mut [EvaluatedPatch], picture: &ReviewedPicture, light: 
         };
         let gsd_m = away_m / camera.focal_px();
         let worse = |best: &BestPicture| (best.outcome, -best.gsd_m) < (most, -gsd_m);
-        if !piece.best.as_ref().is_none_or(worse) || !is_clear(pose.position_m, piece.patch.sight_end_m, light.scene) {
+        if !piece.best.as_ref().is_none_or(worse) || !is_clear(pose.position_m, piece.patch.sight_line_end_m, light.scene) {
             continue;
         }
         let incidence_rad = math::acos(cosine.min(1.0));
@@ -118,9 +118,9 @@ fn add_picture(pieces: &mut [EvaluatedPatch], picture: &ReviewedPicture, light: 
 
 /// Returns the outcome of a picture that meets the required pixel size and angle, based on its light and blur.
 fn outcome_of_light_and_blur(lux: f64, blur_px: f64, picture: &ReviewedPicture) -> SurfaceOutcome {
-    if lux < needed_lux(&picture.camera) {
+    if lux < required_illuminance_lux(&picture.camera) {
         if picture.pose.lamp_on { SurfaceOutcome::DarkLampOn } else { SurfaceOutcome::DarkLampOff }
-    } else if blur_px > BLUR_MAX_PX {
+    } else if blur_px > MAX_MOTION_BLUR_PX {
         SurfaceOutcome::Blurred
     } else {
         SurfaceOutcome::Shown
@@ -136,8 +136,8 @@ fn add_flight(pieces: &mut [EvaluatedPatch], scene: &ReviewContext<'_>) {
         // Patches with a picture already have an outcome.
         for piece in pieces.iter_mut().filter(|piece| !piece.in_view && piece.best.is_none()) {
             let near = in_image(&piece.patch, &pose, &camera, reach_m(&camera));
-            piece.in_view =
-                near.is_some_and(|(_, cosine)| cosine >= steepest) && is_clear(pose.position_m, piece.patch.sight_end_m, scene);
+            piece.in_view = near.is_some_and(|(_, cosine)| cosine >= steepest)
+                && is_clear(pose.position_m, piece.patch.sight_line_end_m, scene);
         }
     }
 }
@@ -165,7 +165,9 @@ impl LightCache<'_> {
     fn ambient_lux(&mut self, patch: &SurfacePatch, time: SimTime) -> f64 {
         let (p, n) = (patch.point_m.array(), patch.normal.array());
         let key =
-            std::array::from_fn(|k| if k < 3 { (p[k] / LIGHT_CELL_M).floor() as i64 } else { (2.0 * n[k - 3]).round() as i64 });
+            std::array::from_fn(
+                |k| if k < 3 { (p[k] / LIGHT_CELL_SIZE_M).floor() as i64 } else { (2.0 * n[k - 3]).round() as i64 },
+            );
         let scene = self.scene;
         *self.cells.entry(key).or_insert_with(|| scene.site.ambient_lux(patch.point_m, Some(patch.normal), time))
     }

@@ -9,9 +9,9 @@ use spandrel_model::scenario::bridges::Solid;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 
 /// Side length of a patch, m.
-const PATCH_M: f64 = 1.0;
+const PATCH_SIZE_M: f64 = 1.0;
 /// Minimum face area, m². Smaller faces, such as the edges of plates and posts, are skipped.
-const MIN_FACE_M2: f64 = 0.1;
+const MIN_FACE_AREA_M2: f64 = 0.1;
 /// Distance between the surface and a sight line's start, m.
 const SURFACE_OFFSET_M: f64 = 0.02;
 /// Maximum number of reference points tested per patch, nearest first.
@@ -23,7 +23,7 @@ pub struct SurfacePatch {
     /// The member's element.
     pub element: Element,
     /// End point for lines of sight, slightly in front of the center, m.
-    pub sight_end_m: Vec3<Enu>,
+    pub sight_line_end_m: Vec3<Enu>,
     /// Center of the patch, m.
     pub point_m: Vec3<Enu>,
     /// Unit normal that points out of the member.
@@ -46,7 +46,7 @@ pub fn inspectable(scene: &ReviewContext<'_>) -> Vec<SurfacePatch> {
         for (point_m, normal, area_m2) in sample_faces(&member.solid) {
             if is_visible_from(&near, (point_m, normal), reach, scene) {
                 let (element, above_m) = (member.element, point_m + normal * SURFACE_OFFSET_M);
-                patches.push(SurfacePatch { element, sight_end_m: above_m, point_m, normal, area_m2 });
+                patches.push(SurfacePatch { element, sight_line_end_m: above_m, point_m, normal, area_m2 });
             }
         }
     }
@@ -72,7 +72,7 @@ fn sample_faces(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
         let count = corners.len();
         let twice = (0..count).fold(Vec3::zero(), |sum, k| sum + corners[k].cross(corners[(k + 1) % count]));
         let (area, normal) = (0.5 * twice.norm(), twice.unit());
-        if count < 3 || area < MIN_FACE_M2 {
+        if count < 3 || area < MIN_FACE_AREA_M2 {
             continue;
         }
         let inside = sample_polygon(&corners, normal);
@@ -82,7 +82,7 @@ fn sample_faces(solid: &Solid) -> Vec<(Vec3<Enu>, Vec3<Enu>, f64)> {
     samples
 }
 
-/// Returns grid points over a convex polygon, [`PATCH_M`] apart, or the center of a smaller polygon.
+/// Returns grid points over a convex polygon, [`PATCH_SIZE_M`] apart, or the center of a smaller polygon.
 fn sample_polygon(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     let u = (corners[1] - corners[0]).unit();
     let v = normal.cross(u);
@@ -91,7 +91,7 @@ fn sample_polygon(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
         flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     };
     let ((u_low, u_high), (v_low, v_high)) = (span(|p| p.0), span(|p| p.1));
-    let steps = |low: f64, high: f64| ((high - low) / PATCH_M).ceil().max(1.0) as usize;
+    let steps = |low: f64, high: f64| ((high - low) / PATCH_SIZE_M).ceil().max(1.0) as usize;
     let (columns, rows) = (steps(u_low, u_high), steps(v_low, v_high));
     let mut points = Vec::new();
     for row in 0..rows {

@@ -60,10 +60,11 @@ fn detection_table(review: &Review) -> Table {
     };
     let defect_outcomes = &review.defects;
     let mut tell = |by: &str, key: &dyn Fn(&spandrel_model::scenario::PlacedDefect) -> u32, name: &dyn Fn(u32) -> String| {
-        let keys: std::collections::BTreeSet<u32> = defect_outcomes.iter().map(|fate| key(&fate.defect)).collect();
+        let keys: std::collections::BTreeSet<u32> =
+            defect_outcomes.iter().map(|defect_outcome| key(&defect_outcome.defect)).collect();
         for k in keys {
-            let mine: Vec<_> = defect_outcomes.iter().filter(|fate| key(&fate.defect) == k).collect();
-            put(by, name(k), mine.iter().filter(|fate| fate.found_by.is_some()).count(), mine.len());
+            let mine: Vec<_> = defect_outcomes.iter().filter(|defect_outcome| key(&defect_outcome.defect) == k).collect();
+            put(by, name(k), mine.iter().filter(|defect_outcome| defect_outcome.found_by.is_some()).count(), mine.len());
         }
     };
     let element = |number: u32| Element::from_number(number as u16);

@@ -2,7 +2,7 @@
 
 use super::figure::{figure, legend};
 use crate::report::Review;
-use crate::report::coverage::{BLUR_MAX_PX, ElementSurface, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
+use crate::report::coverage::{ElementSurface, MAX_MOTION_BLUR_PX, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
 use crate::report::formatting;
 use crate::report::plots::bars::{StackedBar, stacked_bars};
 use crate::report::table::{Table, TableCell};
@@ -22,7 +22,8 @@ pub fn section(review: &Review) -> Markup {
         return html! { p.calm { "No bridge surface can be inspected from the reference paths; all surfaces are beyond the camera's range." } };
     }
     let share = |area: f64| formatting::number(100.0 * area / total.inspectable_m2, 0);
-    let key: Vec<(&str, String)> = SurfaceOutcome::ALL.map(|fate| (fate.class(), fate.name().to_owned())).to_vec();
+    let key: Vec<(&str, String)> =
+        SurfaceOutcome::ALL.map(|surface_outcome| (surface_outcome.class(), surface_outcome.name().to_owned())).to_vec();
     html! {
         p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) "%" } " of the inspectable bridge surface well ("
             (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_captured(&total) { " The rest: " (why) "." } }
@@ -30,7 +31,7 @@ pub fn section(review: &Review) -> Markup {
             " mm per pixel or finer (at this resolution, a 1.27 mm crack, the limit between condition states 2 and 3, covers half a pixel; this camera achieves it from up to "
             (formatting::number(reach_m(&review.vehicle.camera), 1)) " m away) and at an angle of at most "
             (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from the surface normal. It is captured well if a picture meets both limits, has enough light (including lamp light) for an exposure within the camera's limits, and has at most "
-            (formatting::number(BLUR_MAX_PX, 0)) " px of motion blur. If several pictures show the same patch of surface, the best one counts." }
+            (formatting::number(MAX_MOTION_BLUR_PX, 0)) " px of motion blur. If several pictures show the same patch of surface, the best one counts." }
         (figure("Coverage of each element's inspectable surface", &html! {
             (legend(&key))
             div.split {
@@ -50,7 +51,7 @@ fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
     let share = |outcome: &SurfaceOutcome| total.area_m2(*outcome) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL
         .into_iter()
-        .filter(|fate| *fate != SurfaceOutcome::Shown && share(fate) >= MIN_REASON_SHARE)
+        .filter(|surface_outcome| *surface_outcome != SurfaceOutcome::Shown && share(surface_outcome) >= MIN_REASON_SHARE)
         .collect();
     rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let words = |outcome: &SurfaceOutcome| format!("{}% {}", formatting::number(100.0 * share(outcome), 0), outcome.name());
@@ -61,7 +62,9 @@ fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
 fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
     let row = |(element, surface): (&Element, &ElementSurface)| StackedBar {
         name: format!("{} · {} ({} m²)", element.number(), element.name(), formatting::number(surface.inspectable_m2, 0)),
-        parts: SurfaceOutcome::ALL.map(|fate| (fate.class(), surface.area_m2(fate) / surface.inspectable_m2)).to_vec(),
+        parts: SurfaceOutcome::ALL
+            .map(|surface_outcome| (surface_outcome.class(), surface.area_m2(surface_outcome) / surface.inspectable_m2))
+            .to_vec(),
     };
     coverage.elements.iter().map(row).collect()
 }
@@ -69,7 +72,7 @@ fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
 fn table(coverage: &SurfaceCoverage) -> Table {
     let row = |element: &ElementSurface, [number, name]: [TableCell; 2]| {
         let mut row = vec![number, name, TableCell::Number(element.inspectable_m2, 1)];
-        row.extend(SurfaceOutcome::ALL.map(|fate| TableCell::Number(element.area_m2(fate), 1)));
+        row.extend(SurfaceOutcome::ALL.map(|surface_outcome| TableCell::Number(element.area_m2(surface_outcome), 1)));
         let average_picture = element.average_picture();
         let value = |value: Option<f64>, digits| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         row.push(value(average_picture.map(|like| 1000.0 * like.gsd_m), 2));
@@ -114,19 +117,19 @@ mod tests {
     #[test]
     fn exact_every_outcome_has_a_column_and_reasons_are_sorted_by_area() {
         let mut element = ElementSurface { inspectable_m2: 100.0, ..ElementSurface::default() };
-        for (fate, area_m2) in [
+        for (surface_outcome, area_m2) in [
             (SurfaceOutcome::Shown, 40.0),
             (SurfaceOutcome::DarkLampOff, 35.0),
             (SurfaceOutcome::Blurred, 20.0),
             (SurfaceOutcome::TooFar, 4.6),
             (SurfaceOutcome::NeverInView, 0.4),
         ] {
-            element.area_by_outcome_m2.insert(fate, area_m2);
+            element.area_by_outcome_m2.insert(surface_outcome, area_m2);
         }
         assert_eq!(reasons_not_captured(&element).unwrap(), "35% too dark, lamp off; 20% blurred; 5% too far");
         let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
-        for (k, fate) in SurfaceOutcome::ALL.iter().enumerate() {
-            assert_eq!(table.columns[3 + k], format!("{} (m²)", fate.name()));
+        for (k, surface_outcome) in SurfaceOutcome::ALL.iter().enumerate() {
+            assert_eq!(table.columns[3 + k], format!("{} (m²)", surface_outcome.name()));
         }
         assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
         assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the total of a single element equals that element");

@@ -19,7 +19,7 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     if review.defects.is_empty() {
         return html! { p.calm { "This job has no defects." } };
     }
-    let missed: Vec<&DefectOutcome> = review.defects.iter().filter(|fate| fate.found_by.is_none()).collect();
+    let missed: Vec<&DefectOutcome> = review.defects.iter().filter(|defect_outcome| defect_outcome.found_by.is_none()).collect();
     html! {
         p { (review.defects.len() - missed.len()) " of " (review.defects.len()) " defects were found." }
         ul.legend {
@@ -27,12 +27,12 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
             li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { path.missed d="M0 -8L8 0L0 8L-8 0Z" {} } "missed" }
         }
         @for bridge in &review.scenario.bridges {
-            @if review.defects.iter().any(|fate| fate.defect.member.starts_with(&format!("{}/", bridge.name))) { (drawings(review, bridge)) }
+            @if review.defects.iter().any(|defect_outcome| defect_outcome.defect.member.starts_with(&format!("{}/", bridge.name))) { (drawings(review, bridge)) }
         }
         @if !missed.is_empty() {
             h3 { "Missed defects" }
             p.note { "Each drawing shows the defect from 4 m away, viewed head-on with the lamp on." }
-            ul.gallery { @for fate in &missed { (card(review, fate, sketcher)) } }
+            ul.gallery { @for defect_outcome in &missed { (card(review, defect_outcome, sketcher)) } }
         }
         (table(review).folded())
     }
@@ -60,7 +60,7 @@ fn card(review: &Review, outcome: &DefectOutcome, sketcher: &Sketcher) -> Markup
             (frame(sketcher, (&outcome.reference_view(), &review.vehicle.camera), exposure, &marks, &alt))
             p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (defect_name(defect.kind)) ", condition state " (defect.condition_state) }
             p { "On " (defect.member) " (" (defect.element.name()) "), " (size(outcome)) "." }
-            p.note { "It was " (outcome.words()) "." }
+            p.note { "It was " (outcome.description()) "." }
         }
     }
 }
@@ -96,7 +96,7 @@ fn table(review: &Review) -> Table {
             outcome.found_by.map_or("missed".into(), |number| format!("picture {number}")).into(),
             number(best_approach.map(|c| c.in_view_s), 1),
             number(best_approach.map(|c| c.nearest.0), 1),
-            outcome.words().into(),
+            outcome.description().into(),
         ]
     };
     Table {

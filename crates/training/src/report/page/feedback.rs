@@ -9,9 +9,9 @@ use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 
 const WIDTH: f64 = 620.0;
-const LEFT: f64 = 96.0;
-const RIGHT: f64 = 600.0;
-const ROW: f64 = 34.0;
+const LEFT_X: f64 = 96.0;
+const RIGHT_X: f64 = 600.0;
+const ROW_HEIGHT: f64 = 34.0;
 /// End of the time axis, s. Later stick movements do not count as a reaction.
 const MAX_REACTION_S: f64 = 5.0;
 
@@ -68,12 +68,12 @@ fn row(review: &Review, kind: usize) -> Markup {
 
 /// Returns the horizontal position of a reaction time in the drawing.
 fn x_of_reaction(reaction_s: f64) -> f64 {
-    LEFT + (RIGHT - LEFT) * (reaction_s / MAX_REACTION_S).clamp(0.0, 1.0)
+    LEFT_X + (RIGHT_X - LEFT_X) * (reaction_s / MAX_REACTION_S).clamp(0.0, 1.0)
 }
 
 fn reactions(review: &Review) -> Markup {
     let kinds: Vec<usize> = (0..KINDS.len()).filter(|kind| !times(review, *kind).is_empty()).collect();
-    let bottom = ROW * kinds.len() as f64 + 4.0;
+    let bottom = ROW_HEIGHT * kinds.len() as f64 + 4.0;
     svg_figure(
         (WIDTH, bottom + 24.0),
         "Reaction times by cue",
@@ -84,8 +84,8 @@ fn reactions(review: &Review) -> Markup {
                 text.tick x=(coord(x_of_reaction(tick))) y=(coord(bottom + 16.0)) text-anchor="middle" { (formatting::number(tick, 0)) " s" }
             }
             @for (k, kind) in kinds.iter().enumerate() {
-                @let y = ROW * k as f64 + 0.5 * ROW;
-                text.label x=(coord(LEFT - 10.0)) y=(coord(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
+                @let y = ROW_HEIGHT * k as f64 + 0.5 * ROW_HEIGHT;
+                text.label x=(coord(LEFT_X - 10.0)) y=(coord(y + 5.0)) text-anchor="end" { (KINDS[*kind].name) }
                 @for reaction_s in times(review, *kind) { circle.reaction cx=(coord(x_of_reaction(reaction_s))) cy=(coord(y)) r="5" {} }
                 @if let Some(middle) = median(times(review, *kind)) { path.median d=(line(&[(x_of_reaction(middle), y - 11.0), (x_of_reaction(middle), y + 11.0)], false)) {} }
             }

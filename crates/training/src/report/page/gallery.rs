@@ -24,7 +24,7 @@ pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
     html! {
         @if review.pictures.is_empty() { p.calm { "No pictures were taken." } } @else {
             p { (verdict_counts(review)) }
-            @if review.about.pictures.is_empty() {
+            @if review.metadata.pictures.is_empty() {
                 p.note { "The session contains no photographs, so each view is drawn from the bridge geometry. Only defects inside the dashed frame count." }
             }
             ul.gallery { @for picture in &review.pictures { (card(review, picture, sketcher)) } }
@@ -51,13 +51,13 @@ fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mark
             p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
                 b { "Picture " (picture.number) } " at " (formatting::clock(picture.t_s))
                 @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
-            p { (capitalized(&picture.reason)) "." }
+            p { (capitalize(&picture.reason)) "." }
             p.note { (target(picture)) }
         }
     }
 }
 
-fn capitalized(words: &str) -> String {
+fn capitalize(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
@@ -81,25 +81,25 @@ fn target(picture: &ReviewedPicture) -> String {
 fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Markup {
     let words = format!("Picture {}: {}", picture.number, picture.reason);
     let index = u32::try_from(picture.index).ok();
-    let photograph = review.about.pictures.iter().find(|(number, _)| Some(*number) == index);
+    let photograph = review.metadata.pictures.iter().find(|(number, _)| Some(*number) == index);
     if let Some((_, jpeg)) = photograph {
         return html! { img.frame alt=(words) loading="lazy" src={ "data:image/jpeg;base64," (base64(&jpeg.bytes)) }; };
     }
     let exposure = picture.target.as_ref().map_or(SketchExposure { light: 1.0, by_lamp: false }, |t| SketchExposure {
-        light: t.lux / t.needed_lux,
-        by_lamp: picture.pose.lamp_on && t.lux < 4.0 * t.needed_lux,
+        light: t.lux / t.required_illuminance_lux,
+        by_lamp: picture.pose.lamp_on && t.lux < 4.0 * t.required_illuminance_lux,
     });
     let shown = |id: u32| picture.views.iter().find(|view| view.defect_id == id);
     let marks: Vec<DefectMark> = review
         .defects
         .iter()
-        .filter_map(|fate| {
-            let view = shown(fate.defect.id)?;
+        .filter_map(|defect_outcome| {
+            let view = shown(defect_outcome.defect.id)?;
             let class = if view.hit { "found" } else { "missed" };
             Some(DefectMark {
-                id: fate.defect.id,
-                at_m: fate.defect.position_m,
-                length_m: fate.defect.length_m,
+                id: defect_outcome.defect.id,
+                at_m: defect_outcome.defect.position_m,
+                length_m: defect_outcome.defect.length_m,
                 class,
                 hidden: !view.unoccluded,
             })
@@ -174,7 +174,7 @@ fn table(review: &Review) -> Table {
             number(t.map(|t| t.incidence_rad.to_degrees()), 0),
             number(t.map(|t| 1000.0 * t.gsd_m), 2),
             number(t.map(|t| t.lux), 0),
-            number(t.map(|t| t.needed_lux), 0),
+            number(t.map(|t| t.required_illuminance_lux), 0),
             number(t.map(|t| t.blur_px), 2),
             if picture.pose.lamp_on { "on" } else { "off" }.into(),
         ]

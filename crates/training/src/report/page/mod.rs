@@ -27,7 +27,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 /// Renders a session's report page.
 #[must_use]
 pub fn session(review: &Review) -> String {
-    let title = format!("Session report: {}, {}", review.about.trainee, review.about.started_utc);
+    let title = format!("Session report: {}, {}", review.metadata.trainee, review.metadata.started_utc);
     let sketcher = gallery::sketcher(review);
     let sections = [
         ("scores", "Scores", summary::scores(review)),
@@ -90,13 +90,13 @@ fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
                     PageScripts::None => {}
                     PageScripts::Session(data) => {
                         script type="application/json" id="flight-data" { (PreEscaped(data)) }
-                        script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE)) }
-                        script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE)) }
-                        (scripts(&[assets::UPLOT, assets::COMMON, assets::SCRIPT]))
+                        script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE_SCRIPT)) }
+                        script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE_SCRIPT)) }
+                        (scripts(&[assets::UPLOT_SCRIPT, assets::COMMON_SCRIPT, assets::SCRIPT]))
                     }
                     PageScripts::Comparison(data) => {
                         script type="application/json" id="comparison-data" { (PreEscaped(data)) }
-                        (scripts(&[assets::UPLOT, assets::COMMON, assets::COMPARE]))
+                        (scripts(&[assets::UPLOT_SCRIPT, assets::COMMON_SCRIPT, assets::COMPARE_SCRIPT]))
                     }
                 }
             }

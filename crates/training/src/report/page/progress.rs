@@ -5,7 +5,7 @@
 use super::crash_kinds::{KINDS, crash_counts, segments};
 use super::figure::{figure, legend};
 use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
-use crate::record::omitted_summary;
+use crate::record::excluded_sessions_note;
 use crate::report::formatting;
 use crate::report::plots::bars::{CountRow, counts};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
@@ -17,7 +17,7 @@ use maud::{Markup, html};
 const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 /// Returns the maximum value of a score.
 #[must_use]
-pub fn most(score: &str) -> f64 {
+pub fn max_value(score: &str) -> f64 {
     if score == "overall" { 400.0 } else { 100.0 }
 }
 
@@ -25,7 +25,7 @@ pub fn most(score: &str) -> f64 {
 #[must_use]
 pub fn job_progress(job: &JobProgress) -> Markup {
     let progress = &job.progress;
-    let left_out = html! { @if let Some(words) = omitted_summary(job.left_out) { p.note { (words) "." } } };
+    let left_out = html! { @if let Some(words) = excluded_sessions_note(job.left_out) { p.note { (words) "." } } };
     if progress.repetitions.is_empty() {
         return left_out;
     }
@@ -91,8 +91,8 @@ fn shares(progress: &TraineeProgress, tasks: &[(u32, String)]) -> Vec<ChartLine>
 }
 
 fn key(lines: &[ChartLine]) -> Markup {
-    const DOTS: [&str; 4] = ["dot-1", "dot-2", "dot-3", "dot-4"];
-    legend(&lines.iter().map(|one| (DOTS[color_number(one.style) - 1], one.name.clone())).collect::<Vec<_>>())
+    const DOT_CLASSES: [&str; 4] = ["dot-1", "dot-2", "dot-3", "dot-4"];
+    legend(&lines.iter().map(|one| (DOT_CLASSES[color_number(one.style) - 1], one.name.clone())).collect::<Vec<_>>())
 }
 
 fn learning(progress: &TraineeProgress) -> Markup {
@@ -102,8 +102,8 @@ fn learning(progress: &TraineeProgress) -> Markup {
         div.trio {
             @for curve in &progress.curves {
                 @let values = values(curve);
-                @let drawn = PracticeChart { values: &values, curve: &curve.curve, others: &[], most: most(&curve.score) };
-                (figure(&curve.score, &practice(&drawn, &format!("Learning curve of {}", curve.score))))
+                @let chart = PracticeChart { values: &values, curve: &curve.curve, others: &[], max_value: max_value(&curve.score) };
+                (figure(&curve.score, &practice(&chart, &format!("Learning curve of {}", curve.score))))
             }
         }
         p.note { "The curves are power laws of practice fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
@@ -114,7 +114,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
 fn curve_table(curves: &[ScoreCurve]) -> Table {
     let row = |one: &ScoreCurve| {
         let c = &one.curve;
-        let next = TableCell::Number(c.next.min(most(&one.score)), 1);
+        let next = TableCell::Number(c.next.min(max_value(&one.score)), 1);
         let r_squared = c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
         vec![
             one.score.clone().into(),

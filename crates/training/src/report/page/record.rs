@@ -51,7 +51,7 @@ fn control_intervals(review: &Review) -> Table {
 }
 
 fn files(review: &Review) -> Table {
-    let about = &review.about;
+    let metadata = &review.metadata;
     let link = &review.link;
     let row = |name: &str, value: TableCell| vec![name.into(), value];
     Table {
@@ -59,15 +59,15 @@ fn files(review: &Review) -> Table {
         caption: "session data",
         columns: vec!["item", "value"],
         rows: vec![
-            row("session", about.folder.clone().into()),
-            row("trainee", about.trainee.clone().into()),
-            row("purpose", about.purpose.clone().unwrap_or_else(|| "not specified".into()).into()),
-            row("started", about.started_utc.clone().into()),
+            row("session", metadata.folder.clone().into()),
+            row("trainee", metadata.trainee.clone().into()),
+            row("purpose", metadata.purpose.clone().unwrap_or_else(|| "not specified".into()).into()),
+            row("started", metadata.started_utc.clone().into()),
             row("scenario", review.scenario.name.clone().into()),
-            row("scenario SHA-256", about.scenario_sha256.clone().into()),
+            row("scenario SHA-256", metadata.scenario_sha256.clone().into()),
             row("aircraft", review.vehicle.id.clone().into()),
-            row("aircraft SHA-256", about.vehicle_sha256.clone().into()),
-            row("telemetry SHA-256", about.telemetry_sha256.clone().into()),
+            row("aircraft SHA-256", metadata.vehicle_sha256.clone().into()),
+            row("telemetry SHA-256", metadata.telemetry_sha256.clone().into()),
             row("seed", review.seed.to_string().into()),
             row("scorer", concat!("spandrel ", env!("CARGO_PKG_VERSION")).into()),
             row("frames scored", review.frames.len().into()),

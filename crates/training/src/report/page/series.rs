@@ -4,13 +4,13 @@
 use crate::report::Review;
 use crate::report::assets::base64;
 use crate::report::outline::{self, QuantizedMesh};
-use crate::report::plots::colors::CLEARANCES_M;
+use crate::report::plots::colors::CLEARANCE_LIMITS_M;
 use serde_json::{Value, json};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 
 /// Maximum sampling rate of the time series, Hz.
-const RATE_HZ: f64 = 10.0;
+const MAX_SAMPLE_RATE_HZ: f64 = 10.0;
 /// Maximum number of samples in a time series.
 const MAX_SAMPLES: usize = 15_000;
 /// Number of terrain samples along each side of the 3D model.
@@ -25,14 +25,14 @@ pub fn data(review: &Review) -> String {
     let block = json!({
         "series": series(review),
         "limits": { "speed": review.scenario.scoring.speed_limit_m_s, "close": review.scenario.feedback.too_close_m,
-            "clearances": CLEARANCES_M },
+            "clearances": CLEARANCE_LIMITS_M },
         "tasks": review.scenario.tasks.iter().map(|task| json!({ "id": task.id, "name": task.name, "within": task.threshold_m,
             "closed": task.closed, "path": task.path_m.iter().map(|p| place(*p)).collect::<Vec<_>>() })).collect::<Vec<_>>(),
-        "pictures": review.pictures.iter().map(|picture| json!({ "number": picture.number, "t": rounded(picture.t_s, 2),
+        "pictures": review.pictures.iter().map(|picture| json!({ "number": picture.number, "t": round_to_digits(picture.t_s, 2),
             "at": place(picture.pose.position_m), "look": place(picture.pose.forward), "verdict": picture.verdict.class() })).collect::<Vec<_>>(),
         "crashes": review.crashes.iter().map(|crash| place(review.frames[crash.frame].position_m)).collect::<Vec<_>>(),
-        "defects": review.defects.iter().map(|fate| json!({ "id": fate.defect.id, "at": place(fate.defect.position_m + fate.defect.normal * DEFECT_MARK_OFFSET_M),
-            "found": fate.found_by.is_some() })).collect::<Vec<_>>(),
+        "defects": review.defects.iter().map(|defect_outcome| json!({ "id": defect_outcome.defect.id, "at": place(defect_outcome.defect.position_m + defect_outcome.defect.normal * DEFECT_MARK_OFFSET_M),
+            "found": defect_outcome.found_by.is_some() })).collect::<Vec<_>>(),
         "mesh": mesh(&outline::mesh(review.site.members())),
         "ground": ground(review),
     });
@@ -84,19 +84,19 @@ fn escape_json(json: &str) -> String {
 
 fn series(review: &Review) -> Value {
     let rate_hz = review.scenario.scoring.frame_rate_hz;
-    let stride = ((rate_hz / RATE_HZ).round() as usize).max(review.frames.len().div_ceil(MAX_SAMPLES)).max(1);
+    let stride = ((rate_hz / MAX_SAMPLE_RATE_HZ).round() as usize).max(review.frames.len().div_ceil(MAX_SAMPLES)).max(1);
     let picked: Vec<(usize, &Frame)> = review.frames.iter().enumerate().step_by(stride).collect();
     let column = |value: &dyn Fn(usize, &Frame) -> Value| picked.iter().map(|(i, frame)| value(*i, frame)).collect::<Vec<_>>();
-    let at = |k: usize| move |_: usize, frame: &Frame| rounded(frame.position_m.array()[k], 2);
-    let stick = |k: usize| move |_: usize, frame: &Frame| rounded(frame.sticks[k], 2);
-    let known = |value: Option<f64>| value.map_or(Value::Null, |value| rounded(value, 2));
+    let at = |k: usize| move |_: usize, frame: &Frame| round_to_digits(frame.position_m.array()[k], 2);
+    let stick = |k: usize| move |_: usize, frame: &Frame| round_to_digits(frame.sticks[k], 2);
+    let known = |value: Option<f64>| value.map_or(Value::Null, |value| round_to_digits(value, 2));
     json!({
-        "t": column(&|i, _| rounded(review.t_s(i), 2)),
+        "t": column(&|i, _| round_to_digits(review.t_s(i), 2)),
         "e": column(&at(0)), "n": column(&at(1)), "u": column(&at(2)),
-        "speed": column(&|_, frame| rounded(frame.speed_m_s(), 2)),
+        "speed": column(&|_, frame| round_to_digits(frame.speed_m_s(), 2)),
         "distance": column(&|i, _| known(review.track[i].distance_m)),
         "clearance": column(&|_, frame| known(frame.clearance_m)),
-        "battery": column(&|_, frame| rounded(frame.battery_pct, 1)),
+        "battery": column(&|_, frame| round_to_digits(frame.battery_pct, 1)),
         "fb": column(&stick(0)), "rl": column(&stick(1)), "ud": column(&stick(2)), "rt": column(&stick(3)),
         "task": column(&|i, _| review.track[i].task.map_or(Value::Null, |task| json!(task))),
         "state": column(&|i, _| json!(u8::from(review.track[i].inside) + u8::from(review.track[i].on))),
@@ -115,16 +115,16 @@ fn ground(review: &Review) -> Value {
     let coordinate = |k: usize| -half + 2.0 * half * k as f64 / (TERRAIN_SAMPLES - 1) as f64;
     let heights = (0..TERRAIN_SAMPLES).flat_map(|row| (0..TERRAIN_SAMPLES).map(move |column| (row, column)));
     let heights: Vec<Value> =
-        heights.map(|(row, column)| rounded(review.site.ground_up_m(coordinate(column), coordinate(row)), 1)).collect();
+        heights.map(|(row, column)| round_to_digits(review.site.ground_up_m(coordinate(column), coordinate(row)), 1)).collect();
     json!({ "half": half, "side": TERRAIN_SAMPLES, "heights": heights, "water": review.scenario.terrain.water_level_m })
 }
 
 fn place(point: Vec3<Enu>) -> [Value; 3] {
-    point.array().map(|value| rounded(value, 2))
+    point.array().map(|value| round_to_digits(value, 2))
 }
 
 /// Rounds a value to `digits` decimals (0 to 2) to keep the data block small.
-fn rounded(value: f64, digits: i32) -> Value {
+fn round_to_digits(value: f64, digits: i32) -> Value {
     let scale = match digits {
         0 => 1.0,
         1 => 10.0,
@@ -144,7 +144,7 @@ mod tests {
         let text = escape_json(&evil.to_string());
         assert!(!text.contains('<'));
         assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), evil);
-        assert_eq!(rounded(1.005, 1), json!(1.0));
-        assert_eq!(rounded(f64::INFINITY, 2), Value::Null);
+        assert_eq!(round_to_digits(1.005, 1), json!(1.0));
+        assert_eq!(round_to_digits(f64::INFINITY, 2), Value::Null);
     }
 }

@@ -22,8 +22,8 @@ pub fn header(review: &Review) -> Markup {
                 p.kicker { "Session report" }
                 h1 { (review.scenario.title) }
                 p {
-                    b { (review.about.trainee) } " · " (utc(&review.about.started_utc)) " · " (review.vehicle.name)
-                    @if let Some(purpose) = &review.about.purpose { " · " (purpose) }
+                    b { (review.metadata.trainee) } " · " (utc(&review.metadata.started_utc)) " · " (review.vehicle.name)
+                    @if let Some(purpose) = &review.metadata.purpose { " · " (purpose) }
                 }
                 p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
             }

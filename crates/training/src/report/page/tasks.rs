@@ -35,7 +35,7 @@ pub fn section(review: &Review) -> Markup {
             }))
         }
         ul { @for (k, task) in review.assessment.tasks.iter().enumerate() {
-            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.words(task.covered, done_share)) }
+            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.description(task.covered, done_share)) }
         } }
         (task_table(review).folded())
         (crash_table(review).folded())

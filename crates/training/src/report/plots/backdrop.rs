@@ -1,20 +1,20 @@
 //! Water and ground in the background of a drawing.
 
 use super::plot_map::PlotMap;
-use super::{coord, line, simplified};
+use super::{coord, line, simplify_polyline};
 use maud::{Markup, html};
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 
 /// Distance between samples of water and ground, m.
-const GROUND_STEP_M: f64 = 5.0;
+const GROUND_SAMPLE_SPACING_M: f64 = 5.0;
 
 /// Draws the water in plan view as horizontal strips between the shores.
 pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
     let terrain = &scenario.terrain;
     let half = 0.5 * terrain.size_m;
-    let count = (terrain.size_m / GROUND_STEP_M).floor().clamp(1.0, 400.0) as usize;
+    let count = (terrain.size_m / GROUND_SAMPLE_SPACING_M).floor().clamp(1.0, 400.0) as usize;
     let coordinate = |k: usize| -half + (k as f64 + 0.5) * 2.0 * half / count as f64;
     let mut strips = Vec::new();
     for row in 0..count {
@@ -35,7 +35,7 @@ pub(super) fn lake(scenario: &Scenario, site: &Site, map: &PlotMap) -> Markup {
         }
         strips.extend(wet.map(|from| (from, half, n)));
     }
-    let side = GROUND_STEP_M * map.scale;
+    let side = GROUND_SAMPLE_SPACING_M * map.scale;
     html! {
         g.lake {
             @for (from, to, n) in strips {
@@ -60,7 +60,7 @@ pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &B
     let middle = map.view.at(bridge.center_m).0;
     let from = map.corner_m.0;
     let to = from + map.size.0 / map.scale;
-    let count = ((to - from) / GROUND_STEP_M).ceil().clamp(1.0, 400.0) as usize;
+    let count = ((to - from) / GROUND_SAMPLE_SPACING_M).ceil().clamp(1.0, 400.0) as usize;
     let half = 0.5 * scenario.terrain.size_m;
     let profile = (0..=count).map(|k| {
         let along = from + (to - from) * k as f64 / count as f64;
@@ -74,7 +74,7 @@ pub(super) fn ground(scenario: &Scenario, site: &Site, map: &PlotMap, bridge: &B
     let (_, water) = map.drawing_from_view((0.0, scenario.terrain.water_level_m));
     html! {
         rect.water x="0" y=(coord(water)) width=(coord(map.size.0)) height=(coord((map.size.1 - water).max(0.0))) {}
-        path.ground d=(line(&simplified(&corners, 0.3), true)) {}
+        path.ground d=(line(&simplify_polyline(&corners, 0.3), true)) {}
     }
 }
 

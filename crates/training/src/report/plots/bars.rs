@@ -5,9 +5,9 @@ use crate::report::formatting;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 420.0;
-const LEFT: f64 = 4.0;
-const RIGHT: f64 = 372.0;
-const BAR: f64 = 14.0;
+const LEFT_X: f64 = 4.0;
+const RIGHT_X: f64 = 372.0;
+const BAR_HEIGHT: f64 = 14.0;
 
 /// A row of bars that show fractions.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,7 @@ pub struct ShareRow {
 /// Returns the length of the bar for `share` on an axis that ends at `full`, in drawing units.
 #[must_use]
 pub fn length(share: f64, full: f64) -> f64 {
-    if full > 0.0 { (RIGHT - LEFT) * (share / full).clamp(0.0, 1.0) } else { 0.0 }
+    if full > 0.0 { (RIGHT_X - LEFT_X) * (share / full).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Draws rows of fractions, each with its label above the bars.
@@ -33,7 +33,7 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
     let mut places = Vec::new();
     for row in rows {
         places.push(y);
-        y += 22.0 + (BAR + 4.0) * row.bars.len().max(1) as f64 + 8.0;
+        y += 22.0 + (BAR_HEIGHT + 4.0) * row.bars.len().max(1) as f64 + 8.0;
     }
     svg_figure(
         (WIDTH, y),
@@ -41,14 +41,14 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
         "bars",
         &html! {
             @for (row, top) in rows.iter().zip(&places) {
-                text.label x=(coord(LEFT)) y=(coord(top + 14.0)) { (row.name) }
+                text.label x=(coord(LEFT_X)) y=(coord(top + 14.0)) { (row.name) }
                 @if let Some(words) = row.placeholder {
-                    text.tick x=(coord(LEFT)) y=(coord(top + 22.0 + 11.0)) { (words) }
+                    text.tick x=(coord(LEFT_X)) y=(coord(top + 22.0 + 11.0)) { (words) }
                 } @else {
                     @for (k, (class, share)) in row.bars.iter().enumerate() {
-                        @let at = top + 22.0 + (BAR + 4.0) * k as f64;
-                        rect.track x=(coord(LEFT)) y=(coord(at)) width=(coord(RIGHT - LEFT)) height=(coord(BAR)) rx="3" {}
-                        rect class=(class) x=(coord(LEFT)) y=(coord(at)) width=(coord(length(*share, 1.0))) height=(coord(BAR)) rx="3" {}
+                        @let at = top + 22.0 + (BAR_HEIGHT + 4.0) * k as f64;
+                        rect.track x=(coord(LEFT_X)) y=(coord(at)) width=(coord(RIGHT_X - LEFT_X)) height=(coord(BAR_HEIGHT)) rx="3" {}
+                        rect class=(class) x=(coord(LEFT_X)) y=(coord(at)) width=(coord(length(*share, 1.0))) height=(coord(BAR_HEIGHT)) rx="3" {}
                         text.tick x=(coord(WIDTH - 2.0)) y=(coord(at + 11.5)) text-anchor="end" { (formatting::number(100.0 * share, 0)) "%" }
                     }
                 }
@@ -70,7 +70,7 @@ pub struct CountRow {
 #[must_use]
 pub fn counts(rows: &[CountRow], title: &str) -> Markup {
     let sum = |row: &CountRow| row.kinds.iter().map(|(_, count)| count).sum::<usize>();
-    let most = rows.iter().map(sum).max().unwrap_or(0).max(4) as f64;
+    let max_value = rows.iter().map(sum).max().unwrap_or(0).max(4) as f64;
     svg_figure(
         (WIDTH, 40.0 * rows.len() as f64 + 4.0),
         title,
@@ -78,14 +78,14 @@ pub fn counts(rows: &[CountRow], title: &str) -> Markup {
         &html! {
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 40.0 * k as f64;
-                text.label x=(coord(LEFT)) y=(coord(top + 14.0)) { (row.name) }
+                text.label x=(coord(LEFT_X)) y=(coord(top + 14.0)) { (row.name) }
                 @let kinds: Vec<_> = row.kinds.iter().map(|(class, count)| (*class, *count as f64)).collect();
                 @for (class, from, count) in parts(&kinds) {
-                    rect class=(class) x=(coord(LEFT + length(from, most))) y=(coord(top + 19.0))
-                        width=(coord((length(count, most) - 1.5).max(1.0))) height=(coord(BAR)) rx="2" {}
+                    rect class=(class) x=(coord(LEFT_X + length(from, max_value))) y=(coord(top + 19.0))
+                        width=(coord((length(count, max_value) - 1.5).max(1.0))) height=(coord(BAR_HEIGHT)) rx="2" {}
                 }
                 @let total = sum(row);
-                text.tick x=(coord(LEFT + length(total as f64, most) + 5.0)) y=(coord(top + 30.5)) { (total) }
+                text.tick x=(coord(LEFT_X + length(total as f64, max_value) + 5.0)) y=(coord(top + 30.5)) { (total) }
             }
         },
     )
@@ -111,10 +111,10 @@ pub fn stacked_bars(rows: &[StackedBar], title: &str) -> Markup {
         &html! {
             @for (k, row) in rows.iter().enumerate() {
                 @let top = 44.0 * k as f64;
-                text.label x=(coord(LEFT)) y=(coord(top + 14.0)) { (row.name) }
-                rect.track x=(coord(LEFT)) y=(coord(top + 21.0)) width=(coord(RIGHT - LEFT)) height=(coord(BAR)) rx="2" {}
+                text.label x=(coord(LEFT_X)) y=(coord(top + 14.0)) { (row.name) }
+                rect.track x=(coord(LEFT_X)) y=(coord(top + 21.0)) width=(coord(RIGHT_X - LEFT_X)) height=(coord(BAR_HEIGHT)) rx="2" {}
                 @for (class, from, share) in parts(&row.parts) {
-                    rect class=(class) x=(coord(LEFT + length(from, 1.0))) y=(coord(top + 21.0)) width=(coord(length(share, 1.0))) height=(coord(BAR)) {}
+                    rect class=(class) x=(coord(LEFT_X + length(from, 1.0))) y=(coord(top + 21.0)) width=(coord(length(share, 1.0))) height=(coord(BAR_HEIGHT)) {}
                 }
                 @let first = row.parts.first().map_or(0.0, |part| part.1);
                 text.tick x=(coord(WIDTH - 2.0)) y=(coord(top + 32.5)) text-anchor="end" { (formatting::number(100.0 * first, 0)) "%" }

@@ -1,14 +1,14 @@
 //! The flight path's three color modes: the value shown, the legend, and segments of equal color.
 
 use super::plot_map::{PlotMap, TRACK_TOLERANCE};
-use super::{line, simplified};
+use super::{line, simplify_polyline};
 use crate::report::Review;
 use crate::report::formatting;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
 
 /// Limits of the clearance colors, m, ascending.
-pub const CLEARANCES_M: [f64; 3] = [1.0, 2.5, 5.0];
+pub const CLEARANCE_LIMITS_M: [f64; 3] = [1.0, 2.5, 5.0];
 
 /// Color modes of the flight path: selection label and CSS class of the layer.
 pub const COLOR_MODES: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
@@ -43,7 +43,7 @@ fn color_segments(
     let mut color = 0;
     let mut close = |run: &mut Vec<(f64, f64)>, color: usize| {
         if run.len() > 1 {
-            color_segments[color].push_str(&line(&simplified(run, TRACK_TOLERANCE), false));
+            color_segments[color].push_str(&line(&simplify_polyline(run, TRACK_TOLERANCE), false));
         }
         run.clear();
     };
@@ -95,7 +95,7 @@ pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
             format!("over the limit of {} m/s", formatting::number(limit_m_s, 2)),
         ],
         _ => {
-            let [a, b, c] = CLEARANCES_M.map(|limit| formatting::number(limit, 1));
+            let [a, b, c] = CLEARANCE_LIMITS_M.map(|limit| formatting::number(limit, 1));
             vec![
                 "nothing nearby".into(),
                 format!("over {c} m"),
@@ -127,7 +127,7 @@ fn speed_class(speed_m_s: f64, limit_m_s: f64) -> usize {
 }
 
 fn clearance_class(clearance_m: f64) -> usize {
-    4 - CLEARANCES_M.iter().filter(|limit| clearance_m >= **limit).count()
+    4 - CLEARANCE_LIMITS_M.iter().filter(|limit| clearance_m >= **limit).count()
 }
 
 #[cfg(test)]
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_speed_and_clearance_color_classes() {
+    fn exact_speeds_and_clearances_map_to_color_classes() {
         assert_eq!([0.0, 1.0, 1.1, 3.0, 4.0, 4.1].map(|v| speed_class(v, 4.0)), [0, 0, 1, 2, 3, 4]);
         assert_eq!([0.2, 1.0, 2.5, 5.0, 9.0].map(clearance_class), [4, 3, 2, 1, 1]);
         for layer in 0..3 {

@@ -6,35 +6,36 @@ use crate::statistics::HistogramBin;
 use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (312.0, 150.0);
-const LEFT: f64 = 44.0;
-const RIGHT: f64 = 290.0;
-const TOP: f64 = 8.0;
-const BOTTOM: f64 = 122.0;
+const LEFT_X: f64 = 44.0;
+const RIGHT_X: f64 = 290.0;
+const TOP_Y: f64 = 8.0;
+const BOTTOM_Y: f64 = 122.0;
 
 /// Draws the bins as bars and the mean as a vertical line.
 #[must_use]
 pub fn histogram(bins: &[HistogramBin], mean: f64, title: &str) -> Markup {
     let (from, to) = (bins.first().map_or(0.0, |bin| bin.from), bins.last().map_or(1.0, |bin| bin.to));
-    let most = bins.iter().map(|bin| bin.count).max().unwrap_or(0).max(2) as f64;
-    let x = |value: f64| LEFT + (RIGHT - LEFT) * if to > from { ((value - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-    let y = |count: f64| BOTTOM - (BOTTOM - TOP) * count / most;
+    let max_value = bins.iter().map(|bin| bin.count).max().unwrap_or(0).max(2) as f64;
+    let x =
+        |value: f64| LEFT_X + (RIGHT_X - LEFT_X) * if to > from { ((value - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+    let y = |count: f64| BOTTOM_Y - (BOTTOM_Y - TOP_Y) * count / max_value;
     svg_figure(
         SIZE,
         title,
         "histogram",
         &html! {
             // Counts are integers, so fractional ticks are omitted.
-            @for tick in ticks(most, 4).into_iter().filter(|tick| tick.fract() == 0.0) {
-                path.grid d=(line(&[(LEFT, y(tick)), (RIGHT, y(tick))], false)) {}
-                text.tick x=(coord(LEFT - 5.0)) y=(coord(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
+            @for tick in ticks(max_value, 4).into_iter().filter(|tick| tick.fract() == 0.0) {
+                path.grid d=(line(&[(LEFT_X, y(tick)), (RIGHT_X, y(tick))], false)) {}
+                text.tick x=(coord(LEFT_X - 5.0)) y=(coord(y(tick) + 4.0)) text-anchor="end" { (formatting::number(tick, 0)) }
             }
             @for bin in bins.iter().filter(|bin| bin.count > 0) {
-                rect.bar x=(coord(x(bin.from) + 0.5)) y=(coord(y(bin.count as f64))) width=(coord(x(bin.to) - x(bin.from) - 1.0)) height=(coord(BOTTOM - y(bin.count as f64))) {
+                rect.bar x=(coord(x(bin.from) + 0.5)) y=(coord(y(bin.count as f64))) width=(coord(x(bin.to) - x(bin.from) - 1.0)) height=(coord(BOTTOM_Y - y(bin.count as f64))) {
                     title { (bin.count) " from " (formatting::number(bin.from, 0)) " to " (formatting::number(bin.to, 0)) }
                 }
             }
-            path.median d=(line(&[(x(mean), TOP), (x(mean), BOTTOM)], false)) { title { "mean " (formatting::number(mean, 1)) } }
-            @for tick in ticks(to, 4) { text.tick x=(coord(x(tick))) y=(coord(BOTTOM + 17.0)) text-anchor="middle" { (formatting::number(tick, 0)) } }
+            path.median d=(line(&[(x(mean), TOP_Y), (x(mean), BOTTOM_Y)], false)) { title { "mean " (formatting::number(mean, 1)) } }
+            @for tick in ticks(to, 4) { text.tick x=(coord(x(tick))) y=(coord(BOTTOM_Y + 17.0)) text-anchor="middle" { (formatting::number(tick, 0)) } }
         },
     )
 }

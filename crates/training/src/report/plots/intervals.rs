@@ -5,9 +5,9 @@ use crate::report::formatting;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 620.0;
-const LEFT: f64 = 220.0;
-const RIGHT: f64 = 600.0;
-const ROW: f64 = 34.0;
+const LEFT_X: f64 = 220.0;
+const RIGHT_X: f64 = 600.0;
+const ROW_HEIGHT: f64 = 34.0;
 /// Margin beyond the outermost values, as a fraction of their range.
 const AXIS_MARGIN: f64 = 0.08;
 
@@ -34,14 +34,14 @@ pub fn axis_range(estimates: &[IntervalEstimate]) -> (f64, f64) {
 /// Returns the horizontal position of a value on an axis with this range.
 #[must_use]
 pub fn x_of(value: f64, (low, high): (f64, f64)) -> f64 {
-    LEFT + (RIGHT - LEFT) * if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
+    LEFT_X + (RIGHT_X - LEFT_X) * if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
 }
 
 /// Draws all estimates on a common axis with the label `axis`.
 #[must_use]
 pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Markup {
     let ends = axis_range(estimates);
-    let bottom = ROW * estimates.len() as f64 + 4.0;
+    let bottom = ROW_HEIGHT * estimates.len() as f64 + 4.0;
     let reach = ends.0.abs().max(ends.1.abs());
     let ticks = ticks(reach, 4);
     let below = ticks.iter().skip(1).map(|tick| -tick);
@@ -57,10 +57,10 @@ pub fn intervals(estimates: &[IntervalEstimate], axis: &str, title: &str) -> Mar
                 text.tick x=(coord(x_of(*tick, ends))) y=(coord(bottom + 15.0)) text-anchor="middle" { (formatting::number(*tick, digits)) }
             }
             path.zero d=(line(&[(x_of(0.0, ends), 0.0), (x_of(0.0, ends), bottom)], false)) {}
-            text.tick x=(coord(0.5 * (LEFT + RIGHT))) y=(coord(bottom + 34.0)) text-anchor="middle" { (axis) }
+            text.tick x=(coord(0.5 * (LEFT_X + RIGHT_X))) y=(coord(bottom + 34.0)) text-anchor="middle" { (axis) }
             @for (k, one) in estimates.iter().enumerate() {
-                @let y = ROW * k as f64 + 0.5 * ROW;
-                text.label x=(coord(LEFT - 12.0)) y=(coord(y + 5.0)) text-anchor="end" { (one.name) }
+                @let y = ROW_HEIGHT * k as f64 + 0.5 * ROW_HEIGHT;
+                text.label x=(coord(LEFT_X - 12.0)) y=(coord(y + 5.0)) text-anchor="end" { (one.name) }
                 @if let Some([low, high]) = one.interval {
                     path.whisker d={
                         (line(&[(x_of(low, ends), y), (x_of(high, ends), y)], false))

@@ -4,12 +4,12 @@ use super::{coord, svg_figure};
 use maud::{Markup, html};
 
 const WIDTH: f64 = 640.0;
-const MIDDLE: f64 = 320.0;
+const MIDDLE_X: f64 = 320.0;
 /// Width of 100%, in drawing units. A row with full agreement fits in the left half.
 const FULL_WIDTH: f64 = 300.0;
 /// Height of a question and its bar, in drawing units; extra lines of text add to it.
-const ROW: f64 = 42.0;
-const LINE: f64 = 15.0;
+const ROW_HEIGHT: f64 = 42.0;
+const LINE_HEIGHT: f64 = 15.0;
 /// Maximum number of characters per text line (for a wide sans-serif font at the label size).
 const MAX_LINE_CHARACTERS: usize = 84;
 
@@ -27,7 +27,7 @@ pub struct LikertQuestion {
 pub fn bars(counts: [usize; 5]) -> [(f64, f64); 5] {
     let n = counts.iter().sum::<usize>().max(1) as f64;
     let widths = counts.map(|count| FULL_WIDTH * count as f64 / n);
-    let mut at = MIDDLE - widths[0] - widths[1] - 0.5 * widths[2];
+    let mut at = MIDDLE_X - widths[0] - widths[1] - 0.5 * widths[2];
     widths.map(|width| {
         let from = at;
         at += width;
@@ -59,7 +59,7 @@ pub fn likert(questions: &[LikertQuestion], title: &str) -> Markup {
         .iter()
         .map(|question| {
             let (top, lines) = (height, lines(&question.name));
-            height += ROW + LINE * (lines.len() - 1) as f64;
+            height += ROW_HEIGHT + LINE_HEIGHT * (lines.len() - 1) as f64;
             (top, lines, question)
         })
         .collect();
@@ -72,10 +72,10 @@ pub fn likert(questions: &[LikertQuestion], title: &str) -> Markup {
 }
 
 fn row(top: f64, lines: &[String], question: &LikertQuestion) -> Markup {
-    let bar = top + 19.0 + LINE * (lines.len() - 1) as f64;
+    let bar = top + 19.0 + LINE_HEIGHT * (lines.len() - 1) as f64;
     html! {
         text.label x="4" y=(coord(top + 13.0)) {
-            @for (k, line) in lines.iter().enumerate() { tspan x="4" dy=(if k == 0 { 0.0 } else { LINE }) { (line) } " " }
+            @for (k, line) in lines.iter().enumerate() { tspan x="4" dy=(if k == 0 { 0.0 } else { LINE_HEIGHT }) { (line) } " " }
         }
         @for (answer, (x, width)) in bars(question.counts).into_iter().enumerate() {
             @let count = question.counts[answer];

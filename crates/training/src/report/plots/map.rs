@@ -4,7 +4,7 @@
 use super::backdrop::{ground, lake};
 use super::colors::{COLOR_MODES, track};
 use super::plot_map::{PlotMap, TRACK_TOLERANCE};
-use super::{coord, line, simplified, svg_figure};
+use super::{coord, line, simplify_polyline, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::outline::{ParallelView, outlines};
@@ -130,19 +130,19 @@ pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &st
     let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
     let map = PlotMap::around(view, &points.into_iter().filter(|point| point.up() > water_m - 6.0).collect::<Vec<_>>());
-    let mine = review.defects.iter().filter(|fate| fate.defect.member.starts_with(&prefix));
+    let mine = review.defects.iter().filter(|defect_outcome| defect_outcome.defect.member.starts_with(&prefix));
     svg_figure(
         map.size,
         title,
         "map",
         &html! {
             (structure(&review.site, &map, Some(&prefix)))
-            @for fate in mine {
-                @let (x, y) = map.at(fate.defect.position_m);
+            @for defect_outcome in mine {
+                @let (x, y) = map.at(defect_outcome.defect.position_m);
                 g transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
-                    title { "defect " (fate.defect.id) ": " (fate.words()) }
-                    @if fate.found_by.is_some() { circle.found r="9" {} } @else { path.missed d="M0 -12L12 0L0 12L-12 0Z" {} }
-                    text.mark y="4" text-anchor="middle" { (fate.defect.id) }
+                    title { "defect " (defect_outcome.defect.id) ": " (defect_outcome.description()) }
+                    @if defect_outcome.found_by.is_some() { circle.found r="9" {} } @else { path.missed d="M0 -12L12 0L0 12L-12 0Z" {} }
+                    text.mark y="4" text-anchor="middle" { (defect_outcome.defect.id) }
                 }
             }
         },
@@ -200,7 +200,7 @@ pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option
     };
     let reference = |task: &Task| {
         let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
-        line(&simplified(&points, TRACK_TOLERANCE), task.closed)
+        line(&simplify_polyline(&points, TRACK_TOLERANCE), task.closed)
     };
     html! {
         g.reference { @for task in scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }

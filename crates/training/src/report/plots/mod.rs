@@ -47,7 +47,7 @@ pub fn line(points: &[(f64, f64)], closed: bool) -> String {
 /// Simplifies a polyline with the Ramer-Douglas-Peucker algorithm. Omitted points are at most `within` away from the
 /// result.
 #[must_use]
-pub fn simplified(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
+pub fn simplify_polyline(points: &[(f64, f64)], within: f64) -> Vec<(f64, f64)> {
     if points.len() < 3 {
         return points.to_vec();
     }
@@ -77,13 +77,13 @@ fn distance_to_segment(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     spandrel_model::math::hypot(p.0 - a.0 - t * dx, p.1 - a.1 - t * dy)
 }
 
-/// Returns at most `about` + 1 round values for axis ticks from 0 to `most`.
+/// Returns at most `target_intervals` + 1 round values for axis ticks from 0 to `max_value`.
 #[must_use]
-pub fn ticks(most: f64, about: usize) -> Vec<f64> {
-    if most.is_nan() || most <= 0.0 || about == 0 {
+pub fn ticks(max_value: f64, target_intervals: usize) -> Vec<f64> {
+    if max_value.is_nan() || max_value <= 0.0 || target_intervals == 0 {
         return vec![0.0];
     }
-    let rough = most / about as f64;
+    let rough = max_value / target_intervals as f64;
     let mut decade = 1.0;
     while decade * 10.0 <= rough {
         decade *= 10.0;
@@ -92,7 +92,7 @@ pub fn ticks(most: f64, about: usize) -> Vec<f64> {
         decade /= 10.0;
     }
     let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * decade).into_iter().find(|step| *step >= rough).unwrap_or(10.0 * decade);
-    (0..=about).map(|k| k as f64 * step).take_while(|tick| *tick <= most * (1.0 + 1e-9)).collect()
+    (0..=target_intervals).map(|k| k as f64 * step).take_while(|tick| *tick <= max_value * (1.0 + 1e-9)).collect()
 }
 
 /// Wraps a figure in an SVG element with a title for screen readers.
@@ -119,11 +119,11 @@ mod tests {
     #[test]
     fn exact_simplification_keeps_ends_and_corners() {
         let straight: Vec<(f64, f64)> = (0..100).map(|k| (f64::from(k), 0.0)).collect();
-        assert_eq!(simplified(&straight, 0.1), [(0.0, 0.0), (99.0, 0.0)]);
+        assert_eq!(simplify_polyline(&straight, 0.1), [(0.0, 0.0), (99.0, 0.0)]);
         let corner = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (2.0, 2.0)];
-        assert_eq!(simplified(&corner, 0.1), [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)]);
-        assert_eq!(simplified(&[], 0.1), []);
-        assert_eq!(simplified(&[(1.0, 1.0)], 0.1), [(1.0, 1.0)]);
+        assert_eq!(simplify_polyline(&corner, 0.1), [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)]);
+        assert_eq!(simplify_polyline(&[], 0.1), []);
+        assert_eq!(simplify_polyline(&[(1.0, 1.0)], 0.1), [(1.0, 1.0)]);
     }
 
     #[test]

@@ -6,12 +6,12 @@ use maud::{Markup, html};
 
 const SIZE: (f64, f64) = (854.0, 268.0);
 /// Width and height of a box, in drawing units.
-const BOX: (f64, f64) = (150.0, 54.0);
-const ROW: f64 = 128.0;
-const DEMAND: f64 = 12.0;
-const STRAIN: f64 = 352.0;
-const PERFORMANCE: f64 = 692.0;
-const FEEDBACK: (f64, f64) = (182.0, 10.0);
+const BOX_SIZE: (f64, f64) = (150.0, 54.0);
+const MIDDLE_ROW_Y: f64 = 128.0;
+const DEMAND_X: f64 = 12.0;
+const STRAIN_X: f64 = 352.0;
+const PERFORMANCE_X: f64 = 692.0;
+const FEEDBACK_POSITION: (f64, f64) = (182.0, 10.0);
 /// Half the width of an arrowhead, in drawing units.
 const ARROWHEAD_HALF_WIDTH: f64 = 5.0;
 
@@ -40,26 +40,26 @@ pub struct PathEffects {
 /// Draws the path diagram.
 #[must_use]
 pub fn model(effects: &PathEffects, title: &str) -> Markup {
-    let middle = ROW + 0.5 * BOX.1;
-    let (from, to) = (DEMAND + BOX.0, STRAIN);
+    let middle = MIDDLE_ROW_Y + 0.5 * BOX_SIZE.1;
+    let (from, to) = (DEMAND_X + BOX_SIZE.0, STRAIN_X);
     let crossing = 0.5 * (from + to);
     svg_figure(
         SIZE,
         title,
         "model-drawing",
         &html! {
-            (labeled_box((DEMAND, ROW), "Demand", "mental, physical"))
-            (labeled_box((STRAIN, ROW), "Strain", "pressure, frustration"))
-            (labeled_box((PERFORMANCE, ROW), "Performance", "overall score (%)"))
-            (labeled_box(FEEDBACK, "Feedback", "helpfulness"))
+            (labeled_box((DEMAND_X, MIDDLE_ROW_Y), "Demand", "mental, physical"))
+            (labeled_box((STRAIN_X, MIDDLE_ROW_Y), "Strain", "pressure, frustration"))
+            (labeled_box((PERFORMANCE_X, MIDDLE_ROW_Y), "Performance", "overall score (%)"))
+            (labeled_box(FEEDBACK_POSITION, "Feedback", "helpfulness"))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))
-            (arrow(&[(STRAIN + BOX.0, middle), (PERFORMANCE, middle)], &effects.on_performance))
-            (effect_text((0.5 * (STRAIN + BOX.0 + PERFORMANCE), middle + 24.0), &effects.on_performance))
-            (arrow(&[(crossing, FEEDBACK.1 + BOX.1), (crossing, middle - 2.0)], &effects.moderation))
-            text.value x=(coord(crossing + 10.0)) y=(coord(FEEDBACK.1 + BOX.1 + 28.0)) { (effects.moderation.label) }
-            @let (down, low) = (ROW + BOX.1, SIZE.1 - 30.0);
-            (arrow(&[(DEMAND + 0.5 * BOX.0, down), (DEMAND + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, low), (PERFORMANCE + 0.5 * BOX.0, down)], &effects.direct))
+            (arrow(&[(STRAIN_X + BOX_SIZE.0, middle), (PERFORMANCE_X, middle)], &effects.on_performance))
+            (effect_text((0.5 * (STRAIN_X + BOX_SIZE.0 + PERFORMANCE_X), middle + 24.0), &effects.on_performance))
+            (arrow(&[(crossing, FEEDBACK_POSITION.1 + BOX_SIZE.1), (crossing, middle - 2.0)], &effects.moderation))
+            text.value x=(coord(crossing + 10.0)) y=(coord(FEEDBACK_POSITION.1 + BOX_SIZE.1 + 28.0)) { (effects.moderation.label) }
+            @let (down, low) = (MIDDLE_ROW_Y + BOX_SIZE.1, SIZE.1 - 30.0);
+            (arrow(&[(DEMAND_X + 0.5 * BOX_SIZE.0, down), (DEMAND_X + 0.5 * BOX_SIZE.0, low), (PERFORMANCE_X + 0.5 * BOX_SIZE.0, low), (PERFORMANCE_X + 0.5 * BOX_SIZE.0, down)], &effects.direct))
             (effect_text((0.5 * SIZE.0, low + 20.0), &effects.direct))
         },
     )
@@ -67,9 +67,9 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
 
 fn labeled_box((x, y): (f64, f64), name: &str, what: &str) -> Markup {
     html! {
-        rect.node x=(coord(x)) y=(coord(y)) width=(coord(BOX.0)) height=(coord(BOX.1)) rx="8" {}
-        text.label x=(coord(x + 0.5 * BOX.0)) y=(coord(y + 23.0)) text-anchor="middle" { (name) }
-        text.tick x=(coord(x + 0.5 * BOX.0)) y=(coord(y + 41.0)) text-anchor="middle" { (what) }
+        rect.node x=(coord(x)) y=(coord(y)) width=(coord(BOX_SIZE.0)) height=(coord(BOX_SIZE.1)) rx="8" {}
+        text.label x=(coord(x + 0.5 * BOX_SIZE.0)) y=(coord(y + 23.0)) text-anchor="middle" { (name) }
+        text.tick x=(coord(x + 0.5 * BOX_SIZE.0)) y=(coord(y + 41.0)) text-anchor="middle" { (what) }
     }
 }
 

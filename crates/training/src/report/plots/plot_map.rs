@@ -7,7 +7,7 @@ use spandrel_model::frames::{Enu, Vec3};
 const WIDTH: f64 = 900.0;
 pub(super) const MARGIN: f64 = 26.0;
 /// Minimum and maximum height of a drawing, in drawing units.
-const HEIGHTS: (f64, f64) = (110.0, 760.0);
+const HEIGHT_RANGE: (f64, f64) = (110.0, 760.0);
 /// Tolerance for simplifying a flight path, in drawing units.
 pub(super) const TRACK_TOLERANCE: f64 = 0.35;
 
@@ -35,8 +35,8 @@ impl PlotMap {
         };
         let ((left, right), (low, high)) = (span(|p| p.0), span(|p| p.1));
         let (wide, tall) = ((right - left).max(10.0), (high - low).max(5.0));
-        let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHTS.1 - 2.0 * MARGIN) / tall);
-        let height = (tall * scale + 2.0 * MARGIN).max(HEIGHTS.0);
+        let scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHT_RANGE.1 - 2.0 * MARGIN) / tall);
+        let height = (tall * scale + 2.0 * MARGIN).max(HEIGHT_RANGE.0);
         // Content that does not fill the drawing is centered.
         let aside = (0.5 * (WIDTH / scale - (right - left)), 0.5 * (height / scale - (high - low)));
         Self { view, corner_m: (left - aside.0, high + aside.1), scale, size: (WIDTH, height) }

@@ -6,7 +6,7 @@ use maud::{Markup, html};
 use spandrel_model::math;
 
 const SIZE: (f64, f64) = (420.0, 360.0);
-const MIDDLE: (f64, f64) = (210.0, 186.0);
+const CENTER: (f64, f64) = (210.0, 186.0);
 const RADIUS: f64 = 118.0;
 
 /// One axis of the chart.
@@ -33,7 +33,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
     let count = spokes.len();
     let at = |k: usize, pct: f64| {
         let (x, y) = place(k, count, pct);
-        (MIDDLE.0 + x, MIDDLE.1 + y)
+        (CENTER.0 + x, CENTER.1 + y)
     };
     let ring = |pct: f64| line(&(0..count).map(|k| at(k, pct)).collect::<Vec<_>>(), true);
     let sessions = spokes.iter().map(|spoke| spoke.values.len()).max().unwrap_or(0);
@@ -48,11 +48,11 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
         &html! {
             @for pct in [25.0, 50.0, 75.0, 100.0] {
                 path.grid d=(ring(pct)) {}
-                @if pct < 100.0 { text.tick x=(coord(MIDDLE.0 + 4.0)) y=(coord(MIDDLE.1 - RADIUS * pct / 100.0 + 4.0)) { (formatting::number(pct, 0)) } }
+                @if pct < 100.0 { text.tick x=(coord(CENTER.0 + 4.0)) y=(coord(CENTER.1 - RADIUS * pct / 100.0 + 4.0)) { (formatting::number(pct, 0)) } }
             }
             @for (k, spoke) in spokes.iter().enumerate() {
                 @let (x, y) = at(k, 100.0);
-                path.grid d=(line(&[MIDDLE, (x, y)], false)) {}
+                path.grid d=(line(&[CENTER, (x, y)], false)) {}
                 @let (lx, ly) = label(at(k, 114.0));
                 text.label x=(coord(lx)) y=(coord(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
                 text.value x=(coord(lx)) y=(coord(ly + 22.0)) text-anchor=(anchor(lx)) {
@@ -69,13 +69,13 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
 
 /// Returns the position of a label. Labels at the top are moved up because they have two lines.
 fn label((x, y): (f64, f64)) -> (f64, f64) {
-    (x, if y < MIDDLE.1 - RADIUS { y - 18.0 } else { y })
+    (x, if y < CENTER.1 - RADIUS { y - 18.0 } else { y })
 }
 
 fn anchor(x: f64) -> &'static str {
-    if (x - MIDDLE.0).abs() < 20.0 {
+    if (x - CENTER.0).abs() < 20.0 {
         "middle"
-    } else if x > MIDDLE.0 {
+    } else if x > CENTER.0 {
         "start"
     } else {
         "end"
@@ -87,14 +87,17 @@ mod tests {
     use super::*;
 
     /// Rounding error of the sine function at multiples of 90 degrees, drawing units.
-    const ROUNDING: f64 = 1e-12;
+    const ROUNDING_TOLERANCE: f64 = 1e-12;
 
     #[test]
-    fn exact_radar_axis_directions_and_scale() {
+    fn exact_radar_axes_have_expected_directions_and_scale() {
         for (k, (x, y)) in [(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)].into_iter().enumerate() {
             for pct in [0.0, 50.0, 100.0] {
                 let (px, py) = place(k, 4, pct);
-                assert!((px - x * RADIUS * pct / 100.0).abs() < ROUNDING && (py - y * RADIUS * pct / 100.0).abs() < ROUNDING);
+                assert!(
+                    (px - x * RADIUS * pct / 100.0).abs() < ROUNDING_TOLERANCE
+                        && (py - y * RADIUS * pct / 100.0).abs() < ROUNDING_TOLERANCE
+                );
             }
         }
     }

@@ -5,9 +5,9 @@ use crate::report::formatting;
 use maud::{Markup, html};
 
 const WIDTH: f64 = 900.0;
-const LEFT: f64 = 118.0;
-const RIGHT: f64 = 890.0;
-const ROW: f64 = 26.0;
+const LEFT_X: f64 = 118.0;
+const RIGHT_X: f64 = 890.0;
+const ROW_HEIGHT: f64 = 26.0;
 
 /// A row of the timeline.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,13 +23,13 @@ pub struct TimelineRow {
 /// Returns the horizontal position of a time in the drawing.
 #[must_use]
 pub fn x_of(t_s: f64, end_s: f64) -> f64 {
-    LEFT + (RIGHT - LEFT) * if end_s > 0.0 { (t_s / end_s).clamp(0.0, 1.0) } else { 0.0 }
+    LEFT_X + (RIGHT_X - LEFT_X) * if end_s > 0.0 { (t_s / end_s).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// Draws all rows on a time axis from 0 to `end_s`.
 #[must_use]
 pub fn strips(rows: &[TimelineRow], end_s: f64, title: &str) -> Markup {
-    let bottom = 6.0 + ROW * rows.len() as f64;
+    let bottom = 6.0 + ROW_HEIGHT * rows.len() as f64;
     // Ticks at whole or half minutes are easier to read than ticks at tenths of a minute.
     let minutes = ticks(end_s / 60.0, 8);
     svg_figure(
@@ -43,9 +43,9 @@ pub fn strips(rows: &[TimelineRow], end_s: f64, title: &str) -> Markup {
                 text.tick x=(coord(x)) y=(coord(bottom + 16.0)) text-anchor="middle" { (formatting::clock(60.0 * minute)) }
             }
             @for (k, row) in rows.iter().enumerate() {
-                @let top = 6.0 + ROW * k as f64;
-                text.label x=(coord(LEFT - 10.0)) y=(coord(top + 14.0)) text-anchor="end" { (row.name) }
-                path.grid d=(line(&[(LEFT, top + 9.5), (RIGHT, top + 9.5)], false)) {}
+                @let top = 6.0 + ROW_HEIGHT * k as f64;
+                text.label x=(coord(LEFT_X - 10.0)) y=(coord(top + 14.0)) text-anchor="end" { (row.name) }
+                path.grid d=(line(&[(LEFT_X, top + 9.5), (RIGHT_X, top + 9.5)], false)) {}
                 @for (class, from_s, to_s, said) in &row.intervals {
                     @let x = x_of(*from_s, end_s);
                     rect class=(class) x=(coord(x)) y=(coord(top + 2.0)) width=(coord((x_of(*to_s, end_s) - x).max(1.5))) height="15" rx="2" {
@@ -56,7 +56,7 @@ pub fn strips(rows: &[TimelineRow], end_s: f64, title: &str) -> Markup {
                     circle class=(class) cx=(coord(x_of(*t_s, end_s))) cy=(coord(top + 9.5)) r="5" { title { (said) } }
                 }
             }
-            path.cursor data-left=(coord(LEFT)) data-right=(coord(RIGHT)) d=(line(&[(0.0, 0.0), (0.0, bottom)], false)) {}
+            path.cursor data-left=(coord(LEFT_X)) data-right=(coord(RIGHT_X)) d=(line(&[(0.0, 0.0), (0.0, bottom)], false)) {}
         },
     )
 }

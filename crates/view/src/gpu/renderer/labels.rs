@@ -66,7 +66,7 @@ fn read(gpu: &Gpu, texture: &wgpu::Texture) -> Result<LabelMask, GpuError> {
     let number = |k: usize| u16::from_le_bytes([bytes[k], bytes[k + 1]]);
     let of = |channel: usize| {
         (0..bytes.len() / BYTES_PER_PIXEL as usize)
-            .map(|k| LabelMask::half_to_integer(number(BYTES_PER_PIXEL as usize * k + channel)))
+            .map(|k| LabelMask::half_float_to_integer(number(BYTES_PER_PIXEL as usize * k + channel)))
             .collect()
     };
     Ok(LabelMask { width, height, elements: of(0), defects: of(2) })

@@ -20,7 +20,7 @@ use spandrel_mavlink::dialect::{
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
-use storage_card::{CARD_MIB, StorageCard};
+use storage_card::{CARD_CAPACITY_MIB, StorageCard};
 pub use summary::CameraSummary;
 use zoom::{ZoomCommand, ZoomLens};
 
@@ -36,26 +36,26 @@ pub struct CameraSettings {
     /// Whether images are saved at high quality, which requires more storage.
     pub high_quality: bool,
     /// Video bit rate, Mbit/s.
-    pub video_mbit_s: u32,
+    pub video_bit_rate_mbit_s: u32,
 }
 
 impl Default for CameraSettings {
     fn default() -> Self {
-        Self { high_quality: true, video_mbit_s: 60 }
+        Self { high_quality: true, video_bit_rate_mbit_s: 60 }
     }
 }
 
 impl CameraSettings {
     /// Size of one image, MiB (estimate: 12 MP JPEG at low and high compression).
     #[must_use]
-    pub fn picture_mib(&self) -> f64 {
+    pub fn picture_size_mib(&self) -> f64 {
         if self.high_quality { 6.0 } else { 3.0 }
     }
 
     /// Video data rate, MiB/s.
     #[must_use]
-    pub fn video_mib_s(&self) -> f64 {
-        f64::from(self.video_mbit_s) * 1e6 / 8.0 / MIB
+    pub fn video_data_rate_mib_s(&self) -> f64 {
+        f64::from(self.video_bit_rate_mbit_s) * 1e6 / 8.0 / MIB
     }
 }
 
@@ -137,12 +137,12 @@ impl CameraState {
             announced: self.announced.parameter && !self.announced.disabled_at_start,
             pictures: self.image_count(),
             interval_s: self.series.interval_s(),
-            series: self.series.is_by_distance(),
+            series: self.series.is_distance_triggered(),
             mode: self.mode,
             recording: self.recording.map(|recording| now - recording.since),
-            used_mib: self.used_mib(now),
+            used_mib: self.used_storage_mib(now),
             zoom: self.zoom.level(),
-            video_mbit_s: self.settings.video_mbit_s,
+            video_bit_rate_mbit_s: self.settings.video_bit_rate_mbit_s,
             stream: self.stream.running(now),
         }
     }
@@ -154,15 +154,15 @@ impl CameraState {
     }
 
     /// Returns the used storage in MiB, including the current recording.
-    fn used_mib(&self, now: SimTime) -> f64 {
-        let running = self.recording.map_or(0.0, |recording| (now - recording.since).s() * self.settings.video_mib_s());
-        (self.card.used_mib() + running).min(CARD_MIB)
+    fn used_storage_mib(&self, now: SimTime) -> f64 {
+        let running = self.recording.map_or(0.0, |recording| (now - recording.since).s() * self.settings.video_data_rate_mib_s());
+        (self.card.used_storage_mib() + running).min(CARD_CAPACITY_MIB)
     }
 
     /// Checks whether the card is too full for another image.
     #[must_use]
     pub fn is_full(&self, now: SimTime) -> bool {
-        self.used_mib(now) + self.settings.picture_mib() > CARD_MIB
+        self.used_storage_mib(now) + self.settings.picture_size_mib() > CARD_CAPACITY_MIB
     }
 
     /// Starts a series or takes one image. If `count` is 0, the series continues until it is stopped.
@@ -181,11 +181,17 @@ impl CameraState {
     ///
     /// # Errors
     /// Returns an error if the card is full or a value is invalid.
-    pub fn start_by_distance(&mut self, distance_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> Result<(), CameraError> {
+    pub fn start_distance_triggered_series(
+        &mut self,
+        distance_m: f64,
+        first: bool,
+        here: Vec3<Enu>,
+        now: SimTime,
+    ) -> Result<(), CameraError> {
         if distance_m > 0.0 && self.is_full(now) {
             return Err(CameraError::Full);
         }
-        if self.series.start_by_distance(distance_m, first, here, now) { Ok(()) } else { Err(CameraError::Invalid) }
+        if self.series.start_distance_triggered_series(distance_m, first, here, now) { Ok(()) } else { Err(CameraError::Invalid) }
     }
 
     /// Checks whether a numbered single-image command repeats the last one. Clients send repeats after a lost
@@ -196,7 +202,7 @@ impl CameraState {
     }
 
     /// Records a single-image command as executed.
-    pub fn remember(&mut self, from: (u8, u8), number: u32, now: SimTime) {
+    pub fn record_capture_command(&mut self, from: (u8, u8), number: u32, now: SimTime) {
         self.last = Some((from, number, now));
     }
 
@@ -241,8 +247,8 @@ impl CameraState {
     /// Stops the recording.
     pub fn stop_recording(&mut self, now: SimTime) {
         if let Some(recording) = self.recording.take() {
-            let room = CARD_MIB - self.card.used_mib();
-            self.card.add_video(((now - recording.since).s() * self.settings.video_mib_s()).min(room));
+            let room = CARD_CAPACITY_MIB - self.card.used_storage_mib();
+            self.card.add_video(((now - recording.since).s() * self.settings.video_data_rate_mib_s()).min(room));
         }
     }
 
@@ -281,7 +287,7 @@ impl CameraState {
     /// # Errors
     /// Returns an error if the video bit rate would change while recording.
     pub fn set(&mut self, settings: CameraSettings) -> Result<(), CameraError> {
-        if self.recording.is_some() && settings.video_mbit_s != self.settings.video_mbit_s {
+        if self.recording.is_some() && settings.video_bit_rate_mbit_s != self.settings.video_bit_rate_mbit_s {
             return Err(CameraError::Recording);
         }
         self.settings = settings;
@@ -298,7 +304,7 @@ impl CameraState {
         if self.recording.is_none() {
             return;
         }
-        if self.used_mib(now) >= CARD_MIB {
+        if self.used_storage_mib(now) >= CARD_CAPACITY_MIB {
             self.stop_recording(now);
             changes.add_warning("Memory card full");
             changes.add_message(STORAGE_INFORMATION_DATA::ID);
@@ -322,7 +328,7 @@ impl CameraState {
     /// Captures and stores the next image and returns its message. A full card ends every series.
     pub fn take(&mut self, image: CaptureRecord, now: SimTime, here: Vec3<Enu>) -> MavMessage {
         let message = image.message();
-        self.card.add_picture(image, self.settings.picture_mib());
+        self.card.add_picture(image, self.settings.picture_size_mib());
         self.series.taken(now, here);
         if self.is_full(now) {
             self.series.cancel();
@@ -356,13 +362,16 @@ mod tests {
             indices.push(image.image_index);
             now += SimTime::from_s(1.0);
         }
-        let most = (CARD_MIB / CameraSettings::default().picture_mib()) as i32;
+        let most = (CARD_CAPACITY_MIB / CameraSettings::default().picture_size_mib()) as i32;
         assert!(indices.iter().copied().eq(0..most), "{} pictures", indices.len());
-        let left = CARD_MIB - camera.summary(now).used_mib;
-        assert!((0.0..CameraSettings::default().picture_mib()).contains(&left), "reported free storage does not match: {left}");
+        let left = CARD_CAPACITY_MIB - camera.summary(now).used_mib;
+        assert!(
+            (0.0..CameraSettings::default().picture_size_mib()).contains(&left),
+            "reported free storage does not match: {left}"
+        );
         assert!(camera.is_full(now) && camera.summary(now).interval_s.is_none());
         assert_eq!(camera.start(0.0, 1.0, now), Err(CameraError::Full));
-        assert_eq!(camera.start_by_distance(5.0, false, here, now), Err(CameraError::Full));
+        assert_eq!(camera.start_distance_triggered_series(5.0, false, here, now), Err(CameraError::Full));
         assert_eq!(camera.format(true), Ok(()));
         assert_eq!((camera.summary(now).pictures, camera.summary(now).used_mib), (0, 0.0));
     }
@@ -395,12 +404,12 @@ mod tests {
         // 60 Mbit/s is 7.5 MB/s.
         let after = SimTime::from_s(100.0);
         assert!((camera.summary(after).used_mib * MIB - 750e6).abs() < 1.0);
-        let end = SimTime::from_s(CARD_MIB * MIB / 7.5e6 + 0.01);
+        let end = SimTime::from_s(CARD_CAPACITY_MIB * MIB / 7.5e6 + 0.01);
         camera.step(after, 0.01, &mut changes);
         assert_eq!(camera.summary(after).recording, Some(after));
         camera.step(end, 0.01, &mut changes);
         assert_eq!(camera.summary(end).recording, None);
-        assert_eq!(camera.summary(end).used_mib, CARD_MIB);
+        assert_eq!(camera.summary(end).used_mib, CARD_CAPACITY_MIB);
         assert_eq!(camera.start_recording(0.0, end), Err(CameraError::Full));
     }
 
@@ -429,11 +438,11 @@ mod tests {
     }
 
     #[test]
-    fn exact_only_a_recent_command_with_the_same_sender_and_number_is_a_repeat() {
+    fn exact_only_recent_commands_with_the_same_sender_and_number_count_as_repeats() {
         let mut camera = CameraState::default();
         let at = SimTime::from_ms;
         assert!(!camera.is_repeated((255, 190), 1, at(0)));
-        camera.remember((255, 190), 1, at(0));
+        camera.record_capture_command((255, 190), 1, at(0));
         assert!(camera.is_repeated((255, 190), 1, at(500)));
         assert!(!camera.is_repeated((255, 190), 2, at(500)));
         assert!(!camera.is_repeated((254, 190), 1, at(500)));

@@ -19,10 +19,10 @@ pub struct CaptureSeries {
     next: Option<SimTime>,
     left: Option<u32>,
     /// Distance between images, m, and the position of the last one.
-    by_distance: Option<(f64, Vec3<Enu>)>,
+    distance_trigger: Option<(f64, Vec3<Enu>)>,
     /// Number of single images still to be taken. Commands may arrive faster than images are taken, and none may be
     /// lost.
-    singles: u32,
+    pending_single_images: u32,
 }
 
 impl CaptureSeries {
@@ -34,8 +34,8 @@ impl CaptureSeries {
 
     /// Checks whether a distance-triggered series is in progress.
     #[must_use]
-    pub fn is_by_distance(&self) -> bool {
-        self.by_distance.is_some()
+    pub fn is_distance_triggered(&self) -> bool {
+        self.distance_trigger.is_some()
     }
 
     /// Starts a series or takes one image. If `count` is 0, the series continues until it is stopped. Returns false if
@@ -45,7 +45,7 @@ impl CaptureSeries {
             return false;
         }
         if count as u32 == 1 {
-            self.singles = self.singles.saturating_add(1);
+            self.pending_single_images = self.pending_single_images.saturating_add(1);
             return true;
         }
         self.interval_s = Some(interval_s.max(MIN_INTERVAL_S));
@@ -56,11 +56,11 @@ impl CaptureSeries {
 
     /// Takes an image every `distance_m` meters, starting at `here`, and one immediately if `first` is set. A distance
     /// of 0 stops the series. Returns false if the value is invalid.
-    pub fn start_by_distance(&mut self, distance_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
+    pub fn start_distance_triggered_series(&mut self, distance_m: f64, first: bool, here: Vec3<Enu>, now: SimTime) -> bool {
         if !(0.0..=MAX_DISTANCE_M).contains(&distance_m) {
             return false;
         }
-        self.by_distance = (distance_m > 0.0).then_some((distance_m.max(MIN_DISTANCE_M), here));
+        self.distance_trigger = (distance_m > 0.0).then_some((distance_m.max(MIN_DISTANCE_M), here));
         if first && distance_m > 0.0 {
             self.next = Some(now);
         }
@@ -69,7 +69,7 @@ impl CaptureSeries {
 
     /// Stops every series. Single images already accepted are still taken.
     pub fn stop(&mut self) {
-        *self = Self { singles: self.singles, ..Self::default() };
+        *self = Self { pending_single_images: self.pending_single_images, ..Self::default() };
     }
 
     /// Cancels everything, including single images.
@@ -80,17 +80,17 @@ impl CaptureSeries {
     /// Returns true if the next image should be captured; call [`CaptureSeries::taken`] after the capture.
     #[must_use]
     pub fn due(&self, now: SimTime, here: Vec3<Enu>) -> bool {
-        let far = self.by_distance.is_some_and(|(distance_m, last)| (here - last).norm() >= distance_m);
-        self.singles > 0 || far || self.next.is_some_and(|next| next <= now)
+        let far = self.distance_trigger.is_some_and(|(distance_m, last)| (here - last).norm() >= distance_m);
+        self.pending_single_images > 0 || far || self.next.is_some_and(|next| next <= now)
     }
 
     /// Records that the due image has been taken.
     pub fn taken(&mut self, now: SimTime, here: Vec3<Enu>) {
-        if self.singles > 0 {
-            self.singles -= 1;
+        if self.pending_single_images > 0 {
+            self.pending_single_images -= 1;
             return;
         }
-        if let Some((_, last)) = &mut self.by_distance {
+        if let Some((_, last)) = &mut self.distance_trigger {
             *last = here;
         }
         if self.next.is_some_and(|next| next <= now) {

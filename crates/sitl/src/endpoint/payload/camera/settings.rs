@@ -5,12 +5,12 @@ use super::{CameraError, CameraSettings, CameraState};
 use std::fmt::Write;
 
 /// Path of the definition file on the camera's file server.
-pub const FILE: &str = "camera.xml";
+pub const DEFINITION_PATH: &str = "camera.xml";
 /// Address of the definition file, sent to ground stations.
-pub const URI: &str = "mftp://camera.xml";
+pub const DEFINITION_URI: &str = "mftp://camera.xml";
 /// Version of the definition, which ground stations use as a cache key. Increment it with every change to the table
 /// below.
-pub const VERSION: u16 = 1;
+pub const DEFINITION_VERSION: u16 = 1;
 
 /// Values that a setting accepts.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +48,8 @@ pub const ALL: &[CameraSetting] = &[
         description: "Video rate (Mbit/s)",
         allowed: AllowedValues::Range(10, 100, 10),
         default: 60,
-        get: |camera| camera.settings.video_mbit_s,
-        set: |camera, value| camera.set(CameraSettings { video_mbit_s: value, ..camera.settings }),
+        get: |camera| camera.settings.video_bit_rate_mbit_s,
+        set: |camera, value| camera.set(CameraSettings { video_bit_rate_mbit_s: value, ..camera.settings }),
     },
 ];
 
@@ -104,7 +104,7 @@ impl CameraSetting {
 #[must_use]
 pub fn definition() -> String {
     let mut xml = format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<mavlinkcamera>\n<definition version=\"{VERSION}\">\
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<mavlinkcamera>\n<definition version=\"{DEFINITION_VERSION}\">\
          <model>Inspection camera</model><vendor>Spandrel</vendor></definition>\n<parameters>\n"
     );
     ALL.iter().for_each(|setting| setting.describe(&mut xml));
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn exact_settings_affect_the_storage_used_by_pictures_and_recordings() {
         let mut camera = CameraState::default();
-        let mib = |camera: &CameraState| (camera.settings.picture_mib(), camera.settings.video_mib_s());
+        let mib = |camera: &CameraState| (camera.settings.picture_size_mib(), camera.settings.video_data_rate_mib_s());
         let before = mib(&camera);
         for (name, value) in [("CAM_PHOTOQUAL", 0), ("CAM_VIDRATE", 30)] {
             assert_eq!(CameraSetting::named(name).map(|(_, setting)| setting.change(&mut camera, value)), Some(Ok(())), "{name}");

@@ -3,7 +3,7 @@
 use super::capture_record::CaptureRecord;
 
 /// Capacity of a 32 GB memory card, MiB.
-pub const CARD_MIB: f64 = 30_517.0;
+pub const CARD_CAPACITY_MIB: f64 = 30_517.0;
 
 /// Contents of the card.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,19 +22,19 @@ impl StorageCard {
 
     /// Returns the storage, in MiB, used by images and finished recordings.
     #[must_use]
-    pub fn used_mib(&self) -> f64 {
+    pub fn used_storage_mib(&self) -> f64 {
         self.pictures_mib + self.videos_mib
     }
 
-    /// Stores an image of `mib` MiB.
-    pub fn add_picture(&mut self, image: CaptureRecord, mib: f64) {
+    /// Stores an image of `size_mib` MiB.
+    pub fn add_picture(&mut self, image: CaptureRecord, size_mib: f64) {
         self.images.push(image);
-        self.pictures_mib += mib;
+        self.pictures_mib += size_mib;
     }
 
-    /// Stores a finished recording of `mib` MiB.
-    pub fn add_video(&mut self, mib: f64) {
-        self.videos_mib += mib;
+    /// Stores a finished recording of `size_mib` MiB.
+    pub fn add_video(&mut self, size_mib: f64) {
+        self.videos_mib += size_mib;
     }
 
     /// Resets the image counter; the files remain.

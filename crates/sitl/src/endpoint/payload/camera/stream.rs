@@ -16,7 +16,7 @@ pub struct VideoStream {
     /// Frame rate, Hz.
     pub rate_hz: f32,
     /// Bit rate, bit/s.
-    pub bits_s: u32,
+    pub bit_rate_bits_s: u32,
 }
 
 /// The last report from the stream's sender, and the time at which it expires.

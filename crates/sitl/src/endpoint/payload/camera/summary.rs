@@ -25,7 +25,7 @@ pub struct CameraSummary {
     /// Zoom position, from 0 (wide) to 1 (tele).
     pub zoom: f64,
     /// Video bit rate, Mbit/s.
-    pub video_mbit_s: u32,
+    pub video_bit_rate_mbit_s: u32,
     /// The active video stream.
     pub stream: Option<VideoStream>,
 }

@@ -10,7 +10,7 @@ const FULL_TRAVEL_S: f64 = 3.0;
 const STEPS: f64 = 10.0;
 /// Relative tolerance within which an out-of-range focal length or field of view is clamped instead of rejected,
 /// because clients round.
-const TOLERANCE: f64 = 0.01;
+const RANGE_TOLERANCE: f64 = 0.01;
 
 /// A zoom command.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +44,7 @@ pub struct ZoomLens {
 
 /// Returns the wide-end focal length in mm.
 #[must_use]
-pub fn wide_mm(camera: &Camera) -> f64 {
+pub fn wide_focal_length_mm(camera: &Camera) -> f64 {
     camera.focal_mm()
 }
 
@@ -67,7 +67,7 @@ impl ZoomLens {
             return false;
         }
         let level_of = |ratio: f64| {
-            let inside = ratio >= 1.0 - TOLERANCE && ratio <= camera.zoom_max * (1.0 + TOLERANCE);
+            let inside = ratio >= 1.0 - RANGE_TOLERANCE && ratio <= camera.zoom_max * (1.0 + RANGE_TOLERANCE);
             inside.then(|| ((ratio - 1.0) / (camera.zoom_max - 1.0)).clamp(0.0, 1.0))
         };
         let drive = match request {
@@ -78,7 +78,7 @@ impl ZoomLens {
             ZoomCommand::Rate(0.0) => Some(ZoomDrive::Rest),
             ZoomCommand::Rate(rate) if rate.is_finite() => Some(ZoomDrive::Rate(rate.clamp(-1.0, 1.0))),
             ZoomCommand::Level(level) if (0.0..=1.0).contains(&level) => Some(ZoomDrive::To(level)),
-            ZoomCommand::FocalMm(mm) => level_of(mm / wide_mm(camera)).map(ZoomDrive::To),
+            ZoomCommand::FocalMm(mm) => level_of(mm / wide_focal_length_mm(camera)).map(ZoomDrive::To),
             ZoomCommand::FieldOfView(rad) if rad > 0.0 && rad < math::PI => {
                 level_of(math::tan(0.5 * camera.hfov_rad) / math::tan(0.5 * rad)).map(ZoomDrive::To)
             }
@@ -129,13 +129,13 @@ mod tests {
         zoom_max: 3.0,
         f_number: 2.8,
         iso_max: 1600.0,
-        exposure_max_s: 0.01,
+        max_exposure_time_s: 0.01,
         gimbal_pitch_min_rad: -1.57,
         gimbal_pitch_max_rad: 1.57,
         gimbal_rate_rad_s: 1.0,
     };
     /// Rounding tolerance for ratios and for angles in radians.
-    const NEAR: f64 = 1e-12;
+    const ROUNDING_TOLERANCE: f64 = 1e-12;
 
     fn at_rest(request: ZoomCommand) -> ZoomLens {
         let mut zoom = ZoomLens::default();
@@ -152,11 +152,11 @@ mod tests {
         let field = 2.0 * math::atan2(1.0, 2.0);
         for request in [ZoomCommand::Level(0.5), ZoomCommand::FocalMm(SENSOR_WIDTH_MM), ZoomCommand::FieldOfView(field)] {
             let zoom = at_rest(request);
-            assert!((zoom.ratio(&CAMERA) - 2.0).abs() < NEAR, "{request:?}");
-            assert!((CAMERA.zoomed(zoom.ratio(&CAMERA)).hfov_rad - field).abs() < NEAR);
-            assert!((CAMERA.zoomed(2.0).focal_px() / CAMERA.focal_px() - 2.0).abs() < NEAR);
+            assert!((zoom.ratio(&CAMERA) - 2.0).abs() < ROUNDING_TOLERANCE, "{request:?}");
+            assert!((CAMERA.zoomed(zoom.ratio(&CAMERA)).hfov_rad - field).abs() < ROUNDING_TOLERANCE);
+            assert!((CAMERA.zoomed(2.0).focal_px() / CAMERA.focal_px() - 2.0).abs() < ROUNDING_TOLERANCE);
         }
-        assert!((at_rest(ZoomCommand::Step(1.0)).level() - 1.0 / STEPS).abs() < NEAR);
+        assert!((at_rest(ZoomCommand::Step(1.0)).level() - 1.0 / STEPS).abs() < ROUNDING_TOLERANCE);
         assert_eq!(at_rest(ZoomCommand::Rate(0.7)).level(), 1.0);
     }
 
@@ -187,15 +187,15 @@ mod tests {
     }
 
     #[test]
-    fn exact_full_range_takes_the_travel_time_and_stop_keeps_the_position() {
+    fn exact_full_zoom_range_takes_the_travel_time_and_stop_holds_the_position() {
         let mut zoom = ZoomLens::default();
         zoom.command(ZoomCommand::Rate(1.0), &CAMERA);
         for _ in 0..100 {
             assert!(!zoom.step(0.01));
         }
-        assert!((zoom.level() - 1.0 / FULL_TRAVEL_S).abs() < NEAR);
+        assert!((zoom.level() - 1.0 / FULL_TRAVEL_S).abs() < ROUNDING_TOLERANCE);
         zoom.command(ZoomCommand::Rate(0.0), &CAMERA);
         assert!(!zoom.step(1.0));
-        assert!((zoom.level() - 1.0 / FULL_TRAVEL_S).abs() < NEAR);
+        assert!((zoom.level() - 1.0 / FULL_TRAVEL_S).abs() < ROUNDING_TOLERANCE);
     }
 }

@@ -16,9 +16,9 @@ use spandrel_mavlink::dialect::{
 const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 const UNSUPPORTED: MavResult = MavResult::MAV_RESULT_UNSUPPORTED;
 /// ID of the only video stream.
-const STREAM: f64 = 1.0;
+const STREAM_ID: f64 = 1.0;
 /// ID of the only memory card.
-const CARD: f64 = 1.0;
+const CARD_ID: f64 = 1.0;
 
 pub(super) const ROWS: &[PayloadCommand] = &[
     (MavCmd::MAV_CMD_IMAGE_START_CAPTURE, start),
@@ -37,26 +37,30 @@ pub(super) const ROWS: &[PayloadCommand] = &[
         if !targets_this_camera(c, 3) {
             return DENIED;
         }
-        outcome(p.camera.start_by_distance(c.p[0], c.is_one(2), here, i.clock.now), &[CAMERA_CAPTURE_STATUS_DATA::ID], p)
+        outcome(
+            p.camera.start_distance_triggered_series(c.p[0], c.is_one(2), here, i.clock.now),
+            &[CAMERA_CAPTURE_STATUS_DATA::ID],
+            p,
+        )
     }),
     (MavCmd::MAV_CMD_SET_CAMERA_MODE, mode),
     (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, zoom),
     (MavCmd::MAV_CMD_SET_CAMERA_FOCUS, focus),
     (MavCmd::MAV_CMD_VIDEO_START_CAPTURE, |c, i, p| {
-        if !targets_this_camera(c, 2) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 2) || !is_one_or_all(c, 0, STREAM_ID) {
             return DENIED;
         }
         outcome(p.camera.start_recording(c.finite_param(1).unwrap_or(0.0), i.clock.now), &[CAMERA_CAPTURE_STATUS_DATA::ID], p)
     }),
     (MavCmd::MAV_CMD_VIDEO_STOP_CAPTURE, |c, i, p| {
-        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM_ID) {
             return DENIED;
         }
         p.camera.stop_recording(i.clock.now);
         report(p, &[CAMERA_CAPTURE_STATUS_DATA::ID, STORAGE_INFORMATION_DATA::ID])
     }),
     (MavCmd::MAV_CMD_VIDEO_START_STREAMING, |c, i, p| {
-        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM_ID) {
             return DENIED;
         }
         if p.camera.stream.running(i.clock.now).is_some() {
@@ -67,7 +71,7 @@ pub(super) const ROWS: &[PayloadCommand] = &[
     }),
     // The video is sent to a fixed destination, so starting and stopping the stream have no effect.
     (MavCmd::MAV_CMD_VIDEO_STOP_STREAMING, |c, _, p| {
-        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM) {
+        if !targets_this_camera(c, 1) || !is_one_or_all(c, 0, STREAM_ID) {
             return DENIED;
         }
         report(p, &[VIDEO_STREAM_STATUS_DATA::ID])
@@ -124,7 +128,7 @@ fn start(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Mav
     let status: &[u32] = if single { &[] } else { &[CAMERA_CAPTURE_STATUS_DATA::ID] };
     let done = outcome(payload.camera.start(c.p[1], c.p[2], input.clock.now), status, payload);
     if let Some(number) = number.filter(|_| done == ACCEPTED) {
-        payload.camera.remember(c.from, number, input.clock.now);
+        payload.camera.record_capture_command(c.from, number, input.clock.now);
     }
     done
 }
@@ -177,7 +181,7 @@ fn format(c: &VehicleCommand, _: &PayloadInput, payload: &mut Payload) -> MavRes
         Some(1.0) => Some(true),
         Some(_) => None,
     };
-    let (Some(whole), Some(log), true) = (flag(1), flag(2), c.p[0] == CARD) else { return DENIED };
+    let (Some(whole), Some(log), true) = (flag(1), flag(2), c.p[0] == CARD_ID) else { return DENIED };
     if !whole && !log {
         return accepted_if(true);
     }

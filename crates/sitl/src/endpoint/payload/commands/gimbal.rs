@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::super::equipment::Payload;
-use super::super::gimbal::{DEVICE, GimbalState, GimbalTarget};
+use super::super::gimbal::{GIMBAL_DEVICE_ID, GimbalState, GimbalTarget};
 use super::super::input::PayloadInput;
 use super::handler::{ACCEPTED, DENIED, PayloadCommand, accepted_if};
 use super::region_of_interest::position;
@@ -36,7 +36,7 @@ fn aim(aim: GimbalTarget, c: &VehicleCommand, input: &PayloadInput, payload: &mu
 
 /// Checks whether the device ID in parameter 7 refers to this gimbal: 0 (all) or its own ID.
 fn targets_this_gimbal(c: &VehicleCommand) -> bool {
-    c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(DEVICE))
+    c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(GIMBAL_DEVICE_ID))
 }
 
 /// Sets a pitch angle with an optional rate, or a pitch rate alone, in degrees relative to the horizon. Yaw always
@@ -125,7 +125,8 @@ fn mount_control(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload
         Some(MountMode::Neutral) => aim(GimbalTarget::Neutral, c, input, payload),
         Some(MountMode::Targeting) => {
             let pitch = c.p[0].to_radians();
-            let target = if payload.gimbal.mount_rates { GimbalTarget::Rate(pitch) } else { GimbalTarget::Angle(pitch) };
+            let target =
+                if payload.gimbal.mount_values_are_rates { GimbalTarget::Rate(pitch) } else { GimbalTarget::Angle(pitch) };
             aim(target, c, input, payload)
         }
         Some(MountMode::Point) => {
@@ -152,7 +153,7 @@ fn mount_configure(c: &VehicleCommand, input: &PayloadInput, payload: &mut Paylo
         None => DENIED,
     };
     if done == ACCEPTED {
-        payload.gimbal.mount_rates = rates;
+        payload.gimbal.mount_values_are_rates = rates;
     }
     done
 }

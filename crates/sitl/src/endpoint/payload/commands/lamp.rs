@@ -7,27 +7,27 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
 /// Servo output for the lamp: the first one after the eight motor outputs, which is ArduPilot's first auxiliary output.
-const SERVO: f64 = 9.0;
+const LAMP_SERVO: f64 = 9.0;
 /// Pulse width above which the lamp is on, and the range of valid pulse widths, microseconds.
 const ON_THRESHOLD_US: f64 = 1_500.0;
-const PULSES_US: std::ops::RangeInclusive<f64> = 800.0..=2_200.0;
+const VALID_PULSES_US: std::ops::RangeInclusive<f64> = 800.0..=2_200.0;
 
 pub(super) const ROWS: &[PayloadCommand] = &[
     (MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, |c, i, p| switch(c.p[0], i, p)),
     (MavCmd::MAV_CMD_DO_ILLUMINATOR_CONFIGURE, |c, _, _| configure(c)),
     (MavCmd::MAV_CMD_DO_SET_RELAY, |c, i, p| if c.p[0] == 0.0 { switch(c.p[1], i, p) } else { DENIED }),
     (MavCmd::MAV_CMD_DO_REPEAT_RELAY, |c, i, p| {
-        accepted_if(c.p[0] == 0.0 && i.vehicle.lamp.flux_lm > 0.0 && p.lamp.repeat(c.p[1], c.p[2], i.clock.now))
+        accepted_if(c.p[0] == 0.0 && i.vehicle.lamp.luminous_flux_lm > 0.0 && p.lamp.repeat(c.p[1], c.p[2], i.clock.now))
     }),
     (MavCmd::MAV_CMD_DO_SET_ACTUATOR, actuator),
     (MavCmd::MAV_CMD_DO_SET_SERVO, |c, i, p| {
-        let is_valid = c.p[0] == SERVO && PULSES_US.contains(&c.p[1]);
+        let is_valid = c.p[0] == LAMP_SERVO && VALID_PULSES_US.contains(&c.p[1]);
         if is_valid { switch(f64::from(u8::from(c.p[1] > ON_THRESHOLD_US)), i, p) } else { DENIED }
     }),
 ];
 
 fn switch(value: f64, input: &PayloadInput, payload: &mut Payload) -> MavResult {
-    if !(value == 0.0 || value == 1.0) || input.vehicle.lamp.flux_lm <= 0.0 {
+    if !(value == 0.0 || value == 1.0) || input.vehicle.lamp.luminous_flux_lm <= 0.0 {
         return DENIED;
     }
     payload.lamp.switch(value > 0.5);

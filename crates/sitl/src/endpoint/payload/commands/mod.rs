@@ -13,11 +13,11 @@ use handler::{PayloadCommand, PayloadHandler};
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
 /// Commands accepted only by the autopilot component, which owns the gimbal and the lamp.
-const MOUNTED: [&[PayloadCommand]; 2] = [gimbal::ROWS, lamp::ROWS];
+const AUTOPILOT_COMPONENT_ROWS: [&[PayloadCommand]; 2] = [gimbal::ROWS, lamp::ROWS];
 
 /// Checks whether the payload supports this command.
 pub(crate) fn is_supported(command: MavCmd) -> bool {
-    camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known == command)
+    camera::ROWS.iter().chain(AUTOPILOT_COMPONENT_ROWS.into_iter().flatten()).any(|(known, _)| *known == command)
 }
 
 fn row(number: u16, rows: &'static [PayloadCommand]) -> Option<PayloadHandler> {
@@ -31,13 +31,13 @@ pub(crate) fn handle_camera(c: &VehicleCommand, input: &PayloadInput, payload: &
 
 /// Handles a command addressed to the autopilot component.
 pub(crate) fn handle(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
-    let mounted = || MOUNTED.into_iter().find_map(|rows| row(c.number, rows));
+    let mounted = || AUTOPILOT_COMPONENT_ROWS.into_iter().find_map(|rows| row(c.number, rows));
     handle_camera(c, input, payload).or_else(|| Some(mounted()?(c, input, payload)))
 }
 
 /// Checks whether the payload handles this command.
 pub(crate) fn handles(c: &VehicleCommand) -> bool {
-    camera::ROWS.iter().chain(MOUNTED.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
+    camera::ROWS.iter().chain(AUTOPILOT_COMPONENT_ROWS.into_iter().flatten()).any(|(known, _)| *known as u16 == c.number)
 }
 
 /// Returns the reason for rejecting a command, as text.
@@ -51,7 +51,7 @@ pub(crate) fn refusal_text(c: &VehicleCommand, input: &PayloadInput, payload: &P
         return format!("gimbal pitch range {low:.0} to {high:.0} deg, no yaw or retract");
     }
     if row(c.number, lamp::ROWS).is_some() {
-        let has_lamp = input.vehicle.lamp.flux_lm > 0.0;
+        let has_lamp = input.vehicle.lamp.luminous_flux_lm > 0.0;
         return if has_lamp { "the lamp is relay 0 or servo 9 and can only be on or off" } else { "this aircraft has no lamp" }
             .into();
     }

@@ -28,6 +28,6 @@ pub(super) fn position(c: &VehicleCommand, input: &PayloadInput, altitude_m: f64
     }
     let origin = input.plane.origin();
     let relative = c.is_home_relative() == Some(true) && (c.own || !input.roi_above_sea_level);
-    let altitude_m = if relative { origin.altitude_m + input.home_up_m() + altitude_m } else { altitude_m };
+    let altitude_m = if relative { origin.altitude_m + input.home_height_m() + altitude_m } else { altitude_m };
     Some(input.plane.enu_from_geo(Geo { latitude_deg, longitude_deg, altitude_m }))
 }

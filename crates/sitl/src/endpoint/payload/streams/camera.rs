@@ -1,9 +1,9 @@
 //! Builders for the camera's messages.
 
-use super::super::camera::storage_card::CARD_MIB;
+use super::super::camera::storage_card::CARD_CAPACITY_MIB;
 use super::super::camera::stream::{PORT, VideoStream};
 use super::super::camera::{CaptureMode, CaptureRecord, settings, zoom};
-use super::super::gimbal::DEVICE;
+use super::super::gimbal::GIMBAL_DEVICE_ID;
 use super::super::snapshot::PayloadSnapshot;
 use spandrel_mavlink::dialect::{
     CAMERA_CAPTURE_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_IMAGE_CAPTURED_DATA, CAMERA_INFORMATION_DATA,
@@ -39,9 +39,9 @@ pub(crate) fn information(v: &PayloadSnapshot) -> Option<MavMessage> {
         | C::CAMERA_CAP_FLAGS_HAS_VIDEO_STREAM;
     flags.set(C::CAMERA_CAP_FLAGS_HAS_BASIC_ZOOM, camera.zoom_max > 1.0);
     Some(MavMessage::CAMERA_INFORMATION(CAMERA_INFORMATION_DATA {
-        time_boot_ms: v.clock.sim_ms(),
+        time_boot_ms: v.clock.sim_time_ms(),
         firmware_version: 1,
-        focal_length: zoom::wide_mm(camera) as f32,
+        focal_length: zoom::wide_focal_length_mm(camera) as f32,
         sensor_size_h: zoom::SENSOR_WIDTH_MM as f32,
         sensor_size_v: (zoom::SENSOR_WIDTH_MM * f64::from(camera.height_px) / f64::from(camera.width_px)) as f32,
         flags,
@@ -49,9 +49,9 @@ pub(crate) fn information(v: &PayloadSnapshot) -> Option<MavMessage> {
         resolution_v: camera.height_px as u16,
         vendor_name,
         model_name,
-        cam_definition_version: settings::VERSION,
-        cam_definition_uri: settings::URI.into(),
-        gimbal_device_id: DEVICE,
+        cam_definition_version: settings::DEFINITION_VERSION,
+        cam_definition_uri: settings::DEFINITION_URI.into(),
+        gimbal_device_id: GIMBAL_DEVICE_ID,
         ..Default::default()
     }))
 }
@@ -60,7 +60,7 @@ pub(crate) fn information(v: &PayloadSnapshot) -> Option<MavMessage> {
 pub(crate) fn settings_status(v: &PayloadSnapshot) -> Option<MavMessage> {
     let zooms = v.input.vehicle.camera.zoom_max > 1.0;
     Some(MavMessage::CAMERA_SETTINGS(CAMERA_SETTINGS_DATA {
-        time_boot_ms: v.clock.sim_ms(),
+        time_boot_ms: v.clock.sim_time_ms(),
         mode_id: match v.camera.mode {
             CaptureMode::Photo => CameraMode::CAMERA_MODE_IMAGE,
             CaptureMode::Video => CameraMode::CAMERA_MODE_VIDEO,
@@ -77,7 +77,7 @@ pub(crate) fn field_of_view(v: &PayloadSnapshot) -> MavMessage {
     let camera = v.camera_now();
     let geo = v.input.geo();
     MavMessage::CAMERA_FOV_STATUS(CAMERA_FOV_STATUS_DATA {
-        time_boot_ms: v.clock.sim_ms(),
+        time_boot_ms: v.clock.sim_time_ms(),
         lat_camera: deg_e7(geo.latitude_deg),
         lon_camera: deg_e7(geo.longitude_deg),
         alt_camera: mm(geo.altitude_m),
@@ -94,10 +94,10 @@ pub(crate) fn field_of_view(v: &PayloadSnapshot) -> MavMessage {
 pub(crate) fn storage(v: &PayloadSnapshot) -> Option<MavMessage> {
     use StorageUsageFlag as U;
     Some(MavMessage::STORAGE_INFORMATION(STORAGE_INFORMATION_DATA {
-        time_boot_ms: v.clock.sim_ms(),
-        total_capacity: CARD_MIB as f32,
+        time_boot_ms: v.clock.sim_time_ms(),
+        total_capacity: CARD_CAPACITY_MIB as f32,
         used_capacity: v.camera.used_mib as f32,
-        available_capacity: (CARD_MIB - v.camera.used_mib) as f32,
+        available_capacity: (CARD_CAPACITY_MIB - v.camera.used_mib) as f32,
         read_speed: 90.0,
         write_speed: 60.0,
         storage_id: 1,
@@ -112,10 +112,10 @@ pub(crate) fn storage(v: &PayloadSnapshot) -> Option<MavMessage> {
 pub(crate) fn capture_status(v: &PayloadSnapshot) -> Option<MavMessage> {
     let busy = v.camera.interval_s.is_some() || v.camera.series;
     Some(MavMessage::CAMERA_CAPTURE_STATUS(CAMERA_CAPTURE_STATUS_DATA {
-        time_boot_ms: v.clock.sim_ms(),
+        time_boot_ms: v.clock.sim_time_ms(),
         image_interval: v.camera.interval_s.unwrap_or(0.0) as f32,
         recording_time_ms: v.camera.recording.map_or(0, |running| running.ms() as u32),
-        available_capacity: (CARD_MIB - v.camera.used_mib) as f32,
+        available_capacity: (CARD_CAPACITY_MIB - v.camera.used_mib) as f32,
         image_status: if busy { 2 } else { 0 },
         video_status: u8::from(v.camera.recording.is_some()),
         image_count: v.camera.pictures as i32,
@@ -124,7 +124,7 @@ pub(crate) fn capture_status(v: &PayloadSnapshot) -> Option<MavMessage> {
 }
 
 /// Reported while no stream is running (estimate: within the capacity of wireless networks).
-const STREAM: VideoStream = VideoStream { width_px: 1280, height_px: 720, rate_hz: 25.0, bits_s: 3_000_000 };
+const DEFAULT_STREAM: VideoStream = VideoStream { width_px: 1280, height_px: 720, rate_hz: 25.0, bit_rate_bits_s: 3_000_000 };
 
 fn stream_flags(v: &PayloadSnapshot) -> VideoStreamStatusFlags {
     let mut flags = VideoStreamStatusFlags::empty();
@@ -133,10 +133,10 @@ fn stream_flags(v: &PayloadSnapshot) -> VideoStreamStatusFlags {
 }
 
 pub(crate) fn stream_information(v: &PayloadSnapshot) -> Option<MavMessage> {
-    let stream = v.camera.stream.unwrap_or(STREAM);
+    let stream = v.camera.stream.unwrap_or(DEFAULT_STREAM);
     Some(MavMessage::VIDEO_STREAM_INFORMATION(VIDEO_STREAM_INFORMATION_DATA {
         framerate: stream.rate_hz,
-        bitrate: stream.bits_s,
+        bitrate: stream.bit_rate_bits_s,
         flags: stream_flags(v),
         resolution_h: stream.width_px,
         resolution_v: stream.height_px,
@@ -153,10 +153,10 @@ pub(crate) fn stream_information(v: &PayloadSnapshot) -> Option<MavMessage> {
 }
 
 pub(crate) fn stream_status(v: &PayloadSnapshot) -> Option<MavMessage> {
-    let stream = v.camera.stream.unwrap_or(STREAM);
+    let stream = v.camera.stream.unwrap_or(DEFAULT_STREAM);
     Some(MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {
         framerate: stream.rate_hz,
-        bitrate: stream.bits_s,
+        bitrate: stream.bit_rate_bits_s,
         flags: stream_flags(v),
         resolution_h: stream.width_px,
         resolution_v: stream.height_px,
@@ -171,8 +171,8 @@ pub(crate) fn stream_status(v: &PayloadSnapshot) -> Option<MavMessage> {
 pub(crate) fn capture_record(v: &PayloadSnapshot) -> CaptureRecord {
     let geo = v.input.geo();
     CaptureRecord::new(CAMERA_IMAGE_CAPTURED_DATA {
-        time_utc: v.clock.unix_us(),
-        time_boot_ms: v.clock.sim_ms(),
+        time_utc: v.clock.unix_time_us(),
+        time_boot_ms: v.clock.sim_time_ms(),
         lat: deg_e7(geo.latitude_deg),
         lon: deg_e7(geo.longitude_deg),
         alt: mm(geo.altitude_m),

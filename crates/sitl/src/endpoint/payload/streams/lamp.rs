@@ -5,7 +5,7 @@ use spandrel_mavlink::dialect::{ILLUMINATOR_STATUS_DATA, IlluminatorErrorFlags, 
 
 pub(crate) fn status(v: &PayloadSnapshot) -> Option<MavMessage> {
     Some(MavMessage::ILLUMINATOR_STATUS(ILLUMINATOR_STATUS_DATA {
-        uptime_ms: v.clock.boot_ms(),
+        uptime_ms: v.clock.boot_time_ms(),
         error_status: IlluminatorErrorFlags::empty(),
         brightness: 100.0,
         temp_c: f32::NAN,
@@ -20,5 +20,9 @@ pub(crate) fn status(v: &PayloadSnapshot) -> Option<MavMessage> {
 }
 
 pub(crate) fn relay(v: &PayloadSnapshot) -> Option<MavMessage> {
-    Some(MavMessage::RELAY_STATUS(RELAY_STATUS_DATA { time_boot_ms: v.clock.boot_ms(), on: u16::from(v.lamp.on), present: 1 }))
+    Some(MavMessage::RELAY_STATUS(RELAY_STATUS_DATA {
+        time_boot_ms: v.clock.boot_time_ms(),
+        on: u16::from(v.lamp.on),
+        present: 1,
+    }))
 }

@@ -9,7 +9,7 @@ use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 pub(crate) fn state(v: &PayloadSnapshot) -> Option<MavMessage> {
     let truth = v.input.truth;
     let published = PublishedTruth {
-        time_us: v.clock.sim_us(),
+        time_us: v.clock.sim_time_us(),
         place: v.input.true_geo(),
         velocity_m_s: truth.velocity_m_s,
         ned_from_frd: truth.attitude,
@@ -25,7 +25,7 @@ pub(crate) fn state(v: &PayloadSnapshot) -> Option<MavMessage> {
 pub(crate) fn stick_axes(v: &PayloadSnapshot) -> Option<MavMessage> {
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = sticks::to_us(v.input.sticks?);
     Some(MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         chancount: 4,
         chan1_raw,
         chan2_raw,

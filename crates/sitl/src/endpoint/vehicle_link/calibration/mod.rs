@@ -16,7 +16,7 @@ use texts::CalibratedSensor;
 pub use texts::CalibrationTexts;
 
 /// Number of progress reports.
-const STEPS: u32 = 5;
+const PROGRESS_STEPS: u32 = 5;
 
 /// Handles the command. Its parameters are 1 gyro, 2 compass, 3 barometer, 4 radio, 5 accelerometer, 6 airspeed, and 7
 /// ESC. All zeros cancel the calibration.
@@ -31,7 +31,7 @@ pub(super) fn command(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessag
         return R::MAV_RESULT_ACCEPTED;
     }
     if a.autopilot.status().armed || v.calibration.is_some() {
-        return v.flavor.refusals.temporarily;
+        return v.flavor.refusals.temporary_rejection;
     }
     // The ground station calibrates the radio; the vehicle only reads its channels.
     if param(3) != 0.0 {
@@ -65,10 +65,10 @@ impl VehicleLink {
         let Some(mut running) = self.calibration.take() else { return };
         let texts = self.flavor.calibration;
         let done = running.measure(view.readings, view.clock.now);
-        let steps = ((view.clock.now - running.since).s() / MEASUREMENT_S * f64::from(STEPS)) as u32;
-        if steps > running.steps && steps <= STEPS {
+        let steps = ((view.clock.now - running.since).s() / MEASUREMENT_S * f64::from(PROGRESS_STEPS)) as u32;
+        if steps > running.steps && steps <= PROGRESS_STEPS {
             running.steps = steps;
-            texts.progress(100 / STEPS * steps).into_iter().for_each(|text| self.inform(&text));
+            texts.progress(100 / PROGRESS_STEPS * steps).into_iter().for_each(|text| self.inform(&text));
         }
         if view.status.armed {
             self.warn(&texts.failed("armed"));

@@ -17,14 +17,14 @@ use spandrel_model::math;
 const DO_JUMP_TAG: u16 = 601;
 
 /// How a command is handled.
-enum Step {
+enum CommandHandling {
     /// Answered immediately with this result.
     Answer(MavResult),
     /// Forwarded to the autopilot.
     Request(AutopilotRequest),
 }
 
-use Step::{Answer, Request};
+use CommandHandling::{Answer, Request};
 
 pub(super) fn handle(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<MavResult> {
     let mut step = modes(c, v, a);
@@ -44,7 +44,7 @@ pub(super) fn handle(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMes
 }
 
 /// Handles arming and mode commands.
-fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
+fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     Some(match c.number {
         n if n == M::MAV_CMD_COMPONENT_ARM_DISARM as u16 => match arm(c, v) {
@@ -77,7 +77,7 @@ fn modes(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Opt
 }
 
 /// Handles takeoff, landing and go-to commands.
-fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
+fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     Some(match c.number {
         n if n == M::MAV_CMD_NAV_TAKEOFF as u16 => match take_off::height_m(c, v, a) {
@@ -104,7 +104,7 @@ fn navigation(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -
 }
 
 /// Handles mission commands: start, pause, and jump.
-fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
+fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     Some(match c.number {
         // Missions never contain tags, so a lookup always fails.
@@ -137,7 +137,7 @@ fn missions(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
 }
 
 /// Handles speed and geofence commands.
-fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Option<Step> {
+fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     Some(match c.number {
         // Climb and descent speeds have their own parameters.
@@ -161,7 +161,7 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
 }
 
 /// Handles commands that don't involve the autopilot: failure injection, calibration, storage, checks, and reboot.
-fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<Step> {
+fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     Some(Answer(match c.number {
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, v, a),
@@ -202,7 +202,7 @@ fn reboot(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
         0.0 => MavResult::MAV_RESULT_ACCEPTED,
         1.0 | 3.0 if a.autopilot.status().armed => {
             v.warn("Reboot denied: vehicle is armed");
-            v.flavor.refusals.temporarily
+            v.flavor.refusals.temporary_rejection
         }
         1.0 | 3.0 => {
             v.restart_requested = true;
@@ -238,7 +238,7 @@ fn arm_motors(c: &VehicleCommand, force: bool, v: &mut VehicleLink, a: &mut Inbo
         }
         if !reasons.is_empty() {
             reasons.iter().for_each(|reason| v.warn(&format!("{words}{reason}")));
-            return flavor.refusals.temporarily;
+            return flavor.refusals.temporary_rejection;
         }
     }
     let outcome = a.autopilot.request(AutopilotRequest::Arm { force }, now);
@@ -305,7 +305,7 @@ fn go_to(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Mav
 }
 
 fn reposition(c: &VehicleCommand, a: &InboundMessage) -> Option<AutopilotRequest> {
-    let home_up = a.home_up_m();
+    let home_up = a.home_height_m();
     let origin = a.aircraft.plane.origin();
     let relative = c.is_home_relative()?;
     let up_m = c.finite_param(6).map(|z| if relative { home_up + z } else { z - origin.altitude_m });
@@ -374,7 +374,7 @@ fn home(c: &VehicleCommand, v: &VehicleLink, a: &InboundMessage) -> Option<Autop
         return estimate.position_valid.then_some(AutopilotRequest::SetHome(estimate.position_m));
     }
     let (lat, lon, alt) = (c.finite_param(4)?, c.finite_param(5)?, c.finite_param(6)?);
-    let home_up = a.home_up_m();
+    let home_up = a.home_height_m();
     let alt = if c.is_home_relative()? { a.aircraft.plane.origin().altitude_m + home_up + alt } else { alt };
     let geo = spandrel_mavlink::units::geo(spandrel_mavlink::units::deg_e7(lat), spandrel_mavlink::units::deg_e7(lon), alt)?;
     let local = a.aircraft.plane.enu_from_geo(geo);
@@ -383,7 +383,7 @@ fn home(c: &VehicleCommand, v: &VehicleLink, a: &InboundMessage) -> Option<Autop
 
 fn prearm_checks(v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     v.events.requested = true;
-    let reasons = a.autopilot.status().arming_reasons.clone();
+    let reasons = a.autopilot.status().arming_blockers.clone();
     for reason in &reasons {
         v.warn(&format!("{}{reason}", v.flavor.prearm_reason_prefix));
     }

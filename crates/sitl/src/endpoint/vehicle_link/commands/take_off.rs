@@ -26,7 +26,7 @@ fn above_sea_level(c: &VehicleCommand, v: &mut VehicleLink, a: &InboundMessage) 
     const MIN_HEIGHT_M: f64 = 0.5;
     let relative = c.is_home_relative().ok_or(DENIED)?;
     let Some(z) = c.finite_param(6) else { return Ok(None) };
-    let height_m = if relative { z } else { z - a.aircraft.plane.origin().altitude_m - a.home_up_m() };
+    let height_m = if relative { z } else { z - a.aircraft.plane.origin().altitude_m - a.home_height_m() };
     if height_m > MAX_HEIGHT_M {
         Err(v.deny("Takeoff height: must be at most 500 m above home"))
     } else {

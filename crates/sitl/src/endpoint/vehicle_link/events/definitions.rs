@@ -16,9 +16,9 @@ const COMPONENTS: [(u8, &str, &str); 10] = [
     (27, "magnetometer", "Magnetometer"),
     (29, "gyro", "Gyroscope"),
 ];
-const SYSTEM: u8 = 20;
+const SYSTEM_COMPONENT: u8 = 20;
 /// For each mode group: PX4's number, name and custom mode, and whether the group requires a position.
-pub(super) const GROUPS: [(u8, &str, u32, bool); 12] = [
+pub(super) const MODE_GROUPS: [(u8, &str, u32, bool); 12] = [
     (1, "altctl", 2 << 16, false),
     (2, "posctl", 3 << 16, true),
     (3, "mission", 4 << 16 | 4 << 24, true),
@@ -34,8 +34,8 @@ pub(super) const GROUPS: [(u8, &str, u32, bool); 12] = [
 ];
 pub(super) const MISSION_GROUP: u8 = 3;
 /// Arming checks: the autopilot's text, the event name, and the affected component.
-const CHECKS: [(&str, &str, u8); 13] = [
-    ("Booting", "check_booting", SYSTEM),
+const ARMING_CHECKS: [(&str, &str, u8); 13] = [
+    ("Booting", "check_booting", SYSTEM_COMPONENT),
     ("Attitude not aligned", "check_attitude_not_aligned", 16),
     ("No GNSS fix", "check_no_gnss_fix", 3),
     ("Position not accurate enough", "check_position_inaccurate", 17),
@@ -45,12 +45,12 @@ const CHECKS: [(&str, &str, u8); 13] = [
     ("No battery readings", "check_battery_not_measured", 11),
     ("Battery too low", "check_battery_too_low", 11),
     ("Sticks not centered", "check_sticks_not_centered", 7),
-    ("Outside the geofence", "check_outside_geofence", SYSTEM),
-    ("Obstacle above vehicle", "check_obstacle_above", SYSTEM),
-    (OTHER, "check_other", SYSTEM),
+    ("Outside the geofence", "check_outside_geofence", SYSTEM_COMPONENT),
+    ("Obstacle above vehicle", "check_obstacle_above", SYSTEM_COMPONENT),
+    (UNLISTED_CHECK, "check_other", SYSTEM_COMPONENT),
 ];
 /// A check without a dedicated event; its status text has the details.
-const OTHER: &str = "Preflight check failed";
+const UNLISTED_CHECK: &str = "Preflight check failed";
 pub(super) const ARMING_SUMMARY: &str = "commander_arming_check_summary";
 pub(super) const HEALTH_SUMMARY: &str = "commander_health_summary";
 
@@ -62,7 +62,7 @@ pub(super) fn sub_id(name: &str) -> u32 {
 
 /// Returns the definition of the arming check with this text.
 pub(super) fn check(reason: &str) -> &'static (&'static str, &'static str, u8) {
-    CHECKS.iter().find(|(words, ..)| *words == reason).unwrap_or(&CHECKS[CHECKS.len() - 1])
+    ARMING_CHECKS.iter().find(|(words, ..)| *words == reason).unwrap_or(&ARMING_CHECKS[ARMING_CHECKS.len() - 1])
 }
 
 /// Returns the event definitions (component metadata, type events).
@@ -74,7 +74,7 @@ pub fn definitions() -> Json {
     };
     let components: serde_json::Map<String, Json> =
         COMPONENTS.iter().map(|(bit, name, words)| entry(*bit, name, words)).collect();
-    let modes: serde_json::Map<String, Json> = GROUPS.iter().map(|(bit, name, ..)| entry(*bit, name, name)).collect();
+    let modes: serde_json::Map<String, Json> = MODE_GROUPS.iter().map(|(bit, name, ..)| entry(*bit, name, name)).collect();
     let arguments =
         |all: &[(&str, &str)]| -> Vec<Json> { all.iter().map(|(name, kind)| json!({ "name": name, "type": kind })).collect() };
     let (health, group) = ("health_component_t", "navigation_mode_group_t");
@@ -90,7 +90,7 @@ pub fn definitions() -> Json {
         "message": "Health report summary event",
         "arguments": arguments(&[("chunk_idx", "uint8_t"), ("is_present", health), ("error", health), ("warning", health)]),
     });
-    let mut checks: serde_json::Map<String, Json> = CHECKS
+    let mut checks: serde_json::Map<String, Json> = ARMING_CHECKS
         .iter()
         .map(|(words, name, _)| {
             let arguments = arguments(&[("modes", group), ("health_component_index", "uint8_t")]);
@@ -98,7 +98,8 @@ pub fn definitions() -> Json {
         })
         .collect();
     checks.insert(sub_id(ARMING_SUMMARY).to_string(), arming_summary);
-    let groups: serde_json::Map<String, Json> = GROUPS.iter().map(|(nav, _, mode, _)| (nav.to_string(), json!([mode]))).collect();
+    let groups: serde_json::Map<String, Json> =
+        MODE_GROUPS.iter().map(|(nav, _, mode, _)| (nav.to_string(), json!([mode]))).collect();
     json!({
         "version": 2,
         "components": { "1": {

@@ -11,7 +11,7 @@ use super::snapshot::VehicleSnapshot;
 use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::link::{LinkKind, Links, PeerLink};
 pub use definitions::definitions;
-use definitions::{ARMING_SUMMARY, GROUPS, HEALTH_SUMMARY, check};
+use definitions::{ARMING_SUMMARY, HEALTH_SUMMARY, MODE_GROUPS, check};
 pub(super) use notices::covers_whole_text;
 pub use reports::EventReports;
 use reports::{HISTORY_LENGTH, masks};
@@ -28,7 +28,7 @@ const REPORT_INTERVAL: SimTime = SimTime::from_ms(500);
 const SEQUENCE_INTERVAL: SimTime = SimTime::from_ms(2_000);
 /// PX4's log levels: internal in the upper four bits, external in the lower.
 const PROTOCOL: u8 = 0x88;
-const ERROR: u8 = 0x33;
+const ERROR_LEVELS: u8 = 0x33;
 
 impl VehicleLink {
     /// Reports the arming checks when they change, and repeats the latest sequence number.
@@ -36,7 +36,7 @@ impl VehicleLink {
         if !self.flavor.events {
             return;
         }
-        let (reasons, masks) = (view.status.arming_reasons.clone(), masks(view));
+        let (reasons, masks) = (view.status.arming_blockers.clone(), masks(view));
         let changed = self.events.reported.as_ref().is_none_or(|(known, before)| (known, before) != (&reasons, &masks));
         if self.events.requested || (changed && view.clock.now >= self.events.next_report) {
             self.events.requested = false;
@@ -66,14 +66,14 @@ impl VehicleLink {
     /// Adds the check summary, one event for each failed check, and the health summary, in the order that clients
     /// expect.
     fn add_report(&mut self, reasons: &[String], [errors, can_arm, can_run, present, failing]: [u32; 5], view: &VehicleSnapshot) {
-        let now_ms = view.clock.boot_ms();
+        let now_ms = view.clock.boot_time_ms();
         let summary = |words: &[u32]| [&[0][..], &words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>()].concat();
         self.events.add(ARMING_SUMMARY, PROTOCOL, &summary(&[errors, 0, can_arm, can_run]), now_ms);
-        let all: u32 = GROUPS.iter().fold(0, |mask, group| mask | 1 << group.0);
+        let all: u32 = MODE_GROUPS.iter().fold(0, |mask, group| mask | 1 << group.0);
         for reason in reasons {
             let (_, name, component) = check(reason);
             let arguments = [&all.to_le_bytes()[..], &[*component]].concat();
-            self.events.add(name, ERROR, &arguments, now_ms);
+            self.events.add(name, ERROR_LEVELS, &arguments, now_ms);
         }
         self.events.add(HEALTH_SUMMARY, PROTOCOL, &summary(&[present, failing, 0]), now_ms);
     }

@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_text_has_one_event() {
+    fn exact_every_text_maps_to_one_event() {
         for (k, notice) in NOTICES.iter().enumerate() {
             let others = NOTICES.iter().enumerate().filter(|(other, _)| *other != k);
             assert!(

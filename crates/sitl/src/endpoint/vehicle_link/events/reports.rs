@@ -1,7 +1,7 @@
 //! Sent events, kept for retransmission.
 
 use super::super::snapshot::VehicleSnapshot;
-use super::definitions::{GROUPS, MISSION_GROUP, check, sub_id};
+use super::definitions::{MISSION_GROUP, MODE_GROUPS, check, sub_id};
 use spandrel_mavlink::dialect::EVENT_DATA;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
@@ -47,12 +47,12 @@ impl EventReports {
 /// failing.
 pub(super) fn masks(view: &VehicleSnapshot) -> [u32; 5] {
     let s = view.status;
-    let errors = s.arming_reasons.iter().fold(0, |mask, reason| mask | 1 << check(reason).2);
+    let errors = s.arming_blockers.iter().fold(0, |mask, reason| mask | 1 << check(reason).2);
     let flyable = |(nav, _, _, needs_position): &(u8, &str, u32, bool)| {
         (view.estimate.position_valid || !needs_position) && (*nav != MISSION_GROUP || view.plans.mission_items > 0)
     };
-    let can_run = GROUPS.iter().filter(|group| flyable(group)).fold(0, |mask, group| mask | 1 << group.0);
-    let can_arm = if s.arming_reasons.is_empty() { can_run } else { 0 };
+    let can_run = MODE_GROUPS.iter().filter(|group| flyable(group)).fold(0, |mask, group| mask | 1 << group.0);
+    let can_arm = if s.arming_blockers.is_empty() { can_run } else { 0 };
     let present = [1, 3, 11, 27, 29].iter().fold(0, |mask, bit| mask | 1_u32 << bit);
     let failing = u32::from(!s.health.barometer) << 1 | u32::from(!s.health.compass) << 27;
     [errors, can_arm, can_run, present, failing]

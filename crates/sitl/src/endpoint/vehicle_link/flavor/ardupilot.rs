@@ -2,8 +2,8 @@
 //! from a real ArduCopter 4.7-dev, parameter names as in 4.6).
 #![allow(deprecated, reason = "ArduPilot reports its encoding with the older capability flag")]
 
-use super::definition::{COMMON, Flavor, ModeRow, RefusalResults, TakeOffRule};
-use super::px4::FORCE;
+use super::definition::{COMMON_CAPABILITIES, Flavor, ModeRow, RefusalResults, TakeOffRule};
+use super::px4::FORCE_VALUE;
 use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
 use crate::autopilot::{AutopilotRequest, AutopilotStatus, Estimate, FlightMode, LandedState};
 use crate::endpoint::vehicle_link::calibration::CalibrationTexts;
@@ -17,9 +17,9 @@ use spandrel_mavlink::dialect::{
 const GUIDED: u32 = 4;
 const LOITER: u32 = 5;
 const AUTO_RTL: u32 = 27;
-const BASE: F =
+const BASE_MODE: F =
     F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED).union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
-const POSITION_CONTROLLED: F = BASE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
+const POSITION_CONTROLLED: F = BASE_MODE.union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
 const fn row(number: u32, mode: FlightMode, name: &'static str, base: F) -> ModeRow {
     ModeRow {
@@ -70,9 +70,9 @@ const MODES: &[ModeRow] = &[
         .without_arming()
         .only_if_requested(),
     row(3, FlightMode::Mission, "AUTO", POSITION_CONTROLLED).without_arming(),
-    row(1, FlightMode::Acro, "ACRO", BASE),
-    row(0, FlightMode::Stabilized, "STABILIZE", BASE),
-    row(2, FlightMode::Altitude, "ALT_HOLD", BASE),
+    row(1, FlightMode::Acro, "ACRO", BASE_MODE),
+    row(0, FlightMode::Stabilized, "STABILIZE", BASE_MODE),
+    row(2, FlightMode::Altitude, "ALT_HOLD", BASE_MODE),
     row(7, FlightMode::Orbit, "CIRCLE", POSITION_CONTROLLED).entered_by(AutopilotRequest::CircleAhead).without_arming(),
     row(LOITER, FlightMode::Position, "LOITER", POSITION_CONTROLLED).hold_without_sticks(),
     row(GUIDED, FlightMode::Hold, "GUIDED", POSITION_CONTROLLED)
@@ -93,7 +93,7 @@ pub static FLAVOR: Flavor = Flavor {
     name: "ardupilot",
     autopilot: MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA,
     software_version: 4 << 24 | 6 << 16,
-    capabilities: COMMON.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT),
+    capabilities: COMMON_CAPABILITIES.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_FLOAT),
     modes: MODES,
     mode_bits: u32::MAX,
     custom_mode: |number, _| if (0.0..256.0).contains(&number) { number as u32 } else { u32::MAX },
@@ -102,10 +102,10 @@ pub static FLAVOR: Flavor = Flavor {
     goto_mode: Some(GUIDED),
     take_off: TakeOffRule::AboveHomeInGuided,
     // The second value is ArduPilot's magic number for arming.
-    force: &[FORCE, 2989.0],
+    force: &[FORCE_VALUE, 2989.0],
     roi_altitude_above_sea_level: false,
     refusals: RefusalResults {
-        temporarily: MavResult::MAV_RESULT_FAILED,
+        temporary_rejection: MavResult::MAV_RESULT_FAILED,
         denied: MavResult::MAV_RESULT_FAILED,
         unknown_mode: MavResult::MAV_RESULT_FAILED,
         message: MavResult::MAV_RESULT_FAILED,
@@ -113,7 +113,7 @@ pub static FLAVOR: Flavor = Flavor {
     },
     arming_check_prefix: Some("Arm: "),
     prearm_reason_prefix: "PreArm: ",
-    sensor_text: sensor_words,
+    sensor_text: sensor_failure_text,
     mode_rejection_text: |row, why| format!("Mode change to {} failed: {why}", row.name.to_uppercase()),
     banner: &[
         concat!("ArduCopter V4.6.0-dev (Spandrel ", env!("CARGO_PKG_VERSION"), ")"),
@@ -148,7 +148,7 @@ pub static FLAVOR: Flavor = Flavor {
         tuning.setpoint_end_is_normal = true;
         tuning.takeoff_at_climb_speed = true;
         tuning.arming_depends_on_mode = true;
-        tuning.keeps_mission_mode = true;
+        tuning.stays_in_mission_mode = true;
         tuning.first_item = 1;
         tuning.fence_switch_persists = true;
     },
@@ -169,7 +169,7 @@ fn state(estimate: &Estimate, status: &AutopilotStatus) -> MavState {
 
 /// Returns ArduCopter's text: it reports a GNSS receiver that contradicts the estimator as a glitch, and barometer and
 /// compass by instance, as in its checks.
-fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
+fn sensor_failure_text(change: SensorChange) -> Option<(MavSeverity, String)> {
     let text = match (change.sensor, change.fault) {
         (_, Some(SensorFault::NoReadings)) => return None,
         (MonitoredSensor::Gnss, Some(_)) => "GPS Glitch or Compass error",

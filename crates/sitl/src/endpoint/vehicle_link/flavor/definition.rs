@@ -55,7 +55,7 @@ impl ModeRow {
 #[derive(Debug, Clone, Copy)]
 pub struct RefusalResults {
     /// Result for a temporary rejection.
-    pub temporarily: MavResult,
+    pub temporary_rejection: MavResult,
     /// Result for a request rejected in the current state.
     pub denied: MavResult,
     /// Result for an unknown mode.
@@ -221,7 +221,7 @@ impl Flavor {
 }
 
 /// Capabilities common to all flavors.
-pub(super) const COMMON: MavProtocolCapability = {
+pub(super) const COMMON_CAPABILITIES: MavProtocolCapability = {
     use MavProtocolCapability as C;
     C::MAV_PROTOCOL_CAPABILITY_MISSION_FLOAT
         .union(C::MAV_PROTOCOL_CAPABILITY_MISSION_INT)

@@ -1,7 +1,7 @@
 //! A generic MAVLink interface without an autopilot's dialect. It offers MAVLink's standard modes where they exist. The
 //! standard does not define custom mode numbers, so this interface uses PX4's, which many SDKs and recorders assume.
 
-use super::definition::{COMMON, Flavor, ModeRow, TakeOffRule, named_mode};
+use super::definition::{COMMON_CAPABILITIES, Flavor, ModeRow, TakeOffRule, named_mode};
 use super::px4::{self, row};
 use crate::autopilot::FlightMode;
 use crate::endpoint::vehicle_link::calibration::CalibrationTexts;
@@ -28,7 +28,7 @@ pub static FLAVOR: Flavor = Flavor {
     name: "generic",
     autopilot: MavAutopilot::MAV_AUTOPILOT_GENERIC,
     software_version: VERSION,
-    capabilities: COMMON.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE),
+    capabilities: COMMON_CAPABILITIES.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE),
     modes: MODES,
     mode_bits: px4::MODE_BITS,
     custom_mode,
@@ -36,7 +36,7 @@ pub static FLAVOR: Flavor = Flavor {
     state: px4::state,
     goto_mode: None,
     take_off: TakeOffRule::AboveSeaLevel,
-    force: &[px4::FORCE],
+    force: &[px4::FORCE_VALUE],
     roi_altitude_above_sea_level: false,
     refusals: px4::REFUSALS,
     arming_check_prefix: None,

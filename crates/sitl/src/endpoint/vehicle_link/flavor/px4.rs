@@ -1,7 +1,7 @@
 //! PX4's interface: custom_mode contains the main mode in bits 16 to 23 and the sub mode in bits 24 to 31
 //! (docs/src/reference/wire.md, "Autopilot interfaces"; recorded from a real PX4).
 
-use super::definition::{COMMON, Flavor, ModeRow, RefusalResults, TakeOffRule, named_mode};
+use super::definition::{COMMON_CAPABILITIES, Flavor, ModeRow, RefusalResults, TakeOffRule, named_mode};
 use crate::autopilot::sensor_health::{MonitoredSensor, SensorChange, SensorFault};
 use crate::autopilot::{AutopilotRequest, AutopilotStatus, Estimate, FlightMode};
 use crate::endpoint::vehicle_link::calibration::CalibrationTexts;
@@ -10,9 +10,9 @@ use spandrel_mavlink::dialect::{
     MavAutopilot, MavModeFlag as F, MavProtocolCapability, MavResult, MavSeverity, MavStandardMode as S, MavState, MavVtolState,
 };
 
-const BASE: F = F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED);
-const MANUAL: F = BASE.union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
-const AUTONOMOUS: F = BASE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
+const BASE_MODE: F = F::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED.union(F::MAV_MODE_FLAG_STABILIZE_ENABLED);
+const MANUAL: F = BASE_MODE.union(F::MAV_MODE_FLAG_MANUAL_INPUT_ENABLED);
+const AUTONOMOUS: F = BASE_MODE.union(F::MAV_MODE_FLAG_AUTO_ENABLED).union(F::MAV_MODE_FLAG_GUIDED_ENABLED);
 
 /// Creates a row from main and sub mode.
 pub(super) const fn row(
@@ -63,7 +63,7 @@ pub static FLAVOR: Flavor = Flavor {
     name: "px4",
     autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
     software_version: 1 << 24 | 16 << 16,
-    capabilities: COMMON.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE),
+    capabilities: COMMON_CAPABILITIES.union(MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE),
     modes: MODES,
     mode_bits: MODE_BITS,
     custom_mode: main_and_sub,
@@ -71,14 +71,14 @@ pub static FLAVOR: Flavor = Flavor {
     state,
     goto_mode: None,
     take_off: TakeOffRule::AboveSeaLevel,
-    force: &[FORCE],
+    force: &[FORCE_VALUE],
     // PX4's navigator uses the altitude without checking the frame. MAVSDK's gimbal plugin relies on it: it sends
     // altitudes above mean sea level in a home-relative frame.
     roi_altitude_above_sea_level: true,
     refusals: REFUSALS,
     arming_check_prefix: None,
     prearm_reason_prefix: "Preflight Fail: ",
-    sensor_text: sensor_words,
+    sensor_text: sensor_failure_text,
     mode_rejection_text: named_mode,
     banner: &[],
     sends_message_after_ack: false,
@@ -101,10 +101,10 @@ pub static FLAVOR: Flavor = Flavor {
 };
 
 /// Magic value that forces arming or disarming (MAVLink common, COMPONENT_ARM_DISARM param2).
-pub(super) const FORCE: f64 = 21196.0;
+pub(super) const FORCE_VALUE: f64 = 21196.0;
 /// Results that PX4 sends for rejected requests.
 pub(super) const REFUSALS: RefusalResults = RefusalResults {
-    temporarily: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+    temporary_rejection: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
     denied: MavResult::MAV_RESULT_DENIED,
     unknown_mode: MavResult::MAV_RESULT_DENIED,
     message: MavResult::MAV_RESULT_DENIED,
@@ -140,7 +140,7 @@ pub(super) fn state(_: &Estimate, status: &AutopilotStatus) -> MavState {
 
 /// Returns PX4's text for a failed sensor, with type and reason ("BARO #0 failed: STALE!"); a missing sensor gets the
 /// default text.
-fn sensor_words(change: SensorChange) -> Option<(MavSeverity, String)> {
+fn sensor_failure_text(change: SensorChange) -> Option<(MavSeverity, String)> {
     let reason = match change.fault? {
         SensorFault::NoReadings => return None,
         SensorFault::Stuck => "STALE",

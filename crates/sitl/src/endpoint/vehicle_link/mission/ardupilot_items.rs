@@ -70,7 +70,7 @@ pub(crate) fn fly_now(v: &mut VehicleLink, item: &MISSION_ITEM_INT_DATA, a: &mut
     if let Err(result) = flyable_position(item, a.aircraft.plane) {
         return result;
     }
-    let home_up = a.home_up_m();
+    let home_up = a.home_height_m();
     let Some(target) = place(item, a.aircraft.plane, home_up) else { return MavMissionResult::MAV_MISSION_INVALID_PARAM5_X };
     let north_east_m = (item.current == GO_TO).then_some((target.north(), target.east()));
     let request = AutopilotRequest::GoTo { north_east_m, up_m: Some(-target.down()), yaw_rad: None, speed_m_s: None };

@@ -9,8 +9,8 @@ use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 
 /// Value of NAV_DELAY's first parameter if hour, minute and second are used; ArduPilot sends 0 instead.
-const BY_TIME_OF_DAY: f32 = -1.0;
-const TURN_DEG: f32 = 360.0;
+const TIME_OF_DAY_DELAY: f32 = -1.0;
+const FULL_TURN_DEG: f32 = 360.0;
 
 /// Returns the fields that an item leaves open.
 pub(super) fn of(item: &MISSION_ITEM_INT_DATA) -> DeferredFields {
@@ -41,11 +41,11 @@ pub(super) fn with_placeholder(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane)
     }
     let timed = [item.param2, item.param3, item.param4].iter().any(|part| *part != 0.0);
     if item.command == MavCmd::MAV_CMD_NAV_DELAY && item.param1 == 0.0 && timed {
-        item.param1 = BY_TIME_OF_DAY;
+        item.param1 = TIME_OF_DAY_DELAY;
     }
     // Angles above one turn are reduced to the remainder.
     if item.command == MavCmd::MAV_CMD_CONDITION_YAW && item.param1.is_finite() {
-        item.param1 %= TURN_DEG;
+        item.param1 %= FULL_TURN_DEG;
     }
     let nowhere = (item.x, item.y) == (0, 0) && item.z == 0.0;
     if item.command == MavCmd::MAV_CMD_DO_SET_HOME && nowhere {

@@ -7,9 +7,9 @@ use spandrel_mavlink::dialect::{MISSION_ITEM_INT_DATA, MavCmd, MavMissionResult,
 use spandrel_model::geodesy::LocalPlane;
 
 /// Allowed number of polygon vertices.
-const CORNERS: std::ops::RangeInclusive<f32> = 3.0..=70.0;
+const VERTEX_COUNTS: std::ops::RangeInclusive<f32> = 3.0..=70.0;
 /// Allowed circle radii, m.
-const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=100_000.0;
+const CIRCLE_RADII_M: std::ops::RangeInclusive<f32> = 1.0..=100_000.0;
 
 /// Checks a geofence or rally item. Returns an error that names the invalid parameter.
 pub(super) fn check_area(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Result<(), MavMissionResult> {
@@ -18,10 +18,12 @@ pub(super) fn check_area(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane) -> Re
         MavCmd::MAV_CMD_NAV_RALLY_POINT if rally => true,
         _ if rally => return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED),
         MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_POLYGON_VERTEX_EXCLUSION => {
-            CORNERS.contains(&item.param1) && item.param1.fract() == 0.0
+            VERTEX_COUNTS.contains(&item.param1) && item.param1.fract() == 0.0
         }
         MavCmd::MAV_CMD_NAV_FENCE_RETURN_POINT => true,
-        MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION => RADII_M.contains(&item.param1),
+        MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_INCLUSION | MavCmd::MAV_CMD_NAV_FENCE_CIRCLE_EXCLUSION => {
+            CIRCLE_RADII_M.contains(&item.param1)
+        }
         _ => return Err(MavMissionResult::MAV_MISSION_UNSUPPORTED),
     };
     if !first {

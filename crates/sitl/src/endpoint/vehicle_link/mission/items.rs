@@ -11,11 +11,11 @@ use spandrel_model::geodesy::LocalPlane;
 /// Maximum hold time for an item, s.
 const MAX_HOLD_S: f32 = 86_400.0;
 /// Allowed circle radii, m.
-const RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
+const CIRCLE_RADII_M: std::ops::RangeInclusive<f32> = 1.0..=1_000.0;
 /// Default circle radius, m.
 const DEFAULT_RADIUS_M: f64 = 5.0;
 /// Allowed speeds, m/s; -1 means no change, and -2 restores the parameter's value (MAVLink common).
-const SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
+const ALLOWED_SPEEDS_M_S: (f32, f32) = (0.1, 100.0);
 /// Minimum number of repetitions at which a jump counts as endless.
 const ENDLESS_REPETITIONS: f32 = 64.0;
 
@@ -102,7 +102,7 @@ fn time_of_day(item: &MISSION_ITEM_INT_DATA) -> Result<TimeOfDay, MavMissionResu
 fn circle(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     check_range(item.param1, (0.0, 1_000.0), MavMissionResult::MAV_MISSION_INVALID_PARAM1)?;
     let radius = item.param3.abs();
-    let known = radius.is_nan() || radius == 0.0 || RADII_M.contains(&radius);
+    let known = radius.is_nan() || radius == 0.0 || CIRCLE_RADII_M.contains(&radius);
     if known { Ok(()) } else { Err(MavMissionResult::MAV_MISSION_INVALID_PARAM3) }
 }
 
@@ -125,7 +125,7 @@ fn speed(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     if [-1.0, -2.0].contains(&item.param2) {
         return Ok(());
     }
-    check_range(item.param2, SPEEDS_M_S, MavMissionResult::MAV_MISSION_INVALID_PARAM2)
+    check_range(item.param2, ALLOWED_SPEEDS_M_S, MavMissionResult::MAV_MISSION_INVALID_PARAM2)
 }
 
 /// Rejects a mission with an endless jump loop that contains no flight or wait items.
@@ -187,7 +187,7 @@ fn check_no_offsets(item: &MISSION_ITEM_INT_DATA) -> ItemResult {
     }
 }
 
-/// Converts an item to an autopilot step. `home_up_m` is home's height above the origin in meters.
+/// Converts an item to an autopilot step. `home_height_m` is home's height above the origin in meters.
 pub(super) fn step(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) -> MissionStep {
     let number = |x: f32, or: f64| if x.is_finite() { f64::from(x) } else { or };
     let somewhere = |make: fn(spandrel_model::frames::Vec3<spandrel_model::frames::Ned>) -> MissionStep| {
@@ -251,7 +251,7 @@ fn waypoint(item: &MISSION_ITEM_INT_DATA, plane: &LocalPlane, home_up_m: f64) ->
     MissionStep::Waypoint {
         position_m,
         // 0 selects the current parameter value.
-        accept_m: if passes && item.param2.is_finite() && item.param2 > 0.0 { f64::from(item.param2) } else { 0.0 },
+        acceptance_radius_m: if passes && item.param2.is_finite() && item.param2 > 0.0 { f64::from(item.param2) } else { 0.0 },
         hold_s: if item.command == MavCmd::MAV_CMD_NAV_LOITER_UNLIM { f64::INFINITY } else { stay_s },
         yaw_rad: (passes && item.param4.is_finite()).then(|| f64::from(item.param4).to_radians()),
     }

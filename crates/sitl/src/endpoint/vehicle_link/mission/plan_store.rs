@@ -19,9 +19,9 @@ use spandrel_model::time::SimTime;
 /// Maximum number of items in a plan.
 const MAX_ITEMS: u16 = 2_000;
 /// Timeout after which a stalled upload is canceled, s; longer than clients keep retrying.
-const STALL_S: f64 = 10.0;
+const STALL_TIMEOUT_S: f64 = 10.0;
 /// Every nth retry of the first item request uses the other encoding (estimate: one second at the usual timeout).
-const SWITCH_ENCODING_EVERY: u8 = 4;
+const ENCODING_SWITCH_RETRIES: u8 = 4;
 /// Timeout after which a mission item request is repeated, s, as in PX4.
 const RETRY_INTERVAL_S: f64 = 0.25;
 /// For an uploader that usually responds faster, the request is repeated after this multiple of its usual delay, but
@@ -32,14 +32,14 @@ const MIN_RETRY_INTERVAL_S: f64 = 0.12;
 /// On a link that reorders datagrams, number of unanswered requests after which earlier items are requested, stepping
 /// further back each time. An uploader that a delayed request has set back ignores requests for later items (MAVSDK). A
 /// lower number would use up MAVSDK's five attempts when requests are merely lost.
-const STEP_BACK_AFTER: u8 = 4;
+const STEP_BACK_THRESHOLD: u8 = 4;
 /// Number of steps back, each twice as far as the previous one: up to 128 items, more than are transferred while a
 /// request is delayed.
-const STEPS_BACK: u8 = 8;
+const MAX_STEPS_BACK: u8 = 8;
 /// Weight of the latest delay in the moving average.
 const DELAY_WEIGHT: f64 = 0.25;
 /// Number of times the acknowledgment of an upload over a lossy link is repeated.
-const ACK_REPEATS: u8 = 4;
+const ACK_REPEAT_COUNT: u8 = 4;
 
 /// A peer: its system and component ID.
 pub type PlanPeer = (u8, u8);
@@ -174,9 +174,11 @@ impl PlanUpload {
         if let Some(seq) = self.set_back_to.take() {
             return seq;
         }
-        match self.unanswered.checked_sub(STEP_BACK_AFTER).filter(|_| self.reorders) {
+        match self.unanswered.checked_sub(STEP_BACK_THRESHOLD).filter(|_| self.reorders) {
             // Alternate with the missing item: a client that never repeats an item waits for that one.
-            Some(turn) if turn.is_multiple_of(2) => self.missing().saturating_sub(1 << (turn / 2 % STEPS_BACK)).max(self.first),
+            Some(turn) if turn.is_multiple_of(2) => {
+                self.missing().saturating_sub(1 << (turn / 2 % MAX_STEPS_BACK)).max(self.first)
+            }
             Some(_) => self.missing(),
             None => self.requested,
         }
@@ -189,7 +191,7 @@ impl PlanUpload {
     }
 
     /// Records that the expected item has arrived.
-    fn answered(&mut self, now: SimTime) {
+    fn record_item_arrival(&mut self, now: SimTime) {
         (self.unanswered, self.set_back_to) = (0, None);
         if !std::mem::take(&mut self.is_retry) {
             let delay_s = (now - self.last_request).s();
@@ -472,7 +474,7 @@ impl PlanStore {
 
     /// Checks whether another peer is uploading.
     fn is_busy(&self, from: PlanPeer, now: SimTime) -> bool {
-        self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.last_received).s() < STALL_S * self.speed_factor)
+        self.upload.as_ref().is_some_and(|u| u.from != from && (now - u.last_received).s() < STALL_TIMEOUT_S * self.speed_factor)
     }
 
     /// Handles an uploaded item.
@@ -491,7 +493,7 @@ impl PlanStore {
             // Out of order: the missing item has been requested, and `poll_retries` requests it again.
             return PlanReply::Nothing;
         }
-        upload.answered(now);
+        upload.record_item_arrival(now);
         let stored = slot(upload.kind).map_or(0, |slot| self.plans[slot].len());
         let total = if upload.is_partial { stored as u16 + lead } else { upload.count };
         // The home item is ignored: the vehicle keeps its own home.
@@ -535,7 +537,7 @@ impl PlanStore {
         self.plans[slot] = whole;
         self.done = Some((from, kind, last));
         let done = ack_with_id(from, kind, MavMissionResult::MAV_MISSION_ACCEPTED, self.ids[slot]);
-        self.ack_repeat = loses.then(|| AckRepeat { to: from, message: done.clone(), sent: now, left: ACK_REPEATS });
+        self.ack_repeat = loses.then(|| AckRepeat { to: from, message: done.clone(), sent: now, left: ACK_REPEAT_COUNT });
         PlanReply::Updated(kind, done)
     }
 
@@ -604,7 +606,7 @@ impl PlanStore {
     pub fn poll_retries(&mut self, now: SimTime) -> Option<(PlanPeer, MavMessage)> {
         let Some(upload) = self.upload.as_mut() else { return self.repeat_acknowledgment(now) };
         let (from, kind) = (upload.from, upload.kind);
-        if (now - upload.last_received).s() > STALL_S * self.speed_factor {
+        if (now - upload.last_received).s() > STALL_TIMEOUT_S * self.speed_factor {
             self.upload = None;
             return Some((from, ack(from, kind, MavMissionResult::MAV_MISSION_OPERATION_CANCELLED)));
         }
@@ -616,8 +618,11 @@ impl PlanStore {
             // A client that has not sent any item yet may support only the other encoding. On a lossy link, most
             // clients support the first.
             if upload.items.is_empty() && self.encoding == ItemEncoding::Int {
-                upload.encoding =
-                    if upload.unanswered.is_multiple_of(SWITCH_ENCODING_EVERY) { ItemEncoding::Float } else { ItemEncoding::Int };
+                upload.encoding = if upload.unanswered.is_multiple_of(ENCODING_SWITCH_RETRIES) {
+                    ItemEncoding::Float
+                } else {
+                    ItemEncoding::Int
+                };
             }
             return Some((from, upload.item_request()));
         }

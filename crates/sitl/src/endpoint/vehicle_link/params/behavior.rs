@@ -42,7 +42,7 @@ pub(super) const FRAME: [&str; 7] = [
     "PILOT_SPEED_UP",
 ];
 
-const fn slot(name: &'static str, short: &'static str) -> Row {
+const fn mode_switch_row(name: &'static str, short: &'static str) -> Row {
     // No radio is connected, so the switch never moves.
     row(name, Int(-1), (-1.0, 107.0), "", COMMANDER, short).values(FLIGHT_MODES).token()
 }
@@ -69,12 +69,12 @@ pub(super) const ROWS: &[Row] = &[
     row("COM_DLL_EXCEPT", Int(0), (0.0, 7.0), "", COMMANDER, "Modes exempt from the ground station loss failsafe")
         .bits(LINK_BITS),
     row("COM_FAIL_ACT_T", Real(5.0), (0.0, 25.0), "s", COMMANDER, "Hold time before the failsafe action"),
-    slot("COM_FLTMODE1", "Mode at switch position 1"),
-    slot("COM_FLTMODE2", "Mode at switch position 2"),
-    slot("COM_FLTMODE3", "Mode at switch position 3"),
-    slot("COM_FLTMODE4", "Mode at switch position 4"),
-    slot("COM_FLTMODE5", "Mode at switch position 5"),
-    slot("COM_FLTMODE6", "Mode at switch position 6"),
+    mode_switch_row("COM_FLTMODE1", "Mode at switch position 1"),
+    mode_switch_row("COM_FLTMODE2", "Mode at switch position 2"),
+    mode_switch_row("COM_FLTMODE3", "Mode at switch position 3"),
+    mode_switch_row("COM_FLTMODE4", "Mode at switch position 4"),
+    mode_switch_row("COM_FLTMODE5", "Mode at switch position 5"),
+    mode_switch_row("COM_FLTMODE6", "Mode at switch position 6"),
     // Value 1 is unused in PX4. Here it is the default for jobs whose rules return the vehicle when the battery is low.
     row("COM_LOW_BAT_ACT", Int(0), (0.0, 3.0), "", COMMANDER, "Low battery action").values(&[
         (0, "Warning"),
@@ -178,8 +178,8 @@ pub(super) fn frame_defaults(frame: &crate::autopilot::operator_rules::FlightEnv
         ("MPC_ACC_HOR", up(frame.acceleration_m_s2, 0.5, 15.0)),
         ("MPC_ACC_UP_MAX", vertical),
         ("MPC_MAN_TILT_MAX", up(frame.manual_tilt_rad.to_degrees(), 1.0, 70.0)),
-        ("MPC_MAN_Y_MAX", up(frame.manual_yaw_rad_s.to_degrees(), 0.0, 400.0)),
-        ("MPC_VEL_MANUAL", up(frame.manual_m_s, 0.5, 30.0)),
-        ("PILOT_SPEED_UP", Int((100.0 * frame.manual_up_m_s).ceil().clamp(50.0, 2_000.0) as i32)),
+        ("MPC_MAN_Y_MAX", up(frame.manual_yaw_rate_rad_s.to_degrees(), 0.0, 400.0)),
+        ("MPC_VEL_MANUAL", up(frame.manual_speed_m_s, 0.5, 30.0)),
+        ("PILOT_SPEED_UP", Int((100.0 * frame.manual_climb_rate_m_s).ceil().clamp(50.0, 2_000.0) as i32)),
     ]
 }

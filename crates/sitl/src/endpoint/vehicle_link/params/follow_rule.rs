@@ -31,7 +31,7 @@ impl Params {
             enabled: enable != 0,
             position: FollowPosition::Offset {
                 offset_m: Some(offset).filter(|offset| *offset != [0.0; 3]),
-                along_course: self.whole("FOLL_OFS_TYPE") == Some(RELATIVE_TO_COURSE),
+                rotates_with_course: self.whole("FOLL_OFS_TYPE") == Some(RELATIVE_TO_COURSE),
             },
             max_distance_m: self.number("FOLL_DIST_MAX"),
             max_speed_m_s: fastest_m_s,

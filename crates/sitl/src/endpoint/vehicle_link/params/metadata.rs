@@ -13,9 +13,9 @@ use std::io::Cursor;
 use std::sync::{Arc, LazyLock};
 
 /// The value of COMP_METADATA_TYPE_PARAMETER.
-const PARAMETER: u8 = 1;
+const PARAMETER_METADATA: u8 = 1;
 /// The value of COMP_METADATA_TYPE_EVENTS.
-const EVENTS: u8 = 4;
+const EVENTS_METADATA: u8 = 4;
 /// Paths of the files on the vehicle's file server.
 const PARAMETER_PATH: &str = "/etc/extras/parameter.json.xz";
 const EVENTS_PATH: &str = "/etc/extras/all_events.json.xz";
@@ -57,17 +57,17 @@ pub struct MetadataFiles {
 /// Returns a flavor's metadata files.
 #[must_use]
 pub fn files(face: &ParamView) -> &'static MetadataFiles {
-    static COMMON: LazyLock<MetadataFiles> = LazyLock::new(|| make(&PX4));
-    static OTHER: LazyLock<MetadataFiles> = LazyLock::new(|| make(&COPTER));
+    static COMMON: LazyLock<MetadataFiles> = LazyLock::new(|| build_metadata_files(&PX4));
+    static OTHER: LazyLock<MetadataFiles> = LazyLock::new(|| build_metadata_files(&COPTER));
     if face.cast { &OTHER } else { &COMMON }
 }
 
-fn make(face: &ParamView) -> MetadataFiles {
+fn build_metadata_files(face: &ParamView) -> MetadataFiles {
     let parameters: Vec<Json> = face.rows().iter().map(describe).collect();
     let parameter = MetadataFile::new(PARAMETER_PATH, &json!({ "version": 1, "parameters": parameters }));
     let events = (!face.cast).then(|| MetadataFile::new(EVENTS_PATH, &events::definitions()));
-    let mut types = vec![json!({ "type": PARAMETER, "uri": parameter.uri, "fileCrc": parameter.crc })];
-    types.extend(events.iter().map(|file| json!({ "type": EVENTS, "uri": file.uri, "fileCrc": file.crc })));
+    let mut types = vec![json!({ "type": PARAMETER_METADATA, "uri": parameter.uri, "fileCrc": parameter.crc })];
+    types.extend(events.iter().map(|file| json!({ "type": EVENTS_METADATA, "uri": file.uri, "fileCrc": file.crc })));
     let general = MetadataFile::new(GENERAL_PATH, &json!({ "version": 1, "metadataTypes": types }));
     MetadataFiles { general, parameter, events }
 }

@@ -28,9 +28,9 @@ use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 
 /// PX4's name for the checksum of all parameters.
-pub const HASH: &str = "_HASH_CHECK";
+pub const HASH_NAME: &str = "_HASH_CHECK";
 /// Name of the parameter that enables the geofence, for flavors that have one.
-pub const FENCE_SWITCH: &str = "FENCE_ENABLE";
+pub const FENCE_ENABLE_NAME: &str = "FENCE_ENABLE";
 /// The reason a parameter was not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ParamRefusal {
@@ -48,9 +48,9 @@ pub enum ParamRefusal {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BatteryThresholds {
     /// Low battery threshold, %.
-    pub low_pct: f64,
+    pub low_charge_pct: f64,
     /// Critical battery threshold, %.
-    pub critical_pct: f64,
+    pub critical_charge_pct: f64,
 }
 
 /// Aircraft properties that parameters report.
@@ -63,7 +63,7 @@ pub struct AircraftValues {
     /// Battery thresholds.
     pub thresholds: BatteryThresholds,
     /// Whether the job's rules return the vehicle when the battery is low.
-    pub returns_when_low: bool,
+    pub returns_on_low_battery: bool,
     /// Limits of the airframe.
     pub frame: FlightEnvelope,
 }
@@ -73,17 +73,17 @@ impl AircraftValues {
     pub const SMALL_AIRCRAFT: Self = Self {
         cells: 3,
         capacity_mah: 5_200.0,
-        thresholds: BatteryThresholds { low_pct: 30.0, critical_pct: 10.0 },
-        returns_when_low: false,
+        thresholds: BatteryThresholds { low_charge_pct: 30.0, critical_charge_pct: 10.0 },
+        returns_on_low_battery: false,
         frame: FlightEnvelope {
-            manual_m_s: 15.0,
-            manual_up_m_s: 6.0,
-            manual_down_m_s: 2.0,
-            manual_yaw_rad_s: 2.0,
+            manual_speed_m_s: 15.0,
+            manual_climb_rate_m_s: 6.0,
+            manual_descent_rate_m_s: 2.0,
+            manual_yaw_rate_rad_s: 2.0,
             manual_tilt_rad: 0.6,
             acceleration_m_s2: 4.0,
             climb_acceleration_m_s2: 3.0,
-            landing_m_s: 2.0,
+            landing_descent_rate_m_s: 2.0,
         },
     };
 }
@@ -126,7 +126,7 @@ pub enum StickPolicy {
 pub struct Params {
     values: BTreeMap<&'static str, ParamValue>,
     changes: u64,
-    face: &'static ParamView,
+    view: &'static ParamView,
     capacity_mah: f64,
     /// Defaults that depend on the airframe.
     frame: BTreeMap<&'static str, ParamValue>,
@@ -135,30 +135,30 @@ pub struct Params {
 impl Params {
     /// Creates the defaults for a vehicle and a flavor.
     #[must_use]
-    pub fn new(system_id: u8, pack: AircraftValues, face: &'static ParamView) -> Self {
-        let own = face.rows().iter().filter(|row| row.source == ParamSource::Own);
+    pub fn new(system_id: u8, pack: AircraftValues, view: &'static ParamView) -> Self {
+        let own = view.rows().iter().filter(|row| row.source == ParamSource::Own);
         // Names shared by two flavors may differ in type and default: the flavor's own row applies.
         let mut values: BTreeMap<&'static str, ParamValue> =
             table::rows().iter().chain(own).map(|row| (row.name, row.default)).collect();
-        values.extend(face.defaults.iter().copied());
-        values.insert("SPAN_FLAVOUR", Int(face.number));
+        values.extend(view.defaults.iter().copied());
+        values.insert("SPAN_FLAVOUR", Int(view.number));
         values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
         values.insert("BAT1_N_CELLS", Int(pack.cells.cast_signed()));
-        values.insert("BAT_LOW_THR", Real((pack.thresholds.low_pct / 100.0) as f32));
-        values.insert("BAT_CRIT_THR", Real((pack.thresholds.critical_pct / 100.0) as f32));
+        values.insert("BAT_LOW_THR", Real((pack.thresholds.low_charge_pct / 100.0) as f32));
+        values.insert("BAT_CRIT_THR", Real((pack.thresholds.critical_charge_pct / 100.0) as f32));
         let frame: BTreeMap<_, _> =
             behavior::frame_defaults(&pack.frame).into_iter().filter(|(name, _)| values.contains_key(name)).collect();
         values.extend(frame.iter().map(|(name, value)| (*name, *value)));
-        if pack.returns_when_low {
+        if pack.returns_on_low_battery {
             values.insert("COM_LOW_BAT_ACT", Int(1));
         }
-        if face.cast {
-            if pack.returns_when_low {
+        if view.cast {
+            if pack.returns_on_low_battery {
                 values.extend([("BATT_FS_LOW_ACT", Int(2)), ("BATT_FS_CRT_ACT", Int(1))]);
             }
             values.insert("BATT_CAPACITY", Int(pack.capacity_mah.round() as i32));
         }
-        Self { values, changes: 0, face, capacity_mah: pack.capacity_mah, frame }
+        Self { values, changes: 0, view: view, capacity_mah: pack.capacity_mah, frame }
     }
 
     /// Restores the vehicle's defaults.
@@ -178,7 +178,7 @@ impl Params {
     /// Returns the flavor's view of the parameters.
     #[must_use]
     pub fn param_view(&self) -> &'static ParamView {
-        self.face
+        self.view
     }
 
     /// Returns a parameter's allowed range.
@@ -190,7 +190,7 @@ impl Params {
     /// Returns the number of parameters shown to clients.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.face.rows().len()
+        self.view.rows().len()
     }
 
     /// Returns PX4's checksum: CRC-32 without pre- and post-inversion over the name and value of each parameter, sorted
@@ -199,7 +199,7 @@ impl Params {
     pub fn hash(&self) -> u32 {
         // The crate inverts the register at both ends; inverting before and after yields the plain polynomial.
         let mut crc = crc32fast::Hasher::new_with_initial(u32::MAX);
-        for row in self.face.rows().iter().filter(|row| !row.volatile) {
+        for row in self.view.rows().iter().filter(|row| !row.volatile) {
             crc.update(row.name.as_bytes());
             crc.update(&self.shown(row).to_wire().to_bits().to_le_bytes());
         }
@@ -209,7 +209,7 @@ impl Params {
     /// Returns the name and value at a list index.
     #[must_use]
     pub fn at(&self, index: usize) -> Option<(&'static str, ParamValue)> {
-        self.face.rows().get(index).map(|row| (row.name, self.shown(row)))
+        self.view.rows().get(index).map(|row| (row.name, self.shown(row)))
     }
 
     /// Returns the list index, name and value of a parameter.
@@ -221,13 +221,13 @@ impl Params {
     /// Returns the parameter at a list index as sent to clients.
     #[must_use]
     pub fn outgoing(&self, index: usize) -> Option<OutgoingParam> {
-        let row = self.face.rows().get(index)?;
+        let row = self.view.rows().get(index)?;
         let value = self.shown(row);
-        Some(OutgoingParam { name: row.name, wire: if self.face.cast { value.cast() } else { value.to_wire() }, kind: row.wire })
+        Some(OutgoingParam { name: row.name, wire: if self.view.cast { value.cast() } else { value.to_wire() }, kind: row.wire })
     }
 
     fn row(&self, name: &str) -> Option<(usize, &'static Row)> {
-        let rows = self.face.rows();
+        let rows = self.view.rows();
         let index = rows.binary_search_by(|row| row.name.cmp(name)).ok()?;
         Some((index, &rows[index]))
     }
@@ -268,11 +268,11 @@ impl Params {
         let (_, row) = self.row(name).ok_or(ParamRefusal::Unknown)?;
         let real = kind == MavParamType::MAV_PARAM_TYPE_REAL32;
         let value = match row.default {
-            Int(_) if self.face.cast && wire.is_nan() => return Err(ParamRefusal::OutOfRange),
+            Int(_) if self.view.cast && wire.is_nan() => return Err(ParamRefusal::OutOfRange),
             // ArduPilot truncates the fraction.
-            Int(_) if self.face.cast => Int(wire as i32),
+            Int(_) if self.view.cast => Int(wire as i32),
             Int(_) if !real => Int(wire.to_bits().cast_signed()),
-            Real(_) if real || self.face.cast => Real(wire),
+            Real(_) if real || self.view.cast => Real(wire),
             Int(_) | Real(_) => return Err(ParamRefusal::Type),
         };
         self.put(row, value)
@@ -358,7 +358,7 @@ impl Params {
     /// Returns whether the geofence is enabled, if a parameter controls it.
     #[must_use]
     pub fn fence_enabled(&self) -> Option<bool> {
-        self.whole(FENCE_SWITCH).map(|value| value != 0)
+        self.whole(FENCE_ENABLE_NAME).map(|value| value != 0)
     }
 
     /// Returns the system ID of the ground station that may send stick input; `None`: any.
@@ -369,7 +369,7 @@ impl Params {
 
     /// Returns the throttle pulse width, in microseconds, below which the transmitter counts as lost.
     #[must_use]
-    pub fn throttle_loss_us(&self) -> Option<u16> {
+    pub fn throttle_loss_pulse_us(&self) -> Option<u16> {
         self.whole("FS_THR_VALUE").and_then(|us| u16::try_from(us).ok())
     }
 
@@ -381,7 +381,7 @@ impl Params {
 
     /// Checks whether a reboot deletes the mission (bit 0 of `MIS_OPTIONS`).
     #[must_use]
-    pub fn drops_mission_at_boot(&self) -> bool {
+    pub fn clears_mission_at_boot(&self) -> bool {
         self.whole("MIS_OPTIONS").is_some_and(|bits| bits & 1 != 0)
     }
 
@@ -414,23 +414,23 @@ impl Params {
         tuning.takeoff_height_m = self.number("MIS_TAKEOFF_ALT");
         tuning.takeoff_speed_m_s = self.number("MPC_TKO_SPEED");
         tuning.land_speed_m_s = self.number("MPC_LAND_SPEED");
-        tuning.cruise_m_s = self.number("MPC_XY_CRUISE");
+        tuning.cruise_speed_m_s = self.number("MPC_XY_CRUISE");
         tuning.horizontal_speed_max_m_s = self.number("MPC_XY_VEL_MAX");
         tuning.climb_m_s = self.number("MPC_Z_VEL_MAX_UP");
         tuning.descend_m_s = self.number("MPC_Z_VEL_MAX_DN");
-        if !self.face.cast {
+        if !self.view.cast {
             tuning.climb_m_s = tuning.climb_m_s.min(self.number("MPC_Z_V_AUTO_UP"));
             tuning.descend_m_s = tuning.descend_m_s.min(self.number("MPC_Z_V_AUTO_DN"));
         }
-        tuning.land_slow_below_m = self.number("MPC_LAND_ALT2");
+        tuning.slow_landing_height_m = self.number("MPC_LAND_ALT2");
         tuning.failsafe_delay_s = self.number("COM_FAIL_ACT_T");
         tuning.stick_takeover = self.whole("COM_RC_OVERRIDE").is_none_or(|bits| bits & 1 != 0);
         self.apply_rules(&mut tuning.rules);
         tuning.return_height_m = self.number("RTL_RETURN_ALT");
-        tuning.accept_radius_m = self.number("NAV_ACC_RAD");
-        tuning.manual_loss_s = self.number("COM_RC_LOSS_T");
-        tuning.data_link_loss_s = self.number("COM_DL_LOSS_T");
-        tuning.offboard_loss_s = self.real("GUID_TIMEOUT").unwrap_or_else(|| self.number("COM_OF_LOSS_T"));
+        tuning.default_acceptance_radius_m = self.number("NAV_ACC_RAD");
+        tuning.manual_loss_timeout_s = self.number("COM_RC_LOSS_T");
+        tuning.data_link_loss_timeout_s = self.number("COM_DL_LOSS_T");
+        tuning.offboard_loss_timeout_s = self.real("GUID_TIMEOUT").unwrap_or_else(|| self.number("COM_OF_LOSS_T"));
         tuning.battery_low_pct = 100.0 * self.number("BAT_LOW_THR");
         tuning.battery_critical_pct = 100.0 * self.number("BAT_CRIT_THR");
         tuning.disarm_after_landing_s = self.number("COM_DISARM_LAND");

@@ -52,7 +52,7 @@ fn parse_selection(options: &str) -> Option<ParamSelection> {
 }
 
 fn pack(selection: ParamSelection, params: &Params, defaults: &Params) -> Vec<u8> {
-    let rows: Vec<&Row> = params.face.rows().iter().skip(selection.first).take(selection.count).collect();
+    let rows: Vec<&Row> = params.view.rows().iter().skip(selection.first).take(selection.count).collect();
     let mut out = Vec::new();
     for number in [if selection.defaults { WITH_DEFAULTS } else { WITHOUT_DEFAULTS }, rows.len() as u16, params.count() as u16] {
         out.extend(number.to_le_bytes());

@@ -19,7 +19,7 @@ const RETURN: &str = "Return Mode";
 const SIMULATION: &str = "Simulation";
 const SYSTEM: &str = "System";
 
-const LOSS: &[(i32, &str)] =
+const LOSS_ACTIONS: &[(i32, &str)] =
     &[(0, "Disabled"), (1, "Hold mode"), (2, "Return mode"), (3, "Land mode"), (5, "Terminate"), (6, "Disarm")];
 /// Channels for a stick or switch. No radio is connected, so all sticks and switches are unassigned.
 pub(super) const CHANNELS: &[(i32, &str)] = &[
@@ -43,7 +43,7 @@ pub(super) const CHANNELS: &[(i32, &str)] = &[
     (17, "Channel 17"),
     (18, "Channel 18"),
 ];
-const CELLS: &[(i32, &str)] = &[(2, "2S"), (3, "3S"), (4, "4S"), (5, "5S"), (6, "6S"), (8, "8S"), (12, "12S"), (14, "14S")];
+const CELL_COUNTS: &[(i32, &str)] = &[(2, "2S"), (3, "3S"), (4, "4S"), (5, "5S"), (6, "6S"), (8, "8S"), (12, "12S"), (14, "14S")];
 const ROTATIONS: &[(i32, &str)] = &[
     (-1, "Internal"),
     (0, "None"),
@@ -62,7 +62,7 @@ const ROTATIONS: &[(i32, &str)] = &[
     (25, "Pitch 270°"),
 ];
 /// Button functions, by parameter value.
-const FUNCTIONS: &[(i32, &str)] = &[
+const BUTTON_FUNCTIONS: &[(i32, &str)] = &[
     (0, "None"),
     (1, "Arm"),
     (2, "Disarm"),
@@ -82,7 +82,7 @@ const FUNCTIONS: &[(i32, &str)] = &[
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
 const fn button(name: &'static str) -> Row {
-    row(name, Int(0), (0.0, 14.0), "", JOYSTICK, "Button function").values(FUNCTIONS)
+    row(name, Int(0), (0.0, 14.0), "", JOYSTICK, "Button function").values(BUTTON_FUNCTIONS)
 }
 
 /// Returns all parameters under PX4's names, sorted by name.
@@ -94,7 +94,7 @@ pub(super) fn rows() -> &'static [Row] {
 /// Names from the source code of QGroundControl and MAVSDK (docs/src/reference/wire.md, "Parameters"), with PX4's
 /// defaults where they apply. Sorted by name.
 pub const ROWS: &[Row] = &[
-    row("BAT1_N_CELLS", Int(3), (1.0, 16.0), "", BATTERY, "Number of cells in series").values(CELLS),
+    row("BAT1_N_CELLS", Int(3), (1.0, 16.0), "", BATTERY, "Number of cells in series").values(CELL_COUNTS),
     row("BAT1_SOURCE", Int(-1), (-1.0, 2.0), "", BATTERY, "Battery data source")
         .values(&[(-1, "Disabled"), (0, "Power Module")])
         .token(),
@@ -164,8 +164,8 @@ pub const ROWS: &[Row] = &[
     row("MPC_Z_VEL_MAX_DN", Real(1.5), (0.3, 10.0), "m/s", FLIGHT, "Maximum descent speed in automatic modes"),
     row("MPC_Z_VEL_MAX_UP", Real(3.0), (0.3, 15.0), "m/s", FLIGHT, "Maximum climb speed in automatic modes"),
     row("NAV_ACC_RAD", Real(2.0), (0.05, 200.0), "m", MISSION, "Waypoint acceptance radius"),
-    row("NAV_DLL_ACT", Int(0), (0.0, 6.0), "", COMMANDER, "Ground station loss action").values(LOSS),
-    row("NAV_RCL_ACT", Int(1), (1.0, 6.0), "", COMMANDER, "Manual control loss action").values(LOSS),
+    row("NAV_DLL_ACT", Int(0), (0.0, 6.0), "", COMMANDER, "Ground station loss action").values(LOSS_ACTIONS),
+    row("NAV_RCL_ACT", Int(1), (1.0, 6.0), "", COMMANDER, "Manual control loss action").values(LOSS_ACTIONS),
     row("RC_CHAN_CNT", Int(0), (0.0, 18.0), "", RADIO, "Number of radio channels").token(),
     row("RC_MAP_FLTMODE", Int(0), (0.0, 18.0), "", RADIO, "Mode switch channel").values(CHANNELS).token(),
     row("RC_MAP_MODE_SW", Int(0), (0.0, 18.0), "", RADIO, "Legacy mode switch channel").values(CHANNELS).token(),

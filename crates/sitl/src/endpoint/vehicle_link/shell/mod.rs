@@ -14,7 +14,7 @@ pub use console::NshShell;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage, MavResult, SERIAL_CONTROL_DATA, SerialControlDev, SerialControlFlag};
 
 /// Data bytes in SERIAL_CONTROL.
-const CHUNK: usize = 70;
+const CHUNK_BYTES: usize = 70;
 /// Maximum line length, bytes.
 const MAX_LINE_BYTES: usize = 256;
 /// Maximum number of messages per tick.
@@ -52,7 +52,7 @@ pub(super) fn bytes(v: &mut VehicleLink, m: &SERIAL_CONTROL_DATA, a: &mut Inboun
         v.shell = NshShell { client: Some(from), ..NshShell::default() };
         v.shell.print(PROMPT);
     }
-    let data = &m.data[..usize::from(m.count).min(CHUNK)];
+    let data = &m.data[..usize::from(m.count).min(CHUNK_BYTES)];
     for character in String::from_utf8_lossy(data).chars() {
         match character {
             '\n' | '\r' if v.shell.line.is_empty() && character == '\r' => {}
@@ -172,7 +172,7 @@ fn commander(v: &mut VehicleLink, rest: &[&str], a: &mut InboundMessage) -> Stri
 }
 
 fn check(a: &InboundMessage) -> String {
-    let reasons = &a.autopilot.status().arming_reasons;
+    let reasons = &a.autopilot.status().arming_blockers;
     let lines: Vec<String> = reasons.iter().map(|reason| format!("WARN: Preflight Fail: {reason}\n")).collect();
     let verdict = if reasons.is_empty() { "OK" } else { "FAILED" };
     format!("{}Preflight check: {verdict}\n", lines.concat())
@@ -194,8 +194,8 @@ impl VehicleLink {
             if self.shell.out.is_empty() || link.is_busy() {
                 return;
             }
-            let count = self.shell.out.len().min(CHUNK);
-            let mut data = [0; CHUNK];
+            let count = self.shell.out.len().min(CHUNK_BYTES);
+            let mut data = [0; CHUNK_BYTES];
             data.iter_mut().zip(self.shell.out.drain(..count)).for_each(|(slot, byte)| *slot = byte);
             let message = MavMessage::SERIAL_CONTROL(SERIAL_CONTROL_DATA {
                 baudrate: 0,

@@ -23,7 +23,7 @@ pub(super) fn listen(view: &VehicleSnapshot, rest: &[&str]) -> String {
         return format!("Usage: listener TOPIC\nTopics:\n{known}");
     };
     let lines: Vec<String> = fields(view).iter().map(|(field, value)| format!("    {field}: {value}\n")).collect();
-    format!("\nTOPIC: {name}\n {name}\n    timestamp: {}\n{}\n", view.clock.boot_us(), lines.concat())
+    format!("\nTOPIC: {name}\n {name}\n    timestamp: {}\n{}\n", view.clock.boot_time_us(), lines.concat())
 }
 
 fn vector(values: &[f64]) -> String {

@@ -15,10 +15,10 @@ const CONSTANT_POSITION: u16 = 128;
 const UNINITIALIZED: u16 = 1_024;
 /// Accuracy that corresponds to a reported variance of 1, m (1 sigma): the accuracy required for arming. ArduPilot
 /// rejects estimates with a higher variance.
-const REJECTED_M: f64 = 5.0;
+const REJECTION_ACCURACY_M: f64 = 5.0;
 /// Values that ArduPilot's own SITL reports for its board: a simulated board has no memory or power supply.
-const FREE_BYTES: f64 = 524_288.0;
-const BOARD_MV: u16 = 5_000;
+const FREE_MEMORY_BYTES: f64 = 524_288.0;
+const BOARD_VOLTAGE_MV: u16 = 5_000;
 
 pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
     let e = v.estimate;
@@ -27,7 +27,7 @@ pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<DialectMessage> {
         (true, false) => ATTITUDE | VERTICAL | CONSTANT_POSITION,
         (true, true) => ATTITUDE | VERTICAL | HORIZONTAL,
     };
-    let share = |sigma_m: f64| ((sigma_m / REJECTED_M) * (sigma_m / REJECTED_M)).min(1.0);
+    let share = |sigma_m: f64| ((sigma_m / REJECTION_ACCURACY_M) * (sigma_m / REJECTION_ACCURACY_M)).min(1.0);
     let compass = if v.status.health.compass { 0.0 } else { 1.0 };
     let [flat, height] = [e.horizontal_m, e.vertical_m].map(share);
     Some(EKF_STATUS_REPORT.message(&[
@@ -50,7 +50,7 @@ pub(crate) fn ahrs(v: &VehicleSnapshot) -> Option<DialectMessage> {
 }
 
 pub(crate) fn memory(_: &VehicleSnapshot) -> Option<DialectMessage> {
-    Some(MEMINFO.message(&[0.0, f64::from(u16::MAX), FREE_BYTES]))
+    Some(MEMINFO.message(&[0.0, f64::from(u16::MAX), FREE_MEMORY_BYTES]))
 }
 
 pub(crate) fn simulation(v: &VehicleSnapshot) -> Option<DialectMessage> {
@@ -102,5 +102,5 @@ pub(crate) fn wind(v: &VehicleSnapshot) -> Option<DialectMessage> {
 }
 
 pub(crate) fn power(_: &VehicleSnapshot) -> Option<MavMessage> {
-    Some(MavMessage::POWER_STATUS(POWER_STATUS_DATA { Vcc: BOARD_MV, Vservo: 0, flags: MavPowerStatus::empty() }))
+    Some(MavMessage::POWER_STATUS(POWER_STATUS_DATA { Vcc: BOARD_VOLTAGE_MV, Vservo: 0, flags: MavPowerStatus::empty() }))
 }

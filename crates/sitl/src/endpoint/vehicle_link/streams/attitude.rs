@@ -9,7 +9,7 @@ pub(crate) fn attitude(v: &VehicleSnapshot) -> Option<MavMessage> {
     let (roll, pitch, yaw) = v.estimate.attitude.euler();
     let w = v.estimate.rates_rad_s;
     Some(MavMessage::ATTITUDE(ATTITUDE_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         roll: roll as f32,
         pitch: pitch as f32,
         yaw: yaw as f32,
@@ -23,7 +23,7 @@ pub(crate) fn quaternion(v: &VehicleSnapshot) -> Option<MavMessage> {
     let q = v.estimate.attitude.wxyz();
     let w = v.estimate.rates_rad_s;
     Some(MavMessage::ATTITUDE_QUATERNION(ATTITUDE_QUATERNION_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         q1: q[0] as f32,
         q2: q[1] as f32,
         q3: q[2] as f32,
@@ -40,7 +40,7 @@ pub(crate) fn target(v: &VehicleSnapshot) -> Option<MavMessage> {
         | AttitudeTargetTypemask::ATTITUDE_TARGET_TYPEMASK_BODY_PITCH_RATE_IGNORE
         | AttitudeTargetTypemask::ATTITUDE_TARGET_TYPEMASK_BODY_YAW_RATE_IGNORE;
     Some(MavMessage::ATTITUDE_TARGET(ATTITUDE_TARGET_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         q: v.status.attitude_target.wxyz().map(|c| c as f32),
         thrust: v.status.thrust as f32,
         type_mask: rates,

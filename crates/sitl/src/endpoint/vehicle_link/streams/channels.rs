@@ -4,7 +4,7 @@ use super::super::snapshot::VehicleSnapshot;
 use spandrel_mavlink::dialect::{MavMessage, RC_CHANNELS_DATA};
 
 /// Throttle down, other sticks centered: the values of ArduPilot's SITL without a transmitter, microseconds.
-const NO_TRANSMITTER_US: [u16; 4] = [1500, 1500, 1000, 1500];
+const NO_TRANSMITTER_PULSES_US: [u16; 4] = [1500, 1500, 1000, 1500];
 
 /// Builds the sender's pulses, or their equivalent on a transmitter, where forward is below center. ArduPilot sends all
 /// 16 channels, with or without stick input.
@@ -14,7 +14,7 @@ pub(crate) fn pulses(v: &VehicleSnapshot) -> Option<MavMessage> {
     }
     let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us?;
     Some(MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         chancount: 4,
         chan1_raw,
         chan2_raw,
@@ -30,10 +30,10 @@ pub(crate) fn pulses(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 fn all_channels(v: &VehicleSnapshot) -> MavMessage {
-    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us.unwrap_or(NO_TRANSMITTER_US);
-    let a = v.aux_us;
+    let [chan1_raw, chan2_raw, chan3_raw, chan4_raw] = v.pulses_us.unwrap_or(NO_TRANSMITTER_PULSES_US);
+    let a = v.aux_pulses_us;
     MavMessage::RC_CHANNELS(RC_CHANNELS_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         chancount: 16,
         chan1_raw,
         chan2_raw,

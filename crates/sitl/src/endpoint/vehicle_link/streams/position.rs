@@ -13,9 +13,9 @@ use spandrel_model::math;
 pub(crate) fn local(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [x, y, z] = v.local_from_site(v.estimate.position_m).array().map(|c| c as f32);
     let [vx, vy, vz] = v.estimate.velocity_m_s.array().map(|c| c as f32);
-    v.estimate
-        .attitude_valid
-        .then(|| MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.clock.boot_ms(), x, y, z, vx, vy, vz }))
+    v.estimate.attitude_valid.then(|| {
+        MavMessage::LOCAL_POSITION_NED(LOCAL_POSITION_NED_DATA { time_boot_ms: v.clock.boot_time_ms(), x, y, z, vx, vy, vz })
+    })
 }
 
 pub(crate) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
@@ -25,7 +25,7 @@ pub(crate) fn global(v: &VehicleSnapshot) -> Option<MavMessage> {
     let geo = v.geo();
     let velocity = v.estimate.velocity_m_s;
     Some(MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         lat: deg_e7(geo.latitude_deg),
         lon: deg_e7(geo.longitude_deg),
         alt: mm(geo.altitude_m),
@@ -42,7 +42,7 @@ pub(crate) fn orbit(v: &VehicleSnapshot) -> Option<MavMessage> {
     let orbit = v.status.orbit?;
     let center = v.plane.geo_from_enu(orbit.center_m.enu());
     Some(MavMessage::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         radius: (orbit.radius_m * orbit.speed_m_s.signum()) as f32,
         x: deg_e7(center.latitude_deg),
         y: deg_e7(center.longitude_deg),
@@ -110,7 +110,7 @@ fn guided_target(v: &VehicleSnapshot) -> Option<MavMessage> {
 fn target_message(v: &VehicleSnapshot, type_mask: PositionTargetTypemask, parts: [[f64; 3]; 3]) -> MavMessage {
     let [[x, y, z], [vx, vy, vz], [afx, afy, afz]] = parts.map(|part| part.map(|c| c as f32));
     MavMessage::POSITION_TARGET_LOCAL_NED(POSITION_TARGET_LOCAL_NED_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         x,
         y,
         z,
@@ -132,7 +132,7 @@ pub(crate) fn global_target(v: &VehicleSnapshot) -> Option<MavMessage> {
     let flies_itself = !v.status.mode.is_manual();
     let geo = v.plane.geo_from_enu(v.status.target_m.filter(|_| placed && flies_itself)?.enu());
     Some(MavMessage::POSITION_TARGET_GLOBAL_INT(POSITION_TARGET_GLOBAL_INT_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         lat_int: deg_e7(geo.latitude_deg),
         lon_int: deg_e7(geo.longitude_deg),
         alt: geo.altitude_m as f32,
@@ -149,7 +149,7 @@ pub(crate) fn altitude(v: &VehicleSnapshot) -> Option<MavMessage> {
     let below = v.readings.range_down_m.filter(|r| r.is_finite());
     v.estimate.attitude_valid.then(|| {
         MavMessage::ALTITUDE(ALTITUDE_DATA {
-            time_usec: v.clock.boot_us(),
+            time_usec: v.clock.boot_time_us(),
             altitude_monotonic: amsl as f32,
             altitude_amsl: amsl as f32,
             altitude_local: -local_down as f32,
@@ -173,7 +173,7 @@ pub(crate) fn home(v: &VehicleSnapshot) -> Option<MavMessage> {
         z,
         q: [1.0, 0.0, 0.0, 0.0],
         approach_z: 0.0,
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         ..Default::default()
     }))
 }
@@ -184,7 +184,7 @@ pub(crate) fn origin(v: &VehicleSnapshot) -> Option<MavMessage> {
         latitude: deg_e7(geo.latitude_deg),
         longitude: deg_e7(geo.longitude_deg),
         altitude: mm(geo.altitude_m),
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
     }))
 }
 
@@ -195,7 +195,7 @@ pub(crate) fn odometry(v: &VehicleSnapshot) -> Option<MavMessage> {
     let mut pose_covariance = [f32::NAN; 21];
     pose_covariance[0] = (0.5 * v.estimate.horizontal_m * v.estimate.horizontal_m) as f32;
     Some(MavMessage::ODOMETRY(ODOMETRY_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         x,
         y,
         z,

@@ -14,7 +14,7 @@ pub(crate) fn gps_raw(v: &VehicleSnapshot) -> Option<MavMessage> {
     let course = spandrel_model::math::atan2(velocity.east(), velocity.north());
     let fix = gnss.fix >= 3;
     Some(MavMessage::GPS_RAW_INT(GPS_RAW_INT_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         lat: if fix { deg_e7(geo.latitude_deg) } else { 0 },
         lon: if fix { deg_e7(geo.longitude_deg) } else { 0 },
         alt: if fix { mm(geo.altitude_m) } else { 0 },
@@ -34,7 +34,7 @@ pub(crate) fn gps_raw(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 pub(crate) fn pressure(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::SCALED_PRESSURE(SCALED_PRESSURE_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         press_abs: (v.readings.pressure_pa? / 100.0) as f32,
         temperature: 1500,
         ..Default::default()
@@ -47,7 +47,7 @@ pub(crate) fn highres_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [xgyro, ygyro, zgyro] = imu.rates_rad_s.array().map(|c| c as f32);
     let [xmag, ymag, zmag] = v.readings.mag_gauss.map_or([0.0; 3], |m| m.array().map(|c| c as f32));
     Some(MavMessage::HIGHRES_IMU(HIGHRES_IMU_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         xacc,
         yacc,
         zacc,
@@ -76,7 +76,7 @@ fn milli(v: &VehicleSnapshot) -> Option<[[i16; 3]; 3]> {
 pub(crate) fn scaled_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
     Some(MavMessage::SCALED_IMU(SCALED_IMU_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         xacc,
         yacc,
         zacc,
@@ -93,7 +93,7 @@ pub(crate) fn scaled_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
 pub(crate) fn raw_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [[xacc, yacc, zacc], [xgyro, ygyro, zgyro], [xmag, ymag, zmag]] = milli(v)?;
     Some(MavMessage::RAW_IMU(RAW_IMU_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         xacc,
         yacc,
         zacc,
@@ -109,12 +109,12 @@ pub(crate) fn raw_imu(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 /// Sector width of OBSTACLE_DISTANCE, deg: 72 sectors, because QGroundControl's overlay reads all elements of the
 /// array.
-const SECTOR_DEG: u8 = 5;
+const SECTOR_WIDTH_DEG: u8 = 5;
 
 /// Returns the index of the range finder closest to a sector, clockwise from the nose.
-fn nearest_finder(sector: usize, finders: usize) -> usize {
+fn nearest_range_finder(sector: usize, finders: usize) -> usize {
     let between_deg = 360 / finders.max(1);
-    (sector * usize::from(SECTOR_DEG) + between_deg / 2) / between_deg % finders.max(1)
+    (sector * usize::from(SECTOR_WIDTH_DEG) + between_deg / 2) / between_deg % finders.max(1)
 }
 
 /// Sectors clockwise from the nose, each with the reading of the closest horizontal range finder.
@@ -123,17 +123,17 @@ pub(crate) fn obstacles(v: &VehicleSnapshot) -> Option<MavMessage> {
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     let mut distances = [u16::MAX; 72];
     for (sector, slot) in distances.iter_mut().enumerate() {
-        let range = around[nearest_finder(sector, around.len())];
+        let range = around[nearest_range_finder(sector, around.len())];
         *slot = if range.is_finite() { cm_u16(range).min(reach) } else { reach + 1 };
     }
     Some(MavMessage::OBSTACLE_DISTANCE(OBSTACLE_DISTANCE_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         distances,
         min_distance: 10,
         max_distance: reach,
         sensor_type: MavDistanceSensor::MAV_DISTANCE_SENSOR_LASER,
-        increment: SECTOR_DEG,
-        increment_f: f32::from(SECTOR_DEG),
+        increment: SECTOR_WIDTH_DEG,
+        increment_f: f32::from(SECTOR_WIDTH_DEG),
         angle_offset: 0.0,
         frame: MavFrame::MAV_FRAME_BODY_FRD,
     }))
@@ -161,7 +161,7 @@ const HORIZONTAL_ORIENTATIONS: [MavSensorOrientation; 8] = [
     MavSensorOrientation::MAV_SENSOR_ROTATION_YAW_315,
 ];
 /// ID of the first horizontal range finder; 0 is down, 1 is up.
-const FIRST_HORIZONTAL_ID: u8 = 2;
+const FIRST_HORIZONTAL_FINDER_ID: u8 = 2;
 
 /// Builds the message for the horizontal range finder at the nose.
 pub(crate) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
@@ -170,14 +170,14 @@ pub(crate) fn range_ahead(v: &VehicleSnapshot) -> Option<MavMessage> {
 
 /// Builds the message for one of the eight horizontal range finders.
 pub(crate) fn range_beside(v: &VehicleSnapshot, k: usize) -> Option<MavMessage> {
-    Some(range(v, FIRST_HORIZONTAL_ID + k as u8, *v.readings.range_around_m?.get(k)?, *HORIZONTAL_ORIENTATIONS.get(k)?))
+    Some(range(v, FIRST_HORIZONTAL_FINDER_ID + k as u8, *v.readings.range_around_m?.get(k)?, *HORIZONTAL_ORIENTATIONS.get(k)?))
 }
 
 /// Reports slightly more than the maximum range if nothing is within range.
 fn range(v: &VehicleSnapshot, id: u8, distance_m: f64, orientation: MavSensorOrientation) -> MavMessage {
     let reach = cm_u16(v.vehicle.sensors.range_max_m);
     MavMessage::DISTANCE_SENSOR(DISTANCE_SENSOR_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         min_distance: 10,
         max_distance: reach,
         current_distance: if distance_m.is_finite() { cm_u16(distance_m) } else { reach + 1 },

@@ -64,7 +64,7 @@ pub(crate) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     health.set(S::MAV_SYS_STATUS_SENSOR_3D_MAG, works.compass);
     health.set(S::MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE, works.barometer);
     health.set(S::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION, works.tracks_attitude);
-    health.set(S::MAV_SYS_STATUS_PREARM_CHECK, v.status.armed || v.status.arming_reasons.is_empty());
+    health.set(S::MAV_SYS_STATUS_PREARM_CHECK, v.status.armed || v.status.arming_blockers.is_empty());
     Some(MavMessage::SYS_STATUS(SYS_STATUS_DATA {
         onboard_control_sensors_present: present,
         onboard_control_sensors_enabled: enabled,
@@ -120,7 +120,10 @@ pub(crate) fn battery(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 pub(crate) fn system_time(v: &VehicleSnapshot) -> Option<MavMessage> {
-    Some(MavMessage::SYSTEM_TIME(SYSTEM_TIME_DATA { time_unix_usec: v.clock.unix_us(), time_boot_ms: v.clock.boot_ms() }))
+    Some(MavMessage::SYSTEM_TIME(SYSTEM_TIME_DATA {
+        time_unix_usec: v.clock.unix_time_us(),
+        time_boot_ms: v.clock.boot_time_ms(),
+    }))
 }
 
 pub(crate) fn extended_state(v: &VehicleSnapshot) -> Option<MavMessage> {
@@ -141,12 +144,12 @@ pub(crate) fn servos(v: &VehicleSnapshot) -> Option<MavMessage> {
     // The lamp as a servo output; see DO_SET_SERVO.
     let lamp = if v.lamp.on { 1900 } else { 1100 };
     Some(MavMessage::SERVO_OUTPUT_RAW(SERVO_OUTPUT_RAW_DATA {
-        time_usec: v.clock.boot_us() as u32,
+        time_usec: v.clock.boot_time_us() as u32,
         servo1_raw: pwm(0),
         servo2_raw: pwm(1),
         servo3_raw: pwm(2),
         servo4_raw: pwm(3),
-        servo9_raw: if v.vehicle.lamp.flux_lm > 0.0 { lamp } else { 0 },
+        servo9_raw: if v.vehicle.lamp.luminous_flux_lm > 0.0 { lamp } else { 0 },
         ..Default::default()
     }))
 }
@@ -159,7 +162,7 @@ pub(crate) fn outputs(v: &VehicleSnapshot) -> Option<MavMessage> {
         *slot = if v.actuators.armed { (1000.0 + 1000.0 * motor) as f32 } else { 900.0 };
     }
     Some(MavMessage::ACTUATOR_OUTPUT_STATUS(ACTUATOR_OUTPUT_STATUS_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         active: rotors as u32,
         actuator,
     }))
@@ -177,7 +180,7 @@ pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<MavMessage> {
         flags.set(flag, v.estimate.position_valid);
     }
     Some(MavMessage::ESTIMATOR_STATUS(ESTIMATOR_STATUS_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         pos_horiz_accuracy: v.estimate.horizontal_m as f32,
         pos_vert_accuracy: v.estimate.vertical_m as f32,
         flags,
@@ -188,7 +191,7 @@ pub(crate) fn estimator(v: &VehicleSnapshot) -> Option<MavMessage> {
 pub(crate) fn wind(v: &VehicleSnapshot) -> Option<MavMessage> {
     let [x, y, z] = v.wind_m_s.array().map(|c| c as f32);
     Some(MavMessage::WIND_COV(WIND_COV_DATA {
-        time_usec: v.clock.boot_us(),
+        time_usec: v.clock.boot_time_us(),
         wind_x: x,
         wind_y: y,
         wind_z: z,
@@ -198,7 +201,7 @@ pub(crate) fn wind(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 pub(crate) fn vibration(v: &VehicleSnapshot) -> Option<MavMessage> {
-    Some(MavMessage::VIBRATION(VIBRATION_DATA { time_usec: v.clock.boot_us(), ..Default::default() }))
+    Some(MavMessage::VIBRATION(VIBRATION_DATA { time_usec: v.clock.boot_time_us(), ..Default::default() }))
 }
 
 pub(crate) fn mission_current(v: &VehicleSnapshot) -> Option<MavMessage> {
@@ -257,18 +260,18 @@ pub(crate) fn current_mode(v: &VehicleSnapshot) -> Option<MavMessage> {
 }
 
 /// Identifiers "SP" and "TR" (trainer); they are not registered USB IDs.
-const VENDOR: u16 = 0x5350;
-const PRODUCT: u16 = 0x5452;
+const VENDOR_ID: u16 = 0x5350;
+const PRODUCT_ID: u16 = 0x5452;
 /// The first simulated board; not in the registered board lists.
-const BOARD: u32 = 1 << 8;
+const BOARD_VERSION: u32 = 1 << 8;
 
 pub(crate) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
     Some(MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA {
         capabilities: v.flavor.capabilities,
         uid: 0x5350_414e_4452_454c + u64::from(v.scoring.seed.unsigned_abs()) + (u64::from(v.system_id) << 32),
-        vendor_id: VENDOR,
-        product_id: PRODUCT,
-        board_version: BOARD,
+        vendor_id: VENDOR_ID,
+        product_id: PRODUCT_ID,
+        board_version: BOARD_VERSION,
         flight_sw_version: v.flavor.software_version,
         middleware_sw_version: v.flavor.software_version,
         ..Default::default()
@@ -279,14 +282,18 @@ pub(crate) fn version(v: &VehicleSnapshot) -> Option<MavMessage> {
 pub(crate) fn metadata(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavor.params).general;
     let uri = general.uri.as_str().into();
-    Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA { time_boot_ms: v.clock.boot_ms(), file_crc: general.crc, uri }))
+    Some(MavMessage::COMPONENT_METADATA(COMPONENT_METADATA_DATA {
+        time_boot_ms: v.clock.boot_time_ms(),
+        file_crc: general.crc,
+        uri,
+    }))
 }
 
 /// The same location for older clients.
 pub(crate) fn information(v: &VehicleSnapshot) -> Option<MavMessage> {
     let general = &metadata::files(v.flavor.params).general;
     Some(MavMessage::COMPONENT_INFORMATION(COMPONENT_INFORMATION_DATA {
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         general_metadata_file_crc: general.crc,
         general_metadata_uri: general.uri.as_str().into(),
         ..Default::default()
@@ -307,9 +314,9 @@ pub(crate) fn flight(v: &VehicleSnapshot) -> Option<MavMessage> {
     // Times since boot and a counter, despite the field names (MAVLink common).
     Some(MavMessage::FLIGHT_INFORMATION(FLIGHT_INFORMATION_DATA {
         arming_time_utc: us(v.flight.armed),
-        takeoff_time_utc: us(v.flight.took_off),
+        takeoff_time_utc: us(v.flight.took_off_at),
         flight_uuid: v.flight.number,
-        time_boot_ms: v.clock.boot_ms(),
+        time_boot_ms: v.clock.boot_time_ms(),
         landing_time: v.flight.landed.map_or(0, |at| v.clock.since_boot(at).ms() as u32),
     }))
 }

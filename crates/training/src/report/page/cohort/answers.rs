@@ -3,7 +3,7 @@
 use super::super::figure::{figure, legend, scrolling};
 use super::lists_individuals::lists_individuals;
 use super::pooled;
-use crate::cohort::{Cohort, Likert};
+use crate::cohort::{AnswerDistribution, Cohort};
 use crate::questionnaire::{QuestionnaireItem, SHIPPED, read_wording};
 use crate::report::formatting;
 use crate::report::plots::likert::{LikertQuestion, likert};
@@ -43,7 +43,7 @@ fn chart(questions: &[LikertQuestion], title: &str) -> Markup {
 }
 
 /// Returns a question's English text, or its key if it is unknown.
-fn question_text(one: &Likert) -> String {
+fn question_text(one: &AnswerDistribution) -> String {
     let wording = read_wording(SHIPPED[0].0, SHIPPED[0].1).ok();
     match (QuestionnaireItem::from_key(&one.question), wording) {
         (Some(item), Some(wording)) => {

@@ -1,7 +1,7 @@
 //! Practice effects: the group's learning curves and the trainees with repeat sessions.
 
 use super::super::figure::{figure, legend};
-use super::super::progress::{most, progress_figures, too_few_repetitions};
+use super::super::progress::{max_value, progress_figures, too_few_repetitions};
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell};
@@ -28,8 +28,8 @@ pub fn curves(cohort: &Cohort) -> Markup {
             div.trio {
                 @for one in &cohort.learning {
                     @let others = individual_curves(cohort, &one.score);
-                    @let drawn = PracticeChart { values: &one.means, curve: &one.curve, others: &others, most: most(&one.score) };
-                    (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&drawn, &format!("Learning curve of {}", one.score))))
+                    @let chart = PracticeChart { values: &one.means, curve: &one.curve, others: &others, max_value: max_value(&one.score) };
+                    (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&chart, &format!("Learning curve of {}", one.score))))
                 }
             }
             p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The group curve is flatter than the curves of individual trainees." }
@@ -64,7 +64,7 @@ fn numbers(curves: &[GroupCurve]) -> Table {
             TableCell::Number(one.means.last().copied().unwrap_or_default(), 1),
             TableCell::Number(c.exponent, 3),
             c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2)),
-            TableCell::Number(c.next.min(most(&one.score)), 1),
+            TableCell::Number(c.next.min(max_value(&one.score)), 1),
         ]
     };
     Table {

@@ -13,7 +13,7 @@ pub use lists_individuals::MAX_LISTED_TRAINEES;
 
 use super::{PageScripts, document};
 use crate::cohort::{Cohort, TABLES, tables};
-use crate::record::omitted_summary;
+use crate::record::excluded_sessions_note;
 use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
@@ -52,7 +52,7 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
             @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " or more times." }
-            @if let Some(words) = omitted_summary(cohort.left_out) { " " (words) "." } }
+            @if let Some(words) = excluded_sessions_note(cohort.left_out) { " " (words) "." } }
     }
 }
 

@@ -18,9 +18,9 @@ fn too_many_trainees_note(cohort: &Cohort, file: &str) -> Markup {
 /// A labeled box plot.
 type LabeledBox = (String, BoxPlot);
 
-fn draw_boxes(of: &[LabeledBox], most: f64, title: &str) -> Markup {
+fn draw_boxes(of: &[LabeledBox], max_value: f64, title: &str) -> Markup {
     let named: Vec<NamedBox<'_>> = of.iter().map(|(name, plot)| NamedBox { name: name.clone(), plot }).collect();
-    boxes(&named, most, title)
+    boxes(&named, max_value, title)
 }
 
 fn table(name: &'static str, caption: &'static str, head: &'static str, of: &[LabeledBox]) -> Table {
@@ -70,13 +70,13 @@ pub fn crashes(cohort: &Cohort) -> Markup {
 
 /// Returns equal-width bins that cover the counts from 0 to the maximum.
 fn bins(counts: &[usize]) -> Vec<HistogramBin> {
-    let most = counts.iter().copied().max().unwrap_or(0);
-    let wide = (most + 1).div_ceil(MAX_BINS).max(1);
+    let max_value = counts.iter().copied().max().unwrap_or(0);
+    let wide = (max_value + 1).div_ceil(MAX_BINS).max(1);
     let bin = |from: usize| {
         let to = from + wide;
         HistogramBin { from: from as f64, to: to as f64, count: counts.iter().filter(|count| (from..to).contains(count)).count() }
     };
-    (0..=most).step_by(wide).map(bin).collect()
+    (0..=max_value).step_by(wide).map(bin).collect()
 }
 
 /// Renders measured scores grouped by self-rating, which is rounded to an integer.
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_each_count_is_in_one_bin() {
+    fn exact_each_value_falls_in_exactly_one_bin() {
         let bins = bins(&[0, 0, 1, 3, 45]);
         assert_eq!((bins.len(), bins[0].to, bins.iter().map(|bin| bin.count).sum::<usize>()), (16, 3.0, 5));
         assert_eq!(super::bins(&[0, 2]).iter().map(|bin| bin.count).collect::<Vec<_>>(), [1, 0, 1]);

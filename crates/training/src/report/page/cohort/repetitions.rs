@@ -14,9 +14,9 @@ const SCORES: [(&str, f64); 5] =
 pub fn repetitions(cohort: &Cohort) -> Markup {
     html! {
         div.trio {
-            @for (score, most) in SCORES {
+            @for (score, max_value) in SCORES {
                 @let named: Vec<NamedBox<'_>> = cohort.boxes.iter().filter(|one| one.score == score).map(|one| NamedBox { name: one.repetition.to_string(), plot: &one.plot }).collect();
-                @if !named.is_empty() { (figure(score, &boxes(&named, most, &format!("Box plots of {score} by repetition")))) }
+                @if !named.is_empty() { (figure(score, &boxes(&named, max_value, &format!("Box plots of {score} by repetition")))) }
             }
         }
         p.note { "Boxes show the quartiles and the median; crosses show the mean. Whiskers extend to the most extreme values within 1.5 interquartile ranges of the box." }

@@ -33,7 +33,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 div {
                     p.kicker { "Session comparison" }
                     h1 { (first.scenario.title) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.about.trainee) } " · " (review.about.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) } }
                 }
             }
             main {
@@ -61,7 +61,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
 }
 
 fn session_label(review: &Review) -> String {
-    format!("{}, {}", review.about.trainee, review.about.started_utc)
+    format!("{}, {}", review.metadata.trainee, review.metadata.started_utc)
 }
 
 fn rows(first: &Review, second: &Review) -> Vec<ShareRow> {
