@@ -38,8 +38,8 @@ impl Inspect {
     pub fn new(job: &Scenario) -> Self {
         let paths = ReferencePaths::new(job);
         let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
-        let look = job.tasks.iter().map(|task| task.viewing_directions.clone()).collect();
-        Self { paths, look, flown, on: None, found: BTreeSet::new(), before: 0.0 }
+        let viewing_directions = job.tasks.iter().map(|task| task.viewing_directions.clone()).collect();
+        Self { paths, viewing_directions, flown, on: None, found: BTreeSet::new(), before: 0.0 }
     }
 
     /// Returns the fraction of the total path length that has been flown.

@@ -79,7 +79,7 @@ impl CellBounds {
 
 impl From<BoundingSphere> for CellBounds {
     fn from(sphere: BoundingSphere) -> Self {
-        Self { sphere: sphere, corners_m: Vec::new() }
+        Self { sphere, corners_m: Vec::new() }
     }
 }
 

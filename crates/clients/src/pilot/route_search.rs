@@ -37,7 +37,7 @@ pub fn route(
     ceiling_height_m: f64,
     at: SimTime,
 ) -> Vec<Vec3<Enu>> {
-    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_height_m: ceiling_height_m, rule: None };
+    let mut space = SearchSpace { site, clearance_m, at, origin: from, to, ceiling_height_m, rule: None };
     let found = match required_clearance_m {
         Some(required_clearance_m) => CLEARANCE_FRACTIONS.into_iter().find_map(|share| {
             space.rule = Some(space.clearance_rule(clearance_m + share * (required_clearance_m - clearance_m).max(0.0)));

@@ -33,14 +33,7 @@ pub fn sparse(scenario: &Scenario, site: &Site, tolerance_factor: f64) -> Vec<[u
     if side * side != points.len() {
         return triangles;
     }
-    let field = GroundField {
-        scenario,
-        site,
-        points: &points,
-        side,
-        viewpoints_m: viewpoints_m(scenario),
-        tolerance_factor: tolerance_factor,
-    };
+    let field = GroundField { scenario, site, points: &points, side, viewpoints_m: viewpoints_m(scenario), tolerance_factor };
     sparse::triangles(side, MAX_SQUARE_CELLS, &|square| field.is_flat(square))
 }
 

@@ -258,7 +258,7 @@ fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
 }
 
 // Corrosion: missing paint, flaking rust, and a stain that runs down.
-fn corroded(in: Fragment, f: f32, look: ptr<function, Look>) {
+fn corrosion(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     let seed = in.normal.w;
     let e = outline(in.q, half, seed);
@@ -373,7 +373,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     look.alpha = 0.0;
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
     if KIND == 1000u {
-        corroded(in, f, &look);
+        corrosion(in, f, &look);
     } else if KIND == 1010u {
         fatigue(in, across, off, &look);
     } else if KIND == 1020u {

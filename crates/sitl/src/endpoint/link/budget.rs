@@ -35,7 +35,7 @@ impl LinkBudget {
     #[must_use]
     pub fn new(capacity_bytes_s: f64, frames_s: f64, now: SimTime) -> Self {
         let stretch = (frames_s * ASSUMED_FRAME_BYTES / (capacity_bytes_s * STREAM_SHARE)).clamp(1.0, MAX_STRETCH);
-        Self { capacity_bytes_s: capacity_bytes_s, tokens: 0.0, at: now, last_adjusted: now, streamed_bytes: 0.0, stretch }
+        Self { capacity_bytes_s, tokens: 0.0, at: now, last_adjusted: now, streamed_bytes: 0.0, stretch }
     }
 
     /// Refills the capacity up to `now`; once a second, adjusts the stream intervals to the measured usage.

@@ -31,13 +31,7 @@ impl SigningPolicy {
     /// trusted kinds of links. Signed frames must be valid there, too.
     #[must_use]
     pub fn new(key: SigningKey, timestamp: u64, trusted: &[LinkKind]) -> Self {
-        Self {
-            signing: Signing::new(key.clone(), 0, timestamp),
-            key,
-            timestamp: timestamp,
-            rejected_frames: 0,
-            trusted: trusted.to_vec(),
-        }
+        Self { signing: Signing::new(key.clone(), 0, timestamp), key, timestamp, rejected_frames: 0, trusted: trusted.to_vec() }
     }
 
     /// Creates a signer with the same key for a link.

@@ -158,7 +158,7 @@ impl Params {
             }
             values.insert("BATT_CAPACITY", Int(pack.capacity_mah.round() as i32));
         }
-        Self { values, changes: 0, view: view, capacity_mah: pack.capacity_mah, frame }
+        Self { values, changes: 0, view, capacity_mah: pack.capacity_mah, frame }
     }
 
     /// Restores the vehicle's defaults.
