@@ -308,7 +308,7 @@ fn wire_rejections_include_a_reason() {
         (M::MAV_CMD_DO_ORBIT, p(&[5.0, 1.0, 17.0]), DENIED, "Orbit: "),
         (M::MAV_CMD_DO_FENCE_ENABLE, p(&[2.0]), DENIED, "Fence: "),
         (M::MAV_CMD_DO_CHANGE_SPEED, p(&[2.0, 3.0]), DENIED, "Speed: type"),
-        (M::MAV_CMD_DO_CHANGE_SPEED, p(&[1.0, -7.0]), DENIED, "Speed: must be above"),
+        (M::MAV_CMD_DO_CHANGE_SPEED, p(&[1.0, -7.0]), DENIED, "Speed: must be > 0"),
         (M::MAV_CMD_NAV_TAKEOFF, p(&[0.0, 0.0, 0.0, 0.0, NAN, NAN, 5_000.0]), DENIED, "Takeoff height"),
         (M::MAV_CMD_DO_SET_MISSION_CURRENT, p(&[99.0]), DENIED, "No such mission item"),
     ] {

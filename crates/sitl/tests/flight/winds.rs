@@ -167,5 +167,5 @@ fn regress_caged_vehicle_requires_feet_below_its_cage() {
     let short = text.replace("0.24]", "0.22]");
     assert_ne!(short, text);
     let problems = spandrel_model::vehicle::read("elios3.toml", &short).unwrap_err().to_string();
-    assert!(problems.contains("feet_m") && problems.contains("0.24 m or more below the center"), "{problems}");
+    assert!(problems.contains("feet_m") && problems.contains("at least 0.24 m below the center"), "{problems}");
 }
