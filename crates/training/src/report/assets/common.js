@@ -7,7 +7,7 @@ const Flight = (function () {
     const whole = Math.round(Math.abs(t));
     return (t < -0.5 ? '\u2212' : '') + Math.floor(whole / 60) + ':' + String(whole % 60).padStart(2, '0');
   };
-  const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + ' ' + unit);
+  const number = (value, digits, unit) => (value === null ? '–' : value.toFixed(digits) + (unit === '%' ? '%' : ' ' + unit));
   const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
   // Returns the index of the time nearest to t in an ascending list.

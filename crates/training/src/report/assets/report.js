@@ -221,7 +221,7 @@
       pathStyle.color = paintOf('--path');
       const styles = { crash: '--bad-fill', 'v-hit': '--good-fill', 'v-repeat': '--good-fill', 'v-near': '--warn-fill', 'v-false': '--bad-fill', found: '--good', missed: '--bad', drone: '--ink' };
       for (const kind of Object.keys(shared)) shared[kind].color = paintOf(styles[kind]);
-      const chosen = choose[document.querySelector('input[name="colouring"]:checked').value];
+      const chosen = choose[document.querySelector('input[name="coloring"]:checked').value];
       const known = {}, colors = track.geometry.getAttribute('color');
       for (let i = 0; i < count; i++) {
         const name = chosen(i);
@@ -231,7 +231,7 @@
       colors.needsUpdate = true;
       render();
     }
-    all('input[name="colouring"]').forEach((input) => input.addEventListener('change', paint));
+    all('input[name="coloring"]').forEach((input) => input.addEventListener('change', paint));
 
     // The view rotates about the center of the bridges.
     const box = new T.Box3().setFromObject(structure.geometry.getAttribute('position').count ? structure : track);

@@ -69,7 +69,7 @@ fn controls(review: &Review) -> Markup {
             fieldset.switch {
                 legend { "Color flight path by" }
                 @for (k, (name, class)) in colors::COLOR_MODES.iter().enumerate() {
-                    label { input type="radio" name="colouring" value=(class) id=(class) checked[k == 0]; (name) }
+                    label { input type="radio" name="coloring" value=(class) id=(class) checked[k == 0]; (name) }
                 }
             }
             @for (k, (_, class)) in colors::COLOR_MODES.iter().enumerate() {

@@ -12,7 +12,7 @@ const put = (key, value) => {
   const at = cell(key);
   if (at && at.textContent !== value) at.textContent = value;
 };
-const number = (value, digits, unit) => (value === null ? "–" : `${value.toFixed(digits)} ${unit}`);
+const number = (value, digits, unit) => (value === null ? "–" : `${value.toFixed(digits)}${unit === "%" ? "" : " "}${unit}`);
 
 function onSheet(matrix, [e, n, u]) {
   const m = matrix.split(" ").map(Number);
