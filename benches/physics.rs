@@ -19,7 +19,7 @@ const STEPS_PER_SAMPLE: i64 = 500;
 /// Number of samples per median. The cases alternate, so a period of high machine load affects them all.
 const SAMPLE_COUNT: usize = 61;
 
-/// Maximum medians, as ratios to the baseline.
+/// Highest allowed medians, as ratios to the baseline.
 const MAX_HOVER_60_M_RATIO: f64 = 4.0;
 const MAX_HOVER_2_M_RATIO: f64 = 8.0;
 const MAX_HOVER_HALF_M_RATIO: f64 = 20.0;

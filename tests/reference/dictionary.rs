@@ -57,7 +57,7 @@ fn exact_data_dictionary_matches_the_code() {
                         frame. If the telemetry has no value for a frame, the CSV cell is empty and the Parquet value is \
                         null. Flags are 1 or 0 in CSV. In Parquet, each field's metadata gives its unit, frame and \
                         definition.";
-    let assessment_about = "`spandrel assess SESSION --json FILE` and `assessment.json`. `[]` stands for list elements, \
+    let assessment_about = "Fields of `assessment.json`, which `spandrel assess SESSION --json FILE` also writes. `[]` stands for list elements, \
                             and `*` stands for map keys.";
     let cohort_about = "`spandrel cohort --csv FOLDER` writes these tables. After the `trainee` column, `crashes.csv` has \
                         one `task_ID` column per task. After the `seconds` column, `progress.csv` has one `on_path_ID` \

@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_enter_quits_and_again_starts_another_flight() {
+    fn exact_enter_quits_and_typing_again_starts_another_flight() {
         for (line, answer) in [
             ("", PromptAnswer::Quit),
             ("again", PromptAnswer::Again),

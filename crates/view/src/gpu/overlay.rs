@@ -1,7 +1,7 @@
 //! Head-up display over a rendered picture.
 
 use super::device::Gpu;
-use super::pipelines::PICTURE_FORMAT;
+use super::pipelines::COLOR_FORMAT;
 use crate::flow::{PICTURES, PageLayout};
 use crate::hud::{DrawItem, ScreenPoint, TextAlign};
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
@@ -23,7 +23,7 @@ impl Overlay {
     /// Creates an overlay for picture textures.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
-        let renderer = egui_wgpu::Renderer::new(&gpu.device, PICTURE_FORMAT, egui_wgpu::RendererOptions::default());
+        let renderer = egui_wgpu::Renderer::new(&gpu.device, COLOR_FORMAT, egui_wgpu::RendererOptions::default());
         Self { context: egui::Context::default(), renderer }
     }
 

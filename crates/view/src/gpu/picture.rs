@@ -1,7 +1,7 @@
 //! Upload and readback of pictures.
 
 use super::device::{Gpu, GpuError};
-use super::pipelines::PICTURE_FORMAT;
+use super::pipelines::COLOR_FORMAT;
 use crate::picture::Picture;
 
 /// Row alignment of texture copies, bytes.
@@ -10,7 +10,7 @@ const ROW_ALIGNMENT: u32 = 256;
 /// Creates a picture texture that can be rendered to or filled, read back, and shown in a window.
 pub fn picture_texture(gpu: &Gpu, size_px: (u32, u32)) -> wgpu::Texture {
     use wgpu::TextureUsages as Use;
-    color_texture(gpu, size_px, (PICTURE_FORMAT, Use::COPY_SRC | Use::COPY_DST | Use::TEXTURE_BINDING))
+    color_texture(gpu, size_px, (COLOR_FORMAT, Use::COPY_SRC | Use::COPY_DST | Use::TEXTURE_BINDING))
 }
 
 /// Uploads a picture into a texture of the same size.

@@ -18,7 +18,7 @@ pub const RADIANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Floa
 /// Depth format: 1 at the near plane, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Format of rendered pictures; the shader encodes sRGB.
-pub const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// One pipeline per material group.
 pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
@@ -299,7 +299,7 @@ fn full_screen_key<'a>(
         module,
         layouts,
         buffers: &[],
-        target: Some(PICTURE_FORMAT),
+        target: Some(COLOR_FORMAT),
         depth: None,
         cull: None,
         samples: 1,

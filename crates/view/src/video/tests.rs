@@ -35,7 +35,7 @@ fn val_decoded_pictures_match_the_encoded_ones() {
 }
 
 #[test]
-fn exact_every_tenth_picture_is_a_key_frame() {
+fn exact_every_tenth_frame_is_a_keyframe() {
     let keys: Vec<usize> = encoded(25).iter().enumerate().filter(|(_, one)| one.key).map(|(k, _)| k).collect();
     assert_eq!(keys, [0, 10, 20]);
     assert!(H264Encoder::new((321, 180), 15.0, 500_000, 10).is_err(), "odd sizes must be rejected");

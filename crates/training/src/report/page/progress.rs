@@ -106,7 +106,7 @@ fn learning(progress: &TraineeProgress) -> Markup {
                 (figure(&curve.score, &practice(&chart, &format!("Learning curve of {}", curve.score))))
             }
         }
-        p.note { "The curves are power laws of practice fitted to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
+        p.note { "Each curve is a fit of the power law of practice to the repetitions. The ring marks the prediction for the next repetition, which may exceed the maximum score." }
         (curve_table(&progress.curves).folded())
     }
 }

@@ -32,7 +32,7 @@ pub fn curves(cohort: &Cohort) -> Markup {
                     (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&chart, &format!("Learning curve of {}", one.score))))
                 }
             }
-            p.note { "The curves are power laws of practice. The ring marks the prediction for the next repetition. The group curve is flatter than the curves of individual trainees." }
+            p.note { "Each curve is a fit of the power law of practice. The ring marks the prediction for the next repetition. The group curve is flatter than the individual trainees' curves." }
             (numbers(&cohort.learning).shown())
         }
     }
