@@ -229,7 +229,8 @@ impl Vehicle {
         self.last_message(text).unwrap_or_default()
     }
 
-    /// Returns true if the autopilot's latest heartbeat reports armed.
+    /// Returns true if the autopilot's latest heartbeat reports armed. Heartbeats arrive once per second, so this changes up to
+    /// a second after [`Self::arm`] returns.
     #[must_use]
     pub fn armed(&self) -> bool {
         let beats = self.received.iter().rev().filter(|frame| frame.component_id == 1);
