@@ -1,6 +1,11 @@
 //! Flight controller backends. The built-in autopilot is the only one so far; PX4 and ArduPilot could be added through
 //! their simulator interfaces.
 
+pub mod ardupilot;
+pub mod interface;
+pub mod launch;
+pub mod px4;
+
 use crate::autopilot::Autopilot;
 use crate::physics::Actuators;
 use crate::sensors::Readings;

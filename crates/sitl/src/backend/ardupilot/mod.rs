@@ -1,0 +1,1 @@
+//! ArduPilot's JSON simulator interface over UDP.

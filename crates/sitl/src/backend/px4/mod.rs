@@ -1,0 +1,1 @@
+//! PX4's simulator interface: MAVLink over TCP in lockstep.
