@@ -1,7 +1,7 @@
 //! Inputs of the autopilot and payload interfaces, built from the simulated aircraft and its autopilot.
 
 use super::link::LinkKind;
-use super::payload::{PayloadInput, PayloadLink, PayloadSnapshot};
+use super::payload::{PayloadComponents, PayloadInput, PayloadLink, PayloadSnapshot};
 use super::simulated_aircraft::SimulatedAircraft;
 use super::vehicle_link::VehicleLink;
 use super::vehicle_link::snapshot::VehicleSnapshot;
@@ -28,6 +28,8 @@ pub(super) fn payload_input<'v>(
         specific_force_m_s2: aircraft.specific_force_m_s2,
         wind_m_s: aircraft.wind_m_s,
         scoring: aircraft.scoring,
+        battery: aircraft.battery,
+        components: PayloadComponents::BUILTIN,
     }
 }
 

@@ -35,11 +35,10 @@ const FAILED: MavResult = MavResult::MAV_RESULT_FAILED;
 /// MAV_CMD_DO_SEND_BANNER, from ArduPilot's dialect.
 const SEND_BANNER: u16 = 42_428;
 
-pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavResult> {
+/// Returns the message that a superseded command requests; `None` for other commands.
+pub(super) fn superseded_request(number: u16) -> Option<u32> {
     use MavCmd as M;
-    let id = |k: usize| c.finite_param(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
-    // Superseded commands that request one message each.
-    let legacy = match c.number {
+    match number {
         n if n == M::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES as u16 => Some(148),
         n if n == M::MAV_CMD_REQUEST_PROTOCOL_VERSION as u16 => Some(300),
         n if n == M::MAV_CMD_REQUEST_CAMERA_INFORMATION as u16 => Some(259),
@@ -52,8 +51,13 @@ pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavRe
         n if n == M::MAV_CMD_REQUEST_VIDEO_STREAM_STATUS as u16 => Some(STREAM_STATUS),
         n if n == M::MAV_CMD_REQUEST_CAMERA_IMAGE_CAPTURE as u16 => Some(IMAGE_CAPTURED),
         _ => None,
-    };
-    if let Some(message) = legacy {
+    }
+}
+
+pub(super) fn handle(c: &VehicleCommand, x: &mut MessageRequest) -> Option<MavResult> {
+    use MavCmd as M;
+    let id = |k: usize| c.finite_param(k).filter(|v| (0.0..16_777_216.0).contains(v)).map(|v| v as u32);
+    if let Some(message) = superseded_request(c.number) {
         // If the message has an index, the index is the command's first parameter.
         let index = if INDEXED_MESSAGES.contains(&message) || message == IMAGE_CAPTURED { c.p[0] } else { 0.0 };
         return Some(request(message, (index, 0.0), c.component, x));

@@ -13,8 +13,10 @@ mod message_requests;
 pub mod payload;
 mod publish;
 mod receive;
+pub mod relay;
 mod simulated_aircraft;
 pub mod streams;
+mod text_queue;
 mod vehicle_command;
 pub mod vehicle_link;
 
@@ -23,8 +25,9 @@ pub use clock::VehicleClock;
 use link::PeerLink;
 pub use link::{LinkId, LinkKind, Links, LockstepState, ReceivedDatagram, Transmit};
 pub use payload::camera;
-pub use payload::{Payload, PayloadLink, ScoringTruth};
+pub use payload::{Payload, PayloadComponents, PayloadLink, ScoringTruth};
 pub use receive::HANDLED;
+pub use relay::RelayEndpoint;
 pub use simulated_aircraft::SimulatedAircraft;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
@@ -51,9 +54,9 @@ impl Endpoint {
     #[must_use]
     pub fn new(system_id: u8, aircraft: params::AircraftValues, flavor: &'static flavor::Flavor) -> Self {
         Self {
-            links: Links::new(system_id),
+            links: Links::new(system_id, &component_ids::BUILTIN),
             vehicle: VehicleLink::new(system_id, aircraft, flavor),
-            payload: PayloadLink::new(),
+            payload: PayloadLink::new(PayloadComponents::BUILTIN),
             digest_input: Vec::new(),
             row_buffer: Vec::new(),
         }

@@ -71,6 +71,7 @@ impl StreamSpec {
             MessageSource::RcChannels => match inputs.payload.clock.link_kind {
                 LinkKind::Payload => truth::stick_axes(&inputs.payload),
                 LinkKind::GroundStation | LinkKind::Sdk | LinkKind::Tcp | LinkKind::Serial => channels::pulses(&inputs.vehicle),
+                LinkKind::Autopilot => None,
             }
             .map(OutgoingMessage::Common),
         }
@@ -89,6 +90,7 @@ impl StreamSpec {
             LinkKind::GroundStation | LinkKind::Tcp | LinkKind::Serial => self.rates_hz[0],
             LinkKind::Sdk => self.rates_hz[1],
             LinkKind::Payload => self.rates_hz[2],
+            LinkKind::Autopilot => 0.0,
         }
     }
 }

@@ -17,6 +17,8 @@ pub enum LinkKind {
     Tcp,
     /// A radio or a cable on a serial port.
     Serial,
+    /// The autopilot itself, if it runs in another process.
+    Autopilot,
 }
 
 /// A datagram to send.

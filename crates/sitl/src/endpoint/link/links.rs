@@ -4,7 +4,6 @@ use super::datagram::ReceivedDatagram;
 use super::link_id::{LinkId, LinkKind, Transmit};
 use super::peer_link::PeerLink;
 use super::signing_policy::{FrameAdmission, SigningPolicy};
-use crate::endpoint::component_ids::{AUTOPILOT, CAMERA};
 use spandrel_mavlink::codec::{Encodable, ReceivedFrame};
 use spandrel_mavlink::router::{self, Router};
 use spandrel_model::time::SimTime;
@@ -14,6 +13,8 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone)]
 pub struct Links {
     system_id: u8,
+    /// Component IDs that no peer may use.
+    own_components: &'static [u8],
     pub(super) peers: BTreeMap<LinkId, PeerLink>,
     router: Router<LinkId>,
     pub(super) signing: Option<SigningPolicy>,
@@ -23,10 +24,18 @@ pub struct Links {
 }
 
 impl Links {
-    /// Creates a vehicle's link table without any links.
+    /// Creates a vehicle's link table without any links. `own_components` are the IDs of the components that send through it.
     #[must_use]
-    pub fn new(system_id: u8) -> Self {
-        Self { system_id, peers: BTreeMap::new(), router: Router::new(), signing: None, bad_bytes: 0, dropped_by_closed: 0 }
+    pub fn new(system_id: u8, own_components: &'static [u8]) -> Self {
+        Self {
+            system_id,
+            own_components,
+            peers: BTreeMap::new(),
+            router: Router::new(),
+            signing: None,
+            bad_bytes: 0,
+            dropped_by_closed: 0,
+        }
     }
 
     /// Returns the MAVLink system ID.
@@ -160,15 +169,26 @@ impl Links {
         }
     }
 
-    /// Forwards a frame to its target links.
-    pub fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
-        // Reject frames that impersonate the vehicle's own components.
-        if frame.system_id == self.system_id && matches!(frame.component_id, AUTOPILOT | CAMERA) {
-            return;
+    /// Returns whether a component of this system sends through these links, so that no peer may use its ID.
+    #[must_use]
+    pub fn is_own(&self, component: u8) -> bool {
+        self.own_components.contains(&component)
+    }
+
+    /// Records a frame's sender and returns the links to which the frame should be forwarded: none if the sender impersonates one
+    /// of the vehicle's own components.
+    pub fn targets(&mut self, from: LinkId, frame: &ReceivedFrame) -> Vec<LinkId> {
+        if frame.system_id == self.system_id && self.is_own(frame.component_id) {
+            return Vec::new();
         }
         self.router.note(from, frame);
         let all: Vec<LinkId> = self.peers.keys().copied().collect();
-        let targets = self.router.targets_of(from, frame, &all);
+        self.router.targets_of(from, frame, &all)
+    }
+
+    /// Forwards a frame to its target links.
+    pub fn route(&mut self, from: LinkId, frame: &ReceivedFrame, now: SimTime) {
+        let targets = self.targets(from, frame);
         if targets.is_empty() || !self.peers.get_mut(&from).is_some_and(|link| link.may_forward(now)) {
             return;
         }

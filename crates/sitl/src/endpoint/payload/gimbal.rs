@@ -6,7 +6,7 @@ use spandrel_model::math;
 use spandrel_model::vehicle::Camera;
 
 /// ID of the non-MAVLink gimbal device (docs/src/reference/wire.md, "Camera, gimbal and lamp").
-pub const GIMBAL_DEVICE_ID: u8 = 1;
+pub const BUILTIN_GIMBAL_DEVICE_ID: u8 = 1;
 /// Tolerance within which an angle beyond the limit is clamped instead of rejected, rad (about one degree, because
 /// clients round).
 const TOLERANCE_RAD: f64 = 0.02;

@@ -1,7 +1,7 @@
 //! Messages that move the gimbal.
 
 use super::PayloadLink;
-use super::gimbal::{GIMBAL_DEVICE_ID, GimbalState, GimbalTarget};
+use super::gimbal::{BUILTIN_GIMBAL_DEVICE_ID, GimbalState, GimbalTarget};
 use super::inbound::PayloadMessage;
 use spandrel_mavlink::dialect::{
     GIMBAL_DEVICE_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_ATTITUDE_DATA, GIMBAL_MANAGER_SET_MANUAL_CONTROL_DATA,
@@ -12,7 +12,7 @@ use spandrel_model::frames::{Frd, Ned, Rotation};
 /// Returns the gimbal if the sender may move it; `None` for another device or if another client has control.
 fn gimbal<'p>(p: &'p mut PayloadLink, device: u8, a: &PayloadMessage) -> Option<&'p mut GimbalState> {
     let gimbal = &mut p.equipment.gimbal;
-    (matches!(device, 0 | GIMBAL_DEVICE_ID) && gimbal.accepts_control_from(a.from)).then_some(gimbal)
+    (matches!(device, 0 | BUILTIN_GIMBAL_DEVICE_ID) && gimbal.accepts_control_from(a.from)).then_some(gimbal)
 }
 
 /// Flags that have the same values for the manager and the device: RETRACT and NEUTRAL (MAVLink common).
@@ -44,7 +44,7 @@ pub(super) fn attitude(p: &mut PayloadLink, m: &GIMBAL_MANAGER_SET_ATTITUDE_DATA
 
 /// Handles the gimbal device message from senders that control the gimbal.
 pub(super) fn device_attitude(p: &mut PayloadLink, m: &GIMBAL_DEVICE_SET_ATTITUDE_DATA, a: &mut PayloadMessage) {
-    if let Some(gimbal) = gimbal(p, GIMBAL_DEVICE_ID, a) {
+    if let Some(gimbal) = gimbal(p, BUILTIN_GIMBAL_DEVICE_ID, a) {
         move_gimbal(gimbal, u32::from(m.flags.bits()), (pitch_of(m.q), m.angular_velocity_y), a);
     }
 }

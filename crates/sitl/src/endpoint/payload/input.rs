@@ -1,9 +1,10 @@
 //! Aircraft state used by the equipment and the scoring feed. It comes from sensors, physics and the state that any
 //! autopilot reports, so the payload interface also works with another autopilot.
 
+use super::components::PayloadComponents;
 use super::scoring_truth::ScoringTruth;
 use crate::endpoint::clock::VehicleClock;
-use crate::physics::RigidState;
+use crate::physics::{BatteryState, RigidState};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::vehicle::Vehicle;
@@ -35,6 +36,10 @@ pub struct PayloadInput<'a> {
     pub wind_m_s: Vec3<Ned>,
     /// Counters and ground truth for scoring.
     pub scoring: &'a ScoringTruth,
+    /// True state of the battery.
+    pub battery: &'a BatteryState,
+    /// Component IDs of the equipment.
+    pub components: PayloadComponents,
 }
 
 impl PayloadInput<'_> {

@@ -5,6 +5,7 @@ pub mod camera;
 mod camera_params;
 mod changes;
 pub mod commands;
+mod components;
 mod equipment;
 pub mod gimbal;
 mod gimbal_messages;
@@ -22,6 +23,7 @@ mod video_reports;
 use super::files::FileServer;
 use super::link::LinkId;
 use camera::settings;
+pub use components::PayloadComponents;
 pub use equipment::Payload;
 pub(super) use inbound::PayloadMessage;
 pub use input::PayloadInput;
@@ -39,6 +41,8 @@ pub struct PayloadLink {
     pub equipment: Payload,
     /// Seconds of simulation time per second of client time.
     pub speed_factor: f64,
+    /// Component IDs of the equipment.
+    pub components: PayloadComponents,
     files: FileServer,
     scoring: ScoringFeed,
     /// For each link, indices of the image records that remain to be resent.
@@ -48,21 +52,22 @@ pub struct PayloadLink {
 impl PayloadLink {
     /// Creates the equipment interface with the camera definition file.
     #[must_use]
-    pub fn new() -> Self {
+    pub fn new(components: PayloadComponents) -> Self {
         let mut files = FileServer::default();
         files.generate(settings::DEFINITION_PATH, settings::definition().into_bytes());
-        Self { equipment: Payload::new(), speed_factor: 1.0, files, scoring: ScoringFeed::new(), image_requests: BTreeMap::new() }
+        Self {
+            equipment: Payload::new(),
+            speed_factor: 1.0,
+            components,
+            files,
+            scoring: ScoringFeed::new(),
+            image_requests: BTreeMap::new(),
+        }
     }
 
     /// Releases all state for a closed link.
     pub fn forget(&mut self, link: LinkId) {
         self.files.forget(link);
         self.image_requests.remove(&link);
-    }
-}
-
-impl Default for PayloadLink {
-    fn default() -> Self {
-        Self::new()
     }
 }

@@ -4,9 +4,9 @@ use super::PayloadLink;
 use super::input::PayloadInput;
 use super::snapshot::PayloadSnapshot;
 use super::streams::camera::{capture_record, field_of_view};
-use crate::endpoint::component_ids::{AUTOPILOT, CAMERA};
+use crate::endpoint::component_ids::CAMERA;
 use crate::endpoint::files;
-use crate::endpoint::link::{LinkId, Links};
+use crate::endpoint::link::{LinkId, LinkKind, Links, PeerLink};
 use spandrel_mavlink::dialect::{MavMessage, MavResult};
 
 impl PayloadLink {
@@ -33,8 +33,9 @@ impl PayloadLink {
         let clock = input.clock;
         let due = self.scoring.take_due(input.scoring, self.speed_factor, clock.now);
         let messages: Vec<MavMessage> = due.into_iter().map(|value| value.message(clock.sim_time_ms())).collect();
-        for link in links.listeners().filter(|link| !link.is_limited() && link.receives_truth()) {
-            messages.iter().for_each(|message| link.send(AUTOPILOT, message));
+        let listens = |link: &PeerLink| link.kind != LinkKind::Autopilot && !link.is_limited() && link.receives_truth();
+        for link in links.listeners().filter(|link| listens(link)) {
+            messages.iter().for_each(|message| link.send(self.components.scoring, message));
         }
     }
 

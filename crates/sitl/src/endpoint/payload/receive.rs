@@ -2,7 +2,7 @@
 
 use super::inbound::PayloadMessage;
 use super::{PayloadLink, camera_params, gimbal_messages, video_reports};
-use crate::endpoint::component_ids::{AUTOPILOT, CAMERA};
+use crate::endpoint::component_ids::{AUTOPILOT, CAMERA, GIMBAL};
 use mavlink::MessageData;
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::*;
@@ -40,6 +40,25 @@ impl PayloadLink {
         match (component, &frame.message) {
             (0 | AUTOPILOT, Some(message)) => dispatch(self, message, a),
             (CAMERA, _) => self.receive_as_camera(frame, a),
+            _ => {}
+        }
+    }
+
+    /// Handles a message beside an external autopilot, which is the gimbal manager: addressed to the camera, to the gimbal device or
+    /// to all components.
+    pub(crate) fn receive_beside_autopilot(&mut self, component: u8, frame: &ReceivedFrame, a: &mut PayloadMessage) {
+        match (component, &frame.message) {
+            (CAMERA, _) => self.receive_as_camera(frame, a),
+            (0 | GIMBAL, Some(message @ MavMessage::GIMBAL_DEVICE_SET_ATTITUDE(_))) => dispatch(self, message, a),
+            (
+                0,
+                Some(
+                    message @ (MavMessage::VIDEO_STREAM_STATUS(_)
+                    | MavMessage::PARAM_EXT_REQUEST_LIST(_)
+                    | MavMessage::PARAM_EXT_REQUEST_READ(_)
+                    | MavMessage::PARAM_EXT_SET(_)),
+                ),
+            ) => dispatch(self, message, a),
             _ => {}
         }
     }

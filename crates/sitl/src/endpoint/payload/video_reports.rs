@@ -3,7 +3,6 @@
 use super::PayloadLink;
 use super::camera::stream::{StreamReport, VideoStream};
 use super::inbound::PayloadMessage;
-use crate::endpoint::component_ids::{AUTOPILOT, CAMERA};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{VIDEO_STREAM_INFORMATION_DATA, VIDEO_STREAM_STATUS_DATA, VideoStreamStatusFlags};
 use spandrel_model::time::SimTime;
@@ -15,7 +14,7 @@ const MAX_FRAME_RATE_HZ: f32 = 240.0;
 
 /// Handles VIDEO_STREAM_STATUS for stream 1 from any sender other than the vehicle's own components.
 pub(super) fn status(p: &mut PayloadLink, m: &VIDEO_STREAM_STATUS_DATA, a: &mut PayloadMessage) {
-    let own = a.from.0 == a.links.system_id() && matches!(a.from.1, AUTOPILOT | CAMERA);
+    let own = a.from.0 == a.links.system_id() && a.links.is_own(a.from.1);
     let valid =
         m.framerate.is_finite() && (0.0..=MAX_FRAME_RATE_HZ).contains(&m.framerate) && m.resolution_h > 0 && m.resolution_v > 0;
     if own || m.stream_id != 1 || !valid {

@@ -17,7 +17,7 @@ mod inbound;
 mod link_services;
 mod log_messages;
 pub mod logs;
-mod manual;
+pub(super) mod manual;
 mod manual_input;
 mod mission;
 mod mission_service;
@@ -37,12 +37,12 @@ pub mod snapshot;
 mod status_texts;
 pub(super) mod streams;
 mod switch_position;
-mod text_queue;
 
 use super::files::FileServer;
 use super::link::LinkId;
 use super::payload::Payload;
 use super::simulated_aircraft::SimulatedAircraft;
+use super::text_queue::TextQueue;
 use crate::autopilot::{Autopilot, Sticks};
 use calibration::Calibration;
 use events::EventReports;
@@ -63,7 +63,6 @@ use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use switch_position::SwitchPosition;
-use text_queue::TextQueue;
 
 /// State of the autopilot interface.
 #[derive(Debug, Clone)]

@@ -5,6 +5,7 @@ use super::events::covers_whole_text;
 use super::snapshot::VehicleSnapshot;
 use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::link::{LinkKind, Links};
+use crate::endpoint::text_queue::chunks;
 use spandrel_mavlink::dialect::{MavMessage, STATUSTEXT_DATA};
 
 impl VehicleLink {
@@ -26,40 +27,6 @@ impl VehicleLink {
                     link.send(AUTOPILOT, &MavMessage::STATUSTEXT(STATUSTEXT_DATA { severity, text, id, chunk_seq: k as u8 }));
                 }
             }
-        }
-    }
-}
-
-/// Splits a text into chunks of at most 50 bytes, at character boundaries.
-fn chunks(text: &str) -> Vec<String> {
-    const MAX_CHUNK_BYTES: usize = 50;
-    let mut out = vec![String::new()];
-    for character in text.chars() {
-        let last = out.len() - 1;
-        if out[last].len() + character.len_utf8() > MAX_CHUNK_BYTES {
-            out.push(String::new());
-        }
-        let last = out.len() - 1;
-        out[last].push(character);
-    }
-    // A full chunk means that another one follows, so the last of several chunks must not be full.
-    if out.len() > 1 && out.last().is_some_and(|last| last.len() == MAX_CHUNK_BYTES) {
-        out.push(String::new());
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exact_last_of_several_chunks_is_never_full() {
-        for (long, count) in [(0, 1), (49, 1), (50, 1), (51, 2), (99, 2), (100, 3), (150, 4)] {
-            let text = "x".repeat(long);
-            let pieces = chunks(&text);
-            assert_eq!((pieces.len(), pieces.concat()), (count, text), "{long}");
-            assert!(count == 1 || pieces[count - 1].len() < 50, "{long}");
         }
     }
 }

@@ -2,7 +2,7 @@
 #![allow(deprecated, reason = "clients still send superseded MAVLink messages")]
 
 use super::super::equipment::Payload;
-use super::super::gimbal::{GIMBAL_DEVICE_ID, GimbalState, GimbalTarget};
+use super::super::gimbal::{BUILTIN_GIMBAL_DEVICE_ID, GimbalState, GimbalTarget};
 use super::super::input::PayloadInput;
 use super::handler::{ACCEPTED, DENIED, PayloadCommand, accepted_if};
 use super::region_of_interest::position;
@@ -36,7 +36,7 @@ fn aim(aim: GimbalTarget, c: &VehicleCommand, input: &PayloadInput, payload: &mu
 
 /// Checks whether the device ID in parameter 7 refers to this gimbal: 0 (all) or its own ID.
 fn targets_this_gimbal(c: &VehicleCommand) -> bool {
-    c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(GIMBAL_DEVICE_ID))
+    c.finite_param(6).is_none_or(|device| device == 0.0 || device == f64::from(BUILTIN_GIMBAL_DEVICE_ID))
 }
 
 /// Sets a pitch angle with an optional rate, or a pitch rate alone, in degrees relative to the horizon. Yaw always

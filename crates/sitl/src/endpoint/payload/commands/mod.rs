@@ -29,6 +29,11 @@ pub(crate) fn handle_camera(c: &VehicleCommand, input: &PayloadInput, payload: &
     Some(row(c.number, camera::ROWS)?(c, input, payload))
 }
 
+/// Handles a command addressed to the lamp.
+pub(crate) fn handle_lamp(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
+    Some(row(c.number, lamp::ROWS)?(c, input, payload))
+}
+
 /// Handles a command addressed to the autopilot component.
 pub(crate) fn handle(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
     let mounted = || AUTOPILOT_COMPONENT_ROWS.into_iter().find_map(|rows| row(c.number, rows));

@@ -3,7 +3,6 @@
 use super::super::camera::storage_card::CARD_CAPACITY_MIB;
 use super::super::camera::stream::{PORT, VideoStream};
 use super::super::camera::{CaptureMode, CaptureRecord, settings, zoom};
-use super::super::gimbal::GIMBAL_DEVICE_ID;
 use super::super::snapshot::PayloadSnapshot;
 use spandrel_mavlink::dialect::{
     CAMERA_CAPTURE_STATUS_DATA, CAMERA_FOV_STATUS_DATA, CAMERA_IMAGE_CAPTURED_DATA, CAMERA_INFORMATION_DATA,
@@ -51,7 +50,7 @@ pub(crate) fn information(v: &PayloadSnapshot) -> Option<MavMessage> {
         model_name,
         cam_definition_version: settings::DEFINITION_VERSION,
         cam_definition_uri: settings::DEFINITION_URI.into(),
-        gimbal_device_id: GIMBAL_DEVICE_ID,
+        gimbal_device_id: v.input.components.gimbal_id(),
         ..Default::default()
     }))
 }

@@ -1,6 +1,5 @@
 //! Builders for messages from the gimbal and its manager.
 
-use super::super::gimbal::GIMBAL_DEVICE_ID;
 use super::super::snapshot::PayloadSnapshot;
 use spandrel_mavlink::dialect::{
     GIMBAL_DEVICE_ATTITUDE_STATUS_DATA, GIMBAL_DEVICE_INFORMATION_DATA, GIMBAL_MANAGER_INFORMATION_DATA,
@@ -22,7 +21,7 @@ pub(crate) fn manager(v: &PayloadSnapshot) -> Option<MavMessage> {
             | C::GIMBAL_MANAGER_CAP_FLAGS_CAN_POINT_LOCATION_GLOBAL,
         pitch_min: camera.gimbal_pitch_min_rad as f32,
         pitch_max: camera.gimbal_pitch_max_rad as f32,
-        gimbal_device_id: GIMBAL_DEVICE_ID,
+        gimbal_device_id: v.input.components.own_gimbal_id(),
         ..Default::default()
     }))
 }
@@ -44,7 +43,7 @@ pub(crate) fn device(v: &PayloadSnapshot) -> Option<MavMessage> {
             | C::GIMBAL_DEVICE_CAP_FLAGS_HAS_PITCH_AXIS
             | C::GIMBAL_DEVICE_CAP_FLAGS_HAS_PITCH_LOCK
             | C::GIMBAL_DEVICE_CAP_FLAGS_HAS_YAW_FOLLOW,
-        gimbal_device_id: GIMBAL_DEVICE_ID,
+        gimbal_device_id: v.input.components.own_gimbal_id(),
         ..Default::default()
     }))
 }
@@ -58,7 +57,7 @@ pub(crate) fn manager_status(v: &PayloadSnapshot) -> Option<MavMessage> {
     Some(MavMessage::GIMBAL_MANAGER_STATUS(GIMBAL_MANAGER_STATUS_DATA {
         time_boot_ms: v.clock.boot_time_ms(),
         flags,
-        gimbal_device_id: GIMBAL_DEVICE_ID,
+        gimbal_device_id: v.input.components.own_gimbal_id(),
         primary_control_sysid: system,
         primary_control_compid: component,
         secondary_control_sysid: v.gimbal.secondary.0,
@@ -84,7 +83,7 @@ pub(crate) fn attitude(v: &PayloadSnapshot) -> Option<MavMessage> {
         flags,
         delta_yaw: v.input.heading_rad as f32,
         delta_yaw_velocity: f32::NAN,
-        gimbal_device_id: GIMBAL_DEVICE_ID,
+        gimbal_device_id: v.input.components.own_gimbal_id(),
         ..Default::default()
     }))
 }

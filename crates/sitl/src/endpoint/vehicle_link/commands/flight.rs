@@ -8,7 +8,6 @@ use super::{storage, take_off};
 use crate::autopilot::orbit::{OrbitRequest, OrbitYaw};
 use crate::autopilot::{AutopilotRequest, FlightMode, RequestOutcome, TurnCommand};
 use crate::endpoint::vehicle_command::VehicleCommand;
-use crate::faults::{FailureType, FailureUnit, Faults};
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult};
 use spandrel_model::math;
@@ -173,27 +172,22 @@ fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> 
     }))
 }
 
-/// Parameters: 1 unit, 2 failure type, 3 instance. As in PX4, the command is denied unless SYS_FAILURE_EN is set.
+/// Queues a failure. As in PX4, the command is denied unless SYS_FAILURE_EN is set.
 fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
     if v.params.whole("SYS_FAILURE_EN") != Some(1) {
         v.warn("Failure injection is disabled (SYS_FAILURE_EN)");
         return MavResult::MAV_RESULT_DENIED;
     }
-    let whole = |k: usize| c.finite_param(k).map(|value| value as i64);
-    let (unit, kind) = (whole(0).and_then(FailureUnit::from_number), whole(1).and_then(FailureType::from_number));
-    let (Some(unit), Some(kind)) = (unit, kind) else { return MavResult::MAV_RESULT_UNSUPPORTED };
-    let instance = usize::try_from(whole(2).unwrap_or(0)).unwrap_or(usize::MAX);
-    let rotors = a.aircraft.vehicle.rotors.len();
-    let cells = a.aircraft.vehicle.battery.cells as usize;
-    if unit == FailureUnit::Battery && instance > cells {
-        v.warn(&format!("No battery cell {instance} (1 to {cells}, 0: whole pack)"));
-        return MavResult::MAV_RESULT_DENIED;
+    match FailureInjection::from_command(c, a.aircraft.vehicle) {
+        Ok(injection) => {
+            v.injections.push_back(injection);
+            MavResult::MAV_RESULT_ACCEPTED
+        }
+        Err(refusal) => {
+            refusal.text.iter().for_each(|text| v.warn(text));
+            refusal.result
+        }
     }
-    if !Faults::new(0).inject(unit, kind, instance, rotors) {
-        return MavResult::MAV_RESULT_UNSUPPORTED;
-    }
-    v.injections.push_back(FailureInjection { unit, kind, instance });
-    MavResult::MAV_RESULT_ACCEPTED
 }
 
 /// Parameter 1: 0 does nothing, and 1 or 3 reboots the autopilot. Clients cannot shut down the simulated vehicle.

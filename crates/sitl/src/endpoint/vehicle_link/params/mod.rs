@@ -161,6 +161,20 @@ impl Params {
         Self { values, changes: 0, view, capacity_mah: pack.capacity_mah, frame }
     }
 
+    /// Creates only the parameters that control the simulation, for a simulator beside an external autopilot.
+    #[must_use]
+    pub fn simulation(view: &'static ParamView) -> Self {
+        let rows = table::rows().iter().filter(|row| row.group == table::SIMULATION);
+        let values = rows.map(|row| (row.name, row.default)).collect();
+        Self { values, changes: 0, view, capacity_mah: 0.0, frame: BTreeMap::new() }
+    }
+
+    /// Returns whether there is a parameter with this name.
+    #[must_use]
+    pub fn contains(&self, name: &str) -> bool {
+        self.values.contains_key(name)
+    }
+
     /// Restores the vehicle's defaults.
     pub fn reset(&mut self, defaults: &Self) {
         if self.values != defaults.values {

@@ -16,7 +16,7 @@ const MAVLINK: &str = "MAVLink";
 const MISSION: &str = "Mission";
 const RADIO: &str = "Radio Calibration";
 const RETURN: &str = "Return Mode";
-const SIMULATION: &str = "Simulation";
+pub(super) const SIMULATION: &str = "Simulation";
 const SYSTEM: &str = "System";
 
 const LOSS_ACTIONS: &[(i32, &str)] =

@@ -5,11 +5,11 @@ use super::super::params::metadata;
 use super::super::snapshot::VehicleSnapshot;
 use crate::autopilot::fence::Breach;
 use crate::autopilot::{FlightMode, LandedState};
+use crate::endpoint::payload::streams::battery;
 use spandrel_mavlink::dialect::{
-    ACTUATOR_OUTPUT_STATUS_DATA, AUTOPILOT_VERSION_DATA, BATTERY_STATUS_DATA, COMPONENT_INFORMATION_DATA,
-    COMPONENT_METADATA_DATA, CURRENT_MODE_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags,
-    FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA, FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavBatteryChargeState,
-    MavBatteryFault, MavBatteryFunction, MavBatteryMode, MavBatteryType, MavLandedState, MavMessage, MavModeFlag,
+    ACTUATOR_OUTPUT_STATUS_DATA, AUTOPILOT_VERSION_DATA, COMPONENT_INFORMATION_DATA, COMPONENT_METADATA_DATA, CURRENT_MODE_DATA,
+    ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, FENCE_STATUS_DATA, FLIGHT_INFORMATION_DATA,
+    FenceBreach, HEARTBEAT_DATA, MISSION_CURRENT_DATA, MavBatteryChargeState, MavLandedState, MavMessage, MavModeFlag,
     MavSysStatusSensor, MavSysStatusSensorExtended, MavType, MissionState, PROTOCOL_VERSION_DATA, SERVO_OUTPUT_RAW_DATA,
     SYS_STATUS_DATA, SYSTEM_TIME_DATA, VIBRATION_DATA, WIND_COV_DATA,
 };
@@ -72,7 +72,7 @@ pub(crate) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
         load: 50,
         voltage_battery: (v.battery.voltage_v * 1000.0).round() as u16,
         current_battery: (v.battery.current_a * 100.0).round() as i16,
-        battery_remaining: percent(v),
+        battery_remaining: battery::percent(v.battery),
         onboard_control_sensors_present_extended: MavSysStatusSensorExtended::empty(),
         onboard_control_sensors_enabled_extended: MavSysStatusSensorExtended::empty(),
         onboard_control_sensors_health_extended: MavSysStatusSensorExtended::empty(),
@@ -80,43 +80,13 @@ pub(crate) fn sys_status(v: &VehicleSnapshot) -> Option<MavMessage> {
     }))
 }
 
-/// Returns the remaining charge in whole percent, rounded up so that only an empty battery reads 0.
-fn percent(v: &VehicleSnapshot) -> i8 {
-    v.battery.remaining_pct().ceil().clamp(0.0, 100.0) as i8
-}
-
 pub(crate) fn battery(v: &VehicleSnapshot) -> Option<MavMessage> {
-    let cells = v.vehicle.battery.cells.clamp(1, 10);
-    let mut voltages = [u16::MAX; 10];
-    let live = v.battery.working_cells(cells).max(1);
-    voltages[..cells as usize].fill((v.battery.voltage_v / f64::from(live) * 1000.0).round() as u16);
-    voltages
-        .iter_mut()
-        .take(cells as usize)
-        .enumerate()
-        .filter(|(cell, _)| v.battery.cell_failed(*cell))
-        .for_each(|(_, mv)| *mv = 0);
     let state = match v.battery.remaining_pct() {
         p if p < v.status.battery_critical_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_CRITICAL,
         p if p < v.status.battery_low_pct => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_LOW,
         _ => MavBatteryChargeState::MAV_BATTERY_CHARGE_STATE_OK,
     };
-    Some(MavMessage::BATTERY_STATUS(BATTERY_STATUS_DATA {
-        current_consumed: (v.vehicle.battery.capacity_ah * 1000.0 * (1.0 - v.battery.charge)).round() as i32,
-        energy_consumed: (v.battery.energy_j / 100.0).round() as i32,
-        temperature: i16::MAX,
-        voltages,
-        current_battery: (v.battery.current_a * 100.0).round() as i16,
-        id: 0,
-        battery_function: MavBatteryFunction::MAV_BATTERY_FUNCTION_ALL,
-        mavtype: MavBatteryType::MAV_BATTERY_TYPE_LIPO,
-        battery_remaining: percent(v),
-        time_remaining: 0,
-        charge_state: state,
-        voltages_ext: [0; 4],
-        mode: MavBatteryMode::DEFAULT,
-        fault_bitmask: MavBatteryFault::empty(),
-    }))
+    Some(battery::status(&v.vehicle.battery, v.battery, state))
 }
 
 pub(crate) fn system_time(v: &VehicleSnapshot) -> Option<MavMessage> {
