@@ -31,7 +31,7 @@ fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut now = start.now;
     (0..(SIMULATED_SECONDS * 400.0) as usize)
         .map(|_| {
-            sensors.integrate_imu(&start.state.rigid, start.state.specific_force_m_s2, TICK_DURATION);
+            sensors.integrate_imu(start.state.specific_force_m_s2, start.state.rigid.rates_rad_s, TICK_DURATION);
             now += TICK_DURATION;
             (now, sensors.sample(&truth, &start.site, now))
         })

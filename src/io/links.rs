@@ -1,7 +1,9 @@
 //! The vehicle's links: configured destinations that it sends to from startup, peers that connect to its UDP ports, TCP
 //! clients and serial ports.
 
+use super::autopilot_sockets::{AutopilotSockets, Handled, SimulatorProtocol};
 use super::clock::Stopwatch;
+use super::link_event::LinkEvent;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
 use super::vehicle_ports::VehiclePorts;
 use crate::errors::AppError;
@@ -16,36 +18,6 @@ const SILENCE_TIMEOUT: Duration = Duration::from_secs(15);
 /// Maximum number of learned peers per port, so that a flood of source addresses cannot exhaust memory or block another
 /// port's peers.
 const MAX_LEARNED_PEERS: usize = 64;
-
-/// A link change or received data.
-#[derive(Debug, Clone, PartialEq)]
-pub enum LinkEvent {
-    /// A link was opened.
-    Opened {
-        /// Link number.
-        link: u32,
-        /// Link kind.
-        kind: LinkKind,
-        /// True if the peer runs in lockstep.
-        lockstep: bool,
-        /// True if the peer contacted the vehicle first; its source address may be forged.
-        learned: bool,
-        /// Link capacity, bytes/s, if limited.
-        limit: Option<f64>,
-    },
-    /// A datagram, or one complete frame of a stream.
-    Bytes {
-        /// Link on which the data arrived.
-        link: u32,
-        /// Received MAVLink bytes.
-        bytes: Vec<u8>,
-    },
-    /// A link was closed.
-    Closed {
-        /// Link number.
-        link: u32,
-    },
-}
 
 #[derive(Debug)]
 enum LinkRoute {
@@ -65,6 +37,7 @@ pub struct Links {
     lockstep: Vec<SocketAddr>,
     limit: Option<f64>,
     changes: VecDeque<LinkEvent>,
+    autopilot: Option<AutopilotSockets>,
     opened: u32,
     bad_bytes: u64,
     stopwatch: Stopwatch,
@@ -99,6 +72,7 @@ impl Links {
             lockstep: lockstep.to_vec(),
             limit: ports.gcs_limit.map(f64::from),
             changes: VecDeque::new(),
+            autopilot: None,
             opened: 0,
             bad_bytes: 0,
             stopwatch: Stopwatch::start(),
@@ -113,6 +87,34 @@ impl Links {
         }
         links.check_lockstep_peers()?;
         Ok(links)
+    }
+
+    /// Opens the simulator interface and the MAVLink link of an external autopilot, on the loopback interface. A `port` of 0 selects
+    /// any free port. Returns the number of the simulator interface's port and of the port for the autopilot's MAVLink messages.
+    ///
+    /// # Errors
+    /// Returns an error if a port cannot be opened.
+    pub fn serve_autopilot(&mut self, protocol: SimulatorProtocol, port: u16) -> Result<(u16, u16), AppError> {
+        let link = self.next_number();
+        let sockets = AutopilotSockets::open(&mut self.hub, protocol, port, link)?;
+        let ports = (sockets.simulator_port(&self.hub), sockets.mavlink_port(&self.hub));
+        self.autopilot = Some(sockets);
+        self.changes.push_back(LinkEvent::Opened { link, kind: LinkKind::Autopilot, lockstep: false, learned: false, limit: None });
+        Ok(ports)
+    }
+
+    /// Sends bytes to the autopilot's simulator interface.
+    pub fn send_to_autopilot(&mut self, bytes: Vec<u8>) {
+        if let Some(autopilot) = &self.autopilot {
+            autopilot.send(&mut self.hub, bytes);
+        }
+    }
+
+    /// Closes the connection to an autopilot's simulator interface, so that another process can connect.
+    pub fn disconnect_autopilot(&mut self) {
+        if let Some(autopilot) = &mut self.autopilot {
+            autopilot.disconnect(&mut self.hub);
+        }
     }
 
     fn check_lockstep_peers(&self) -> Result<(), AppError> {
@@ -170,7 +172,11 @@ impl Links {
                 self.hub.send(*socket, *peer, &bytes)
             }
             Some(LinkRoute::Stream { stream, .. }) => self.hub.send_stream(*stream, bytes),
-            None => {}
+            None => {
+                if let Some(autopilot) = self.autopilot.as_ref().filter(|autopilot| autopilot.link() == link) {
+                    autopilot.send_mavlink(&mut self.hub, &bytes);
+                }
+            }
         }
     }
 
@@ -204,6 +210,16 @@ impl Links {
     }
 
     fn handle_event(&mut self, arrival: NetEvent, wall: Duration) {
+        let arrival = match &mut self.autopilot {
+            Some(autopilot) => match autopilot.handle_event(arrival, &mut self.hub) {
+                Handled::Changes(changes) => {
+                    self.changes.extend(changes);
+                    return;
+                }
+                Handled::NotMine(arrival) => arrival,
+            },
+            None => arrival,
+        };
         match arrival {
             NetEvent::Datagram { socket, from, bytes } => self.handle_datagram(socket, from, bytes, wall),
             NetEvent::Connected(stream, origin) => self.add_stream(stream, &origin),
@@ -234,6 +250,7 @@ impl Links {
         let (kind, limit) = match origin {
             StreamOrigin::Tcp(_) => (LinkKind::Tcp, self.limit),
             StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.capacity_bytes_s())),
+            StreamOrigin::Autopilot(_) => (LinkKind::Autopilot, None),
         };
         self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
         self.links_by_stream.insert(stream, link);

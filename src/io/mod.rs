@@ -4,12 +4,15 @@
 pub mod addresses;
 pub mod answers;
 pub mod append_file;
+pub mod autopilot;
+pub mod autopilot_sockets;
 pub mod children;
 pub mod clock;
 pub mod controller;
 pub mod files;
 pub mod flight_logs;
 pub mod key;
+pub mod link_event;
 pub mod links;
 pub mod log_file;
 pub mod logging;

@@ -16,6 +16,9 @@ use std::time::Duration;
 const EVENT_QUEUE_LEN: usize = 16_384;
 /// Maximum number of frames waiting for a slow TCP client; further frames are dropped.
 const STREAM_QUEUE_LEN: usize = 2_048;
+/// Number of the first connection to the simulator interface. Lower numbers belong to TCP clients, and serial ports count down from
+/// the maximum.
+const FIRST_AUTOPILOT_STREAM: u32 = 1 << 30;
 /// Delay after an unexpected socket error, to avoid a busy loop if a network interface is broken.
 const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
@@ -36,6 +39,8 @@ pub enum StreamOrigin {
     Tcp(SocketAddr),
     /// A device on a serial port.
     Serial(SerialDevice),
+    /// An autopilot that connected to the simulator interface.
+    Autopilot(SocketAddr),
 }
 
 impl std::fmt::Display for StreamOrigin {
@@ -43,6 +48,7 @@ impl std::fmt::Display for StreamOrigin {
         match self {
             Self::Tcp(from) => write!(f, "TCP client {from}"),
             Self::Serial(device) => write!(f, "serial port {device}"),
+            Self::Autopilot(from) => write!(f, "autopilot at {from}"),
         }
     }
 }
@@ -155,10 +161,20 @@ impl SocketHub {
     /// # Errors
     /// Returns an error if the port cannot be bound.
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
-        let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
-        let bound = listener.local_addr().map_or(port, |address| address.port());
+        let (listener, bound) = listen(ip, port, flag)?;
         let queue = self.sender.clone();
-        std::thread::spawn(move || accept_clients(&listener, &queue));
+        std::thread::spawn(move || accept_clients(&listener, 0, StreamOrigin::Tcp, &queue));
+        Ok(bound)
+    }
+
+    /// Listens for an autopilot on the simulator interface and returns the port number.
+    ///
+    /// # Errors
+    /// Returns an error if the port cannot be bound.
+    pub fn serve_autopilot(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
+        let (listener, bound) = listen(ip, port, flag)?;
+        let queue = self.sender.clone();
+        std::thread::spawn(move || accept_clients(&listener, FIRST_AUTOPILOT_STREAM, StreamOrigin::Autopilot, &queue));
         Ok(bound)
     }
 
@@ -232,6 +248,12 @@ impl SocketHub {
     }
 }
 
+fn listen(ip: IpAddr, port: u16, flag: &str) -> Result<(TcpListener, u16), AppError> {
+    let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
+    let bound = listener.local_addr().map_or(port, |address| address.port());
+    Ok((listener, bound))
+}
+
 fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
     match error.kind() {
         ErrorKind::AddrInUse => AppError::failed(format!(
@@ -266,22 +288,22 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEve
     }
 }
 
-fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
-    for number in 0.. {
+fn accept_clients(listener: &TcpListener, first: u32, origin: fn(SocketAddr) -> StreamOrigin, queue: &SyncSender<QueuedEvent>) {
+    for number in first.. {
         let Ok((socket, from)) = listener.accept() else {
             std::thread::sleep(ERROR_DELAY);
             continue;
         };
-        if serve_client(StreamId(number), socket, from, queue).is_err() {
+        if serve_client(StreamId(number), socket, origin(from), queue).is_err() {
             tracing::warn!("TCP client {from} disconnected during connection setup");
         }
     }
 }
 
-fn serve_client(stream: StreamId, socket: TcpStream, from: SocketAddr, queue: &SyncSender<QueuedEvent>) -> std::io::Result<()> {
+fn serve_client(stream: StreamId, socket: TcpStream, origin: StreamOrigin, queue: &SyncSender<QueuedEvent>) -> std::io::Result<()> {
     socket.set_nodelay(true)?;
     let (mut to_read, mut to_write) = (socket.try_clone()?, socket.try_clone()?);
-    let Some(frames) = register_stream(stream, StreamOrigin::Tcp(from), Some(socket), queue) else { return Ok(()) };
+    let Some(frames) = register_stream(stream, origin, Some(socket), queue) else { return Ok(()) };
     std::thread::spawn(move || {
         for frame in frames {
             if to_write.write_all(&frame).is_err() {

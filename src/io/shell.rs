@@ -1,7 +1,9 @@
 //! Connects one vehicle's sans-IO core to its sockets, its files and the wall clock.
 
+use super::autopilot::host::AutopilotHost;
 use super::clock::{self, Stopwatch};
-use super::links::{LinkEvent, Links};
+use super::link_event::LinkEvent;
+use super::links::Links;
 use super::pacing::{
     FirstResponseAction, FirstResponseWait, LOCKSTEP_PEER_TIMEOUT, Lateness, LockstepTimeout, SimulationSpeed, WallPacer,
 };
@@ -9,18 +11,20 @@ use super::params::ParamFile;
 use super::pause::PauseSwitch;
 use super::signing_store::SigningStore;
 use super::store::FileStore;
-use crate::errors::AppError;
+use crate::errors::{AppError, AutopilotFailure};
 use spandrel_mavlink::signing::{SigningKey, stamp};
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::FileError;
 use spandrel_sitl::endpoint::{LinkId, LinkKind, StorageRequest};
-use spandrel_sitl::sim::{Sim, SimEvent};
+use spandrel_sitl::sim::{AutopilotState, Sim, SimEvent};
 use std::time::Duration;
 
 /// Maximum time to wait for socket data, so that the loop notices stop requests and silent peers.
 const MAX_SOCKET_WAIT: Duration = Duration::from_millis(100);
 /// Minimum sleep time. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
+/// Wall time between readings before an external autopilot's first answer: PX4's own simulators send at this rate.
+const START_STEP: Duration = Duration::from_millis(4);
 /// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
 /// to 5 s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
@@ -60,6 +64,15 @@ pub struct VehicleShell {
     signing_store: Option<SigningStore>,
     pause: PauseSwitch,
     paused_for: Option<Duration>,
+    /// The external autopilot, if one flies.
+    autopilot: Option<AutopilotShell>,
+}
+
+/// An external autopilot, and the wall time of the last readings sent during its start.
+struct AutopilotShell {
+    host: AutopilotHost,
+    last_step: Duration,
+    connection_closed: bool,
 }
 
 impl VehicleShell {
@@ -110,7 +123,19 @@ impl VehicleShell {
             signing_store: heard,
             pause: PauseSwitch::default(),
             paused_for: None,
+            autopilot: None,
         })
+    }
+
+    /// Starts the external autopilot that flies the vehicle.
+    ///
+    /// # Errors
+    /// Returns an error if its process cannot be started.
+    pub fn start_autopilot(&mut self, mut host: AutopilotHost) -> Result<(), AppError> {
+        let wall = self.stopwatch.elapsed();
+        host.start(wall)?;
+        self.autopilot = Some(AutopilotShell { host, last_step: wall, connection_closed: false });
+        Ok(())
     }
 
     /// Pauses the simulation whenever this flag is set.
@@ -131,9 +156,7 @@ impl VehicleShell {
             self.core.pause(self.paused_for.is_none());
             self.paused_for = Some(wall);
         }
-        while let Some(datagram) = self.core.poll_transmit() {
-            self.links.send(datagram.link.0, datagram.bytes);
-        }
+        self.send_outgoing();
         self.pacer.resync(wall, self.core.now());
         self.links.wait(MAX_SOCKET_WAIT);
     }
@@ -159,6 +182,9 @@ impl VehicleShell {
             self.core.set_signing_time(stamp(clock::unix_us()));
         }
         let wall = self.stopwatch.elapsed();
+        if self.run_autopilot(wall)? {
+            return Ok(());
+        }
         if !self.core.waiting() {
             let speed = if self.core.runs_in_real_time() { SimulationSpeed::Factor(1.0) } else { self.speed };
             self.pacer.set_speed(speed, wall, self.core.now());
@@ -168,13 +194,66 @@ impl VehicleShell {
         self.run_file_jobs();
         self.save_parameters();
         self.save_signing_state(false);
+        self.send_outgoing();
+        self.handle_events()?;
+        self.wait_for_next_tick()
+    }
+
+    /// Sends all outgoing data.
+    fn send_outgoing(&mut self) {
         while let Some(datagram) = self.core.poll_transmit() {
             self.links.send(datagram.link.0, datagram.bytes);
         }
+        while let Some(bytes) = self.core.poll_autopilot_transmit() {
+            self.links.send_to_autopilot(bytes);
+        }
+    }
+
+    /// Logs the simulation's events and restarts an external autopilot on request.
+    fn handle_events(&mut self) -> Result<(), AppError> {
         while let Some(event) = self.core.poll_event() {
             self.log_event(&event);
+            if let (SimEvent::AutopilotRestart { reason }, Some(autopilot)) = (&event, &mut self.autopilot) {
+                self.links.disconnect_autopilot();
+                autopilot.host.restart(reason, self.stopwatch.elapsed())?;
+            }
+            if let (SimEvent::AutopilotStarted { .. }, Some(autopilot)) = (&event, &mut self.autopilot) {
+                autopilot.host.record(&self.core);
+            }
         }
-        self.wait_for_next_tick()
+        Ok(())
+    }
+
+    /// Watches the external autopilot and, while it starts, runs its clock. Returns true if simulation time is stopped.
+    fn run_autopilot(&mut self, wall: Duration) -> Result<bool, AppError> {
+        let Some(autopilot) = &mut self.autopilot else { return Ok(false) };
+        autopilot.host.check(&self.core, wall)?;
+        if std::mem::take(&mut autopilot.connection_closed) && !matches!(self.core.autopilot_state(), Some(AutopilotState::Disconnected)) {
+            return Err(autopilot.host.failure(AutopilotFailure::Exited, "has closed its connection to the simulator"));
+        }
+        let pause = match self.core.autopilot_state() {
+            None | Some(AutopilotState::Running { .. }) => return Ok(false),
+            Some(AutopilotState::Disconnected) => MAX_SOCKET_WAIT,
+            Some(AutopilotState::Starting { has_answered: true, is_waiting }) => {
+                if is_waiting { MAX_SOCKET_WAIT } else { Duration::ZERO }
+            }
+            // Before its first answer, the autopilot starts in real time.
+            Some(AutopilotState::Starting { has_answered: false, is_waiting }) => {
+                let left = START_STEP.saturating_sub(wall.saturating_sub(autopilot.last_step));
+                if is_waiting { MAX_SOCKET_WAIT } else { left }
+            }
+        };
+        self.pacer.resync(wall, self.core.now());
+        if pause.is_zero() {
+            autopilot.last_step = wall;
+            self.core.handle_timeout(self.core.now());
+        }
+        self.send_outgoing();
+        self.handle_events()?;
+        if !pause.is_zero() {
+            self.links.wait(pause);
+        }
+        Ok(true)
     }
 
     /// Runs the ticks up to `target` and serves the clients' file requests between ticks.
@@ -243,6 +322,21 @@ impl VehicleShell {
             }
             LinkEvent::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
             LinkEvent::Closed { link } => self.core.close_link(LinkId(link)),
+            LinkEvent::AutopilotConnected => {
+                tracing::info!("the autopilot has connected");
+                self.core.connect_autopilot();
+            }
+            LinkEvent::AutopilotBytes(bytes) => {
+                self.core.handle_autopilot_bytes(&bytes);
+                if let Some(autopilot) = &mut self.autopilot {
+                    autopilot.host.note_answer(self.stopwatch.elapsed());
+                }
+            }
+            LinkEvent::AutopilotClosed => {
+                if let Some(autopilot) = &mut self.autopilot {
+                    autopilot.connection_closed = true;
+                }
+            }
         }
     }
 
@@ -261,6 +355,10 @@ impl VehicleShell {
                     self.core.now()
                 )));
             }
+            self.links.wait(MAX_SOCKET_WAIT);
+            return Ok(());
+        }
+        if self.core.autopilot_state() == Some(AutopilotState::Running { is_waiting: true }) {
             self.links.wait(MAX_SOCKET_WAIT);
             return Ok(());
         }
@@ -284,9 +382,7 @@ impl VehicleShell {
                 return;
             }
         }
-        while let Some(datagram) = self.core.poll_transmit() {
-            self.links.send(datagram.link.0, datagram.bytes);
-        }
+        self.send_outgoing();
         self.links.wait(MAX_SOCKET_WAIT);
     }
 
@@ -295,7 +391,17 @@ impl VehicleShell {
         match event {
             SimEvent::LiftOff => tracing::info!("{now}: lift-off"),
             SimEvent::Crash { what, impact_m_s } => tracing::info!("{now}: hit {what} at {impact_m_s:.1} m/s"),
+            SimEvent::Respawn if self.autopilot.is_some() => tracing::info!("{now}: placed on the landing pad"),
             SimEvent::Respawn => tracing::info!("{now}: respawned at the last safe hover"),
+            SimEvent::AutopilotRestart { reason } => tracing::debug!("{now}: autopilot restart: {reason}"),
+            SimEvent::AutopilotStarted { took, is_ready: true } => {
+                tracing::info!("{now}: the autopilot is ready after {:.1} s on its clock", took.s());
+            }
+            SimEvent::AutopilotStarted { took, is_ready: false } => tracing::warn!(
+                "{now}: the autopilot is not ready to arm after {:.0} s on its clock; see its messages in a ground station",
+                took.s()
+            ),
+            SimEvent::AutopilotProblem { problem } => tracing::warn!("{now}: autopilot: {problem}"),
             SimEvent::BatteryEmpty => tracing::info!("{now}: battery empty"),
             SimEvent::Ended { reason } => tracing::info!("{now}: flight ended: {reason}"),
         }
@@ -306,8 +412,11 @@ impl VehicleShell {
         self.pacer.lateness()
     }
 
-    /// Closes the flight log, saves the signing state and logs the amount of lost data.
+    /// Records the external autopilot, closes the flight log, saves the signing state and logs the amount of lost data.
     pub fn finish(&mut self) {
+        if let Some(autopilot) = &mut self.autopilot {
+            autopilot.host.record(&self.core);
+        }
         self.core.close_flight_log();
         self.run_file_jobs();
         self.save_signing_state(true);

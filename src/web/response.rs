@@ -211,7 +211,7 @@ impl From<AppError> for WebError {
     fn from(error: AppError) -> Self {
         match error {
             AppError::Wrong(words) => Self::BadRequest(words),
-            AppError::Failed(words) => Self::Failed(words),
+            AppError::Failed(words) | AppError::Autopilot(_, words) => Self::Failed(words),
         }
     }
 }

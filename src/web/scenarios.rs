@@ -41,7 +41,7 @@ pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
         Err(AppError::Wrong(words)) => {
             Ok(render_list(state, request, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(error @ AppError::Failed(_)) => Err(error.into()),
+        Err(error @ (AppError::Failed(_) | AppError::Autopilot(..))) => Err(error.into()),
     }
 }
 

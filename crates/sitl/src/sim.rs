@@ -1,7 +1,9 @@
 //! Runs simulation steps in the documented order (docs/src/reference/wire.md, "One simulation step"). Performs no I/O:
 //! it takes datagrams and timestamps and returns datagrams.
 
+mod controller;
 mod crash_handling;
+mod external;
 mod file_jobs;
 mod host_api;
 pub mod inbox;
@@ -9,8 +11,10 @@ mod instructor;
 mod radio;
 mod tick;
 
+pub use external::AutopilotState;
+
 use super::autopilot::{Autopilot, CONTROL_HZ};
-use super::backend::Backend;
+use super::backend::Phase;
 use super::endpoint::flavor::Flavor;
 use super::endpoint::params::{AircraftValues, BatteryThresholds, InstructorSettings};
 use super::endpoint::{
@@ -20,6 +24,7 @@ use super::faults::Faults;
 use super::log::FlightRecorder;
 use super::physics::{self, Actuators, AirState, AirframeModel};
 use super::sensors::{Readings, Sensors};
+use controller::{BuiltinController, Controller};
 use file_jobs::FileJobScheduler;
 use inbox::Inbox;
 use radio::RadioLink;
@@ -31,7 +36,7 @@ use spandrel_model::site::Site;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::site::wind::WindField;
 use spandrel_model::time::{Schedule, SimTime};
-use spandrel_model::vehicle::Vehicle;
+use spandrel_model::vehicle::{SensorSpec, Vehicle};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
@@ -77,8 +82,25 @@ pub enum SimEvent {
         /// Impact speed, m/s.
         impact_m_s: f64,
     },
-    /// The vehicle was reset to its last safe hover.
+    /// The vehicle was reset: to its last safe hover or, with an external autopilot, to the landing pad.
     Respawn,
+    /// The process of an external autopilot must be started again.
+    AutopilotRestart {
+        /// Why it is started again.
+        reason: String,
+    },
+    /// An external autopilot has started.
+    AutopilotStarted {
+        /// Time that the start took on the autopilot's clock.
+        took: SimTime,
+        /// Whether it reports that it can arm.
+        is_ready: bool,
+    },
+    /// An external autopilot sent data that its interface does not allow.
+    AutopilotProblem {
+        /// Description of the problem.
+        problem: String,
+    },
     /// The battery is empty.
     BatteryEmpty,
     /// The flight has ended.
@@ -96,8 +118,7 @@ pub struct Sim {
     model: Arc<AirframeModel>,
     state: physics::PhysicsState,
     sensors: Sensors,
-    backend: Backend,
-    endpoint: Endpoint,
+    controller: Controller,
     wind: WindField,
     now: SimTime,
     /// Boot time of the autopilot.
@@ -138,8 +159,7 @@ pub struct Sim {
 /// The parts of the simulator that exchange messages with clients, borrowed separately.
 struct Interface<'a> {
     aircraft: SimulatedAircraft<'a>,
-    autopilot: &'a mut Autopilot,
-    endpoint: &'a mut Endpoint,
+    controller: &'a mut Controller,
     recorder: &'a mut FlightRecorder,
 }
 
@@ -147,32 +167,21 @@ impl Sim {
     /// Creates the vehicle on its landing pad with motors off.
     #[must_use]
     pub fn new(config: SimConfig, site: Arc<Site>) -> Self {
+        let controller = Controller::Builtin(Box::new(builtin_controller(&config)));
+        let sensor_spec = config.vehicle.sensors;
+        Self::with_controller(config, site, controller, &sensor_spec)
+    }
+
+    /// Creates the vehicle with a flight controller and the rates and errors of its sensors.
+    fn with_controller(config: SimConfig, site: Arc<Site>, controller: Controller, sensors: &SensorSpec) -> Self {
         let (scenario, vehicle, seed) = (&config.scenario, &config.vehicle, config.seed);
-        let feet_m = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + 0.02;
-        let team = &scenario.ground_team;
-        let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
-        let yaw = spandrel_model::math::wrap_pi(team.pad_heading_deg.to_radians());
-        let mut autopilot = new_autopilot(&config);
+        let (start, yaw) = place_on_pad(&config);
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
-        let rules = &scenario.rules;
-        let pack = AircraftValues {
-            cells: vehicle.battery.cells,
-            capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
-            thresholds: BatteryThresholds {
-                low_charge_pct: rules.low_battery_pct,
-                critical_charge_pct: rules.critical_battery_pct,
-            },
-            returns_on_low_battery: rules.low_battery_return,
-            frame: autopilot.airframe_envelope(),
-        };
-        let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavor);
-        endpoint.prepare(&mut autopilot);
         Self {
             model: Arc::new(AirframeModel::new(vehicle, scenario.rules.battery)),
             state: physics::PhysicsState::at_rest(start, yaw),
-            sensors: Sensors::new(vehicle, scenario.rules.gnss_shadow, scenario.origin, seed),
-            backend: Backend::Builtin(Box::new(autopilot)),
-            endpoint,
+            sensors: Sensors::new(&with_sensors(vehicle, sensors), scenario.rules.gnss_shadow, scenario.origin, seed),
+            controller,
             wind: WindField::new(&scenario.wind, seed),
             now: SimTime::ZERO,
             boot_time: SimTime::ZERO,
@@ -216,23 +225,26 @@ impl Sim {
 
     /// Opens a link to a peer.
     pub fn open_link(&mut self, link: LinkId, kind: LinkKind, lockstep: bool) {
-        self.endpoint.open(link, kind, lockstep, self.now);
+        match &mut self.controller {
+            Controller::Builtin(own) => own.endpoint.open(link, kind, lockstep, self.now),
+            Controller::External(other) => other.endpoint.open(link, kind, lockstep, self.now),
+        }
         self.scale_timeouts();
     }
 
     /// Sends only responses on a link until a heartbeat arrives on it.
     pub fn await_heartbeat(&mut self, link: LinkId) {
-        self.endpoint.links.await_heartbeat(link);
+        self.controller.links_mut().await_heartbeat(link);
     }
 
     /// Limits a link's outgoing data rate, in bytes/s.
     pub fn limit_link_rate(&mut self, link: LinkId, bytes_s: f64) {
-        self.endpoint.links.limit(link, bytes_s, self.now);
+        self.controller.links_mut().limit(link, bytes_s, self.now);
     }
 
     /// Closes a link. Lockstep no longer waits for its peer.
     pub fn close_link(&mut self, link: LinkId) {
-        self.endpoint.close(link);
+        self.controller.close(link);
         self.inbox.close(link);
         self.pending_responses.remove(&link);
         self.scale_timeouts();
@@ -247,22 +259,21 @@ impl Sim {
 
     /// Lockstep clients run on simulation time. Without any, clients use their own clocks.
     fn scale_timeouts(&mut self) {
-        let in_step = self.endpoint.links.lockstep_states().next().is_some();
+        let in_step = self.controller.links().lockstep_states().next().is_some();
         let factor = if in_step { 1.0 } else { self.speed_factor };
-        let Backend::Builtin(autopilot) = &mut self.backend;
-        self.endpoint.set_speed_factor(factor, autopilot);
+        self.controller.set_speed_factor(factor);
     }
 
     /// Number of received bytes that did not belong to any frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
-        self.endpoint.links.bad_bytes()
+        self.controller.links().bad_bytes()
     }
 
     /// Number of datagrams dropped by rate limits and frames dropped by link limits.
     #[must_use]
     pub fn dropped(&self) -> u64 {
-        self.inbox.dropped() + self.endpoint.links.dropped()
+        self.inbox.dropped() + self.controller.links().dropped()
     }
 
     /// Simulation time.
@@ -290,13 +301,13 @@ impl Sim {
             self.radio.receive(link, bytes, self.now);
             return;
         }
-        self.endpoint.links.note_received(link);
+        self.controller.links_mut().note_received(link);
         let mut datagram = ReceivedDatagram::new(bytes);
         if let Some(token) = self.pending_responses.get(&link)
-            && self.endpoint.links.answers_lockstep(link, &mut datagram, *token)
+            && self.controller.links().answers_lockstep(link, &mut datagram, *token)
         {
             self.pending_responses.remove(&link);
-            self.endpoint.links.join_lockstep(link);
+            self.controller.links_mut().join_lockstep(link);
         }
         self.inbox.push(link, datagram);
     }
@@ -314,29 +325,29 @@ impl Sim {
         let has_received = |(link, step, has_received): (LinkId, LockstepState, bool)| {
             (step == LockstepState::Awaited && self.pending_responses.contains_key(&link)).then_some(has_received)
         };
-        self.endpoint.links.lockstep_states().filter_map(has_received).reduce(|a, b| a && b)
+        self.controller.links().lockstep_states().filter_map(has_received).reduce(|a, b| a && b)
     }
 
     /// Sends heartbeats and another lockstep request to peers that have never responded. Does not change the vehicle.
     pub fn send_first_heartbeats(&mut self) {
         self.pause(false);
-        self.endpoint.links.request_lockstep(self.now);
+        self.controller.links_mut().request_lockstep(self.now);
     }
 
     /// Stops waiting for first responses. Lockstep with each peer begins with its first response.
     pub fn stop_awaiting_first_responses(&mut self) {
         let pending: Vec<LinkId> = self.pending_responses.keys().copied().collect();
         for link in pending {
-            self.endpoint.links.serve_in_real_time(link);
+            self.controller.links_mut().serve_in_real_time(link);
         }
-        let peers: Vec<LinkId> = self.endpoint.links.lockstep_peers().collect();
+        let peers: Vec<LinkId> = self.controller.links().lockstep_peers().collect();
         self.pending_responses.retain(|link, _| peers.contains(link));
     }
 
     /// Returns true while a lockstep peer has not responded yet. Simulation time follows wall time until it does.
     #[must_use]
     pub fn runs_in_real_time(&self) -> bool {
-        self.endpoint.links.lockstep_states().any(|(_, step, _)| step == LockstepState::Late)
+        self.controller.links().lockstep_states().any(|(_, step, _)| step == LockstepState::Late)
     }
 
     /// Time at which the next tick is due.
@@ -347,7 +358,7 @@ impl Sim {
 
     /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
-        while let Some(transmit) = self.endpoint.links.poll() {
+        while let Some(transmit) = self.controller.links_mut().poll() {
             if !self.is_over_radio(transmit.link) {
                 return Some(transmit);
             }
@@ -375,7 +386,13 @@ impl Sim {
             return;
         }
         self.process_inbox();
+        if self.run_autopilot_start() {
+            return;
+        }
         while self.now + STEP <= until && !self.has_file_job() {
+            if !self.exchange_with_autopilot() {
+                return;
+            }
             self.tick();
             if self.now.ns() % LOCKSTEP.ns() == 0 && self.send_lockstep_requests() {
                 return;
@@ -386,8 +403,8 @@ impl Sim {
 
     /// Sends lockstep requests. Returns true if there are peers to wait for.
     fn send_lockstep_requests(&mut self) -> bool {
-        self.endpoint.links.request_lockstep(self.now);
-        self.pending_responses = self.endpoint.links.lockstep_peers().map(|link| (link, self.now.ns())).collect();
+        self.controller.links_mut().request_lockstep(self.now);
+        self.pending_responses = self.controller.links().lockstep_peers().map(|link| (link, self.now.ns())).collect();
         !self.pending_responses.is_empty()
     }
 
@@ -396,32 +413,48 @@ impl Sim {
         while let Some((link, bytes)) = self.radio.received(self.now) {
             self.inbox.push(link, ReceivedDatagram::new(&bytes));
         }
-        for (link, datagram) in self.inbox.take(self.now) {
-            self.process_datagram(link, datagram);
-            self.digest.update(self.endpoint.take_digest_input());
+        let link_now = self.controller.link_clock(self.now);
+        for (link, datagram) in self.inbox.take(link_now) {
+            self.process_datagram(link, datagram, link_now);
         }
     }
 
-    fn process_datagram(&mut self, link: LinkId, datagram: ReceivedDatagram) {
-        let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
-        endpoint.receive(link, datagram, &aircraft, autopilot);
-        if self.endpoint.vehicle.take_restart_request() {
+    fn process_datagram(&mut self, link: LinkId, datagram: ReceivedDatagram, link_now: SimTime) {
+        let Interface { aircraft, controller, .. } = self.interface();
+        let (restart, digest_input) = match controller {
+            Controller::Builtin(own) => {
+                own.endpoint.receive(link, datagram, &aircraft, &mut own.autopilot);
+                (own.endpoint.vehicle.take_restart_request(), own.endpoint.take_digest_input())
+            }
+            Controller::External(other) => {
+                other.endpoint.receive(link, datagram, &aircraft, link_now);
+                (other.endpoint.take_restart_request(), Vec::new())
+            }
+        };
+        self.digest.update(digest_input);
+        if restart {
             self.restart_autopilot();
         }
     }
 
     /// Restarts the autopilot on the ground. The environment is unaffected.
     fn restart_autopilot(&mut self) {
-        self.backend = Backend::Builtin(Box::new(new_autopilot(&self.config)));
         self.boot_time = self.now;
-        let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
-        endpoint.boot(&aircraft, autopilot);
+        if self.controller.external().is_some() {
+            self.restart_external_autopilot("reboot command");
+            return;
+        }
+        let autopilot = new_autopilot(&self.config);
+        let Interface { aircraft, controller, .. } = self.interface();
+        if let Controller::Builtin(own) = controller {
+            own.autopilot = autopilot;
+            own.endpoint.boot(&aircraft, &mut own.autopilot);
+        }
         self.scale_timeouts();
     }
 
     /// Borrows the state from which messages are built, and the parts that handle messages.
     fn interface(&mut self) -> Interface<'_> {
-        let Backend::Builtin(autopilot) = &mut self.backend;
         let aircraft = SimulatedAircraft {
             clock: VehicleClock {
                 now: self.now,
@@ -439,34 +472,78 @@ impl Sim {
             wind_m_s: self.air.velocity_m_s,
             scoring: &self.scoring,
         };
-        Interface { aircraft, autopilot, endpoint: &mut self.endpoint, recorder: &mut self.recorder }
+        Interface { aircraft, controller: &mut self.controller, recorder: &mut self.recorder }
     }
 
     /// Sends a heartbeat on every link while the simulation is paused, and a status text at the start of the pause.
     /// Call once per second of wall time. Does not change the vehicle.
     pub fn pause(&mut self, begins: bool) {
         if begins {
-            self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
+            self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation paused");
         }
-        let Interface { aircraft, autopilot, endpoint, .. } = self.interface();
-        endpoint.send_heartbeats(&aircraft, autopilot);
+        let Interface { aircraft, controller, .. } = self.interface();
+        match controller {
+            Controller::Builtin(own) => own.endpoint.send_heartbeats(&aircraft, &own.autopilot),
+            Controller::External(other) => other.endpoint.send_heartbeats(),
+        }
     }
 
     /// Announces that the simulation continues; clients receive the status text with the next tick.
     pub fn resume(&mut self) {
-        self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
+        self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, "Simulation resumed");
     }
 
     fn publish(&mut self) {
-        let Interface { aircraft, autopilot, endpoint, recorder } = self.interface();
-        let (events, reached_items) = (autopilot.drain_events(), autopilot.drain_reached());
-        if recorder.is_enabled() {
-            let view = endpoint.vehicle.snapshot(&aircraft, autopilot, &endpoint.payload.equipment);
-            let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
-            recorder.observe(&view, &texts, || endpoint.vehicle.parameters().map(|(name, value)| (name, value.into())));
+        let Interface { aircraft, controller, recorder } = self.interface();
+        match controller {
+            Controller::Builtin(own) => publish_builtin(own, &aircraft, recorder),
+            Controller::External(other) => {
+                let is_starting = other.autopilot.phase() != Phase::Running;
+                let link_now = other.autopilot.clock(aircraft.clock.now);
+                other.endpoint.publish(&aircraft, link_now, is_starting);
+            }
         }
-        endpoint.publish(&aircraft, autopilot, events, reached_items);
     }
+}
+
+/// Records the flight log and sends the messages of a vehicle with the built-in autopilot.
+fn publish_builtin(own: &mut BuiltinController, aircraft: &SimulatedAircraft, recorder: &mut FlightRecorder) {
+    let BuiltinController { autopilot, endpoint } = own;
+    let (events, reached_items) = (autopilot.drain_events(), autopilot.drain_reached());
+    if recorder.is_enabled() {
+        let view = endpoint.vehicle.snapshot(aircraft, autopilot, &endpoint.payload.equipment);
+        let texts: Vec<(u8, &str)> = events.iter().map(|event| (event.severity.number(), event.text.as_str())).collect();
+        recorder.observe(&view, &texts, || endpoint.vehicle.parameters().map(|(name, value)| (name, value.into())));
+    }
+    endpoint.publish(aircraft, autopilot, events, reached_items);
+}
+
+/// Returns the position of the aircraft on the landing pad, and its heading in rad.
+fn place_on_pad(config: &SimConfig) -> (Vec3<Ned>, f64) {
+    let team = &config.scenario.ground_team;
+    let feet_m = config.vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max) + 0.02;
+    let start = (team.pad_m + Vec3::new(0.0, 0.0, feet_m)).ned();
+    (start, spandrel_model::math::wrap_pi(team.pad_heading_deg.to_radians()))
+}
+
+fn with_sensors(vehicle: &Vehicle, sensors: &SensorSpec) -> Vehicle {
+    Vehicle { sensors: *sensors, ..vehicle.clone() }
+}
+
+/// Creates the built-in autopilot and its interface.
+fn builtin_controller(config: &SimConfig) -> BuiltinController {
+    let (vehicle, rules) = (&config.vehicle, &config.scenario.rules);
+    let mut autopilot = new_autopilot(config);
+    let pack = AircraftValues {
+        cells: vehicle.battery.cells,
+        capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
+        thresholds: BatteryThresholds { low_charge_pct: rules.low_battery_pct, critical_charge_pct: rules.critical_battery_pct },
+        returns_on_low_battery: rules.low_battery_return,
+        frame: autopilot.airframe_envelope(),
+    };
+    let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavor);
+    endpoint.prepare(&mut autopilot);
+    BuiltinController { autopilot, endpoint }
 }
 
 fn new_autopilot(config: &SimConfig) -> Autopilot {

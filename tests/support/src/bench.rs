@@ -89,7 +89,7 @@ impl Bench {
             }
             let load = PowerLoad { lamp_on: false, airborne: true };
             self.model.advance(&mut self.state, &self.actuators, &self.air, &self.site, load, self.now, STEP);
-            self.sensors.integrate_imu(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+            self.sensors.integrate_imu(self.state.specific_force_m_s2, self.state.rigid.rates_rad_s, STEP);
             self.now += STEP;
             each(self);
         }

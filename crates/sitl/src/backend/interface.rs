@@ -47,8 +47,26 @@ pub enum InterfaceEvent {
     Rejected(String),
 }
 
+/// Copies a [`SimulatorInterface`] behind a pointer. Implemented for every interface that is `Clone`.
+pub trait CloneInterface {
+    /// Returns a copy.
+    fn clone_box(&self) -> Box<dyn SimulatorInterface>;
+}
+
+impl<T: SimulatorInterface + Clone + 'static> CloneInterface for T {
+    fn clone_box(&self) -> Box<dyn SimulatorInterface> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn SimulatorInterface> {
+    fn clone(&self) -> Self {
+        self.clone_box()
+    }
+}
+
 /// One side of a simulator interface: the simulator's.
-pub trait SimulatorInterface {
+pub trait SimulatorInterface: CloneInterface + std::fmt::Debug + Send {
     /// Rate at which the autopilot takes sensor readings, Hz.
     fn rate_hz(&self) -> f64;
 

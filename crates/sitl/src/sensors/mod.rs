@@ -77,8 +77,8 @@ impl Sensors {
 
     /// Integrates the inertial sensors. Call it after every physics step, so that they capture all motion between two
     /// samples.
-    pub fn integrate_imu(&mut self, rigid: &RigidState, specific_force_m_s2: Vec3<Frd>, dt: SimTime) {
-        self.imu.integrate(specific_force_m_s2, rigid.rates_rad_s, dt);
+    pub fn integrate_imu(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
+        self.imu.integrate(specific_force_m_s2, rates_rad_s, dt);
     }
 
     /// Returns all readings that are due at `now`.

@@ -1,7 +1,7 @@
 //! Consequences of a step: liftoff, contact, empty battery and respawn, plus clearance and light for scoring.
 
+use super::controller::Controller;
 use super::{CLEARANCE_SEARCH_RADIUS_M, Sim, SimEvent};
-use crate::autopilot::LandedState;
 use crate::physics;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::MavSeverity;
@@ -34,7 +34,7 @@ impl Sim {
         if self.state.battery.empty() && !self.battery_empty_reported {
             self.battery_empty_reported = true;
             self.events.push_back(SimEvent::BatteryEmpty);
-            self.endpoint.vehicle.push_text(MavSeverity::MAV_SEVERITY_EMERGENCY, "Battery empty");
+            self.controller.push_text(MavSeverity::MAV_SEVERITY_EMERGENCY, "Battery empty");
             self.end_session("battery empty");
         }
         self.respawn_when_down();
@@ -94,8 +94,7 @@ impl Sim {
 
     /// Returns true after a gentle, upright landing that is not in water. The vehicle stays and can take off again.
     fn has_landed_upright(&self) -> bool {
-        let landed =
-            self.backend.builtin().is_some_and(|a| matches!(a.status().landed, LandedState::OnGround | LandedState::TakingOff));
+        let landed = self.controller.is_on_ground();
         let wet = self.scoring.contact == ContactKind::Water;
         landed && !wet && !self.hard_contact && !self.is_upside_down()
     }
@@ -136,6 +135,10 @@ impl Sim {
     }
 
     fn respawn(&mut self) {
+        if self.controller.external().is_some() {
+            self.respawn_on_pad();
+            return;
+        }
         let (position_m, yaw_rad) = self.last_safe_hover;
         self.crashed_since = None;
         self.hard_contact = false;
@@ -146,8 +149,8 @@ impl Sim {
         self.scoring.contact = ContactKind::None;
         let attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
         let now = self.now;
-        if let Some(autopilot) = self.backend.builtin_mut() {
-            autopilot.respawn(position_m, Vec3::zero(), attitude, now);
+        if let Controller::Builtin(own) = &mut self.controller {
+            own.autopilot.respawn(position_m, Vec3::zero(), attitude, now);
         }
         self.events.push_back(SimEvent::Respawn);
     }
@@ -169,7 +172,7 @@ impl Sim {
         let rigid = &self.state.rigid;
         let (roll, pitch, yaw) = rigid.attitude.euler();
         let calm = rigid.velocity_m_s.norm() < 2.0 && roll.abs() < 0.4 && pitch.abs() < 0.4 && rigid.rates_rad_s.norm() < 1.0;
-        let flying = self.backend.builtin().is_some_and(|a| a.status().landed == LandedState::InAir);
+        let flying = self.controller.is_flying();
         if calm && flying && self.scoring.clearance_m > MIN_SAFE_CLEARANCE_M && self.crashed_since.is_none() {
             self.last_safe_hover = (rigid.position_m, yaw);
         }

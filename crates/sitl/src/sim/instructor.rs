@@ -11,15 +11,20 @@ use std::sync::Arc;
 const WIND_TRANSITION_TIME: SimTime = SimTime::from_ms(5_000);
 
 impl Sim {
-    /// Returns true if a link is subject to radio impairment. Payload links and lockstep peers are exempt.
+    /// Returns true if a link is subject to radio impairment. Payload links, lockstep peers and the cable to an
+    /// external autopilot are exempt.
     pub(super) fn is_over_radio(&self, link: LinkId) -> bool {
         !self.radio.is_lossless()
-            && self.endpoint.links.kind(link).is_some_and(|(kind, in_step)| kind != LinkKind::Payload && !in_step)
+            && self
+                .controller
+                .links()
+                .kind(link)
+                .is_some_and(|(kind, in_step)| !matches!(kind, LinkKind::Payload | LinkKind::Autopilot) && !in_step)
     }
 
     /// Applies failures and weather set by commands and parameters.
     pub(super) fn apply_instructor_inputs(&mut self) {
-        while let Some(FailureInjection { unit, kind, instance }) = self.endpoint.vehicle.next_injection() {
+        while let Some(FailureInjection { unit, kind, instance }) = self.controller.next_injection() {
             self.faults.inject(unit, kind, instance, self.config.vehicle.rotors.len());
             let battery = &mut self.state.battery;
             match instance.checked_sub(1) {
@@ -29,11 +34,11 @@ impl Sim {
                 None => battery.failed_cells = 0,
             }
         }
-        let changes = self.endpoint.vehicle.parameter_changes();
+        let changes = self.controller.parameter_changes();
         if std::mem::replace(&mut self.applied_changes, changes) == changes {
             return;
         }
-        let world = self.endpoint.vehicle.instructor_settings();
+        let world = self.controller.instructor_settings();
         self.radio.set(world.loss, world.delay);
         if world.wind != self.instructor_settings.wind {
             let own = &self.config.scenario.wind;

@@ -1,9 +1,10 @@
 //! Runs one simulation tick, in the order documented in docs/src/reference/wire.md, "One simulation step".
 
+use super::controller::Controller;
 use super::{STEP, Sim};
 use crate::autopilot::CONTROL_HZ;
 use crate::physics::{Actuators, PowerLoad};
-use crate::sensors::{BatteryReading, SensorInputs};
+use crate::sensors::{BatteryReading, Readings, SensorInputs};
 use sha2::Digest;
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
@@ -13,16 +14,16 @@ impl Sim {
     pub(super) fn tick(&mut self) {
         let start = self.now;
         self.apply_instructor_inputs();
-        self.endpoint.vehicle.accepts_sticks = self.faults.passes_manual_control(start);
+        self.controller.set_accepts_sticks(self.faults.passes_manual_control(start));
         self.step_wind(start);
         if self.control_due.fire(start) {
             self.step_control(start);
         }
-        let load = PowerLoad { lamp_on: self.endpoint.payload.equipment.lamp.on, airborne: self.has_lifted_off };
+        let load = PowerLoad { lamp_on: self.controller.payload().equipment.lamp.on, airborne: self.has_lifted_off };
         let site = Arc::clone(&self.site);
         let model = Arc::clone(&self.model);
         model.advance(&mut self.state, &self.actuators, &self.air, site.as_ref(), load, start, STEP);
-        self.sensors.integrate_imu(&self.state.rigid, self.state.specific_force_m_s2, STEP);
+        self.integrate_imus(STEP);
         self.now += STEP;
         self.handle_crash_and_respawn();
         self.update_clearance_and_light();
@@ -44,21 +45,45 @@ impl Sim {
         self.air.force_n = if self.has_lifted_off { self.wind.paper_force_n() } else { Vec3::zero() };
     }
 
+    /// Runs the built-in autopilot, and the equipment. An external autopilot runs between ticks.
     fn step_control(&mut self, now: SimTime) {
-        let b = &self.state.battery;
-        let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
-        let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: self.endpoint.payload.equipment.lamp.on };
-        let mut fresh = self.sensors.sample(&truth, self.site.as_ref(), now);
+        if self.controller.builtin().is_some() {
+            let fresh = self.sample_sensors(now, now);
+            if let Controller::Builtin(own) = &mut self.controller {
+                self.actuators = own.autopilot.step(&fresh, now);
+            }
+            self.apply_motor_failures();
+            self.readings.update_latest(&fresh);
+        }
+        let camera = self.config.vehicle.camera;
+        let position = self.state.rigid.position_m.enu();
+        self.controller.payload_mut().equipment.step(&camera, position, now, 1.0 / CONTROL_HZ);
+    }
+
+    /// Samples the sensors that are due on their clock and applies the injected failures.
+    pub(super) fn sample_sensors(&mut self, now: SimTime, sensor_clock: SimTime) -> Readings {
+        let truth = SensorInputs {
+            rigid: &self.state.rigid,
+            battery: self.battery_reading(),
+            lamp_on: self.controller.payload().equipment.lamp.on,
+        };
+        let mut fresh = self.sensors.sample(&truth, self.site.as_ref(), sensor_clock);
         self.faults.corrupt_readings(&mut fresh, now);
-        self.actuators = self.backend.step(&fresh, now);
+        fresh
+    }
+
+    /// Returns the terminal values of the battery.
+    pub(super) fn battery_reading(&self) -> BatteryReading {
+        let b = &self.state.battery;
+        BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() }
+    }
+
+    /// Stops the motors that have failed, and all motors after the end of the session.
+    pub(super) fn apply_motor_failures(&mut self) {
         self.faults.stop_motors(&mut self.actuators);
         if self.end_reason.is_some() {
             self.actuators = Actuators::default();
         }
-        self.readings.update_latest(&fresh);
-        let camera = self.config.vehicle.camera;
-        let position = self.state.rigid.position_m.enu();
-        self.endpoint.payload.equipment.step(&camera, position, now, 1.0 / CONTROL_HZ);
     }
 
     /// Adds the exact bits of this tick's state to the digest.

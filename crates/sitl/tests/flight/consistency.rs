@@ -125,7 +125,7 @@ impl Run {
             self.rigid.velocity_m_s = b;
             self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rate_rad_s);
             self.rigid.attitude = self.rigid.attitude.rotated_by(self.rigid.rates_rad_s * dt.s());
-            self.sensors.integrate_imu(&self.rigid, felt, dt);
+            self.sensors.integrate_imu(felt, self.rigid.rates_rad_s, dt);
             self.now += dt;
         }
         let battery = sensors::BatteryReading { voltage_v: 12.0, current_a: 0.0, remaining_pct: 100.0 };

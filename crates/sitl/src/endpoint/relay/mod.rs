@@ -11,6 +11,7 @@ mod instructor_params;
 mod message_requests;
 mod publish;
 mod receive;
+mod setup;
 mod streams;
 
 use super::component_ids;
@@ -57,6 +58,8 @@ pub struct RelayEndpoint {
     injections: VecDeque<FailureInjection>,
     manual: ManualControl,
     texts: TextQueue,
+    /// Whether the streams of the present autopilot process have been requested.
+    streams_requested: bool,
     restart_requested: bool,
     home_m: Vec3<Ned>,
     row_buffer: Vec<usize>,
@@ -77,6 +80,7 @@ impl RelayEndpoint {
             injections: VecDeque::new(),
             manual: ManualControl::default(),
             texts: TextQueue::default(),
+            streams_requested: false,
             restart_requested: false,
             home_m,
             row_buffer: Vec::new(),
@@ -105,6 +109,7 @@ impl RelayEndpoint {
     /// Forgets what the previous autopilot process reported.
     pub fn forget_autopilot(&mut self) {
         self.report = AutopilotReport::default();
+        self.streams_requested = false;
         self.restart_requested = false;
     }
 

@@ -8,14 +8,16 @@ use crate::endpoint::payload::PayloadSnapshot;
 use crate::endpoint::simulated_aircraft::SimulatedAircraft;
 use crate::endpoint::text_queue::chunks;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity, STATUSTEXT_DATA};
+use spandrel_model::time::SimTime;
 
 impl RelayEndpoint {
-    /// Sends all messages scheduled for this tick.
-    pub fn publish(&mut self, aircraft: &SimulatedAircraft) {
+    /// Sends all messages scheduled for this tick. `link_now` is the clock of the links, which also runs while simulation time is
+    /// stopped; payload processes, which use simulation time, then receive nothing.
+    pub fn publish(&mut self, aircraft: &SimulatedAircraft, link_now: SimTime, is_time_stopped: bool) {
         let input = self.input(aircraft);
         self.payload.take_picture(&input, &mut self.links);
         self.announce_changes(&PayloadSnapshot::new(&input, &self.payload.equipment));
-        self.send_due_streams(&PayloadSnapshot::new(&input, &self.payload.equipment));
+        self.send_due_streams(&PayloadSnapshot::new(&input, &self.payload.equipment), link_now, is_time_stopped);
         self.payload.send_scoring(&input, &mut self.links);
         self.send_texts();
         self.payload.send_files(&mut self.links);
@@ -46,10 +48,10 @@ impl RelayEndpoint {
         }
     }
 
-    fn send_due_streams(&mut self, snapshot: &PayloadSnapshot) {
+    fn send_due_streams(&mut self, snapshot: &PayloadSnapshot, link_now: SimTime, is_time_stopped: bool) {
         let mut rows = std::mem::take(&mut self.row_buffer);
-        for link in self.links.listeners() {
-            link.due(snapshot.clock.now, &mut rows);
+        for link in self.links.listeners().filter(|link| !(is_time_stopped && link.kind == LinkKind::Payload)) {
+            link.due(link_now, &mut rows);
             let snapshot = &snapshot.for_link(link.kind);
             for row in &rows {
                 let stream = &EQUIPMENT_STREAMS[*row];

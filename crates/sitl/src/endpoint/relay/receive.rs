@@ -37,6 +37,9 @@ impl RelayEndpoint {
         }
         if frame.component_id == AUTOPILOT {
             self.report.read(frame);
+            if frame.message_id == HEARTBEAT_DATA::ID {
+                self.request_streams();
+            }
         }
         let (system, component) = router::target(frame);
         let for_equipment = self.links.is_own(component);

@@ -1,0 +1,222 @@
+//! Runs one vehicle's external autopilot: starts its process, watches it, starts it again on request, and records which one flew.
+
+use super::config::{AutopilotConfig, AutopilotKind};
+use super::find::{AutopilotProgram, find};
+use super::process::{AutopilotProcess, OUTPUT_FILE, search_path, write_files};
+use super::record;
+use crate::errors::{AppError, AutopilotFailure};
+use spandrel_sitl::backend::launch::Launch;
+use spandrel_sitl::sim::{AutopilotState, Sim};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Wall time within which a started autopilot must connect (estimate: both take about a second on a busy machine).
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(30);
+/// Wall time within which a connected autopilot must answer for the first time (estimate: PX4 takes about a second).
+const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(30);
+/// Wall time without an answer after which a warning is logged.
+const SILENCE_WARNING: Duration = Duration::from_secs(2);
+/// Wall time without an answer after which the run ends.
+const SILENCE_TIMEOUT: Duration = Duration::from_secs(20);
+/// Interval between checks of the process: a system call that is not needed in every tick.
+const EXIT_CHECK_INTERVAL: Duration = Duration::from_millis(200);
+
+/// State of the exchange that the watch measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    /// The process has not connected.
+    Connecting,
+    /// The process has connected but has not answered.
+    FirstAnswer,
+    /// An answer is outstanding.
+    Waiting,
+    /// No answer is outstanding.
+    Answered,
+}
+
+/// One vehicle's external autopilot.
+#[derive(Debug)]
+pub struct AutopilotHost {
+    kind: AutopilotKind,
+    program: Option<AutopilotProgram>,
+    launch: Launch,
+    folder: PathBuf,
+    /// Whether the user starts the process.
+    wait: bool,
+    process: Option<AutopilotProcess>,
+    stage: (Stage, Duration),
+    warned: bool,
+    last_exit_check: Duration,
+    starts: u32,
+    recorded: Option<String>,
+}
+
+impl AutopilotHost {
+    /// Finds the program and writes the files of the process.
+    ///
+    /// # Errors
+    /// Returns an error if the program is not found or a file cannot be written.
+    pub fn new(config: &AutopilotConfig, launch: Launch, folder: PathBuf) -> Result<Self, AppError> {
+        let program = find(config.kind, config.location.as_deref());
+        let program = if config.wait { program.ok() } else { Some(program?) };
+        write_files(&launch, &folder)?;
+        let stage = (Stage::Connecting, Duration::ZERO);
+        let kind = config.kind;
+        Ok(Self {
+            kind,
+            program,
+            launch,
+            folder,
+            wait: config.wait,
+            process: None,
+            stage,
+            warned: false,
+            last_exit_check: Duration::ZERO,
+            starts: 0,
+            recorded: None,
+        })
+    }
+
+    /// Starts the process or, if the user starts it, prints the command.
+    ///
+    /// # Errors
+    /// Returns an error if the process cannot be started.
+    pub fn start(&mut self, wall: Duration) -> Result<(), AppError> {
+        self.stage = (Stage::Connecting, wall);
+        self.warned = false;
+        self.starts += 1;
+        match &self.program {
+            Some(program) if !self.wait => {
+                self.process = Some(AutopilotProcess::start(self.kind, program, &self.launch, &self.folder)?);
+            }
+            _ => self.print_command(),
+        }
+        Ok(())
+    }
+
+    /// Ends the process and starts another one.
+    ///
+    /// # Errors
+    /// Returns an error if the process cannot be started.
+    pub fn restart(&mut self, reason: &str, wall: Duration) -> Result<(), AppError> {
+        tracing::info!("restarting {}: {reason}", self.kind.name());
+        if let Some(mut process) = self.process.take() {
+            process.end();
+        }
+        self.start(wall)
+    }
+
+    /// Prints the command with which the user starts the autopilot.
+    fn print_command(&self) {
+        let name = self.kind.name();
+        let again = if self.starts > 1 { "End the running process and start it again with" } else { "Start it with" };
+        let (program, path) = match &self.program {
+            Some(program) => (program.binary.display().to_string(), search_path(program, &self.folder)),
+            None => (format!("{}-BINARY", name.to_uppercase()), None),
+        };
+        let mut words: Vec<String> = self.launch.environment.iter().map(|(name, value)| format!("{name}={}", quoted(value))).collect();
+        words.extend(path.map(|path| format!("PATH={}", quoted(&path.to_string_lossy()))));
+        words.push(quoted(&program));
+        words.extend(self.launch.args.iter().map(|arg| quoted(arg)));
+        let etc = self.program.as_ref().and_then(|program| program.etc.as_ref());
+        words.extend(etc.map(|etc| quoted(&etc.to_string_lossy())));
+        let folder = std::fs::canonicalize(&self.folder).unwrap_or_else(|_| self.folder.clone());
+        eprintln!("Waiting for {name}. {again}:\n(cd {} && env {})", quoted(&folder.to_string_lossy()), words.join(" "));
+    }
+
+    /// Checks the process and the progress of the exchange.
+    ///
+    /// # Errors
+    /// Returns an error if the process has exited, does not connect, or does not answer.
+    pub fn check(&mut self, core: &Sim, wall: Duration) -> Result<(), AppError> {
+        let Some(state) = core.autopilot_state() else { return Ok(()) };
+        self.check_exit(wall)?;
+        let stage = match state {
+            AutopilotState::Disconnected => Stage::Connecting,
+            AutopilotState::Starting { has_answered: false, .. } => Stage::FirstAnswer,
+            AutopilotState::Starting { is_waiting, .. } | AutopilotState::Running { is_waiting } => {
+                if is_waiting { Stage::Waiting } else { Stage::Answered }
+            }
+        };
+        if stage != self.stage.0 || stage == Stage::Answered {
+            self.stage = (stage, wall);
+            self.warned = false;
+            return Ok(());
+        }
+        self.check_silence(stage, wall.saturating_sub(self.stage.1))
+    }
+
+    /// Records that an answer has arrived, which ends a silence even if the next readings are sent at once.
+    pub fn note_answer(&mut self, wall: Duration) {
+        self.stage.1 = wall;
+        self.warned = false;
+    }
+
+    fn check_exit(&mut self, wall: Duration) -> Result<(), AppError> {
+        if wall.saturating_sub(self.last_exit_check) < EXIT_CHECK_INTERVAL {
+            return Ok(());
+        }
+        self.last_exit_check = wall;
+        match self.process.as_mut().and_then(AutopilotProcess::exit_status) {
+            Some(status) => Err(self.failure(AutopilotFailure::Exited, &format!("exited ({status})"))),
+            None => Ok(()),
+        }
+    }
+
+    fn check_silence(&mut self, stage: Stage, silent: Duration) -> Result<(), AppError> {
+        let (limit, what) = match stage {
+            Stage::Connecting if self.wait => return Ok(()),
+            Stage::Connecting => (CONNECT_TIMEOUT, "has not connected to the simulator"),
+            Stage::FirstAnswer => (FIRST_ANSWER_TIMEOUT, "has connected but sends no motor commands"),
+            Stage::Waiting => (SILENCE_TIMEOUT, "has stopped answering"),
+            Stage::Answered => return Ok(()),
+        };
+        if silent > limit {
+            let failure = if stage == Stage::Waiting { AutopilotFailure::Silent } else { AutopilotFailure::NoAnswer };
+            return Err(self.failure(failure, &format!("{what} for {} s", limit.as_secs())));
+        }
+        if stage == Stage::Waiting && silent > SILENCE_WARNING && !std::mem::replace(&mut self.warned, true) {
+            tracing::warn!("{} has not answered for {} s; simulation time is stopped", self.kind.name(), SILENCE_WARNING.as_secs());
+        }
+        Ok(())
+    }
+
+    /// Creates an error that names the file with the output.
+    pub fn failure(&self, failure: AutopilotFailure, what: &str) -> AppError {
+        let output = if self.process.is_some() {
+            format!("; its output is in {}", self.folder.join(OUTPUT_FILE).display())
+        } else {
+            String::new()
+        };
+        AppError::Autopilot(failure, format!("{} {what}{output}", self.kind.name()))
+    }
+
+    /// Returns whether the user starts the process.
+    pub fn is_started_by_user(&self) -> bool {
+        self.wait
+    }
+
+    /// Returns the autopilot's name in messages.
+    pub fn name(&self) -> &'static str {
+        self.kind.name()
+    }
+
+    /// Writes which autopilot flew, with its version and parameters, if this is not recorded yet.
+    pub fn record(&mut self, core: &Sim) {
+        let Some(report) = core.autopilot_report() else { return };
+        let text = record::text(self.kind, report, &self.launch.parameters);
+        if self.recorded.as_ref() == Some(&text) {
+            return;
+        }
+        if let Err(error) = record::write(&self.folder, &text) {
+            tracing::warn!("{error}");
+        }
+        self.recorded = Some(text);
+    }
+}
+
+/// Quotes text for a POSIX shell unless it consists of harmless characters.
+fn quoted(text: &str) -> String {
+    let harmless = |c: char| c.is_ascii_alphanumeric() || "_-./:=+,@%".contains(c);
+    if !text.is_empty() && text.chars().all(harmless) { text.to_owned() } else { format!("'{}'", text.replace('\'', r"'\''")) }
+}

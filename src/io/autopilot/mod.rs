@@ -1,0 +1,7 @@
+//! External autopilots: finding the program, running and watching its process, and recording which one flew.
+
+pub mod config;
+pub mod find;
+pub mod host;
+mod process;
+mod record;
