@@ -1,1 +1,21 @@
-//! ArduPilot's JSON simulator interface over UDP.
+//! ArduPilot's JSON simulator interface over UDP: ArduPilot sends the motor outputs of a frame and waits for the state of the
+//! aircraft, one line of JSON. GNSS, range finders, optical flow and the errors of the barometer and the compass travel as MAVLink
+//! messages on the ordinary link, because the JSON line has no fields for them.
+
+mod airframe;
+mod frame;
+mod interface;
+mod launch;
+mod sensor_errors;
+mod sensor_messages;
+mod servo_packet;
+mod state_line;
+
+pub use airframe::parameters;
+pub use frame::{Frame, FrameError, frame};
+pub use interface::ArduPilotInterface;
+pub use launch::{DEFAULTS_FILE, command_line, launch};
+
+/// Default rate at which ArduPilot receives the state, Hz: two physics ticks a frame. ArduPilot's main loop runs at the same rate,
+/// so that each loop has exactly one new state.
+pub const DEFAULT_RATE_HZ: f64 = 500.0;

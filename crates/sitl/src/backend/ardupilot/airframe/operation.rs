@@ -1,0 +1,65 @@
+//! Links, sticks, failsafes, scheduling and logging.
+
+use super::table::Table;
+use crate::backend::launch::LaunchSettings;
+
+/// Highest rate of ArduPilot's main loop that this interface uses, Hz.
+const MAX_LOOP_RATE_HZ: f64 = 500.0;
+/// System ID that ground stations use by default.
+const GROUND_STATION: i64 = 255;
+/// ArduPilot's default timeouts of a lost ground station and of stick overrides, s.
+const STATION_TIMEOUT_S: f64 = 5.0;
+const OVERRIDE_TIMEOUT_S: f64 = 3.0;
+
+/// Adds the parameters.
+pub fn add(table: &mut Table, settings: &LaunchSettings) {
+    add_links(table, settings);
+    add_sticks(table);
+    table.integer("SCHED_LOOP_RATE", loop_rate_hz(settings.rate_hz) as i64);
+    table.integer("ARMING_CHECK", 1);
+    table.integer("FENCE_ENABLE", 0);
+    table.integer("AVOID_ENABLE", 1);
+    table.integer("TERRAIN_ENABLE", 0);
+    table.integer("LOG_BACKEND_TYPE", 1);
+    table.integer("LOG_FILE_MB_FREE", 10);
+}
+
+/// Returns the rate of the main loop: the simulator's rate divided by a whole number.
+fn loop_rate_hz(rate_hz: f64) -> f64 {
+    (rate_hz / (rate_hz / MAX_LOOP_RATE_HZ).ceil().max(1.0)).round()
+}
+
+fn add_links(table: &mut Table, settings: &LaunchSettings) {
+    let system_id = i64::from(settings.instance) + 1;
+    table.both(["SYSID_THISMAV", "MAV_SYSID"], system_id);
+    // ArduPilot 4.6 takes sticks only from this ground station; 4.7 takes them from the whole range.
+    table.integer("SYSID_MYGCS", GROUND_STATION);
+    table.integer("MAV_GCS_SYSID", 1);
+    table.integer("MAV_GCS_SYSID_HI", 255);
+    table.integer("SERIAL0_PROTOCOL", 2);
+    for port in 1..=7 {
+        table.integer(&format!("SERIAL{port}_PROTOCOL"), -1);
+    }
+    let factor = settings.client_speed_factor.max(1.0);
+    table.integer("FS_GCS_ENABLE", 1);
+    table.real("FS_GCS_TIMEOUT", STATION_TIMEOUT_S * factor, (2.0, 120.0));
+    table.real("RC_OVERRIDE_TIME", OVERRIDE_TIMEOUT_S * factor, (0.0, 120.0));
+    // Keep flying if the ground station is lost while the pilot has control, as with the built-in
+    // autopilot.
+    table.integer("FS_OPTIONS", 21);
+}
+
+/// Adds the receiver, whose channels are centered while no ground station overrides them.
+fn add_sticks(table: &mut Table) {
+    for channel in 1..=8 {
+        table.integer(&format!("RC{channel}_MIN"), 1000);
+        table.integer(&format!("RC{channel}_TRIM"), 1500);
+        table.integer(&format!("RC{channel}_MAX"), 2000);
+        table.integer(&format!("RC{channel}_OPTION"), 0);
+    }
+    table.integer("FLTMODE_CH", 0);
+    table.integer("INITIAL_MODE", 5);
+    table.integer("FS_THR_ENABLE", 0);
+    // The throttle stick returns to its center, and landing disarms.
+    table.integer("PILOT_THR_BHV", 5);
+}
