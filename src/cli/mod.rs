@@ -3,6 +3,7 @@
 
 mod args;
 mod assess;
+mod autopilot_args;
 mod check;
 mod cohort;
 mod demo;

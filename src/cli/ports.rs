@@ -54,7 +54,8 @@ pub struct PortArgs {
 }
 
 impl PortArgs {
-    fn ephemeral(&self) -> bool {
+    /// Returns whether ports without a number are any free ports.
+    pub fn ephemeral(&self) -> bool {
         self.ports == "ephemeral"
     }
 

@@ -1,8 +1,11 @@
 //! `spandrel sim`: runs one or more vehicles at a site, each in its own thread.
 
 use super::args::{self, JobArgs};
+use super::autopilot_args::AutopilotArgs;
 use super::ports::PortArgs;
-use crate::errors::{AppError, EXIT_CODES};
+use crate::errors::{AUTOPILOT_EXIT_CODES, AppError};
+use crate::io::autopilot::config::{AutopilotConfig, AutopilotKind};
+use crate::io::autopilot::setup::{AutopilotSetup, SiteFacts};
 use crate::io::addresses;
 use crate::io::files;
 use crate::io::key;
@@ -27,22 +30,25 @@ use std::time::Duration;
 
 /// Simulate the vehicle
 ///
-/// Runs a quadrotor with its autopilot at the scenario's site, as a MAVLink vehicle with the interface of PX4 or
-/// ArduPilot (it runs neither autopilot). It sends telemetry to a ground station, an SDK and the monitor, accepts other
-/// connections, and drops silent peers. It runs until interrupted.
+/// Runs a quadrotor at the scenario's site as a MAVLink vehicle. By default, the built-in autopilot flies it, with the
+/// interface of PX4 or ArduPilot; with --autopilot, a real PX4 or ArduPilot flies the same aircraft. The vehicle sends
+/// telemetry to a ground station, an SDK and the monitor, accepts other connections, and drops silent peers. It runs
+/// until interrupted.
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXIT_CODES, after_long_help = format!("\
+#[command(after_help = AUTOPILOT_EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel sim                                      two bridges, real time, fixed ports
   spandrel sim --instance 1 --speed 4               a second vehicle, four times real time
   spandrel sim --instances 3                        three vehicles in one process: system IDs 1 to 3, consecutive ports
   spandrel sim --serial /dev/ttyUSB0:57600          also send telemetry over a radio, limited to its data rate
   spandrel sim --flavor ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
+  spandrel sim --autopilot px4 --px4 ~/PX4-Autopilot     a real PX4 flies the aircraft
+  spandrel sim --autopilot ardupilot --wait         print the command that starts ArduPilot, and wait for it
   spandrel sim --ports ephemeral --announce         free ports, printed as one line of JSON
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
                                                     as fast as possible, in lockstep with a client that answers TIMESYNC
 
-{EXIT_CODES}"))]
+{AUTOPILOT_EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
@@ -54,9 +60,11 @@ pub struct Args {
     /// reply and sends only heartbeats; after that, it runs unsynchronized until the peer replies. May be repeated
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address)]
     lockstep: Vec<SocketAddr>,
-    /// Autopilot protocol; does not affect the flight dynamics
+    /// Protocol of the built-in autopilot; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     flavor: args::Flavor,
+    #[command(flatten)]
+    autopilot: AutopilotArgs,
     /// Heartbeats from the camera component (100). Turn them off for simple clients that attribute every heartbeat to
     /// the vehicle (DroneKit, mavpilot); the camera still takes pictures. The SPAN_CAMERA parameter changes this
     /// setting in flight
@@ -196,6 +204,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
     let seed = args.job.seed_for(&scenario);
     let signing = signing(args)?;
+    let temporary = args.autopilot.kind().map(|_| tempfile::tempdir()).transpose();
+    let temporary = temporary.map_err(|error| AppError::failed(format!("cannot create a temporary folder: {error}")))?;
+    let autopilot = autopilot_config(args, temporary.as_ref().map(tempfile::TempDir::path))?;
     let mut doors = (0..args.instances).map(|more| VehicleIo::open(args, more)).collect::<Result<Vec<_>, _>>()?;
     let progress = ProgressLog::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
@@ -212,7 +223,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     let shells: Vec<VehicleShell> = doors
         .into_iter()
-        .map(|VehicleIo { links, files: kept, instance }| {
+        .map(|VehicleIo { links, files: kept, instance, autopilot_ports }| {
             let config = SimConfig {
                 scenario: scenario.clone(),
                 vehicle: vehicle.clone(),
@@ -221,7 +232,20 @@ pub fn run(args: &Args) -> Result<(), AppError> {
                 flavor: args.flavor.display_name(),
                 after_crash: args.after_crash.rule(),
             };
-            let mut shell = VehicleShell::new(Sim::new(config, site.clone()), links, args.speed, kept, signing.clone())?;
+            let facts = SiteFacts { scenario: &scenario, vehicle: &vehicle, site: &site };
+            let speed_factor = args.speed.client_speed_factor();
+            let setup = autopilot.as_ref().zip(autopilot_ports).map(|(autopilot, ports)| {
+                AutopilotSetup::new(autopilot, &facts, instance, ports, speed_factor, args.instances > 1)
+            });
+            let setup = setup.transpose()?;
+            let sim = match &setup {
+                Some(setup) => Sim::with_external_autopilot(config, site.clone(), setup.interface(&vehicle), setup.relay_rules()),
+                None => Sim::new(config, site.clone()),
+            };
+            let mut shell = VehicleShell::new(sim, links, args.speed, kept, signing.clone())?;
+            if let Some(setup) = setup {
+                shell.start_autopilot(setup.host()?)?;
+            }
             shell.set_pause_switch(still.clone());
             if args.camera == AnnouncedComponents::Off {
                 shell.core.mute_camera_heartbeat();
@@ -231,6 +255,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         .collect::<Result<_, AppError>>()?;
     let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
     for VehicleResult { digest, late } in flown {
+        if args.digest && args.autopilot.kind().is_some() {
+            tracing::warn!("--digest: an external autopilot is not reproducible, so the digest differs in every run");
+        }
         if args.digest {
             println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
         }
@@ -239,6 +266,18 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     Ok(())
+}
+
+/// Returns the configuration of an external autopilot, whose files go to `temporary` by default.
+fn autopilot_config(args: &Args, temporary: Option<&Path>) -> Result<Option<AutopilotConfig>, AppError> {
+    let folder = args.autopilot.autopilot_dir.as_deref().or(temporary).unwrap_or(Path::new("."));
+    let config = args.autopilot.config(folder)?;
+    let conflicts = [(args.signing_key.is_some(), "--signing-key"), (args.params.is_some(), "--params")];
+    if let (Some(config), Some((_, option))) = (&config, conflicts.iter().find(|(given, _)| *given)) {
+        let why = format!("{option} configures the built-in autopilot; {} has its own settings", config.kind.name());
+        return Err(AppError::invalid(why));
+    }
+    Ok(config)
 }
 
 fn lateness_json(late: Lateness) -> serde_json::Value {
@@ -270,6 +309,8 @@ struct VehicleIo {
     links: Links,
     files: VehicleFiles,
     instance: u8,
+    /// Ports of an external autopilot: its simulator interface, and the one for its MAVLink messages.
+    autopilot_ports: Option<(u16, u16)>,
 }
 
 impl VehicleIo {
@@ -283,7 +324,16 @@ impl VehicleIo {
             args.params.as_ref().map(|path| if args.instances == 1 { path.clone() } else { with_system_id(path, instance + 1) });
         let heard = args.signing_key.as_ref().map(|key| SigningStore::for_vehicle(key, instance + 1));
         let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
-        Ok(Self { links: Links::open(&ports.resolve(), &args.lockstep)?, files: kept, instance })
+        let mut links = Links::open(&ports.resolve(), &args.lockstep)?;
+        let open = |kind: AutopilotKind| {
+            let port = args.autopilot.port(kind, instance, more, args.ports.ephemeral());
+            links.serve_autopilot(kind.protocol(), port)
+        };
+        let autopilot_ports = args.autopilot.kind().map(open).transpose()?;
+        if let Some((port, _)) = autopilot_ports {
+            links.bound["autopilot_port"] = port.into();
+        }
+        Ok(Self { links, files: kept, instance, autopilot_ports })
     }
 }
 

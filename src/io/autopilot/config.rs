@@ -1,6 +1,7 @@
 //! Configuration of an external autopilot.
 
 use crate::errors::AppError;
+use crate::io::autopilot_sockets::SimulatorProtocol;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::backend::ardupilot::{self, ArduPilotInterface};
 use spandrel_sitl::backend::interface::SimulatorInterface;
@@ -59,6 +60,14 @@ impl AutopilotKind {
         }
     }
 
+    /// Returns the transport of the simulator interface.
+    pub fn protocol(self) -> SimulatorProtocol {
+        match self {
+            Self::Px4 => SimulatorProtocol::Tcp,
+            Self::ArduPilot => SimulatorProtocol::Udp,
+        }
+    }
+
     /// Returns the rates of the readings that the autopilot supports, Hz; the first one is the default.
     pub fn rates_hz(self) -> &'static [u32] {
         match self {
@@ -76,16 +85,10 @@ impl AutopilotKind {
     }
 
     /// Creates the simulator's side of the interface.
-    ///
-    /// # Errors
-    /// Returns an error if the autopilot does not support the aircraft.
-    pub fn interface(self, vehicle: &Vehicle, rate_hz: f64) -> Result<Box<dyn SimulatorInterface>, AppError> {
+    pub fn interface(self, vehicle: &Vehicle, settings: &LaunchSettings) -> Box<dyn SimulatorInterface> {
         match self {
-            Self::Px4 => Ok(Box::new(Px4Interface::new(vehicle, rate_hz))),
-            Self::ArduPilot => {
-                let interface = ArduPilotInterface::new(vehicle, rate_hz).map_err(AppError::invalid)?;
-                Ok(Box::new(interface))
-            }
+            Self::Px4 => Box::new(Px4Interface::new(vehicle, settings.rate_hz)),
+            Self::ArduPilot => Box::new(ArduPilotInterface::new(vehicle, settings)),
         }
     }
 
@@ -96,7 +99,7 @@ impl AutopilotKind {
     pub fn launch(self, vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Launch, AppError> {
         match self {
             Self::Px4 => Ok(px4::launch(vehicle, settings)),
-            Self::ArduPilot => ardupilot::launch(vehicle, settings).map_err(AppError::invalid),
+            Self::ArduPilot => ardupilot::launch(vehicle, settings).map_err(|error| AppError::invalid(error.to_string())),
         }
     }
 }

@@ -5,3 +5,4 @@ pub mod find;
 pub mod host;
 mod process;
 mod record;
+pub mod setup;
