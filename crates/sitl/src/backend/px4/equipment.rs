@@ -1,0 +1,106 @@
+//! PX4's parameters for battery, sensors, gimbal and links.
+
+use super::param_table::ParamTable;
+use crate::backend::launch::LaunchSettings;
+use crate::sensors::magnetometer::earth_field_gauss;
+use spandrel_model::math;
+use spandrel_model::vehicle::Vehicle;
+
+/// Rate at which PX4's estimator runs, Hz: a divisor of all sensor rates.
+const ESTIMATOR_RATE_HZ: f64 = 250.0;
+/// PX4's default rate of the rate controller in multirotors, Hz. A higher sensor rate needs a higher one: PX4 answers only
+/// readings that it passes on to the rate controller.
+const RATE_CONTROL_HZ: f64 = 800.0;
+/// PX4's default timeouts, s: ground station, sticks, offboard setpoints and onboard computer.
+const STATION_TIMEOUT_S: f64 = 10.0;
+const STICKS_TIMEOUT_S: f64 = 0.5;
+const OFFBOARD_TIMEOUT_S: f64 = 1.0;
+const COMPANION_TIMEOUT_S: f64 = 5.0;
+/// Emergency threshold of the battery, as a share of the critical one (estimate).
+const EMERGENCY_SHARE: f64 = 0.5;
+
+/// Adds all parameters of this file.
+pub(super) fn add(table: &mut ParamTable, vehicle: &Vehicle, settings: &LaunchSettings) {
+    battery(table, vehicle, settings);
+    inertial_sensors(table, settings);
+    position_sensors(table, vehicle);
+    compass(table, settings);
+    range_and_flow(table, vehicle);
+    gimbal(table, vehicle);
+    links(table, settings);
+    log(table);
+}
+
+/// PX4 takes the charge from BATTERY_STATUS of another component instead of its own battery model.
+fn battery(table: &mut ParamTable, vehicle: &Vehicle, settings: &LaunchSettings) {
+    let (low, critical) = settings.battery_thresholds_pct;
+    table.integer("SIM_BAT_ENABLE", 0.0, (0.0, 1.0));
+    table.integer("BAT1_N_CELLS", f64::from(vehicle.battery.cells), (0.0, 16.0));
+    table.real("BAT1_CAPACITY", vehicle.battery.capacity_ah * 1000.0, (-1.0, 100_000.0));
+    table.real("BAT_LOW_THR", low / 100.0, (0.12, 0.5));
+    table.real("BAT_CRIT_THR", critical / 100.0, (0.05, 0.5));
+    table.real("BAT_EMERGEN_THR", critical * EMERGENCY_SHARE / 100.0, (0.03, 0.5));
+}
+
+/// Three inertial sensors, each with an estimator of its own.
+fn inertial_sensors(table: &mut ParamTable, settings: &LaunchSettings) {
+    table.integer("IMU_INTEG_RATE", ESTIMATOR_RATE_HZ, (100.0, 1000.0));
+    table.integer("IMU_GYRO_RATEMAX", settings.rate_hz.max(RATE_CONTROL_HZ), (100.0, 2000.0));
+    table.integer("EKF2_MULTI_IMU", 3.0, (0.0, 4.0));
+    table.integer("SENS_IMU_MODE", 0.0, (0.0, 1.0));
+}
+
+/// The simulated receiver and barometer have no delay.
+fn position_sensors(table: &mut ParamTable, vehicle: &Vehicle) {
+    let sensors = &vehicle.sensors;
+    table.real("EKF2_GPS_DELAY", 0.0, (0.0, 300.0));
+    table.real("EKF2_GPS_P_NOISE", sensors.gnss_horizontal_noise_m, (0.01, 10.0));
+    table.real("EKF2_GPS_V_NOISE", sensors.gnss_velocity_noise_m_s, (0.01, 5.0));
+}
+
+/// The simulated field is a dipole, whose declination differs from PX4's table by some degrees.
+fn compass(table: &mut ParamTable, settings: &LaunchSettings) {
+    let field = earth_field_gauss(settings.home);
+    table.integer("EKF2_DECL_TYPE", 0.0, (0.0, 3.0));
+    table.real("EKF2_MAG_DECL", math::atan2(field.east(), field.north()).to_degrees(), (-180.0, 180.0));
+}
+
+/// The range finder measures from the center of mass, so on the ground it reads the height of the feet.
+fn range_and_flow(table: &mut ParamTable, vehicle: &Vehicle) {
+    let sensors = &vehicle.sensors;
+    let standing_m = vehicle.hull.feet_m.iter().map(|foot| foot.down()).fold(0.0, f64::max);
+    table.real("EKF2_MIN_RNG", standing_m, (0.01, 10.0));
+    table.real("EKF2_RNG_NOISE", math::hypot(sensors.range_noise_m, sensors.range_bias_m), (0.01, 10.0));
+    table.real("EKF2_RNG_DELAY", 0.0, (0.0, 300.0));
+    let fitted = sensors.flow_velocity_m_s > 0.0;
+    table.integer("EKF2_OF_CTRL", if fitted { 1.0 } else { 0.0 }, (0.0, 1.0));
+    table.real("EKF2_OF_DELAY", 0.0, (0.0, 300.0));
+    table.real("SENS_FLOW_MAXHGT", sensors.range_max_m, (1.0, 100.0));
+}
+
+/// PX4 is the manager of our gimbal, which is a MAVLink gimbal device.
+fn gimbal(table: &mut ParamTable, vehicle: &Vehicle) {
+    table.integer("MNT_MODE_IN", 4.0, (-1.0, 4.0));
+    table.integer("MNT_MODE_OUT", 2.0, (0.0, 2.0));
+    table.real("MNT_RATE_PITCH", vehicle.camera.gimbal_rate_rad_s.to_degrees(), (1.0, 90.0));
+}
+
+/// Sticks come as MANUAL_CONTROL from a ground station. PX4 measures timeouts in simulation time, clients in their own.
+fn links(table: &mut ParamTable, settings: &LaunchSettings) {
+    let factor = settings.client_speed_factor.max(1.0);
+    table.integer("COM_RC_IN_MODE", 1.0, (0.0, 4.0));
+    // Trainees may put down the controller in automatic flight, as with the built-in autopilot.
+    table.integer("COM_RCL_EXCEPT", 7.0, (0.0, 7.0));
+    table.integer("COM_DL_LOSS_T", (STATION_TIMEOUT_S * factor).ceil(), (5.0, 300.0));
+    table.real("COM_RC_LOSS_T", STICKS_TIMEOUT_S * factor, (0.0, 35.0));
+    table.real("COM_OF_LOSS_T", OFFBOARD_TIMEOUT_S * factor, (0.0, 60.0));
+    table.real("COM_OBC_LOSS_T", COMPANION_TIMEOUT_S * factor, (0.0, 60.0));
+    // A vehicle near a bridge must climb clear of it before it returns.
+    table.integer("RTL_CONE_ANG", 0.0, (0.0, 90.0));
+}
+
+/// PX4's defaults for real aircraft. Those of its simulations record several times as much.
+fn log(table: &mut ParamTable) {
+    table.integer("SDLOG_MODE", 0.0, (-1.0, 4.0));
+    table.integer("SDLOG_PROFILE", 1.0, (0.0, 2047.0));
+}
