@@ -4,6 +4,9 @@ use crate::errors::AppError;
 use crate::io::autopilot::config::{AutopilotConfig, AutopilotKind};
 use std::path::{Path, PathBuf};
 
+/// Working folder of an external autopilot in the session folder, so that it is erased with the session.
+pub const AUTOPILOT_FOLDER: &str = "autopilot";
+
 /// The autopilot that flies the aircraft.
 #[derive(Debug, Clone, clap::Args)]
 pub struct AutopilotArgs {

@@ -2,11 +2,12 @@
 //! free ports.
 
 use super::args::{self, JobArgs};
+use super::autopilot_args::{AUTOPILOT_FOLDER, AutopilotArgs};
 use super::pilot::SkillArgs;
 use super::table;
-use crate::errors::{AppError, EXIT_CODES};
+use crate::errors::{AUTOPILOT_EXIT_CODES, AppError};
 use crate::io::addresses;
-use crate::io::children::Child;
+use crate::io::children::{Child, early_exit};
 use crate::io::clock::Stopwatch;
 use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
@@ -25,15 +26,17 @@ const MONITOR_GRACE_PERIOD: Duration = Duration::from_secs(15);
 ///
 /// Runs the simulator, the monitor and a synthetic trainee as three processes that communicate over UDP on free ports.
 /// They run in lockstep: no data is lost at any speed, and the same seed produces the same frames. At the end, prints
-/// the four scores, their sum, crashes, snapshots and the session folder. Several demos can run at the same time.
+/// the four scores, their sum, crashes, snapshots and the session folder. Several demos can run at the same time. With
+/// --autopilot, the trainee flies the same job through a real PX4 or ArduPilot; frames then differ between runs.
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXIT_CODES, after_long_help = format!("\
+#[command(after_help = AUTOPILOT_EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel demo                                         at five times real time
   spandrel demo --skill novice --seed 7 --speed max     as fast as possible
+  spandrel demo --autopilot px4 --px4 ~/PX4-Autopilot   fly through a real PX4
   spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
 
-{EXIT_CODES}"))]
+{AUTOPILOT_EXIT_CODES}"))]
 pub struct Args {
     #[command(flatten)]
     job: JobArgs,
@@ -45,9 +48,14 @@ pub struct Args {
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
     #[arg(long, value_name = "X|max", default_value = "5")]
     speed: SimulationSpeed,
-    /// Autopilot protocol; does not affect the flight dynamics
+    /// Protocol of the built-in autopilot; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     flavor: args::Flavor,
+    #[command(flatten)]
+    autopilot: AutopilotArgs,
+    /// Vehicle instance (0 to 200): sets the system ID to 1 + N. Two instances of PX4 on a machine need different numbers
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=200))]
+    instance: u8,
     /// Folder where the session folder is created
     #[arg(long, value_name = "DIR", default_value = "sessions")]
     sessions: PathBuf,
@@ -74,7 +82,10 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let mut pilot = Child::start("pilot", &pilot_args.concat())?;
     let pilot_port = pilot.read_announcement()?["port"].as_u64().unwrap_or_default();
     let monitor_port = announced["port"].as_u64().unwrap_or_default();
-    let sim_args = [args::common_args(&job, quiet), args.flavor.to_args(), sim_args(args, monitor_port, pilot_port)];
+    let autopilot_folder = session.join(AUTOPILOT_FOLDER);
+    let autopilot_args = args.autopilot.to_args(&autopilot_folder);
+    let sim_args =
+        [args::common_args(&job, quiet), args.flavor.to_args(), autopilot_args, sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     sim.read_announcement()?;
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
@@ -99,7 +110,8 @@ fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     let speed = args.speed.to_string();
     let mut out =
         ["--ports", "ephemeral", "--speed", &speed, "--monitor-port", &monitor, "--gcs", &pilot].map(str::to_owned).to_vec();
-    out.extend(["--after-crash", "scenario"].map(str::to_owned));
+    out.extend(["--after-crash", "scenario", "--instance"].map(str::to_owned));
+    out.push(args.instance.to_string());
     out.extend(["--lockstep".to_owned(), pilot, "--lockstep".to_owned(), format!("127.0.0.1:{monitor}")]);
     for target in &args.gcs {
         if let addresses::Destination::Address(address) = target {
@@ -129,7 +141,7 @@ fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &
             if let Some(status) = child.exit_status()
                 && monitor.exit_status().is_none()
             {
-                return Some(AppError::failed(format!("the {name} exited early ({status})")));
+                return Some(early_exit(name, status));
             }
         }
         std::thread::sleep(CHECK_INTERVAL);

@@ -3,7 +3,7 @@
 //! down (`--leash`).
 
 use super::clock::Stopwatch;
-use crate::errors::AppError;
+use crate::errors::{AppError, AutopilotFailure};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{ChildStdin, Command, ExitStatus, Stdio};
@@ -16,6 +16,16 @@ const START_TIMEOUT: Duration = Duration::from_secs(60);
 const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(10);
 /// Interval between checks of a child that is shutting down.
 const CHECK_INTERVAL: Duration = Duration::from_millis(20);
+
+/// Returns the error for a child that exited early. The failure of an external autopilot keeps its exit code.
+pub fn early_exit(name: &str, status: ExitStatus) -> AppError {
+    match AutopilotFailure::of_exit_code(status.code()) {
+        Some(failure) => {
+            AppError::Autopilot(failure, format!("the {name} stopped because the autopilot failed; see its message above"))
+        }
+        None => AppError::failed(format!("the {name} exited early ({status})")),
+    }
+}
 
 /// A running child process.
 #[derive(Debug)]

@@ -1,8 +1,9 @@
 //! Command line of `spandrel train`.
 
 use crate::cli::args::{self, JobArgs};
+use crate::cli::autopilot_args::AutopilotArgs;
 use crate::cli::ports::PortArgs;
-use crate::errors::EXIT_CODES;
+use crate::errors::AUTOPILOT_EXIT_CODES;
 use crate::io::addresses;
 use crate::io::pacing::SimulationSpeed;
 use crate::io::trainee_id::TraineeId;
@@ -20,15 +21,16 @@ pub const DEFAULT_SCENARIO: &str = "two-bridges";
 /// or a calibrated controller using the inspector's and the camera's views, and see the scores. You can pause or
 /// restart a practice flight. Without a display, fly with your ground station or a script.
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXIT_CODES, after_long_help = format!("\
+#[command(after_help = AUTOPILOT_EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel train                                  choose in the window (without a display: two-bridges)
   spandrel train --trainee anna --scenario drill-hover          start this flight; QGroundControl on this machine connects automatically
   spandrel train --scenario my-job.toml --choose  choose in the window, with this scenario in the list
+  spandrel train --autopilot px4 --px4 ~/PX4-Autopilot          fly a real PX4 at the same site
   spandrel train --no-view                        don't open the window
   spandrel train --listen 0.0.0.0 --gcs 192.168.1.20:14550     connect to a ground station on another machine
 
-{EXIT_CODES}"))]
+{AUTOPILOT_EXIT_CODES}"))]
 pub struct Args {
     /// Scenario file, or the name of a shipped scenario [default: chosen in the window; without a window, two-bridges]
     #[arg(long, value_name = "FILE|NAME")]
@@ -55,9 +57,11 @@ pub struct Args {
     /// Simulation speed: a multiple of real time (0.1 to 100), or max; use 1 to fly by hand
     #[arg(long, value_name = "X|max", default_value = "1")]
     pub speed: SimulationSpeed,
-    /// Autopilot protocol; does not affect the flight dynamics
+    /// Protocol of the built-in autopilot; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     pub flavor: args::Flavor,
+    #[command(flatten)]
+    pub autopilot: AutopilotArgs,
     /// Local port for the web pages about the sessions and the live flight, 0 for any free port, or none
     #[arg(long, value_name = "PORT|none", default_value = "0")]
     pub web: addresses::PortChoice,

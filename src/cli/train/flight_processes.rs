@@ -4,8 +4,9 @@ use super::args::Args;
 use super::connection_info::connection_instructions;
 use super::window::WindowProcess;
 use crate::cli::args::common_args;
+use crate::cli::autopilot_args::AUTOPILOT_FOLDER;
 use crate::errors::AppError;
-use crate::io::children::Child;
+use crate::io::children::{Child, early_exit};
 use crate::io::files;
 use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
@@ -72,6 +73,7 @@ impl FlightProcesses {
             common,
             args.ports.to_args(),
             args.flavor.to_args(),
+            args.autopilot.to_args(&session.join(AUTOPILOT_FOLDER)),
             vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port],
             vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
         ];
@@ -149,7 +151,7 @@ impl FlightProcesses {
                 None => {}
             }
             if let Some(status) = self.sim.exit_status() {
-                return FlightOutcome::Lost(AppError::failed(format!("the simulator exited early ({status})")));
+                return FlightOutcome::Lost(early_exit("simulator", status));
             }
             std::thread::sleep(CHECK_INTERVAL);
         }

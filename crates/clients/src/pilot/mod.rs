@@ -39,6 +39,9 @@ const RETRY_INTERVAL_S: f64 = 1.5;
 const MAX_PAD_OFFSET_M: f64 = 2.5;
 /// Minimum height during the approach to the pad, m (estimate: clears the truck).
 const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
+/// Time after a respawn at which the pilot checks whether the aircraft stands on the ground and must take off again, s of simulation
+/// time. The built-in autopilot respawns in the air, and an external one on the landing pad.
+const RESPAWN_CHECK_DELAY_S: f64 = 3.0;
 /// Timeout for the vehicle to become ready, and for the aircraft to climb, s of simulation time.
 const START_TIMEOUT_S: f64 = 60.0;
 
@@ -87,6 +90,7 @@ pub struct Pilot {
     last_attempt: SimTime,
     phase_since: SimTime,
     respawns: i32,
+    respawned_at: Option<SimTime>,
     lamp: bool,
     gimbal_rad: f64,
     gimbal_sent: SimTime,
@@ -114,6 +118,7 @@ impl Pilot {
             last_attempt: SimTime::ZERO,
             phase_since: SimTime::ZERO,
             respawns: 0,
+            respawned_at: None,
             lamp: false,
             gimbal_rad: 0.0,
             gimbal_sent: SimTime::ZERO,
@@ -200,13 +205,28 @@ impl Pilot {
             self.perception.reset();
             self.stick_response.release();
             self.guidance.replan();
+            self.respawned_at = Some(self.now);
         }
+        self.take_off_after_respawn();
         self.perception.observe(motion);
         let skill = self.config.skill;
         let Some(belief) = self.perception.estimate(&skill, dt_s) else { return };
         let axes = self.fly_phase(&belief);
         let axes = self.stick_response.step(axes, &skill, self.now, dt_s);
         self.link.send_sticks(axes);
+    }
+
+    /// Prepares another takeoff if the aircraft was put back on the ground with its motors off.
+    fn take_off_after_respawn(&mut self) {
+        let is_due = self.respawned_at.is_some_and(|at| (self.now - at).s() > RESPAWN_CHECK_DELAY_S);
+        if !is_due {
+            return;
+        }
+        self.respawned_at = None;
+        let stands = self.link.status.on_ground && !self.link.status.armed;
+        if stands && matches!(self.phase, PilotPhase::Fly | PilotPhase::Descend) {
+            self.enter(PilotPhase::Prepare);
+        }
     }
 
     fn enter(&mut self, phase: PilotPhase) {
