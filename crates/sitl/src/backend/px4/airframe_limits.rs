@@ -16,8 +16,15 @@ const AUTO_YAW_DEG_S: f64 = 45.0;
 /// Yaw rate that the attitude loop may use to follow a yaw that turns at the maximum rate, as a multiple of that rate. The ratio
 /// of PX4's defaults, 200 and 150 deg/s.
 const YAW_LOOP_MARGIN: f64 = 4.0 / 3.0;
-/// Time to build up full horizontal acceleration, s (estimate: a tilt rate of about 70 deg/s).
-const ACCELERATION_RAMP_S: f64 = 0.5;
+/// Time to build up full horizontal acceleration, s (estimate: a tilt rate of about 110 deg/s).
+const ACCELERATION_RAMP_S: f64 = 0.3;
+/// Share of the slow-down time in which PX4's velocity setpoint would stop at constant deceleration. The rest is for the lag of
+/// the loops (tuned in flights with PX4 1.16).
+const SETPOINT_STOP_SHARE: f64 = 0.7;
+/// Gains of the velocity loop, 1/s and 1/s². PX4's defaults of 1.8 and 0.4 lag behind where air drag is strong: in position mode,
+/// the Phantom 2 class reached 94 % of its full speed and needed 4 s to stop (tuned in flights with PX4 1.16).
+const VELOCITY_GAIN: f64 = 3.0;
+const VELOCITY_INTEGRAL_GAIN: f64 = 1.0;
 /// Dead zone of centered sticks. The program has already applied the controller's own.
 const STICK_DEAD_ZONE: f64 = 0.01;
 
@@ -38,10 +45,11 @@ fn horizontal(table: &mut ParamTable, limits: &FlightLimits) {
     table.real("MPC_XY_VEL_MAX", fastest_m_s, (0.0, 20.0));
     table.real("MPC_XY_CRUISE", CRUISE_M_S.min(fastest_m_s), (3.0, 20.0));
     let tilt_m_s2 = GRAVITY_M_S2 * math::tan(limits.tilt_rad);
-    let mean_m_s2 = fastest_m_s / limits.slow_down_time_s;
-    table.real("MPC_ACC_HOR", mean_m_s2, (2.0, 15.0));
+    table.real("MPC_ACC_HOR", fastest_m_s / (SETPOINT_STOP_SHARE * limits.slow_down_time_s), (2.0, 15.0));
     table.real("MPC_ACC_HOR_MAX", tilt_m_s2, (2.0, 15.0));
     table.real("MPC_JERK_MAX", tilt_m_s2 / ACCELERATION_RAMP_S, (0.5, 500.0));
+    table.real("MPC_XY_VEL_P_ACC", VELOCITY_GAIN, (1.2, 5.0));
+    table.real("MPC_XY_VEL_I_ACC", VELOCITY_INTEGRAL_GAIN, (0.0, 60.0));
 }
 
 fn vertical(table: &mut ParamTable, limits: &FlightLimits) {

@@ -18,6 +18,13 @@ const OFFBOARD_TIMEOUT_S: f64 = 1.0;
 const COMPANION_TIMEOUT_S: f64 = 5.0;
 /// Emergency threshold of the battery, as a share of the critical one (estimate).
 const EMERGENCY_SHARE: f64 = 0.5;
+/// PX4's code for the barometer as height reference.
+const BAROMETER_HEIGHT: f64 = 0.0;
+/// Barometer noise that PX4 assumes, as a multiple of the sensor's white noise: a margin for its drift (tuned in flights with PX4
+/// 1.16: heights within 0.1 m, 1 sigma).
+const BAROMETER_NOISE_FACTOR: f64 = 10.0;
+/// Margin of the time to return that disables the failsafe for the remaining flight time, s.
+const RETURN_TIME_MARGIN_S: f64 = -10_000.0;
 
 /// Adds all parameters of this file.
 pub(super) fn add(table: &mut ParamTable, vehicle: &Vehicle, settings: &LaunchSettings) {
@@ -40,6 +47,15 @@ fn battery(table: &mut ParamTable, vehicle: &Vehicle, settings: &LaunchSettings)
     table.real("BAT_LOW_THR", low / 100.0, (0.12, 0.5));
     table.real("BAT_CRIT_THR", critical / 100.0, (0.05, 0.5));
     table.real("BAT_EMERGEN_THR", critical * EMERGENCY_SHARE / 100.0, (0.03, 0.5));
+    remaining_time(table);
+}
+
+/// PX4 takes no remaining flight time from BATTERY_STATUS and treats the missing value as 0 s, so it would return to launch after
+/// every takeoff. Action 0 (none) still stops the vehicle for some seconds. The margin, far below PX4's documented minimum of 0,
+/// makes the time that a return needs negative, so the condition is never met. The failsafe for the charge remains.
+fn remaining_time(table: &mut ParamTable) {
+    table.integer("COM_FLTT_LOW_ACT", 1.0, (0.0, 3.0));
+    table.integer("RTL_TIME_MARGIN", RETURN_TIME_MARGIN_S, (RETURN_TIME_MARGIN_S, 3600.0));
 }
 
 /// Three inertial sensors, each with an estimator of its own.
@@ -50,12 +66,14 @@ fn inertial_sensors(table: &mut ParamTable, settings: &LaunchSettings) {
     table.integer("SENS_IMU_MODE", 0.0, (0.0, 1.0));
 }
 
-/// The simulated receiver and barometer have no delay.
+/// The simulated receiver and barometer have no delay, and the barometer is much steadier than the height of the receiver.
 fn position_sensors(table: &mut ParamTable, vehicle: &Vehicle) {
     let sensors = &vehicle.sensors;
     table.real("EKF2_GPS_DELAY", 0.0, (0.0, 300.0));
     table.real("EKF2_GPS_P_NOISE", sensors.gnss_horizontal_noise_m, (0.01, 10.0));
     table.real("EKF2_GPS_V_NOISE", sensors.gnss_velocity_noise_m_s, (0.01, 5.0));
+    table.integer("EKF2_HGT_REF", BAROMETER_HEIGHT, (0.0, 3.0));
+    table.real("EKF2_BARO_NOISE", BAROMETER_NOISE_FACTOR * sensors.baro_noise_m, (0.01, 15.0));
 }
 
 /// The simulated field is a dipole, whose declination differs from PX4's table by some degrees.
