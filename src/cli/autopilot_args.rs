@@ -3,6 +3,7 @@
 use crate::errors::AppError;
 use crate::io::autopilot::config::{AutopilotConfig, AutopilotKind};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Working folder of an external autopilot in the session folder, so that it is erased with the session.
 pub const AUTOPILOT_FOLDER: &str = "autopilot";
@@ -30,6 +31,10 @@ pub struct AutopilotArgs {
     /// instance for ArduPilot; any free port with --ports ephemeral]
     #[arg(long, value_name = "PORT")]
     pub autopilot_port: Option<u16>,
+    /// Time in s of wall time (1 to 3600) within which the autopilot must connect, start answering, and answer each time
+    /// after that
+    #[arg(long, value_name = "SECONDS", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..=3600))]
+    pub autopilot_timeout: u32,
     /// Working folder of the autopilot's process, for its output, its logs and a record of its version and parameters
     /// [default: a temporary folder]
     #[arg(long, value_name = "DIR")]
@@ -74,7 +79,8 @@ impl AutopilotArgs {
             AutopilotKind::ArduPilot => self.ardupilot.clone(),
         };
         let (wait, rate_hz, folder) = (self.wait, self.autopilot_rate, folder.to_owned());
-        Ok(Some(AutopilotConfig { kind, location, wait, rate_hz, folder }))
+        let timeout = Duration::from_secs(u64::from(self.autopilot_timeout));
+        Ok(Some(AutopilotConfig { kind, location, wait, rate_hz, folder, timeout }))
     }
 
     /// Returns the port of the simulator interface for a vehicle; 0 for any free port.
@@ -95,12 +101,14 @@ impl AutopilotArgs {
             AutopilotKind::ArduPilot => "ardupilot",
         };
         let mut out = vec!["--autopilot".to_owned(), name.to_owned()];
-        let mut flag = |name: &str, value: Option<String>| out.extend(value.into_iter().flat_map(|value| [name.to_owned(), value]));
+        let mut flag =
+            |name: &str, value: Option<String>| out.extend(value.into_iter().flat_map(|value| [name.to_owned(), value]));
         let text = |path: &PathBuf| path.display().to_string();
         flag("--px4", self.px4.as_ref().map(text));
         flag("--ardupilot", self.ardupilot.as_ref().map(text));
         flag("--autopilot-rate", self.autopilot_rate.map(|rate| rate.to_string()));
         flag("--autopilot-port", self.autopilot_port.map(|port| port.to_string()));
+        flag("--autopilot-timeout", Some(self.autopilot_timeout.to_string()));
         flag("--autopilot-dir", Some(self.autopilot_dir.clone().unwrap_or_else(|| folder.to_owned()).display().to_string()));
         if self.wait {
             out.push("--wait".to_owned());

@@ -4,9 +4,9 @@ use super::args::{self, JobArgs};
 use super::autopilot_args::AutopilotArgs;
 use super::ports::PortArgs;
 use crate::errors::{AUTOPILOT_EXIT_CODES, AppError};
+use crate::io::addresses;
 use crate::io::autopilot::config::{AutopilotConfig, AutopilotKind};
 use crate::io::autopilot::setup::{AutopilotSetup, SiteFacts};
-use crate::io::addresses;
 use crate::io::files;
 use crate::io::key;
 use crate::io::links::Links;
@@ -239,7 +239,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             });
             let setup = setup.transpose()?;
             let sim = match &setup {
-                Some(setup) => Sim::with_external_autopilot(config, site.clone(), setup.interface(&vehicle), setup.relay_rules()),
+                Some(setup) => {
+                    Sim::with_external_autopilot(config, site.clone(), setup.interface(&vehicle)?, setup.relay_rules())
+                }
                 None => Sim::new(config, site.clone()),
             };
             let mut shell = VehicleShell::new(sim, links, args.speed, kept, signing.clone())?;

@@ -99,7 +99,13 @@ impl Links {
         let sockets = AutopilotSockets::open(&mut self.hub, protocol, port, link)?;
         let ports = (sockets.simulator_port(&self.hub), sockets.mavlink_port(&self.hub));
         self.autopilot = Some(sockets);
-        self.changes.push_back(LinkEvent::Opened { link, kind: LinkKind::Autopilot, lockstep: false, learned: false, limit: None });
+        self.changes.push_back(LinkEvent::Opened {
+            link,
+            kind: LinkKind::Autopilot,
+            lockstep: false,
+            learned: false,
+            limit: None,
+        });
         Ok(ports)
     }
 

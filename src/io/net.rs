@@ -300,7 +300,12 @@ fn accept_clients(listener: &TcpListener, first: u32, origin: fn(SocketAddr) -> 
     }
 }
 
-fn serve_client(stream: StreamId, socket: TcpStream, origin: StreamOrigin, queue: &SyncSender<QueuedEvent>) -> std::io::Result<()> {
+fn serve_client(
+    stream: StreamId,
+    socket: TcpStream,
+    origin: StreamOrigin,
+    queue: &SyncSender<QueuedEvent>,
+) -> std::io::Result<()> {
     socket.set_nodelay(true)?;
     let (mut to_read, mut to_write) = (socket.try_clone()?, socket.try_clone()?);
     let Some(frames) = register_stream(stream, origin, Some(socket), queue) else { return Ok(()) };

@@ -228,14 +228,20 @@ impl VehicleShell {
     fn run_autopilot(&mut self, wall: Duration) -> Result<bool, AppError> {
         let Some(autopilot) = &mut self.autopilot else { return Ok(false) };
         autopilot.host.check(&self.core, wall)?;
-        if std::mem::take(&mut autopilot.connection_closed) && !matches!(self.core.autopilot_state(), Some(AutopilotState::Disconnected)) {
+        if std::mem::take(&mut autopilot.connection_closed)
+            && !matches!(self.core.autopilot_state(), Some(AutopilotState::Disconnected))
+        {
             return Err(autopilot.host.failure(AutopilotFailure::Exited, "has closed its connection to the simulator"));
         }
         let pause = match self.core.autopilot_state() {
             None | Some(AutopilotState::Running { .. }) => return Ok(false),
             Some(AutopilotState::Disconnected) => MAX_SOCKET_WAIT,
             Some(AutopilotState::Starting { has_answered: true, is_waiting }) => {
-                if is_waiting { MAX_SOCKET_WAIT } else { Duration::ZERO }
+                if is_waiting {
+                    MAX_SOCKET_WAIT
+                } else {
+                    Duration::ZERO
+                }
             }
             // Before its first answer, the autopilot starts in real time.
             Some(AutopilotState::Starting { has_answered: false, is_waiting }) => {

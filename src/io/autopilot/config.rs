@@ -10,6 +10,7 @@ use spandrel_sitl::backend::px4::{self, Px4Interface};
 use spandrel_sitl::endpoint::params::param_view;
 use spandrel_sitl::endpoint::relay::RelayRules;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// An autopilot program that runs as a process of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +34,8 @@ pub struct AutopilotConfig {
     pub rate_hz: Option<u32>,
     /// Working directory of the process.
     pub folder: PathBuf,
+    /// Wall time within which the autopilot must connect, answer for the first time, and answer each time after that.
+    pub timeout: Duration,
 }
 
 impl AutopilotKind {
@@ -69,7 +72,7 @@ impl AutopilotKind {
     }
 
     /// Returns the rates of the readings that the autopilot supports, Hz; the first one is the default.
-    pub fn rates_hz(self) -> &'static [u32] {
+    pub fn rates_hz(self) -> &'static [f64] {
         match self {
             Self::Px4 => &px4::RATES_HZ,
             Self::ArduPilot => &ardupilot::RATES_HZ,
@@ -85,10 +88,16 @@ impl AutopilotKind {
     }
 
     /// Creates the simulator's side of the interface.
-    pub fn interface(self, vehicle: &Vehicle, settings: &LaunchSettings) -> Box<dyn SimulatorInterface> {
+    ///
+    /// # Errors
+    /// Returns an error if the autopilot does not take readings at the configured rate.
+    pub fn interface(self, vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Box<dyn SimulatorInterface>, AppError> {
         match self {
-            Self::Px4 => Box::new(Px4Interface::new(vehicle, settings.rate_hz)),
-            Self::ArduPilot => Box::new(ArduPilotInterface::new(vehicle, settings)),
+            Self::Px4 => match Px4Interface::new(vehicle, settings.rate_hz) {
+                Some(interface) => Ok(Box::new(interface)),
+                None => Err(AppError::invalid(format!("PX4 does not take readings at {} Hz", settings.rate_hz))),
+            },
+            Self::ArduPilot => Ok(Box::new(ArduPilotInterface::new(vehicle, settings))),
         }
     }
 
@@ -111,11 +120,11 @@ impl AutopilotConfig {
     /// Returns an error if the autopilot does not support the configured rate.
     pub fn rate_hz(&self) -> Result<f64, AppError> {
         let allowed = self.kind.rates_hz();
-        let rate_hz = self.rate_hz.unwrap_or(allowed[0]);
+        let rate_hz = self.rate_hz.map_or(allowed[0], f64::from);
         if allowed.contains(&rate_hz) {
-            return Ok(f64::from(rate_hz));
+            return Ok(rate_hz);
         }
-        let list = allowed.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        let list = allowed.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
         Err(AppError::invalid(format!("--autopilot-rate {rate_hz}: {} takes readings at {list} Hz", self.kind.name())))
     }
 }

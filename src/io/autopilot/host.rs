@@ -10,14 +10,8 @@ use spandrel_sitl::sim::{AutopilotState, Sim};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Wall time within which a started autopilot must connect (estimate: both take about a second on a busy machine).
-const CONNECT_TIMEOUT: Duration = Duration::from_secs(30);
-/// Wall time within which a connected autopilot must answer for the first time (estimate: PX4 takes about a second).
-const FIRST_ANSWER_TIMEOUT: Duration = Duration::from_secs(30);
 /// Wall time without an answer after which a warning is logged.
 const SILENCE_WARNING: Duration = Duration::from_secs(2);
-/// Wall time without an answer after which the run ends.
-const SILENCE_TIMEOUT: Duration = Duration::from_secs(20);
 /// Interval between checks of the process: a system call that is not needed in every tick.
 const EXIT_CHECK_INTERVAL: Duration = Duration::from_millis(200);
 
@@ -43,6 +37,7 @@ pub struct AutopilotHost {
     folder: PathBuf,
     /// Whether the user starts the process.
     wait: bool,
+    timeout: Duration,
     process: Option<AutopilotProcess>,
     stage: (Stage, Duration),
     warned: bool,
@@ -68,6 +63,7 @@ impl AutopilotHost {
             launch,
             folder,
             wait: config.wait,
+            timeout: config.timeout,
             process: None,
             stage,
             warned: false,
@@ -114,7 +110,8 @@ impl AutopilotHost {
             Some(program) => (program.binary.display().to_string(), search_path(program, &self.folder)),
             None => (format!("{}-BINARY", name.to_uppercase()), None),
         };
-        let mut words: Vec<String> = self.launch.environment.iter().map(|(name, value)| format!("{name}={}", quoted(value))).collect();
+        let mut words: Vec<String> =
+            self.launch.environment.iter().map(|(name, value)| format!("{name}={}", quoted(value))).collect();
         words.extend(path.map(|path| format!("PATH={}", quoted(&path.to_string_lossy()))));
         words.push(quoted(&program));
         words.extend(self.launch.args.iter().map(|arg| quoted(arg)));
@@ -135,7 +132,11 @@ impl AutopilotHost {
             AutopilotState::Disconnected => Stage::Connecting,
             AutopilotState::Starting { has_answered: false, .. } => Stage::FirstAnswer,
             AutopilotState::Starting { is_waiting, .. } | AutopilotState::Running { is_waiting } => {
-                if is_waiting { Stage::Waiting } else { Stage::Answered }
+                if is_waiting {
+                    Stage::Waiting
+                } else {
+                    Stage::Answered
+                }
             }
         };
         if stage != self.stage.0 || stage == Stage::Answered {
@@ -164,19 +165,25 @@ impl AutopilotHost {
     }
 
     fn check_silence(&mut self, stage: Stage, silent: Duration) -> Result<(), AppError> {
-        let (limit, what) = match stage {
+        let seconds = self.timeout.as_secs();
+        let (failure, what) = match stage {
             Stage::Connecting if self.wait => return Ok(()),
-            Stage::Connecting => (CONNECT_TIMEOUT, "has not connected to the simulator"),
-            Stage::FirstAnswer => (FIRST_ANSWER_TIMEOUT, "has connected but sends no motor commands"),
-            Stage::Waiting => (SILENCE_TIMEOUT, "has stopped answering"),
+            Stage::Connecting => (AutopilotFailure::NoAnswer, format!("has not connected to the simulator within {seconds} s")),
+            Stage::FirstAnswer => {
+                (AutopilotFailure::NoAnswer, format!("has connected but has not sent motor commands within {seconds} s"))
+            }
+            Stage::Waiting => (AutopilotFailure::Silent, format!("has not answered for {seconds} s")),
             Stage::Answered => return Ok(()),
         };
-        if silent > limit {
-            let failure = if stage == Stage::Waiting { AutopilotFailure::Silent } else { AutopilotFailure::NoAnswer };
-            return Err(self.failure(failure, &format!("{what} for {} s", limit.as_secs())));
+        if silent > self.timeout {
+            return Err(self.failure(failure, &what));
         }
         if stage == Stage::Waiting && silent > SILENCE_WARNING && !std::mem::replace(&mut self.warned, true) {
-            tracing::warn!("{} has not answered for {} s; simulation time is stopped", self.kind.name(), SILENCE_WARNING.as_secs());
+            tracing::warn!(
+                "{} has not answered for {} s; simulation time is stopped",
+                self.kind.name(),
+                SILENCE_WARNING.as_secs()
+            );
         }
         Ok(())
     }

@@ -25,13 +25,16 @@ impl AutopilotProcess {
     pub fn start(kind: AutopilotKind, program: &AutopilotProgram, launch: &Launch, folder: &Path) -> Result<Self, AppError> {
         let output = output_file(folder)?;
         let errors = output.try_clone().map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
-        let child = command(program, launch, folder)
-            .stdin(Stdio::null())
-            .stdout(output)
-            .stderr(errors)
-            .spawn()
-            .map_err(|error| AppError::failed(format!("cannot start {} ({}): {error}", kind.name(), program.binary.display())))?;
-        tracing::info!("started {} (process {}); its output goes to {}", kind.name(), child.id(), folder.join(OUTPUT_FILE).display());
+        let child =
+            command(program, launch, folder).stdin(Stdio::null()).stdout(output).stderr(errors).spawn().map_err(|error| {
+                AppError::failed(format!("cannot start {} ({}): {error}", kind.name(), program.binary.display()))
+            })?;
+        tracing::info!(
+            "started {} (process {}); its output goes to {}",
+            kind.name(),
+            child.id(),
+            folder.join(OUTPUT_FILE).display()
+        );
         Ok(Self { child })
     }
 

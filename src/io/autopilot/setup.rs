@@ -63,7 +63,10 @@ impl<'a> AutopilotSetup<'a> {
     }
 
     /// Creates the simulator's side of the interface.
-    pub fn interface(&self, vehicle: &Vehicle) -> Box<dyn SimulatorInterface> {
+    ///
+    /// # Errors
+    /// Returns an error if the autopilot does not take readings at the configured rate.
+    pub fn interface(&self, vehicle: &Vehicle) -> Result<Box<dyn SimulatorInterface>, AppError> {
         self.config.kind.interface(vehicle, &self.settings)
     }
 

@@ -16,8 +16,6 @@ pub use frame::{Frame, FrameError, frame};
 pub use interface::ArduPilotInterface;
 pub use launch::{DEFAULTS_FILE, command_line, launch};
 
-/// Default rate at which ArduPilot receives the state, Hz: two physics ticks a frame. ArduPilot's main loop runs at the same rate,
-/// so that each loop has exactly one new state.
-pub const DEFAULT_RATE_HZ: f64 = 500.0;
-/// Rates at which ArduPilot can receive the state, Hz, the default first. Its main loop runs at the same rate.
-pub const RATES_HZ: [u32; 2] = [500, 1000];
+/// Rates at which ArduPilot can receive the state, Hz: whole numbers of physics ticks a frame. With the first one, the default,
+/// ArduPilot's main loop runs at the same rate, so that each loop has exactly one new state.
+pub const RATES_HZ: [f64; 2] = [500.0, 1000.0];
