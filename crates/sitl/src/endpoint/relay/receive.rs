@@ -58,6 +58,10 @@ impl RelayEndpoint {
             self.links.join_lockstep(id);
             return;
         }
+        let is_forged = frame.system_id == self.links.system_id() && frame.component_id == AUTOPILOT;
+        if is_forged {
+            return;
+        }
         if frame.message_id == HEARTBEAT_DATA::ID {
             self.links.start_streams(id, link_now);
         }
