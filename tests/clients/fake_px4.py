@@ -1,0 +1,122 @@
+"""A small autopilot in a process of its own. It obeys the rules of PX4's simulator interface and misbehaves on request.
+
+It is started in place of PX4. The file `behavior` in its build folder selects how it behaves:
+  fly       answers every HIL_SENSOR 0 with motor commands and takes MANUAL_CONTROL and arming commands
+  absent    never connects
+  mute      connects and never answers
+  silent    answers for a while, then only keeps the connection open
+  close     answers for a while, then closes the connection
+  exit      answers for a while, then exits
+  garbage   like fly, with bytes between the answers that are no messages
+"""
+
+import os
+import pathlib
+import re
+import socket
+import sys
+import time
+
+os.environ["MAVLINK20"] = "1"
+from pymavlink.dialects.v20 import common as mavlink  # noqa: E402
+
+# Readings before the first answer, until the autopilot can arm, and until it misbehaves.
+SILENT_READINGS, READY, MISBEHAVES = 10, 250, 1500
+# Motor command at hover (phantom2), gains on the angular rate (per rad/s) and the specific force (per m/s2), and the
+# change of the command at full throttle.
+HOVER, RATE_GAIN, TILT_GAIN, CLIMB = 0.59, 0.05, 0.004, 0.06
+ARMED = mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+ROTORS = ((-1, 1), (1, -1), (1, 1), (-1, -1))
+
+
+class Autopilot:
+    """The autopilot's state and its two connections."""
+
+    def __init__(self, instance):
+        own, remote = re.search(r"-u (\d+) -o (\d+)", pathlib.Path("px4-rc.mavlink").read_text(encoding="utf-8")).groups()
+        self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.udp.bind(("127.0.0.1", int(own)))
+        self.udp.setblocking(False)
+        self.remote = ("127.0.0.1", int(remote))
+        self.mav = mavlink.MAVLink(None, srcSystem=instance + 1, srcComponent=1)
+        self.mav.robust_parsing = True
+        self.wire = mavlink.MAVLink(None, srcSystem=instance + 1, srcComponent=1)
+        self.wire.robust_parsing = True
+        self.readings, self.armed, self.throttle = 0, False, 0.0
+
+    def say(self, message):
+        """Sends a message on the MAVLink link."""
+        self.udp.sendto(message.pack(self.mav), self.remote)
+
+    def report(self):
+        """Sends the periodic messages."""
+        mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (ARMED if self.armed else 0)
+        self.say(mavlink.MAVLink_heartbeat_message(2, 12, mode, 3 << 16, 3, 3))
+        health = mavlink.MAV_SYS_STATUS_PREARM_CHECK if self.readings > READY else 0
+        self.say(mavlink.MAVLink_sys_status_message(0, 0, health, 0, 12000, 0, 100, 0, 0, 0, 0, 0, 0))
+        flying = self.armed and self.throttle > 0.4
+        self.say(mavlink.MAVLink_extended_sys_state_message(0, 2 if flying else 1))
+
+    def hear(self):
+        """Handles the messages on the MAVLink link."""
+        while True:
+            try:
+                data = self.udp.recv(65536)
+            except BlockingIOError:
+                return
+            for message in self.mav.parse_buffer(data) or []:
+                kind = message.get_type()
+                if kind == "MANUAL_CONTROL":
+                    self.throttle = message.z / 1000.0
+                elif kind == "COMMAND_LONG" and message.target_component <= 1:
+                    if message.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
+                        self.armed = message.param1 > 0.5
+                    self.say(mavlink.MAVLink_command_ack_message(message.command, 0, 0, 0, message.get_srcSystem(), message.get_srcComponent()))
+
+    def answer(self, sensor):
+        """Returns the motor commands for a reading."""
+        controls = [0.0] * 16
+        if self.armed:
+            roll = TILT_GAIN * sensor.yacc - RATE_GAIN * sensor.xgyro
+            pitch = -TILT_GAIN * sensor.xacc - RATE_GAIN * sensor.ygyro
+            lift = 0.1 if self.throttle < 0.02 else HOVER + CLIMB * (self.throttle - 0.5) * 2
+            for rotor, (side, front) in enumerate(ROTORS):
+                controls[rotor] = min(max(lift + side * roll + front * pitch, 0.0), 1.0)
+        mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (ARMED if self.armed else 0)
+        return mavlink.MAVLink_hil_actuator_controls_message(sensor.time_usec, controls, mode, 1).pack(self.wire)
+
+
+def main():
+    """Connects as PX4 does and runs until the simulator closes the connection."""
+    build = pathlib.Path(sys.argv[0]).resolve().parents[1]
+    behavior = (build / "behavior").read_text(encoding="utf-8").strip()
+    instance = int(sys.argv[sys.argv.index("-i") + 1])
+    script = pathlib.Path("px4-rc.mavlinksim")
+    port = int(re.search(r"-c (\d+)", script.read_text(encoding="utf-8"))[1]) if script.exists() else 4560 + instance
+    if behavior == "absent":
+        time.sleep(3600)
+    autopilot = Autopilot(instance)
+    link = socket.create_connection(("127.0.0.1", port))
+    link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    while data := link.recv(65536):
+        for message in autopilot.wire.parse_buffer(data) or []:
+            if message.get_type() != "HIL_SENSOR" or message.id != 0:
+                continue
+            autopilot.readings += 1
+            autopilot.hear()
+            if autopilot.readings % 50 == 1:
+                autopilot.report()
+            if behavior == "mute" or autopilot.readings <= SILENT_READINGS:
+                continue
+            if autopilot.readings > MISBEHAVES:
+                if behavior == "silent":
+                    time.sleep(3600)
+                if behavior in ("close", "exit"):
+                    link.close()
+                    time.sleep(0 if behavior == "exit" else 3600)
+                    sys.exit(7)
+            link.sendall((b"\x00\xfdnoise" if behavior == "garbage" else b"") + autopilot.answer(message))
+
+
+if __name__ == "__main__":
+    main()
