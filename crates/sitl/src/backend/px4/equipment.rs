@@ -6,8 +6,6 @@ use crate::sensors::magnetometer::earth_field_gauss;
 use spandrel_model::math;
 use spandrel_model::vehicle::Vehicle;
 
-/// Rate at which PX4's estimator runs, Hz: a divisor of all sensor rates.
-const ESTIMATOR_RATE_HZ: f64 = 250.0;
 /// PX4's default rate of the rate controller in multirotors, Hz. A higher sensor rate needs a higher one: PX4 answers only
 /// readings that it passes on to the rate controller.
 const RATE_CONTROL_HZ: f64 = 800.0;
@@ -58,9 +56,10 @@ fn remaining_time(table: &mut ParamTable) {
     table.integer("RTL_TIME_MARGIN", RETURN_TIME_MARGIN_S, (RETURN_TIME_MARGIN_S, 3600.0));
 }
 
-/// Three inertial sensors, each with an estimator of its own.
+/// Three inertial sensors, each with an estimator of its own. The estimators must run at the sensor rate: PX4's logger takes part in
+/// the lockstep once per estimator step, and with slower estimators, most readings would get no answer as soon as it starts.
 fn inertial_sensors(table: &mut ParamTable, settings: &LaunchSettings) {
-    table.integer("IMU_INTEG_RATE", ESTIMATOR_RATE_HZ, (100.0, 1000.0));
+    table.integer("IMU_INTEG_RATE", settings.rate_hz, (100.0, 1000.0));
     table.integer("IMU_GYRO_RATEMAX", settings.rate_hz.max(RATE_CONTROL_HZ), (100.0, 2000.0));
     table.integer("EKF2_MULTI_IMU", 3.0, (0.0, 4.0));
     table.integer("SENS_IMU_MODE", 0.0, (0.0, 1.0));

@@ -119,8 +119,9 @@ impl Px4Interface {
         }
     }
 
-    /// Encodes all messages of a step. PX4 stamps each message with its clock, and only the last one, HIL_SENSOR 0, advances
-    /// the clock and starts a control step.
+    /// Encodes all messages of a step. PX4 stamps each message with its clock, which only HIL_SENSOR 0 advances, so everything that
+    /// the control step needs comes before it. The other inertial sensors follow: if PX4 flies with one of them, a message before
+    /// HIL_SENSOR 0 would start the control step of the previous time, and its answer could be lost.
     fn encode(&mut self, step: &StepInput<'_>, time_us: u64) -> Vec<u8> {
         let mut messages = Vec::new();
         if self.truth_due.fire(step.now) {
@@ -132,10 +133,10 @@ impl Px4Interface {
         if let Some(flow) = step.fresh.flow {
             messages.extend(self.flow.message(&flow, step, time_us));
         }
-        for id in (1..step.imus.len()).rev() {
-            messages.push(MavMessage::HIL_SENSOR(sensor_messages::inertial(&step.imus[id], id as u8, time_us)));
-        }
         messages.push(sensor_messages::primary(step, time_us));
+        for (id, imu) in step.imus.iter().enumerate().skip(1) {
+            messages.push(MavMessage::HIL_SENSOR(sensor_messages::inertial(imu, id as u8, time_us)));
+        }
         messages.iter().flat_map(|message| self.encoder.encode(message)).collect()
     }
 }

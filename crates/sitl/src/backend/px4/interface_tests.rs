@@ -69,7 +69,7 @@ fn exact_only_three_rates_are_supported() {
 }
 
 #[test]
-fn wire_sensor_that_steps_the_clock_is_last_and_groups_are_complete() {
+fn wire_clock_advances_after_all_other_sensors_and_groups_are_complete() {
     let (mut px4, mut bench) = (interface(), Bench::new());
     bench.fresh.gnss = Some(gnss());
     bench.fresh.mag_gauss = Some(Vec3::new(0.2, 0.01, 0.4));
@@ -78,11 +78,12 @@ fn wire_sensor_that_steps_the_clock_is_last_and_groups_are_complete() {
     bench.fresh.range_around_m = Some([f64::INFINITY; 8]);
     let messages = sent(&mut px4, &bench, PERIOD);
     let readings = sensors(&messages);
-    assert_eq!(readings.iter().map(|data| data.id).collect::<Vec<_>>(), [2, 1, 0]);
-    assert!(matches!(messages.last(), Some(MavMessage::HIL_SENSOR(data)) if data.id == 0));
+    assert_eq!(readings.iter().map(|data| data.id).collect::<Vec<_>>(), [0, 1, 2]);
+    let last_three = &messages[messages.len() - 3..];
+    assert!(last_three.iter().all(|message| matches!(message, MavMessage::HIL_SENSOR(_))), "position and ranges come first");
     let bits: Vec<u32> = readings.iter().map(|data| data.fields_updated.bits()).collect();
-    assert_eq!(bits, [INERTIAL_BITS, INERTIAL_BITS, INERTIAL_BITS | MAGNETOMETER_BITS | BAROMETER_BITS]);
-    assert_eq!((readings[2].abs_pressure, readings[2].ymag, readings[2].time_usec), (966.11, 0.01, 4000));
+    assert_eq!(bits, [INERTIAL_BITS | MAGNETOMETER_BITS | BAROMETER_BITS, INERTIAL_BITS, INERTIAL_BITS]);
+    assert_eq!((readings[0].abs_pressure, readings[0].ymag, readings[0].time_usec), (966.11, 0.01, 4000));
     // The true state, position, nine ranges and three inertial sensors.
     assert_eq!(messages.len(), 1 + 1 + 9 + 3);
 }
@@ -91,12 +92,12 @@ fn wire_sensor_that_steps_the_clock_is_last_and_groups_are_complete() {
 fn wire_failing_sensors_are_absent() {
     let (mut px4, mut bench) = (interface(), Bench::new());
     let first = sent(&mut px4, &bench, PERIOD);
-    assert_eq!(sensors(&first)[2].fields_updated.bits(), INERTIAL_BITS);
+    assert_eq!(sensors(&first)[0].fields_updated.bits(), INERTIAL_BITS);
     bench.imus[0].specific_force_m_s2 = Vec3::new(f64::NAN, 0.0, 0.0);
     bench.fresh.pressure_pa = Some(f64::NAN);
     bench.fresh.mag_gauss = Some(Vec3::new(0.0, f64::INFINITY, 0.0));
     let second = sent(&mut px4, &bench, PERIOD + PERIOD);
-    let primary = sensors(&second)[2];
+    let primary = sensors(&second)[0];
     assert_eq!(primary.fields_updated, HilSensorUpdatedFlags::from_bits_retain(0x38));
     assert!(hil_gps(&second).is_none() && flow(&second).is_none());
     // The true state is due every 40 ms only.

@@ -138,7 +138,7 @@ fn exact_settings_reach_the_table() {
     assert!(!rows.contains_key("SYS_FAILURE_EN"));
     let fast = table(vehicle, &LaunchSettings { client_speed_factor: 8.0, rate_hz: 1000.0, ..settings() });
     assert_eq!((fast["COM_DL_LOSS_T"], fast["COM_RC_LOSS_T"], fast["COM_OF_LOSS_T"]), (80.0, 4.0, 8.0));
-    assert_eq!((fast["IMU_GYRO_RATEMAX"], fast["IMU_INTEG_RATE"]), (1000.0, 250.0));
+    assert_eq!((fast["IMU_GYRO_RATEMAX"], fast["IMU_INTEG_RATE"]), (1000.0, 1000.0));
     let fastest = table(vehicle, &LaunchSettings { client_speed_factor: 1e6, ..settings() });
     assert_eq!((fastest["COM_DL_LOSS_T"], fastest["COM_RC_LOSS_T"]), (300.0, 35.0));
     let field = crate::sensors::magnetometer::earth_field_gauss(settings().home);

@@ -15,6 +15,8 @@ mod launch_tests;
 mod param_table;
 mod range_messages;
 mod receiver;
+#[cfg(test)]
+mod replay_tests;
 mod scripts;
 mod sensor_messages;
 #[cfg(test)]
