@@ -10,12 +10,13 @@ mod sensor_errors;
 mod sensor_messages;
 mod servo_packet;
 mod state_line;
+#[cfg(test)]
+mod tests;
 
 pub use airframe::parameters;
 pub use frame::{Frame, FrameError, frame};
 pub use interface::ArduPilotInterface;
 pub use launch::{DEFAULTS_FILE, command_line, launch};
 
-/// Default rate at which ArduPilot receives the state, Hz: two physics ticks a frame. ArduPilot's main loop runs at the same rate,
-/// so that each loop has exactly one new state.
-pub const DEFAULT_RATE_HZ: f64 = 500.0;
+/// Default rate at which ArduPilot receives the state, Hz: one physics tick a frame.
+pub const DEFAULT_RATE_HZ: f64 = 1000.0;
