@@ -246,9 +246,10 @@ impl Pilot {
         if (pitch - self.gimbal_rad).abs() > 0.04 && (self.now - self.gimbal_sent).s() > 0.2 {
             self.gimbal_rad = pitch;
             self.gimbal_sent = self.now;
+            // A yaw of 0 follows the heading. PX4 would ignore the pitch without a yaw.
             let nan = f32::NAN;
             let degrees = pitch.to_degrees() as f32;
-            self.link.send_command(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [degrees, nan, nan, nan, 0.0, 0.0, 0.0]);
+            self.link.send_command(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [degrees, 0.0, nan, nan, 0.0, 0.0, 0.0]);
         }
     }
 }

@@ -270,7 +270,8 @@ impl ControllerLink {
         let from = fresh.or(self.vehicle.gimbal_deg).or(aimed).unwrap_or(0.0);
         let to = (from + step).clamp(-90.0, 90.0);
         self.aim = Some((to, now));
-        (AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, f32::NAN, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
+        // A yaw of 0 follows the heading. PX4 would ignore the pitch without a yaw.
+        (AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [to, 0.0, f32::NAN, f32::NAN, 0.0, 0.0, 0.0])
     }
 
     /// Queues the periodic messages. Call it at least 50 times per second.

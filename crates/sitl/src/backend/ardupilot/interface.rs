@@ -116,10 +116,11 @@ impl SimulatorInterface for ArduPilotInterface {
         }
         let period = SimTime::period(self.rate_hz);
         let epoch = *self.epoch.get_or_insert(step.now - period);
-        let reply = state_line::encode(step, (step.now - epoch).ns());
+        let elapsed = step.now - epoch;
+        let reply = state_line::encode(step, elapsed.ns());
         self.transmit.push_back(reply.clone());
         self.reply = Some(reply);
-        for message in sensor_messages::encode(step, &self.info) {
+        for message in sensor_messages::encode(step, &self.info, elapsed) {
             self.queue_message(message);
         }
         for message in self.errors.update(step) {

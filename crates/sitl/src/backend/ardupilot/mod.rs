@@ -10,12 +10,14 @@ mod sensor_errors;
 mod sensor_messages;
 mod servo_packet;
 mod state_line;
+#[cfg(test)]
+mod tests;
 
 pub use airframe::parameters;
 pub use frame::{Frame, FrameError, frame};
 pub use interface::ArduPilotInterface;
 pub use launch::{DEFAULTS_FILE, command_line, launch};
 
-/// Rates at which ArduPilot can receive the state, Hz: whole numbers of physics ticks a frame. With the first one, the default,
-/// ArduPilot's main loop runs at the same rate, so that each loop has exactly one new state.
-pub const RATES_HZ: [f64; 2] = [500.0, 1000.0];
+/// Rates at which ArduPilot can receive the state, Hz, the default first: whole numbers of physics ticks a frame. Its main loop runs
+/// at half the rate, because ArduPilot refuses to arm with readings that are less than 1.8 times as fast.
+pub const RATES_HZ: [f64; 2] = [1000.0, 500.0];

@@ -9,6 +9,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_mavlink::units::{cm_u16, deg_e7};
 use spandrel_model::frames::{Frd, Rotation, Vec3};
+use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 
 /// Start of GPS time, s since 1970-01-01 UTC (1980-01-06).
@@ -26,6 +27,9 @@ const MIN_RANGE_CM: u16 = 10;
 /// the integer in the message a resolution of 0.5 mrad/s.
 pub const FLOW_SCALER: i32 = -990;
 const FLOW_FACTOR: f64 = 0.01;
+/// Time after ArduPilot's start at which optical flow begins. With optical flow alone, ArduPilot would be ready to arm before its
+/// estimator uses GNSS (about 45 s after the start), and would lose its position above the range of the flow sensor.
+pub const FLOW_START: SimTime = SimTime::from_ms(50_000);
 /// Interval of the flow sensor, s.
 const FLOW_INTERVAL_S: f64 = 0.05;
 
@@ -49,13 +53,13 @@ impl SensorInfo {
     }
 }
 
-/// Returns a message for each reading that is new in this step.
-pub fn encode(step: &StepInput<'_>, info: &SensorInfo) -> Vec<MavMessage> {
+/// Returns a message for each reading that is new in this step, `elapsed` after ArduPilot started.
+pub fn encode(step: &StepInput<'_>, info: &SensorInfo, elapsed: SimTime) -> Vec<MavMessage> {
     let fresh = step.fresh;
     let gnss = fresh.gnss.map(|reading| gps_input(step, &reading, info));
     let down = fresh.range_down_m.map(|range_m| distance(step, 0, range_m, info));
     let up = fresh.range_up_m.map(|range_m| distance(step, 1, range_m, info));
-    let flow = fresh.flow.and_then(|reading| optical_flow(step, &reading));
+    let flow = fresh.flow.filter(|_| elapsed >= FLOW_START).and_then(|reading| optical_flow(step, &reading));
     [gnss, down, up, flow].into_iter().flatten().collect()
 }
 

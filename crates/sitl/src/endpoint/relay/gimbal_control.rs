@@ -27,7 +27,9 @@ impl RelayEndpoint {
             Some(MavMessage::COMMAND_INT(c)) => c.command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW,
             _ => GIMBAL_MESSAGES.contains(&frame.message_id),
         };
-        if !moves || !self.report.manages_gimbal || self.report.gimbal_control != (0, 0) {
+        // PX4 names itself as the controller while no client has control.
+        let free = [(0, 0), (self.links.system_id(), AUTOPILOT)].contains(&self.report.gimbal_control);
+        if !moves || !self.report.manages_gimbal || !free {
             return;
         }
         let client = (frame.system_id, frame.component_id);

@@ -23,7 +23,7 @@ use super::vehicle_link::FailureInjection;
 use super::vehicle_link::manual::ManualControl;
 use super::vehicle_link::params::InstructorSettings;
 use super::vehicle_link::params::param_view::ParamView;
-pub use autopilot_report::{AutopilotReport, FirmwareVersion};
+pub use autopilot_report::{AutopilotReport, FirmwareVersion, ReportedParam};
 use instructor_params::InstructorParams;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Ned, Vec3};

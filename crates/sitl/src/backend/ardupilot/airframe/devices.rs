@@ -60,11 +60,12 @@ fn add_position_sensors(table: &mut Table, vehicle: &Vehicle) {
 
 /// Adds results of calibrations without which ArduPilot refuses to arm.
 fn add_calibration(table: &mut Table) {
-    for imu in ["INS_ACC", "INS_ACC2"] {
-        for axis in ["X", "Y", "Z"] {
-            table.real(&format!("{imu}OFFS_{axis}"), 0.001, (-3.5, 3.5));
-            table.real(&format!("{imu}SCAL_{axis}"), 1.001, (0.8, 1.2));
-        }
+    for axis in ["X", "Y", "Z"] {
+        table.real(&format!("INS_ACCOFFS_{axis}"), 0.001, (-3.5, 3.5));
+        table.real(&format!("INS_ACCSCAL_{axis}"), 1.001, (0.8, 1.2));
+        // The JSON interface presets a calibration of a second sensor. Without the sensor, it must be gone.
+        table.integer(&format!("INS_ACC2OFFS_{axis}"), 0);
+        table.integer(&format!("INS_ACC2SCAL_{axis}"), 1);
     }
     table.integer("INS_GYR_CAL", 0);
     for (axis, offset) in ["X", "Y", "Z"].into_iter().zip(COMPASS_OFFSETS_MGAUSS) {
@@ -81,7 +82,8 @@ fn add_simulated_errors(table: &mut Table) {
         table.integer(name, 0);
     }
     table.integer("SIM_BARO_COUNT", 1);
-    table.integer("SIM_IMU_COUNT", 2);
+    // The line of JSON has one inertial sensor. Each further one would be a copy, and the second one is too slow for the loop rate.
+    table.integer("SIM_IMU_COUNT", 1);
 }
 
 fn add_battery(table: &mut Table, vehicle: &Vehicle, settings: &LaunchSettings) {

@@ -16,10 +16,12 @@ const SPIN_MIN: f64 = 0.05;
 const LOOP_DELAY_S: f64 = 0.02;
 /// Limit of the feed-forward angular acceleration in roll and pitch, degrees/s² (ArduPilot's default).
 const MAX_ACCELERATION_DEG_S2: f64 = 1100.0;
-/// Limit of the yaw acceleration, degrees/s² (ArduPilot's default).
-const MAX_YAW_ACCELERATION_DEG_S2: f64 = 270.0;
-/// Fraction of the maximum angular acceleration that the shaped setpoint uses; the rest is for corrections.
+/// Limit of the yaw acceleration, degrees/s² (the maximum that ArduPilot documents).
+const MAX_YAW_ACCELERATION_DEG_S2: f64 = 720.0;
+/// Fractions of the angular acceleration for a command of 1 that the shaped setpoint uses in roll and pitch, and in yaw. The mixer
+/// has less than 1 available in hover, and needs some of it for corrections.
 const FEED_FORWARD_FRACTION: f64 = 0.3;
+const YAW_FEED_FORWARD_FRACTION: f64 = 0.5;
 /// Bandwidth of the yaw rate loop, rad/s (the motors' drag torque is weak).
 const YAW_BANDWIDTH_RAD_S: f64 = 2.6;
 
@@ -42,7 +44,7 @@ pub fn add(table: &mut Table, vehicle: &Vehicle, frame: &Frame) {
     let yaw_gain = (YAW_BANDWIDTH_RAD_S / yaw).clamp(0.1, 2.5);
     table.real("ATC_RAT_YAW_P", yaw_gain, (0.1, 2.5));
     table.real("ATC_RAT_YAW_I", 0.1 * yaw_gain, (0.01, 1.0));
-    let limit = (FEED_FORWARD_FRACTION * yaw.to_degrees()).min(MAX_YAW_ACCELERATION_DEG_S2);
+    let limit = (YAW_FEED_FORWARD_FRACTION * yaw.to_degrees()).min(MAX_YAW_ACCELERATION_DEG_S2);
     table.renamed(("ATC_ACCEL_Y_MAX", "ATC_ACC_Y_MAX"), limit.round(), (0.0, 720.0));
 }
 

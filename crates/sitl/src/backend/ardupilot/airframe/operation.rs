@@ -3,8 +3,9 @@
 use super::table::Table;
 use crate::backend::launch::LaunchSettings;
 
-/// Highest rate of ArduPilot's main loop that this interface uses, Hz.
-const MAX_LOOP_RATE_HZ: f64 = 500.0;
+/// States per pass through ArduPilot's main loop. ArduPilot does not arm unless the gyroscope is at least 1.8 times as fast as the
+/// loop.
+const STATES_PER_LOOP: f64 = 2.0;
 /// System ID that ground stations use by default.
 const GROUND_STATION: i64 = 255;
 /// ArduPilot's default timeouts of a lost ground station and of stick overrides, s.
@@ -15,18 +16,13 @@ const OVERRIDE_TIMEOUT_S: f64 = 3.0;
 pub fn add(table: &mut Table, settings: &LaunchSettings) {
     add_links(table, settings);
     add_sticks(table);
-    table.integer("SCHED_LOOP_RATE", loop_rate_hz(settings.rate_hz) as i64);
+    table.integer("SCHED_LOOP_RATE", (settings.rate_hz / STATES_PER_LOOP).round() as i64);
     table.integer("ARMING_CHECK", 1);
     table.integer("FENCE_ENABLE", 0);
     table.integer("AVOID_ENABLE", 1);
     table.integer("TERRAIN_ENABLE", 0);
     table.integer("LOG_BACKEND_TYPE", 1);
     table.integer("LOG_FILE_MB_FREE", 10);
-}
-
-/// Returns the rate of the main loop: the simulator's rate divided by a whole number.
-fn loop_rate_hz(rate_hz: f64) -> f64 {
-    (rate_hz / (rate_hz / MAX_LOOP_RATE_HZ).ceil().max(1.0)).round()
 }
 
 fn add_links(table: &mut Table, settings: &LaunchSettings) {
@@ -47,6 +43,8 @@ fn add_links(table: &mut Table, settings: &LaunchSettings) {
     // Keep flying if the ground station is lost while the pilot has control, as with the built-in
     // autopilot.
     table.integer("FS_OPTIONS", 21);
+    // If the position estimate fails under a bridge, the trainee must remain in control: Altitude Hold instead of Land.
+    table.integer("FS_EKF_ACTION", 2);
 }
 
 /// Adds the receiver, whose channels are centered while no ground station overrides them.
@@ -57,6 +55,12 @@ fn add_sticks(table: &mut Table) {
         table.integer(&format!("RC{channel}_MAX"), 2000);
         table.integer(&format!("RC{channel}_OPTION"), 0);
     }
+    // The ground station applies its own dead zones.
+    for channel in [1, 2, 4] {
+        table.integer(&format!("RC{channel}_DZ"), 0);
+    }
+    table.integer("RC3_DZ", 10);
+    table.integer("THR_DZ", 30);
     table.integer("FLTMODE_CH", 0);
     table.integer("INITIAL_MODE", 5);
     table.integer("FS_THR_ENABLE", 0);
