@@ -198,16 +198,6 @@ impl AutopilotHost {
         AppError::Autopilot(failure, format!("{} {what}{output}", self.kind.name()))
     }
 
-    /// Returns whether the user starts the process.
-    pub fn is_started_by_user(&self) -> bool {
-        self.wait
-    }
-
-    /// Returns the autopilot's name in messages.
-    pub fn name(&self) -> &'static str {
-        self.kind.name()
-    }
-
     /// Writes which autopilot flew, with its version and parameters, if this is not recorded yet.
     pub fn record(&mut self, core: &Sim) {
         let Some(report) = core.autopilot_report() else { return };

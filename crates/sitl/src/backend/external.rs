@@ -96,9 +96,10 @@ impl ExternalAutopilot {
         None
     }
 
-    /// Advances the autopilot's clock by one period while simulation time is stopped.
-    pub fn advance_clock(&mut self) {
+    /// Advances the autopilot's clock by one period while simulation time is stopped, after which readings are due.
+    pub fn advance_clock(&mut self, now: SimTime) {
         self.clock_offset = self.clock_offset + self.period();
+        self.sent_at = Some(self.clock(now));
     }
 
     /// Returns whether readings are due that have not been sent yet, and marks them as sent.

@@ -120,7 +120,7 @@ impl Sim {
             self.events.push_back(SimEvent::AutopilotStarted { took, is_ready });
             return false;
         }
-        external.autopilot.advance_clock();
+        external.autopilot.advance_clock(now);
         let period = external.autopilot.period();
         self.stand_still(period);
         self.send_readings();

@@ -53,7 +53,8 @@ impl FakePx4 {
 
     /// Returns what PX4 sends when it has connected.
     pub fn greeting(&mut self) -> Vec<u8> {
-        let heartbeat = MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..Default::default() });
+        let heartbeat =
+            MavMessage::HEARTBEAT(HEARTBEAT_DATA { autopilot: MavAutopilot::MAV_AUTOPILOT_PX4, ..Default::default() });
         self.simulator.0.encode(&heartbeat)
     }
 
@@ -90,7 +91,12 @@ impl FakePx4 {
         mode.set(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, self.armed);
         let flags = HilActuatorControlsFlags::from_bits_truncate(1);
         let time_usec = sensor.time_usec;
-        self.simulator.0.encode(&MavMessage::HIL_ACTUATOR_CONTROLS(HIL_ACTUATOR_CONTROLS_DATA { time_usec, flags, controls, mode }))
+        self.simulator.0.encode(&MavMessage::HIL_ACTUATOR_CONTROLS(HIL_ACTUATOR_CONTROLS_DATA {
+            time_usec,
+            flags,
+            controls,
+            mode,
+        }))
     }
 
     /// Sends the periodic messages on the MAVLink link.
@@ -129,7 +135,9 @@ impl FakePx4 {
     pub fn mavlink(&mut self, bytes: &[u8]) {
         for frame in self.mavlink.1.datagram(bytes) {
             match &frame.message {
-                Some(MavMessage::COMMAND_LONG(command)) if router::target(&frame).1 <= 1 => self.command(&command.clone(), &frame),
+                Some(MavMessage::COMMAND_LONG(command)) if router::target(&frame).1 <= 1 => {
+                    self.command(&command.clone(), &frame)
+                }
                 Some(MavMessage::MANUAL_CONTROL(sticks)) => self.throttle = f64::from(sticks.z) / 1000.0,
                 _ => {}
             }

@@ -36,7 +36,8 @@ fn wire_monitor_gets_scoring_data_from_the_simulator_and_reports_from_the_autopi
     assert_eq!(sender(EXTENDED_SYS_STATE_DATA::ID), BTreeSet::from([1]));
     assert_eq!(sender(GIMBAL_DEVICE_ATTITUDE_STATUS_DATA::ID), BTreeSet::from([GIMBAL]));
     // The monitor counts gaps in the autopilot's sequence numbers as lost frames.
-    let numbers: Vec<u8> = rig.heard[&MONITOR].iter().filter(|frame| frame.component_id == 1).map(|frame| frame.sequence).collect();
+    let numbers: Vec<u8> =
+        rig.heard[&MONITOR].iter().filter(|frame| frame.component_id == 1).map(|frame| frame.sequence).collect();
     assert!(numbers.windows(2).all(|pair| pair[1] == pair[0].wrapping_add(1)), "{numbers:?}");
 }
 
@@ -111,14 +112,14 @@ fn wire_gimbal_device_obeys_the_autopilot_and_simple_clients_get_control() {
     let pitch_deg = rig.sim.payload().gimbal.pitch_rad.to_degrees();
     assert!((pitch_deg + 30.0).abs() < 0.5, "{pitch_deg}");
     // Nobody is in control: the simulator requests control for a client that moves the gimbal.
-    rig.px4.send(&MavMessage::GIMBAL_MANAGER_STATUS(GIMBAL_MANAGER_STATUS_DATA { gimbal_device_id: GIMBAL, ..Default::default() }));
+    rig.px4
+        .send(&MavMessage::GIMBAL_MANAGER_STATUS(GIMBAL_MANAGER_STATUS_DATA { gimbal_device_id: GIMBAL, ..Default::default() }));
     rig.run_s(0.1);
     rig.command(1, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, &[-20.0]);
     rig.run_s(0.1);
     let seen: Vec<MavCmd> = rig.px4.commands();
     let at = |wanted| seen.iter().position(|command| *command == wanted);
-    let (configure, pitch) =
-        (at(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE), at(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW));
+    let (configure, pitch) = (at(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE), at(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW));
     assert!(configure.is_some() && configure < pitch, "{seen:?}");
 }
 
