@@ -16,8 +16,8 @@ const OTHER_SERIAL_PORTS: [u8; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
 /// Returns the arguments and files that start ArduPilot for an aircraft, in a working directory of its own. Errors if ArduPilot has no
 /// frame for the aircraft's rotors.
 ///
-/// ArduPilot listens on no port. Its receiver would listen on UDP port 5501 + 10 x instance on all addresses, but does so only if the
-/// simulator sends no stick positions.
+/// ArduPilot listens on no fixed port. Its receiver binds one on all addresses even if the simulator provides the stick positions, but
+/// does not read it then; the operating system chooses its number, so that instances cannot collide.
 pub fn launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Launch, FrameError> {
     let parameters = parameters(vehicle, settings)?;
     let file = LaunchFile { name: DEFAULTS_FILE.into(), text: defaults_text(&parameters), executable: false };
@@ -44,6 +44,7 @@ fn args(settings: &LaunchSettings) -> Vec<String> {
     option("rate", format!("{:.0}", settings.rate_hz));
     option("speedup", MAX_SPEEDUP.to_string());
     option("serial0", format!("udpclient:127.0.0.1:{}", settings.mavlink_port));
+    option("rc-in-port", "0".into());
     for port in OTHER_SERIAL_PORTS {
         option(&format!("serial{port}"), "none:".into());
     }

@@ -5,6 +5,7 @@ mod messages;
 mod parser;
 mod protocol;
 mod table;
+mod transcript;
 
 use super::ArduPilotInterface;
 use crate::backend::interface::{IMU_COUNT, StepInput};

@@ -29,7 +29,7 @@ const COMMON_KEYS: [Key; 15] = [
 const FORBIDDEN_KEYS: [&str; 5] = ["no_time_sync", "no_lockstep", "latitude", "longitude", "altitude"];
 
 /// Returns the line that ArduPilot would read from its receive buffer: the bytes between the last two newlines.
-fn framed(buffer: &[u8]) -> &str {
+pub(super) fn framed(buffer: &[u8]) -> &str {
     let last = buffer.iter().rposition(|b| *b == b'\n').expect("newline at the end");
     let first = buffer[..last].iter().rposition(|b| *b == b'\n').expect("newline before the line");
     std::str::from_utf8(&buffer[first + 1..last]).expect("text")
@@ -43,14 +43,14 @@ fn after_key<'a>(line: &'a str, section: &str, name: &str) -> Option<&'a str> {
 }
 
 /// Reads a number like C's `atof`: as many characters as fit, 0 if there are none.
-fn number(text: &str) -> f64 {
+pub(super) fn number(text: &str) -> f64 {
     let text = text.trim_start();
     let end = text.find(|c: char| !(c.is_ascii_digit() || c == '-' || c == '+' || c == '.')).unwrap_or(text.len());
     text[..end].parse().unwrap_or(0.0)
 }
 
 /// The strict rule: an opening bracket without a space before it, and commas between the values.
-fn strict_vector(text: &str, count: usize) -> Option<Vec<f64>> {
+pub(super) fn strict_vector(text: &str, count: usize) -> Option<Vec<f64>> {
     let inside = text.strip_prefix('[')?;
     let values: Vec<f64> = inside.split(']').next()?.split(',').map(|part| part.trim().parse().ok()).collect::<Option<_>>()?;
     (values.len() == count).then_some(values)
@@ -72,7 +72,7 @@ fn lenient_vector(text: &str, count: usize) -> Option<Vec<f64>> {
 }
 
 /// Reads all known keys with one of the two rules for vectors.
-fn read(line: &str, vector: fn(&str, usize) -> Option<Vec<f64>>) -> BTreeMap<&'static str, Vec<f64>> {
+pub(super) fn read(line: &str, vector: fn(&str, usize) -> Option<Vec<f64>>) -> BTreeMap<&'static str, Vec<f64>> {
     let keys = COMMON_KEYS.iter().map(|(section, name, count)| {
         let text = after_key(line, section, name).unwrap_or_else(|| panic!("no {section}/{name} in {line}"));
         let values = if *count == 1 { vec![number(text)] } else { vector(text, *count).expect(name) };

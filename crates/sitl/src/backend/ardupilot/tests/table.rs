@@ -124,6 +124,7 @@ fn wire_arguments_open_only_the_chosen_ports() {
     assert_eq!(value("--model"), "JSON:127.0.0.1");
     assert_eq!((value("--sim-port-out"), value("--instance")), ("9022", "2"));
     assert_eq!(value("--serial0"), "udpclient:127.0.0.1:14571");
+    assert_eq!(value("--rc-in-port"), "0");
     assert_eq!((value("--serial1"), value("--serial8")), ("none:", "none:"));
     assert_eq!(value("--home"), "47.39774200,8.54559400,488.000,90.0");
     assert_eq!((value("--rate"), value("--defaults")), ("500", DEFAULTS_FILE));
