@@ -9,8 +9,8 @@ use spandrel_model::geodesy::Geo;
 
 /// PX4's main mode number for "Position" (POSCTL).
 const PX4_POSITION_MODE: f32 = 3.0;
-/// ArduCopter's mode number for "PosHold".
-const COPTER_POSHOLD_MODE: f32 = 16.0;
+/// ArduCopter's mode number for "Loiter". Unlike PosHold, it limits the speed at full stick.
+const COPTER_LOITER_MODE: f32 = 5.0;
 
 /// Creates a ground station heartbeat.
 #[must_use]
@@ -86,7 +86,7 @@ pub fn params<const N: usize>(given: &[f32]) -> [f32; N] {
 pub fn position_mode(autopilot: Option<MavAutopilot>) -> (MavCmd, [f32; 7]) {
     let (command, [a, b]) = match autopilot {
         Some(MavAutopilot::MAV_AUTOPILOT_PX4) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, PX4_POSITION_MODE]),
-        Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_POSHOLD_MODE]),
+        Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA) => (MavCmd::MAV_CMD_DO_SET_MODE, [1.0, COPTER_LOITER_MODE]),
         _ => (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, [MavStandardMode::MAV_STANDARD_MODE_POSITION_HOLD as u32 as f32, 0.0]),
     };
     (command, [a, b, 0.0, 0.0, 0.0, 0.0, 0.0])
@@ -103,7 +103,7 @@ mod tests {
             (command, params[0], params[1])
         };
         assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_PX4)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 3.0));
-        assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 16.0));
+        assert_eq!(asked(Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA)), (MavCmd::MAV_CMD_DO_SET_MODE, 1.0, 5.0));
         // The parameter is MAV_STANDARD_MODE_POSITION_HOLD.
         assert_eq!(asked(None), (MavCmd::MAV_CMD_DO_SET_STANDARD_MODE, 1.0, 0.0));
     }

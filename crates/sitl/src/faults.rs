@@ -4,6 +4,7 @@
 use super::physics::{Actuators, MAX_ROTORS};
 use super::sensors::Readings;
 use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;
 
@@ -90,6 +91,8 @@ impl FailureType {
 /// Constant position error, north and east, and constant height error, m (estimates: a multipath jump below a deck).
 const POSITION_ERROR_M: f64 = 25.0;
 const HEIGHT_ERROR_M: f64 = 8.0;
+/// Height over which the air pressure falls by a factor of e, m (ISO 2533, at sea level).
+const SCALE_HEIGHT_M: f64 = 8_434.5;
 /// Standard deviations of garbage readings: position (m), height (m) and magnetic field (gauss).
 const GARBAGE_POSITION_SIGMA_M: f64 = 30.0;
 const GARBAGE_HEIGHT_SIGMA_M: f64 = 10.0;
@@ -175,6 +178,7 @@ impl Faults {
         }
         if baro {
             held.baro_up_m = before.baro_up_m;
+            held.pressure_pa = before.pressure_pa;
         }
         if gnss {
             held.gnss = before.gnss;
@@ -223,6 +227,8 @@ impl Faults {
                 FailureType::Off | FailureType::Stuck | FailureType::Intermittent => 0.0,
             };
             fresh.baro_up_m = faulty_reading(kind, fresh.baro_up_m.map(|up| up + rise), held.baro_up_m, now);
+            let pressure_pa = fresh.pressure_pa.map(|pressure_pa| pressure_pa * math::exp(-rise / SCALE_HEIGHT_M));
+            fresh.pressure_pa = faulty_reading(kind, pressure_pa, held.pressure_pa, now);
         }
         if let Some(kind) = kinds[sensor_index(FailureUnit::Magnetometer)] {
             let turned = |field: Vec3<Frd>, [x, y, z]: [f64; 3]| match kind {

@@ -12,6 +12,9 @@ use spandrel_sitl::endpoint::relay::RelayRules;
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// Sender from which ArduPilot up to 4.6 accepts sticks (SYSID_MYGCS, 255 by default), with the component ID of ground stations.
+const ARDUPILOT_STICK_SENDER: (u8, u8) = (255, 190);
+
 /// An autopilot program that runs as a process of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AutopilotKind {
@@ -82,8 +85,15 @@ impl AutopilotKind {
     /// Returns the differences on MAVLink that the simulator must know.
     pub fn relay_rules(self) -> RelayRules {
         match self {
-            Self::Px4 => RelayRules { params: &param_view::PX4, restarts_by_process: true, roi_above_sea_level: true },
-            Self::ArduPilot => RelayRules { params: &param_view::COPTER, restarts_by_process: false, roi_above_sea_level: false },
+            Self::Px4 => {
+                RelayRules { params: &param_view::PX4, restarts_by_process: true, roi_above_sea_level: true, stick_sender: None }
+            }
+            Self::ArduPilot => RelayRules {
+                params: &param_view::COPTER,
+                restarts_by_process: false,
+                roi_above_sea_level: false,
+                stick_sender: Some(ARDUPILOT_STICK_SENDER),
+            },
         }
     }
 

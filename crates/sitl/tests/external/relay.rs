@@ -102,6 +102,7 @@ fn wire_gimbal_device_obeys_the_autopilot_and_simple_clients_get_control() {
         q: [half.cos() as f32, 0.0, half.sin() as f32, 0.0],
         target_system: 1,
         target_component: GIMBAL,
+        flags: GimbalDeviceFlags::empty(),
         angular_velocity_x: f32::NAN,
         angular_velocity_y: f32::NAN,
         angular_velocity_z: f32::NAN,
@@ -176,4 +177,17 @@ fn wire_no_peer_can_impersonate_the_autopilot_or_the_equipment() {
     rig.run_s(0.2);
     assert_eq!(rig.heard(STATION, STATUSTEXT_DATA::ID).len(), before);
     assert_eq!(rig.px4.system_id(), 1);
+}
+
+#[test]
+fn wire_sticks_of_any_station_reach_an_autopilot_that_accepts_one_sender() {
+    let sender = (7, 8);
+    let mut rig = Rig::with_stick_sender(AfterCrash::Continue, Some(sender));
+    rig.start();
+    rig.throttle(612);
+    rig.run_s(0.1);
+    let sticks: Vec<_> = rig.px4.received.iter().filter(|frame| frame.message_id == MANUAL_CONTROL_DATA::ID).collect();
+    assert_eq!(sticks.len(), 1);
+    assert_eq!((sticks[0].system_id, sticks[0].component_id), sender);
+    assert!(matches!(&sticks[0].message, Some(MavMessage::MANUAL_CONTROL(sticks)) if sticks.z == 612));
 }

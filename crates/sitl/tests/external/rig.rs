@@ -1,6 +1,7 @@
 //! A vehicle that is flown by the small autopilot, with a ground station and a payload process.
 
 use crate::fake_px4::FakePx4;
+use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;
 use spandrel_mavlink::station;
@@ -35,12 +36,17 @@ pub struct Rig {
 impl Rig {
     /// Creates a vehicle whose autopilot has not connected.
     pub fn new(after_crash: AfterCrash) -> Self {
+        Self::with_stick_sender(after_crash, None)
+    }
+
+    /// Creates a vehicle whose autopilot has not connected and takes sticks only from this sender.
+    pub fn with_stick_sender(after_crash: AfterCrash, stick_sender: Option<(u8, u8)>) -> Self {
         let text = shipped::DRILL_HOVER;
         let scenario: Scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).unwrap();
         let vehicle = Arc::new(vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap());
         let site = Arc::new(Site::build(&scenario, 1));
         let interface = Box::new(Px4Interface::new(&vehicle, 250.0).unwrap());
-        let rules = RelayRules { params: &param_view::PX4, restarts_by_process: true, roi_above_sea_level: true };
+        let rules = RelayRules { params: &param_view::PX4, restarts_by_process: true, roi_above_sea_level: true, stick_sender };
         let (scenario, after_crash) = (Arc::new(scenario), Some(after_crash));
         let config = SimConfig { scenario, vehicle, seed: 1, instance: 0, flavor: &px4::FLAVOR, after_crash };
         let mut sim = Sim::with_external_autopilot(config, site, interface, rules);
@@ -53,10 +59,15 @@ impl Rig {
     /// Creates a vehicle whose autopilot is ready.
     pub fn ready(after_crash: AfterCrash) -> Self {
         let mut rig = Self::new(after_crash);
-        rig.connect();
-        rig.exchange_until(|rig| matches!(rig.sim.autopilot_state(), Some(AutopilotState::Running { .. })));
-        rig.say(&station::heartbeat());
+        rig.start();
         rig
+    }
+
+    /// Connects a new process and waits until it is ready.
+    pub fn start(&mut self) {
+        self.connect();
+        self.exchange_until(|rig| matches!(rig.sim.autopilot_state(), Some(AutopilotState::Running { .. })));
+        self.say(&station::heartbeat());
     }
 
     /// Connects a new process.

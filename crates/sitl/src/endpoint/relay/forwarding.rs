@@ -50,6 +50,20 @@ impl RelayEndpoint {
         }
     }
 
+    /// Forwards stick input under the only sender that the autopilot accepts. Returns false if the frame is no stick input or the
+    /// autopilot accepts any sender.
+    pub(super) fn forward_sticks(&mut self, frame: &ReceivedFrame) -> bool {
+        let Some(message @ (MavMessage::MANUAL_CONTROL(_) | MavMessage::RC_CHANNELS_OVERRIDE(_))) = &frame.message else {
+            return false;
+        };
+        let Some(encoder) = &mut self.stick_encoder else { return false };
+        let bytes = encoder.encode(message);
+        if let Some(link) = self.autopilot_link.and_then(|id| self.links.get_mut(id)) {
+            link.forward(bytes);
+        }
+        true
+    }
+
     /// Sends a message from a component to all clients that receive unsolicited messages, but not to the autopilot.
     pub(super) fn broadcast_to_clients(&mut self, component: u8, message: &impl Encodable) {
         for link in self.links.listeners().filter(|link| link.kind != LinkKind::Autopilot) {

@@ -25,6 +25,7 @@ use super::vehicle_link::params::InstructorSettings;
 use super::vehicle_link::params::param_view::ParamView;
 pub use autopilot_report::{AutopilotReport, FirmwareVersion, ReportedParam};
 use instructor_params::InstructorParams;
+use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
@@ -39,6 +40,8 @@ pub struct RelayRules {
     pub restarts_by_process: bool,
     /// Whether altitudes of region-of-interest commands are above mean sea level, regardless of their frame.
     pub roi_above_sea_level: bool,
+    /// The only sender from which the autopilot accepts sticks: system and component ID; `None` if it accepts any.
+    pub stick_sender: Option<(u8, u8)>,
 }
 
 /// The MAVLink interface beside an external autopilot.
@@ -57,6 +60,8 @@ pub struct RelayEndpoint {
     instructor: InstructorParams,
     injections: VecDeque<FailureInjection>,
     manual: ManualControl,
+    /// Encoder for sticks under the only accepted sender.
+    stick_encoder: Option<Encoder>,
     texts: TextQueue,
     /// Whether the streams of the present autopilot process have been requested.
     streams_requested: bool,
@@ -79,6 +84,7 @@ impl RelayEndpoint {
             instructor: InstructorParams::new(rules.params),
             injections: VecDeque::new(),
             manual: ManualControl::default(),
+            stick_encoder: rules.stick_sender.map(|(system, component)| Encoder::new(system, component)),
             texts: TextQueue::default(),
             streams_requested: false,
             restart_requested: false,

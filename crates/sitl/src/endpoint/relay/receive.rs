@@ -76,6 +76,9 @@ impl RelayEndpoint {
             if answered {
                 return;
             }
+            if self.forward_sticks(frame) {
+                return;
+            }
             self.take_gimbal_control(frame);
         }
         self.forward_from_client(id, frame, link_now);
