@@ -11,6 +11,7 @@ pub mod files;
 pub mod flight_logs;
 pub mod key;
 pub mod links;
+pub mod log_check;
 pub mod log_file;
 pub mod logging;
 pub mod mcap;
