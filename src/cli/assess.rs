@@ -1,15 +1,15 @@
 //! `spandrel assess`: scores a recorded flight again.
 
-use super::table;
+use super::{args, table};
 use crate::errors::{AppError, EXIT_CODES};
-use crate::io::files;
 use crate::io::log_file::LogFile;
-use crate::io::scoring::grade;
 use crate::io::session_folder::StoredSession;
+use crate::io::{files, log_check, scoring};
 use serde_json::json;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::export;
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessError, assess_log, export};
 use std::path::PathBuf;
 
 /// Score a recorded flight again
@@ -34,6 +34,10 @@ pub struct Args {
     /// Aircraft for a telemetry log: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
+    /// Seed of the flight (0 to 2147483647), which determines the positions of the defects, for a log that doesn't contain
+    /// it [default: the seed in the log or in the scenario]
+    #[arg(long, value_name = "N", value_parser = args::parse_seed, allow_negative_numbers = true)]
+    seed: Option<u64>,
     /// Write the assessment as JSON to this file; '-' for standard output [default: print a table]
     #[arg(long, value_name = "FILE")]
     json: Option<String>,
@@ -44,11 +48,40 @@ pub struct Args {
 /// # Errors
 /// Returns an error if files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let (scenario, vehicle, log) = inputs(args)?;
-    let assessed_session = grade(&log, &scenario, &vehicle)?;
+    let (mut scenario, vehicle, log) = inputs(args)?;
+    scenario.seed = args.seed.or(scenario.seed);
+    let assessed_session = match assess_log(&log, &scenario, &vehicle, build_site) {
+        Ok(assessed_session) => assessed_session,
+        Err(error) => return Err(explain(&error, args, &log)?),
+    };
+    for warning in log_check::warnings(&log, &scenario, &vehicle)? {
+        tracing::warn!("{warning}");
+    }
     match &args.json {
         Some(target) => files::write(target, export::json_text(&assessed_session.assessment).as_bytes()),
         None => files::write("-", table::scores_text(&json!(assessed_session.assessment)).as_bytes()),
+    }
+}
+
+/// Returns the error to report, with the file and the options that can solve the problem.
+///
+/// # Errors
+/// Returns an error if the log cannot be read.
+fn explain(error: &AssessError, args: &Args, log: &LogFile) -> Result<AppError, AppError> {
+    let path = log.path().display();
+    match error {
+        AssessError::NotTelemetry => log_check::foreign_file_error(log),
+        AssessError::NoSeed => Ok(AppError::invalid(format!(
+            "{path}: neither the log nor the scenario contains the flight's seed: specify it with --seed N"
+        ))),
+        AssessError::OtherSeed { received, .. } if args.seed.is_some_and(|asked| asked != *received) => {
+            Ok(AppError::invalid(format!("{path}: the flight's seed is {received}: omit --seed")))
+        }
+        AssessError::OtherSeed { .. }
+        | AssessError::OtherScenario { .. }
+        | AssessError::NeverFlown
+        | AssessError::NoTruth
+        | AssessError::Unreadable(_) => Ok(scoring::scoring_error(error)),
     }
 }
 

@@ -36,17 +36,17 @@ impl LogFile {
         self.len
     }
 
-    /// Returns the total length of all complete records in bytes.
+    /// Returns the path.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Returns the length up to the end of the last complete record, in bytes.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read.
     pub fn complete_len(&self) -> Result<u64, AppError> {
-        let mut splitter = RecordSplitter::default();
-        let mut skip = |_: TlogRecord<'_>| ControlFlow::Continue(());
-        self.for_each_chunk(&mut |piece| splitter.feed(piece, &mut skip)).map_err(|error| unreadable(&self.path, &error))?;
-        // Only the end of the file shows that the last record is complete.
-        let _ = splitter.end(&mut skip);
-        Ok(splitter.complete_bytes())
+        self.read_records(&mut |_| ControlFlow::Continue(())).map_err(|error| unreadable(&self.path, &error))
     }
 
     /// Returns the Unix time in µs at simulation time zero; `None` for an empty log.
@@ -54,7 +54,7 @@ impl LogFile {
     /// # Errors
     /// Returns an error if the file cannot be read.
     pub fn session_start_us(&self) -> Result<Option<u64>, AppError> {
-        Ok(tlog::session_start_us(&self.read(HEAD_BYTES)?))
+        Ok(tlog::session_start_us(&self.head()?))
     }
 
     /// Returns the log's SHA-256 hash as hexadecimal digits.
@@ -86,6 +86,34 @@ impl LogFile {
         read.map(|_| bytes).map_err(|error| unreadable(&self.path, &error))
     }
 
+    /// Calls `take` with each complete record, in file order, until `take` returns `Break` or the log ends. Returns the
+    /// length up to the end of the last complete record read, in bytes.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be read.
+    pub fn read_records(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<u64> {
+        let mut splitter = RecordSplitter::default();
+        let mut broken = false;
+        self.for_each_chunk(&mut |piece| {
+            let flow = splitter.feed(piece, take);
+            broken = flow.is_break();
+            flow
+        })?;
+        // Only the end of the file shows that the last record is complete.
+        if !broken {
+            let _ = splitter.end(take);
+        }
+        Ok(splitter.complete_bytes())
+    }
+
+    /// Returns the start of the log, at most [`HEAD_BYTES`] bytes.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be read.
+    pub fn head(&self) -> Result<Vec<u8>, AppError> {
+        self.read(HEAD_BYTES)
+    }
+
     fn for_each_chunk(&self, take: &mut dyn FnMut(&[u8]) -> ControlFlow<()>) -> std::io::Result<()> {
         let mut file = File::open(&self.path)?.take(self.len);
         let mut piece = vec![0; CHUNK_BYTES];
@@ -103,17 +131,7 @@ impl LogFile {
 
 impl TelemetryLog for LogFile {
     fn for_each_record(&self, take: &mut dyn FnMut(TlogRecord<'_>) -> ControlFlow<()>) -> std::io::Result<()> {
-        let mut splitter = RecordSplitter::default();
-        let mut broken = false;
-        self.for_each_chunk(&mut |piece| {
-            let flow = splitter.feed(piece, take);
-            broken = flow.is_break();
-            flow
-        })?;
-        if !broken {
-            let _ = splitter.end(take);
-        }
-        Ok(())
+        self.read_records(take).map(|_| ())
     }
 }
 

@@ -14,6 +14,7 @@ pub mod flight_logs;
 pub mod key;
 pub mod link_event;
 pub mod links;
+pub mod log_check;
 pub mod log_file;
 pub mod logging;
 pub mod mcap;

@@ -83,9 +83,11 @@ fn review_with_pictures(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Re
     let about = SessionMetadata { pictures, ..session_facts(session, &stored)? };
     Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::invalid(error.to_string()),
-        AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
-            AppError::failed(error.to_string())
-        }
+        AssessError::NeverFlown
+        | AssessError::NotTelemetry
+        | AssessError::NoTruth
+        | AssessError::NoSeed
+        | AssessError::Unreadable(_) => AppError::failed(error.to_string()),
     })
 }
 

@@ -26,13 +26,16 @@ pub fn frame_rows(stored: &StoredSession) -> Result<Vec<FrameRow>, AppError> {
     rows.map_err(|error| scoring_error(&error))
 }
 
-fn scoring_error(error: &AssessError) -> AppError {
+/// Converts a scorer's error to a subcommand's error.
+pub fn scoring_error(error: &AssessError) -> AppError {
     match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => {
             AppError::invalid(format!("{error}: use the flight's scenario and seed"))
         }
-        AssessError::NeverFlown | AssessError::NoTruth | AssessError::NoSeed | AssessError::Unreadable(_) => {
-            AppError::failed(error.to_string())
-        }
+        AssessError::NeverFlown
+        | AssessError::NotTelemetry
+        | AssessError::NoTruth
+        | AssessError::NoSeed
+        | AssessError::Unreadable(_) => AppError::failed(error.to_string()),
     }
 }

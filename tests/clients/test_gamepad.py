@@ -83,13 +83,14 @@ def calibrate(pad, profiles):
         wizard.receive("Release both sticks")
         wizard.enter()
         wizard.receive("Move both sticks through their full range")
-        for axis in (gamepad.LEFT_TRIGGER, gamepad.RIGHT_TRIGGER, *(axis for _, axis, _ in PUSHES)):
+        touched = (gamepad.LEFT_TRIGGER, gamepad.RIGHT_TRIGGER, *(axis for _, axis, _ in PUSHES))
+        for axis in touched:
             for part in (-1, 1, -1 if gamepad.AXES[axis] == gamepad.TRIGGER else 0):
                 pad.axis(axis, part)
                 time.sleep(0.05)
-        wizard.receive("Axes found: 4 of 4")
-        # The last event must be processed before Enter.
-        time.sleep(0.5)
+        # The wizard has processed the events of all axes, except perhaps the one that centers the last axis. After Enter, it waits until that
+        # axis is centered as well.
+        wizard.receive(f"Axes found: {len(touched)} ")
         wizard.enter()
         for words, axis, part in PUSHES:
             wizard.receive(f"Push the {words}")

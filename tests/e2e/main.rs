@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod flights;
+mod foreign_logs;
 mod help;
 mod noise;
 mod program;

@@ -5,9 +5,11 @@ use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::{VERSION, cue};
 use spandrel_mavlink::dialect::MavMessage;
+use spandrel_sitl::sim::CLEARANCE_SEARCH_RADIUS_M;
+use spandrel_testkit::shipped::text;
 
 fn page() -> String {
-    spandrel_testkit::shipped::text("docs/src/reference/contract.md")
+    text("docs/src/reference/contract.md")
 }
 
 #[test]
@@ -56,4 +58,13 @@ fn exact_contract_mode_table_matches_the_code() {
     assert!((0..256).filter(|sub| *sub != 4).all(|sub| px4(4, sub) == ControlSource::Autopilot));
     let by_hand = (0..256).filter(|main| ![4, 6].contains(main)).flat_map(|main| [(main, 0), (main, 2)]);
     assert!(by_hand.into_iter().all(|(main, sub)| px4(main, sub) == ControlSource::Pilot));
+}
+
+#[test]
+fn exact_pages_state_the_largest_published_clearance() {
+    let limit = format!("at most {CLEARANCE_SEARCH_RADIUS_M} m");
+    for page in [page(), text("docs/src/reference/wire.md")] {
+        let row = page.lines().find(|line| line.contains("| `clearance` |")).expect("a row for the clearance");
+        assert!(row.contains(&limit), "{row} lacks {limit:?}");
+    }
 }

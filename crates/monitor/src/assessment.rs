@@ -14,7 +14,7 @@ use super::session::{EndReason, Session, lift_off_height_m};
 use serde::Serialize;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
-use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
+use spandrel_mavlink::telemetry::log_stream::{self, TelemetryLog};
 use spandrel_mavlink::telemetry::{Flight, Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
@@ -38,6 +38,9 @@ pub enum AssessError {
     /// The drone never rose above the lift-off height.
     #[error("no lift-off: the drone never rose more than 0.3 m above the pad, so there is no session to score")]
     NeverFlown,
+    /// The log is not a telemetry log.
+    #[error("not a telemetry log: it contains no MAVLink messages")]
+    NotTelemetry,
     /// The telemetry contains no ground-truth messages.
     #[error("the telemetry contains no HIL_STATE_QUATERNION messages; scoring requires their timestamps and true states")]
     NoTruth,
@@ -281,7 +284,8 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
 /// Scores a telemetry log. `build` creates the site from the seed.
 ///
 /// # Errors
-/// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
+/// Fails if the log cannot be read or is not a telemetry log, if it belongs to a different scenario or seed, or if it
+/// contains no session.
 pub fn assess_log(
     log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
@@ -290,6 +294,9 @@ pub fn assess_log(
 ) -> Result<AssessedSession, AssessError> {
     let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
     timeline.push_log(log)?;
+    if timeline.newest().is_none() && !log_stream::contains_messages(log)? {
+        return Err(AssessError::NotTelemetry);
+    }
     let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
     // The flight contains all the data that scoring needs. Keeping the timeline as well would double the memory use.
     drop(timeline);

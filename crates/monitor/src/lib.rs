@@ -11,10 +11,10 @@
 //! # fn main() -> Result<(), spandrel_model::toml::Problems> {
 //! let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(format!("{file} not found")))?;
 //! let aircraft = vehicle::read("phantom2.toml", shipped::PHANTOM2)?;
-//! // Contents of a telemetry.tlog file. An empty log contains no flight, so scoring it fails.
+//! // Contents of a telemetry.tlog file. An empty file is not a telemetry log, so scoring it fails.
 //! let log: &[u8] = &[];
 //! let graded = assess_log(log, &job, &aircraft, build_site);
-//! assert_eq!(graded.err(), Some(AssessError::NoTruth));
+//! assert_eq!(graded.err(), Some(AssessError::NotTelemetry));
 //! # Ok(())
 //! # }
 //! ```

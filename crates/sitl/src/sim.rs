@@ -44,8 +44,8 @@ use std::sync::Arc;
 pub const STEP: SimTime = SimTime::from_ms(1);
 /// Interval between lockstep requests to peers.
 pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
-/// Search radius for clearance, m.
-const CLEARANCE_SEARCH_RADIUS_M: f64 = 30.0;
+/// Search radius for surfaces near the vehicle, m, and therefore the largest clearance that the vehicle publishes.
+pub const CLEARANCE_SEARCH_RADIUS_M: f64 = 30.0;
 
 /// Configuration of a simulation.
 #[derive(Debug, Clone)]

@@ -99,6 +99,17 @@ impl Bench {
         assert_eq!(self.autopilot.request(request, self.now), RequestOutcome::Accepted, "{request:?}");
     }
 
+    /// Requests a flight to a position, in meters from the pad.
+    pub fn go_to(&mut self, north_m: f64, east_m: f64, up_m: f64) {
+        let north_east_m = Some((north_m, east_m));
+        self.ask(AutopilotRequest::GoTo { north_east_m, up_m: Some(up_m), yaw_rad: None, speed_m_s: None });
+    }
+
+    /// Returns the texts of the events since the last call.
+    pub fn take_texts(&mut self) -> Vec<String> {
+        self.autopilot.drain_events().into_iter().map(|event| event.text).collect()
+    }
+
     pub fn position(&self) -> Vec3<Ned> {
         self.state.rigid.position_m
     }

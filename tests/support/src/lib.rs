@@ -7,6 +7,7 @@
 //! | `station` | `vehicle` | a ground station for an in-process vehicle |
 //! | `plans` | `vehicle` | plans for the drill site, and their upload |
 //! | `bench` | `vehicle` | an autopilot and its aircraft in flight, without MAVLink |
+//! | `estimator_run` | `vehicle` | the estimator and its sensors on a given motion, without physics or autopilot |
 //! | `job` | `telemetry` | a small job, and a recorder of the datagrams of a flight |
 //! | `inspection` | `telemetry` | a long recorded inspection of the TASBID job |
 //! | `studio` | `view` | a site prepared for software rendering, and cameras in it |
@@ -16,6 +17,8 @@
 pub mod aircraft;
 #[cfg(feature = "vehicle")]
 pub mod bench;
+#[cfg(feature = "vehicle")]
+pub mod estimator_run;
 #[cfg(feature = "telemetry")]
 pub mod inspection;
 #[cfg(feature = "telemetry")]

@@ -148,8 +148,9 @@ impl CalibrationWizard {
             WizardStep::Release => "Release both sticks (center the throttle if it has no spring), then press Enter.".to_owned(),
             WizardStep::Rest => "Do not touch the sticks ...".to_owned(),
             WizardStep::Range => format!(
-                "Move both sticks through their full range, then press Enter. Axes found: {} of 4.",
-                self.statistics.values().filter(|seen| is_fully_moved(seen)).count().min(4)
+                "Move both sticks through their full range, then press Enter. Axes found: {} (at least {} are needed).",
+                self.statistics.values().filter(|seen| is_fully_moved(seen)).count(),
+                STICK_AXES.len()
             ),
             WizardStep::Center(_) => "Center the sticks ...".to_owned(),
             WizardStep::Push(k) => format!("Push {} and hold it there.", STICK_AXES[k].2),
@@ -554,6 +555,11 @@ mod tests {
         (14.6, 2, -1.0),
     ];
 
+    /// Returns the number of axes in the prompt; `None` if the prompt contains no number.
+    fn axes_found(prompt: &str) -> Option<usize> {
+        prompt.split_once("Axes found: ")?.1.split(' ').next()?.parse().ok()
+    }
+
     #[test]
     fn exact_triggers_are_not_sticks_and_late_axes_are_measured_at_their_center() {
         let device = Device { name: "Pad".into(), id: "1:2".into() };
@@ -564,9 +570,10 @@ mod tests {
         let mut wizard = CalibrationWizard::new(device, StickMode::Two);
         let enters = [0.4, 4.3].map(SimTime::from_s).into_iter().chain((0..7).map(|k| SimTime::from_s(f64::from(k) + 20.0)));
         let mut enters = enters.peekable();
-        let mut now = SimTime::ZERO;
+        let (mut now, mut most_axes) = (SimTime::ZERO, None);
         while wizard.profile().is_none() && now < SimTime::from_s(30.0) {
             std::iter::from_fn(|| record.due(now)).for_each(|event| wizard.handle(event, now));
+            most_axes = most_axes.max(axes_found(&wizard.prompt()));
             if enters.next_if(|at| *at <= now).is_some() {
                 wizard.confirm(now);
             }
@@ -574,6 +581,7 @@ mod tests {
             now += SimTime::from_ms(5);
         }
         let profile = wizard.profile().unwrap_or_else(|| panic!("calibration incomplete: {}", wizard.prompt()));
+        assert_eq!(most_axes, Some(7), "the prompt must count the sticks, both triggers and the hat");
         let ways =
             [StickMotion::LeftVertical, StickMotion::LeftHorizontal, StickMotion::RightVertical, StickMotion::RightHorizontal];
         assert_eq!(ways.map(|way| profile.axes[&way].axis), [1, 0, 4, 3]);

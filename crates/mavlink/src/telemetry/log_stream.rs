@@ -30,6 +30,19 @@ impl TelemetryLog for Vec<u8> {
     }
 }
 
+/// Returns whether the log contains at least one known message with a valid checksum.
+///
+/// # Errors
+/// Fails if the log cannot be read.
+pub fn contains_messages(log: &(impl TelemetryLog + ?Sized)) -> std::io::Result<bool> {
+    let mut found = false;
+    log.for_each_record(&mut |record| {
+        found = FrameHeader::has_valid_checksum(record.frame);
+        if found { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    Ok(found)
+}
+
 /// Splits chunks of a log into records, with the same rules as [`TlogReader`].
 #[derive(Debug, Clone, Default)]
 pub struct RecordSplitter {

@@ -148,3 +148,13 @@ fn regress_inline_tables_work_like_regular_tables() {
     assert_eq!(again.crc, scenario.crc);
     assert_eq!(again.defects.placed.as_deref(), Some(site.defects()));
 }
+
+/// Without feet below its spherical cage, an aircraft would rest on the cage and roll.
+#[test]
+fn regress_caged_vehicle_requires_feet_below_its_cage() {
+    let text = spandrel_model::shipped::ELIOS3;
+    let short = text.replace("0.24]", "0.22]");
+    assert_ne!(short, text);
+    let problems = spandrel_model::vehicle::read("elios3.toml", &short).unwrap_err().to_string();
+    assert!(problems.contains("feet_m") && problems.contains("at least 0.24 m below the center"), "{problems}");
+}

@@ -151,9 +151,18 @@ fn exact_wrong_scenario_or_seed_is_rejected() {
 }
 
 #[test]
-fn exact_empty_log_and_log_without_flight_have_distinct_errors() {
+fn exact_foreign_files_and_logs_without_truth_or_flight_have_distinct_errors() {
+    use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::dialect::{HEARTBEAT_DATA, MavMessage};
+    use spandrel_mavlink::telemetry::tlog;
     let refused = |log: &[u8]| assess_log(log, &one_task(), &vehicle(), test_survey).unwrap_err();
-    assert_eq!(refused(&[]), AssessError::NoTruth);
+    // A frame of an unknown message, whose checksum can't be verified, doesn't prove that the file is a telemetry log.
+    let unknown = tlog::record(0, &[0xFD, 1, 0, 0, 0, 1, 1, 0xFF, 0xFF, 0xFF, 0, 0, 0]);
+    for foreign in [&b""[..], b"time,x,y\n0.0,1.0,2.0\n", &unknown] {
+        assert_eq!(refused(foreign), AssessError::NotTelemetry, "{foreign:?}");
+    }
+    let beat = Encoder::new(1, 1).encode(&MavMessage::HEARTBEAT(HEARTBEAT_DATA::default()));
+    assert_eq!(refused(&tlog::record(0, &beat)), AssessError::NoTruth);
     let mut parked = Tape::new();
     parked.hold(3.0);
     assert_eq!(refused(&parked.log(0)), AssessError::NeverFlown);

@@ -1,10 +1,10 @@
 //! The sensors that the estimated height follows, depending on EKF2_HGT_REF.
 
-use super::consistency::{Run, flat};
 use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::autopilot::operator_rules::HeightReference;
 use spandrel_sitl::sensors::Readings;
+use spandrel_testkit::estimator_run::{EstimatorRun, flat};
 
 /// Final value of a sensor's slowly growing error, m, and the times at which the growth starts and ends, s.
 const FINAL_ERROR_M: f64 = 6.0;
@@ -29,7 +29,7 @@ struct Case {
 impl Case {
     /// Returns the error of the estimated height, m, and whether all sensors were used until the end.
     fn height_error_and_sensor_use(&self) -> (f64, bool) {
-        let mut run = Run::under_open_sky(3, self.ground_up_m);
+        let mut run = EstimatorRun::under_open_sky(3, self.ground_up_m);
         run.filter.configured_reference = self.reference;
         let mut used = true;
         while run.now < SimTime::from_s(100.0) {
@@ -89,7 +89,7 @@ fn regress_gnss_replaces_a_lost_height_reference() {
             readings.baro_up_m = None;
         }
     };
-    let mut run = Run::under_open_sky(4, flat);
+    let mut run = EstimatorRun::under_open_sky(4, flat);
     run.filter.configured_reference = HeightReference::Barometer;
     let mut largest_step: f64 = 0.0;
     let mut before = run.filter.estimate().position_m.down();

@@ -2,11 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod automatic;
-mod consistency;
 mod emergencies;
 mod heights;
 mod maneuvers;
 mod missions;
 mod rules;
 mod stuck;
-mod winds;

@@ -79,9 +79,9 @@ impl FlownPath {
         while let Some((first, last)) = parts.pop() {
             if let (Some(a), Some(b)) = (self.points.get(first), self.points.get(last)) {
                 (keep[first], keep[last]) = (true, true);
-                let off = |k: &usize| distance_to_leg(self.points[*k], *a, *b);
-                let farthest = (first + 1..last).max_by(|x, y| off(x).total_cmp(&off(y)));
-                if let Some(k) = farthest.filter(|k| off(k) > within_m) {
+                let off_m = |k: usize| (k, distance_to_leg(self.points[k], *a, *b));
+                let farthest = (first + 1..last).map(off_m).max_by(|x, y| x.1.total_cmp(&y.1));
+                if let Some((k, _)) = farthest.filter(|(_, off_m)| *off_m > within_m) {
                     parts.extend([(first, k), (k, last)]);
                 }
             }
