@@ -21,6 +21,8 @@ const BAROMETER_HEIGHT: f64 = 0.0;
 /// Barometer noise that PX4 assumes, as a multiple of the sensor's white noise: a margin for its drift (tuned in flights with PX4
 /// 1.16: heights within 0.1 m, 1 sigma).
 const BAROMETER_NOISE_FACTOR: f64 = 10.0;
+/// PX4's bit for the velocity of a vision system.
+const VISION_VELOCITY: f64 = 4.0;
 /// Margin of the time to return that disables the failsafe for the remaining flight time, s.
 const RETURN_TIME_MARGIN_S: f64 = -10_000.0;
 
@@ -92,6 +94,10 @@ fn range_and_flow(table: &mut ParamTable, vehicle: &Vehicle) {
     let fitted = sensors.flow_velocity_m_s > 0.0;
     table.integer("EKF2_OF_CTRL", if fitted { 1.0 } else { 0.0 }, (0.0, 1.0));
     table.real("EKF2_OF_DELAY", 0.0, (0.0, 300.0));
+    // Without a surface below, the flow velocity arrives as the velocity of a vision system.
+    table.integer("EKF2_EV_CTRL", if fitted { VISION_VELOCITY } else { 0.0 }, (0.0, 15.0));
+    table.real("EKF2_EVV_NOISE", sensors.flow_velocity_m_s, (0.01, 2.0));
+    table.real("EKF2_EV_DELAY", 0.0, (0.0, 300.0));
     table.real("SENS_FLOW_MAXHGT", sensors.range_max_m, (1.0, 100.0));
 }
 

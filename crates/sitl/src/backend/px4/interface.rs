@@ -58,7 +58,7 @@ impl Px4Interface {
             receiver: Receiver::default(),
             rejected_commands: 0,
             reported: Reported::default(),
-            flow: FlowIntegrator::new(),
+            flow: FlowIntegrator::new(vehicle.sensors.flow_velocity_m_s),
             truth_due: Schedule::new(SimTime::ZERO, TRUTH_RATE_HZ),
             last_sent_us: 0,
             answered: false,
@@ -154,7 +154,7 @@ impl SimulatorInterface for Px4Interface {
         self.receiver = Receiver::default();
         self.rejected_commands = 0;
         self.reported = Reported::default();
-        self.flow = FlowIntegrator::new();
+        self.flow.restart();
         self.truth_due = Schedule::new(SimTime::ZERO, TRUTH_RATE_HZ);
         self.last_sent_us = 0;
         (self.answered, self.waiting) = (false, false);

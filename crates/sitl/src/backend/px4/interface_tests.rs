@@ -8,7 +8,7 @@ use crate::sensors::{FlowReading, GnssReading};
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{
     COMMAND_LONG_DATA, HEARTBEAT_DATA, HIL_GPS_DATA, HIL_OPTICAL_FLOW_DATA, HIL_SENSOR_DATA, HilSensorUpdatedFlags, MavMessage,
-    MavSensorOrientation, STATUSTEXT_DATA,
+    MavSensorOrientation, ODOMETRY_DATA, STATUSTEXT_DATA,
 };
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::time::SimTime;
@@ -337,18 +337,38 @@ fn wire_flow_has_px4s_signs_and_integrates_the_gyroscope() {
     assert!((turned.integrated_y - turned.integrated_ygyro - data.integrated_y).abs() < 1e-7);
 }
 
+/// Returns the vision message.
+fn vision(messages: &[MavMessage]) -> Option<&ODOMETRY_DATA> {
+    messages.iter().find_map(|message| if let MavMessage::ODOMETRY(data) = message { Some(data) } else { None })
+}
+
 #[test]
-fn wire_flow_needs_a_surface_below() {
+fn wire_flow_without_a_surface_below_is_a_vision_velocity() {
     let reading = FlowReading { forward_m_s: 2.0, right_m_s: 1.0, quality: 0.8 };
-    assert!(flow_after(&mut Bench::new(), reading, f64::INFINITY).is_none());
-    // The range finder failed long ago.
     let (mut px4, mut bench) = (interface(), Bench::new());
     bench.fresh.range_down_m = Some(4.0);
     sent(&mut px4, &bench, PERIOD);
     bench.fresh.range_down_m = None;
     bench.fresh.flow = Some(reading);
-    assert!(flow(&sent(&mut px4, &bench, SimTime::from_ms(50))).is_some());
-    assert!(flow(&sent(&mut px4, &bench, SimTime::from_ms(400))).is_none());
+    let recent = sent(&mut px4, &bench, SimTime::from_ms(50));
+    assert!(flow(&recent).is_some() && vision(&recent).is_none());
+    // The range finder failed long ago.
+    bench.rigid.velocity_m_s = Vec3::new(2.0, 1.0, -0.5);
+    let late = sent(&mut px4, &bench, SimTime::from_ms(400));
+    assert!(flow(&late).is_none());
+    let data = vision(&late).unwrap();
+    assert_eq!([data.vx, data.vy, data.vz], [2.0, 1.0, -0.5]);
+    assert_eq!((data.quality, data.reset_counter), (80, 0));
+    assert!(data.x.is_nan() && data.q[0].is_nan() && data.rollspeed.is_nan(), "only the velocity is known");
+    let noise = shipped()[0].sensors.flow_velocity_m_s;
+    for index in [0, 6, 11] {
+        assert!((f64::from(data.velocity_covariance[index]) - noise * noise).abs() < 1e-6);
+    }
+    // Nothing within reach below.
+    bench.fresh.range_down_m = Some(f64::INFINITY);
+    let high = sent(&mut px4, &bench, SimTime::from_ms(450));
+    assert!(flow(&high).is_none() && vision(&high).is_some());
+    assert!(matches!(high[high.len() - 3], MavMessage::HIL_SENSOR(_)), "before the sensor that advances the clock");
 }
 
 #[test]

@@ -75,6 +75,9 @@ fn exact_speeds_and_rates_of_the_shipped_aircraft() {
     }
 }
 
+/// Selects one limit.
+type Field = fn(&mut FlightLimits) -> &mut f64;
+
 #[test]
 fn prop_every_flight_limit_reaches_the_table() {
     let base = shipped()[0].clone();
@@ -90,7 +93,7 @@ fn prop_every_flight_limit_reaches_the_table() {
         rate_rad_s: _,
         slow_down_time_s: _,
     } = base.limits;
-    let changes: [(&str, fn(&mut FlightLimits) -> &mut f64); 8] = [
+    let changes: [(&str, Field); 8] = [
         ("forward", |l| &mut l.forward_m_s),
         ("sideways", |l| &mut l.sideways_speed_m_s),
         ("climb", |l| &mut l.climb_m_s),
