@@ -158,6 +158,10 @@ impl VehicleShell {
         }
         self.send_outgoing();
         self.pacer.resync(wall, self.core.now());
+        if let Some(autopilot) = &mut self.autopilot {
+            // A pause is no silence of the autopilot.
+            autopilot.host.note_answer(wall);
+        }
         self.links.wait(MAX_SOCKET_WAIT);
     }
 
