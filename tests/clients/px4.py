@@ -1,5 +1,5 @@
 """Starts a real PX4 with its own simulator (SIH) for comparisons. The SPANDREL_PX4 environment variable contains its
-build folder. No test requires PX4."""
+source or build folder. No test requires PX4."""
 
 import os
 import pathlib
@@ -7,6 +7,8 @@ import re
 import subprocess
 
 BUILD = os.environ.get("SPANDREL_PX4")
+if BUILD and (pathlib.Path(BUILD) / "build/px4_sitl_default/bin/px4").exists():
+    BUILD = str(pathlib.Path(BUILD) / "build/px4_sitl_default")
 # First instance number used here. Other PX4 instances on the same machine start at 0. Instance N has system ID N + 1
 # and listens on UDP 18570 + N.
 FIRST_INSTANCE = 60

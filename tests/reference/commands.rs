@@ -20,7 +20,7 @@ fn help(command: &mut Command, name: &str, level: usize, out: &mut String) {
 fn exact_commands_page_matches_the_program() {
     let mut command = spandrel::Cli::command();
     command.build();
-    let about = "The help text of every subcommand, as printed by `--help`. The exit code is 0 for success, 1 for failure, and 2 for invalid arguments or files.";
+    let about = "The help text of every subcommand, as printed by `--help`. The exit code is 0 for success, 1 for failure, and 2 for invalid arguments or files. Subcommands that can run an external autopilot list further codes.";
     let mut page = page_head("Command line", about);
     help(&mut command, "spandrel", 2, &mut page);
     check("commands.md", &page);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod fake_px4;
+mod hostile;
 mod relay;
 mod rig;
 mod starts;
