@@ -222,6 +222,7 @@ impl VehicleShell {
                 autopilot.host.restart(reason, self.stopwatch.elapsed())?;
             }
             if let (SimEvent::AutopilotStarted { .. }, Some(autopilot)) = (&event, &mut self.autopilot) {
+                autopilot.host.log_version(&self.core);
                 autopilot.host.record(&self.core);
             }
         }

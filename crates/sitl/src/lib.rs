@@ -8,7 +8,7 @@
 //! Each step runs in this order: sensors ([`sensors`]), the autopilot ([`autopilot`]: estimator, failsafes, navigator,
 //! control), six-degree-of-freedom motion and contact ([`physics`]), then outgoing telemetry ([`endpoint`]). The
 //! autopilot receives only sensor readings, never the true state. One table selects the emulated autopilot, PX4 or
-//! ArduCopter ([`endpoint::flavor`]).
+//! ArduCopter ([`endpoint::flavor`]). A real PX4 or ArduPilot can fly the vehicle instead ([`backend`]).
 //!
 //! For tests and scripts, [`testing::Vehicle`] controls the vehicle with commands:
 //!

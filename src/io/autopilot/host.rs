@@ -6,6 +6,7 @@ use super::process::{AutopilotProcess, OUTPUT_FILE, search_path, write_files};
 use super::record;
 use crate::errors::{AppError, AutopilotFailure};
 use spandrel_sitl::backend::launch::Launch;
+use spandrel_sitl::endpoint::relay::FirmwareVersion;
 use spandrel_sitl::sim::{AutopilotState, Sim};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -44,6 +45,7 @@ pub struct AutopilotHost {
     last_exit_check: Duration,
     starts: u32,
     recorded: Option<String>,
+    logged: Option<FirmwareVersion>,
 }
 
 impl AutopilotHost {
@@ -70,6 +72,7 @@ impl AutopilotHost {
             last_exit_check: Duration::ZERO,
             starts: 0,
             recorded: None,
+            logged: None,
         })
     }
 
@@ -196,6 +199,23 @@ impl AutopilotHost {
             String::new()
         };
         AppError::Autopilot(failure, format!("{} {what}{output}", self.kind.name()))
+    }
+
+    /// Logs the version of the autopilot, with a warning if Spandrel has not been flown with it.
+    pub fn log_version(&mut self, core: &Sim) {
+        let Some(version) = core.autopilot_report().and_then(|report| report.version) else { return };
+        if self.logged == Some(version) {
+            return;
+        }
+        self.logged = Some(version);
+        let name = self.kind.name();
+        tracing::info!("{name} {} ({})", version.number_text(), version.hash_text());
+        let [first, last] = self.kind.tested_versions();
+        let [major, minor, _] = version.number;
+        if [major, minor] < first || [major, minor] > last {
+            let text = |[major, minor]: [u8; 2]| format!("{major}.{minor}");
+            tracing::warn!("Spandrel has been flown with {name} {} to {} only", text(first), text(last));
+        }
     }
 
     /// Writes which autopilot flew, with its version and parameters, if this is not recorded yet.
