@@ -117,7 +117,9 @@ impl AutopilotSockets {
                     let connected = peer.replace(from).is_none().then_some(LinkEvent::AutopilotConnected);
                     Handled::Changes(connected.into_iter().chain([LinkEvent::AutopilotBytes(bytes)]).collect())
                 }
-                _ => Handled::NotMine(NetEvent::Datagram { socket, from, bytes }),
+                SimulatorSocket::Udp { .. } | SimulatorSocket::Tcp { .. } => {
+                    Handled::NotMine(NetEvent::Datagram { socket, from, bytes })
+                }
             },
             NetEvent::Connected(stream, StreamOrigin::Autopilot(from)) => Handled::Changes(self.accept(stream, from, hub)),
             NetEvent::Bytes(stream, bytes) if self.is_connected_as(stream) => {
@@ -127,7 +129,7 @@ impl AutopilotSockets {
                 self.disconnect(hub);
                 Handled::Changes(vec![LinkEvent::AutopilotClosed])
             }
-            other => Handled::NotMine(other),
+            other @ (NetEvent::Connected(..) | NetEvent::Bytes(..) | NetEvent::Closed(_)) => Handled::NotMine(other),
         }
     }
 

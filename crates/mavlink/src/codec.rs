@@ -42,6 +42,7 @@ impl ReceivedFrame {
 pub struct Decoder {
     buffer: Vec<u8>,
     bad_bytes: u64,
+    known_messages_only: bool,
 }
 
 enum ParseStep {
@@ -57,6 +58,14 @@ impl Decoder {
         Self::default()
     }
 
+    /// Creates a decoder for a peer that waits for a reply to each frame, with an empty buffer. It accepts only messages of the
+    /// dialect, whose checksums can be verified, and finds complete frames behind an incomplete one, so that invalid bytes never
+    /// hold back a frame.
+    #[must_use]
+    pub fn for_known_messages() -> Self {
+        Self { known_messages_only: true, ..Self::default() }
+    }
+
     /// Returns the number of bytes received so far that did not belong to a valid frame.
     #[must_use]
     pub fn bad_bytes(&self) -> u64 {
@@ -69,17 +78,33 @@ impl Decoder {
         let mut frames = Vec::new();
         let mut at = 0;
         loop {
-            match next(&self.buffer[at..]) {
+            match self.next_at(at) {
                 ParseStep::Frame(len, frame) => {
                     frames.push(*frame);
                     at += len;
                 }
                 ParseStep::Skip(len) => at += self.count_bad(len),
-                ParseStep::NeedMore => break,
+                ParseStep::NeedMore => match self.complete_frame_after(at).filter(|_| self.known_messages_only) {
+                    Some(next) => at += self.count_bad(next - at),
+                    None => break,
+                },
             }
         }
         self.buffer.drain(..at);
         frames
+    }
+
+    /// Parses the first frame at a position of the buffer.
+    fn next_at(&self, at: usize) -> ParseStep {
+        let step = next(&self.buffer[at..]);
+        let is_unknown = matches!(&step, ParseStep::Frame(_, frame) if !known(frame.message_id));
+        if self.known_messages_only && is_unknown { ParseStep::Skip(1) } else { step }
+    }
+
+    /// Returns the position of the first complete frame after a position.
+    fn complete_frame_after(&self, at: usize) -> Option<usize> {
+        (at + 1..self.buffer.len())
+            .find(|place| matches!(self.buffer[*place], STX_V1 | STX_V2) && matches!(self.next_at(*place), ParseStep::Frame(..)))
     }
 
     /// Decodes one datagram. A trailing incomplete frame counts as bad and is dropped. Each byte is examined once, and
@@ -285,6 +310,24 @@ mod tests {
         assert_eq!(frames.iter().filter(|f| f.message.as_ref() == Some(&message)).count(), 1);
         let good: usize = frames.iter().map(|f| f.bytes.len()).sum();
         assert_eq!(decoder.bad_bytes() as usize + good, bytes.len());
+    }
+
+    #[test]
+    fn regress_half_and_unknown_frames_do_not_hold_back_a_known_one() {
+        let message = MavMessage::HEARTBEAT(HEARTBEAT_DATA { custom_mode: 7, ..HEARTBEAT_DATA::default() });
+        let frame = Encoder::new(1, 1).encode(&message);
+        // The start of a frame with 255 bytes, and a frame of a message outside the dialect that would contain the real one.
+        for noise in [vec![0xFD, 0xFF, 0, 0, 0, 1, 1, 0, 0, 0], vec![0xFD, 20, 0, 0, 0, 1, 1, 0xF0, 0xFF, 0xFF]] {
+            let mut decoder = Decoder::for_known_messages();
+            assert!(decoder.push(&noise).is_empty());
+            let frames = decoder.push(&frame);
+            assert_eq!(frames.iter().map(|frame| frame.message.as_ref()).collect::<Vec<_>>(), [Some(&message)], "{noise:?}");
+            assert_eq!(decoder.bad_bytes(), noise.len() as u64);
+        }
+        // A frame in two parts stays one frame.
+        let mut decoder = Decoder::for_known_messages();
+        assert!(decoder.push(&frame[..12]).is_empty());
+        assert_eq!((decoder.push(&frame[12..]).len(), decoder.bad_bytes()), (1, 0));
     }
 
     #[test]

@@ -69,10 +69,16 @@ impl RejectedCounts {
 }
 
 /// Decoder of one connection.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Receiver {
     decoder: Decoder,
     unexpected: u64,
+}
+
+impl Default for Receiver {
+    fn default() -> Self {
+        Self { decoder: Decoder::for_known_messages(), unexpected: 0 }
+    }
 }
 
 impl Receiver {

@@ -22,11 +22,12 @@ impl RelayEndpoint {
         let to_all = router::target(frame).0 == 0;
         for target in self.links.targets(from, frame) {
             let Some(link) = self.links.get_mut(target).filter(|link| !(link.sends_only_responses && to_all)) else { continue };
-            match link.kind {
-                LinkKind::Payload => forward_to_payload_process(link, frame),
-                // In lockstep, a peer answers each TIMESYNC request as the end of a step. Only the simulator may ask.
-                _ if link.lockstep && is_timesync_request(frame) => {}
-                _ => link.forward(frame.bytes.clone()),
+            // In lockstep, a peer answers each TIMESYNC request as the end of a step. Only the simulator may ask.
+            let is_misleading = link.lockstep && is_timesync_request(frame);
+            if link.kind == LinkKind::Payload {
+                forward_to_payload_process(link, frame);
+            } else if !is_misleading {
+                link.forward(frame.bytes.clone());
             }
         }
     }
