@@ -228,7 +228,7 @@ def test_pause_keeps_the_vehicle_connected(tmp_path):
         vehicle.process.stdin.write(line + "\n")
         vehicle.process.stdin.flush()
     try:
-        vehicle.hear("HIL_STATE_QUATERNION")
+        vehicle.hear("HIL_STATE_QUATERNION", lambda state: state.time_usec > 0)
         say("pause")
         vehicle.hear("STATUSTEXT", lambda text: text.text == "Simulation paused")
         # The autopilot's clock is stopped, so these are the simulator's repetitions.
