@@ -1,5 +1,6 @@
 //! Decodes what PX4 sends on the simulator interface: motor commands, and nothing else of interest.
 
+use crate::physics::Actuators;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, HIL_ACTUATOR_CONTROLS_DATA};
 
@@ -43,6 +44,21 @@ impl Answer {
             armed: payload.get(MODE_AT)? & ARMED_BIT != 0,
             controls,
         })
+    }
+
+    /// Returns the motor commands for an aircraft with `rotor_count` rotors. `None` if one of them is not a finite number.
+    pub(super) fn actuators(&self, rotor_count: usize) -> Option<Actuators> {
+        let controls = &self.controls[..rotor_count.min(self.controls.len())];
+        if controls.iter().any(|control| !control.is_finite()) {
+            return None;
+        }
+        let mut actuators = Actuators { armed: self.armed, ..Actuators::default() };
+        if self.armed {
+            for (motor, control) in actuators.motors.iter_mut().zip(controls) {
+                *motor = f64::from(*control).clamp(0.0, 1.0);
+            }
+        }
+        Some(actuators)
     }
 }
 
