@@ -3,9 +3,8 @@
 use super::autopilot_sockets::Handled;
 use super::link_event::LinkEvent;
 use super::net::{NetEvent, SocketHub, StreamId, StreamOrigin};
-use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
-use spandrel_mavlink::dialect::HIL_ACTUATOR_CONTROLS_DATA;
+use spandrel_sitl::backend::px4::MOTOR_COMMANDS_ID;
 
 /// The port, which belongs to the autopilot's MAVLink link.
 #[derive(Debug)]
@@ -62,7 +61,7 @@ impl FlightControllerPort {
 
     /// Sorts a frame: motor commands belong to the simulator interface.
     fn event(&self, frame: ReceivedFrame) -> LinkEvent {
-        if frame.message_id == HIL_ACTUATOR_CONTROLS_DATA::ID {
+        if frame.message_id == MOTOR_COMMANDS_ID {
             LinkEvent::AutopilotBytes(frame.bytes)
         } else {
             LinkEvent::FlightControllerFrame { link: self.link, frame: Box::new(frame) }
@@ -88,7 +87,7 @@ mod tests {
     #[test]
     fn wire_one_stream_is_split_into_motor_commands_and_messages() {
         let mut controller = Encoder::new(1, 1);
-        let commands = controller.encode_payload(HIL_ACTUATOR_CONTROLS_DATA::ID, &[1; 81]);
+        let commands = controller.encode_payload(MOTOR_COMMANDS_ID, &[1; 81]);
         let heartbeat = controller.encode(&station::heartbeat());
         let stream = [&heartbeat[..], b"noise", &commands, &heartbeat].concat();
         for chunk in [1, 7, 40, stream.len()] {

@@ -34,5 +34,5 @@ pub use command_line::shell_command;
 pub use hil::Px4HilInterface;
 pub use hil_plan::HilPlan;
 pub use interface::{Px4Interface, RATES_HZ};
-pub use launch::launch;
-pub use receiver::RejectedCounts;
+pub use launch::{hil_launch, launch};
+pub use receiver::{MOTOR_COMMANDS_ID, RejectedCounts};

@@ -6,6 +6,8 @@ use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, HIL_ACTUATOR_
 
 use mavlink::MessageData;
 
+/// ID of the message with the motor commands.
+pub const MOTOR_COMMANDS_ID: u32 = HIL_ACTUATOR_CONTROLS_DATA::ID;
 /// Number of outputs in HIL_ACTUATOR_CONTROLS.
 const OUTPUT_COUNT: usize = 16;
 /// Length of HIL_ACTUATOR_CONTROLS, and the positions of its fields.
@@ -100,7 +102,7 @@ impl Receiver {
 
     fn accept(&mut self, frame: &ReceivedFrame) -> Option<Answer> {
         match frame.message_id {
-            HIL_ACTUATOR_CONTROLS_DATA::ID => Answer::read(&frame.payload(LENGTH)),
+            MOTOR_COMMANDS_ID => Answer::read(&frame.payload(LENGTH)),
             // PX4 announces itself with a heartbeat and requests the true state. Neither needs a reply.
             HEARTBEAT_DATA::ID | COMMAND_LONG_DATA::ID => None,
             _ => {
