@@ -1,7 +1,9 @@
 //! Arguments that select the autopilot.
 
+use super::ports::PortArgs;
 use crate::errors::AppError;
 use crate::io::autopilot::config::{AutopilotConfig, AutopilotKind};
+use crate::io::serial::SerialDevice;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -66,7 +68,7 @@ impl AutopilotArgs {
     ///
     /// # Errors
     /// Returns an error if an option does not apply to the selected autopilot.
-    pub fn config(&self, folder: &Path) -> Result<Option<AutopilotConfig>, AppError> {
+    pub fn config(&self, folder: &Path, ports: &PortArgs) -> Result<Option<AutopilotConfig>, AppError> {
         let Some(kind) = self.kind() else {
             let given = [(self.wait, "--wait"), (self.autopilot_rate.is_some(), "--autopilot-rate")];
             return match given.iter().find(|(given, _)| *given) {
@@ -80,7 +82,30 @@ impl AutopilotArgs {
         };
         let (wait, rate_hz, folder) = (self.wait, self.autopilot_rate, folder.to_owned());
         let timeout = Duration::from_secs(u64::from(self.autopilot_timeout));
-        Ok(Some(AutopilotConfig { kind, location, wait, rate_hz, folder, timeout }))
+        let flight_controller = self.flight_controller(ports)?;
+        let keeps_folder = self.autopilot_dir.is_some();
+        Ok(Some(AutopilotConfig { kind, location, flight_controller, wait, rate_hz, folder, keeps_folder, timeout }))
+    }
+
+    /// Returns the serial port of a flight controller: with PX4, --serial is its link and not a telemetry radio.
+    ///
+    /// # Errors
+    /// Returns an error if an option does not apply to a flight controller.
+    pub fn flight_controller(&self, ports: &PortArgs) -> Result<Option<SerialDevice>, AppError> {
+        let Some(device) = ports.serial.first().filter(|_| self.autopilot == AutopilotChoice::Px4) else { return Ok(None) };
+        let conflicts = [
+            (ports.serial.len() > 1, "a second --serial", "one flight controller flies one vehicle"),
+            (self.px4.is_some(), "--px4", "no process is started"),
+            (self.wait, "--wait", "no process is started"),
+            (self.autopilot_rate.is_some(), "--autopilot-rate", "the rate follows from the baud rate"),
+            (self.autopilot_port.is_some(), "--autopilot-port", "the readings use the serial port"),
+        ];
+        match conflicts.iter().find(|(given, ..)| *given) {
+            Some((_, option, why)) => Err(AppError::invalid(format!(
+                "{option} does not apply to a flight controller (--autopilot px4 with --serial): {why}"
+            ))),
+            None => Ok(Some(device.clone())),
+        }
     }
 
     /// Returns the port of the simulator interface for a vehicle; 0 for any free port.

@@ -38,7 +38,7 @@ pub struct PortArgs {
     #[arg(long, value_name = "PORT|none")]
     pub tcp_port: Option<PortChoice>,
     /// Serial port with a radio or cable, such as /dev/ttyUSB0:57600; may be repeated. Its capacity in bytes/s is
-    /// one-tenth of its baud rate
+    /// one-tenth of its baud rate. In sim with --autopilot px4: the port of the flight controller that flies the aircraft
     #[arg(long, value_name = "DEVICE:BAUD")]
     pub serial: Vec<SerialDevice>,
     /// Data rate limit in bytes/s for each UDP or TCP link to a ground station; streams and parameter downloads slow

@@ -14,6 +14,7 @@ use crate::io::pacing::{Lateness, SimulationSpeed};
 use crate::io::params::ParamFile;
 use crate::io::pause::PauseSwitch;
 use crate::io::progress::ProgressLog;
+use crate::io::serial::SerialDevice;
 use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
 use crate::io::signing_store::SigningStore;
 use crate::io::stop::StopRequest;
@@ -44,6 +45,8 @@ Examples:
   spandrel sim --flavor ardupilot                  for Mission Planner, MAVProxy and scripts written for ArduCopter
   spandrel sim --autopilot px4 --px4 ~/PX4-Autopilot     a real PX4 flies the aircraft
   spandrel sim --autopilot ardupilot --wait         print the command that starts ArduPilot, and wait for it
+  spandrel sim --autopilot px4 --serial /dev/ttyACM0:921600
+                                                    a flight controller with PX4 flies the aircraft (hardware in the loop)
   spandrel sim --ports ephemeral --announce         free ports, printed as one line of JSON
   spandrel sim --speed max --gcs 127.0.0.1:9000 --lockstep 127.0.0.1:9000
                                                     as fast as possible, in lockstep with a client that answers TIMESYNC
@@ -207,7 +210,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let temporary = args.autopilot.kind().map(|_| tempfile::tempdir()).transpose();
     let temporary = temporary.map_err(|error| AppError::failed(format!("cannot create a temporary folder: {error}")))?;
     let autopilot = autopilot_config(args, temporary.as_ref().map(tempfile::TempDir::path))?;
-    let mut doors = (0..args.instances).map(|more| VehicleIo::open(args, more)).collect::<Result<Vec<_>, _>>()?;
+    let flight_controller = autopilot.as_ref().and_then(|config| config.flight_controller.as_ref());
+    let mut doors =
+        (0..args.instances).map(|more| VehicleIo::open(args, more, flight_controller)).collect::<Result<Vec<_>, _>>()?;
     let progress = ProgressLog::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
     let glb = args.files.is_some().then(|| gltf::glb(&site));
@@ -273,13 +278,29 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Returns the configuration of an external autopilot, whose files go to `temporary` by default.
 fn autopilot_config(args: &Args, temporary: Option<&Path>) -> Result<Option<AutopilotConfig>, AppError> {
     let folder = args.autopilot.autopilot_dir.as_deref().or(temporary).unwrap_or(Path::new("."));
-    let config = args.autopilot.config(folder)?;
+    let config = args.autopilot.config(folder, &args.ports)?;
+    if config.as_ref().is_some_and(|config| config.flight_controller.is_some()) {
+        check_real_time(args)?;
+    }
     let conflicts = [(args.signing_key.is_some(), "--signing-key"), (args.params.is_some(), "--params")];
     if let (Some(config), Some((_, option))) = (&config, conflicts.iter().find(|(given, _)| *given)) {
         let why = format!("{option} configures the built-in autopilot; {} has its own settings", config.kind.name());
         return Err(AppError::invalid(why));
     }
     Ok(config)
+}
+
+/// Checks that nothing can stop or stretch simulation time, because a flight controller runs in real time.
+fn check_real_time(args: &Args) -> Result<(), AppError> {
+    let conflicts = [
+        (args.speed != SimulationSpeed::Factor(1.0), format!("--speed {}: a flight controller runs in real time", args.speed)),
+        (!args.lockstep.is_empty(), "--lockstep: a flight controller runs in real time".to_owned()),
+        (args.instances > 1, format!("--instances {}: one flight controller flies one vehicle", args.instances)),
+    ];
+    match conflicts.into_iter().find(|(given, _)| *given) {
+        Some((_, problem)) => Err(AppError::invalid(format!("{problem} (--autopilot px4 with --serial)"))),
+        None => Ok(()),
+    }
 }
 
 fn lateness_json(late: Lateness) -> serde_json::Value {
@@ -306,6 +327,9 @@ fn signing(args: &Args) -> Result<Option<SigningConfig>, AppError> {
     Ok(key.map(|key| SigningConfig { key, unsigned }))
 }
 
+/// Network ports of a flight controller on a serial port.
+const NO_PORTS: (u16, u16) = (0, 0);
+
 /// One vehicle's links and files.
 struct VehicleIo {
     links: Links,
@@ -316,8 +340,12 @@ struct VehicleIo {
 }
 
 impl VehicleIo {
-    fn open(args: &Args, more: u8) -> Result<Self, AppError> {
-        let ports = args.ports.for_vehicle(more);
+    fn open(args: &Args, more: u8, flight_controller: Option<&SerialDevice>) -> Result<Self, AppError> {
+        let mut ports = args.ports.for_vehicle(more);
+        if flight_controller.is_some() {
+            // Its port is not a telemetry radio.
+            ports.serial.clear();
+        }
         let instance = ports.instance;
         let folder = |root: &PathBuf| if args.instances == 1 { root.clone() } else { root.join((instance + 1).to_string()) };
         let store =
@@ -327,14 +355,17 @@ impl VehicleIo {
         let heard = args.signing_key.as_ref().map(|key| SigningStore::for_vehicle(key, instance + 1));
         let kept = VehicleFiles { store, params: params.map(ParamFile::new), signing_store: heard };
         let mut links = Links::open(&ports.resolve(), &args.lockstep)?;
-        let open = |kind: AutopilotKind| {
-            let port = args.autopilot.port(kind, instance, more, args.ports.ephemeral());
-            links.serve_autopilot(kind.protocol(), port)
+        let mut open = |kind: AutopilotKind| {
+            let Some(device) = flight_controller else {
+                let port = args.autopilot.port(kind, instance, more, args.ports.ephemeral());
+                let ports = links.serve_autopilot(kind.protocol(), port)?;
+                links.bound["autopilot_port"] = ports.0.into();
+                return Ok(ports);
+            };
+            links.serve_flight_controller(device)?;
+            Ok::<_, AppError>(NO_PORTS)
         };
-        let autopilot_ports = args.autopilot.kind().map(open).transpose()?;
-        if let Some((port, _)) = autopilot_ports {
-            links.bound["autopilot_port"] = port.into();
-        }
+        let autopilot_ports = args.autopilot.kind().map(&mut open).transpose()?;
         Ok(Self { links, files: kept, instance, autopilot_ports })
     }
 }

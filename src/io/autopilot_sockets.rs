@@ -26,6 +26,7 @@ enum SimulatorSocket {
 }
 
 /// Result of handling a network event.
+#[derive(Debug, PartialEq)]
 pub enum Handled {
     /// The event belonged to the autopilot and led to these changes.
     Changes(Vec<LinkEvent>),

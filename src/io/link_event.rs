@@ -1,5 +1,6 @@
 //! Events on a vehicle's links.
 
+use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_sitl::endpoint::LinkKind;
 
 /// A link change or received data.
@@ -29,6 +30,13 @@ pub enum LinkEvent {
     Closed {
         /// Link number.
         link: u32,
+    },
+    /// An ordinary MAVLink frame from a flight controller on a serial port.
+    FlightControllerFrame {
+        /// Link number.
+        link: u32,
+        /// The frame.
+        frame: Box<ReceivedFrame>,
     },
     /// An external autopilot connected to the simulator interface.
     AutopilotConnected,

@@ -3,8 +3,10 @@
 
 use super::autopilot_sockets::{AutopilotSockets, Handled, SimulatorProtocol};
 use super::clock::Stopwatch;
+use super::flight_controller_port::FlightControllerPort;
 use super::link_event::LinkEvent;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
+use super::serial::SerialDevice;
 use super::vehicle_ports::VehiclePorts;
 use crate::errors::AppError;
 use spandrel_mavlink::codec::Decoder;
@@ -26,6 +28,13 @@ enum LinkRoute {
     Stream { stream: StreamId, decoder: Decoder },
 }
 
+/// Connection to an external autopilot: its simulator interface and its MAVLink link.
+#[derive(Debug)]
+enum AutopilotConnection {
+    Process(AutopilotSockets),
+    FlightController(FlightControllerPort),
+}
+
 /// All of a vehicle's links.
 #[derive(Debug)]
 pub struct Links {
@@ -37,7 +46,7 @@ pub struct Links {
     lockstep: Vec<SocketAddr>,
     limit: Option<f64>,
     changes: VecDeque<LinkEvent>,
-    autopilot: Option<AutopilotSockets>,
+    autopilot: Option<AutopilotConnection>,
     opened: u32,
     bad_bytes: u64,
     stopwatch: Stopwatch,
@@ -58,7 +67,7 @@ impl Links {
         let sdk = bind(&mut hub, ports.sdk.map(|_| 0), "--sdk")?;
         let tcp = ports.tcp.map(|port| hub.serve(ports.listen, port, "--tcp-port")).transpose()?;
         for device in &ports.serial {
-            hub.serve_serial(device)?;
+            hub.serve_serial(device, StreamOrigin::Serial)?;
         }
         let port = |socket: Option<SocketId>| socket.map(|socket| hub.port(socket));
         let bound = serde_json::json!({ "system_id": ports.system_id, "gcs_port": port(gcs), "payload_port": port(payload), "tcp_port": tcp });
@@ -98,28 +107,44 @@ impl Links {
         let link = self.next_number();
         let sockets = AutopilotSockets::open(&mut self.hub, protocol, port, link)?;
         let ports = (sockets.simulator_port(&self.hub), sockets.mavlink_port(&self.hub));
-        self.autopilot = Some(sockets);
-        self.changes.push_back(LinkEvent::Opened {
-            link,
-            kind: LinkKind::Autopilot,
-            lockstep: false,
-            learned: false,
-            limit: None,
-        });
+        self.autopilot = Some(AutopilotConnection::Process(sockets));
+        self.announce_autopilot(link);
         Ok(ports)
+    }
+
+    /// Opens the serial port of a flight controller, which carries both its simulator interface and its MAVLink link.
+    ///
+    /// # Errors
+    /// Returns an error if the port cannot be opened.
+    pub fn serve_flight_controller(&mut self, device: &SerialDevice) -> Result<(), AppError> {
+        let link = self.next_number();
+        self.hub.serve_serial(device, StreamOrigin::FlightController)?;
+        self.autopilot = Some(AutopilotConnection::FlightController(FlightControllerPort::new(link)));
+        self.announce_autopilot(link);
+        Ok(())
+    }
+
+    /// Announces the autopilot's MAVLink link, whose capacity the simulator does not limit: it sends little on it.
+    fn announce_autopilot(&mut self, link: u32) {
+        let kind = LinkKind::Autopilot;
+        self.changes.push_back(LinkEvent::Opened { link, kind, lockstep: false, learned: false, limit: None });
     }
 
     /// Sends bytes to the autopilot's simulator interface.
     pub fn send_to_autopilot(&mut self, bytes: Vec<u8>) {
-        if let Some(autopilot) = &self.autopilot {
-            autopilot.send(&mut self.hub, bytes);
+        match &self.autopilot {
+            Some(AutopilotConnection::Process(sockets)) => sockets.send(&mut self.hub, bytes),
+            Some(AutopilotConnection::FlightController(port)) => port.send(&self.hub, bytes),
+            None => {}
         }
     }
 
-    /// Closes the connection to an autopilot's simulator interface, so that another process can connect.
+    /// Closes the connection to an autopilot's simulator interface, so that another process can connect. The serial port of a flight
+    /// controller stays open.
     pub fn disconnect_autopilot(&mut self) {
-        if let Some(autopilot) = &mut self.autopilot {
-            autopilot.disconnect(&mut self.hub);
+        match &mut self.autopilot {
+            Some(AutopilotConnection::Process(sockets)) => sockets.disconnect(&mut self.hub),
+            Some(AutopilotConnection::FlightController(_)) | None => {}
         }
     }
 
@@ -178,18 +203,24 @@ impl Links {
                 self.hub.send(*socket, *peer, &bytes)
             }
             Some(LinkRoute::Stream { stream, .. }) => self.hub.send_stream(*stream, bytes),
-            None => {
-                if let Some(autopilot) = self.autopilot.as_ref().filter(|autopilot| autopilot.link() == link) {
-                    autopilot.send_mavlink(&mut self.hub, &bytes);
+            None => match &self.autopilot {
+                Some(AutopilotConnection::Process(sockets)) if sockets.link() == link => {
+                    sockets.send_mavlink(&mut self.hub, &bytes)
                 }
-            }
+                Some(AutopilotConnection::FlightController(port)) if port.link() == link => port.send(&self.hub, bytes),
+                Some(AutopilotConnection::Process(_) | AutopilotConnection::FlightController(_)) | None => {}
+            },
         }
     }
 
-    /// Returns the number of bytes from TCP clients that were not part of a frame. The vehicle counts such bytes in
+    /// Returns the number of bytes from TCP clients and serial ports that were not part of a frame. The vehicle counts such bytes in
     /// datagrams.
     pub fn bad_bytes(&self) -> u64 {
-        self.bad_bytes
+        let from_controller = match &self.autopilot {
+            Some(AutopilotConnection::FlightController(port)) => port.bad_bytes(),
+            Some(AutopilotConnection::Process(_)) | None => 0,
+        };
+        self.bad_bytes + from_controller
     }
 
     /// Returns the number of events and frames dropped because a queue was full.
@@ -216,15 +247,17 @@ impl Links {
     }
 
     fn handle_event(&mut self, arrival: NetEvent, wall: Duration) {
-        let arrival = match &mut self.autopilot {
-            Some(autopilot) => match autopilot.handle_event(arrival, &mut self.hub) {
-                Handled::Changes(changes) => {
-                    self.changes.extend(changes);
-                    return;
-                }
-                Handled::NotMine(arrival) => arrival,
-            },
-            None => arrival,
+        let handled = match &mut self.autopilot {
+            Some(AutopilotConnection::Process(sockets)) => sockets.handle_event(arrival, &mut self.hub),
+            Some(AutopilotConnection::FlightController(port)) => port.handle_event(arrival),
+            None => Handled::NotMine(arrival),
+        };
+        let arrival = match handled {
+            Handled::Changes(changes) => {
+                self.changes.extend(changes);
+                return;
+            }
+            Handled::NotMine(arrival) => arrival,
         };
         match arrival {
             NetEvent::Datagram { socket, from, bytes } => self.handle_datagram(socket, from, bytes, wall),
@@ -256,7 +289,7 @@ impl Links {
         let (kind, limit) = match origin {
             StreamOrigin::Tcp(_) => (LinkKind::Tcp, self.limit),
             StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.capacity_bytes_s())),
-            StreamOrigin::Autopilot(_) => (LinkKind::Autopilot, None),
+            StreamOrigin::Autopilot(_) | StreamOrigin::FlightController(_) => (LinkKind::Autopilot, None),
         };
         self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
         self.links_by_stream.insert(stream, link);

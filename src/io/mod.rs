@@ -10,6 +10,7 @@ pub mod children;
 pub mod clock;
 pub mod controller;
 pub mod files;
+pub mod flight_controller_port;
 pub mod flight_logs;
 pub mod key;
 pub mod link_event;

@@ -32,6 +32,14 @@ pub struct SocketId(usize);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StreamId(u32);
 
+#[cfg(test)]
+impl StreamId {
+    /// Creates an ID for a test without sockets.
+    pub fn for_test(number: u32) -> Self {
+        Self(number)
+    }
+}
+
 /// Origin of a byte stream.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum StreamOrigin {
@@ -39,6 +47,8 @@ pub enum StreamOrigin {
     Tcp(SocketAddr),
     /// A device on a serial port.
     Serial(SerialDevice),
+    /// A flight controller on a serial port.
+    FlightController(SerialDevice),
     /// An autopilot that connected to the simulator interface.
     Autopilot(SocketAddr),
 }
@@ -48,6 +58,7 @@ impl std::fmt::Display for StreamOrigin {
         match self {
             Self::Tcp(from) => write!(f, "TCP client {from}"),
             Self::Serial(device) => write!(f, "serial port {device}"),
+            Self::FlightController(device) => write!(f, "flight controller on {device}"),
             Self::Autopilot(from) => write!(f, "autopilot at {from}"),
         }
     }
@@ -178,11 +189,11 @@ impl SocketHub {
         Ok(bound)
     }
 
-    /// Opens a serial port, and reopens it whenever it disconnects.
+    /// Opens a serial port, and reopens it whenever it disconnects. `origin` is the kind of device on it.
     ///
     /// # Errors
     /// Returns an error if the port cannot be opened.
-    pub fn serve_serial(&mut self, device: &SerialDevice) -> Result<(), AppError> {
+    pub fn serve_serial(&mut self, device: &SerialDevice, origin: fn(SerialDevice) -> StreamOrigin) -> Result<(), AppError> {
         let port = device.open().map_err(|error| AppError::failed(format!("--serial {device}: {error}")))?;
         // Serial ports are numbered downward from the maximum to avoid collisions with the numbers of TCP clients.
         let stream = StreamId(u32::MAX - self.serial_count);
@@ -190,7 +201,7 @@ impl SocketHub {
         let (queue, device) = (self.sender.clone(), device.clone());
         std::thread::spawn(move || {
             let give = |bytes: &[u8]| queue.send(QueuedEvent::Event(NetEvent::Bytes(stream, bytes.to_vec()))).is_ok();
-            let begin = || register_stream(stream, StreamOrigin::Serial(device.clone()), None, &queue);
+            let begin = || register_stream(stream, origin(device.clone()), None, &queue);
             let end = || queue.send(QueuedEvent::Event(NetEvent::Closed(stream))).is_ok();
             serial::run_with_reconnect(&device, port, begin, give, end);
         });

@@ -29,6 +29,11 @@ impl SerialDevice {
         f64::from(self.baud) / BITS_PER_BYTE
     }
 
+    /// Returns the baud rate that gives a capacity, rounded up.
+    pub fn baud_for(capacity_bytes_s: f64) -> u32 {
+        (capacity_bytes_s * BITS_PER_BYTE).ceil() as u32
+    }
+
     /// Opens the port in raw mode, without flow control or parity.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! Connects one vehicle's sans-IO core to its sockets, its files and the wall clock.
 
+use super::autopilot::flight_controller::FrameUse;
 use super::autopilot::host::AutopilotHost;
 use super::clock::{self, Stopwatch};
 use super::link_event::LinkEvent;
@@ -11,7 +12,7 @@ use super::params::ParamFile;
 use super::pause::PauseSwitch;
 use super::signing_store::SigningStore;
 use super::store::FileStore;
-use crate::errors::{AppError, AutopilotFailure};
+use crate::errors::AppError;
 use spandrel_mavlink::signing::{SigningKey, stamp};
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::files::job::FileError;
@@ -25,6 +26,8 @@ const MAX_SOCKET_WAIT: Duration = Duration::from_millis(100);
 const MIN_SLEEP: Duration = Duration::from_millis(2);
 /// Wall time between readings before an external autopilot's first answer: PX4's own simulators send at this rate.
 const START_STEP: Duration = Duration::from_millis(4);
+/// Delay beyond which an external autopilot that starts in real time does not catch up.
+const MAX_START_DELAY: Duration = Duration::from_millis(100);
 /// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
 /// to 5 s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
@@ -73,6 +76,7 @@ struct AutopilotShell {
     host: AutopilotHost,
     last_step: Duration,
     connection_closed: bool,
+    pause_reported: bool,
 }
 
 impl VehicleShell {
@@ -134,13 +138,25 @@ impl VehicleShell {
     pub fn start_autopilot(&mut self, mut host: AutopilotHost) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
         host.start(wall)?;
-        self.autopilot = Some(AutopilotShell { host, last_step: wall, connection_closed: false });
+        self.autopilot = Some(AutopilotShell { host, last_step: wall, connection_closed: false, pause_reported: false });
         Ok(())
     }
 
     /// Pauses the simulation whenever this flag is set.
     pub fn set_pause_switch(&mut self, still: PauseSwitch) {
         self.pause = still;
+    }
+
+    /// Returns whether the simulation can pause. A flight controller's clock cannot be stopped: without readings, its estimator would
+    /// fail.
+    fn can_pause(&mut self) -> bool {
+        let Some(autopilot) = self.autopilot.as_mut().filter(|autopilot| autopilot.host.is_flight_controller()) else {
+            return true;
+        };
+        if !std::mem::replace(&mut autopilot.pause_reported, true) {
+            tracing::warn!("the simulation does not pause: a flight controller runs in real time");
+        }
+        false
     }
 
     /// Sends heartbeats and discards incoming data while the simulation is paused.
@@ -171,7 +187,7 @@ impl VehicleShell {
     /// # Errors
     /// Returns an error if a lockstep peer has disappeared.
     pub fn run_until(&mut self, end: SimTime) -> Result<(), AppError> {
-        if self.pause.is_paused() {
+        if self.pause.is_paused() && self.can_pause() {
             self.run_paused();
             return Ok(());
         }
@@ -236,27 +252,34 @@ impl VehicleShell {
         if std::mem::take(&mut autopilot.connection_closed)
             && !matches!(self.core.autopilot_state(), Some(AutopilotState::Disconnected))
         {
-            return Err(autopilot.host.failure(AutopilotFailure::Exited, "has closed its connection to the simulator"));
+            return Err(autopilot.host.disconnected());
         }
+        for message in autopilot.host.messages(wall) {
+            self.core.send_to_autopilot(&message);
+        }
+        let mut next_step = wall;
         let pause = match self.core.autopilot_state() {
             None | Some(AutopilotState::Running { .. }) => return Ok(false),
             Some(AutopilotState::Disconnected) => MAX_SOCKET_WAIT,
-            Some(AutopilotState::Starting { has_answered: true, is_waiting }) => {
+            Some(AutopilotState::Starting { has_answered: true, in_real_time: false, is_waiting }) => {
                 if is_waiting {
                     MAX_SOCKET_WAIT
                 } else {
                     Duration::ZERO
                 }
             }
-            // Before its first answer, the autopilot starts in real time.
-            Some(AutopilotState::Starting { has_answered: false, is_waiting }) => {
-                let left = START_STEP.saturating_sub(wall.saturating_sub(autopilot.last_step));
-                if is_waiting { MAX_SOCKET_WAIT } else { left }
+            // Before its first answer, the autopilot starts in real time. A flight controller always does.
+            Some(AutopilotState::Starting { in_real_time, is_waiting, .. }) => {
+                let period = self.core.autopilot_period().filter(|_| in_real_time);
+                let step = period.map_or(START_STEP, |period| Duration::from_nanos(period.ns().unsigned_abs()));
+                autopilot.last_step = autopilot.last_step.max(wall.saturating_sub(MAX_START_DELAY));
+                next_step = autopilot.last_step + step;
+                if is_waiting { MAX_SOCKET_WAIT } else { next_step.saturating_sub(wall) }
             }
         };
         self.pacer.resync(wall, self.core.now());
         if pause.is_zero() {
-            autopilot.last_step = wall;
+            autopilot.last_step = next_step;
             self.core.handle_timeout(self.core.now());
         }
         self.send_outgoing();
@@ -333,10 +356,16 @@ impl VehicleShell {
             }
             LinkEvent::Bytes { link, bytes } => self.core.handle_datagram(LinkId(link), &bytes),
             LinkEvent::Closed { link } => self.core.close_link(LinkId(link)),
-            LinkEvent::AutopilotConnected => {
-                tracing::info!("the autopilot has connected");
-                self.core.connect_autopilot();
+            LinkEvent::FlightControllerFrame { link, frame } => {
+                let wall = self.stopwatch.elapsed();
+                let frame_use = self.autopilot.as_mut().map(|autopilot| autopilot.host.handle_frame(&frame, wall));
+                match frame_use {
+                    Some(FrameUse::Consumed) => {}
+                    Some(FrameUse::Rebooted) => self.connect_autopilot(),
+                    Some(FrameUse::Forward) | None => self.core.handle_datagram(LinkId(link), &frame.bytes),
+                }
             }
+            LinkEvent::AutopilotConnected => self.connect_autopilot(),
             LinkEvent::AutopilotBytes(bytes) => {
                 self.core.handle_autopilot_bytes(&bytes);
                 if let Some(autopilot) = &mut self.autopilot {
@@ -349,6 +378,15 @@ impl VehicleShell {
                 }
             }
         }
+    }
+
+    /// Starts the exchange with an autopilot that has connected or rebooted.
+    fn connect_autopilot(&mut self) {
+        tracing::info!("the autopilot has connected");
+        if let Some(autopilot) = &mut self.autopilot {
+            autopilot.host.finish_reboot();
+        }
+        self.core.connect_autopilot();
     }
 
     /// Waits for the next tick or for the lockstep peers.

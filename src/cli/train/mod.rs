@@ -24,6 +24,12 @@ use train_run::TrainRun;
 /// # Errors
 /// Returns an error if files or ports are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
+    if args.autopilot.flight_controller(&args.ports)?.is_some() {
+        return Err(AppError::invalid(
+            "--autopilot px4 with --serial: train pauses and restarts the simulation, and a flight controller cannot follow; run \
+             sim, monitor and view instead (docs: \"A flight controller on your desk\")",
+        ));
+    }
     // Errors in the files are reported before any process starts.
     files::scenario(args.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO))?;
     files::vehicle(&args.vehicle)?;

@@ -2,6 +2,7 @@
 
 use crate::errors::AppError;
 use crate::io::autopilot_sockets::SimulatorProtocol;
+use crate::io::serial::SerialDevice;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::backend::ardupilot::{self, ArduPilotInterface};
 use spandrel_sitl::backend::interface::SimulatorInterface;
@@ -31,12 +32,16 @@ pub struct AutopilotConfig {
     pub kind: AutopilotKind,
     /// Location of the program, from the command line.
     pub location: Option<PathBuf>,
+    /// Serial port of a flight controller that runs the autopilot; `None` if a process on this machine runs it.
+    pub flight_controller: Option<SerialDevice>,
     /// Whether the user starts the program.
     pub wait: bool,
     /// Rate of the readings, Hz; `None` for the autopilot's default.
     pub rate_hz: Option<u32>,
     /// Working directory of the process.
     pub folder: PathBuf,
+    /// Whether that folder is kept.
+    pub keeps_folder: bool,
     /// Wall time within which the autopilot must connect, answer for the first time, and answer each time after that.
     pub timeout: Duration,
 }

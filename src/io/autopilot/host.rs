@@ -2,9 +2,13 @@
 
 use super::config::{AutopilotConfig, AutopilotKind};
 use super::find::{AutopilotProgram, find};
+use super::flight_controller::{FlightController, FrameUse};
 use super::process::{AutopilotProcess, OUTPUT_FILE, search_path, write_files};
 use super::record;
 use crate::errors::{AppError, AutopilotFailure};
+use crate::io::serial::SerialDevice;
+use spandrel_mavlink::codec::ReceivedFrame;
+use spandrel_mavlink::dialect::MavMessage;
 use spandrel_sitl::backend::launch::Launch;
 use spandrel_sitl::endpoint::relay::FirmwareVersion;
 use spandrel_sitl::sim::{AutopilotState, Sim};
@@ -34,6 +38,7 @@ enum Stage {
 pub struct AutopilotHost {
     kind: AutopilotKind,
     program: Option<AutopilotProgram>,
+    flight_controller: Option<(SerialDevice, FlightController)>,
     launch: Launch,
     folder: PathBuf,
     /// Whether the user starts the process.
@@ -57,23 +62,67 @@ impl AutopilotHost {
         let program = find(config.kind, config.location.as_deref());
         let program = if config.wait { program.ok() } else { Some(program?) };
         write_files(&launch, &folder)?;
-        let stage = (Stage::Connecting, Duration::ZERO);
-        let kind = config.kind;
-        Ok(Self {
-            kind,
+        Ok(Self::stopped(config, launch, folder, program))
+    }
+
+    /// Writes the files for a flight controller on a serial port. No process is started.
+    ///
+    /// # Errors
+    /// Returns an error if a file cannot be written.
+    pub fn of_flight_controller(
+        config: &AutopilotConfig,
+        device: SerialDevice,
+        launch: Launch,
+        folder: PathBuf,
+        system_id: u8,
+    ) -> Result<Self, AppError> {
+        write_files(&launch, &folder)?;
+        for file in launch.files.iter().filter(|_| config.keeps_folder) {
+            tracing::info!("parameters for the flight controller: {}", folder.join(&file.name).display());
+        }
+        let flight_controller = Some((device, FlightController::new(system_id)));
+        Ok(Self { flight_controller, ..Self::stopped(config, launch, folder, None) })
+    }
+
+    fn stopped(config: &AutopilotConfig, launch: Launch, folder: PathBuf, program: Option<AutopilotProgram>) -> Self {
+        Self {
+            kind: config.kind,
             program,
+            flight_controller: None,
             launch,
             folder,
             wait: config.wait,
             timeout: config.timeout,
             process: None,
-            stage,
+            stage: (Stage::Connecting, Duration::ZERO),
             warned: false,
             last_exit_check: Duration::ZERO,
             starts: 0,
             recorded: None,
             logged: None,
-        })
+        }
+    }
+
+    /// Returns whether the autopilot runs on a flight controller.
+    pub fn is_flight_controller(&self) -> bool {
+        self.flight_controller.is_some()
+    }
+
+    /// Returns the messages that are due for a flight controller.
+    pub fn messages(&mut self, wall: Duration) -> Vec<MavMessage> {
+        self.flight_controller.as_mut().map_or_else(Vec::new, |(_, controller)| controller.messages(wall))
+    }
+
+    /// Takes a frame of a flight controller.
+    pub fn handle_frame(&mut self, frame: &ReceivedFrame, wall: Duration) -> FrameUse {
+        self.flight_controller.as_mut().map_or(FrameUse::Forward, |(_, controller)| controller.handle(frame, wall))
+    }
+
+    /// Records that a flight controller has started again.
+    pub fn finish_reboot(&mut self) {
+        if let Some((_, controller)) = &mut self.flight_controller {
+            controller.finish_reboot();
+        }
     }
 
     /// Starts the process or, if the user starts it, prints the command.
@@ -84,6 +133,9 @@ impl AutopilotHost {
         self.stage = (Stage::Connecting, wall);
         self.warned = false;
         self.starts += 1;
+        if self.is_flight_controller() {
+            return Ok(());
+        }
         match &self.program {
             Some(program) if !self.wait => {
                 self.process = Some(AutopilotProcess::start(self.kind, program, &self.launch, &self.folder)?);
@@ -93,12 +145,15 @@ impl AutopilotHost {
         Ok(())
     }
 
-    /// Ends the process and starts another one.
+    /// Ends the process and starts another one, or reboots the flight controller.
     ///
     /// # Errors
     /// Returns an error if the process cannot be started.
     pub fn restart(&mut self, reason: &str, wall: Duration) -> Result<(), AppError> {
-        tracing::info!("restarting {}: {reason}", self.kind.name());
+        tracing::info!("restarting {}: {reason}", self.name());
+        if let Some((_, controller)) = &mut self.flight_controller {
+            controller.begin_reboot(wall);
+        }
         if let Some(mut process) = self.process.take() {
             process.end();
         }
@@ -135,11 +190,8 @@ impl AutopilotHost {
             AutopilotState::Disconnected => Stage::Connecting,
             AutopilotState::Starting { has_answered: false, .. } => Stage::FirstAnswer,
             AutopilotState::Starting { is_waiting, .. } | AutopilotState::Running { is_waiting } => {
-                if is_waiting {
-                    Stage::Waiting
-                } else {
-                    Stage::Answered
-                }
+                // A flight controller sends motor commands all the time.
+                if is_waiting || self.is_flight_controller() { Stage::Waiting } else { Stage::Answered }
             }
         };
         if stage != self.stage.0 || stage == Stage::Answered {
@@ -169,12 +221,22 @@ impl AutopilotHost {
 
     fn check_silence(&mut self, stage: Stage, silent: Duration) -> Result<(), AppError> {
         let seconds = self.timeout.as_secs();
+        let is_controller = self.is_flight_controller();
         let (failure, what) = match stage {
-            Stage::Connecting if self.wait => return Ok(()),
+            Stage::Connecting if self.waits_for_user() => return Ok(()),
+            Stage::Connecting if is_controller => (AutopilotFailure::NoAnswer, format!("has not rebooted within {seconds} s")),
             Stage::Connecting => (AutopilotFailure::NoAnswer, format!("has not connected to the simulator within {seconds} s")),
+            Stage::FirstAnswer if is_controller => (
+                AutopilotFailure::NoAnswer,
+                format!(
+                    "has not sent motor commands within {seconds} s: set SYS_HITL to 1, select a HIL airframe, restart it, and \
+                     check the baud rate (docs: \"A flight controller on your desk\")"
+                ),
+            ),
             Stage::FirstAnswer => {
                 (AutopilotFailure::NoAnswer, format!("has connected but has not sent motor commands within {seconds} s"))
             }
+            Stage::Waiting if is_controller => (AutopilotFailure::Silent, format!("has not sent motor commands for {seconds} s")),
             Stage::Waiting => (AutopilotFailure::Silent, format!("has not answered for {seconds} s")),
             Stage::Answered => return Ok(()),
         };
@@ -182,23 +244,39 @@ impl AutopilotHost {
             return Err(self.failure(failure, &what));
         }
         if stage == Stage::Waiting && silent > SILENCE_WARNING && !std::mem::replace(&mut self.warned, true) {
-            tracing::warn!(
-                "{} has not answered for {} s; simulation time is stopped",
-                self.kind.name(),
-                SILENCE_WARNING.as_secs()
-            );
+            let effect = if is_controller { "its motors are stopped" } else { "simulation time is stopped" };
+            tracing::warn!("{} has not answered for {} s; {effect}", self.name(), SILENCE_WARNING.as_secs());
         }
         Ok(())
     }
 
+    /// Returns whether only the user can continue.
+    fn waits_for_user(&self) -> bool {
+        self.wait || self.flight_controller.as_ref().is_some_and(|(_, controller)| controller.needs_user())
+    }
+
+    /// Returns the name in messages.
+    fn name(&self) -> String {
+        match &self.flight_controller {
+            Some((device, _)) => format!("the flight controller on {device}"),
+            None => self.kind.name().to_owned(),
+        }
+    }
+
+    /// Creates the error for a closed connection.
+    pub fn disconnected(&self) -> AppError {
+        let what = if self.is_flight_controller() { "has disconnected" } else { "has closed its connection to the simulator" };
+        self.failure(AutopilotFailure::Exited, what)
+    }
+
     /// Creates an error that names the file with the output.
-    pub fn failure(&self, failure: AutopilotFailure, what: &str) -> AppError {
+    fn failure(&self, failure: AutopilotFailure, what: &str) -> AppError {
         let output = if self.process.is_some() {
             format!("; its output is in {}", self.folder.join(OUTPUT_FILE).display())
         } else {
             String::new()
         };
-        AppError::Autopilot(failure, format!("{} {what}{output}", self.kind.name()))
+        AppError::Autopilot(failure, format!("{} {what}{output}", self.name()))
     }
 
     /// Logs the version of the autopilot, with a warning if Spandrel has not been flown with it.

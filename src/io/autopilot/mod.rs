@@ -2,6 +2,7 @@
 
 pub mod config;
 pub mod find;
+pub mod flight_controller;
 pub mod host;
 mod process;
 mod record;

@@ -45,6 +45,8 @@ pub enum InterfaceEvent {
     Restarted,
     /// Data that the interface does not allow, with a description for the log. The data was ignored.
     Rejected(String),
+    /// A condition that affects the flight, with a description for the log.
+    Warning(String),
 }
 
 /// Copies a [`SimulatorInterface`] behind a pointer. Implemented for every interface that is `Clone`.
@@ -69,6 +71,12 @@ impl Clone for Box<dyn SimulatorInterface> {
 pub trait SimulatorInterface: CloneInterface + std::fmt::Debug + Send {
     /// Rate at which the autopilot takes sensor readings, Hz.
     fn rate_hz(&self) -> f64;
+
+    /// Returns whether the autopilot has its own clock, which runs in real time: hardware in the loop. Readings must then always be
+    /// sent in real time, also while the autopilot starts.
+    fn runs_in_real_time(&self) -> bool {
+        false
+    }
 
     /// Handles a new connection or a restarted process: discards incomplete data and waits for a first answer again.
     fn connect(&mut self);

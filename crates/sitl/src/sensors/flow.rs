@@ -14,7 +14,7 @@ pub const MIN_ILLUMINANCE_LUX: f64 = 15.0;
 /// Scale error, constant over a session, as a fraction of velocity (estimate).
 pub const SCALE_ERROR: f64 = 0.01;
 /// Sample rate, Hz (estimate: typical for on-board flow sensors).
-const SAMPLE_RATE_HZ: f64 = 20.0;
+pub(crate) const SAMPLE_RATE_HZ: f64 = 20.0;
 
 /// State of the flow sensor.
 #[derive(Debug, Clone, PartialEq)]

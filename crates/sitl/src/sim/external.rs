@@ -10,7 +10,7 @@ use crate::endpoint::relay::{AutopilotReport, RelayRules};
 use crate::physics::{Actuators, MAX_ROTORS};
 use crate::sensors::ImuReading;
 use spandrel_mavlink::contract::contact::ContactKind;
-use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::site::Site;
@@ -28,6 +28,8 @@ pub enum AutopilotState {
         /// Whether the autopilot has answered. Before that, readings must be sent in real time, because the autopilot starts only
         /// while its clock runs.
         has_answered: bool,
+        /// Whether readings must be sent in real time throughout, because the autopilot's own clock runs in real time.
+        in_real_time: bool,
         /// Whether the answer to the latest readings is outstanding.
         is_waiting: bool,
     },
@@ -64,7 +66,11 @@ impl Sim {
         let is_waiting = autopilot.interface.is_waiting();
         Some(match autopilot.phase() {
             Phase::Disconnected => AutopilotState::Disconnected,
-            Phase::Starting { .. } => AutopilotState::Starting { has_answered: autopilot.interface.has_answered(), is_waiting },
+            Phase::Starting { .. } => AutopilotState::Starting {
+                has_answered: autopilot.interface.has_answered(),
+                in_real_time: autopilot.interface.runs_in_real_time(),
+                is_waiting,
+            },
             Phase::Running => AutopilotState::Running { is_waiting },
         })
     }
@@ -73,6 +79,19 @@ impl Sim {
     #[must_use]
     pub fn autopilot_report(&self) -> Option<&AutopilotReport> {
         Some(&self.controller.external()?.endpoint.report)
+    }
+
+    /// Returns the interval between the readings that the external autopilot gets; `None` with the built-in one.
+    #[must_use]
+    pub fn autopilot_period(&self) -> Option<SimTime> {
+        Some(self.controller.external()?.autopilot.period())
+    }
+
+    /// Sends a message from the simulator's component to the external autopilot.
+    pub fn send_to_autopilot(&mut self, message: &MavMessage) {
+        if let Some(external) = self.controller.external_mut() {
+            external.endpoint.send_sensor_message(message);
+        }
     }
 
     /// Starts the exchange with a process that has connected to the simulator interface.
@@ -89,9 +108,16 @@ impl Sim {
         let now = self.now;
         let Some(external) = self.controller.external_mut() else { return };
         external.autopilot.interface.receive(bytes);
+        self.handle_interface_events(now);
+    }
+
+    fn handle_interface_events(&mut self, now: SimTime) {
+        let Some(external) = self.controller.external_mut() else { return };
         while let Some(event) = external.autopilot.interface.poll_event() {
             match event {
-                InterfaceEvent::Rejected(problem) => self.events.push_back(SimEvent::AutopilotProblem { problem }),
+                InterfaceEvent::Rejected(problem) | InterfaceEvent::Warning(problem) => {
+                    self.events.push_back(SimEvent::AutopilotProblem { problem });
+                }
                 InterfaceEvent::Restarted => {
                     external.autopilot.begin_start(now);
                     external.endpoint.forget_autopilot();
@@ -172,6 +198,7 @@ impl Sim {
         while let Some(message) = external.autopilot.interface.poll_message() {
             external.endpoint.send_sensor_message(&message);
         }
+        self.handle_interface_events(self.now);
     }
 
     /// Integrates the inertial sensors over a physics step.

@@ -83,18 +83,10 @@ impl Px4Interface {
         if !answer.lockstep || answer.time_us >= self.last_sent_us {
             self.waiting = false;
         }
-        let controls = &answer.controls[..self.rotor_count.min(answer.controls.len())];
-        if controls.iter().any(|control| !control.is_finite()) {
-            self.rejected_commands += 1;
-            return;
+        match answer.actuators(self.rotor_count) {
+            Some(actuators) => self.actuators = actuators,
+            None => self.rejected_commands += 1,
         }
-        let mut actuators = Actuators { armed: answer.armed, ..Actuators::default() };
-        if answer.armed {
-            for (motor, control) in actuators.motors.iter_mut().zip(controls) {
-                *motor = f64::from(*control).clamp(0.0, 1.0);
-            }
-        }
-        self.actuators = actuators;
     }
 
     /// Reports each kind of invalid data when it occurs first.

@@ -1,10 +1,13 @@
 //! Decodes what PX4 sends on the simulator interface: motor commands, and nothing else of interest.
 
+use crate::physics::Actuators;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, HIL_ACTUATOR_CONTROLS_DATA};
 
 use mavlink::MessageData;
 
+/// ID of the message with the motor commands.
+pub const MOTOR_COMMANDS_ID: u32 = HIL_ACTUATOR_CONTROLS_DATA::ID;
 /// Number of outputs in HIL_ACTUATOR_CONTROLS.
 const OUTPUT_COUNT: usize = 16;
 /// Length of HIL_ACTUATOR_CONTROLS, and the positions of its fields.
@@ -43,6 +46,21 @@ impl Answer {
             armed: payload.get(MODE_AT)? & ARMED_BIT != 0,
             controls,
         })
+    }
+
+    /// Returns the motor commands for an aircraft with `rotor_count` rotors. `None` if one of them is not a finite number.
+    pub(super) fn actuators(&self, rotor_count: usize) -> Option<Actuators> {
+        let controls = &self.controls[..rotor_count.min(self.controls.len())];
+        if controls.iter().any(|control| !control.is_finite()) {
+            return None;
+        }
+        let mut actuators = Actuators { armed: self.armed, ..Actuators::default() };
+        if self.armed {
+            for (motor, control) in actuators.motors.iter_mut().zip(controls) {
+                *motor = f64::from(*control).clamp(0.0, 1.0);
+            }
+        }
+        Some(actuators)
     }
 }
 
@@ -90,7 +108,7 @@ impl Receiver {
 
     fn accept(&mut self, frame: &ReceivedFrame) -> Option<Answer> {
         match frame.message_id {
-            HIL_ACTUATOR_CONTROLS_DATA::ID => Answer::read(&frame.payload(LENGTH)),
+            MOTOR_COMMANDS_ID => Answer::read(&frame.payload(LENGTH)),
             // PX4 announces itself with a heartbeat and requests the true state. Neither needs a reply.
             HEARTBEAT_DATA::ID | COMMAND_LONG_DATA::ID => None,
             _ => {
