@@ -56,7 +56,7 @@ impl Px4HilInterface {
             ranges: RangeFinders::new(&vehicle.sensors),
             encoder: Encoder::new(system_id, READINGS_COMPONENT),
             receiver: Receiver::default(),
-            flow: FlowIntegrator::new(),
+            flow: FlowIntegrator::new(vehicle.sensors.flow_velocity_m_s),
             last_sent: None,
             answered: false,
             has_new_commands: false,
@@ -136,7 +136,7 @@ impl SimulatorInterface for Px4HilInterface {
 
     fn connect(&mut self) {
         self.receiver = Receiver::default();
-        self.flow = FlowIntegrator::new();
+        self.flow.restart();
         self.last_sent = None;
         self.answered = false;
         self.has_new_commands = false;
