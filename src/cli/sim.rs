@@ -19,9 +19,10 @@ use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
 use crate::io::signing_store::SigningStore;
 use crate::io::stop::StopRequest;
 use crate::io::store::FileStore;
-use spandrel_model::scenario::AfterCrash;
+use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::site::{Site, gltf};
 use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::endpoint::LinkKind;
 use spandrel_sitl::sim::{Sim, SimConfig};
 use std::net::SocketAddr;
@@ -226,45 +227,24 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
         tracing::info!("{} with {}, seed {seed}, ports {}", scenario.name, vehicle.name, door.links.bound);
     }
-    let shells: Vec<VehicleShell> = doors
-        .into_iter()
-        .map(|VehicleIo { links, files: kept, instance, autopilot_ports }| {
-            let config = SimConfig {
-                scenario: scenario.clone(),
-                vehicle: vehicle.clone(),
-                seed,
-                instance,
-                flavor: args.flavor.display_name(),
-                after_crash: args.after_crash.rule(),
-            };
-            let facts = SiteFacts { scenario: &scenario, vehicle: &vehicle, site: &site };
-            let speed_factor = args.speed.client_speed_factor();
-            let setup = autopilot.as_ref().zip(autopilot_ports).map(|(autopilot, ports)| {
-                AutopilotSetup::new(autopilot, &facts, instance, ports, speed_factor, args.instances > 1)
-            });
-            let setup = setup.transpose()?;
-            let sim = match &setup {
-                Some(setup) => {
-                    Sim::with_external_autopilot(config, site.clone(), setup.interface(&vehicle)?, setup.relay_rules())
-                }
-                None => Sim::new(config, site.clone()),
-            };
-            let mut shell = VehicleShell::new(sim, links, args.speed, kept, signing.clone())?;
-            if let Some(setup) = setup {
-                shell.start_autopilot(setup.host()?)?;
-            }
-            shell.set_pause_switch(still.clone());
-            if args.camera == AnnouncedComponents::Off {
-                shell.core.mute_camera_heartbeat();
-            }
-            Ok(shell)
-        })
-        .collect::<Result<_, AppError>>()?;
+    let parts = FlightParts { args, scenario: &scenario, vehicle: &vehicle, site: &site, seed, autopilot: autopilot.as_ref() };
+    let shell = |io: VehicleIo| {
+        let mut shell = parts.shell(io, signing.clone())?;
+        shell.set_pause_switch(still.clone());
+        Ok(shell)
+    };
+    let shells = doors.into_iter().map(shell).collect::<Result<Vec<_>, AppError>>()?;
     let flown = fly(shells, args.end_after.unwrap_or(SimTime::NEVER), &stop, progress)?;
+    print_results(args, flown);
+    Ok(())
+}
+
+/// Prints the results that were asked for.
+fn print_results(args: &Args, flown: Vec<VehicleResult>) {
+    if args.digest && args.autopilot.kind().is_some() {
+        tracing::warn!("--digest: an external autopilot is not reproducible, so the digest differs in every run");
+    }
     for VehicleResult { digest, late } in flown {
-        if args.digest && args.autopilot.kind().is_some() {
-            tracing::warn!("--digest: an external autopilot is not reproducible, so the digest differs in every run");
-        }
         if args.digest {
             println!("{}", digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>());
         }
@@ -272,7 +252,52 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             println!("{}", lateness_json(late));
         }
     }
-    Ok(())
+}
+
+/// What all vehicles of a run have in common.
+struct FlightParts<'a> {
+    args: &'a Args,
+    scenario: &'a Arc<Scenario>,
+    vehicle: &'a Arc<Vehicle>,
+    site: &'a Arc<Site>,
+    seed: u64,
+    autopilot: Option<&'a AutopilotConfig>,
+}
+
+impl FlightParts<'_> {
+    /// Creates a vehicle, and starts its external autopilot if it has one.
+    fn shell(&self, io: VehicleIo, signing: Option<SigningConfig>) -> Result<VehicleShell, AppError> {
+        let VehicleIo { links, files: kept, instance, autopilot_ports } = io;
+        let args = self.args;
+        let config = SimConfig {
+            scenario: self.scenario.clone(),
+            vehicle: self.vehicle.clone(),
+            seed: self.seed,
+            instance,
+            flavor: args.flavor.display_name(),
+            after_crash: args.after_crash.rule(),
+        };
+        let facts = SiteFacts { scenario: self.scenario, vehicle: self.vehicle, site: self.site };
+        let speed_factor = args.speed.client_speed_factor();
+        let setup = self
+            .autopilot
+            .zip(autopilot_ports)
+            .map(|(autopilot, ports)| AutopilotSetup::new(autopilot, &facts, instance, ports, speed_factor, args.instances > 1));
+        let setup = setup.transpose()?;
+        let site = self.site.clone();
+        let sim = match &setup {
+            Some(setup) => Sim::with_external_autopilot(config, site, setup.interface(self.vehicle)?, setup.relay_rules()),
+            None => Sim::new(config, site),
+        };
+        let mut shell = VehicleShell::new(sim, links, args.speed, kept, signing)?;
+        if let Some(setup) = setup {
+            shell.start_autopilot(setup.host()?)?;
+        }
+        if args.camera == AnnouncedComponents::Off {
+            shell.core.mute_camera_heartbeat();
+        }
+        Ok(shell)
+    }
 }
 
 /// Returns the configuration of an external autopilot, whose files go to `temporary` by default.

@@ -97,16 +97,15 @@ fn wire_gimbal_device_obeys_the_autopilot_and_simple_clients_get_control() {
     let described = rig.heard(AUTOPILOT, GIMBAL_DEVICE_INFORMATION_DATA::ID);
     assert_eq!(described.iter().map(|frame| frame.component_id).collect::<Vec<_>>(), [GIMBAL]);
     // A pitch of -30 degrees.
-    let half = (-30.0f64).to_radians() / 2.0;
+    let (sine, cosine) = spandrel_model::math::sin_cos((-30.0f64).to_radians() / 2.0);
     let set = GIMBAL_DEVICE_SET_ATTITUDE_DATA {
-        q: [half.cos() as f32, 0.0, half.sin() as f32, 0.0],
+        q: [cosine as f32, 0.0, sine as f32, 0.0],
         target_system: 1,
         target_component: GIMBAL,
         flags: GimbalDeviceFlags::empty(),
         angular_velocity_x: f32::NAN,
         angular_velocity_y: f32::NAN,
         angular_velocity_z: f32::NAN,
-        ..Default::default()
     };
     rig.px4.send(&MavMessage::GIMBAL_DEVICE_SET_ATTITUDE(set));
     rig.run_s(1.0);
