@@ -14,8 +14,8 @@ use crate::io::pacing::{Lateness, SimulationSpeed};
 use crate::io::params::ParamFile;
 use crate::io::pause::PauseSwitch;
 use crate::io::progress::ProgressLog;
-use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
 use crate::io::serial::SerialDevice;
+use crate::io::shell::{SigningConfig, VehicleFiles, VehicleShell};
 use crate::io::signing_store::SigningStore;
 use crate::io::stop::StopRequest;
 use crate::io::store::FileStore;
@@ -211,7 +211,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let temporary = temporary.map_err(|error| AppError::failed(format!("cannot create a temporary folder: {error}")))?;
     let autopilot = autopilot_config(args, temporary.as_ref().map(tempfile::TempDir::path))?;
     let flight_controller = autopilot.as_ref().and_then(|config| config.flight_controller.as_ref());
-    let mut doors = (0..args.instances).map(|more| VehicleIo::open(args, more, flight_controller)).collect::<Result<Vec<_>, _>>()?;
+    let mut doors =
+        (0..args.instances).map(|more| VehicleIo::open(args, more, flight_controller)).collect::<Result<Vec<_>, _>>()?;
     let progress = ProgressLog::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
     let glb = args.files.is_some().then(|| gltf::glb(&site));

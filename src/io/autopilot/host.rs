@@ -188,11 +188,7 @@ impl AutopilotHost {
             AutopilotState::Starting { has_answered: false, .. } => Stage::FirstAnswer,
             AutopilotState::Starting { is_waiting, .. } | AutopilotState::Running { is_waiting } => {
                 // A flight controller sends motor commands all the time.
-                if is_waiting || self.is_flight_controller() {
-                    Stage::Waiting
-                } else {
-                    Stage::Answered
-                }
+                if is_waiting || self.is_flight_controller() { Stage::Waiting } else { Stage::Answered }
             }
         };
         if stage != self.stage.0 || stage == Stage::Answered {

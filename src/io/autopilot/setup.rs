@@ -88,7 +88,13 @@ impl<'a> AutopilotSetup<'a> {
     pub fn host(self) -> Result<AutopilotHost, AppError> {
         if let Some(device) = &self.config.flight_controller {
             let launch = px4::hil_launch(self.vehicle, &self.settings);
-            return AutopilotHost::of_flight_controller(self.config, device.clone(), launch, self.folder, self.settings.instance + 1);
+            return AutopilotHost::of_flight_controller(
+                self.config,
+                device.clone(),
+                launch,
+                self.folder,
+                self.settings.instance + 1,
+            );
         }
         let launch = self.config.kind.launch(self.vehicle, &self.settings)?;
         AutopilotHost::new(self.config, launch, self.folder)

@@ -98,7 +98,7 @@ impl ExternalAutopilot {
 
     /// Advances the autopilot's clock by one period while simulation time is stopped, after which readings are due.
     pub fn advance_clock(&mut self, now: SimTime) {
-        self.clock_offset = self.clock_offset + self.period();
+        self.clock_offset += self.period();
         self.sent_at = Some(self.clock(now));
     }
 

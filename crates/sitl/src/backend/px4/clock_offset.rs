@@ -65,6 +65,9 @@ impl ClockOffset {
         if self.samples.len() < MIN_SAMPLE_COUNT {
             return None;
         }
-        Some(MeasuredOffset { offset: median(|sample| sample.offset.ns())?, round_trip: median(|sample| sample.round_trip.ns())? })
+        Some(MeasuredOffset {
+            offset: median(|sample| sample.offset.ns())?,
+            round_trip: median(|sample| sample.round_trip.ns())?,
+        })
     }
 }

@@ -46,7 +46,8 @@ impl HilPlan {
     /// sensors are sent only if they do not reduce it.
     #[must_use]
     pub fn new(capacity_bytes_s: f64, sensors: &SensorSpec) -> Option<Self> {
-        let richest = [ExtraSensors::All, ExtraSensors::Below].into_iter().map(|extra| Self::with(extra, capacity_bytes_s, sensors));
+        let richest =
+            [ExtraSensors::All, ExtraSensors::Below].into_iter().map(|extra| Self::with(extra, capacity_bytes_s, sensors));
         let full_rate = richest.flatten().find(|plan| plan.rate_hz >= MAX_RATE_HZ);
         full_rate.or_else(|| Self::with(ExtraSensors::None, capacity_bytes_s, sensors))
     }

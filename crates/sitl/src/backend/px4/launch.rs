@@ -46,7 +46,8 @@ const HIL_OUTPUT: &str = "HIL_ACT_FUNC";
 #[must_use]
 pub fn hil_launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Launch {
     let system_id = settings.instance + 1;
-    let mut text = "# PX4 parameters of the simulated aircraft, for hardware in the loop. Save your own parameters first.\n".to_owned();
+    let mut text =
+        "# PX4 parameters of the simulated aircraft, for hardware in the loop. Save your own parameters first.\n".to_owned();
     let rows = airframe::parameters(vehicle, settings);
     for LaunchParam { name, value } in rows.iter().filter(|row| !PROCESS_ONLY.iter().any(|prefix| row.name.starts_with(prefix))) {
         let name = name.replace(PROCESS_OUTPUT, HIL_OUTPUT);
