@@ -13,6 +13,10 @@ pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall-clock delay beyond which the simulation does not catch up: the clock slips, and the program reports the slip.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
+/// The same for a flight controller. After a longer delay, its readings would arrive at once, as if no time passed between them, and
+/// its estimate of the attitude would be wrong (a flight with PX4 crashed after a delay of 0.2 s without this limit).
+const REAL_TIME_SLIP_THRESHOLD: Duration = Duration::from_millis(20);
+
 /// Simulation speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SimulationSpeed {
@@ -75,12 +79,18 @@ pub struct WallPacer {
     wall: Duration,
     sim: SimTime,
     late: Lateness,
+    slip_threshold: Duration,
 }
 
 impl WallPacer {
     /// Creates a pacer whose simulation time is zero at wall time `wall`.
     pub fn new(speed: SimulationSpeed, wall: Duration) -> Self {
-        Self { speed, wall, sim: SimTime::ZERO, late: Lateness::default() }
+        Self { speed, wall, sim: SimTime::ZERO, late: Lateness::default(), slip_threshold: SLIP_THRESHOLD }
+    }
+
+    /// Uses the threshold for a peer that cannot catch up because its clock runs in real time.
+    pub fn limit_bursts(&mut self) {
+        self.slip_threshold = REAL_TIME_SLIP_THRESHOLD;
     }
 
     /// Returns the simulation time to run to, at most [`LOCKSTEP_STEP`] past `reached`.
@@ -89,7 +99,7 @@ impl WallPacer {
         let due = self.due(wall, times);
         let behind = Duration::from_secs_f64(due.saturating_sub(reached).s() / times);
         self.late.longest_delay = self.late.longest_delay.max(behind);
-        if behind > SLIP_THRESHOLD {
+        if behind > self.slip_threshold {
             self.late.slip_count += 1;
             self.late.slipped_time += behind;
             self.wall = wall;
@@ -218,6 +228,17 @@ mod tests {
         let five = Duration::from_secs(5);
         assert_eq!(pace.lateness(), Lateness { longest_delay: five, slip_count: 1, slipped_time: five });
         assert_eq!(pace.target(Duration::from_millis(5010), LOCKSTEP_STEP), SimTime::from_ms(10));
+    }
+
+    #[test]
+    fn regress_flight_controller_gets_no_burst_after_a_stall() {
+        let mut pace = WallPacer::new(SimulationSpeed::Factor(1.0), Duration::ZERO);
+        pace.limit_bursts();
+        assert_eq!(pace.target(Duration::from_millis(20), SimTime::ZERO), SimTime::from_ms(20));
+        // A stall of 200 ms leads to one step of 20 ms instead of ten.
+        assert_eq!(pace.target(Duration::from_millis(220), SimTime::from_ms(20)), SimTime::from_ms(40));
+        assert_eq!(pace.lateness().slip_count, 1);
+        assert_eq!(pace.target(Duration::from_millis(221), SimTime::from_ms(40)), SimTime::from_ms(21));
     }
 
     #[test]

@@ -27,7 +27,7 @@ const MIN_SLEEP: Duration = Duration::from_millis(2);
 /// Wall time between readings before an external autopilot's first answer: PX4's own simulators send at this rate.
 const START_STEP: Duration = Duration::from_millis(4);
 /// Delay beyond which an external autopilot that starts in real time does not catch up.
-const MAX_START_DELAY: Duration = Duration::from_millis(100);
+const MAX_START_DELAY: Duration = Duration::from_millis(20);
 /// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
 /// to 5 s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
@@ -138,6 +138,9 @@ impl VehicleShell {
     pub fn start_autopilot(&mut self, mut host: AutopilotHost) -> Result<(), AppError> {
         let wall = self.stopwatch.elapsed();
         host.start(wall)?;
+        if host.is_flight_controller() {
+            self.pacer.limit_bursts();
+        }
         self.autopilot = Some(AutopilotShell { host, last_step: wall, connection_closed: false, pause_reported: false });
         Ok(())
     }

@@ -50,8 +50,7 @@ class Autopilot:
 
     def report(self):
         """Sends the periodic messages."""
-        mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (ARMED if self.armed else 0)
-        self.say(mavlink.MAVLink_heartbeat_message(2, 12, mode, 3 << 16, 3, 3))
+        self.say(mavlink.MAVLink_heartbeat_message(2, 12, self.mode(), 3 << 16, 3, 3))
         health = mavlink.MAV_SYS_STATUS_PREARM_CHECK if self.readings > READY else 0
         self.say(mavlink.MAVLink_sys_status_message(0, 0, health, 0, 12000, 0, 100, 0, 0, 0, 0, 0, 0))
         flying = self.armed and self.throttle > 0.4
@@ -65,15 +64,23 @@ class Autopilot:
             except BlockingIOError:
                 return
             for message in self.mav.parse_buffer(data) or []:
-                kind = message.get_type()
-                if kind == "MANUAL_CONTROL":
-                    self.throttle = message.z / 1000.0
-                elif kind == "COMMAND_LONG" and message.target_component <= 1:
-                    if message.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
-                        self.armed = message.param1 > 0.5
-                    self.say(mavlink.MAVLink_command_ack_message(message.command, 0, 0, 0, message.get_srcSystem(), message.get_srcComponent()))
+                self.handle(message)
 
-    def answer(self, sensor):
+    def handle(self, message):
+        """Handles a message for the autopilot."""
+        kind = message.get_type()
+        if kind == "MANUAL_CONTROL":
+            self.throttle = message.z / 1000.0
+        elif kind == "COMMAND_LONG" and message.target_component <= 1:
+            if message.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
+                self.armed = message.param1 > 0.5
+            self.say(mavlink.MAVLink_command_ack_message(message.command, 0, 0, 0, message.get_srcSystem(), message.get_srcComponent()))
+
+    def mode(self):
+        """Returns the mode flags."""
+        return mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (ARMED if self.armed else 0)
+
+    def controls(self, sensor):
         """Returns the motor commands for a reading."""
         controls = [0.0] * 16
         if self.armed:
@@ -82,8 +89,12 @@ class Autopilot:
             lift = 0.1 if self.throttle < 0.02 else HOVER + CLIMB * (self.throttle - 0.5) * 2
             for rotor, (side, front) in enumerate(ROTORS):
                 controls[rotor] = min(max(lift + side * roll + front * pitch, 0.0), 1.0)
-        mode = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED | (ARMED if self.armed else 0)
-        return mavlink.MAVLink_hil_actuator_controls_message(sensor.time_usec, controls, mode, 1).pack(self.wire)
+        return controls
+
+    def answer(self, sensor):
+        """Returns the frame with the motor commands for a reading."""
+        message = mavlink.MAVLink_hil_actuator_controls_message(sensor.time_usec, self.controls(sensor), self.mode(), 1)
+        return message.pack(self.wire)
 
 
 def main():

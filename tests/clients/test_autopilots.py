@@ -36,9 +36,10 @@ def build(folder, behavior="fly"):
 
 
 def arguments(px4, *more, scenario="drill-hover"):
-    """Returns the command line of a simulator with that autopilot."""
+    """Returns the command line of a simulator with that autopilot: a build folder, or a tuple of options in place of --px4."""
+    own = px4 if isinstance(px4, tuple) else ("--px4", str(px4))
     return [
-        spandrel.PROGRAM, "sim", "--scenario", scenario, "--seed", "7", "--ports", "ephemeral", "--autopilot", "px4", "--px4", str(px4),
+        spandrel.PROGRAM, "sim", "--scenario", scenario, "--seed", "7", "--ports", "ephemeral", "--autopilot", "px4", *own,
         "--autopilot-timeout", str(TIMEOUT_S), *more,
     ]
 
