@@ -55,7 +55,9 @@ impl FlightControllerPort {
                 self.stream = None;
                 Handled::Changes(vec![LinkEvent::AutopilotClosed])
             }
-            other => Handled::NotMine(other),
+            other @ (NetEvent::Connected(..) | NetEvent::Bytes(..) | NetEvent::Closed(_) | NetEvent::Datagram { .. }) => {
+                Handled::NotMine(other)
+            }
         }
     }
 
