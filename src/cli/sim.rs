@@ -211,9 +211,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let temporary = args.autopilot.kind().map(|_| tempfile::tempdir()).transpose();
     let temporary = temporary.map_err(|error| AppError::failed(format!("cannot create a temporary folder: {error}")))?;
     let autopilot = autopilot_config(args, temporary.as_ref().map(tempfile::TempDir::path))?;
-    let flight_controller = autopilot.as_ref().and_then(|config| config.flight_controller.as_ref());
-    let mut doors =
-        (0..args.instances).map(|more| VehicleIo::open(args, more, flight_controller)).collect::<Result<Vec<_>, _>>()?;
+    let mut doors = VehicleIo::open_all(args, autopilot.as_ref())?;
     let progress = ProgressLog::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
     let glb = args.files.is_some().then(|| gltf::glb(&site));
@@ -365,6 +363,11 @@ struct VehicleIo {
 }
 
 impl VehicleIo {
+    fn open_all(args: &Args, autopilot: Option<&AutopilotConfig>) -> Result<Vec<Self>, AppError> {
+        let flight_controller = autopilot.and_then(|config| config.flight_controller.as_ref());
+        (0..args.instances).map(|more| Self::open(args, more, flight_controller)).collect()
+    }
+
     fn open(args: &Args, more: u8, flight_controller: Option<&SerialDevice>) -> Result<Self, AppError> {
         let mut ports = args.ports.for_vehicle(more);
         if flight_controller.is_some() {
