@@ -42,6 +42,7 @@ class Vehicle:
         here = f"127.0.0.1:{port}"
         self.link = mavutil.mavlink_connection(f"udpin:{here}", source_system=255, source_component=190, dialect="all")
         kind = ["--flavor", flavor] if flavor else ["--autopilot", autopilot, "--autopilot-dir", str(self.folder / "work"), "--instance", str(INSTANCE)]
+        self.truth_component = 1 if flavor else 192
         self.log = open(self.folder / "sim.txt", "w", encoding="utf-8")
         command = [
             spandrel.PROGRAM, "sim", "--scenario", scenario, "--vehicle", vehicle, "--seed", "7", "--speed", "max", "--ports", "ephemeral",
@@ -49,7 +50,7 @@ class Vehicle:
         ]
         self.process = subprocess.Popen(command, stdout=self.log, stderr=self.log, stdin=subprocess.DEVNULL)
         self.now, self.system = 0.0, 1 if flavor else 1 + INSTANCE
-        self.last, self.texts, self.track = {}, [], []
+        self.last, self.params, self.texts, self.track = {}, {}, [], []
         # MANUAL_CONTROL: x, y, z, r. None: no sticks.
         self.sticks = (0, 0, 500, 0)
         self.velocity = None
@@ -89,6 +90,8 @@ class Vehicle:
             if message.get_srcSystem() != self.system:
                 continue
             self.last[kind, message.get_srcComponent()] = self.last[kind] = message
+            if kind == "PARAM_VALUE":
+                self.params[message.param_id] = message.param_value
             if kind == "STATUSTEXT":
                 self.texts.append(f"{self.now:.1f} {message.get_srcComponent()} {message.text}")
             if kind == "HIL_STATE_QUATERNION":
@@ -199,16 +202,23 @@ class Vehicle:
 
     def set_param(self, name, value, kind=M.MAV_PARAM_TYPE_REAL32):
         """Sets a floating-point parameter."""
-        self.link.mav.param_set_send(self.system, 1, name.encode(), value, kind)
-        self.wait_until(name, lambda: "PARAM_VALUE" in self.last and self.last["PARAM_VALUE"].param_id == name, 20)
+        for _ in range(5):
+            self.params.pop(name, None)
+            self.link.mav.param_set_send(self.system, 1, name.encode(), value, kind)
+            end = self.now + 3
+            while self.now < end:
+                self.step()
+                if name in self.params:
+                    assert math.isclose(self.params[name], value, rel_tol=1e-5), (name, self.params[name])
+                    return
+        raise AssertionError(f"parameter {name} was not set")
 
     def get_ready(self):
         """Waits until the vehicle can arm and sends the streams that the tests use."""
         self.wait_until("heartbeat", lambda: ("HEARTBEAT", 1) in self.last)
         for message, rate_hz in ((M.MAVLINK_MSG_ID_SYS_STATUS, 5), (M.MAVLINK_MSG_ID_EXTENDED_SYS_STATE, 5), (M.MAVLINK_MSG_ID_LOCAL_POSITION_NED, 5)):
             self.command(1, M.MAV_CMD_SET_MESSAGE_INTERVAL, message, 1e6 / rate_hz)
-        for component in (192, 1):
-            self.command(component, M.MAV_CMD_SET_MESSAGE_INTERVAL, M.MAVLINK_MSG_ID_HIL_STATE_QUATERNION, 1e6 / TRUTH_RATE_HZ)
+        self.command(self.truth_component, M.MAV_CMD_SET_MESSAGE_INTERVAL, M.MAVLINK_MSG_ID_HIL_STATE_QUATERNION, 1e6 / TRUTH_RATE_HZ)
         self.wait_until("the truth", lambda: "HIL_STATE_QUATERNION" in self.last)
         self.wait_until("ready to arm", self.ready)
 
