@@ -9,7 +9,7 @@ use crate::errors::{AppError, AutopilotFailure};
 use crate::io::serial::SerialDevice;
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::MavMessage;
-use spandrel_sitl::backend::launch::Launch;
+use spandrel_sitl::backend::launch::{Launch, shell_quoted};
 use spandrel_sitl::endpoint::relay::FirmwareVersion;
 use spandrel_sitl::sim::{AutopilotState, Sim};
 use std::path::PathBuf;
@@ -169,14 +169,14 @@ impl AutopilotHost {
             None => (format!("{}-BINARY", name.to_uppercase()), None),
         };
         let mut words: Vec<String> =
-            self.launch.environment.iter().map(|(name, value)| format!("{name}={}", quoted(value))).collect();
-        words.extend(path.map(|path| format!("PATH={}", quoted(&path.to_string_lossy()))));
-        words.push(quoted(&program));
-        words.extend(self.launch.args.iter().map(|arg| quoted(arg)));
+            self.launch.environment.iter().map(|(name, value)| format!("{name}={}", shell_quoted(value))).collect();
+        words.extend(path.map(|path| format!("PATH={}", shell_quoted(&path.to_string_lossy()))));
+        words.push(shell_quoted(&program));
+        words.extend(self.launch.args.iter().map(|arg| shell_quoted(arg)));
         let etc = self.program.as_ref().and_then(|program| program.etc.as_ref());
-        words.extend(etc.map(|etc| quoted(&etc.to_string_lossy())));
+        words.extend(etc.map(|etc| shell_quoted(&etc.to_string_lossy())));
         let folder = std::fs::canonicalize(&self.folder).unwrap_or_else(|_| self.folder.clone());
-        eprintln!("Waiting for {name}. {again}:\n(cd {} && env {})", quoted(&folder.to_string_lossy()), words.join(" "));
+        eprintln!("Waiting for {name}. {again}:\n(cd {} && env {})", shell_quoted(&folder.to_string_lossy()), words.join(" "));
     }
 
     /// Checks the process and the progress of the exchange.
@@ -308,10 +308,4 @@ impl AutopilotHost {
         }
         self.recorded = Some(text);
     }
-}
-
-/// Quotes text for a POSIX shell unless it consists of harmless characters.
-fn quoted(text: &str) -> String {
-    let harmless = |c: char| c.is_ascii_alphanumeric() || "_-./:=+,@%".contains(c);
-    if !text.is_empty() && text.chars().all(harmless) { text.to_owned() } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }

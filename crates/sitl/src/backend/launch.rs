@@ -55,3 +55,10 @@ pub struct LaunchSettings {
     /// Battery thresholds of the job, %: low and critical.
     pub battery_thresholds_pct: (f64, f64),
 }
+
+/// Quotes text for a POSIX shell unless it consists of harmless characters.
+#[must_use]
+pub fn shell_quoted(text: &str) -> String {
+    let harmless = |c: char| c.is_ascii_alphanumeric() || "_-./:=+,@%".contains(c);
+    if !text.is_empty() && text.chars().all(harmless) { text.to_owned() } else { format!("'{}'", text.replace('\'', r"'\''")) }
+}

@@ -2,7 +2,7 @@
 
 use super::airframe::parameters;
 use super::frame::FrameError;
-use crate::backend::launch::{Launch, LaunchFile, LaunchParam, LaunchSettings};
+use crate::backend::launch::{Launch, LaunchFile, LaunchParam, LaunchSettings, shell_quoted};
 use spandrel_model::vehicle::Vehicle;
 
 /// Name of the file with ArduPilot's parameters.
@@ -28,7 +28,7 @@ pub fn launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Launch, Fr
 #[must_use]
 pub fn command_line(program: &str, launch: &Launch) -> String {
     let words = std::iter::once(program).chain(launch.args.iter().map(String::as_str));
-    words.map(quoted).collect::<Vec<_>>().join(" ")
+    words.map(shell_quoted).collect::<Vec<_>>().join(" ")
 }
 
 fn args(settings: &LaunchSettings) -> Vec<String> {
@@ -61,10 +61,4 @@ fn defaults_text(parameters: &[LaunchParam]) -> String {
         text.push_str(&format!("{} {}\n", parameter.name, parameter.value));
     }
     text
-}
-
-/// Quotes a word for a POSIX shell if necessary.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }

@@ -1,6 +1,6 @@
 //! A command line with which a user starts PX4 themselves.
 
-use crate::backend::launch::Launch;
+use crate::backend::launch::{Launch, shell_quoted};
 
 /// Line that ends a file in the command line. No file contains it.
 const END_OF_FILE: &str = "END_OF_SPANDREL_FILE";
@@ -9,10 +9,10 @@ const END_OF_FILE: &str = "END_OF_SPANDREL_FILE";
 /// build, which contains `bin` and `etc`.
 #[must_use]
 pub fn shell_command(launch: &Launch, build: &str, directory: &str) -> String {
-    let (build, directory) = (quoted(build), quoted(directory));
+    let (build, directory) = (shell_quoted(build), shell_quoted(directory));
     let mut out = format!("(\nset -e\nBUILD=$(cd {build} && pwd)\nmkdir -p {directory}\ncd {directory}\n");
     for file in &launch.files {
-        let name = quoted(&file.name);
+        let name = shell_quoted(&file.name);
         out.push_str(&format!("cat > {name} <<'{END_OF_FILE}'\n{}{END_OF_FILE}\n", file.text));
         if file.executable {
             out.push_str(&format!("chmod +x {name}\n"));
@@ -20,15 +20,9 @@ pub fn shell_command(launch: &Launch, build: &str, directory: &str) -> String {
     }
     out.push_str("export PATH=\"$PWD:$BUILD/bin:$PATH\"\n");
     for (name, value) in &launch.environment {
-        out.push_str(&format!("export {name}={}\n", quoted(value)));
+        out.push_str(&format!("export {name}={}\n", shell_quoted(value)));
     }
-    let args: Vec<String> = launch.args.iter().map(|arg| quoted(arg)).collect();
+    let args: Vec<String> = launch.args.iter().map(|arg| shell_quoted(arg)).collect();
     out.push_str(&format!("px4 {} \"$BUILD/etc\" < /dev/null\n)\n", args.join(" ")));
     out
-}
-
-/// Quotes text for a POSIX shell unless it consists of harmless characters.
-fn quoted(text: &str) -> String {
-    let harmless = |c: char| c.is_ascii_alphanumeric() || "_-./:=+,".contains(c);
-    if !text.is_empty() && text.chars().all(harmless) { text.to_owned() } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }
