@@ -8,6 +8,8 @@ import pathlib
 import re
 import subprocess
 
+os.environ["MAVLINK20"] = "1"
+
 import pytest
 from mavsdk import ComponentType, Configuration, Mavsdk
 from mavsdk.plugins.camera import Camera
