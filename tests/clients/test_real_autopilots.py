@@ -139,9 +139,9 @@ def test_wire_pymavlink_uses_the_camera_the_gimbal_and_the_lamp(autopilot, start
         vehicle.wait_until(f"a gimbal pitch of {pitch_deg}", pitched)
     for on in (1, 0):
         assert vehicle.command(LAMP, M.MAV_CMD_ILLUMINATOR_ON_OFF, on) == M.MAV_RESULT_ACCEPTED
-        requested(LAMP, "ILLUMINATOR_STATUS", lambda status, on=on: status.enable == on)
+        requested(LAMP, "RELAY_STATUS", lambda status, on=on: status.on == on)
     assert vehicle.command(1, M.MAV_CMD_DO_SET_RELAY, 0, 1) == M.MAV_RESULT_ACCEPTED
-    requested(LAMP, "ILLUMINATOR_STATUS", lambda status: status.enable == 1)
+    requested(LAMP, "RELAY_STATUS", lambda status: status.on == 1)
     heard = {key[1] for key in vehicle.last if key[0] == "HEARTBEAT" and isinstance(key, tuple)}
     assert heard >= {1, CAMERA, GIMBAL, LAMP}, heard
 
