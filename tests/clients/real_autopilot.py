@@ -12,6 +12,7 @@ from pymavlink import mavutil
 
 import spandrel
 
+mavutil.set_dialect("all")
 M = mavutil.mavlink
 # Environment variables that contain the program, which Spandrel reads as well.
 VARIABLES = {"px4": "SPANDREL_PX4", "ardupilot": "SPANDREL_ARDUPILOT"}
@@ -86,6 +87,10 @@ class Vehicle:
                 self.link.mav.timesync_send(1, message.ts1)
                 return
             if kind == "BAD_DATA":
+                continue
+            if kind.startswith("UNKNOWN_"):
+                # pymavlink's class for unknown messages does not contain the sender.
+                self.last[kind] = message
                 continue
             if message.get_srcSystem() != self.system:
                 continue
