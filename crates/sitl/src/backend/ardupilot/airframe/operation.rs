@@ -12,6 +12,10 @@ const GROUND_STATION: i64 = 255;
 const STATION_TIMEOUT_S: f64 = 5.0;
 const OVERRIDE_TIMEOUT_S: f64 = 3.0;
 
+/// Dead zone of the roll, pitch and yaw sticks, microseconds: ArduPilot's default. ArduPilot refuses to arm while a stick is outside it,
+/// and no hand or gamepad rests at the exact center.
+const DEAD_ZONE_US: i64 = 20;
+
 /// Adds the parameters.
 pub fn add(table: &mut Table, settings: &LaunchSettings) {
     add_links(table, settings);
@@ -55,9 +59,8 @@ fn add_sticks(table: &mut Table) {
         table.integer(&format!("RC{channel}_MAX"), 2000);
         table.integer(&format!("RC{channel}_OPTION"), 0);
     }
-    // The ground station applies its own dead zones.
     for channel in [1, 2, 4] {
-        table.integer(&format!("RC{channel}_DZ"), 0);
+        table.integer(&format!("RC{channel}_DZ"), DEAD_ZONE_US);
     }
     table.integer("RC3_DZ", 10);
     table.integer("THR_DZ", 30);
