@@ -252,7 +252,7 @@ fn print_results(args: &Args, flown: Vec<VehicleResult>) {
     }
 }
 
-/// What all vehicles of a run have in common.
+/// Parts shared by all vehicles of a run.
 struct FlightParts<'a> {
     args: &'a Args,
     scenario: &'a Arc<Scenario>,

@@ -168,15 +168,12 @@ impl AutopilotHost {
             Some(program) => (program.binary.display().to_string(), search_path(program, &self.folder)),
             None => (format!("{}-BINARY", name.to_uppercase()), None),
         };
-        let mut words: Vec<String> =
-            self.launch.environment.iter().map(|(name, value)| format!("{name}={}", shell_quoted(value))).collect();
-        words.extend(path.map(|path| format!("PATH={}", shell_quoted(&path.to_string_lossy()))));
-        words.push(shell_quoted(&program));
-        words.extend(self.launch.args.iter().map(|arg| shell_quoted(arg)));
+        let path: Vec<_> = path.map(|path| ("PATH".to_owned(), path.to_string_lossy().into_owned())).into_iter().collect();
         let etc = self.program.as_ref().and_then(|program| program.etc.as_ref());
-        words.extend(etc.map(|etc| shell_quoted(&etc.to_string_lossy())));
+        let etc: Vec<_> = etc.map(|etc| etc.to_string_lossy().into_owned()).into_iter().collect();
+        let line = self.launch.command_line(&program, &path, &etc);
         let folder = std::fs::canonicalize(&self.folder).unwrap_or_else(|_| self.folder.clone());
-        eprintln!("Waiting for {name}. {again}:\n(cd {} && env {})", shell_quoted(&folder.to_string_lossy()), words.join(" "));
+        eprintln!("Waiting for {name}. {again}:\n(cd {} && env {line})", shell_quoted(&folder.to_string_lossy()));
     }
 
     /// Checks the process and the progress of the exchange.

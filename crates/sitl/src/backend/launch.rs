@@ -33,6 +33,19 @@ pub struct Launch {
     pub parameters: Vec<LaunchParam>,
 }
 
+impl Launch {
+    /// Returns the line that starts `program` from a POSIX shell in the working directory, with more environment variables and
+    /// with arguments after those of the launch.
+    #[must_use]
+    pub fn command_line(&self, program: &str, more_environment: &[(String, String)], last_args: &[String]) -> String {
+        let variables =
+            self.environment.iter().chain(more_environment).map(|(name, value)| format!("{name}={}", shell_quoted(value)));
+        let args = self.args.iter().chain(last_args).map(|arg| shell_quoted(arg));
+        let words: Vec<String> = variables.chain([shell_quoted(program)]).chain(args).collect();
+        words.join(" ")
+    }
+}
+
 /// Addresses and settings that do not come from the vehicle file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaunchSettings {

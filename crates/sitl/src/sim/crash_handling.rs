@@ -5,7 +5,7 @@ use super::{CLEARANCE_SEARCH_RADIUS_M, Sim, SimEvent};
 use crate::physics;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::MavSeverity;
-use spandrel_model::frames::{Rotation, Vec3};
+use spandrel_model::frames::{Ned, Rotation, Vec3};
 use spandrel_model::scenario::AfterCrash;
 use spandrel_model::site::Surface;
 
@@ -140,18 +140,22 @@ impl Sim {
             return;
         }
         let (position_m, yaw_rad) = self.last_safe_hover;
-        self.crashed_since = None;
-        self.hard_contact = false;
-        self.state.place(position_m, yaw_rad);
-        let hover = self.model.hover_rotor_rad_s();
-        self.state.rigid.rotor_rad_s = [hover; physics::MAX_ROTORS];
-        self.scoring.respawns += 1;
-        self.scoring.contact = ContactKind::None;
+        self.place_after_crash(position_m, yaw_rad, self.model.hover_rotor_rad_s());
         let attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
         let now = self.now;
         if let Controller::Builtin(own) = &mut self.controller {
             own.autopilot.respawn(position_m, Vec3::zero(), attitude, now);
         }
+    }
+
+    /// Places the aircraft at rest with all rotors at one speed, ends its contact, and counts the respawn.
+    pub(super) fn place_after_crash(&mut self, position_m: Vec3<Ned>, yaw_rad: f64, rotor_rad_s: f64) {
+        self.crashed_since = None;
+        self.hard_contact = false;
+        self.state.place(position_m, yaw_rad);
+        self.state.rigid.rotor_rad_s = [rotor_rad_s; physics::MAX_ROTORS];
+        self.scoring.respawns += 1;
+        self.scoring.contact = ContactKind::None;
         self.events.push_back(SimEvent::Respawn);
     }
 

@@ -1,5 +1,5 @@
 //! Exchange with an external autopilot. Between ticks, the simulation sends the readings that are due and waits for the motor
-//! commands. While a new process starts, the aircraft stands still, and only the autopilot's clock runs.
+//! commands. While a new process starts, the aircraft does not move, and only the autopilot's clock runs.
 
 use super::controller::{Controller, ExternalController};
 use super::{STEP, Sim, SimConfig, SimEvent, place_on_pad};
@@ -7,9 +7,8 @@ use crate::backend::interface::{InterfaceEvent, SimulatorInterface, StepInput};
 use crate::backend::{ExternalAutopilot, Phase};
 use crate::endpoint::RelayEndpoint;
 use crate::endpoint::relay::{AutopilotReport, RelayRules};
-use crate::physics::{Actuators, MAX_ROTORS};
+use crate::physics::Actuators;
 use crate::sensors::ImuReading;
-use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
@@ -90,7 +89,7 @@ impl Sim {
     /// Sends a message from the simulator's component to the external autopilot.
     pub fn send_to_autopilot(&mut self, message: &MavMessage) {
         if let Some(external) = self.controller.external_mut() {
-            external.endpoint.send_sensor_message(message);
+            external.endpoint.send_to_autopilot(message);
         }
     }
 
@@ -196,7 +195,7 @@ impl Sim {
             start_unix_s: self.config.scenario.light.start_unix_s,
         });
         while let Some(message) = external.autopilot.interface.poll_message() {
-            external.endpoint.send_sensor_message(&message);
+            external.endpoint.send_to_autopilot(&message);
         }
         self.handle_interface_events(self.now);
     }
@@ -227,13 +226,7 @@ impl Sim {
     /// the aircraft was moved.
     pub(super) fn respawn_on_pad(&mut self) {
         let (position_m, yaw_rad) = place_on_pad(&self.config);
-        self.crashed_since = None;
-        self.hard_contact = false;
-        self.state.place(position_m, yaw_rad);
-        self.state.rigid.rotor_rad_s = [0.0; MAX_ROTORS];
-        self.scoring.respawns += 1;
-        self.scoring.contact = ContactKind::None;
-        self.events.push_back(SimEvent::Respawn);
+        self.place_after_crash(position_m, yaw_rad, 0.0);
         self.restart_external_autopilot("the aircraft was placed on the pad after a crash");
     }
 

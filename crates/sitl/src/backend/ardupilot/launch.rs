@@ -2,7 +2,7 @@
 
 use super::airframe::parameters;
 use super::frame::FrameError;
-use crate::backend::launch::{Launch, LaunchFile, LaunchParam, LaunchSettings, shell_quoted};
+use crate::backend::launch::{Launch, LaunchFile, LaunchParam, LaunchSettings};
 use spandrel_model::vehicle::Vehicle;
 
 /// Name of the file with ArduPilot's parameters.
@@ -22,13 +22,6 @@ pub fn launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Launch, Fr
     let parameters = parameters(vehicle, settings)?;
     let file = LaunchFile { name: DEFAULTS_FILE.into(), text: defaults_text(&parameters), executable: false };
     Ok(Launch { args: args(settings), environment: Vec::new(), files: vec![file], parameters })
-}
-
-/// Returns the command line that a user can paste into a shell in the directory with the files of [`launch`], to start `program`.
-#[must_use]
-pub fn command_line(program: &str, launch: &Launch) -> String {
-    let words = std::iter::once(program).chain(launch.args.iter().map(String::as_str));
-    words.map(shell_quoted).collect::<Vec<_>>().join(" ")
 }
 
 fn args(settings: &LaunchSettings) -> Vec<String> {

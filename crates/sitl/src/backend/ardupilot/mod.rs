@@ -16,7 +16,7 @@ mod tests;
 pub use airframe::parameters;
 pub use frame::{Frame, FrameError, frame};
 pub use interface::ArduPilotInterface;
-pub use launch::{DEFAULTS_FILE, command_line, launch};
+pub use launch::{DEFAULTS_FILE, launch};
 
 /// Rates at which ArduPilot can receive the state, Hz, the default first: whole numbers of physics ticks a frame. Its main loop runs
 /// at half the rate, because ArduPilot refuses to arm with readings that are less than 1.8 times as fast.

@@ -19,7 +19,7 @@ const SIMULATOR_ID: (u8, u8) = (1, 200);
 /// Rate of the true state in PX4's log, Hz.
 const TRUTH_RATE_HZ: f64 = 25.0;
 
-/// What has already been reported on this connection.
+/// Problems already reported on this connection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Reported {
     counts: RejectedCounts,

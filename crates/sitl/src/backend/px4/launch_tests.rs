@@ -1,7 +1,7 @@
 //! Tests of the parameter table, the scripts and the command line.
 
 use super::testing::{settings, shipped};
-use super::{launch, parameters, shell_command};
+use super::{launch, parameters};
 use crate::backend::launch::{LaunchParam, LaunchSettings};
 use spandrel_model::math::{self, GRAVITY_M_S2};
 use spandrel_model::vehicle::{FlightLimits, Vehicle};
@@ -187,13 +187,13 @@ fn exact_other_simulator_port_needs_a_script() {
 }
 
 #[test]
-fn exact_shell_command_quotes_paths_and_contains_everything() {
+fn exact_command_line_quotes_paths_and_contains_everything() {
     let out = launch(&shipped()[0], &settings());
-    let text = shell_command(&out, "/opt/it's px4", "/tmp/run");
-    assert!(text.contains(r"BUILD=$(cd '/opt/it'\''s px4' && pwd)"), "{text}");
-    assert!(text.contains("px4 -i 2 -d \"$BUILD/etc\" < /dev/null"));
+    let path = [("PATH".to_owned(), "/tmp/run:/opt/it's px4/bin".to_owned())];
+    let line = out.command_line("/opt/it's px4/bin/px4", &path, &["/opt/it's px4/etc".to_owned()]);
+    let end = r" PATH='/tmp/run:/opt/it'\''s px4/bin' '/opt/it'\''s px4/bin/px4' -i 2 -d '/opt/it'\''s px4/etc'";
+    assert!(line.ends_with(end), "{line}");
     for (name, value) in &out.environment {
-        assert!(text.contains(&format!("export {name}={value}\n")), "{name}");
+        assert!(format!(" {line}").contains(&format!(" {name}={value} ")), "{name}");
     }
-    assert!(text.contains("cat > px4-rc.mavlink <<'END_OF_SPANDREL_FILE'\n#!/bin/sh\n"));
 }

@@ -4,7 +4,6 @@
 pub mod airframe;
 mod airframe_limits;
 pub mod clock_offset;
-pub mod command_line;
 mod equipment;
 mod flow_message;
 mod gnss_message;
@@ -30,7 +29,6 @@ mod testing;
 
 pub use airframe::parameters;
 pub use clock_offset::{ClockOffset, MeasuredOffset};
-pub use command_line::shell_command;
 pub use hil::Px4HilInterface;
 pub use hil_plan::HilPlan;
 pub use interface::{Px4Interface, RATES_HZ};

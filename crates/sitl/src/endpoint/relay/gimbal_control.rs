@@ -4,7 +4,7 @@
 //! autopilot ignores clients that have not requested control, so the relay requests it for them.
 
 use super::RelayEndpoint;
-use crate::endpoint::component_ids::{AUTOPILOT, SIMULATOR};
+use crate::endpoint::component_ids::AUTOPILOT;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::{
@@ -36,7 +36,7 @@ impl RelayEndpoint {
         let params = [f32::from(client.0), f32::from(client.1), NO_CHANGE, NO_CHANGE, 0.0, 0.0, 0.0];
         let configure = MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_CONFIGURE;
         let command = station::command(self.links.system_id(), AUTOPILOT, configure, params);
-        self.send_to_autopilot(SIMULATOR, &MavMessage::COMMAND_LONG(command));
+        self.send_to_autopilot(&MavMessage::COMMAND_LONG(command));
         self.report.gimbal_control = client;
     }
 }

@@ -130,10 +130,10 @@ impl RelayEndpoint {
         self.texts.push(severity, text);
     }
 
-    /// Sends a message of the simulator to the autopilot.
-    pub fn send_to_autopilot(&mut self, component: u8, message: &MavMessage) {
+    /// Sends a message of the simulator's component to the autopilot.
+    pub fn send_to_autopilot(&mut self, message: &MavMessage) {
         if let Some(link) = self.autopilot_link.and_then(|id| self.links.get_mut(id)) {
-            link.send(component, message);
+            link.send(component_ids::SIMULATOR, message);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Requests with which the simulator sets up its link to the autopilot.
 
 use super::RelayEndpoint;
-use crate::endpoint::component_ids::{AUTOPILOT, SIMULATOR};
+use crate::endpoint::component_ids::AUTOPILOT;
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{
     ATTITUDE_DATA, AUTOPILOT_VERSION_DATA, EXTENDED_SYS_STATE_DATA, GIMBAL_MANAGER_STATUS_DATA, GLOBAL_POSITION_INT_DATA,
@@ -41,17 +41,12 @@ impl RelayEndpoint {
     pub fn request_parameters(&mut self) {
         let target_system = self.links.system_id();
         let list = PARAM_REQUEST_LIST_DATA { target_system, target_component: AUTOPILOT };
-        self.send_to_autopilot(SIMULATOR, &MavMessage::PARAM_REQUEST_LIST(list));
-    }
-
-    /// Sends a sensor reading that the simulator interface cannot carry.
-    pub fn send_sensor_message(&mut self, message: &MavMessage) {
-        self.send_to_autopilot(SIMULATOR, message);
+        self.send_to_autopilot(&MavMessage::PARAM_REQUEST_LIST(list));
     }
 
     fn command_autopilot(&mut self, command: MavCmd, [first, second]: [f32; 2]) {
         let params = [first, second, 0.0, 0.0, 0.0, 0.0, 0.0];
         let message = station::command(self.links.system_id(), AUTOPILOT, command, params);
-        self.send_to_autopilot(SIMULATOR, &MavMessage::COMMAND_LONG(message));
+        self.send_to_autopilot(&MavMessage::COMMAND_LONG(message));
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters and launch arguments.
 
-use super::super::{DEFAULTS_FILE, command_line, launch, parameters};
+use super::super::{DEFAULTS_FILE, launch, parameters};
 use super::{aircraft, settings};
 use crate::backend::launch::LaunchParam;
 use spandrel_model::vehicle::{FlightLimits, Vehicle};
@@ -135,7 +135,7 @@ fn wire_arguments_open_only_the_chosen_ports() {
 #[test]
 fn exact_command_line_can_be_pasted() {
     let launch = launch(&aircraft("phantom2"), &settings()).expect("frame");
-    let line = command_line("/opt/my builds/arducopter", &launch);
+    let line = launch.command_line("/opt/my builds/arducopter", &[], &[]);
     assert!(line.starts_with("'/opt/my builds/arducopter' --model JSON:127.0.0.1 --sim-port-out 9022 "), "{line}");
     assert!(line.ends_with("--wipe"), "{line}");
 }

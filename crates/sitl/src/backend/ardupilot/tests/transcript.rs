@@ -41,7 +41,7 @@ fn scene(line: &str, start: SimTime) -> Scene {
     scene
 }
 
-/// What happened in a replay.
+/// Outcome of a replay.
 #[derive(Debug, Default, PartialEq)]
 struct Counts {
     states: u32,
