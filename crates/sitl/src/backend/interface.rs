@@ -68,7 +68,7 @@ impl Clone for Box<dyn SimulatorInterface> {
 }
 
 /// One side of a simulator interface: the simulator's.
-pub trait SimulatorInterface: CloneInterface + std::fmt::Debug + Send {
+pub trait SimulatorInterface: CloneInterface + std::fmt::Debug + Send + Sync {
     /// Rate at which the autopilot takes sensor readings, Hz.
     fn rate_hz(&self) -> f64;
 
