@@ -1,12 +1,13 @@
 //! The vehicle's links: configured destinations that it sends to from startup, peers that connect to its UDP ports, TCP
 //! clients and serial ports.
 
-use super::autopilot_sockets::{AutopilotSockets, Handled, SimulatorProtocol};
+use super::autopilot_sockets::{AutopilotSockets, Handled};
 use super::clock::Stopwatch;
 use super::flight_controller_port::FlightControllerPort;
 use super::link_event::LinkEvent;
 use super::net::{NetEvent, SocketHub, SocketId, StreamId, StreamOrigin};
 use super::serial::SerialDevice;
+use super::simulator_socket::SimulatorProtocol;
 use super::vehicle_ports::VehiclePorts;
 use crate::errors::AppError;
 use spandrel_mavlink::codec::Decoder;
@@ -106,7 +107,7 @@ impl Links {
     pub fn serve_autopilot(&mut self, protocol: SimulatorProtocol, port: u16) -> Result<(u16, u16), AppError> {
         let link = self.next_number();
         let sockets = AutopilotSockets::open(&mut self.hub, protocol, port, link)?;
-        let ports = (sockets.simulator_port(&self.hub), sockets.mavlink_port(&self.hub));
+        let ports = (sockets.simulator.port(), sockets.mavlink_port(&self.hub));
         self.autopilot = Some(AutopilotConnection::Process(sockets));
         self.announce_autopilot(link);
         Ok(ports)
@@ -130,12 +131,20 @@ impl Links {
         self.changes.push_back(LinkEvent::Opened { link, kind, lockstep: false, learned: false, limit: None });
     }
 
-    /// Sends bytes to the autopilot's simulator interface.
+    /// Queues bytes for the autopilot's simulator interface. [`Self::flush_autopilot`] sends them.
     pub fn send_to_autopilot(&mut self, bytes: Vec<u8>) {
-        match &self.autopilot {
-            Some(AutopilotConnection::Process(sockets)) => sockets.send(&mut self.hub, bytes),
+        match &mut self.autopilot {
+            Some(AutopilotConnection::Process(sockets)) => sockets.simulator.send(&bytes),
             Some(AutopilotConnection::FlightController(port)) => port.send(&self.hub, bytes),
             None => {}
+        }
+    }
+
+    /// Sends the bytes that are queued for the autopilot's simulator interface.
+    pub fn flush_autopilot(&mut self) {
+        match &mut self.autopilot {
+            Some(AutopilotConnection::Process(sockets)) => sockets.simulator.flush(),
+            Some(AutopilotConnection::FlightController(_)) | None => {}
         }
     }
 
@@ -143,7 +152,7 @@ impl Links {
     /// controller stays open.
     pub fn disconnect_autopilot(&mut self) {
         match &mut self.autopilot {
-            Some(AutopilotConnection::Process(sockets)) => sockets.disconnect(&mut self.hub),
+            Some(AutopilotConnection::Process(sockets)) => sockets.disconnect(),
             Some(AutopilotConnection::FlightController(_)) | None => {}
         }
     }
@@ -165,6 +174,20 @@ impl Links {
         }
         if let Some(arrival) = self.hub.next(wait) {
             self.handle_event(arrival, self.stopwatch.elapsed());
+        }
+        // Without a wait, the caller reads the queue between two steps. The answers that a step needs come from `wait_for_answer`.
+        if !wait.is_zero()
+            && let Some(AutopilotConnection::Process(sockets)) = &mut self.autopilot
+        {
+            self.changes.extend(sockets.simulator.poll());
+        }
+    }
+
+    /// Waits up to `wait` for the autopilot's answer or for another event. Other events may be noticed 2 ms late.
+    pub fn wait_for_answer(&mut self, wait: Duration) {
+        match &mut self.autopilot {
+            Some(AutopilotConnection::Process(sockets)) => self.changes.extend(sockets.simulator.wait()),
+            Some(AutopilotConnection::FlightController(_)) | None => self.wait(wait),
         }
     }
 
@@ -248,7 +271,7 @@ impl Links {
 
     fn handle_event(&mut self, arrival: NetEvent, wall: Duration) {
         let handled = match &mut self.autopilot {
-            Some(AutopilotConnection::Process(sockets)) => sockets.handle_event(arrival, &mut self.hub),
+            Some(AutopilotConnection::Process(sockets)) => sockets.handle_event(arrival),
             Some(AutopilotConnection::FlightController(port)) => port.handle_event(arrival),
             None => Handled::NotMine(arrival),
         };
@@ -289,7 +312,7 @@ impl Links {
         let (kind, limit) = match origin {
             StreamOrigin::Tcp(_) => (LinkKind::Tcp, self.limit),
             StreamOrigin::Serial(device) => (LinkKind::Serial, Some(device.capacity_bytes_s())),
-            StreamOrigin::Autopilot(_) | StreamOrigin::FlightController(_) => (LinkKind::Autopilot, None),
+            StreamOrigin::FlightController(_) => (LinkKind::Autopilot, None),
         };
         self.routes.insert(link, LinkRoute::Stream { stream, decoder: Decoder::new() });
         self.links_by_stream.insert(stream, link);

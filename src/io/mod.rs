@@ -35,6 +35,7 @@ pub mod serial;
 pub mod session_folder;
 pub mod shell;
 pub mod signing_store;
+pub mod simulator_socket;
 pub mod stop;
 pub mod store;
 pub mod trainee_id;

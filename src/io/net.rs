@@ -16,9 +16,6 @@ use std::time::Duration;
 const EVENT_QUEUE_LEN: usize = 16_384;
 /// Maximum number of frames waiting for a slow TCP client; further frames are dropped.
 const STREAM_QUEUE_LEN: usize = 2_048;
-/// Number of the first connection to the simulator interface. Lower numbers belong to TCP clients, and serial ports count down from
-/// the maximum.
-const FIRST_AUTOPILOT_STREAM: u32 = 1 << 30;
 /// Delay after an unexpected socket error, to avoid a busy loop if a network interface is broken.
 const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
@@ -49,8 +46,6 @@ pub enum StreamOrigin {
     Serial(SerialDevice),
     /// A flight controller on a serial port.
     FlightController(SerialDevice),
-    /// An autopilot that connected to the simulator interface.
-    Autopilot(SocketAddr),
 }
 
 impl std::fmt::Display for StreamOrigin {
@@ -59,7 +54,6 @@ impl std::fmt::Display for StreamOrigin {
             Self::Tcp(from) => write!(f, "TCP client {from}"),
             Self::Serial(device) => write!(f, "serial port {device}"),
             Self::FlightController(device) => write!(f, "flight controller on {device}"),
-            Self::Autopilot(from) => write!(f, "autopilot at {from}"),
         }
     }
 }
@@ -174,18 +168,7 @@ impl SocketHub {
     pub fn serve(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
         let (listener, bound) = listen(ip, port, flag)?;
         let queue = self.sender.clone();
-        std::thread::spawn(move || accept_clients(&listener, 0, StreamOrigin::Tcp, &queue));
-        Ok(bound)
-    }
-
-    /// Listens for an autopilot on the simulator interface and returns the port number.
-    ///
-    /// # Errors
-    /// Returns an error if the port cannot be bound.
-    pub fn serve_autopilot(&self, ip: IpAddr, port: u16, flag: &str) -> Result<u16, AppError> {
-        let (listener, bound) = listen(ip, port, flag)?;
-        let queue = self.sender.clone();
-        std::thread::spawn(move || accept_clients(&listener, FIRST_AUTOPILOT_STREAM, StreamOrigin::Autopilot, &queue));
+        std::thread::spawn(move || accept_clients(&listener, &queue));
         Ok(bound)
     }
 
@@ -259,13 +242,19 @@ impl SocketHub {
     }
 }
 
-fn listen(ip: IpAddr, port: u16, flag: &str) -> Result<(TcpListener, u16), AppError> {
+/// Listens on a TCP port (0 for any free one) and returns its number. If the port is in use, the error message mentions the `flag`
+/// option.
+///
+/// # Errors
+/// Returns an error if the port cannot be bound.
+pub fn listen(ip: IpAddr, port: u16, flag: &str) -> Result<(TcpListener, u16), AppError> {
     let listener = TcpListener::bind((ip, port)).map_err(|error| port_in_use("TCP", ip, port, flag, &error))?;
     let bound = listener.local_addr().map_or(port, |address| address.port());
     Ok((listener, bound))
 }
 
-fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
+/// Creates the error for a port that cannot be opened.
+pub fn port_in_use(kind: &str, ip: IpAddr, port: u16, flag: &str, error: &std::io::Error) -> AppError {
     match error.kind() {
         ErrorKind::AddrInUse => AppError::failed(format!(
             "{kind} port {port} on {ip} is in use, perhaps by another simulator or ground station: choose another one with {flag} or \
@@ -299,13 +288,13 @@ fn read_datagrams(socket: &UdpSocket, id: SocketId, queue: &SyncSender<QueuedEve
     }
 }
 
-fn accept_clients(listener: &TcpListener, first: u32, origin: fn(SocketAddr) -> StreamOrigin, queue: &SyncSender<QueuedEvent>) {
-    for number in first.. {
+fn accept_clients(listener: &TcpListener, queue: &SyncSender<QueuedEvent>) {
+    for number in 0.. {
         let Ok((socket, from)) = listener.accept() else {
             std::thread::sleep(ERROR_DELAY);
             continue;
         };
-        if serve_client(StreamId(number), socket, origin(from), queue).is_err() {
+        if serve_client(StreamId(number), socket, StreamOrigin::Tcp(from), queue).is_err() {
             tracing::warn!("TCP client {from} disconnected during connection setup");
         }
     }

@@ -24,6 +24,8 @@ use std::time::Duration;
 const MAX_SOCKET_WAIT: Duration = Duration::from_millis(100);
 /// Minimum sleep time. Waking every millisecond would only load the CPU, and incoming data ends the sleep anyway.
 const MIN_SLEEP: Duration = Duration::from_millis(2);
+/// Maximum time until a new connection of an external autopilot is noticed.
+const CONNECTION_CHECK_INTERVAL: Duration = Duration::from_millis(10);
 /// Wall time between readings before an external autopilot's first answer: PX4's own simulators send at this rate.
 const START_STEP: Duration = Duration::from_millis(4);
 /// Delay beyond which an external autopilot that starts in real time does not catch up.
@@ -230,6 +232,7 @@ impl VehicleShell {
         while let Some(bytes) = self.core.poll_autopilot_transmit() {
             self.links.send_to_autopilot(bytes);
         }
+        self.links.flush_autopilot();
     }
 
     /// Logs the simulation's events and restarts an external autopilot on request.
@@ -261,9 +264,10 @@ impl VehicleShell {
             self.core.send_to_autopilot(&message);
         }
         let mut next_step = wall;
-        let pause = match self.core.autopilot_state() {
+        let state = self.core.autopilot_state();
+        let pause = match state {
             None | Some(AutopilotState::Running { .. }) => return Ok(false),
-            Some(AutopilotState::Disconnected) => MAX_SOCKET_WAIT,
+            Some(AutopilotState::Disconnected) => CONNECTION_CHECK_INTERVAL,
             Some(AutopilotState::Starting { has_answered: true, in_real_time: false, is_waiting }) => {
                 if is_waiting {
                     MAX_SOCKET_WAIT
@@ -287,7 +291,9 @@ impl VehicleShell {
         }
         self.send_outgoing();
         self.handle_events()?;
-        if !pause.is_zero() {
+        if matches!(state, Some(AutopilotState::Starting { is_waiting: true, .. })) {
+            self.links.wait_for_answer(pause);
+        } else if !pause.is_zero() {
             self.links.wait(pause);
         }
         Ok(true)
@@ -411,7 +417,7 @@ impl VehicleShell {
             return Ok(());
         }
         if self.core.autopilot_state() == Some(AutopilotState::Running { is_waiting: true }) {
-            self.links.wait(MAX_SOCKET_WAIT);
+            self.links.wait_for_answer(MAX_SOCKET_WAIT);
             return Ok(());
         }
         let sleep = self.pacer.sleep(wall, self.core.poll_timeout());

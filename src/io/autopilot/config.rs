@@ -1,8 +1,8 @@
 //! Configuration of an external autopilot.
 
 use crate::errors::AppError;
-use crate::io::autopilot_sockets::SimulatorProtocol;
 use crate::io::serial::SerialDevice;
+use crate::io::simulator_socket::SimulatorProtocol;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::backend::ardupilot::{self, ArduPilotInterface};
 use spandrel_sitl::backend::interface::SimulatorInterface;

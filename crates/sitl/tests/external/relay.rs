@@ -190,3 +190,32 @@ fn wire_sticks_of_any_station_reach_an_autopilot_that_accepts_one_sender() {
     assert_eq!((sticks[0].system_id, sticks[0].component_id), sender);
     assert!(matches!(&sticks[0].message, Some(MavMessage::MANUAL_CONTROL(sticks)) if sticks.z == 612));
 }
+
+#[test]
+fn wire_unanswered_requests_to_the_autopilot_are_repeated() {
+    let mut rig = Rig::ready(AfterCrash::Continue);
+    let requests = |rig: &Rig| {
+        let version = |frame: &&spandrel_mavlink::codec::ReceivedFrame| {
+            matches!(&frame.message, Some(MavMessage::COMMAND_LONG(command))
+                if command.command == MavCmd::MAV_CMD_REQUEST_MESSAGE && command.param1 == AUTOPILOT_VERSION_DATA::ID as f32)
+        };
+        let lists = rig.heard(AUTOPILOT, PARAM_REQUEST_LIST_DATA::ID).len();
+        (lists, rig.heard(AUTOPILOT, COMMAND_LONG_DATA::ID).into_iter().filter(version).count())
+    };
+    // The small autopilot answers neither request.
+    rig.run_s(10.0);
+    let (lists, versions) = requests(&rig);
+    assert!((4..=6).contains(&lists) && versions >= 4, "{lists} parameter lists and {versions} versions requested");
+    rig.px4.send(&MavMessage::AUTOPILOT_VERSION(AUTOPILOT_VERSION_DATA { flight_sw_version: 1, ..Default::default() }));
+    let value =
+        |name: &str, param_index| PARAM_VALUE_DATA { param_id: name.into(), param_count: 2, param_index, ..Default::default() };
+    rig.px4.send(&MavMessage::PARAM_VALUE(value("FIRST", 0)));
+    rig.run_s(1.0);
+    assert!(!rig.sim.autopilot_report().is_some_and(|report| report.has_all_parameters()));
+    rig.px4.send(&MavMessage::PARAM_VALUE(value("SECOND", 1)));
+    rig.run_s(1.0);
+    assert!(rig.sim.autopilot_report().is_some_and(|report| report.has_all_parameters()));
+    let before = requests(&rig);
+    rig.run_s(10.0);
+    assert_eq!(requests(&rig), before, "nothing is requested after the answers");
+}

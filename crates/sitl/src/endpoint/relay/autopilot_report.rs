@@ -60,6 +60,8 @@ pub struct AutopilotReport {
     pub version: Option<FirmwareVersion>,
     /// Parameter values, as far as the autopilot has reported them.
     pub parameters: BTreeMap<String, ReportedParam>,
+    /// Number of parameters that the autopilot has, once it has reported one of them.
+    pub parameter_count: Option<u16>,
     /// Primary control of the gimbal, from GIMBAL_MANAGER_STATUS: system and component ID.
     pub gimbal_control: (u8, u8),
     /// Whether the autopilot is the manager of the gimbal.
@@ -80,6 +82,12 @@ impl AutopilotReport {
     #[must_use]
     pub fn is_armed(&self) -> bool {
         self.heartbeat.as_ref().is_some_and(|beat| beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED))
+    }
+
+    /// Returns whether the autopilot has reported all its parameters.
+    #[must_use]
+    pub fn has_all_parameters(&self) -> bool {
+        self.parameter_count.is_some_and(|count| self.parameters.len() >= usize::from(count))
     }
 
     /// Reads a frame from the autopilot component.
@@ -107,6 +115,7 @@ impl AutopilotReport {
 
     fn record_parameter(&mut self, value: &PARAM_VALUE_DATA) {
         let Ok(name) = value.param_id.to_str() else { return };
+        self.parameter_count = Some(value.param_count);
         if self.parameters.len() < MAX_PARAMETERS || self.parameters.contains_key(name) {
             self.parameters.insert(name.to_owned(), ReportedParam { wire: value.param_value, kind: value.param_type });
         }

@@ -25,6 +25,7 @@ use super::vehicle_link::params::InstructorSettings;
 use super::vehicle_link::params::param_view::ParamView;
 pub use autopilot_report::{AutopilotReport, FirmwareVersion, ReportedParam};
 use instructor_params::InstructorParams;
+use setup::SetupRequests;
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Ned, Vec3};
@@ -63,8 +64,7 @@ pub struct RelayEndpoint {
     /// Encoder for sticks under the only accepted sender.
     stick_encoder: Option<Encoder>,
     texts: TextQueue,
-    /// Whether the streams of the present autopilot process have been requested.
-    streams_requested: bool,
+    setup: SetupRequests,
     restart_requested: bool,
     home_m: Vec3<Ned>,
     row_buffer: Vec<usize>,
@@ -86,7 +86,7 @@ impl RelayEndpoint {
             manual: ManualControl::default(),
             stick_encoder: rules.stick_sender.map(|(system, component)| Encoder::new(system, component)),
             texts: TextQueue::default(),
-            streams_requested: false,
+            setup: SetupRequests::default(),
             restart_requested: false,
             home_m,
             row_buffer: Vec::new(),
@@ -115,7 +115,7 @@ impl RelayEndpoint {
     /// Forgets what the previous autopilot process reported.
     pub fn forget_autopilot(&mut self) {
         self.report = AutopilotReport::default();
-        self.streams_requested = false;
+        self.setup = SetupRequests::default();
         self.restart_requested = false;
     }
 

@@ -14,6 +14,7 @@ impl RelayEndpoint {
     /// Sends all messages scheduled for this tick. `link_now` is the clock of the links, which also runs while simulation time is
     /// stopped; payload processes, which use simulation time, then receive nothing.
     pub fn publish(&mut self, aircraft: &SimulatedAircraft, link_now: SimTime, is_time_stopped: bool) {
+        self.repeat_requests(link_now);
         let input = self.input(aircraft);
         self.payload.take_picture(&input, &mut self.links);
         self.announce_changes(&PayloadSnapshot::new(&input, &self.payload.equipment));

@@ -38,7 +38,7 @@ impl RelayEndpoint {
         if frame.component_id == AUTOPILOT {
             self.report.read(frame);
             if frame.message_id == HEARTBEAT_DATA::ID {
-                self.request_streams();
+                self.request_streams_once();
             }
         }
         let (system, component) = router::target(frame);
