@@ -17,6 +17,18 @@ def measured():
     return MEASURED.append
 
 
+def pytest_sessionfinish(session):
+    """Hands a worker process's measurements to the main process."""
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["measured"] = MEASURED
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Takes the measurements of a worker process, unless it crashed."""
+    MEASURED.extend(getattr(node, "workeroutput", {}).get("measured", []))
+
+
 def pytest_terminal_summary(terminalreporter):
     """Prints the measurements at the end of the output, even if all tests pass."""
     for line in MEASURED:
