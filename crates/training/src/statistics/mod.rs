@@ -8,6 +8,7 @@ mod homogeneity;
 mod learning;
 mod paired;
 mod regression;
+mod reliability;
 mod sample;
 
 pub use correlation::{Correlation, pearson, spearman};
@@ -16,6 +17,7 @@ pub use homogeneity::{Homogeneity, homogeneity};
 pub use learning::{LearningCurve, MIN_LEARNING_REPETITIONS, learning_curve};
 pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
+pub use reliability::{Reliability, reliability};
 pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};
 
 /// Reason why a statistic cannot be computed.
