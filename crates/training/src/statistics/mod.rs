@@ -4,6 +4,7 @@
 
 mod correlation;
 mod distribution;
+mod effect_size;
 mod homogeneity;
 mod learning;
 mod paired;
@@ -13,6 +14,7 @@ mod sample;
 
 pub use correlation::{Correlation, pearson, spearman};
 pub use distribution::{TailProbabilities, t_tail_probabilities};
+pub use effect_size::{cohens_d, proportion_interval_95};
 pub use homogeneity::{Homogeneity, homogeneity};
 pub use learning::{LearningCurve, MIN_LEARNING_REPETITIONS, learning_curve};
 pub use paired::{PairedTest, holm, paired_t};
