@@ -8,6 +8,7 @@ use spandrel_monitor::export::json_text;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::record::{IncompletePolicy, excluded_sessions_note};
 use spandrel_training::report::page::cohort as page;
+use spandrel_training::report::page::within_error::{measure_name, words};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -18,7 +19,8 @@ const MAX_CONTRADICTIONS: usize = 12;
 ///
 /// Reports distributions of scores, trainees and tasks, box plots by repetition, crashes, and answer counts. Compares
 /// self-ratings with measurements. Runs paired t-tests (effect sizes, confidence intervals, Holm correction) and
-/// homogeneity tests, fits a causal model of demand, strain and performance, and shows each trainee's progress. Writes
+/// homogeneity tests, reports the reliability of each measure (ICC, standard error, minimal detectable change (MDC)), fits a
+/// causal model of demand, strain and performance, and shows each trainee's progress. Writes
 /// text, JSON, CSV tables or an HTML page.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -123,13 +125,39 @@ fn first_session_summary(cohort: &Cohort) -> String {
     out
 }
 
+/// Formats the reliability of the measures as text.
+fn reliability_text(cohort: &Cohort) -> String {
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "\n{:<22}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
+        "reliability", "ceiling", "trainees", "ICC(2,1)", "ICC(3,1)", "SEM", "MDC"
+    );
+    let shown = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |value| format!("{value:.digits$}"));
+    for one in &cohort.reliability {
+        let known = one.reliability;
+        let _ = writeln!(
+            out,
+            "{:<22}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
+            measure_name(&one.measure, one.unit),
+            one.at_ceiling.map_or("-".to_owned(), |share| format!("{:.0}%", 100.0 * share)),
+            known.map_or("-".to_owned(), |one| one.n.to_string()),
+            shown(known.map(|one| one.icc_2_1), 2),
+            shown(known.map(|one| one.icc_3_1), 2),
+            shown(known.map(|one| one.sem), 2),
+            shown(known.map(|one| one.minimal_detectable_change), 2),
+        );
+    }
+    out
+}
+
 fn summary_text(cohort: &Cohort) -> String {
-    let mut out = first_session_summary(cohort);
+    let mut out = first_session_summary(cohort) + &reliability_text(cohort);
     if !cohort.tests.is_empty() {
         let _ = writeln!(out, "\n{} people, {} repetitions", cohort.group.len(), cohort.repetitions);
         let _ = writeln!(
             out,
-            "{:<12}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}",
+            "{:<12}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}  measurement error",
             "paired t", "", "change", "t", "p upper", "p lower", "p two", "d_z", "Holm two"
         );
     }
@@ -138,7 +166,7 @@ fn summary_text(cohort: &Cohort) -> String {
         let (t, p) = (&one.test, one.test.p);
         let _ = writeln!(
             out,
-            "{:<12}{:<9}{:>9.2}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}",
+            "{:<12}{:<9}{:>9.2}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}  {}",
             one.score,
             format!("{} vs. {}", one.earlier, one.later),
             t.mean_difference,
@@ -148,6 +176,7 @@ fn summary_text(cohort: &Cohort) -> String {
             shown(p.map(|p| p.two)),
             shown(t.effect_size_dz),
             shown(one.p_holm.map(|p| p.two)),
+            one.within_error.map_or("unknown", words),
         );
     }
     for one in &cohort.homogeneity {
@@ -169,11 +198,12 @@ fn summary_text(cohort: &Cohort) -> String {
         let (first, last) = (one.means.first().copied().unwrap_or_default(), one.means.last().copied().unwrap_or_default());
         let _ = writeln!(
             out,
-            "{}: from {first:.1} to {last:.1} over {} repetitions by {} people, learning exponent {:.3}",
+            "{}: from {first:.1} to {last:.1} over {} repetitions by {} people, learning exponent {:.3}{}",
             one.score,
             one.means.len(),
             one.people,
-            one.curve.exponent
+            one.curve.exponent,
+            one.within_error.map_or(String::new(), |within| format!(", {}", words(within)))
         );
     }
     let contradictions = &cohort.self_rating.contradictions;

@@ -22,6 +22,7 @@ mod render;
 mod report;
 mod serve;
 mod sim;
+mod study;
 mod table;
 mod train;
 mod view;
@@ -60,6 +61,7 @@ enum Command {
     Records(records::Args),
     Plan(plan::Args),
     Cohort(cohort::Args),
+    Study(study::Args),
     Report(report::Args),
     Serve(serve::Args),
     Render(render::Args),
@@ -99,6 +101,7 @@ fn run(cli: &Cli) -> Result<(), AppError> {
         Command::Records(args) => records::run(args),
         Command::Plan(args) => plan::run(args),
         Command::Cohort(args) => cohort::run(args),
+        Command::Study(args) => study::run(args),
         Command::Report(args) => report::run(args),
         Command::Serve(args) => serve::run(args),
         Command::Render(args) => render::run(args),

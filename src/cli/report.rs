@@ -5,7 +5,10 @@ use crate::io::files;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report::{address, comparison_page, review};
+use crate::records::read_json_lines;
 use spandrel_monitor::folder::REPORT;
+use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
+use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::page;
 use std::path::PathBuf;
 
@@ -13,7 +16,8 @@ use std::path::PathBuf;
 ///
 /// The report is one printable page that opens offline in any browser: scores, tasks, the flight on the site, pictures
 /// and missed defects, feedback and reactions, and surface coverage. It uses the telemetry and the two TOML files in
-/// the session folder. Live sessions write it automatically at the end. For two sessions, the page compares them.
+/// the session folder. Live sessions write it automatically at the end. For two sessions, the page compares them and, with
+/// --records, labels the changes that are within the error of the measures.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -32,6 +36,10 @@ pub struct Args {
     /// Output file; '-' for standard output [default: report.html in the session folder]
     #[arg(long, value_name = "FILE")]
     out: Option<String>,
+    /// For two sessions: records of all trainees on the job, as written by `spandrel records export`, to estimate the error
+    /// of the measures
+    #[arg(long, value_name = "FILE", requires = "other")]
+    records: Option<PathBuf>,
 }
 
 /// Runs the subcommand.
@@ -41,7 +49,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
     let text = match &args.other {
-        Some(other) => comparison_page(&args.session, other)?,
+        Some(other) => comparison_page(&args.session, other, |scenario| reliability(args, scenario))?,
         None => page::session(&review(&args.session)?),
     };
     progress.finish();
@@ -54,4 +62,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             Ok(())
         }
     }
+}
+
+/// Returns the reliability of the measures on a job over the first two sessions of each trainee; empty without records.
+fn reliability(args: &Args, scenario: &str) -> Result<Vec<MeasureReliability>, AppError> {
+    let Some(file) = &args.records else { return Ok(Vec::new()) };
+    let selection = Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete: IncompletePolicy::Exclude };
+    Ok(cohort(&read_json_lines(file)?, &selection).reliability)
 }

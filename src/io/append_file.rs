@@ -65,17 +65,14 @@ impl AppendFile {
         }
     }
 
-    /// Locks the file against other processes until it is closed.
+    /// Locks the file against other processes until it is closed. `conflict` describes the conflict and how to solve it.
     ///
     /// # Errors
     /// Returns an error if another process has locked it. A file system without locks is not an error.
-    pub fn lock(&self) -> Result<(), AppError> {
+    pub fn lock(&self, conflict: &str) -> Result<(), AppError> {
         match self.file.try_lock() {
             Ok(()) => Ok(()),
-            Err(TryLockError::WouldBlock) => Err(AppError::invalid(format!(
-                "{}: another monitor is recording this session: stop that monitor, or omit --session to start a new session",
-                self.path.display()
-            ))),
+            Err(TryLockError::WouldBlock) => Err(AppError::invalid(format!("{}: {conflict}", self.path.display()))),
             Err(TryLockError::Error(error)) => {
                 tracing::warn!("{}: cannot lock: {error}", self.path.display());
                 Ok(())

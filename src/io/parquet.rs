@@ -1,5 +1,5 @@
-//! Writes frames as Parquet for notebooks and databases. The columns match those of the CSV export, but are typed; each
-//! field's metadata contains its unit, frame and definition.
+//! Writes tables as Parquet for notebooks and databases: the frames of a flight, with the same columns as the CSV export but
+//! typed, and the flights of a study. Each field's metadata contains its unit, frame and definition.
 
 mod arrow_schema;
 
@@ -20,73 +20,125 @@ use std::sync::Arc;
 /// Metadata key under which Arrow-based readers look for field types and metadata.
 const ARROW_SCHEMA: &str = "ARROW:schema";
 
+/// A column of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableColumn<'a> {
+    /// Column name.
+    pub name: &'a str,
+    /// Unit; empty if there is none.
+    pub unit: &'a str,
+    /// Reference frame; empty if there is none.
+    pub frame: &'a str,
+    /// Definition of the values.
+    pub description: &'a str,
+    /// True if values may be missing.
+    pub optional: bool,
+    /// Values of all rows.
+    pub values: TypedValues,
+}
+
+/// Values of a column; `None` for a missing value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TypedValues {
+    /// Signed 64-bit integers.
+    Integer(Vec<Option<i64>>),
+    /// 64-bit floats.
+    Float(Vec<Option<f64>>),
+    /// Truth values.
+    Boolean(Vec<Option<bool>>),
+    /// UTF-8 text.
+    Text(Vec<Option<String>>),
+}
+
 /// Returns the frames as a Parquet file.
 ///
 /// # Errors
 /// Not expected in practice, because the file is written to memory.
 pub fn frames_to_parquet(rows: &[FrameRow]) -> Result<Vec<u8>, AppError> {
-    write(rows).map_err(|error| AppError::failed(format!("cannot create the Parquet file: {error}")))
+    table_to_parquet("frames", &COLUMNS.iter().map(|column| frame_column(column, rows)).collect::<Vec<_>>())
 }
 
-fn write(rows: &[FrameRow]) -> Result<Vec<u8>, ParquetError> {
-    let schema = Arc::new(parse_message_type(&message_type())?);
+fn frame_column<'a>(column: &'a Column, rows: &[FrameRow]) -> TableColumn<'a> {
+    let values = match column.read {
+        ColumnReader::Integer(value) => TypedValues::Integer(rows.iter().map(value).collect()),
+        ColumnReader::Float(value) => TypedValues::Float(rows.iter().map(value).collect()),
+        ColumnReader::Boolean(value) => TypedValues::Boolean(rows.iter().map(|row| Some(value(row))).collect()),
+        ColumnReader::Text(value) => TypedValues::Text(rows.iter().map(|row| Some(value(row).to_owned())).collect()),
+    };
+    let Column { name, unit, frame, description, optional, .. } = column;
+    TableColumn { name, unit, frame, description, optional: *optional, values }
+}
+
+/// Returns a table as a Parquet file. The same table always gives the same bytes.
+///
+/// # Errors
+/// Returns an error if a column that is not optional has a missing value, or if the columns differ in length.
+pub fn table_to_parquet(name: &str, columns: &[TableColumn<'_>]) -> Result<Vec<u8>, AppError> {
+    write(name, columns).map_err(|error| AppError::failed(format!("cannot create the Parquet file: {error}")))
+}
+
+fn write(name: &str, columns: &[TableColumn<'_>]) -> Result<Vec<u8>, ParquetError> {
+    let schema = Arc::new(parse_message_type(&message_type(name, columns))?);
     let properties = WriterProperties::builder()
         .set_compression(Compression::UNCOMPRESSED)
-        .set_key_value_metadata(Some(vec![KeyValue::new(ARROW_SCHEMA.to_owned(), arrow_metadata())]))
+        .set_key_value_metadata(Some(vec![KeyValue::new(ARROW_SCHEMA.to_owned(), arrow_metadata(columns))]))
         .set_created_by(concat!("spandrel ", env!("CARGO_PKG_VERSION")).to_owned());
     let mut file = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()))?;
     let mut group = file.next_row_group()?;
-    for column in COLUMNS {
-        write_column(&mut group, column, rows)?;
+    for column in columns {
+        write_column(&mut group, column)?;
     }
     group.close()?;
     file.into_inner()
 }
 
 /// Returns the schema in Parquet's notation.
-fn message_type() -> String {
-    let line = |column: &Column| {
-        let (kind, annotation) = match column.read {
-            ColumnReader::Integer(_) => ("int64", ""),
-            ColumnReader::Float(_) => ("double", ""),
-            ColumnReader::Boolean(_) => ("boolean", ""),
-            ColumnReader::Text(_) => ("binary", " (utf8)"),
+fn message_type(name: &str, columns: &[TableColumn<'_>]) -> String {
+    let line = |column: &TableColumn<'_>| {
+        let (kind, annotation) = match column.values {
+            TypedValues::Integer(_) => ("int64", ""),
+            TypedValues::Float(_) => ("double", ""),
+            TypedValues::Boolean(_) => ("boolean", ""),
+            TypedValues::Text(_) => ("binary", " (utf8)"),
         };
         let repetition = if column.optional { "optional" } else { "required" };
         format!("{repetition} {kind} {}{annotation};", column.name)
     };
-    format!("message frames {{ {} }}", COLUMNS.iter().map(line).collect::<Vec<_>>().join(" "))
+    format!("message {name} {{ {} }}", columns.iter().map(line).collect::<Vec<_>>().join(" "))
 }
 
 /// Returns the same schema in Arrow's format, with units, frames and definitions.
-fn arrow_metadata() -> String {
-    let field = |column: &Column| Field {
-        name: column.name,
-        nullable: column.optional,
-        kind: match column.read {
-            ColumnReader::Integer(_) => FieldType::Int64,
-            ColumnReader::Float(_) => FieldType::Double,
-            ColumnReader::Boolean(_) => FieldType::Bool,
-            ColumnReader::Text(_) => FieldType::Utf8,
-        },
-        metadata: [("unit", column.unit), ("frame", column.frame), ("description", column.description)]
-            .into_iter()
-            .filter(|(_, text)| !text.is_empty())
-            .collect(),
-    };
-    let message = arrow_schema::message(&COLUMNS.iter().map(field).collect::<Vec<_>>());
-    base64::engine::general_purpose::STANDARD.encode(message)
+fn arrow_metadata(columns: &[TableColumn<'_>]) -> String {
+    let fields: Vec<Field<'_>> = columns
+        .iter()
+        .map(|column| Field {
+            name: column.name,
+            nullable: column.optional,
+            kind: match column.values {
+                TypedValues::Integer(_) => FieldType::Int64,
+                TypedValues::Float(_) => FieldType::Double,
+                TypedValues::Boolean(_) => FieldType::Bool,
+                TypedValues::Text(_) => FieldType::Utf8,
+            },
+            metadata: [("unit", column.unit), ("frame", column.frame), ("description", column.description)]
+                .into_iter()
+                .filter(|(_, text)| !text.is_empty())
+                .collect(),
+        })
+        .collect();
+    base64::engine::general_purpose::STANDARD.encode(arrow_schema::message(&fields))
 }
 
 type Group<'a> = SerializedRowGroupWriter<'a, Vec<u8>>;
 
-fn write_column(group: &mut Group<'_>, column: &Column, rows: &[FrameRow]) -> Result<(), ParquetError> {
-    match column.read {
-        ColumnReader::Integer(value) => write_next_column::<Int64Type>(group, column, rows.iter().map(value)),
-        ColumnReader::Float(value) => write_next_column::<DoubleType>(group, column, rows.iter().map(value)),
-        ColumnReader::Boolean(value) => write_next_column::<BoolType>(group, column, rows.iter().map(|row| Some(value(row)))),
-        ColumnReader::Text(value) => {
-            write_next_column::<ByteArrayType>(group, column, rows.iter().map(|row| Some(ByteArray::from(value(row)))))
+fn write_column(group: &mut Group<'_>, column: &TableColumn<'_>) -> Result<(), ParquetError> {
+    match &column.values {
+        TypedValues::Integer(values) => write_next_column::<Int64Type>(group, column, values.iter().copied()),
+        TypedValues::Float(values) => write_next_column::<DoubleType>(group, column, values.iter().copied()),
+        TypedValues::Boolean(values) => write_next_column::<BoolType>(group, column, values.iter().copied()),
+        TypedValues::Text(values) => {
+            let texts = values.iter().map(|text| text.as_ref().map(|text| ByteArray::from(text.as_str())));
+            write_next_column::<ByteArrayType>(group, column, texts)
         }
     }
 }
@@ -94,7 +146,7 @@ fn write_column(group: &mut Group<'_>, column: &Column, rows: &[FrameRow]) -> Re
 /// Writes the next column. Definition level 1 marks a value, 0 a null.
 fn write_next_column<T: DataType>(
     group: &mut Group<'_>,
-    column: &Column,
+    column: &TableColumn<'_>,
     values: impl Iterator<Item = Option<T::T>>,
 ) -> Result<(), ParquetError> {
     let cells: Vec<Option<T::T>> = values.collect();

@@ -6,6 +6,7 @@ use super::session_folder::StoredSession;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::folder::{REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, sha256_hex};
+use spandrel_training::cohort::MeasureReliability;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
 
@@ -31,12 +32,19 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
     Ok(scorm::files(&review, &page::session(&review)))
 }
 
-/// Returns the page that compares two sessions.
+/// Returns the page that compares two sessions. `reliability` returns the reliability of the measures on the job with the
+/// given scenario name; empty if unknown.
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
-pub fn comparison_page(first: &Path, second: &Path) -> Result<String, AppError> {
-    Ok(page::comparison(&review(first)?, &review(second)?))
+pub fn comparison_page(
+    first: &Path,
+    second: &Path,
+    reliability: impl FnOnce(&str) -> Result<Vec<MeasureReliability>, AppError>,
+) -> Result<String, AppError> {
+    let (first, second) = (review(first)?, review(second)?);
+    let reliability = reliability(&first.scenario.name)?;
+    Ok(page::comparison(&first, &second, &reliability))
 }
 
 /// Returns a session's pictures with their assessments.

@@ -14,6 +14,10 @@ use spandrel_monitor::{SessionOutput, export};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+/// Message if another monitor has locked the telemetry log.
+const RECORDING_CONFLICT: &str =
+    "another monitor is recording this session: stop that monitor, or omit --session to start a new session";
+
 /// An open session folder.
 #[derive(Debug)]
 pub struct SessionFolder {
@@ -103,7 +107,7 @@ impl SessionFolder {
         monitor_starts: u32,
     ) -> Result<Self, AppError> {
         let telemetry = AppendFile::open(path.join(TELEMETRY), tlog::complete_len)?;
-        telemetry.lock()?;
+        telemetry.lock(RECORDING_CONFLICT)?;
         let events = AppendFile::open(path.join(EVENTS), complete_lines_len)?;
         Ok(Self { path, telemetry, events, scenario_toml, vehicle_toml, started_utc, monitor_starts })
     }

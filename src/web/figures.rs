@@ -5,8 +5,8 @@
 use super::lock::lock;
 use crate::errors::AppError;
 use crate::records::{Database, RecordsLocation};
-use spandrel_training::cohort::{Cohort, Selection, cohort};
-use spandrel_training::record::SessionRecord;
+use spandrel_training::cohort::{Cohort, MeasureReliability, Selection, cohort};
+use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
@@ -44,6 +44,15 @@ impl FigureCache {
     /// Returns an error if the database cannot be opened.
     pub fn open(records_location: &RecordsLocation) -> Result<Self, AppError> {
         Ok(Self { database: records_location.open()?, cache: Mutex::default() })
+    }
+
+    /// Returns the reliability of the measures on a job over the first two sessions of each trainee.
+    ///
+    /// # Errors
+    /// Returns an error if the database fails or contains an invalid record.
+    pub fn reliability(&self, scenario: &str, incomplete: IncompletePolicy) -> Result<Vec<MeasureReliability>, AppError> {
+        let selection = Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete };
+        Ok(self.get(&selection)?.cohort.reliability.clone())
     }
 
     /// Returns the figures for a selection.

@@ -9,7 +9,7 @@ use crate::io::session_folder::StoredSession;
 use crate::io::trainee_id::TraineeId;
 use spandrel_monitor::export;
 use spandrel_monitor::folder::{REPORT, TELEMETRY};
-use spandrel_training::record::SessionRecord;
+use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
 use spandrel_training::web::sessions as pages;
 use std::path::{Path, PathBuf};
@@ -97,7 +97,8 @@ pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
             request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (required: a session ID)")))?;
         folder(state, request, id)
     };
-    let page = report::comparison_page(&folder("first")?, &folder("second")?)?;
+    let reliability = |scenario: &str| state.figures.reliability(scenario, IncompletePolicy::Exclude);
+    let page = report::comparison_page(&folder("first")?, &folder("second")?, reliability)?;
     Ok(WebResponse::sandboxed_page(page.into_bytes(), &assets::page_policy()))
 }
 

@@ -8,12 +8,13 @@ use crate::io::plan_rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::{erase_trainee, trainee_data};
 use spandrel_monitor::export::json_text;
-use spandrel_training::cohort::{Selection, TABLES, table};
+use spandrel_training::cohort::{JobReliability, Selection, TABLES, table};
 use spandrel_training::plan::plan_for_policy;
-use spandrel_training::record::IncompletePolicy;
+use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::{assets, page::cohort as report};
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role, Trainee};
 use spandrel_training::web::{cohort_page, trainees as pages};
+use std::collections::BTreeMap;
 
 /// Maximum number of sessions on a trainee's page.
 const MAX_SESSIONS: u32 = 200;
@@ -39,8 +40,32 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
     let incomplete = incomplete_policy(request);
     let plan = plan_for_policy(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
-    let about = pages::TraineeProfile { person: &person, records: &records, listed: &listed, plan: plan.as_ref(), incomplete };
+    let reliability = reliability_of_repeated_jobs(state, &records, incomplete)?;
+    let about = pages::TraineeProfile {
+        person: &person,
+        records: &records,
+        listed: &listed,
+        plan: plan.as_ref(),
+        incomplete,
+        reliability: &reliability,
+    };
     Ok(WebResponse::page(pages::trainee_page(&request.visitor, &about)))
+}
+
+/// Returns the reliability of the measures on each job that the trainee flew more than once: only there, sessions are
+/// compared.
+fn reliability_of_repeated_jobs(
+    state: &ServerState,
+    records: &[SessionRecord],
+    incomplete: IncompletePolicy,
+) -> Result<JobReliability, WebError> {
+    let mut flown: BTreeMap<&str, usize> = BTreeMap::new();
+    for record in records {
+        *flown.entry(&record.scenario).or_default() += 1;
+    }
+    let repeated = flown.into_iter().filter(|(_, times)| *times > 1);
+    let known = repeated.map(|(job, _)| Ok((job.to_owned(), state.figures.reliability(job, incomplete)?)));
+    known.collect()
 }
 
 /// Responds with all of a trainee's data.

@@ -1,9 +1,11 @@
-"""Compares the cohort statistics with SciPy's results on random data."""
+"""Compares the cohort statistics with the results of SciPy and Pingouin on random data."""
 
 import json
 import math
 
 import numpy as np
+import pandas
+import pingouin
 import pytest
 from scipy import optimize, stats
 
@@ -15,6 +17,8 @@ PHASES = ("calibration", "taking_off", "task_1", "task_2", "task_3", "task_4", "
 CLOSE = 1e-9
 # Tolerance between a fit by general minimization and the program's bisection.
 FITTED = 1e-5
+# Pingouin rounds its results to six digits or more, depending on the column.
+PINGOUIN = 1e-6
 PICKS = {
     "conformity": lambda record: record["scores"]["conformity"],
     "efficiency": lambda record: record["scores"]["efficiency"],
@@ -92,6 +96,43 @@ def test_val_paired_t_tests_match_scipy(study):
         difference = after - before
         assert close(one["effect_size_dz"], difference.mean() / difference.std(ddof=1))
     assert len(cohort["tests"]) == 50
+
+
+def pingouin_reliability(values):
+    """ICC(2,1), ICC(3,1) and the residual mean square of a table with one row per person and one column per session."""
+    people, sessions = values.shape
+    long = pandas.DataFrame({
+        "person": np.repeat(np.arange(people), sessions), "session": np.tile(np.arange(sessions), people), "value": values.ravel(),
+    })
+    table = pingouin.intraclass_corr(long, targets="person", raters="session", ratings="value")
+    # Single values; Pingouin 0.7 names the types after McGraw and Wong.
+    named = dict(zip(table["Type"], table["ICC"]))
+    pick = lambda *names: next(named[name] for name in names if name in named)
+    residual = pingouin.rm_anova(long, dv="value", within="session", subject="person", detailed=True).set_index("Source").loc["Error", "MS"]
+    return pick("ICC2", "ICC(A,1)"), pick("ICC3", "ICC(C,1)"), residual
+
+
+def test_val_reliability_matches_pingouin(study):
+    people, cohort = study
+    group = [records for records in people.values() if len(records) == 5]
+    for one in cohort["reliability"]:
+        if one["measure"] not in PICKS:
+            continue
+        values = np.array([[PICKS[one["measure"]](record) for record in records] for records in group])
+        agreement, consistency, residual = pingouin_reliability(values)
+        ours = one["reliability"]
+        assert (ours["n"], ours["repetitions"]) == (15, 5)
+        assert close(ours["icc_2_1"], agreement, PINGOUIN) and close(ours["icc_3_1"], consistency, PINGOUIN), one["measure"]
+        assert close(ours["sem"], math.sqrt(residual), PINGOUIN)
+        assert close(ours["minimal_detectable_change"], stats.norm.ppf(0.975) * math.sqrt(2 * residual), PINGOUIN)
+        for test in (test for test in cohort["tests"] if test["score"] == one["measure"]):
+            least = ours["minimal_detectable_change"] / math.sqrt(15)
+            assert test["within_error"] == (abs(test["mean_difference"]) < least)
+            change = values[:, test["later"] - 1] - values[:, test["earlier"] - 1]
+            assert test["trainees_beyond_error"] == int(np.sum(np.abs(change) >= ours["minimal_detectable_change"]))
+    # All flights take 700 s and nobody crashes: there is nothing to estimate.
+    flat = {one["measure"]: one["reliability"] for one in cohort["reliability"] if one["measure"] in ("flight_time", "crashes")}
+    assert flat == {"flight_time": None, "crashes": None}
 
 
 def test_val_box_plots_match_numpy(study):

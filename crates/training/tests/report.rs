@@ -10,9 +10,12 @@ use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
+use spandrel_training::cohort::{Selection, cohort};
+use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::feedback::KINDS;
 use spandrel_training::report::{Review, SessionMetadata, page};
+use spandrel_training::testing::perfect_record;
 use std::sync::OnceLock;
 
 /// Maximum size of a report page, bytes.
@@ -143,7 +146,7 @@ fn exact_user_text_is_escaped_everywhere() {
     let tape = with_note(record_inspection(&job, 200.0, 9), HOSTILE_TEXT);
     let evil = Review::of(&tape.log(0), &job, &vehicle, metadata).unwrap();
     assert_eq!(evil.feedback.notes.len(), 1);
-    for page in [page::session(&evil), page::comparison(&evil, short_review())] {
+    for page in [page::session(&evil), page::comparison(&evil, short_review(), &[])] {
         let page = without_assets(&page);
         assert!(page.contains("alert(1)"), "the text should appear in escaped form");
         for raw in ["<script>alert", "<img src=x", "<!--"] {
@@ -154,6 +157,30 @@ fn exact_user_text_is_escaped_everywhere() {
         let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
         assert!(!before.contains("\"'>"));
     }
+}
+
+#[test]
+fn exact_compared_changes_are_labeled_with_the_measurement_error() {
+    let mut records = Vec::new();
+    for (trainee, offset) in [("anna", 0.0), ("ben", 12.0), ("cleo", 25.0)] {
+        for number in 1..=2 {
+            let mut record = perfect_record(trainee, number);
+            record.scores.safety = 50.0 + offset + number as f64 * (1.0 + 0.1 * offset);
+            records.push(record);
+        }
+    }
+    let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
+    let reliability = cohort(&records, &selection).reliability;
+    let first = short_review();
+    let mut second = review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges());
+    second.assessment.scores.safety.pct -= 60.0;
+    let page = page::comparison(first, &second, &reliability);
+    // Only safety varies in the records, so it is the only labeled measure.
+    assert_eq!((page.matches(">beyond error<").count(), page.matches(">within error<").count()), (1, 0));
+    let page = page::comparison(first, first, &reliability);
+    assert_eq!((page.matches(">beyond error<").count(), page.matches(">within error<").count()), (0, 1));
+    let page = page::comparison(first, &second, &[]);
+    assert!(!page.contains("beyond error") && page.contains("The changes are not labeled"));
 }
 
 #[test]

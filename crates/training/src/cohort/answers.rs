@@ -1,6 +1,7 @@
 //! A cohort's questionnaire answers: answer counts per question and a comparison with measured scores.
 
-use super::samples::SessionsByTrainee;
+use super::reliability::{MeasureReliability, reliability_of};
+use super::samples::{FLIGHT_TIME, OVERALL, SessionsByTrainee};
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
 use crate::record::SessionRecord;
 use crate::statistics::{Correlation, quantile, spearman};
@@ -10,6 +11,10 @@ use serde::Serialize;
 const MAX_AGREEING_ANSWER: u8 = 2;
 /// Lowest mean self-rating that counts as a good performance.
 const MIN_GOOD_SELF_RATING: f64 = 4.0;
+/// Smallest difference of scores that a contradiction's text shows, %.
+const PRINTED_SCORE_PCT: f64 = 1.0;
+/// Smallest difference of flight times that a contradiction's text shows, s (0.1 min).
+const PRINTED_TIME_S: f64 = 6.0;
 
 /// Answer distribution for one question.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -95,7 +100,7 @@ pub fn measured_pct(record: &SessionRecord) -> f64 {
     100.0 * record.scores.overall / record.scores.overall_max
 }
 
-pub fn self_rating(first_sessions: &[&SessionRecord]) -> SelfRating {
+pub fn self_rating(first_sessions: &[&SessionRecord], reliability: &[MeasureReliability]) -> SelfRating {
     let pair = |record: &&SessionRecord| {
         let self_rating = record.scales()?.self_rating?;
         Some(SelfRatingPair { trainee: record.trainee.clone(), self_rating, measured_pct: measured_pct(record) })
@@ -108,7 +113,7 @@ pub fn self_rating(first_sessions: &[&SessionRecord]) -> SelfRating {
     SelfRating {
         overall: spearman(&own, &measured).ok(),
         tasks: tasks.into_iter().map(|id| (id, task_correlation(first_sessions, id))).collect(),
-        contradictions: contradictions(first_sessions, &people),
+        contradictions: contradictions(first_sessions, &people, reliability),
         people,
     }
 }
@@ -129,14 +134,25 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
 
 /// Returns contradictions as defined in the TASBID paper: a high self-rating with a score in the bottom quarter, a low
 /// self-rating with a score in the top quarter, no time pressure despite one of the slowest flights, or time pressure
-/// despite one of the fastest.
-fn contradictions(first_sessions: &[&SessionRecord], people: &[SelfRatingPair]) -> Vec<Contradiction> {
+/// despite one of the fastest. A value counts as low or high only if it also differs from the median by more than the
+/// measure's error and by at least one unit of its last printed digit: in a cohort whose values are practically equal,
+/// nobody is slow.
+fn contradictions(
+    first_sessions: &[&SessionRecord],
+    people: &[SelfRatingPair],
+    reliability: &[MeasureReliability],
+) -> Vec<Contradiction> {
     let mut found = Vec::new();
-    let ends = |mut values: Vec<f64>| {
+    let error = |measure: &str| reliability_of(reliability, measure)?.reliability.map(|one| one.minimal_detectable_change);
+    let ends = |mut values: Vec<f64>, margin: f64| {
         values.sort_by(f64::total_cmp);
-        quantile(&values, 0.25).zip(quantile(&values, 0.75))
+        let [low, median, high] = [0.25, 0.5, 0.75].map(|share| quantile(&values, share));
+        let median = median?;
+        Some((low?.min(median - margin), high?.max(median + margin)))
     };
-    if let Some((low, high)) = ends(people.iter().map(|pair| pair.measured_pct).collect()) {
+    let overall_max = first_sessions.first().map_or(f64::INFINITY, |record| record.scores.overall_max);
+    let score_margin = error(OVERALL.0).map_or(0.0, |points| 100.0 * points / overall_max).max(PRINTED_SCORE_PCT);
+    if let Some((low, high)) = ends(people.iter().map(|pair| pair.measured_pct).collect(), score_margin) {
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
             let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
@@ -149,7 +165,8 @@ fn contradictions(first_sessions: &[&SessionRecord], people: &[SelfRatingPair]) 
             found.push(Contradiction { trainee: pair.trainee.clone(), words });
         }
     }
-    if let Some((quick, slow)) = ends(first_sessions.iter().map(|record| record.seconds).collect()) {
+    let time_margin = error(FLIGHT_TIME).unwrap_or_default().max(PRINTED_TIME_S);
+    if let Some((quick, slow)) = ends(first_sessions.iter().map(|record| record.seconds).collect(), time_margin) {
         for record in first_sessions {
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;

@@ -7,6 +7,7 @@ mod causal;
 pub mod columns;
 mod learning;
 mod progress;
+mod reliability;
 mod samples;
 mod scores;
 mod tables;
@@ -14,7 +15,8 @@ mod tables;
 pub use answers::{AnswerDistribution, Contradiction, SelfRating, SelfRatingPair};
 pub use causal::{IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
 pub use learning::GroupCurve;
-pub use progress::{JobProgress, Repetition, ScoreCurve, TraineeProgress, by_job};
+pub use progress::{JobProgress, JobReliability, Repetition, ScoreCurve, TraineeProgress, by_job};
+pub use reliability::{MeasureReliability, reliability_of};
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, FirstSession, GroupHomogeneityTest, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
@@ -61,6 +63,8 @@ pub struct Cohort {
     pub crashes: CrashTable,
     /// The group's scores by repetition.
     pub boxes: Vec<RepetitionBox>,
+    /// Reliability of each measure over the group's repetitions.
+    pub reliability: Vec<MeasureReliability>,
     /// Paired comparisons of the group's repetitions.
     pub tests: Vec<Comparison>,
     /// Tests of whether the group's scores are distributed like the other trainees' scores.
@@ -105,7 +109,9 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
             group.len()
         ));
     }
-    let progress: Vec<TraineeProgress> = runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions)).collect();
+    let reliability = reliability::reliabilities(&runs, &group, repetitions, &mut warnings);
+    let progress: Vec<TraineeProgress> =
+        runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions, &reliability)).collect();
     let homogeneity = scores::test_group_homogeneity(&first_sessions, &group, &mut warnings);
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
@@ -117,12 +123,13 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         individuals: first_sessions.iter().map(|record| scores::first_session(record)).collect(),
         crashes: scores::crash_table(&first_sessions),
         boxes: scores::boxes(&group, repetitions),
-        tests: scores::comparisons(&group, repetitions, &mut warnings),
+        tests: scores::comparisons(&group, repetitions, &reliability, &mut warnings),
         homogeneity,
         likert: answers::likert(&first_sessions, &group, repetitions),
-        self_rating: answers::self_rating(&first_sessions),
+        self_rating: answers::self_rating(&first_sessions, &reliability),
         causal,
-        learning: learning::learning(&progress),
+        learning: learning::learning(&progress, &reliability),
+        reliability,
         progress,
         warnings,
         scenarios,

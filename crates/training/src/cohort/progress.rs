@@ -1,5 +1,6 @@
 //! One trainee's progress by repetition, as in the TASBID paper's figure for participant 18.
 
+use super::reliability::{MeasureReliability, reliability_of};
 use super::samples::{SCORES, ScorePicker};
 use crate::record::{Crashes, IncompletePolicy, SessionRecord};
 use crate::statistics::{LearningCurve, learning_curve};
@@ -42,6 +43,8 @@ pub struct Repetition {
     pub on_path: Vec<(u32, Option<f64>)>,
     /// Crash counts by kind of object hit.
     pub crashes: Crashes,
+    /// Scores that changed since the preceding repetition by less than the minimal detectable change.
+    pub within_error: Vec<String>,
 }
 
 /// Learning curve for one score.
@@ -52,7 +55,13 @@ pub struct ScoreCurve {
     /// Power law fitted to the scores.
     #[serde(flatten)]
     pub curve: LearningCurve,
+    /// Whether the fitted change from the first to the last repetition is smaller than the minimal detectable change; `None`
+    /// if the score's reliability is unknown.
+    pub within_error: Option<bool>,
 }
+
+/// Reliability of the measures on each job, by scenario name.
+pub type JobReliability = BTreeMap<String, Vec<MeasureReliability>>;
 
 /// One trainee's progress on one job. Jobs are kept separate because practice on one says little about another.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +74,8 @@ pub struct JobProgress {
     pub progress: TraineeProgress,
     /// Number of excluded incomplete sessions.
     pub left_out: usize,
+    /// Reliability of the measures on this job, from all trainees; empty if unknown.
+    pub reliability: Vec<MeasureReliability>,
 }
 
 impl Repetition {
@@ -82,9 +93,10 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario, sorted by descending number of tasks, then by name.
+/// Groups one trainee's sessions by scenario, sorted by descending number of tasks, then by name. Changes are labeled with
+/// the reliability of the measures on that job, as far as it is known.
 #[must_use]
-pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<JobProgress> {
+pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliability: &JobReliability) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
     for record in records {
         jobs.entry(&record.scenario).or_default().push(record);
@@ -97,7 +109,9 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
         let all = sessions.len();
         sessions.retain(|record| incomplete.counts(record));
         let left_out = all - sessions.len();
-        Some(JobProgress { scenario: scenario.to_owned(), tasks, progress: progress(&trainee, &sessions), left_out })
+        let reliability = reliability.get(scenario).cloned().unwrap_or_default();
+        let progress = progress(&trainee, &sessions, &reliability);
+        Some(JobProgress { scenario: scenario.to_owned(), tasks, progress, left_out, reliability })
     };
     let mut found: Vec<JobProgress> = jobs.into_iter().filter_map(on_job).collect();
     found.sort_by_key(|job| std::cmp::Reverse(job.tasks.len()));
@@ -105,19 +119,34 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy) -> Vec<Jo
 }
 
 /// Computes one trainee's progress from sessions in chronological order.
-pub fn progress(trainee: &str, sessions: &[&SessionRecord]) -> TraineeProgress {
+pub fn progress(trainee: &str, sessions: &[&SessionRecord], reliability: &[MeasureReliability]) -> TraineeProgress {
     let curve = |(score, pick): (&str, ScorePicker)| {
         let values: Option<Vec<f64>> = sessions.iter().map(|record| pick(record)).collect();
-        Some(ScoreCurve { score: score.to_owned(), curve: learning_curve(&values?).ok()? })
+        let curve = learning_curve(&values?).ok()?;
+        let within_error = reliability_of(reliability, score).and_then(|one| one.is_within_error(curve.fitted_change()));
+        Some(ScoreCurve { score: score.to_owned(), curve, within_error })
     };
     TraineeProgress {
         trainee: trainee.to_owned(),
-        repetitions: sessions.iter().enumerate().map(|(k, record)| repetition(k + 1, record)).collect(),
+        repetitions: sessions
+            .iter()
+            .enumerate()
+            .map(|(k, record)| repetition(k + 1, record, k.checked_sub(1).map(|k| sessions[k]), reliability))
+            .collect(),
         curves: SCORES.into_iter().filter_map(curve).collect(),
     }
 }
 
-fn repetition(number: usize, record: &SessionRecord) -> Repetition {
+fn repetition(
+    number: usize,
+    record: &SessionRecord,
+    preceding: Option<&SessionRecord>,
+    reliability: &[MeasureReliability],
+) -> Repetition {
+    let within_error = |(score, pick): &(&str, ScorePicker)| {
+        let change = preceding.and_then(|preceding| Some(pick(record)? - pick(preceding)?));
+        change.zip(reliability_of(reliability, score)).and_then(|(change, known)| known.is_within_error(change)) == Some(true)
+    };
     Repetition {
         number,
         session: record.id.clone(),
@@ -130,5 +159,6 @@ fn repetition(number: usize, record: &SessionRecord) -> Repetition {
         seconds: record.seconds,
         on_path: record.tasks.iter().map(|task| (task.id, task.attempted.then_some(task.on_path))).collect(),
         crashes: record.crashes(),
+        within_error: SCORES.iter().filter(|one| within_error(one)).map(|(score, _)| (*score).to_owned()).collect(),
     }
 }

@@ -1,4 +1,4 @@
-//! Cohort samples: each trainee's sessions and the scores taken from them.
+//! Cohort samples: each trainee's sessions and the measures taken from them.
 
 use crate::record::SessionRecord;
 use std::collections::BTreeMap;
@@ -16,5 +16,36 @@ pub(super) const SCORES: [(&str, ScorePicker); 5] = [
 ];
 
 pub(super) const OVERALL: (&str, ScorePicker) = ("overall", |record| Some(record.scores.overall));
+
+/// Name of the flight time among the [`MEASURES`].
+pub(super) const FLIGHT_TIME: &str = "flight_time";
+
+/// A measure whose reliability is reported.
+pub(super) struct Measure {
+    /// Measure name, as in the tables.
+    pub name: &'static str,
+    /// Unit; empty for a count.
+    pub unit: &'static str,
+    /// Returns the value; `None` if it does not apply.
+    pub pick: ScorePicker,
+    /// Returns the best possible value, if there is one.
+    pub best: Option<fn(&SessionRecord) -> f64>,
+}
+
+/// The five scores, and the two measures behind efficiency and safety, which have no upper limit.
+pub(super) const MEASURES: [Measure; 7] = [
+    score(SCORES[0], |_| 100.0),
+    score(SCORES[1], |_| 100.0),
+    score(SCORES[2], |_| 100.0),
+    score(SCORES[3], |_| 100.0),
+    score(SCORES[4], |record| record.scores.overall_max),
+    Measure { name: FLIGHT_TIME, unit: "s", pick: |record| Some(record.seconds), best: None },
+    Measure { name: "crashes", unit: "", pick: |record| Some(record.crashes().total() as f64), best: Some(|_| 0.0) },
+];
+
+const fn score((name, pick): (&'static str, ScorePicker), best: fn(&SessionRecord) -> f64) -> Measure {
+    Measure { name, unit: "points", pick, best: Some(best) }
+}
+
 /// Each trainee's sessions on the job, in chronological order.
 pub(super) type SessionsByTrainee<'a> = BTreeMap<&'a str, Vec<&'a SessionRecord>>;

@@ -1,5 +1,6 @@
 //! Cohort score statistics: distributions, first sessions, crashes, repetitions and tests.
 
+use super::reliability::{MeasureReliability, reliability_of};
 use super::samples::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
 use crate::statistics::{
@@ -115,6 +116,13 @@ pub struct Comparison {
     /// Holm-corrected p values, computed separately for each tail. Comparisons of the four scores form one family;
     /// comparisons of the overall score form another.
     pub p_holm: Option<TailProbabilities>,
+    /// Smallest change of the mean of these trainees that exceeds the measurement error with 95% confidence; `None` if
+    /// the score's reliability is unknown.
+    pub minimal_detectable_mean_change: Option<f64>,
+    /// Whether the mean difference is smaller than that.
+    pub within_error: Option<bool>,
+    /// Number of trainees whose own change is at least the minimal detectable change of a single trainee.
+    pub trainees_beyond_error: Option<usize>,
 }
 
 /// Test of whether the group's first sessions are distributed across low, middle and high scores like those of the
@@ -202,9 +210,15 @@ pub fn boxes(group: &SessionsByTrainee<'_>, repetitions: usize) -> Vec<Repetitio
     boxes
 }
 
-pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: &mut Vec<String>) -> Vec<Comparison> {
+pub fn comparisons(
+    group: &SessionsByTrainee<'_>,
+    repetitions: usize,
+    reliability: &[MeasureReliability],
+    warnings: &mut Vec<String>,
+) -> Vec<Comparison> {
     let mut tests = Vec::new();
     for (score, pick) in SCORES {
+        let known = reliability_of(reliability, score).filter(|one| one.reliability.is_some());
         for later in 1..repetitions {
             for earlier in 0..later {
                 let pairs = group.values().filter_map(|sessions| pick(sessions[earlier]).zip(pick(sessions[later])));
@@ -214,6 +228,11 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
                         score: score.to_owned(),
                         earlier: earlier + 1,
                         later: later + 1,
+                        minimal_detectable_mean_change: known
+                            .and_then(|one| one.reliability)
+                            .map(|one| one.minimal_detectable_mean_change(test.n)),
+                        within_error: known.and_then(|one| one.is_mean_within_error(test.mean_difference, test.n)),
+                        trainees_beyond_error: known.map(|one| count_beyond_error(one, &before, &after)),
                         test,
                         p_holm: None,
                     }),
@@ -228,6 +247,10 @@ pub fn comparisons(group: &SessionsByTrainee<'_>, repetitions: usize, warnings: 
         apply_holm_correction(tests.iter_mut().filter(|test| (test.score == OVERALL.0) == overall).collect());
     }
     tests
+}
+
+fn count_beyond_error(known: &MeasureReliability, before: &[f64], after: &[f64]) -> usize {
+    before.iter().zip(after).filter(|(before, after)| known.is_within_error(**after - **before) == Some(false)).count()
 }
 
 /// Applies the Holm correction to one family of comparisons, separately for each tail.

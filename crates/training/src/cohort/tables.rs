@@ -5,13 +5,14 @@ use crate::statistics::{Regression, TailProbabilities};
 use std::fmt::Display;
 
 /// File names of all tables.
-pub const TABLES: [&str; 16] = [
+pub const TABLES: [&str; 17] = [
     "distributions.csv",
     "histograms.csv",
     "individuals.csv",
     "conformity_by_task.csv",
     "crashes.csv",
     "repetitions.csv",
+    "reliability.csv",
     "t_tests.csv",
     "homogeneity.csv",
     "likert.csv",
@@ -34,6 +35,7 @@ pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
         "conformity_by_task.csv" => conformity(cohort),
         "crashes.csv" => crashes(cohort),
         "repetitions.csv" => repetitions(cohort),
+        "reliability.csv" => reliability(cohort),
         "t_tests.csv" => t_tests(cohort),
         "homogeneity.csv" => homogeneity(cohort),
         "likert.csv" => likert(cohort),
@@ -146,6 +148,38 @@ fn repetitions(cohort: &Cohort) -> String {
     }))
 }
 
+fn flag(value: Option<bool>) -> String {
+    value.map_or(String::new(), |value| u8::from(value).to_string())
+}
+
+fn reliability(cohort: &Cohort) -> String {
+    let columns = [
+        "measure",
+        "unit",
+        "sessions",
+        "at_ceiling",
+        "n",
+        "repetitions",
+        "icc_2_1",
+        "icc_3_1",
+        "sem",
+        "minimal_detectable_change",
+    ];
+    CsvWriter::new(&columns).rows(cohort.reliability.iter().map(|one| {
+        let known = one.reliability;
+        let count = |value: Option<usize>| value.map_or(String::new(), number);
+        let figures = [
+            known.map(|one| one.icc_2_1),
+            known.map(|one| one.icc_3_1),
+            known.map(|one| one.sem),
+            known.map(|one| one.minimal_detectable_change),
+        ];
+        let start = vec![text(&one.measure), text(one.unit), number(one.sessions), optional_number(one.at_ceiling)];
+        let sample = vec![count(known.map(|one| one.n)), count(known.map(|one| one.repetitions))];
+        [start, sample, figures.map(optional_number).to_vec()].concat()
+    }))
+}
+
 fn t_tests(cohort: &Cohort) -> String {
     let columns = [
         "score",
@@ -165,6 +199,9 @@ fn t_tests(cohort: &Cohort) -> String {
         "p_upper_holm",
         "p_lower_holm",
         "p_two_holm",
+        "minimal_detectable_mean_change",
+        "within_error",
+        "trainees_beyond_error",
     ];
     CsvWriter::new(&columns).rows(cohort.tests.iter().map(|one| {
         let t = &one.test;
@@ -174,7 +211,9 @@ fn t_tests(cohort: &Cohort) -> String {
         let figures = [t.mean_difference, t.sd_difference, t.interval_95[0], t.interval_95[1]].map(number);
         let start = vec![text(&one.score), number(one.earlier), number(one.later), number(t.n)];
         let test = vec![number(t.df), optional_number(t.t)];
-        [start, figures.to_vec(), test, tails(&t.p), vec![optional_number(t.effect_size_dz)], tails(&one.p_holm)].concat()
+        let beyond = one.trainees_beyond_error.map_or(String::new(), number);
+        let error = vec![optional_number(one.minimal_detectable_mean_change), flag(one.within_error), beyond];
+        [start, figures.to_vec(), test, tails(&t.p), vec![optional_number(t.effect_size_dz)], tails(&one.p_holm), error].concat()
     }))
 }
 
@@ -246,7 +285,7 @@ fn causal(cohort: &Cohort) -> String {
 fn progress(cohort: &Cohort) -> String {
     let tasks: Vec<String> = cohort.crashes.tasks.iter().map(|id| format!("on_path_{id}")).collect();
     let start = ["trainee", "repetition", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds"];
-    let end = ["bridge", "terrain", "water", "other", "vehicle", "person"];
+    let end = ["bridge", "terrain", "water", "other", "vehicle", "person", "change_within_error"];
     let columns: Vec<&str> = start.into_iter().chain(tasks.iter().map(String::as_str)).chain(end).collect();
     let rows = cohort.progress.iter().flat_map(|one| one.repetitions.iter().map(|repetition| (&one.trainee, repetition)));
     CsvWriter::new(&columns).rows(rows.map(|(trainee, one)| {
@@ -254,27 +293,30 @@ fn progress(cohort: &Cohort) -> String {
         let on_path = |id: &u32| optional_number(one.on_path.iter().find(|(task, _)| task == id).and_then(|(_, share)| *share));
         let crashes = one.crashes.by_kind().map(|(_, count)| number(count)).to_vec();
         let paths = cohort.crashes.tasks.iter().map(on_path).collect();
-        [vec![text(trainee), number(one.number), text(&one.session)], scores.map(optional_number).to_vec(), paths, crashes]
-            .concat()
+        let start = vec![text(trainee), number(one.number), text(&one.session)];
+        [start, scores.map(optional_number).to_vec(), paths, crashes, vec![one.within_error.join(" ")]].concat()
     }))
 }
 
 fn curves(cohort: &Cohort) -> String {
     let rows = cohort.progress.iter().flat_map(|one| one.curves.iter().map(|curve| (&one.trainee, curve)));
-    CsvWriter::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next"]).rows(rows.map(|(trainee, one)| {
-        let c = &one.curve;
-        let figures = vec![number(c.n), number(c.first), number(c.exponent), optional_number(c.r_squared), number(c.next)];
-        [vec![text(trainee), text(&one.score)], figures].concat()
-    }))
+    CsvWriter::new(&["trainee", "score", "n", "first", "exponent", "r_squared", "next", "within_error"]).rows(rows.map(
+        |(trainee, one)| {
+            let c = &one.curve;
+            let figures = vec![number(c.n), number(c.first), number(c.exponent), optional_number(c.r_squared), number(c.next)];
+            [vec![text(trainee), text(&one.score)], figures, vec![flag(one.within_error)]].concat()
+        },
+    ))
 }
 
 fn learning(cohort: &Cohort) -> String {
-    let columns = ["score", "people", "repetition", "mean", "fitted", "first", "exponent", "r_squared"];
+    let columns = ["score", "people", "repetition", "mean", "fitted", "first", "exponent", "r_squared", "within_error"];
     let rows = cohort.learning.iter().flat_map(|one| one.means.iter().enumerate().map(move |(k, mean)| (one, k + 1, *mean)));
     CsvWriter::new(&columns).rows(rows.map(|(one, repetition, mean)| {
         let c = &one.curve;
         let curve = vec![number(c.at(repetition as f64)), number(c.first), number(c.exponent), optional_number(c.r_squared)];
-        [vec![text(&one.score), number(one.people), number(repetition), number(mean)], curve].concat()
+        [vec![text(&one.score), number(one.people), number(repetition), number(mean)], curve, vec![flag(one.within_error)]]
+            .concat()
     }))
 }
 

@@ -160,14 +160,14 @@ fn exact_progress_is_separate_per_job() {
         record.scores.safety = 10.0;
     }
     records.reverse();
-    let jobs = by_job(&records, IncompletePolicy::Exclude);
+    let jobs = by_job(&records, IncompletePolicy::Exclude, &JobReliability::new());
     let told: Vec<(&str, usize, usize)> =
         jobs.iter().map(|job| (job.scenario.as_str(), job.tasks.len(), job.progress.repetitions.len())).collect();
     assert_eq!(told, [("two-bridges", 4, 4), ("drill-gap", 1, 5)], "the job is listed before its drills");
     assert!(jobs[0].progress.repetitions.iter().all(|one| one.safety == 100.0));
     assert!(jobs[1].progress.repetitions.windows(2).all(|pair| pair[0].started_unix_us < pair[1].started_unix_us));
     assert_eq!((jobs[0].progress.curves.len(), jobs[1].progress.curves.len()), (5, 5));
-    assert!(by_job(&[], IncompletePolicy::Exclude).is_empty());
+    assert!(by_job(&[], IncompletePolicy::Exclude, &JobReliability::new()).is_empty());
 }
 
 #[test]
@@ -245,8 +245,89 @@ fn regress_aborted_session_is_not_a_first_session_by_default() {
 fn regress_learning_curves_exclude_incomplete_sessions() {
     let mut records: Vec<SessionRecord> = (1..=4).map(|k| perfect_record("anna", k)).collect();
     records.push(aborted_record("anna", 5));
-    let (without, with) = (&by_job(&records, IncompletePolicy::Exclude)[0], &by_job(&records, IncompletePolicy::Include)[0]);
+    let (without, with) = (
+        &by_job(&records, IncompletePolicy::Exclude, &JobReliability::new())[0],
+        &by_job(&records, IncompletePolicy::Include, &JobReliability::new())[0],
+    );
     assert_eq!((without.progress.repetitions.len(), without.left_out), (4, 1));
     assert_eq!((with.progress.repetitions.len(), with.left_out), (5, 0));
     assert!(without.progress.curves.iter().all(|curve| curve.curve.n == 4));
+}
+
+#[test]
+fn exact_reliability_covers_every_measure_and_labels_changes() {
+    let mut records = pilot_study_records();
+    for (k, record) in records.iter_mut().enumerate() {
+        record.scores.accuracy = Some(if k % 2 == 0 { 100.0 } else { 60.0 });
+        // Trainees differ by more than their sessions do.
+        let ability: f64 = record.trainee[1..].parse().unwrap();
+        record.scores.conformity = record.scores.conformity.map(|noise| 0.5 * noise + 4.0 * ability);
+    }
+    let cohort = analyzed(&records);
+    let of = |measure: &str| reliability_of(&cohort.reliability, measure).unwrap();
+    assert_eq!(cohort.reliability.len(), 7);
+    let conformity = of("conformity").reliability.unwrap();
+    assert_eq!((conformity.n, conformity.repetitions), (8, 3));
+    assert!(
+        0.7 < conformity.icc_2_1 && conformity.icc_2_1 < conformity.icc_3_1,
+        "all trainees improve, which lowers only the agreement: {conformity:?}"
+    );
+    assert_eq!((of("accuracy").sessions, of("accuracy").at_ceiling), (38, Some(0.5)));
+    // Efficiency is 100 in every session: nothing to estimate, and no change is labeled.
+    assert_eq!((of("efficiency").reliability, of("efficiency").at_ceiling), (None, Some(1.0)));
+    assert!(cohort.warnings.iter().any(|words| words.starts_with("no reliability of efficiency: ")), "{:?}", cohort.warnings);
+    let flat = cohort.tests.iter().find(|test| test.score == "efficiency").unwrap();
+    assert_eq!((flat.within_error, flat.trainees_beyond_error), (None, None));
+    for test in cohort.tests.iter().filter(|test| test.score == "conformity") {
+        let least = conformity.minimal_detectable_change / 8.0f64.sqrt();
+        assert_eq!(test.within_error, Some(test.test.mean_difference.abs() < least));
+        assert!(test.trainees_beyond_error.unwrap() <= 8);
+    }
+    for trainee in &cohort.progress {
+        assert!(trainee.repetitions[0].within_error.is_empty(), "the first session is not compared with anything");
+        for pair in trainee.repetitions.windows(2) {
+            let change = pair[1].conformity.unwrap() - pair[0].conformity.unwrap();
+            let labeled = pair[1].within_error.iter().any(|score| score == "conformity");
+            assert_eq!(labeled, change.abs() < conformity.minimal_detectable_change, "{change}");
+        }
+    }
+}
+
+#[test]
+fn regress_equal_flight_times_make_nobody_slow() {
+    let mut records: Vec<SessionRecord> = (0..8).map(|k| perfect_record(&format!("p{k}"), 1)).collect();
+    for (k, record) in records.iter_mut().enumerate() {
+        // Flights that differ by one frame, and scores that differ by less than a printed digit.
+        record.seconds = 700.0 + k as f64 / 30.0;
+        record.scores.overall = 400.0 - 0.01 * k as f64;
+    }
+    records[0].answers.as_mut().unwrap().given.insert(QuestionnaireItem::Overall(OverallItem::TimePressure), 5);
+    assert_eq!(analyzed(&records).self_rating.contradictions, []);
+    // A flight time beyond the error of the measure still counts.
+    records[7].seconds = 900.0;
+    let found = analyzed(&records).self_rating.contradictions;
+    assert!(found.len() == 1 && found[0].trainee == "p7" && found[0].words.contains("slowest quarter"), "{found:?}");
+}
+
+#[test]
+fn exact_learning_curves_are_labeled_with_the_error_of_the_score() {
+    let mut records = Vec::new();
+    for (who, step) in [("anna", 10.0), ("ben", 9.0)] {
+        for k in 1..=4 {
+            let mut record = perfect_record(who, k);
+            record.scores.safety = 20.0 + step * k as f64;
+            record.scores.conformity = Some(if (k + who.len()) % 2 == 0 { 80.0 } else { 90.0 });
+            records.push(record);
+        }
+    }
+    let selection = Selection { scenarios: Vec::new(), repetitions: 4, incomplete: IncompletePolicy::Exclude };
+    let cohort = cohort(&records, &selection);
+    let label = |score: &str| cohort.progress[0].curves.iter().find(|curve| curve.score == score).unwrap().within_error;
+    assert_eq!((label("safety"), label("conformity"), label("efficiency")), (Some(false), Some(true), None));
+    let group = cohort.learning.iter().find(|curve| curve.score == "safety").unwrap();
+    assert_eq!(group.within_error, Some(false));
+    // The same labels on one trainee's page, with the reliability from all trainees.
+    let known = JobReliability::from([("two-bridges".to_owned(), cohort.reliability.clone())]);
+    let jobs = by_job(&records[..4], IncompletePolicy::Exclude, &known);
+    assert_eq!(jobs[0].progress, cohort.progress[0]);
 }

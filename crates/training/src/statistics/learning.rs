@@ -34,6 +34,12 @@ impl LearningCurve {
     pub fn at(&self, repetition: f64) -> f64 {
         self.first * math::pow(repetition, self.exponent)
     }
+
+    /// Returns the fitted change from the first to the last repetition.
+    #[must_use]
+    pub fn fitted_change(&self) -> f64 {
+        self.at(self.n as f64) - self.first
+    }
 }
 
 /// Fits the curve to the values of consecutive repetitions by least squares, without taking logarithms, so zeros are

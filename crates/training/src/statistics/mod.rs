@@ -4,18 +4,22 @@
 
 mod correlation;
 mod distribution;
+mod effect_size;
 mod homogeneity;
 mod learning;
 mod paired;
 mod regression;
+mod reliability;
 mod sample;
 
 pub use correlation::{Correlation, pearson, spearman};
 pub use distribution::{TailProbabilities, t_tail_probabilities};
+pub use effect_size::{cohens_d, proportion_interval_95};
 pub use homogeneity::{Homogeneity, homogeneity};
 pub use learning::{LearningCurve, MIN_LEARNING_REPETITIONS, learning_curve};
 pub use paired::{PairedTest, holm, paired_t};
 pub use regression::{Coefficient, Regression, least_squares, solve};
+pub use reliability::{Reliability, reliability};
 pub use sample::{BoxPlot, HistogramBin, SampleSummary, box_plot, histogram, mean, quantile, sd, summary};
 
 /// Reason why a statistic cannot be computed.

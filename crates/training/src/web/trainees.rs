@@ -3,11 +3,12 @@
 use super::access::{AccessLevel, Visitor};
 use super::layout::{page, section, table, token};
 use super::sessions::lines;
-use crate::cohort::by_job;
+use crate::cohort::{JobReliability, MeasureReliability, by_job, reliability_of};
 use crate::plan::{MeasureChange, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
 use crate::report::formatting;
 use crate::report::page::progress::job_progress;
+use crate::report::page::within_error;
 use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
@@ -52,6 +53,8 @@ pub struct TraineeProfile<'a> {
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count toward progress and plan.
     pub incomplete: IncompletePolicy,
+    /// Reliability of the measures on the jobs that the trainee flew more than once.
+    pub reliability: &'a JobReliability,
 }
 
 /// Renders a trainee's page.
@@ -59,8 +62,8 @@ pub struct TraineeProfile<'a> {
 pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
     let name = &profile.person.pseudonym;
     let body = html! {
-        @if let Some(plan) = profile.plan { (section("plan", "Next flights", &next(plan))) }
-        @if !profile.records.is_empty() { (section("progress", "Progress", &progress(name, profile.records, profile.incomplete))) }
+        @if let Some(plan) = profile.plan { (section("plan", "Next flights", &next(plan, profile))) }
+        @if !profile.records.is_empty() { (section("progress", "Progress", &progress(name, profile))) }
         (section("sessions", "Sessions", &html! {
             @if profile.listed.is_empty() { p.calm { "No sessions yet." } }
             @else { (lines(visitor, &format!("{} sessions, newest first", profile.listed.len()), profile.listed)) }
@@ -74,7 +77,7 @@ pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
     page(visitor, "/trainees", &format!("Trainee {name}"), &body)
 }
 
-fn next(plan: &TrainingPlan) -> Markup {
+fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
     let told = |change: &&MeasureChange| change.better.is_some();
     html! {
         p { "Fly between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "It has been a long time since the last flight, and skills fade without practice." } } }
@@ -87,17 +90,29 @@ fn next(plan: &TrainingPlan) -> Markup {
         @if let Some(changes) = &plan.changes {
             h3 { "Changes" }
             p.note { "Compared with " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
+            @let known = reliability_of_session(profile, &changes.since);
             ul {
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) }
+                    li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) @if change_is_within_error(change, known) { " (" (within_error::words(true)) ")" } }
                 }
             }
         }
     }
 }
 
+/// Returns the reliability of the measures on the job of a session; empty if unknown.
+fn reliability_of_session<'a>(profile: &TraineeProfile<'a>, session: &str) -> &'a [MeasureReliability] {
+    let flown = profile.records.iter().find(|record| record.id == session);
+    flown.and_then(|record| profile.reliability.get(&record.scenario)).map_or(&[], Vec::as_slice)
+}
+
+fn change_is_within_error(change: &MeasureChange, known: &[MeasureReliability]) -> bool {
+    reliability_of(known, &change.what).and_then(|one| one.is_within_error(change.now - change.before)) == Some(true)
+}
+
 /// Renders progress separately for each job because practice on one says little about another.
-fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy) -> Markup {
+fn progress(name: &str, profile: &TraineeProfile<'_>) -> Markup {
+    let (records, incomplete) = (profile.records, profile.incomplete);
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {
         @if unfinished > 0 { p {
@@ -106,7 +121,7 @@ fn progress(name: &str, records: &[SessionRecord], incomplete: IncompletePolicy)
                 IncompletePolicy::Include => a href={ "/trainees/" (name) } { "Exclude incomplete sessions" },
             }
         } }
-        @for job in by_job(records, incomplete) {
+        @for job in by_job(records, incomplete, profile.reliability) {
             @let times = job.progress.repetitions.len();
             h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
             (job_progress(&job))
@@ -172,6 +187,7 @@ mod tests {
             listed: &[],
             plan: plan.as_ref(),
             incomplete: IncompletePolicy::Exclude,
+            reliability: &JobReliability::new(),
         };
         let text = trainee_page(&administrator(), &profile).into_string();
         check(&text);
@@ -196,5 +212,37 @@ mod tests {
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
         assert!(!trainee_page(&instructor, &profile).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());
+    }
+
+    #[test]
+    fn exact_changes_within_the_error_are_labeled_on_the_trainee_page() {
+        let mut everyone = Vec::new();
+        for (trainee, safety) in [("anna", [50.0, 52.0]), ("ben", [70.0, 76.0]), ("cleo", [90.0, 95.0])] {
+            for (number, safety) in (1..).zip(safety) {
+                let mut record = perfect_record(trainee, number);
+                record.scores.safety = safety;
+                everyone.push(record);
+            }
+        }
+        let selection = crate::cohort::Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
+        let reliability = crate::cohort::cohort(&everyone, &selection).reliability;
+        let person = Trainee::new("anna");
+        let plan = plan(&everyone[..2], &read_rules("rules.toml", DEFAULT_RULES).unwrap(), everyone[1].started_unix_us);
+        let text = |reliability: &JobReliability| {
+            let profile = TraineeProfile {
+                person: &person,
+                records: &everyone[..2],
+                listed: &[],
+                plan: plan.as_ref(),
+                incomplete: IncompletePolicy::Exclude,
+                reliability,
+            };
+            trainee_page(&administrator(), &profile).into_string()
+        };
+        let known = text(&JobReliability::from([("two-bridges".to_owned(), reliability)]));
+        check(&known);
+        assert!(known.contains("safety: 50.0 → 52.0, better (within error)") && known.contains(">within error<"), "{known}");
+        let unknown = text(&JobReliability::new());
+        assert!(unknown.contains("safety: 50.0 → 52.0, better<") && !unknown.contains("within error"), "{unknown}");
     }
 }

@@ -17,6 +17,7 @@ mod record;
 pub mod series;
 mod summary;
 mod tasks;
+pub mod within_error;
 
 pub use compare::comparison;
 

@@ -4,7 +4,8 @@
 
 use super::crash_kinds::{KINDS, crash_counts, segments};
 use super::figure::{figure, legend};
-use crate::cohort::{JobProgress, Repetition, ScoreCurve, TraineeProgress};
+use super::within_error;
+use crate::cohort::{JobProgress, MeasureReliability, Repetition, ScoreCurve, TraineeProgress, reliability_of};
 use crate::record::excluded_sessions_note;
 use crate::report::formatting;
 use crate::report::plots::bars::{CountRow, counts};
@@ -15,6 +16,8 @@ use maud::{Markup, html};
 
 /// Names of the four scores.
 const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
+/// Scores whose changes are listed.
+const CHANGING_SCORES: [&str; 5] = ["conformity", "efficiency", "safety", "accuracy", "overall"];
 /// Returns the maximum value of a score.
 #[must_use]
 pub fn max_value(score: &str) -> f64 {
@@ -33,6 +36,7 @@ pub fn job_progress(job: &JobProgress) -> Markup {
         (left_out)
         (progress_figures(progress, &job.tasks))
         @if !progress.curves.is_empty() { (learning(progress)) }
+        (changes(progress, &job.reliability).folded())
         (numbers(&job.scenario, progress).folded())
         @if !job.tasks.is_empty() { (on_path_table(progress, &job.tasks).folded()) }
     }
@@ -123,13 +127,35 @@ fn curve_table(curves: &[ScoreCurve]) -> Table {
             TableCell::Number(c.exponent, 3),
             r_squared,
             next,
+            within_error::label(one.within_error),
         ]
     };
     Table {
         name: "learning_curves",
         caption: "learning curves (score = first score × repetition ^ exponent)",
-        columns: vec!["score", "repetitions", "first", "exponent", "R²", "next"],
+        columns: vec!["score", "repetitions", "first", "exponent", "R²", "next", "measurement error"],
         rows: curves.iter().map(row).collect(),
+    }
+}
+
+/// Returns the changes of the scores since the preceding repetition, each labeled if the measure's error is known.
+fn changes(progress: &TraineeProgress, reliability: &[MeasureReliability]) -> Table {
+    let pairs = progress.repetitions.iter().zip(progress.repetitions.iter().skip(1));
+    let rows = pairs.flat_map(|(before, after)| {
+        let row = move |score: &&str| {
+            let change = after.score(score)? - before.score(score)?;
+            let known = reliability_of(reliability, score).and_then(|one| one.reliability);
+            let least = known.map_or(TableCell::Empty, |one| TableCell::Number(one.minimal_detectable_change, 1));
+            let label = within_error::label(known.map(|_| after.within_error.iter().any(|name| name == score)));
+            Some(vec![after.number.into(), (*score).into(), TableCell::Number(change, 1), least, label])
+        };
+        CHANGING_SCORES.iter().filter_map(row).collect::<Vec<_>>()
+    });
+    Table {
+        name: "changes",
+        caption: "changes since the preceding repetition",
+        columns: vec!["repetition", "score", "change", "minimal detectable change", "measurement error"],
+        rows: rows.collect(),
     }
 }
 
@@ -176,7 +202,7 @@ pub fn too_few_repetitions() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cohort::by_job;
+    use crate::cohort::{JobReliability, by_job};
     use crate::record::{IncompletePolicy, SessionRecord};
     use crate::testing::perfect_record;
 
@@ -187,7 +213,7 @@ mod tests {
         records[count - 1].tasks[0].name = "<b>slab</b>".into();
         records[0].tasks[1].crashes.water = 2;
         records[0].tasks[1].crashes.person = 1;
-        job_progress(&by_job(&records, IncompletePolicy::Exclude)[0])
+        job_progress(&by_job(&records, IncompletePolicy::Exclude, &JobReliability::new())[0])
     }
 
     #[test]
@@ -207,5 +233,28 @@ mod tests {
         let text = progress_page(4).into_string();
         assert_eq!(text.matches("class=\"practice\"").count(), 5);
         assert!(text.contains("learning_curves.csv") && !text.contains("NaN"));
+    }
+
+    #[test]
+    fn exact_changes_within_the_error_are_labeled() {
+        let mut records = Vec::new();
+        for (who, gain) in [("anna", 30.0), ("ben", 28.0)] {
+            for k in 1..=2 {
+                let mut record = perfect_record(who, k);
+                record.scores.safety = 40.0 + gain * k as f64;
+                record.scores.accuracy = Some(if (k + who.len()) % 2 == 0 { 70.0 } else { 90.0 });
+                records.push(record);
+            }
+        }
+        let selection = crate::cohort::Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
+        let reliability = crate::cohort::cohort(&records, &selection).reliability;
+        let known = JobReliability::from([("two-bridges".to_owned(), reliability)]);
+        let job = &by_job(&records[..2], IncompletePolicy::Exclude, &known)[0];
+        let table = changes(&job.progress, &job.reliability);
+        let label = |score: &str| table.rows.iter().find(|row| row[1] == score.into()).map(|row| row[4].clone()).unwrap();
+        assert_eq!((label("safety"), label("accuracy")), ("beyond error".into(), "within error".into()));
+        assert_eq!(label("conformity"), TableCell::Empty, "a score without variance has no label");
+        let unknown = &by_job(&records[..2], IncompletePolicy::Exclude, &JobReliability::new())[0];
+        assert!(changes(&unknown.progress, &[]).rows.iter().all(|row| row[4] == TableCell::Empty));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::super::figure::{figure, legend};
 use super::super::progress::{max_value, progress_figures, too_few_repetitions};
+use super::super::within_error;
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell};
@@ -65,12 +66,23 @@ fn numbers(curves: &[GroupCurve]) -> Table {
             TableCell::Number(c.exponent, 3),
             c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2)),
             TableCell::Number(c.next.min(max_value(&one.score)), 1),
+            within_error::label(one.within_error),
         ]
     };
     Table {
         name: "learning_of_the_group",
         caption: "group learning curves, fitted to the means",
-        columns: vec!["score", "trainees", "repetitions", "first mean", "last mean", "exponent", "R²", "next"],
+        columns: vec![
+            "score",
+            "trainees",
+            "repetitions",
+            "first mean",
+            "last mean",
+            "exponent",
+            "R²",
+            "next",
+            "measurement error",
+        ],
         rows: curves.iter().map(row).collect(),
     }
 }

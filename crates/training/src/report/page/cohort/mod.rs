@@ -7,6 +7,7 @@ mod first_sessions;
 mod learning;
 mod lists_individuals;
 mod pooled;
+mod reliability;
 mod repetitions;
 
 pub use lists_individuals::MAX_LISTED_TRAINEES;
@@ -66,6 +67,7 @@ pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str,
     sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
     sections.push(("people", "Scores by trainee and task", first_sessions::people(cohort)));
     sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
+    sections.push(("reliability", "Reliability of the measures", reliability::reliability(cohort)));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
         sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
     }

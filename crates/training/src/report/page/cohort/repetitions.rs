@@ -1,6 +1,7 @@
 //! Score changes between repetitions: box plots and statistical tests.
 
 use super::super::figure::figure;
+use super::super::within_error;
 use crate::cohort::{Cohort, Comparison};
 use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::table::{Table, TableCell};
@@ -42,6 +43,8 @@ fn t_tests(tests: &[Comparison]) -> Table {
             maybe(p.map(|p| p.two)),
             maybe(one.p_holm.map(|p| p.two)),
             maybe(t.effect_size_dz),
+            within_error::label(one.within_error),
+            one.trainees_beyond_error.map_or(TableCell::Empty, TableCell::from),
         ]
     };
     let columns = vec![
@@ -57,6 +60,8 @@ fn t_tests(tests: &[Comparison]) -> Table {
         "p two-tailed",
         "p two-tailed, Holm",
         "d_z",
+        "measurement error",
+        "trainees beyond error",
     ];
     Table {
         name: "t_tests",

@@ -1,0 +1,191 @@
+//! One flight of a study: simulator, monitor and synthetic trainee in one thread, in lockstep, without sockets or clocks.
+//! The result depends only on the scenario, the aircraft, the pilot and the seed.
+
+use crate::cli::args::Flavor;
+use crate::io::pacing::LOCKSTEP_STEP;
+use crate::io::stop::StopRequest;
+use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{Assessment, Monitor, MonitorConfig};
+use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::sim::{Sim, SimConfig};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+/// Links of the vehicle, in the same order as in `spandrel demo`.
+const PILOT: LinkId = LinkId(1);
+const MONITOR: LinkId = LinkId(2);
+/// Simulation time beyond the scenario's time limit after which a flight counts as stuck, s: start, landing and the end of
+/// the session take less than a minute (estimate).
+const EXTRA_TIME_S: f64 = 300.0;
+
+/// Inputs of a flight.
+#[derive(Debug, Clone)]
+pub struct FlightInputs {
+    pub scenario: Arc<Scenario>,
+    pub vehicle: Arc<Vehicle>,
+    pub skill: Skill,
+    pub seed: u64,
+}
+
+/// Reason why a flight has no result.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FlightError {
+    /// The study was stopped during the flight.
+    #[error("stopped")]
+    Stopped,
+    /// The flight failed. The same inputs always fail in the same way.
+    #[error("{0}")]
+    Failed(String),
+}
+
+/// A scored flight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlownFlight {
+    pub assessment: Assessment,
+    /// SHA-256 of the vehicle's state at every tick.
+    pub digest: [u8; 32],
+}
+
+/// Flies and scores one flight. A panic counts as a failure of this flight.
+///
+/// # Errors
+/// Returns an error if the flight failed or the study was stopped.
+pub fn fly(inputs: &FlightInputs, stop: &StopRequest) -> Result<FlownFlight, FlightError> {
+    catch_unwind(AssertUnwindSafe(|| LockstepFlight::new(inputs).run(stop))).unwrap_or_else(|panic| {
+        let words = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+        Err(FlightError::Failed(format!("the program panicked: {}", words.unwrap_or("no message"))))
+    })
+}
+
+struct LockstepFlight {
+    sim: Sim,
+    pilot: Pilot,
+    monitor: Monitor,
+    time_limit: SimTime,
+}
+
+impl LockstepFlight {
+    fn new(inputs: &FlightInputs) -> Self {
+        let FlightInputs { scenario, vehicle, skill, seed } = inputs;
+        let config = SimConfig {
+            scenario: scenario.clone(),
+            vehicle: vehicle.clone(),
+            seed: *seed,
+            instance: 0,
+            flavor: Flavor::Px4.display_name(),
+            after_crash: None,
+        };
+        let mut sim = Sim::new(config, Arc::new(Site::build(scenario, *seed)));
+        sim.open_link(PILOT, LinkKind::GroundStation, true);
+        sim.open_link(MONITOR, LinkKind::Payload, true);
+        let monitor = Monitor::new(MonitorConfig {
+            scenario: (**scenario).clone(),
+            vehicle: (**vehicle).clone(),
+            trainee: "synthetic".to_owned(),
+            purpose: None,
+            started_unix_us: 0,
+            system_id: 1,
+            seed: Some(*seed),
+            survey_builder: build_site,
+        });
+        let pilot = Pilot::new(PilotConfig { scenario: scenario.clone(), vehicle: vehicle.clone(), skill: *skill, seed: *seed });
+        let time_limit = SimTime::from_s(scenario.scoring.time_max_s + EXTRA_TIME_S);
+        Self { sim, pilot, monitor, time_limit }
+    }
+
+    fn run(mut self, stop: &StopRequest) -> Result<FlownFlight, FlightError> {
+        while self.monitor.finished().is_none() {
+            if stop.is_requested() {
+                return Err(FlightError::Stopped);
+            }
+            if self.monitor.refused().is_some() {
+                self.monitor.close();
+                break;
+            }
+            if self.sim.now() > self.time_limit {
+                let words = self.pilot.status_text();
+                return Err(self.failed(&format!("the flight did not end (pilot: {words})")));
+            }
+            if !self.sim.waiting() {
+                self.sim.handle_timeout(self.sim.now() + LOCKSTEP_STEP);
+            } else if !self.exchange() {
+                return Err(self.failed("the pilot or the monitor did not answer the simulator"));
+            }
+            self.exchange();
+        }
+        match self.monitor.finished() {
+            Some(Ok(session)) => Ok(FlownFlight { assessment: session.assessment.clone(), digest: self.sim.digest() }),
+            Some(Err(error)) => Err(self.failed(&error.to_string())),
+            None => Err(self.failed("the session has no result")),
+        }
+    }
+
+    fn failed(&self, words: &str) -> FlightError {
+        FlightError::Failed(format!("{words}, at simulation time {}", self.sim.now()))
+    }
+
+    /// Delivers all waiting datagrams, and discards what a session folder would store. Returns whether there were any
+    /// datagrams.
+    fn exchange(&mut self) -> bool {
+        let mut any = false;
+        while let Some(transmit) = self.sim.poll_transmit() {
+            any = true;
+            if transmit.link == PILOT {
+                self.pilot.handle_datagram(&transmit.bytes);
+            } else {
+                self.monitor.handle_datagram(&transmit.bytes);
+            }
+        }
+        while let Some(bytes) = self.pilot.poll_transmit() {
+            any = true;
+            self.sim.handle_datagram(PILOT, &bytes);
+        }
+        while let Some(bytes) = self.monitor.poll_transmit() {
+            any = true;
+            self.sim.handle_datagram(MONITOR, &bytes);
+        }
+        while self.monitor.poll_record().is_some() {}
+        while self.sim.poll_event().is_some() {}
+        any
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::files;
+
+    fn inputs(scenario: &str, seed: u64) -> FlightInputs {
+        FlightInputs {
+            scenario: Arc::new(files::scenario(scenario).unwrap().scenario),
+            vehicle: Arc::new(files::vehicle("phantom2").unwrap().vehicle),
+            skill: Skill::TRAINED,
+            seed,
+        }
+    }
+
+    #[test]
+    fn flight_drill_is_scored_and_reproducible() {
+        let stop = StopRequest::default();
+        let first = fly(&inputs("drill-hover", 7), &stop).unwrap();
+        assert!(first.assessment.completion.complete, "{:?}", first.assessment.completion);
+        assert_eq!(fly(&inputs("drill-hover", 7), &stop).unwrap(), first);
+        assert_ne!(fly(&inputs("drill-hover", 8), &stop).unwrap().digest, first.digest, "the seed matters");
+    }
+
+    #[test]
+    fn exact_stopped_and_stuck_flights_have_no_result() {
+        let stop = StopRequest::default();
+        let mut stuck = LockstepFlight::new(&inputs("drill-hover", 7));
+        stuck.time_limit = SimTime::from_s(1.0);
+        let Err(FlightError::Failed(words)) = stuck.run(&stop) else { panic!("ended within a second") };
+        assert!(words.starts_with("the flight did not end (pilot: "), "{words}");
+        stop.request();
+        assert_eq!(fly(&inputs("drill-hover", 7), &stop), Err(FlightError::Stopped));
+    }
+}
