@@ -5,6 +5,7 @@ use crate::io::report;
 use serde::Deserialize;
 use serde_json::Value;
 use spandrel_monitor::folder::REPORT;
+use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::{self, Completion, TaskState};
 use std::fmt::Write;
 use std::path::Path;
@@ -60,7 +61,21 @@ pub fn scores_text(assessment: &Value) -> String {
     crashes(&mut out, &assessment["crashes"]);
     picture_table(&mut out, &assessment["snapshots"]);
     end(&mut out, assessment);
+    requirements(&mut out, &assessment["certification"]["requirements"]);
     out
+}
+
+/// Lists every requirement of the certification profile with its limit and the value reached.
+fn requirements(out: &mut String, requirements: &Value) {
+    let Ok(requirements) = Vec::<Requirement>::deserialize(requirements) else { return };
+    if requirements.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "\n{:<26}{:<18}{:<18}", "certification", "reached", "needed");
+    for one in requirements {
+        let state = if one.met { "met" } else { "not met" };
+        let _ = writeln!(out, "{:<26}{:<18}{:<18}{state}", one.name, one.reached_text(), one.limit_text());
+    }
 }
 
 fn verdict(out: &mut String, certification: &Value) {

@@ -10,6 +10,7 @@ use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::html;
+use spandrel_monitor::score::completion::verdict;
 
 /// Renders the session comparison page.
 #[must_use]
@@ -33,7 +34,7 @@ pub fn comparison(first: &Review, second: &Review) -> String {
                 div {
                     p.kicker { "Session comparison" }
                     h1 { (first.scenario.title) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet)) } }
                 }
             }
             main {
@@ -91,6 +92,7 @@ fn table(first: &Review, second: &Review) -> Table {
         put(name, 1, [a, b].map(|score| score.map(|score| score.pct)));
     }
     put("Overall", 1, both.map(|review| review.assessment.completion.complete.then_some(review.assessment.scores.overall)));
+    put("Certification sum", 1, both.map(|review| Some(review.assessment.certification.scores.sum)));
     put("Path flown (%)", 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
     put("Flight time (s)", 0, both.map(|review| Some(review.assessment.end.seconds)));
     put("Contacts", 0, both.map(|review| Some(review.crashes.len() as f64)));
