@@ -6,7 +6,7 @@ import math
 # Constants of docs/src/reference/assessment.md, "Certification".
 VISIT_GAP_S, CONTACT_GAP_S = 10.0, 1.0
 COVERED_STEP_M = 5.0
-FRAMING_FREE_DEG, FRAMING_ZERO_DEG = 30.0, 60.0
+FRAMING_FREE_DEG, FRAMING_ZERO_DEG = 45.0, 67.5
 CONTACT_POINTS, CONTACT_SPEED_M_S, CONTACT_MOST = 3.0, 2.0, 30.0
 EXPOSURE_PER_S, EXPOSURE_MOST = 0.1, 50.0
 SEVERITY = ["none", "other", "water", "terrain", "bridge", "vehicle", "person"]

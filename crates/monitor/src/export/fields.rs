@@ -167,7 +167,7 @@ pub const FIELDS: &[JsonField] = &[
     field(
         "certification.precision.rms_framing_deg",
         "deg",
-        "RMS framing error: the angle between the optical axis and the direction to the surface, beyond 30°; null if no surface is inspected.",
+        "RMS framing error: the angle between the optical axis and the direction to the surface, beyond 45°; null if no surface is inspected.",
     ),
     field("certification.precision.low_clearance_share", "", "Fraction of the frames below the clearance limit, 0 to 1."),
     field("certification.tasks[].precision.frames", "", "Number of frames in this task's visits, without telemetry gaps."),
@@ -176,7 +176,7 @@ pub const FIELDS: &[JsonField] = &[
     field(
         "certification.tasks[].precision.rms_framing_deg",
         "deg",
-        "RMS framing error: the angle between the optical axis and the direction to the surface, beyond 30°; null if no surface is inspected.",
+        "RMS framing error: the angle between the optical axis and the direction to the surface, beyond 45°; null if no surface is inspected.",
     ),
     field("certification.tasks[].precision.low_clearance_share", "", "Fraction of the frames below the clearance limit, 0 to 1."),
     field("certification.tasks[].frames", "", "Number of frames in the visits."),

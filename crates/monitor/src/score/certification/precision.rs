@@ -7,13 +7,13 @@ use crate::measures::attention;
 use crate::measures::image_quality::angle_rad;
 use serde::Serialize;
 
-/// Angle between the optical axis and the direction to the surface up to which the framing error is 0, degrees (estimate:
-/// the point of the surface straight across from the drone is in the central 80% of the picture's height; the shipped
-/// cameras see 34 degrees to each side).
-const FRAMING_TOLERANCE_DEG: f64 = 30.0;
-/// RMS framing error at which the precision is 0, degrees: beyond the tolerance, at a right angle to the direction to the
-/// surface, the camera sees along the surface instead of onto it.
-const MAX_FRAMING_ERROR_DEG: f64 = 60.0;
+/// Angle between the optical axis and the viewing direction up to which the framing error is 0, degrees (estimate: the
+/// point of the surface straight across from the drone leaves the picture of the shipped cameras at 42 degrees; paths
+/// under the arch and in the interlayer have surfaces on several sides).
+const FRAMING_TOLERANCE_DEG: f64 = 45.0;
+/// RMS framing error at which the precision is 0, degrees: that of a random heading toward a vertical surface, whose angle
+/// is uniformly distributed from 0 to 180 degrees.
+const MAX_FRAMING_ERROR_DEG: f64 = 67.5;
 
 /// Precision measures of one task or of the whole session. Frames in telemetry gaps are left out.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -25,7 +25,7 @@ pub struct PrecisionMeasures {
     /// RMS speed above the limit, as a multiple of the limit.
     pub rms_speeding_ratio: f64,
     /// RMS framing error, degrees: the angle between the optical axis and the direction to the surface under inspection,
-    /// beyond the first 30 degrees; absent if no task inspects a surface.
+    /// beyond the first 45 degrees; absent if no task inspects a surface.
     pub rms_framing_deg: Option<f64>,
     /// Fraction of the frames that are closer to a surface than the clearance limit, 0 to 1.
     pub low_clearance_share: f64,

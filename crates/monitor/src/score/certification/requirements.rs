@@ -103,7 +103,10 @@ impl Requirement {
     pub fn reached_text(&self) -> String {
         match self.reached {
             _ if !self.applies => "does not apply".to_owned(),
-            Some(value) => format!("{}{}", format_with_limit(value, self.limit, 0), self.unit_text()),
+            Some(value) => {
+                let digits = usize::from(self.unit == "m/s");
+                format!("{}{}", format_with_limit(value, self.limit, digits), self.unit_text())
+            }
             None => "no evidence".to_owned(),
         }
     }
