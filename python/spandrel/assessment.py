@@ -56,6 +56,18 @@ class Assessment:
         return pandas.DataFrame(self.data["tasks"]).set_index("id")
 
     @property
+    def certified(self) -> bool:
+        """Whether the flight meets every requirement of the certification profile."""
+        return bool(self.data["certification"]["passed"])
+
+    @property
+    def requirements(self) -> pandas.DataFrame:
+        """One row per certification requirement (index `id`): `limit`, the value `reached`, whether it is `met`."""
+        import pandas
+
+        return pandas.DataFrame(self.data["certification"]["requirements"]).set_index("id")
+
+    @property
     def snapshots(self) -> pandas.DataFrame:
         """One row per photo: `frame`, `t_s` since lift-off, `hit`, the defects first `found` in it, and all `views`."""
         import pandas

@@ -45,6 +45,8 @@ def test_tables_match_the_assessment(flight):
     assert list(assessment.tasks.index) == [task["id"] for task in assessment.data["tasks"]]
     assert list(assessment.tasks["covered"]) == [task["covered"] for task in assessment.data["tasks"]]
     assert len(assessment.snapshots) == assessment.data["snapshots"]["taken"] == 1
+    assert list(assessment.requirements.columns)[3:] == ["limit", "reached", "applies", "met"]
+    assert assessment.certified == bool(assessment.requirements["met"].all())
     frames = assessment.frames
     assert len(frames) == assessment.data["end"]["frames"] > 300
     assert frames["up_m"].max() > 4.0

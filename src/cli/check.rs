@@ -8,6 +8,9 @@ use spandrel_model::scenario::{self, Scenario, Task};
 use spandrel_model::site::{NearestPoint, Site, defects};
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle::{self, Vehicle};
+use spandrel_monitor::measures::image_quality;
+use spandrel_monitor::measures::on_path::ReferencePaths;
+use spandrel_monitor::score::certification::{job_time, pictures, requirements};
 
 /// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
 /// section 2).
@@ -115,16 +118,36 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
         Ok(scenario) => {
             findings.problems.extend(clearance_problems(source, &scenario, aircraft));
             findings.warnings.extend(missing_defects_warning(source, &scenario));
+            findings.notes.extend(certification_notes(source, &scenario, aircraft));
         }
         Err(wrong) => findings.problems.extend(wrong.0),
     }
+}
+
+/// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.
+fn certification_notes(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<String> {
+    let mut notes = requirements::describe(scenario);
+    let paths = ReferencePaths::new(scenario);
+    let path_m: f64 = (0..paths.len()).flat_map(|task| paths.path(task).lengths_by_point_m()).sum();
+    let needed_min = job_time::needed_s(scenario, path_m, scenario.defects.count) / 60.0;
+    notes.push(format!(
+        "time that the job needs: {needed_min:.1} min for {path_m:.0} m of path and {}",
+        count(scenario.defects.count, "defect")
+    ));
+    let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
+    let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
+    notes.push(format!(
+        "the camera of {} reaches {finest_mm:.2} mm/px at the clearance limit; cracks narrower than {crack_mm:.1} mm do not count",
+        aircraft.name
+    ));
+    notes.into_iter().map(|note| format!("{}: to be certified: {note}", source.file)).collect()
 }
 
 /// Top-level keys that appear in only one of the two file types. They identify the file type even if some keys are
 /// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const SCENARIO_KEYS: [&str; 13] = [
+const SCENARIO_KEYS: [&str; 14] = [
     "title",
     "seed",
     "origin",
@@ -138,6 +161,7 @@ const SCENARIO_KEYS: [&str; 13] = [
     "light",
     "rules",
     "scoring",
+    "certification",
 ];
 
 fn is_vehicle_file(text: &str) -> bool {

@@ -9,7 +9,7 @@ use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
-use spandrel_training::record::{IncompletePolicy, excluded_sessions_note};
+use spandrel_training::record::{IncompletePolicy, SessionOutcome, excluded_sessions_note};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -58,6 +58,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     };
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
+    let results: Vec<(String, String)> = records.iter().map(|record| (record.id.clone(), record.headlines())).collect();
     let rules = rules(args.rules.as_deref())?;
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
@@ -65,7 +66,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             "the records contain no sessions of '{trainee}'; to add sessions, use `spandrel records import`"
         )));
     };
-    files::write("-", if args.json { json_text(&plan) } else { plan_text(&plan) }.as_bytes())
+    let result = results.iter().find(|(id, _)| *id == plan.session).map(|(_, headlines)| format!("Last session: {headlines}.\n"));
+    let text = if args.json { json_text(&plan) } else { result.unwrap_or_default() + &plan_text(&plan) };
+    files::write("-", text.as_bytes())
 }
 
 fn plan_text(plan: &TrainingPlan) -> String {

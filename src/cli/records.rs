@@ -261,7 +261,7 @@ fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), App
             true => (format!("{:.1}", one.overall), format!("{:.0}", one.overall_max)),
             false => ("-".to_owned(), "-".to_owned()),
         };
-        let result = format!("{}. {}", one.completion_summary(), one.verdict());
+        let result = one.headlines();
         table.push_str(&format!("{started:<22}{who:<16}{job:<22}{overall:>8}{most:>6}  {end:<12}{id}  {result}\n"));
     }
     files::write("-", table.as_bytes())

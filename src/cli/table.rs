@@ -5,6 +5,7 @@ use crate::io::report;
 use serde::Deserialize;
 use serde_json::Value;
 use spandrel_monitor::folder::REPORT;
+use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::{self, Completion, TaskState};
 use std::fmt::Write;
 use std::path::Path;
@@ -60,7 +61,21 @@ pub fn scores_text(assessment: &Value) -> String {
     crashes(&mut out, &assessment["crashes"]);
     picture_table(&mut out, &assessment["snapshots"]);
     end(&mut out, assessment);
+    requirements(&mut out, &assessment["certification"]["requirements"]);
     out
+}
+
+/// Lists every requirement of the certification profile with its limit and the value reached.
+fn requirements(out: &mut String, requirements: &Value) {
+    let Ok(requirements) = Vec::<Requirement>::deserialize(requirements) else { return };
+    if requirements.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "\n{:<26}{:<16}{}", "certification", "reached", "needed");
+    for one in requirements {
+        let state = if one.met { "met" } else { "not met" };
+        let _ = writeln!(out, "{:<26}{:<16}{:<22}{state}", one.name, one.reached_text(), one.limit_text());
+    }
 }
 
 fn verdict(out: &mut String, certification: &Value) {
@@ -157,6 +172,25 @@ snapshots     5 taken, 3 with defects; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 missing frames
 ";
         assert_eq!(scores_text(&assessment), expected);
+    }
+
+    #[test]
+    fn exact_requirements_are_listed_with_limit_and_value() {
+        let requirement = |name: &str, unit: &str, kind: &str, limit: f64, reached: Value, met: bool| json!({"id": name, "name": name, "unit": unit, "kind": kind, "limit": limit, "reached": reached, "applies": true, "met": met});
+        let mut text = String::new();
+        let list = [
+            requirement("battery at landing", "%", "at_least", 20.0, json!(19.6), false),
+            requirement("fastest contact", "m/s", "at_most", 1.0, json!(0.4), true),
+            requirement("conformity", "points", "at_least", 75.0, Value::Null, false),
+        ];
+        requirements(&mut text, &json!(list));
+        let expected = "
+certification             reached         needed
+battery at landing        19.6%           at least 20%          not met
+fastest contact           0.4 m/s         at most 1 m/s         met
+conformity                no evidence     at least 75 points    not met
+";
+        assert_eq!(text, expected);
     }
 
     #[test]

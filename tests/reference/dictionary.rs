@@ -92,8 +92,8 @@ fn paths(value: &Value, at: &str, out: &mut BTreeSet<String>) {
     }
 }
 
-/// Compares the definitions with the assessments of two flights: one with a crash, a photo that shows a defect and a
-/// photo that does not, and one that never gets near its task.
+/// Compares the definitions with the assessments of two flights: one with a crash, a photo that shows a defect, a
+/// dark photo and a blurred one, and one that never gets near its task.
 #[test]
 fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     let mut full = Tape::new();
@@ -103,6 +103,8 @@ fn exact_data_dictionary_covers_exactly_the_assessment_fields() {
     full.hold(0.1);
     full.lamp(true);
     full.snapshot(1);
+    full.fly((30.0, 0.0, 10.0), 4.0);
+    full.snapshot(2);
     full.contact(1);
     full.hold(0.2);
     full.contact(0);

@@ -6,7 +6,8 @@ use super::measures::crash::{self, Crash};
 use super::measures::on_path::{OnPath, ReferencePaths};
 use super::measures::on_speed;
 use super::score::accuracy::DetectionTally;
-use super::score::certification::{self, Certification, CertificationInputs};
+use super::score::certification::inputs::CertificationInputs;
+use super::score::certification::{self, Certification};
 use super::score::completion::{Completion, TaskState};
 use super::score::conformity::TaskShares;
 use super::score::{Score, conformity, efficiency, safety};
@@ -253,6 +254,8 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     let completion = Completion::of(&states, &covered, session.reason == EndReason::Landed, done_share);
     let evidence = CertificationInputs {
         scenario,
+        vehicle: job.vehicle,
+        flight,
         paths: &paths,
         session: &session,
         on_path: &on_path,
@@ -260,9 +263,8 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
         states: &states,
         completion,
         crashes: &crashes,
-        counts,
+        pictures: &pictures,
         defects: job.survey.defects(),
-        found: &found,
     };
     let certification = certification::grade(&evidence);
     let end = end(scenario, &session);

@@ -20,6 +20,10 @@ pub struct TaskExport {
     threshold_m: f64,
     closed: bool,
     path_enu_m: Vec<[f64; 3]>,
+    /// Unit vectors from each path point toward the inspected surface; empty if the task inspects none.
+    viewing_directions_enu: Vec<[f64; 3]>,
+    /// Clearance below which time counts as exposure in this task, m.
+    clearance_m: f64,
 }
 
 /// Defect in the scenario export.
@@ -31,6 +35,61 @@ pub struct DefectExport {
     position_enu_m: [f64; 3],
     normal_enu: [f64; 3],
     size_m: f64,
+    width_m: f64,
+    line: bool,
+}
+
+/// Values of a scenario that the certification profile uses, in the units of the scenario file.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CertificationExport {
+    task_done_share: f64,
+    clearance_m: f64,
+    home_enu_m: [f64; 3],
+    home_radius_m: f64,
+    min_battery_pct: f64,
+    max_contacts: usize,
+    max_contact_speed_m_s: f64,
+    min_conformity: f64,
+    min_precision: f64,
+    min_safety: f64,
+    min_accuracy: f64,
+    min_inspected_share: f64,
+    inspection_speed_m_s: f64,
+    time_per_defect_s: f64,
+    transit_time_s: f64,
+    max_time_ratio: f64,
+    max_gsd_mm: f64,
+    gsd_per_line_width: f64,
+    max_smear_px: f64,
+    max_incidence_deg: f64,
+}
+
+impl CertificationExport {
+    fn new(scenario: &Scenario) -> Self {
+        let (params, team) = (&scenario.certification, &scenario.ground_team);
+        Self {
+            task_done_share: scenario.scoring.task_completion_fraction,
+            clearance_m: scenario.scoring.clearance_m,
+            home_enu_m: team.pad_m.array(),
+            home_radius_m: team.home_radius_m,
+            min_battery_pct: params.min_battery_pct,
+            max_contacts: params.max_contacts,
+            max_contact_speed_m_s: params.max_contact_speed_m_s,
+            min_conformity: params.min_conformity,
+            min_precision: params.min_precision,
+            min_safety: params.min_safety,
+            min_accuracy: params.min_accuracy,
+            min_inspected_share: params.min_inspected_fraction,
+            inspection_speed_m_s: params.inspection_speed_m_s,
+            time_per_defect_s: params.time_per_defect_s,
+            transit_time_s: params.transit_time_s,
+            max_time_ratio: params.max_time_ratio,
+            max_gsd_mm: params.max_gsd_mm,
+            gsd_per_line_width: params.gsd_per_line_width,
+            max_smear_px: params.max_smear_px,
+            max_incidence_deg: params.max_incidence_deg,
+        }
+    }
 }
 
 /// The parts of a scenario that affect scoring.
@@ -46,6 +105,7 @@ pub struct ScenarioExport {
     beta: serde_json::Value,
     tasks: Vec<TaskExport>,
     defects: Vec<DefectExport>,
+    certification: CertificationExport,
 }
 
 impl ScenarioExport {
@@ -60,6 +120,12 @@ impl ScenarioExport {
             threshold_m: task.threshold_m,
             closed: task.closed,
             path_enu_m: task.path_m.iter().map(|point| point.array()).collect(),
+            viewing_directions_enu: if task.inspects_surface {
+                task.viewing_directions.iter().map(|direction| direction.array()).collect()
+            } else {
+                Vec::new()
+            },
+            clearance_m: task.too_close_m.unwrap_or(f64::INFINITY).min(scoring.clearance_m),
         };
         let defect = |defect: &PlacedDefect| DefectExport {
             id: defect.id,
@@ -68,6 +134,8 @@ impl ScenarioExport {
             position_enu_m: defect.position_m.array(),
             normal_enu: defect.normal.array(),
             size_m: defect.length_m,
+            width_m: defect.width_m,
+            line: defect.line,
         };
         Self {
             name: scenario.name.clone(),
@@ -79,6 +147,7 @@ impl ScenarioExport {
             beta,
             tasks: scenario.tasks.iter().map(task).collect(),
             defects: defects.iter().map(defect).collect(),
+            certification: CertificationExport::new(scenario),
         }
     }
 }

@@ -55,6 +55,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
         covered: 1.0,
         certified: true,
         unmet: Vec::new(),
+        certification: None,
         answers: Some(answers),
     }
 }

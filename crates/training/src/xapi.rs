@@ -15,6 +15,8 @@ pub const DEFAULT_ACCOUNT_HOME_PAGE: &str = "https://spandrel.invalid/trainees";
 const STATEMENT_NAMESPACE: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
 /// Key of the session result extension for job completion.
 const COMPLETION_EXTENSION_KEY: &str = "urn:spandrel:completion";
+/// Key of the session result extension for the certification.
+const CERTIFICATION_EXTENSION_KEY: &str = "urn:spandrel:certification";
 /// Key of the task result extension for the fraction of the task's path that was flown.
 const COVERAGE_EXTENSION_KEY: &str = "urn:spandrel:covered";
 /// Prefix of verb IDs in ADL's vocabulary.
@@ -52,14 +54,15 @@ fn flight(record: &SessionRecord, home: &str) -> Value {
         "completion": complete,
         "success": complete && record.certified,
         "duration": format!("PT{:.2}S", record.seconds),
-        "response": if complete { record.verdict() } else { record.completion_summary() },
+        "response": record.headlines(),
     });
     // The sum of the scores is meaningful only for a complete job.
     if complete {
         result["score"] = score(record.scores.overall, record.scores.overall_max);
     }
     if let Some(completion) = &record.completion {
-        result["extensions"] = json!({ COMPLETION_EXTENSION_KEY: completion });
+        let certification = json!({ "passed": record.certified, "unmet": record.unmet, "scores": record.certification.as_ref().map(|one| one.scores) });
+        result["extensions"] = json!({ COMPLETION_EXTENSION_KEY: completion, CERTIFICATION_EXTENSION_KEY: certification });
     }
     let verb = if complete { "completed" } else { "attempted" };
     statement(record, home, "", (verb, &record.scenario), result)
@@ -149,7 +152,10 @@ mod tests {
         assert!(flight["verb"]["id"].as_str().is_some_and(|verb| verb.ends_with("/attempted")), "{flight}");
         assert_eq!((&flight["result"]["completion"], &flight["result"]["success"]), (&json!(false), &json!(false)));
         assert_eq!(flight["result"]["score"], Value::Null);
-        assert_eq!(flight["result"]["response"], "Incomplete: 0 of 4 tasks, 15% of the path");
+        assert_eq!(
+            flight["result"]["response"],
+            "Incomplete: 0 of 4 tasks, 15% of the path. Not certified: task 1 not done: 60% of its path, 80% needed (and 1 more)"
+        );
         assert_eq!(flight["result"]["extensions"][COMPLETION_EXTENSION_KEY]["path_share"], 0.15);
         let task = all.iter().find(|one| one["object"]["id"].as_str().is_some_and(|id| id.ends_with("/tasks/1"))).unwrap();
         assert_eq!(

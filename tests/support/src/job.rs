@@ -37,6 +37,7 @@ pub fn task(id: u32, path_m: Vec<Vec3<Enu>>, threshold_m: f64) -> Task {
         closed: false,
         path_m,
         viewing_directions: look,
+        inspects_surface: true,
         too_close_m: None,
         dark: false,
     }
@@ -107,6 +108,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             task_completion_fraction: 0.8,
             clearance_m: 2.0,
         },
+        certification: CertificationParams::default(),
         crc: CRC,
     }
 }

@@ -3,6 +3,7 @@
 
 use super::bridges::Bridge;
 use super::bridges::path::TaskKind;
+use super::certification::CertificationParams;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
@@ -41,6 +42,8 @@ pub struct Scenario {
     pub feedback: FeedbackThresholds,
     /// Scoring parameters.
     pub scoring: ScoringParams,
+    /// Requirements of the certification profile.
+    pub certification: CertificationParams,
     /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
 }
@@ -125,6 +128,9 @@ pub struct Task {
     pub path_m: Vec<Vec3<Enu>>,
     /// Viewing directions: for each path point, a unit vector toward the inspected surface.
     pub viewing_directions: Vec<Vec3<Enu>>,
+    /// True if the viewing directions point at a surface. False for a free path without a target, whose viewing
+    /// directions point along the path.
+    pub inspects_surface: bool,
     /// Too-close threshold of this task, m; `None` to use the job's threshold.
     pub too_close_m: Option<f64>,
     /// True if the lamp is recommended in this task. Used in briefings and by the synthetic trainee.

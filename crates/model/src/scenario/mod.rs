@@ -2,6 +2,7 @@
 //! documents every key; a test checks it against this code.
 
 pub mod bridges;
+mod certification;
 mod job;
 mod point;
 mod read;
@@ -11,6 +12,7 @@ mod weather;
 
 pub use bridges::path::TaskKind;
 pub use bridges::{Bridge, BridgeKind};
+pub use certification::CertificationParams;
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
     SessionRules, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,

@@ -82,6 +82,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         rules: rules(r, root),
         feedback: feedback(r, root),
         scoring: scoring(r, root),
+        certification: super::certification::read(r, root),
         crc: 0,
     }
 }

@@ -81,6 +81,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
         closed: path.closed,
         path_m: path.path_m,
         viewing_directions: path.viewing_directions,
+        inspects_surface: kind != TaskKind::Free || !look_at.is_empty(),
         too_close_m: r.optional_number(s, "too_close_m", (0.2, 20.0)),
         dark,
     }

@@ -127,6 +127,7 @@ mod tests {
                 closed: path.closed,
                 path_m: path.path_m,
                 viewing_directions: path.viewing_directions,
+                inspects_surface: true,
                 too_close_m: None,
                 dark: false,
             }
@@ -210,6 +211,7 @@ mod tests {
             rules,
             feedback,
             scoring,
+            certification: CertificationParams::default(),
             crc: 0,
         }
     }

@@ -1,5 +1,6 @@
 //! Visual attention: determines which defects each picture shows, based on geometry and lighting.
 
+use super::image_quality::{CameraMotion, ImageQuality, angle_rad};
 use serde::Serialize;
 use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
@@ -55,6 +56,8 @@ impl SiteSurvey for Site {
 
 /// Difference below which two fields of view count as equal, rad. Telemetry sends degrees with 24-bit precision.
 const FOV_TOLERANCE_RAD: f64 = 1e-6;
+/// Time before a picture over which the camera's rotation is measured: the interval of the gimbal's status messages.
+const ROTATION_INTERVAL: SimTime = SimTime::from_ms(100);
 
 /// Evaluation of one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -80,6 +83,8 @@ pub struct DefectSighting {
     pub shown: bool,
     /// Unmet conditions, as text.
     pub fails: Vec<String>,
+    /// Measured image quality. Affects only the certification profile.
+    pub quality: ImageQuality,
 }
 
 /// Evaluates all pictures taken in `frames`. Multiple pictures in one frame count as one.
@@ -106,8 +111,28 @@ pub fn snapshots(flight: &Flight, frames: &[Frame], vehicle: &Vehicle, survey: &
 
 fn sightings_at(flight: &Flight, time: SimTime, vehicle: &Vehicle, survey: &dyn SiteSurvey) -> Vec<DefectSighting> {
     let Some(pose) = pose(flight, time, vehicle) else { return Vec::new() };
-    let looks = survey.view_defects(&pose, &camera(flight, time, &vehicle.camera), &vehicle.lamp, time);
-    looks.iter().filter(|look| look.in_frame || look.hit).map(view).collect()
+    let camera = camera(flight, time, &vehicle.camera);
+    let motion = camera_motion(flight, time, vehicle);
+    let looks = survey.view_defects(&pose, &camera, &vehicle.lamp, time);
+    let sighting = |look: &DefectView| {
+        let placed = survey.defects().iter().find(|defect| defect.id == look.defect_id);
+        let to_defect = placed.map_or(pose.forward, |defect| defect.position_m - pose.position_m);
+        DefectSighting {
+            defect: look.defect_id,
+            shown: look.hit,
+            fails: look.reasons(),
+            quality: ImageQuality::measure(look, to_defect, &camera, &motion),
+        }
+    };
+    looks.iter().filter(|look| look.in_frame || look.hit).map(sighting).collect()
+}
+
+/// Returns the camera's velocity and rotation rate at `time`; zero if the telemetry does not cover it.
+fn camera_motion(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> CameraMotion {
+    let velocity_m_s = flight.between(time).map_or_else(Vec3::zero, |state| state.motion.velocity_m_s);
+    let axis = |at: SimTime| pose(flight, at, vehicle).map(|pose| pose.forward);
+    let turned_rad = axis(time).zip(axis(time - ROTATION_INTERVAL)).map_or(0.0, |(now, before)| angle_rad(now, before));
+    CameraMotion { velocity_m_s, rotation_rad_s: turned_rad / ROTATION_INTERVAL.s() }
 }
 
 /// Returns the camera with the recorded field of view. If none was recorded, the camera has a fixed lens.
@@ -126,8 +151,4 @@ pub fn pose(flight: &Flight, time: SimTime, vehicle: &Vehicle) -> Option<CameraP
     let gimbal_rad = flight.gimbal.at(time).unwrap_or(0.0);
     let lamp_on = flight.light.at(time).unwrap_or(false);
     Some(CameraPose::on_aircraft(&vehicle.camera, state.motion.pose(), gimbal_rad, lamp_on))
-}
-
-fn view(look: &DefectView) -> DefectSighting {
-    DefectSighting { defect: look.defect_id, shown: look.hit, fails: look.reasons() }
 }

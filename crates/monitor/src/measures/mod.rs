@@ -3,5 +3,6 @@
 pub mod attention;
 pub mod coverage;
 pub mod crash;
+pub mod image_quality;
 pub mod on_path;
 pub mod on_speed;

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 /// Scorer version. Increment it with every change that could give the same flight a different score. Scores are
 /// compared only within the same version.
-pub const SCORER_VERSION: u32 = 2;
+pub const SCORER_VERSION: u32 = 3;
 
 /// A score, on its own scale and as a percentage, in full precision. Scores are rounded only for display.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

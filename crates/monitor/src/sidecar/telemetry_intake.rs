@@ -277,7 +277,12 @@ impl Monitor {
         let (reason, words) = match &outcome {
             Ok(assessed_session) => {
                 let (overall, completion) = (assessed_session.assessment.scores.overall, assessed_session.assessment.completion);
-                let words = if completion.complete { format!("Session over: {overall:.0} points") } else { completion.summary() };
+                let verdict = if assessed_session.assessment.certification.passed { "certified" } else { "not certified" };
+                let words = match completion.complete {
+                    true => format!("Session over: {overall:.0} points, {verdict}"),
+                    // Longer texts do not fit into a STATUSTEXT message. An incomplete session is never certified.
+                    false => completion.summary(),
+                };
                 (json!(assessed_session.assessment.end.reason), words)
             }
             Err(error) => (json!(error.to_string()), "Session over: nothing to score".to_owned()),

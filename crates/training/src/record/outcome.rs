@@ -25,4 +25,9 @@ pub trait SessionOutcome {
         let (certified, unmet) = self.certification();
         completion::verdict(certified, unmet)
     }
+
+    /// Returns both headlines, which are always shown together: the completion, and the certification verdict.
+    fn headlines(&self) -> String {
+        format!("{}. {}", self.completion_summary(), self.verdict())
+    }
 }

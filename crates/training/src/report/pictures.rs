@@ -9,6 +9,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
+use spandrel_monitor::measures::image_quality::exposure_s;
 
 /// Maximum distance of the object in a picture's center, m; anything farther counts as sky.
 const MAX_TARGET_DISTANCE_M: f64 = 120.0;
@@ -202,13 +203,6 @@ fn target(
 
 fn member(scene: &ReviewContext<'_>, object: ObjectId) -> String {
     scene.site.members().get(object.0 as usize).map_or_else(|| scene.site.object_name(object), |member| member.name.clone())
-}
-
-/// Returns the shortest exposure in seconds for an illuminance of `lux` at the camera's maximum sensitivity, limited to
-/// the camera's maximum exposure.
-#[must_use]
-pub fn exposure_s(camera: &Camera, lux: f64) -> f64 {
-    (required_illuminance_lux(camera) * camera.max_exposure_time_s / lux.max(f64::MIN_POSITIVE)).min(camera.max_exposure_time_s)
 }
 
 #[cfg(test)]

@@ -53,9 +53,10 @@ fn title(review: &Review) -> String {
 fn result(assessment: &Assessment) -> (Value, String) {
     let (scores, certification) = (&assessment.scores, &assessment.certification);
     let time = scorm_timespan(assessment.end.seconds);
+    let verdict = verdict(certification.passed, &certification.unmet);
     if !assessment.completion.complete {
         let result = json!({ "cmi.core.lesson_status": "incomplete", "cmi.core.session_time": time });
-        return (result, assessment.completion.headline());
+        return (result, format!("{}. {verdict}", assessment.completion.headline()));
     }
     let pct = if scores.overall_max > 0.0 { 100.0 * scores.overall / scores.overall_max } else { 0.0 };
     let result = json!({
@@ -65,7 +66,7 @@ fn result(assessment: &Assessment) -> (Value, String) {
         "cmi.core.lesson_status": if certification.passed { "passed" } else { "failed" },
         "cmi.core.session_time": time,
     });
-    (result, format!("{} of 100. {}", formatting::number(pct, 0), verdict(certification.passed, &certification.unmet)))
+    (result, format!("{} of 100. {verdict}", formatting::number(pct, 0)))
 }
 
 fn index(review: &Review) -> String {

@@ -3,7 +3,7 @@
 use super::access::{AccessLevel, Visitor};
 use super::layout::{page, page_navigation, section, table};
 use crate::questionnaire::QuestionnaireItem;
-use crate::record::{SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
+use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
@@ -114,6 +114,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
         }
         (actions(record, page_data))
         (section("scores", "Scores", &scores(record)))
+        @if let Some(certification) = &record.certification { (section("certification", "Certification", &requirements(certification))) }
         @if !record.tasks.is_empty() { (section("tasks", "Tasks", &tasks(record))) }
         @if !record.defects.is_empty() { (section("defects", "Defects", &defects(record))) }
         (section("compare", "Compare with", &compare(record, page_data.others)))
@@ -172,6 +173,24 @@ fn scores(record: &SessionRecord) -> Markup {
             }
         }
     }
+}
+
+/// Renders every requirement of the certification profile with its limit and the value reached.
+fn requirements(certification: &CertificationRecord) -> Markup {
+    table(
+        "Requirements",
+        &[("Requirement", false), ("Reached", true), ("Needed", true), ("Met", false)],
+        &html! {
+            @for one in &certification.requirements {
+                tr {
+                    th scope="row" { (one.name) }
+                    td.number { (one.reached_text()) }
+                    td.number { (one.limit_text()) }
+                    td { @if one.met { "yes" } @else { b { "no" } } }
+                }
+            }
+        },
+    )
 }
 
 fn tasks(record: &SessionRecord) -> Markup {

@@ -12,7 +12,7 @@ pub use outcome::SurfaceOutcome;
 pub use sight::{REQUIRED_GSD_M, reach_m};
 
 use super::context::ReviewContext;
-use super::pictures::{ReviewedPicture, exposure_s};
+use super::pictures::ReviewedPicture;
 use element::BestPicture;
 use patches::{SurfacePatch, inspectable};
 use sight::is_clear;
@@ -24,6 +24,7 @@ use spandrel_model::site::visibility::{MAX_INCIDENCE_RAD, lamp_lux, required_ill
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::measures::attention;
+use spandrel_monitor::measures::image_quality::exposure_s;
 use std::collections::BTreeMap;
 
 /// Maximum motion blur, px (the published limit for defect detection).

@@ -6,49 +6,128 @@ use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::elements::Element;
+use spandrel_monitor::score::certification::TaskVisits;
+use spandrel_monitor::score::certification::contacts::MergedCrash;
+use spandrel_monitor::score::certification::pictures::GradedPicture;
 use spandrel_monitor::score::completion::verdict;
 
 /// Renders the "Certification" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
-    let gates = [
-        ("session complete", c.gates.session_complete),
-        ("every task attempted", c.gates.all_tasks_attempted),
-        ("no person or vehicle hit", c.gates.no_person_or_vehicle_hit),
-        ("landed near the ground team", c.gates.landed_at_home),
-        ("at least 20% battery at landing", c.gates.battery_reserve),
-    ];
     html! {
         p { "The certification profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
             b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
         ul.gates {
-            @for (words, open) in gates {
-                li { span class={ "badge " (if open { "v-hit" } else { "v-false" }) } { (if open { "met" } else { "not met" }) } " " (words) }
+            @for requirement in &c.requirements {
+                li { span class={ "badge " (if requirement.met { "v-hit" } else { "v-false" }) } { (if requirement.met { "met" } else { "not met" }) }
+                    " " (requirement.name) ": " (requirement.reached_text()) " (" (requirement.limit_text()) ")" }
             }
         }
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
         p { "Closer than " (formatting::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (formatting::number(c.exposure_s, 1))
             " s; " (c.crash_onsets) " contacts (" (c.crashes.len()) " after merging those less than a second apart); "
-            (formatting::number(c.battery_at_end_pct, 0)) "% battery remaining at the end." }
+            (formatting::number(c.battery_at_end_pct, 0)) "% battery remaining at the end; flight time " (formatting::duration(c.time.flown_s))
+            " (this job needs " (formatting::duration(c.time.needed_s)) "). " (too_fine(review)) }
+        (scores_table(review).folded())
         (visits_table(review).folded())
+        (crashes_table(review).folded())
+        (pictures_table(review).folded())
         (detection_table(review).folded())
     }
 }
 
+/// Returns a note about the defects that are too fine for the aircraft's camera; empty if there are none.
+fn too_fine(review: &Review) -> String {
+    match review.assessment.certification.accuracy.defects.iter().filter(|defect| !defect.gradable).count() {
+        0 => String::new(),
+        1 => "1 defect is too fine for this camera and does not count toward the accuracy.".to_owned(),
+        many => format!("{many} defects are too fine for this camera and do not count toward the accuracy."),
+    }
+}
+
+fn scores_table(review: &Review) -> Table {
+    let scores = &review.assessment.certification.scores;
+    let row =
+        |name: &str, value: Option<f64>| vec![name.into(), value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1))];
+    Table {
+        name: "certification-scores",
+        caption: "certification scores",
+        columns: vec!["score", "points"],
+        rows: vec![
+            row("conformity", scores.conformity),
+            row("precision", scores.precision),
+            row("safety", Some(scores.safety)),
+            row("accuracy", scores.accuracy),
+            row("efficiency", Some(scores.efficiency)),
+            row("sum", Some(scores.sum)),
+        ],
+    }
+}
+
+fn crashes_table(review: &Review) -> Table {
+    let row = |crash: &MergedCrash| {
+        vec![
+            TableCell::Number(crash.t_s, 1),
+            crash.with.label().into(),
+            TableCell::Number(crash.speed_m_s, 2),
+            TableCell::Number(crash.loss, 1),
+        ]
+    };
+    Table {
+        name: "merged-contacts",
+        caption: "merged contacts",
+        columns: vec!["time (s)", "with", "speed (m/s)", "points lost"],
+        rows: review.assessment.certification.crashes.iter().map(row).collect(),
+    }
+}
+
+fn pictures_table(review: &Review) -> Table {
+    let row = |picture: &GradedPicture| {
+        let result = match (picture.hit, picture.counted) {
+            (true, _) => "hit",
+            (false, true) => "no hit",
+            (false, false) => "not counted",
+        };
+        let defects = picture.found.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        vec![picture.frame.into(), result.into(), defects.into(), picture.fails.join("; ").into()]
+    };
+    Table {
+        name: "picture-quality",
+        caption: "pictures by image quality",
+        columns: vec!["frame", "result", "new defects", "why defects in the picture did not count"],
+        rows: review.assessment.certification.accuracy.pictures.iter().map(row).collect(),
+    }
+}
+
 fn visits_table(review: &Review) -> Table {
-    let row = |task: &spandrel_monitor::score::certification::TaskVisits| {
+    let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
+    let row = |task: &TaskVisits| {
         vec![
             task.id.into(),
             task.visits.len().into(),
             TableCell::Number(100.0 * task.coverage, 1),
             TableCell::Number(100.0 * task.on_path, 1),
             TableCell::Number(task.speeding, 3),
+            number(task.precision.map(|precision| precision.rms_distance_ratio), 3),
+            number(task.precision.map(|precision| precision.rms_speeding_ratio), 3),
+            number(task.precision.and_then(|precision| precision.rms_framing_deg), 1),
+            number(task.precision.map(|precision| 100.0 * precision.low_clearance_share), 1),
         ]
     };
     Table {
         name: "visits",
         caption: "task visits",
-        columns: vec!["task", "visits", "path flown (%)", "on-path share (%)", "speeding loss"],
+        columns: vec![
+            "task",
+            "visits",
+            "path flown (%)",
+            "on-path share (%)",
+            "speeding loss",
+            "RMS distance / threshold",
+            "RMS speed above limit / limit",
+            "RMS framing error (deg)",
+            "too close (% of time)",
+        ],
         rows: review.assessment.certification.tasks.iter().map(row).collect(),
     }
 }

@@ -11,6 +11,7 @@ use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
+use spandrel_monitor::score::completion::verdict;
 
 /// Placeholder for values whose reliability is not estimated.
 const NO_MEASURE: &str = "";
@@ -38,7 +39,7 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
                 div {
                     p.kicker { "Session comparison" }
                     h1 { (first.scenario.title) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet)) } }
                 }
             }
             main {
@@ -116,6 +117,7 @@ fn table(first: &Review, second: &Review, reliability: &[MeasureReliability]) ->
         1,
         both.map(|review| review.assessment.completion.complete.then_some(review.assessment.scores.overall)),
     );
+    put("Certification sum", NO_MEASURE, 1, both.map(|review| Some(review.assessment.certification.scores.sum)));
     put("Path flown (%)", NO_MEASURE, 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
     put("Flight time (s)", "flight_time", 0, both.map(|review| Some(review.assessment.end.seconds)));
     put("Contacts", "crashes", 0, both.map(|review| Some(review.crashes.len() as f64)));

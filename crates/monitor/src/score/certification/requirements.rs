@@ -1,0 +1,227 @@
+//! Pass/fail requirements, each with its limit and the value reached.
+
+use super::contacts::MergedCrash;
+use super::inputs::CertificationInputs;
+use crate::score::completion::describe_unfinished_task;
+use crate::session::EndReason;
+use serde::{Deserialize, Serialize};
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_model::numbers::{format_limit, format_with_limit};
+use spandrel_model::scenario::Scenario;
+
+/// Side of the limit on which a value meets the requirement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LimitKind {
+    /// The value must not be below the limit.
+    AtLeast,
+    /// The value must not exceed the limit.
+    AtMost,
+}
+
+impl LimitKind {
+    /// Returns the words that precede the limit.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::AtLeast => "at least",
+            Self::AtMost => "at most",
+        }
+    }
+}
+
+/// One requirement: its limit, and the value that the session reached.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Requirement {
+    /// Machine-readable name.
+    pub id: String,
+    /// Name shown to people.
+    pub name: String,
+    /// Unit symbol of limit and value; empty for counts.
+    pub unit: String,
+    /// Side of the limit that meets the requirement.
+    pub kind: LimitKind,
+    /// Limit.
+    pub limit: f64,
+    /// Value reached; absent if there is no evidence for it.
+    pub reached: Option<f64>,
+    /// Whether the requirement applies to this job. One that does not apply counts as met.
+    pub applies: bool,
+    /// Whether the requirement is met.
+    pub met: bool,
+}
+
+/// The requirements without numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Requirements {
+    /// Whether every task is done and the session ended with a landing at home.
+    pub session_complete: bool,
+    /// Whether every task's path was entered.
+    pub all_tasks_attempted: bool,
+    /// Whether no person or vehicle was hit.
+    pub no_person_or_vehicle_hit: bool,
+    /// Whether the drone landed near the ground team.
+    pub landed_at_home: bool,
+    /// Whether the drone landed with the required battery charge.
+    pub battery_reserve: bool,
+}
+
+/// Values reached that the requirements limit.
+#[derive(Debug, Clone, Copy)]
+pub struct Reached<'a> {
+    /// Battery charge in the last frame, %.
+    pub battery_pct: f64,
+    /// Merged contacts.
+    pub crashes: &'a [MergedCrash],
+    /// Conformity, 0 to 100; `None` without evidence.
+    pub conformity: Option<f64>,
+    /// Precision, 0 to 100; `None` without evidence.
+    pub precision: Option<f64>,
+    /// Safety, 0 to 100.
+    pub safety: f64,
+    /// Accuracy, 0 to 100; `None` if no defect is gradable.
+    pub accuracy: Option<f64>,
+}
+
+impl Requirement {
+    fn new(id: &str, name: &str, unit: &str, kind: LimitKind, limit: f64, reached: Option<f64>) -> Self {
+        let met = reached.is_some_and(|value| match kind {
+            LimitKind::AtLeast => value >= limit,
+            LimitKind::AtMost => value <= limit,
+        });
+        Self { id: id.into(), name: name.into(), unit: unit.into(), kind, limit, reached, applies: true, met }
+    }
+
+    /// Returns the limit as text, such as "at least 20%".
+    #[must_use]
+    pub fn limit_text(&self) -> String {
+        format!("{} {}{}", self.kind.words(), format_limit(self.limit), self.unit_text())
+    }
+
+    /// Returns the value reached as text, with enough digits to show which side of the limit it is on.
+    #[must_use]
+    pub fn reached_text(&self) -> String {
+        match self.reached {
+            _ if !self.applies => "does not apply".to_owned(),
+            Some(value) => {
+                let digits = usize::from(self.unit == "m/s");
+                format!("{}{}", format_with_limit(value, self.limit, digits), self.unit_text())
+            }
+            None => "no evidence".to_owned(),
+        }
+    }
+
+    fn unit_text(&self) -> String {
+        match self.unit.as_str() {
+            "" => String::new(),
+            "%" => "%".to_owned(),
+            unit => format!(" {unit}"),
+        }
+    }
+}
+
+fn is_traffic(with: ContactKind) -> bool {
+    matches!(with, ContactKind::Person | ContactKind::Vehicle)
+}
+
+/// Evaluates the requirements without numbers.
+#[must_use]
+pub fn gates(inputs: &CertificationInputs<'_>, battery_pct: f64) -> Requirements {
+    let landed = inputs.session.reason == EndReason::Landed;
+    Requirements {
+        session_complete: inputs.completion.complete,
+        all_tasks_attempted: inputs.on_path.windows.iter().all(Option::is_some),
+        no_person_or_vehicle_hit: !inputs.crashes.iter().any(|crash| is_traffic(crash.with)),
+        landed_at_home: landed,
+        battery_reserve: landed && battery_pct >= inputs.scenario.certification.min_battery_pct,
+    }
+}
+
+/// Evaluates all requirements.
+#[must_use]
+pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> Vec<Requirement> {
+    let params = &inputs.scenario.certification;
+    let completion = &inputs.completion;
+    let landed = completion.landed_at_home;
+    let traffic = inputs.crashes.iter().filter(|crash| is_traffic(crash.with)).count();
+    let fastest_m_s = reached.crashes.iter().map(|crash| crash.speed_m_s).fold(0.0, f64::max);
+    let (least, most) = (LimitKind::AtLeast, LimitKind::AtMost);
+    let points = |id: &str, limit: f64, value: Option<f64>| Requirement::new(id, id, "points", least, limit, value);
+    let battery_pct = landed.then_some(reached.battery_pct);
+    let contacts = Some(reached.crashes.len() as f64);
+    let accuracy = points("accuracy", params.min_accuracy, reached.accuracy);
+    let mut all = vec![
+        Requirement::new("tasks_done", "tasks done", "", least, completion.tasks as f64, Some(completion.tasks_done as f64)),
+        Requirement::new("landed_at_home", "landed at home", "", least, 1.0, Some(f64::from(u8::from(landed)))),
+        Requirement::new("person_or_vehicle_hits", "people and vehicles hit", "", most, 0.0, Some(traffic as f64)),
+        Requirement::new("battery", "battery at landing", "%", least, params.min_battery_pct, battery_pct),
+        Requirement::new("contacts", "contacts", "", most, params.max_contacts as f64, contacts),
+        Requirement::new("contact_speed", "fastest contact", "m/s", most, params.max_contact_speed_m_s, Some(fastest_m_s)),
+        points("conformity", params.min_conformity, reached.conformity),
+        points("precision", params.min_precision, reached.precision),
+        points("safety", params.min_safety, Some(reached.safety)),
+    ];
+    let applies = reached.accuracy.is_some();
+    all.push(Requirement { applies, met: accuracy.met || !applies, ..accuracy });
+    all
+}
+
+/// Returns the unmet requirements as text, each with its limit. Omits the battery reserve if the drone did not land.
+#[must_use]
+pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> Vec<String> {
+    let open = |id: &str| requirements.iter().find(|requirement| requirement.id == id && !requirement.met);
+    let mut unmet = Vec::new();
+    if open("person_or_vehicle_hits").is_some() {
+        unmet.push("a person or vehicle was hit".to_owned());
+    }
+    let done_share = inputs.completion.done_share;
+    let tasks = inputs.scenario.tasks.iter().zip(inputs.states).zip(inputs.covered);
+    unmet.extend(
+        tasks.filter_map(|((task, state), covered)| describe_unfinished_task(task.id, *state, covered.share, done_share)),
+    );
+    if open("landed_at_home").is_some() {
+        unmet.push("not landed at home".to_owned());
+    } else if let Some(battery) = open("battery") {
+        unmet.push(format!("{} battery at landing, {}% needed", battery.reached_text(), format_limit(battery.limit)));
+    }
+    if let Some(contacts) = open("contacts") {
+        unmet.push(format!("{} contacts, {} allowed", contacts.reached_text(), contacts.limit_text()));
+    }
+    if let Some(speed) = open("contact_speed") {
+        unmet.push(format!("contact at {}, {} allowed", speed.reached_text(), speed.limit_text()));
+    }
+    let scores = ["conformity", "precision", "safety", "accuracy"].into_iter().filter_map(open);
+    unmet.extend(scores.map(|score| match score.reached {
+        Some(value) => {
+            format!("{} {}, {} needed", score.name, format_with_limit(value, score.limit, 0), format_limit(score.limit))
+        }
+        None => format!("no evidence for {}", score.name),
+    }));
+    unmet
+}
+
+/// Returns the requirements of a scenario as text, one per line, for people who prepare jobs.
+#[must_use]
+pub fn describe(scenario: &Scenario) -> Vec<String> {
+    let params = &scenario.certification;
+    let limit = format_limit;
+    vec![
+        format!("every task flown over at least {}% of its path", limit(100.0 * scenario.scoring.task_completion_fraction)),
+        format!("landed at home with at least {}% battery, no person or vehicle hit", limit(params.min_battery_pct)),
+        format!("at most {} contacts, none faster than {} m/s", params.max_contacts, limit(params.max_contact_speed_m_s)),
+        format!(
+            "conformity at least {}, precision {}, safety {}, accuracy {}",
+            limit(params.min_conformity),
+            limit(params.min_precision),
+            limit(params.min_safety),
+            limit(params.min_accuracy)
+        ),
+        format!(
+            "pictures with at most {} mm/px ({} of the width for a crack), {} px of motion blur and {} deg of incidence",
+            limit(params.max_gsd_mm),
+            limit(params.gsd_per_line_width),
+            limit(params.max_smear_px),
+            limit(params.max_incidence_deg)
+        ),
+    ]
+}
