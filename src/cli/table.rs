@@ -71,7 +71,7 @@ fn requirements(out: &mut String, requirements: &Value) {
     if requirements.is_empty() {
         return;
     }
-    let _ = writeln!(out, "\n{:<26}{:<16}{}", "certification", "reached", "needed");
+    let _ = writeln!(out, "\n{:<26}{:<16}needed", "certification", "reached");
     for one in requirements {
         let state = if one.met { "met" } else { "not met" };
         let _ = writeln!(out, "{:<26}{:<16}{:<22}{state}", one.name, one.reached_text(), one.limit_text());
