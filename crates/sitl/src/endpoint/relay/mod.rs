@@ -12,6 +12,7 @@ mod message_requests;
 mod publish;
 mod receive;
 mod setup;
+mod setup_requests;
 mod streams;
 
 use super::component_ids;
@@ -25,7 +26,7 @@ use super::vehicle_link::params::InstructorSettings;
 use super::vehicle_link::params::param_view::ParamView;
 pub use autopilot_report::{AutopilotReport, FirmwareVersion, ReportedParam};
 use instructor_params::InstructorParams;
-use setup::SetupRequests;
+use setup_requests::SetupRequests;
 use spandrel_mavlink::codec::Encoder;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Ned, Vec3};

@@ -30,19 +30,6 @@ const STREAMS_HZ: [(u32, f32); 10] = [
 /// takes several simulated seconds at a high simulation speed.
 const REPEAT_INTERVAL_S: f64 = 2.0;
 
-/// State of the requests to the present autopilot process.
-#[derive(Debug, Clone, Default)]
-pub(super) struct SetupRequests {
-    /// Whether the streams have been requested.
-    streams: bool,
-    /// Whether the parameters have been requested.
-    parameters: bool,
-    /// Number of parameters that were known at the last check.
-    known_parameters: usize,
-    /// Time of the next check.
-    check_at: SimTime,
-}
-
 impl RelayEndpoint {
     /// Requests the streams and the version after the first heartbeat of an autopilot process.
     pub(super) fn request_streams_once(&mut self) {
