@@ -9,6 +9,9 @@ use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::Scenario;
 
+/// Name of the requirement to land near the ground team.
+const LANDED_AT_HOME: &str = "landed_at_home";
+
 /// Side of the limit on which a value meets the requirement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -95,6 +98,9 @@ impl Requirement {
     /// Returns the limit as text, such as "at least 20%".
     #[must_use]
     pub fn limit_text(&self) -> String {
+        if self.is_yes_or_no() {
+            return yes_or_no(self.limit).to_owned();
+        }
         format!("{} {}{}", self.kind.words(), format_limit(self.limit), self.unit_text())
     }
 
@@ -103,12 +109,18 @@ impl Requirement {
     pub fn reached_text(&self) -> String {
         match self.reached {
             _ if !self.applies => "does not apply".to_owned(),
+            Some(value) if self.is_yes_or_no() => yes_or_no(value).to_owned(),
             Some(value) => {
                 let digits = usize::from(self.unit == "m/s");
                 format!("{}{}", format_with_limit(value, self.limit, digits), self.unit_text())
             }
             None => "no evidence".to_owned(),
         }
+    }
+
+    /// Returns whether the value is 1 for yes and 0 for no.
+    fn is_yes_or_no(&self) -> bool {
+        self.id == LANDED_AT_HOME
     }
 
     fn unit_text(&self) -> String {
@@ -118,6 +130,10 @@ impl Requirement {
             unit => format!(" {unit}"),
         }
     }
+}
+
+fn yes_or_no(value: f64) -> &'static str {
+    if value > 0.0 { "yes" } else { "no" }
 }
 
 fn is_traffic(with: ContactKind) -> bool {
@@ -152,7 +168,7 @@ pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> 
     let accuracy = points("accuracy", params.min_accuracy, reached.accuracy);
     let mut all = vec![
         Requirement::new("tasks_done", "tasks done", "", least, completion.tasks as f64, Some(completion.tasks_done as f64)),
-        Requirement::new("landed_at_home", "landed at home", "", least, 1.0, Some(f64::from(u8::from(landed)))),
+        Requirement::new(LANDED_AT_HOME, "landed at home", "", least, 1.0, Some(f64::from(u8::from(landed)))),
         Requirement::new("person_or_vehicle_hits", "people and vehicles hit", "", most, 0.0, Some(traffic as f64)),
         Requirement::new("battery", "battery at landing", "%", least, params.min_battery_pct, battery_pct),
         Requirement::new("contacts", "contacts", "", most, params.max_contacts as f64, contacts),
@@ -179,7 +195,7 @@ pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> 
     unmet.extend(
         tasks.filter_map(|((task, state), covered)| describe_unfinished_task(task.id, *state, covered.share, done_share)),
     );
-    if open("landed_at_home").is_some() {
+    if open(LANDED_AT_HOME).is_some() {
         unmet.push("not landed at home".to_owned());
     } else if let Some(battery) = open("battery") {
         unmet.push(format!("{} battery at landing, {}% needed", battery.reached_text(), format_limit(battery.limit)));
@@ -224,4 +240,21 @@ pub fn describe(scenario: &Scenario) -> Vec<String> {
             limit(params.max_incidence_deg)
         ),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_limits_and_values_read_as_text() {
+        let texts = |requirement: Requirement| (requirement.limit_text(), requirement.reached_text(), requirement.met);
+        let landed = |value| Requirement::new(LANDED_AT_HOME, "landed at home", "", LimitKind::AtLeast, 1.0, Some(value));
+        assert_eq!(texts(landed(1.0)), ("yes".into(), "yes".into(), true));
+        assert_eq!(texts(landed(0.0)), ("yes".into(), "no".into(), false));
+        let contacts = Requirement::new("contacts", "contacts", "", LimitKind::AtMost, 2.0, Some(3.0));
+        assert_eq!(texts(contacts), ("at most 2".into(), "3".into(), false));
+        let precision = Requirement::new("precision", "precision", "points", LimitKind::AtLeast, 45.0, None);
+        assert_eq!(texts(precision), ("at least 45 points".into(), "no evidence".into(), false));
+    }
 }
