@@ -30,7 +30,7 @@ class Postgres:
         self.user = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
         if self.user:
             # All parent folders must be accessible to the user.
-            for parent in self.home.parents[:3]:
+            for parent in self.home.parents[:-2]:
                 parent.chmod(parent.stat().st_mode | 0o055)
             os.chown(self.home, NOBODY, NOBODY)
         self.process = None

@@ -81,7 +81,7 @@ def test_csv_tables_are_readable(sessions, tmp_path):
     spandrel.run("records", "import", *place)
     spandrel.run("cohort", "--repetitions", "2", "--csv", str(tmp_path / "tables"), *place)
     tables = {path.name: list(csv.DictReader(path.open(encoding="utf-8"))) for path in (tmp_path / "tables").iterdir()}
-    assert len(tables) == 16
+    assert len(tables) == 17
     assert [row["repetition"] for row in tables["progress.csv"]] == ["1", "2"]
     assert [row["task"] for row in tables["conformity_by_task.csv"]] == ["1", "2", "3", "4"]
     assert all(None not in row and None not in row.values() for rows in tables.values() for row in rows)
