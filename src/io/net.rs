@@ -17,9 +17,9 @@ const EVENT_QUEUE_LEN: usize = 16_384;
 /// Maximum number of frames waiting for a slow TCP client; further frames are dropped.
 const STREAM_QUEUE_LEN: usize = 2_048;
 /// Delay after an unexpected socket error, to avoid a busy loop if a network interface is broken.
-const ERROR_DELAY: Duration = Duration::from_millis(50);
+pub(super) const ERROR_DELAY: Duration = Duration::from_millis(50);
 /// Buffer size, larger than any UDP payload.
-const MAX_DATAGRAM_BYTES: usize = 65_536;
+pub(super) const MAX_DATAGRAM_BYTES: usize = 65_536;
 
 /// Identifies a UDP socket.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -2,7 +2,7 @@
 //! exchange runs in lockstep, so every handover to another thread would delay every step.
 
 use super::link_event::LinkEvent;
-use super::net::{listen, port_in_use};
+use super::net::{ERROR_DELAY, MAX_DATAGRAM_BYTES, listen, port_in_use};
 use super::vehicle_ports::local;
 use crate::errors::AppError;
 use std::io::{ErrorKind, Read, Write};
@@ -18,12 +18,8 @@ pub const PORT_OPTION: &str = "--autopilot-port";
 const MAX_ANSWER_WAIT: Duration = Duration::from_millis(2);
 /// Maximum time that a connection with a full buffer delays the vehicle.
 const MAX_SEND_WAIT: Duration = Duration::from_millis(1);
-/// Maximum amount of unsent data. An autopilot that does not read loses further messages; it has then missed minutes of readings.
+/// Maximum amount of unsent data. An autopilot that does not read loses further messages.
 const MAX_UNSENT_BYTES: usize = 1 << 20;
-/// Delay after an unexpected error, to avoid a busy loop.
-const ERROR_DELAY: Duration = Duration::from_millis(50);
-/// Buffer size, larger than any UDP payload.
-const BUFFER_BYTES: usize = 65_536;
 
 /// Transport of a simulator interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +72,7 @@ impl SimulatorSocket {
                 (bound, Transport::Udp { socket, peer: None })
             }
         };
-        Ok(Self { port, transport, buffer: vec![0; BUFFER_BYTES] })
+        Ok(Self { port, transport, buffer: vec![0; MAX_DATAGRAM_BYTES] })
     }
 
     /// Returns the port number.

@@ -4,7 +4,6 @@ use super::flight::{FlightError, FlownFlight};
 use super::plan::PlannedFlight;
 use crate::io::parquet::{TableColumn, TypedValues};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
 
 /// A flight's results. Fields that describe results are `None` if the flight failed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -75,11 +74,9 @@ impl FlightRow {
 impl FlightResult {
     fn of(flown: &FlownFlight) -> Self {
         let one = &flown.assessment;
-        let certification = json!(one.certification);
-        let certified = |name: &str| certification["scores"][name].as_f64();
-        let parts = ["conformity", "efficiency", "safety", "accuracy"].map(certified);
+        let scores = &one.certification.scores;
+        let parts = [scores.conformity, Some(scores.efficiency), Some(scores.safety), scores.accuracy];
         let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
-        let unmet = certification["unmet"].as_array().into_iter().flatten().filter_map(Value::as_str).collect::<Vec<_>>();
         Self {
             conformity: one.scores.conformity.map(|score| score.pct),
             efficiency: one.scores.efficiency.pct,
@@ -90,7 +87,7 @@ impl FlightResult {
             tasks_done: count(one.completion.tasks_done),
             path_share: one.completion.path_share,
             certified: one.certification.passed,
-            unmet: unmet.join("; "),
+            unmet: one.certification.unmet.join("; "),
             certification_conformity: parts[0],
             certification_efficiency: parts[1],
             certification_safety: parts[2],
