@@ -10,7 +10,7 @@ pub use frame_row::{FrameRow, frame_rows};
 
 use serde::Serialize;
 use spandrel_model::elements::Element;
-use spandrel_model::scenario::{PlacedDefect, Scenario};
+use spandrel_model::scenario::{CertificationParams, PlacedDefect, Scenario};
 
 /// Task in the scenario export.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -46,48 +46,19 @@ pub struct CertificationExport {
     clearance_m: f64,
     home_enu_m: [f64; 3],
     home_radius_m: f64,
-    min_battery_pct: f64,
-    max_contacts: usize,
-    max_contact_speed_m_s: f64,
-    min_conformity: f64,
-    min_precision: f64,
-    min_safety: f64,
-    min_accuracy: f64,
-    min_inspected_share: f64,
-    inspection_speed_m_s: f64,
-    time_per_defect_s: f64,
-    transit_time_s: f64,
-    max_time_ratio: f64,
-    max_gsd_mm: f64,
-    gsd_per_line_width: f64,
-    max_smear_px: f64,
-    max_incidence_deg: f64,
+    #[serde(flatten)]
+    params: CertificationParams,
 }
 
 impl CertificationExport {
     fn new(scenario: &Scenario) -> Self {
-        let (params, team) = (&scenario.certification, &scenario.ground_team);
+        let team = &scenario.ground_team;
         Self {
             task_done_share: scenario.scoring.task_completion_fraction,
             clearance_m: scenario.scoring.clearance_m,
             home_enu_m: team.pad_m.array(),
             home_radius_m: team.home_radius_m,
-            min_battery_pct: params.min_battery_pct,
-            max_contacts: params.max_contacts,
-            max_contact_speed_m_s: params.max_contact_speed_m_s,
-            min_conformity: params.min_conformity,
-            min_precision: params.min_precision,
-            min_safety: params.min_safety,
-            min_accuracy: params.min_accuracy,
-            min_inspected_share: params.min_inspected_fraction,
-            inspection_speed_m_s: params.inspection_speed_m_s,
-            time_per_defect_s: params.time_per_defect_s,
-            transit_time_s: params.transit_time_s,
-            max_time_ratio: params.max_time_ratio,
-            max_gsd_mm: params.max_gsd_mm,
-            gsd_per_line_width: params.gsd_per_line_width,
-            max_smear_px: params.max_smear_px,
-            max_incidence_deg: params.max_incidence_deg,
+            params: scenario.certification,
         }
     }
 }

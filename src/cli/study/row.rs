@@ -34,11 +34,13 @@ pub struct FlightResult {
     pub certified: bool,
     pub unmet: String,
     pub certification_conformity: Option<f64>,
-    pub certification_efficiency: Option<f64>,
-    pub certification_safety: Option<f64>,
+    pub certification_efficiency: f64,
+    pub certification_safety: f64,
     pub certification_accuracy: Option<f64>,
-    /// Sum of the four; `None` if one does not apply.
-    pub certification_sum: Option<f64>,
+    pub certification_precision: Option<f64>,
+    /// Sum of the five; one without evidence adds nothing.
+    pub certification_sum: f64,
+    pub certification_sum_max: f64,
     pub seconds: f64,
     pub end_reason: String,
     pub crashes: i64,
@@ -75,7 +77,6 @@ impl FlightResult {
     fn of(flown: &FlownFlight) -> Self {
         let one = &flown.assessment;
         let scores = &one.certification.scores;
-        let parts = [scores.conformity, Some(scores.efficiency), Some(scores.safety), scores.accuracy];
         let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
         Self {
             conformity: one.scores.conformity.map(|score| score.pct),
@@ -88,11 +89,13 @@ impl FlightResult {
             path_share: one.completion.path_share,
             certified: one.certification.passed,
             unmet: one.certification.unmet.join("; "),
-            certification_conformity: parts[0],
-            certification_efficiency: parts[1],
-            certification_safety: parts[2],
-            certification_accuracy: parts[3],
-            certification_sum: parts.into_iter().sum(),
+            certification_conformity: scores.conformity,
+            certification_efficiency: scores.efficiency,
+            certification_safety: scores.safety,
+            certification_accuracy: scores.accuracy,
+            certification_precision: scores.precision,
+            certification_sum: scores.sum,
+            certification_sum_max: scores.sum_max,
             seconds: one.end.seconds,
             end_reason: one.end.reason.label().to_owned(),
             crashes: count(one.crashes.other + one.crashes.person + one.crashes.vehicle),
@@ -157,13 +160,13 @@ const COLUMNS: &[(&str, &str, &str, Read)] = &[
         "certification_efficiency",
         "points",
         "Efficiency of the certification profile, 0 to 100.",
-        result!(Float, certification_efficiency, optional),
+        result!(Float, certification_efficiency),
     ),
     (
         "certification_safety",
         "points",
         "Safety of the certification profile, 0 to 100.",
-        result!(Float, certification_safety, optional),
+        result!(Float, certification_safety),
     ),
     (
         "certification_accuracy",
@@ -171,7 +174,19 @@ const COLUMNS: &[(&str, &str, &str, Read)] = &[
         "Accuracy of the certification profile, 0 to 100.",
         result!(Float, certification_accuracy, optional),
     ),
-    ("certification_sum", "points", "Sum of the four; empty if one does not apply.", result!(Float, certification_sum, optional)),
+    (
+        "certification_precision",
+        "points",
+        "Precision of the certification profile, 0 to 100.",
+        result!(Float, certification_precision, optional),
+    ),
+    ("certification_sum", "points", "Sum of the five; one without evidence adds nothing.", result!(Float, certification_sum)),
+    (
+        "certification_sum_max",
+        "points",
+        "Highest possible sum: 100 per score that applies to the job.",
+        result!(Float, certification_sum_max),
+    ),
     ("seconds", "s", "Flight duration.", result!(Float, seconds)),
     ("end_reason", "", "Reason why the flight ended.", result!(Text, end_reason)),
     ("crashes", "", "Number of crashes.", result!(Integer, crashes)),

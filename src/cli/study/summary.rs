@@ -9,17 +9,18 @@ use std::fmt::Write;
 type MeasurePicker = fn(&FlightResult) -> Option<f64>;
 
 /// Measures in the tables: name, number of decimal places, value.
-const MEASURES: [(&str, usize, MeasurePicker); 12] = [
+const MEASURES: [(&str, usize, MeasurePicker); 13] = [
     ("conformity", 1, |one| one.conformity),
     ("efficiency", 1, |one| Some(one.efficiency)),
     ("safety", 1, |one| Some(one.safety)),
     ("accuracy", 1, |one| one.accuracy),
     ("overall", 1, |one| Some(one.overall)),
     ("cert. conformity", 1, |one| one.certification_conformity),
-    ("cert. efficiency", 1, |one| one.certification_efficiency),
-    ("cert. safety", 1, |one| one.certification_safety),
+    ("cert. efficiency", 1, |one| Some(one.certification_efficiency)),
+    ("cert. safety", 1, |one| Some(one.certification_safety)),
     ("cert. accuracy", 1, |one| one.certification_accuracy),
-    ("cert. sum", 1, |one| one.certification_sum),
+    ("cert. precision", 1, |one| one.certification_precision),
+    ("cert. sum", 1, |one| Some(one.certification_sum)),
     ("crashes", 2, |one| Some(one.crashes as f64)),
     ("minutes", 2, |one| Some(one.seconds / 60.0)),
 ];
@@ -224,10 +225,12 @@ mod tests {
             certified: complete && overall > 350.0,
             unmet: String::new(),
             certification_conformity: None,
-            certification_efficiency: None,
-            certification_safety: None,
+            certification_efficiency: 100.0,
+            certification_safety: 100.0,
             certification_accuracy: None,
-            certification_sum: None,
+            certification_precision: None,
+            certification_sum: 200.0,
+            certification_sum_max: 400.0,
             seconds: 600.0,
             end_reason: "landed".into(),
             crashes: 1,

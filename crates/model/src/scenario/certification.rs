@@ -2,9 +2,10 @@
 //! estimates; docs/src/reference/assessment.md, "Certification", states the reason for each.
 
 use crate::toml::{Reader, Section};
+use serde::Serialize;
 
-/// Requirements of the certification profile.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Requirements of the certification profile. Exports contain these names, in this order.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct CertificationParams {
     /// Minimum battery charge at landing, %.
     pub min_battery_pct: f64,
@@ -21,6 +22,7 @@ pub struct CertificationParams {
     /// Minimum accuracy, 0 to 100.
     pub min_accuracy: f64,
     /// Fraction of a task's path below which the task counts as not inspected, 0 to 1.
+    #[serde(rename = "min_inspected_share")]
     pub min_inspected_fraction: f64,
     /// Speed along the path from which the job's own time is computed, m/s.
     pub inspection_speed_m_s: f64,

@@ -89,7 +89,7 @@ const COLUMNS: &[(&str, &str, &str, &str)] = &[
     ("", "p_upper_holm", "", "`p_upper` with Holm correction across all tests in the table."),
     ("", "p_lower_holm", "", "`p_lower` with Holm correction across all tests in the table."),
     ("", "p_two_holm", "", "`p_two` with Holm correction across all tests in the table."),
-    ("", "measure", "", "A score, `flight_time` or `crashes`."),
+    ("", "measure", "", "A score, `certification_sum`, `flight_time` or `crashes`."),
     ("", "unit", "", "Unit of the error and of the minimal detectable change; empty for a count."),
     ("", "sessions", "", "Number of sessions in which the measure applies."),
     ("", "at_ceiling", "", "Fraction of these sessions with the best possible value, 0 to 1; empty if there is none."),

@@ -32,13 +32,20 @@ pub(super) struct Measure {
     pub best: Option<fn(&SessionRecord) -> f64>,
 }
 
-/// The five scores, and the two measures behind efficiency and safety, which have no upper limit.
-pub(super) const MEASURES: [Measure; 7] = [
+/// The five scores, the sum of the certification profile, and the two measures behind efficiency and safety, which have no
+/// upper limit. Records before format 3 have no certification sum.
+pub(super) const MEASURES: [Measure; 8] = [
     score(SCORES[0], |_| 100.0),
     score(SCORES[1], |_| 100.0),
     score(SCORES[2], |_| 100.0),
     score(SCORES[3], |_| 100.0),
     score(SCORES[4], |record| record.scores.overall_max),
+    Measure {
+        name: "certification_sum",
+        unit: "points",
+        pick: |record| record.certification.as_ref().map(|one| one.scores.sum),
+        best: Some(|record| record.certification.as_ref().map_or(500.0, |one| one.scores.sum_max)),
+    },
     Measure { name: FLIGHT_TIME, unit: "s", pick: |record| Some(record.seconds), best: None },
     Measure { name: "crashes", unit: "", pick: |record| Some(record.crashes().total() as f64), best: Some(|_| 0.0) },
 ];

@@ -117,7 +117,7 @@ fn table(first: &Review, second: &Review, reliability: &[MeasureReliability]) ->
         1,
         both.map(|review| review.assessment.completion.complete.then_some(review.assessment.scores.overall)),
     );
-    put("Certification sum", NO_MEASURE, 1, both.map(|review| Some(review.assessment.certification.scores.sum)));
+    put("Certification sum", "certification_sum", 1, both.map(|review| Some(review.assessment.certification.scores.sum)));
     put("Path flown (%)", NO_MEASURE, 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
     put("Flight time (s)", "flight_time", 0, both.map(|review| Some(review.assessment.end.seconds)));
     put("Contacts", "crashes", 0, both.map(|review| Some(review.crashes.len() as f64)));
