@@ -121,7 +121,8 @@ fn wire_lost_lockstep_request_is_repeated() {
     let now = sim.now();
     let requests = |sim: &mut Sim| {
         let sent: Vec<_> = std::iter::from_fn(|| sim.poll_transmit()).filter(|transmit| transmit.link == SIDECAR).collect();
-        let messages = sent.iter().flat_map(|transmit| Decoder::new().datagram(&transmit.bytes)).filter_map(|frame| frame.message);
+        let messages =
+            sent.iter().flat_map(|transmit| Decoder::new().datagram(&transmit.bytes)).filter_map(|frame| frame.message);
         messages.filter(|message| matches!(message, MavMessage::TIMESYNC(sync) if sync.tc1 == 0 && sync.ts1 == token)).count()
     };
     assert_eq!(requests(&mut sim), 0, "the request was taken");
