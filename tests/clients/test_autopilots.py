@@ -68,6 +68,11 @@ class Vehicle:
             return message if message is not None and predicate(message) else None
         return wait_for(kind, next_one)
 
+    def discard(self):
+        """Discards the messages that have arrived so far."""
+        while self.station.recv_match(blocking=False) is not None:
+            pass
+
     def command(self, component, command, *params):
         """Sends a command and returns its acknowledgment."""
         values = list(params) + [0.0] * (7 - len(params))
