@@ -10,6 +10,10 @@ use std::time::Duration;
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
 /// Wall time without a response from a lockstep peer after which the run ends.
 pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
+/// Wall time without a response after which a lockstep request is sent again. Datagrams are lost if a peer's buffer is full, for
+/// example because an external autopilot starts and simulation time does not wait for the peer meanwhile. Shorter intervals would
+/// send repeated requests to peers that think for a while.
+const LOCKSTEP_REPEAT_INTERVAL: Duration = Duration::from_secs(4);
 /// Wall-clock delay beyond which the simulation does not catch up: the clock slips, and the program reports the slip.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
@@ -190,6 +194,7 @@ impl FirstResponseWait {
 #[derive(Debug, Clone, Default)]
 pub struct LockstepTimeout {
     stalled_since: Option<(SimTime, Duration)>,
+    repeated: u32,
 }
 
 impl LockstepTimeout {
@@ -200,9 +205,19 @@ impl LockstepTimeout {
             Some((at, since)) if at == reached => wall.saturating_sub(since) > LOCKSTEP_PEER_TIMEOUT,
             _ => {
                 self.stalled_since = Some((reached, wall));
+                self.repeated = 0;
                 false
             }
         }
+    }
+
+    /// Returns true if the lockstep requests must be sent again at wall time `wall`. Call after [`Self::is_over`].
+    pub fn take_repeat(&mut self, wall: Duration) -> bool {
+        let due = self
+            .stalled_since
+            .is_some_and(|(_, since)| wall.saturating_sub(since) > LOCKSTEP_REPEAT_INTERVAL * (self.repeated + 1));
+        self.repeated += u32::from(due);
+        due
     }
 }
 
@@ -285,5 +300,18 @@ mod tests {
         let (stuck, since) = (SimTime::from_ms(20 * 99), Duration::from_secs(99));
         assert!(!patience.is_over(stuck, since + LOCKSTEP_PEER_TIMEOUT));
         assert!(patience.is_over(stuck, since + LOCKSTEP_PEER_TIMEOUT + Duration::from_millis(1)));
+    }
+
+    #[test]
+    fn regress_unanswered_lockstep_requests_are_repeated() {
+        let mut patience = LockstepTimeout::default();
+        let mut repeats = |reached_ms, from_s: u64, to_s: u64| {
+            let walls = (1000 * from_s..1000 * to_s).step_by(100).map(Duration::from_millis);
+            walls.filter(|wall| !patience.is_over(SimTime::from_ms(reached_ms), *wall) && patience.take_repeat(*wall)).count()
+        };
+        assert_eq!(repeats(20, 100, 104), 0, "a peer may think for a while");
+        assert_eq!(repeats(20, 104, 110), 2);
+        assert_eq!(repeats(40, 110, 114), 0, "an answer ends the wait");
+        assert_eq!(repeats(40, 114, 116), 1);
     }
 }

@@ -413,6 +413,10 @@ impl VehicleShell {
                     self.core.now()
                 )));
             }
+            if self.lockstep_timeout.take_repeat(wall) {
+                self.core.repeat_lockstep_requests();
+                self.send_outgoing();
+            }
             self.links.wait(MAX_SOCKET_WAIT);
             return Ok(());
         }

@@ -2,6 +2,7 @@
 clock of its own, runs in real time, and sends motor commands and ordinary MAVLink messages on one serial link. Its behavior is one of:
   fly       takes MANUAL_CONTROL and commands, also the one to reboot
   stubborn  like fly, but refuses to reboot
+  quick     like fly, but reboots so quickly that its silence is not noticed
   mute      never sends motor commands
   silent    sends motor commands for a while, then only ordinary messages
 """
@@ -15,12 +16,12 @@ import tty
 import fake_px4
 from fake_px4 import mavlink
 
-# The clock's offset from the computer's, s.
+# The clock's offset from the computer's until it reboots, s.
 CLOCK_OFFSET_S = 1234.5
 # Rates of the motor commands and of the periodic messages, Hz. PX4 sends motor commands at 200 Hz.
 CONTROL_HZ, REPORT_HZ = 200, 5
-# Time without frames during a reboot, s.
-BOOT_S = 2.0
+# Time without frames during a reboot, s, usually and with the behavior "quick".
+BOOT_S, QUICK_BOOT_S = 2.0, 0.3
 
 
 class FlightController(fake_px4.Autopilot):
@@ -37,6 +38,7 @@ class FlightController(fake_px4.Autopilot):
         self.behavior, self.first_reading, self.last_reading = behavior, None, None
         self.readings, self.armed, self.throttle = 0, False, 0.0
         self.sensor, self.reboots, self.commands, self.kinds = None, 0, 0, {}
+        self.clock_start_ns = -int(CLOCK_OFFSET_S * 1e9)
         self.ends, self.power_cycle = threading.Event(), threading.Event()
         self.thread = threading.Thread(target=self._run, daemon=True)
         self.thread.start()
@@ -53,7 +55,7 @@ class FlightController(fake_px4.Autopilot):
         return (self.readings - 1) / (self.last_reading - self.first_reading)
 
     def _clock_ns(self):
-        return time.monotonic_ns() + int(CLOCK_OFFSET_S * 1e9)
+        return time.monotonic_ns() - self.clock_start_ns
 
     def _run(self):
         start, controls, reports = time.monotonic(), 0, 0
@@ -97,7 +99,8 @@ class FlightController(fake_px4.Autopilot):
 
     def _restart(self):
         """Sends nothing for the time of a boot, and starts anew."""
-        self.ends.wait(BOOT_S)
+        self.clock_start_ns = time.monotonic_ns()
+        self.ends.wait(QUICK_BOOT_S if self.behavior == "quick" else BOOT_S)
         self.readings, self.first_reading, self.armed, self.sensor = 0, None, False, None
         self.reboots += 1
 

@@ -35,24 +35,24 @@ def build(folder, behavior="fly"):
     return folder
 
 
-def arguments(px4, *more, scenario="drill-hover"):
+def arguments(px4, *more, scenario="drill-hover", timeout_s=TIMEOUT_S):
     """Returns the command line of a simulator with that autopilot: a build folder, or a tuple of options in place of --px4."""
     own = px4 if isinstance(px4, tuple) else ("--px4", str(px4))
     return [
         spandrel.PROGRAM, "sim", "--scenario", scenario, "--seed", "7", "--ports", "ephemeral", "--autopilot", "px4", *own,
-        "--autopilot-timeout", str(TIMEOUT_S), *more,
+        "--autopilot-timeout", str(timeout_s), *more,
     ]
 
 
 class Vehicle:
     """A simulator with an external autopilot, and a ground station."""
 
-    def __init__(self, folder, px4, *more, stdin=subprocess.DEVNULL):
+    def __init__(self, folder, px4, *more, stdin=subprocess.DEVNULL, timeout_s=TIMEOUT_S):
         self.folder = pathlib.Path(folder)
         self.port = spandrel.free_udp_port()
         self.station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{self.port}", source_system=255, source_component=190)
         self.log = open(self.folder / "sim.txt", "w", encoding="utf-8")
-        command = arguments(px4, "--gcs", f"127.0.0.1:{self.port}", "--autopilot-dir", str(self.folder / "work"), "--announce", *more)
+        command = arguments(px4, "--gcs", f"127.0.0.1:{self.port}", "--autopilot-dir", str(self.folder / "work"), "--announce", *more, timeout_s=timeout_s)
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.log, stdin=stdin, text=True)
         self.bound = json.loads(self.process.stdout.readline())
 
@@ -64,8 +64,14 @@ class Vehicle:
         """Returns the next message of this kind for which the predicate is true."""
         def next_one():
             message = self.station.recv_match(type=kind, blocking=True, timeout=0.1)
+            assert message is not None or self.process.poll() is None, f"the simulator has exited: {self.output()[-1000:]}"
             return message if message is not None and predicate(message) else None
         return wait_for(kind, next_one)
+
+    def discard(self):
+        """Discards the messages that have arrived so far."""
+        while self.station.recv_match(blocking=False) is not None:
+            pass
 
     def command(self, component, command, *params):
         """Sends a command and returns its acknowledgment."""

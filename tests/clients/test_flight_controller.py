@@ -22,6 +22,8 @@ BAUD = 921_600
 RATE_HZ, RATE_TOLERANCE_HZ = 250.0, 25.0
 # Accepted error of the measured clock offset, s: half of the longest round trip that counts.
 CLOCK_TOLERANCE_S = 0.1
+# Timeout of the simulator, s: longer than a reboot on a busy machine, which is no failure in these tests.
+PATIENCE_S = 60
 REBOOT = mavutil.mavlink.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN
 
 
@@ -38,10 +40,17 @@ def serial(controller, baud=BAUD):
     return ("--serial", f"{controller.path}:{baud}")
 
 
+def wait_for_restart(vehicle, controller):
+    """Waits until the flight controller has rebooted and can arm. Commands that are sent meanwhile are lost."""
+    wait_for("the reboot", lambda: controller.reboots == 1)
+    wait_for("the start", lambda: vehicle.output().count("the autopilot is ready") == 2)
+    vehicle.discard()
+
+
 @pytest.fixture
 def vehicle(tmp_path, controller):
     """A simulator with the small flight controller."""
-    vehicle = Vehicle(tmp_path, serial(controller))
+    vehicle = Vehicle(tmp_path, serial(controller), timeout_s=PATIENCE_S)
     yield vehicle
     vehicle.close()
 
@@ -62,9 +71,18 @@ def test_takes_off_in_real_time(vehicle, controller):
 def test_reboot_command_reboots_the_flight_controller(vehicle, controller):
     vehicle.hear("HIL_STATE_QUATERNION")
     assert vehicle.command(1, REBOOT, 1) == mavutil.mavlink.MAV_RESULT_ACCEPTED
-    wait_for("the reboot", lambda: controller.reboots == 1)
+    wait_for_restart(vehicle, controller)
     vehicle.take_off()
     assert "refuses" not in vehicle.output()
+
+
+@pytest.mark.parametrize("controller", ["quick"], indirect=True)
+def test_quick_reboot_is_recognized_by_the_clock(vehicle, controller):
+    vehicle.hear("HIL_STATE_QUATERNION")
+    wait_for("the clock", lambda: "clock is" in vehicle.output())
+    assert vehicle.command(1, REBOOT, 1) == mavutil.mavlink.MAV_RESULT_ACCEPTED
+    wait_for_restart(vehicle, controller)
+    vehicle.take_off()
 
 
 @pytest.mark.parametrize("controller", ["stubborn"], indirect=True)
@@ -73,7 +91,7 @@ def test_refused_reboot_waits_for_the_user(vehicle, controller):
     assert vehicle.command(1, REBOOT, 1) == mavutil.mavlink.MAV_RESULT_ACCEPTED
     wait_for("the explanation", lambda: "disconnect its power" in vehicle.output())
     controller.power_cycle.set()
-    wait_for("the power cycle", lambda: controller.reboots == 1)
+    wait_for_restart(vehicle, controller)
     vehicle.take_off()
 
 

@@ -334,6 +334,13 @@ impl Sim {
         self.controller.links_mut().request_lockstep(self.now);
     }
 
+    /// Sends the lockstep request again to the peers that have not responded: the datagram may be lost. Does not change the vehicle.
+    pub fn repeat_lockstep_requests(&mut self) {
+        for link in self.pending_responses.keys() {
+            self.controller.links_mut().repeat_lockstep_request(*link);
+        }
+    }
+
     /// Stops waiting for first responses. Lockstep with each peer begins with its first response.
     pub fn stop_awaiting_first_responses(&mut self) {
         let pending: Vec<LinkId> = self.pending_responses.keys().copied().collect();

@@ -96,7 +96,7 @@ impl FlightController {
                 if is_late && !reboot.acknowledged {
                     reboot.ask_user("has not acknowledged the command to reboot");
                 }
-                Vec::new()
+                self.clock.request(clock_time(wall)).into_iter().collect()
             }
         }
     }
@@ -105,7 +105,8 @@ impl FlightController {
     pub fn handle(&mut self, frame: &ReceivedFrame, wall: Duration) -> FrameUse {
         if let Some(reboot) = &mut self.reboot {
             let silence = wall.saturating_sub(std::mem::replace(&mut reboot.last_frame, wall));
-            if silence >= REBOOT_SILENCE {
+            // A busy computer reads the frames from before a silence late and doesn't notice it, but the clock has restarted, too.
+            if silence >= REBOOT_SILENCE || has_restarted(&self.clock, frame) {
                 return FrameUse::Rebooted;
             }
             reboot.read(frame);
@@ -166,6 +167,11 @@ impl Reboot {
     }
 }
 
+/// Returns whether the frame shows that the flight controller's clock has restarted.
+fn has_restarted(clock: &ClockOffset, frame: &ReceivedFrame) -> bool {
+    matches!(&frame.message, Some(MavMessage::TIMESYNC(sync)) if clock.has_restarted(sync))
+}
+
 /// Returns a wall time as a time stamp.
 fn clock_time(wall: Duration) -> SimTime {
     SimTime::from_ns(i64::try_from(wall.as_nanos()).unwrap_or(i64::MAX))
@@ -206,7 +212,6 @@ mod tests {
             .collect();
         let [disarm, reboot] = [MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN];
         assert_eq!(commands, [(disarm, 0.0, SYSTEM_ID), (reboot, 1.0, SYSTEM_ID)]);
-        assert_eq!(controller.messages(at_ms(1)), []);
         controller
     }
 
@@ -216,7 +221,7 @@ mod tests {
         let beat = frame(&station::heartbeat());
         assert_eq!(controller.handle(&acknowledgment(MavResult::MAV_RESULT_ACCEPTED), at_ms(10)), FrameUse::Consumed);
         assert_eq!(controller.handle(&beat, at_ms(900)), FrameUse::Consumed, "frames from before the reboot");
-        assert_eq!(controller.messages(at_ms(8_000)), []);
+        assert!(matches!(controller.messages(at_ms(8_000))[..], [MavMessage::TIMESYNC(_)]));
         assert!(!controller.needs_user());
         assert_eq!(controller.handle(&beat, at_ms(9_000)), FrameUse::Rebooted);
         controller.finish_reboot();
@@ -237,6 +242,28 @@ mod tests {
         assert_eq!(ignored.handle(&frame(&station::heartbeat()), at_ms(20_000)), FrameUse::Rebooted);
         ignored.finish_reboot();
         assert!(!ignored.needs_user());
+    }
+
+    /// Returns a reply to the latest request for the time.
+    fn time_reply(request: &[MavMessage], clock: Duration) -> ReceivedFrame {
+        let [MavMessage::TIMESYNC(request)] = request else { panic!("no request: {request:?}") };
+        frame(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: clock_time(clock).ns(), ts1: request.ts1, ..Default::default() }))
+    }
+
+    #[test]
+    fn wire_reboot_ends_with_a_restarted_clock_although_no_silence_was_noticed() {
+        let mut controller = FlightController::new(SYSTEM_ID);
+        let request = controller.messages(at_ms(0));
+        assert_eq!(controller.handle(&time_reply(&request, at_ms(90_000)), at_ms(10)), FrameUse::Consumed);
+        controller.begin_reboot(at_ms(1_000));
+        assert_eq!(controller.messages(at_ms(1_000)).len(), 2, "disarm and reboot");
+        let request = controller.messages(at_ms(1_100));
+        // A reply from before the reboot: its delay does not count, the clock goes on.
+        assert_eq!(controller.handle(&time_reply(&request, at_ms(91_100)), at_ms(1_900)), FrameUse::Consumed);
+        let beat = frame(&station::heartbeat());
+        assert_eq!(controller.handle(&beat, at_ms(2_800)), FrameUse::Consumed);
+        let request = controller.messages(at_ms(3_000));
+        assert_eq!(controller.handle(&time_reply(&request, at_ms(1_500)), at_ms(3_010)), FrameUse::Rebooted);
     }
 
     #[test]

@@ -21,6 +21,9 @@ const GENTLE_CONTACT_SPEED_M_S: f64 = 1.0;
 /// Time without contact after which the vehicle counts as flying, s (estimate: a body at rest can rock off its contact for a step
 /// or two).
 const CONTACT_FREE_FLIGHT_TIME_S: f64 = 0.5;
+/// The same with an external autopilot, s. One that has not noticed the crash keeps the rotors turning, and the wreck hops (PX4 with a
+/// failed motor: for less than 1 s each).
+const EXTERNAL_CONTACT_FREE_FLIGHT_TIME_S: f64 = 2.0;
 
 impl Sim {
     /// Handles liftoff, contact, empty battery and respawn.
@@ -99,6 +102,15 @@ impl Sim {
         landed && !wet && !self.hard_contact && !self.is_upside_down()
     }
 
+    /// Returns true if the vehicle has crashed near home and an external autopilot still considers it in flight. Gentle contact near
+    /// home is otherwise a landing.
+    fn lies_with_running_motors(&self) -> bool {
+        self.controller.external().is_some()
+            && self.hard_contact
+            && self.state.contact.touching()
+            && !self.controller.is_on_ground()
+    }
+
     /// Resets the vehicle to its last safe hover after a delay if it has crashed and is motionless away from the
     /// landing pad, has tipped over, or is touching water.
     fn respawn_when_down(&mut self) {
@@ -107,14 +119,17 @@ impl Sim {
             return;
         }
         let rigid = &self.state.rigid;
-        let touching = self.scoring.contact != ContactKind::None || self.is_upside_down();
+        let touching = self.scoring.contact != ContactKind::None || self.is_upside_down() || self.lies_with_running_motors();
         let still = rigid.velocity_m_s.norm() < MOTIONLESS_SPEED_M_S;
         let wet = self.scoring.contact == ContactKind::Water;
         if touching {
             self.touched_at = self.now;
         }
         self.hard_contact |= touching && self.state.contact.impact_m_s >= GENTLE_CONTACT_SPEED_M_S;
-        if !touching && (self.now - self.touched_at).s() > CONTACT_FREE_FLIGHT_TIME_S {
+        let is_external = self.controller.external().is_some();
+        let flight_time_s = if is_external { EXTERNAL_CONTACT_FREE_FLIGHT_TIME_S } else { CONTACT_FREE_FLIGHT_TIME_S };
+        let has_left_contact = !touching && (self.now - self.touched_at).s() > flight_time_s;
+        if has_left_contact {
             self.hard_contact = false;
         }
         if self.has_landed_upright() {
@@ -122,8 +137,8 @@ impl Sim {
             return;
         }
         if !(touching && (still || wet)) {
-            let flies = !still || (self.now - self.touched_at).s() > CONTACT_FREE_FLIGHT_TIME_S;
-            if !touching && flies {
+            let moves_freely = !touching && !still && !is_external;
+            if has_left_contact || moves_freely {
                 self.crashed_since = None;
             }
             return;
@@ -198,7 +213,10 @@ fn contact_kind(surface: Surface) -> ContactKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::px4::Px4Interface;
     use crate::endpoint::flavor::px4;
+    use crate::endpoint::params::param_view;
+    use crate::endpoint::relay::RelayRules;
     use crate::physics::ContactReport;
     use crate::sim::{SimConfig, SimEvent};
     use spandrel_model::frames::Enu;
@@ -213,16 +231,35 @@ mod tests {
 
     /// A vehicle that has flown and is now 50 m from the landing pad, level and at rest.
     fn sim_in_flight(change: impl Fn(&mut Scenario)) -> Sim {
+        sim_with(change, Sim::new)
+    }
+
+    /// The same with an external autopilot, which has not reported a landing.
+    fn sim_in_external_flight() -> Sim {
+        sim_with(
+            |_| (),
+            |config, site| {
+                let interface = Box::new(Px4Interface::new(&config.vehicle, 250.0).expect("rate"));
+                let rules = RelayRules {
+                    params: &param_view::PX4,
+                    restarts_by_process: true,
+                    roi_above_sea_level: true,
+                    stick_sender: None,
+                };
+                Sim::with_external_autopilot(config, site, interface, rules)
+            },
+        )
+    }
+
+    fn sim_with(change: impl Fn(&mut Scenario), new: impl Fn(SimConfig, Arc<Site>) -> Sim) -> Sim {
         let text = include_str!("../../../../scenarios/drill-hover.toml");
         let mut scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).expect("shipped");
         change(&mut scenario);
         let vehicle = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = Arc::new(spandrel_model::vehicle::read("phantom2.toml", vehicle).expect("shipped"));
         let site = Arc::new(Site::build(&scenario, 1));
-        let mut sim = Sim::new(
-            SimConfig { scenario: Arc::new(scenario), vehicle, seed: 1, instance: 0, flavor: &px4::FLAVOR, after_crash: None },
-            site,
-        );
+        let scenario = Arc::new(scenario);
+        let mut sim = new(SimConfig { scenario, vehicle, seed: 1, instance: 0, flavor: &px4::FLAVOR, after_crash: None }, site);
         sim.has_lifted_off = true;
         sim.last_safe_hover = (Vec3::new(SAFE_HOVER_POSITION.0, SAFE_HOVER_POSITION.1, SAFE_HOVER_POSITION.2), 0.3);
         put(&mut sim, Vec3::new(50.0, 0.0, 0.1));
@@ -355,6 +392,41 @@ mod tests {
         set_contact(&mut sim, Some(Surface::Bridge), 0.2);
         let events = run_ticks(&mut sim, 100);
         assert!(crashes(&events) == 1 && !events.contains(&SimEvent::Respawn), "{events:?}");
+    }
+
+    /// PX4 with a failed motor keeps the other rotors turning after the crash, so the wreck hops every second or two.
+    #[test]
+    fn regress_hopping_wreck_near_home_respawns() {
+        let mut sim = sim_in_external_flight();
+        put(&mut sim, Vec3::new(4.0, 0.0, 0.1));
+        set_contact(&mut sim, Some(Surface::Terrain), 10.0);
+        assert_eq!(crashes(&run_ticks(&mut sim, 1)), 1);
+        // Upright and at rest, with gentle contact near home, which would otherwise be a landing.
+        let lie = |sim: &mut Sim| {
+            set_contact(sim, Some(Surface::Terrain), 0.0);
+            sim.state.rigid.velocity_m_s = Vec3::zero();
+            run_ticks(sim, 1_400).contains(&SimEvent::Respawn)
+        };
+        assert!(!lie(&mut sim));
+        set_contact(&mut sim, None, 0.0);
+        sim.state.rigid.velocity_m_s = Vec3::new(0.9, 0.0, -0.9);
+        assert!(!run_ticks(&mut sim, 600).contains(&SimEvent::Respawn), "in a hop");
+        assert!(lie(&mut sim), "3 s after the crash");
+    }
+
+    /// A bump near home is forgotten in flight, and the landing after it is not a crash.
+    #[test]
+    fn regress_external_autopilot_that_flies_on_does_not_respawn() {
+        let mut sim = sim_in_external_flight();
+        put(&mut sim, Vec3::new(4.0, 0.0, 0.1));
+        set_contact(&mut sim, Some(Surface::Terrain), 2.0);
+        run_ticks(&mut sim, 1);
+        set_contact(&mut sim, None, 0.0);
+        sim.state.rigid.velocity_m_s = Vec3::new(0.0, 0.0, -1.0);
+        run_ticks(&mut sim, 2_100);
+        set_contact(&mut sim, Some(Surface::Terrain), 0.5);
+        sim.state.rigid.velocity_m_s = Vec3::zero();
+        assert!(!run_ticks(&mut sim, 10_000).contains(&SimEvent::Respawn));
     }
 
     #[test]

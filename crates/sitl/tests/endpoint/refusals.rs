@@ -112,6 +112,29 @@ fn wire_lockstep_response_must_be_addressed_and_signed() {
     assert_eq!(sim.rejected_frames(), refused + 1, "only the unsigned response must be rejected");
 }
 
+/// A full socket buffer loses datagrams, so the request is sent again; repeating it changes nothing.
+#[test]
+fn wire_lost_lockstep_request_is_repeated() {
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
+    sim.open_link(SIDECAR, LinkKind::Payload, true);
+    let token = question(&mut sim);
+    let now = sim.now();
+    let requests = |sim: &mut Sim| {
+        let sent: Vec<_> = std::iter::from_fn(|| sim.poll_transmit()).filter(|transmit| transmit.link == SIDECAR).collect();
+        let messages =
+            sent.iter().flat_map(|transmit| Decoder::new().datagram(&transmit.bytes)).filter_map(|frame| frame.message);
+        messages.filter(|message| matches!(message, MavMessage::TIMESYNC(sync) if sync.tc1 == 0 && sync.ts1 == token)).count()
+    };
+    assert_eq!(requests(&mut sim), 0, "the request was taken");
+    sim.repeat_lockstep_requests();
+    assert_eq!((requests(&mut sim), sim.now()), (1, now));
+    let mut encoder = Encoder::new(1, 191);
+    sim.handle_datagram(SIDECAR, &timesync(&mut encoder, token, 1));
+    assert!(!sim.waiting());
+    sim.repeat_lockstep_requests();
+    assert_eq!(requests(&mut sim), 0, "answered");
+}
+
 fn press(station: &mut Station, button: u16) {
     for buttons in [0, 1 << button] {
         let sticks = MANUAL_CONTROL_DATA { z: 500, buttons, target: 1, ..Default::default() };

@@ -12,6 +12,9 @@ const SAMPLE_COUNT: usize = 9;
 const MIN_SAMPLE_COUNT: usize = 5;
 /// Longest round trip that counts. The offset's error is at most half of it.
 const MAX_ROUND_TRIP: SimTime = SimTime::from_ms(200);
+/// How far behind a clock must be to have restarted: more than an offset's error (0.1 s) and the drift of a quartz clock in the
+/// minutes since the last round trip that counted (estimate).
+const RESTART_MARGIN: SimTime = SimTime::from_ms(300);
 
 /// A measured offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +55,15 @@ impl ClockOffset {
             }
         }
         true
+    }
+
+    /// Returns whether this is the reply to the latest request and shows that the flight controller's clock has restarted: it is
+    /// behind the time that it had at the request. A delayed reply is not.
+    #[must_use]
+    pub fn has_restarted(&self, sync: &TIMESYNC_DATA) -> bool {
+        let (Some(asked), Some(latest)) = (self.asked_at, self.samples.back()) else { return false };
+        let earliest_ns = asked.ns().saturating_add(latest.offset.ns()).saturating_sub(RESTART_MARGIN.ns());
+        sync.tc1 != 0 && sync.ts1 == asked.ns() && sync.tc1 < earliest_ns
     }
 
     /// Returns the offset once enough round trips have been measured.

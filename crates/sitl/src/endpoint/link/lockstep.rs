@@ -46,10 +46,18 @@ impl Links {
 
     /// Sends a lockstep request to every peer in lockstep.
     pub fn request_lockstep(&mut self, now: SimTime) {
-        let message = MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: now.ns(), target_system: 0, target_component: 0 });
         for link in self.peers.values_mut().filter(|link| link.lockstep) {
             link.lockstep_token = Some(now.ns());
-            link.send(AUTOPILOT, &message);
+            link.send(AUTOPILOT, &lockstep_request(now.ns()));
+        }
+    }
+
+    /// Sends the latest lockstep request to a peer again.
+    pub fn repeat_lockstep_request(&mut self, id: LinkId) {
+        if let Some(link) = self.peers.get_mut(&id)
+            && let Some(token) = link.lockstep_token
+        {
+            link.send(AUTOPILOT, &lockstep_request(token));
         }
     }
 
@@ -80,4 +88,9 @@ impl Links {
         let ours = system == 0 || (system == self.system_id() && matches!(component, 0 | AUTOPILOT));
         Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && link.is_answer(*token))
     }
+}
+
+/// Creates a lockstep request.
+fn lockstep_request(token: i64) -> MavMessage {
+    MavMessage::TIMESYNC(TIMESYNC_DATA { tc1: 0, ts1: token, target_system: 0, target_component: 0 })
 }

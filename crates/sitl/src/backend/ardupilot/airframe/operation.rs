@@ -32,10 +32,8 @@ pub fn add(table: &mut Table, settings: &LaunchSettings) {
 fn add_links(table: &mut Table, settings: &LaunchSettings) {
     let system_id = i64::from(settings.instance) + 1;
     table.both(["SYSID_THISMAV", "MAV_SYSID"], system_id);
-    // ArduPilot 4.6 takes sticks only from this ground station; 4.7 takes them from the whole range.
-    table.integer("SYSID_MYGCS", GROUND_STATION);
-    table.integer("MAV_GCS_SYSID", 1);
-    table.integer("MAV_GCS_SYSID_HI", 255);
+    // ArduPilot takes sticks only from this ground station. 4.7's range of IDs (MAV_GCS_SYSID_HI) is missing in its development versions.
+    table.both(["SYSID_MYGCS", "MAV_GCS_SYSID"], GROUND_STATION);
     table.integer("SERIAL0_PROTOCOL", 2);
     for port in 1..=7 {
         table.integer(&format!("SERIAL{port}_PROTOCOL"), -1);

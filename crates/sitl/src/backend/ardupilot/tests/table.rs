@@ -67,6 +67,8 @@ fn exact_values_have_both_units() {
         ("BATT_LOW_MAH", 1300.0),
         ("SYSID_THISMAV", 3.0),
         ("MAV_SYSID", 3.0),
+        ("SYSID_MYGCS", 255.0),
+        ("MAV_GCS_SYSID", 255.0),
         ("GPS_TYPE", 14.0),
         ("GPS1_TYPE", 14.0),
         ("SCHED_LOOP_RATE", 250.0),
