@@ -148,11 +148,8 @@ impl SpeechVoice {
     }
 
     fn update_inputs(&mut self, now: &SoundInputs) {
-        self.speak_new_cues(if now.silent { 0 } else { now.cues });
-    }
-
-    fn speak_new_cues(&mut self, cues: i32) {
-        let words = spoken(std::mem::replace(&mut self.cues, cues), cues);
+        let cues = if now.silent { 0 } else { now.cues };
+        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, self.on, busy) else { return };
         let started = SPEECH_PROGRAMS.iter().find_map(|name| {

@@ -61,6 +61,44 @@ pub fn displayed(mask: i32) -> i32 {
     if mask & STAND_OFF != 0 { mask & !OFF_PATH } else { mask }
 }
 
+/// The latest text of each active cue.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct CueTexts {
+    /// Bits of the cue, and its text.
+    texts: Vec<(i32, String)>,
+}
+
+impl CueTexts {
+    /// Adds a text from the monitor. Texts that belong to no cue are ignored.
+    pub fn add(&mut self, text: &str) {
+        if let Some((bits, _)) = of_text(text) {
+            self.texts.retain(|(other, _)| *other != bits);
+            self.texts.push((bits, text.to_owned()));
+        }
+    }
+
+    /// Removes the texts of cues that are no longer active.
+    pub fn retain_active(&mut self, mask: i32) {
+        self.texts.retain(|(bits, _)| mask & bits != 0);
+    }
+
+    /// Returns a cue's text: the latest one that was sent while the cue has been active, otherwise only its label. `None`
+    /// if the bit is not a cue.
+    #[must_use]
+    pub fn text(&self, bit: i32) -> Option<&str> {
+        let sent = self.texts.iter().find(|(bits, _)| bit & bits != 0).map(|(_, text)| text.as_str());
+        sent.or_else(|| label(bit))
+    }
+}
+
+impl<'a> FromIterator<&'a str> for CueTexts {
+    fn from_iter<T: IntoIterator<Item = &'a str>>(texts: T) -> Self {
+        let mut all = Self::default();
+        texts.into_iter().for_each(|text| all.add(text));
+        all
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,6 +113,17 @@ mod tests {
         assert_eq!(of_text("Session over: 300 points, certified"), None);
         assert!(ALL.iter().all(|(bit, _)| label(*bit).is_some()));
         assert_eq!((label(OFF_PATH), label(BATTERY_RED), label(1 << 20)), (Some("Off path"), Some("Battery"), None));
+    }
+
+    #[test]
+    fn exact_a_cue_keeps_its_latest_text_while_it_is_active() {
+        let mut texts: CueTexts =
+            ["Too close: 2.4 m, limit 2.5 m", "Session over", "Too close: 2.1 m, limit 2.5 m"].into_iter().collect();
+        assert_eq!((texts.text(TOO_CLOSE), texts.text(CRASH)), (Some("Too close: 2.1 m, limit 2.5 m"), Some("Crash")));
+        texts.retain_active(TOO_CLOSE | CRASH);
+        assert_eq!(texts.text(TOO_CLOSE), Some("Too close: 2.1 m, limit 2.5 m"));
+        texts.retain_active(CRASH);
+        assert_eq!((texts.text(TOO_CLOSE), texts.text(1 << 20)), (Some("Too close"), None));
     }
 
     #[test]

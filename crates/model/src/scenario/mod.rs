@@ -15,7 +15,7 @@ pub use bridges::{Bridge, BridgeKind};
 pub use certification::CertificationParams;
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
-    SessionRules, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
+    SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
 pub use resolve::resolve;

@@ -183,3 +183,30 @@ fn last_useful_frame(paths: &ReferencePaths, on_path: &OnPath, task: usize, gap:
     }
     useful
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn exact_intervals_and_texts_come_from_the_events() {
+        let mut log = CueLog::default();
+        for event in [
+            json!({ "t_s": 1.0, "event": "cues", "cues": cue::OFF_PATH }),
+            json!({ "t_s": 1.0, "event": "text", "text": "Off path 3.4 m: left and up" }),
+            json!({ "t_s": 2.0, "event": "cues", "cues": cue::OFF_PATH | cue::CRASH }),
+            json!({ "t_s": 3.0, "event": "cues", "cues": cue::CRASH }),
+            json!({ "t_s": 4.0, "event": "note", "text": "Crash: only a note" }),
+            json!({ "t_s": 5.0, "event": "text", "text": "Session over: 300 points, certified" }),
+            json!({ "t_s": 6.0, "event": "cues", "cues": cue::OFF_PATH }),
+        ] {
+            log.add_event(&event);
+        }
+        let at = SimTime::from_s;
+        assert_eq!(log.intervals(cue::OFF_PATH, at(8.0)), [(at(1.0), at(3.0)), (at(6.0), at(8.0))]);
+        assert_eq!(log.intervals(cue::OFF_PATH, at(2.5)), [(at(1.0), at(2.5))]);
+        assert_eq!(log.intervals(cue::OFF_PATH | cue::CRASH, at(8.0)), [(at(1.0), at(8.0))]);
+        assert_eq!(log.texts, [at(1.0)]);
+    }
+}
