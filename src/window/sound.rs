@@ -154,7 +154,7 @@ impl SpeechVoice {
         let (Some(words), true, false) = (words, self.on, busy) else { return };
         let started = SPEECH_PROGRAMS.iter().find_map(|name| {
             let mut command = Command::new(name);
-            command.arg(words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+            command.arg(&words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
         });
         if started.is_none() {
             self.on = false;
