@@ -19,6 +19,8 @@ const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ActiveTask {
     visited: Option<usize>,
+    /// Whether the visit began after the whole path had been flown.
+    revisit: bool,
     /// Task whose path the drone is on, and the time since when it has been there.
     on_path: Option<(usize, SimTime)>,
     departure: DepartureDetector,
@@ -35,6 +37,7 @@ impl ActiveTask {
         if let Some((task, since)) = self.on_path {
             let at_once = self.visited == Some(task) || (self.visited.is_none() && !input.tasks[task].done);
             if at_once || input.time - since >= limits.visit_delay {
+                self.revisit = if self.visited == Some(task) { self.revisit } else { input.tasks[task].finished };
                 self.visited = Some(task);
                 self.departure = DepartureDetector::default();
             }
@@ -44,7 +47,7 @@ impl ActiveTask {
             return Some(visited);
         }
         // A pilot who has flown the whole path is on the way to another one, also while looking around near its end.
-        if input.tasks[visited].finished {
+        if input.tasks[visited].finished && !self.revisit {
             self.visited = None;
             return None;
         }

@@ -106,6 +106,9 @@ fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
 fn regress_hovering_beside_path_end_or_leaving_mid_path_is_off_path() {
     for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
         let mut monitored = MonitoredFlight::in_flight();
+        // Only part of the path is flown.
+        monitored.tape.fly((0.0, 20.0, 10.0), 4.0);
+        monitored.tape.fly((30.0, 20.0, 10.0), 4.0);
         monitored.tape.fly((30.0, 0.0, 10.0), 4.0);
         monitored.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
         monitored.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
@@ -312,7 +315,7 @@ fn exact_speeding_text_has_the_unit_of_the_limit() {
     let mut scenario = one_task();
     (scenario.scoring.speed_limit_m_s, scenario.scoring.speed_limit_unit) = (4.5, SpeedUnit::MetersPerSecond);
     let mut monitored = MonitoredFlight::of(scenario);
-    monitored.tape.fly((40.0, 0.0, 10.0), 4.8);
+    monitored.tape.fly((25.0, 0.0, 10.0), 4.8);
     monitored.run();
     assert_eq!(monitored.texts, ["Too fast: 4.8 m/s, limit 4.5 m/s"]);
 }
