@@ -77,6 +77,7 @@ impl Cockpit {
             rotors_rad_s: live.rotors_rad_s(&flight.job.1),
             distance_m: (now.moment.drone.pose.position_m - team.inspector_m).norm(),
             cues: live.feed().cues(now.moment.at, false),
+            cue_texts: live.feed().cue_texts().clone(),
             silent: false,
         });
     }

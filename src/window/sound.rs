@@ -148,16 +148,13 @@ impl SpeechVoice {
     }
 
     fn update_inputs(&mut self, now: &SoundInputs) {
-        self.speak_new_cues(if now.silent { 0 } else { now.cues });
-    }
-
-    fn speak_new_cues(&mut self, cues: i32) {
-        let words = spoken(std::mem::replace(&mut self.cues, cues), cues);
+        let cues = if now.silent { 0 } else { now.cues };
+        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, self.on, busy) else { return };
         let started = SPEECH_PROGRAMS.iter().find_map(|name| {
             let mut command = Command::new(name);
-            command.arg(words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+            command.arg(&words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
         });
         if started.is_none() {
             self.on = false;

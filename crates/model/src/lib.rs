@@ -41,6 +41,7 @@ pub mod random;
 pub mod scenario;
 pub mod shipped;
 pub mod site;
+pub mod speed_unit;
 pub mod time;
 pub mod toml;
 pub mod vehicle;

@@ -15,6 +15,22 @@ pub fn format_with_limit(value: f64, limit: f64, digits: usize) -> String {
     (digits..=MAX_DECIMALS).map(text).find(same_side).unwrap_or_else(|| text(MAX_DECIMALS))
 }
 
+/// Formats a value for a pilot: with at least `digits` decimals, and with one more if needed to show which side of the limit
+/// it is on. If that is not enough, the value is rounded away from the limit, because no pilot can use more digits.
+#[must_use]
+pub fn format_beyond_limit(value: f64, limit: f64, digits: usize) -> String {
+    let limit = self::format_limit(limit).parse::<f64>().unwrap_or(limit);
+    let wanted = value.partial_cmp(&limit);
+    let same_side = |text: &String| text.parse::<f64>().is_ok_and(|shown| shown.partial_cmp(&limit) == wanted);
+    let most = digits + 1;
+    let rounded = (digits..=most).map(|digits| format!("{value:.digits$}")).find(same_side);
+    rounded.unwrap_or_else(|| {
+        let scale = (0..most).fold(1.0, |scale, _| 10.0 * scale);
+        let away = if value < limit { (value * scale).floor() } else { (value * scale).ceil() };
+        format!("{:.most$}", away / scale)
+    })
+}
+
 /// Formats a limit with at most three decimals, without trailing zeros.
 #[must_use]
 pub fn format_limit(value: f64) -> String {
@@ -25,6 +41,15 @@ pub fn format_limit(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_pilots_see_at_most_one_extra_decimal() {
+        let close = |meters| format_beyond_limit(meters, 2.5, 1);
+        assert_eq!([2.0, 2.43, 2.47, 2.496, 2.499_9, 2.5].map(close), ["2.0", "2.4", "2.47", "2.49", "2.49", "2.5"]);
+        assert_eq!([2.500_1, 2.504, 2.51, 2.58].map(close), ["2.51", "2.51", "2.51", "2.6"]);
+        assert_eq!(format_beyond_limit(10.000_1, 10.000_000_000_01, 0), "10.1");
+        assert_eq!(format_beyond_limit(10.0, 9.999_999_999_999_99, 0), "10");
+    }
 
     #[test]
     fn exact_value_is_displayed_on_the_correct_side_of_the_limit() {

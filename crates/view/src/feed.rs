@@ -3,6 +3,7 @@
 use super::hud::GnssStatus;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
+use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
@@ -21,7 +22,7 @@ pub struct Feed {
     mode: Option<String>,
     gnss: Option<GnssStatus>,
     cues: Option<(SimTime, i32)>,
-    hit: Option<String>,
+    cue_texts: CueTexts,
 }
 
 impl Feed {
@@ -74,13 +75,12 @@ impl Feed {
     /// Sets the cue mask, from telemetry or from a recording.
     pub fn set_cues(&mut self, mask: i32, now: SimTime) {
         self.cues = Some((now, mask));
+        self.cue_texts.retain_active(mask);
     }
 
-    /// Processes a text from the monitor. A crash text includes the name of the object that the drone hit.
+    /// Processes a text from the monitor. The text of a cue follows the mask in which the cue becomes active.
     pub fn handle_text(&mut self, words: &str) {
-        if let Some(what) = words.strip_prefix("Crash: ") {
-            self.hit = Some(what.to_owned());
-        }
+        self.cue_texts.add(words);
     }
 
     /// Returns the name of the flight mode.
@@ -102,10 +102,10 @@ impl Feed {
         self.cues.filter(|(heard, _)| held || now.saturating_sub(*heard) <= CUE_TIMEOUT).map_or(0, |(_, mask)| mask)
     }
 
-    /// Returns the name of the last object that the drone hit.
+    /// Returns the monitor's texts for the active cues.
     #[must_use]
-    pub fn hit(&self) -> Option<&str> {
-        self.hit.as_deref()
+    pub fn cue_texts(&self) -> &CueTexts {
+        &self.cue_texts
     }
 }
 
@@ -119,6 +119,7 @@ pub fn shutter(taken: Option<SimTime>, now: SimTime) -> bool {
 mod tests {
     use super::*;
     use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::contract::cue;
     use spandrel_mavlink::dialect::{GPS_RAW_INT_DATA, HEARTBEAT_DATA, NAMED_VALUE_INT_DATA};
 
     #[test]
@@ -139,7 +140,9 @@ mod tests {
         assert_eq!(feed.cues(now + SimTime::from_ms(1_000), false), 12);
         assert_eq!(feed.cues(now + SimTime::from_ms(2_000), false), 0, "cues expire without repetition");
         feed.handle_text("Crash: bridge member arch/rib-left/07");
-        assert_eq!(feed.hit(), Some("bridge member arch/rib-left/07"));
+        assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash: bridge member arch/rib-left/07"));
+        feed.set_cues(cue::OFF_PATH, now);
+        assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash"), "the text of an old crash is not shown again");
     }
 
     #[test]

@@ -241,11 +241,12 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
     Hud {
         speed_m_s: moment.velocity_m_s.norm(),
         limit_m_s: scenario.scoring.speed_limit_m_s,
+        limit_unit: scenario.scoring.speed_limit_unit,
         battery_pct: inputs.battery_pct,
         min_green_pct: scenario.feedback.battery_green_pct,
         min_yellow_pct: scenario.feedback.battery_yellow_pct,
         cues: feed.cues(at, held),
-        hit: feed.hit().map(str::to_owned),
+        cue_texts: feed.cue_texts().clone(),
         height_m: from_pad.up(),
         home_distance_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),

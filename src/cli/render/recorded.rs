@@ -209,6 +209,7 @@ mod tests {
     use crate::io::session_folder::SessionFolder;
     use serde_json::json;
     use spandrel_mavlink::codec::Encoder;
+    use spandrel_mavlink::contract::cue;
     use spandrel_mavlink::contract::truth::Truth;
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, MavMessage, MavModeFlag};
     use spandrel_model::frames::{Rotation, Vec3};
@@ -300,12 +301,15 @@ mod tests {
         let mut replay_feed = recorded.replay_feed();
         let early = replay_feed.advance_to(SimTime::from_ms(40)).clone();
         assert_eq!(
-            (early.mode(), early.cues(SimTime::from_ms(40), true), early.hit()),
-            ("no mode", 0, None),
+            (early.mode(), early.cues(SimTime::from_ms(40), true), early.cue_texts().text(cue::CRASH)),
+            ("no mode", 0, Some("Crash")),
             "nothing of the first flight"
         );
         let later = replay_feed.advance_to(second);
-        assert_eq!((later.mode(), later.cues(second, true), later.hit()), ("Position", 3, Some("the second")));
+        assert_eq!(
+            (later.mode(), later.cues(second, true), later.cue_texts().text(cue::CRASH)),
+            ("Position", 3, Some("Crash: the second"))
+        );
     }
 
     #[test]

@@ -9,8 +9,9 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::measures::cue_validity::{CueLog, CueValidity};
 use spandrel_monitor::sidecar::build_site;
-use spandrel_monitor::{Assessment, Monitor, MonitorConfig};
+use spandrel_monitor::{Assessment, Monitor, MonitorConfig, SessionOutput};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::{Sim, SimConfig};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -47,6 +48,8 @@ pub enum FlightError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlownFlight {
     pub assessment: Assessment,
+    /// Comparison of the cues with the frames.
+    pub cues: CueValidity,
     /// SHA-256 of the vehicle's state at every tick.
     pub digest: [u8; 32],
 }
@@ -66,6 +69,8 @@ struct LockstepFlight {
     sim: Sim,
     pilot: Pilot,
     monitor: Monitor,
+    cue_log: CueLog,
+    scenario: Arc<Scenario>,
     time_limit: SimTime,
 }
 
@@ -95,7 +100,7 @@ impl LockstepFlight {
         });
         let pilot = Pilot::new(PilotConfig { scenario: scenario.clone(), vehicle: vehicle.clone(), skill: *skill, seed: *seed });
         let time_limit = SimTime::from_s(scenario.scoring.time_max_s + EXTRA_TIME_S);
-        Self { sim, pilot, monitor, time_limit }
+        Self { sim, pilot, monitor, cue_log: CueLog::default(), scenario: scenario.clone(), time_limit }
     }
 
     fn run(mut self, stop: &StopRequest) -> Result<FlownFlight, FlightError> {
@@ -119,7 +124,11 @@ impl LockstepFlight {
             self.exchange();
         }
         match self.monitor.finished() {
-            Some(Ok(session)) => Ok(FlownFlight { assessment: session.assessment.clone(), digest: self.sim.digest() }),
+            Some(Ok(session)) => Ok(FlownFlight {
+                assessment: session.assessment.clone(),
+                cues: CueValidity::measure(&self.cue_log, &session.frames, &self.scenario),
+                digest: self.sim.digest(),
+            }),
             Some(Err(error)) => Err(self.failed(&error.to_string())),
             None => Err(self.failed("the session has no result")),
         }
@@ -129,8 +138,8 @@ impl LockstepFlight {
         FlightError::Failed(format!("{words}, at simulation time {}", self.sim.now()))
     }
 
-    /// Delivers all waiting datagrams, and discards what a session folder would store. Returns whether there were any
-    /// datagrams.
+    /// Delivers all waiting datagrams, and collects the cues from what a session folder would store. Returns whether there
+    /// were any datagrams.
     fn exchange(&mut self) -> bool {
         let mut any = false;
         while let Some(transmit) = self.sim.poll_transmit() {
@@ -149,7 +158,13 @@ impl LockstepFlight {
             any = true;
             self.sim.handle_datagram(MONITOR, &bytes);
         }
-        while self.monitor.poll_record().is_some() {}
+        while let Some(record) = self.monitor.poll_record() {
+            if let SessionOutput::Event(line) = record
+                && let Ok(event) = serde_json::from_str(&line)
+            {
+                self.cue_log.add_event(&event);
+            }
+        }
         while self.sim.poll_event().is_some() {}
         any
     }

@@ -51,6 +51,15 @@ pub struct FlightResult {
     pub defects_found: i64,
     pub defects_placed: i64,
     pub digest: String,
+    pub cue_texts: i64,
+    pub off_path_cues: i64,
+    pub off_path_cues_outside: i64,
+    pub speeding_cues: i64,
+    pub speeding_cues_short: i64,
+    pub stand_off_cues: i64,
+    pub too_close_cues: i64,
+    pub deviations: i64,
+    pub deviations_missed: i64,
 }
 
 impl FlightRow {
@@ -106,6 +115,15 @@ impl FlightResult {
             defects_found: count(one.snapshots.defects_found),
             defects_placed: count(one.snapshots.defects_placed),
             digest: flown.digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            cue_texts: count(flown.cues.texts),
+            off_path_cues: count(flown.cues.off_path),
+            off_path_cues_outside: count(flown.cues.off_path_outside),
+            speeding_cues: count(flown.cues.speeding),
+            speeding_cues_short: count(flown.cues.speeding_short),
+            stand_off_cues: count(flown.cues.stand_off),
+            too_close_cues: count(flown.cues.too_close),
+            deviations: count(flown.cues.deviations),
+            deviations_missed: count(flown.cues.deviations_missed),
         }
     }
 }
@@ -162,12 +180,7 @@ const COLUMNS: &[(&str, &str, &str, Read)] = &[
         "Efficiency of the certification profile, 0 to 100.",
         result!(Float, certification_efficiency),
     ),
-    (
-        "certification_safety",
-        "points",
-        "Safety of the certification profile, 0 to 100.",
-        result!(Float, certification_safety),
-    ),
+    ("certification_safety", "points", "Safety of the certification profile, 0 to 100.", result!(Float, certification_safety)),
     (
         "certification_accuracy",
         "points",
@@ -197,6 +210,30 @@ const COLUMNS: &[(&str, &str, &str, Read)] = &[
     ("defects_found", "", "Number of distinct defects shown.", result!(Integer, defects_found)),
     ("defects_placed", "", "Number of defects at the site.", result!(Integer, defects_placed)),
     ("digest", "", "SHA-256 of the vehicle's state at every tick.", result!(Text, digest)),
+    ("cue_texts", "", "Number of texts that belong to a cue.", result!(Integer, cue_texts)),
+    ("off_path_cues", "", "Number of off-path cues.", result!(Integer, off_path_cues)),
+    (
+        "off_path_cues_outside",
+        "",
+        "Number of off-path cues that started while no task was being flown.",
+        result!(Integer, off_path_cues_outside),
+    ),
+    ("speeding_cues", "", "Number of speeding cues.", result!(Integer, speeding_cues)),
+    ("speeding_cues_short", "", "Number of speeding cues shorter than 1 s.", result!(Integer, speeding_cues_short)),
+    ("stand_off_cues", "", "Number of stand-off cues.", result!(Integer, stand_off_cues)),
+    ("too_close_cues", "", "Number of too-close cues.", result!(Integer, too_close_cues)),
+    (
+        "deviations",
+        "",
+        "Number of deviations of more than 3 s from the path of the task that was being flown.",
+        result!(Integer, deviations),
+    ),
+    (
+        "deviations_missed",
+        "",
+        "Number of these deviations without an off-path or stand-off cue.",
+        result!(Integer, deviations_missed),
+    ),
 ];
 
 /// Number of columns that are never empty.

@@ -51,6 +51,22 @@ pub struct Group {
     /// 95% interval of the fraction of certified flights among those that did not fail.
     pub certified_interval_95: Option<[f64; 2]>,
     pub measures: Vec<MeasureSummary>,
+    pub cues: CueSummary,
+}
+
+/// Cues in all flights of one pilot that did not fail, including incomplete ones.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CueSummary {
+    /// Mean number of texts per minute of flight.
+    pub texts_per_min: Option<f64>,
+    pub off_path: i64,
+    pub off_path_outside: i64,
+    pub speeding: i64,
+    pub speeding_short: i64,
+    pub stand_off: i64,
+    pub too_close: i64,
+    pub deviations: i64,
+    pub deviations_missed: i64,
 }
 
 /// Mean and spread of one measure.
@@ -137,10 +153,17 @@ impl StudySummary {
         for (k, (measure, digits, _)) in MEASURES.iter().enumerate() {
             row(measure, &|one| mean_and_sd(&one.measures[k], *digits));
         }
+        row("cue texts per minute", &|one| one.cues.texts_per_min.map_or("–".to_owned(), |mean| format!("{mean:.2}")));
+        row("off-path cues outside a task", &|one| part(one.cues.off_path_outside, one.cues.off_path));
+        row("speeding cues under 1 s", &|one| part(one.cues.speeding_short, one.cues.speeding));
+        row("deviations without a cue", &|one| part(one.cues.deviations_missed, one.cues.deviations));
+        row("stand-off cues", &|one| one.cues.stand_off.to_string());
+        row("too-close cues", &|one| one.cues.too_close.to_string());
         let counted = if self.incomplete_included { "all flights that did not fail" } else { "complete flights" };
         let _ = writeln!(
             out,
-            "\nMean ± standard deviation over {counted}; certified: share and 95% interval over all flights that did not fail.\n"
+            "\nMean ± standard deviation over {counted}; certified: share and 95% interval over all flights that did not fail. Cues: \
+             all flights that did not fail.\n"
         );
     }
 }
@@ -150,6 +173,11 @@ fn certified(group: &Group) -> String {
     let flown = group.flights - group.failed;
     let share = 100.0 * group.certified as f64 / flown as f64;
     format!("{} of {flown} ({share:.0}%, {:.0} to {:.0})", group.certified, 100.0 * low, 100.0 * high)
+}
+
+fn part(part: i64, whole: i64) -> String {
+    let share = if whole == 0 { String::new() } else { format!(" ({:.0}%)", 100.0 * part as f64 / whole as f64) };
+    format!("{part} of {whole}{share}")
 }
 
 fn mean_and_sd(one: &MeasureSummary, digits: usize) -> String {
@@ -192,6 +220,23 @@ fn group(rows: &[FlightRow], include_incomplete: bool) -> Group {
         certified,
         certified_interval_95: proportion_interval_95(certified, results.len()),
         measures: MEASURES.into_iter().map(measure).collect(),
+        cues: cues(&results),
+    }
+}
+
+fn cues(results: &[&FlightResult]) -> CueSummary {
+    let sum = |pick: fn(&FlightResult) -> i64| results.iter().map(|one| pick(one)).sum();
+    let texts_per_min: Vec<f64> = results.iter().map(|one| 60.0 * one.cue_texts as f64 / one.seconds).collect();
+    CueSummary {
+        texts_per_min: mean(&texts_per_min),
+        off_path: sum(|one| one.off_path_cues),
+        off_path_outside: sum(|one| one.off_path_cues_outside),
+        speeding: sum(|one| one.speeding_cues),
+        speeding_short: sum(|one| one.speeding_cues_short),
+        stand_off: sum(|one| one.stand_off_cues),
+        too_close: sum(|one| one.too_close_cues),
+        deviations: sum(|one| one.deviations),
+        deviations_missed: sum(|one| one.deviations_missed),
     }
 }
 
@@ -241,6 +286,15 @@ mod tests {
             defects_found: 0,
             defects_placed: 0,
             digest: String::new(),
+            cue_texts: 20,
+            off_path_cues: 4,
+            off_path_cues_outside: 1,
+            speeding_cues: 2,
+            speeding_cues_short: 1,
+            stand_off_cues: 1,
+            too_close_cues: 3,
+            deviations: 5,
+            deviations_missed: 0,
         };
         let (scenario, vehicle, fingerprint) = ("job".to_owned(), "phantom2".to_owned(), String::new());
         FlightRow { scenario, vehicle, pilot: pilot.into(), seed, fingerprint, error: None, result: Some(result) }
@@ -265,6 +319,10 @@ mod tests {
             "| certified | 0 of 4 (0%, 0 to 49) | 3 of 3 (100%, 44 to 100) |",
             "| overall | 320.0 ± 20.0 | 380.0 ± 20.0 |",
             "| accuracy | – | – |",
+            "| cue texts per minute | 2.00 | 2.00 |",
+            "| off-path cues outside a task | 4 of 16 (25%) | 3 of 12 (25%) |",
+            "| speeding cues under 1 s | 4 of 8 (50%) | 3 of 6 (50%) |",
+            "| deviations without a cue | 0 of 20 (0%) | 0 of 15 (0%) |",
             "| overall | 3.00 |",
             "- job, novice, seed 5: stuck",
         ] {

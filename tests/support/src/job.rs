@@ -7,6 +7,7 @@ use spandrel_model::frames::{Enu, Frd, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::scenario::*;
 use spandrel_model::site::{CameraPose, DefectView};
+use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::*;
 use spandrel_monitor::assessment::{AssessedSession, assess_log};
@@ -38,6 +39,7 @@ pub fn task(id: u32, path_m: Vec<Vec3<Enu>>, threshold_m: f64) -> Task {
         path_m,
         viewing_directions: look,
         inspects_surface: true,
+        stand_off: None,
         too_close_m: None,
         dark: false,
     }
@@ -93,6 +95,10 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             off_path_max_m: 8.0,
             off_path_delay: SimTime::from_ms(1_000),
             off_path_hold_time: SimTime::from_ms(2_000),
+            leave_delay: SimTime::from_ms(2_000),
+            visit_delay: SimTime::from_ms(3_000),
+            speeding_margin: 0.05,
+            speeding_hold_time: SimTime::from_ms(1_000),
             battery_green_pct: 70.0,
             battery_yellow_pct: 30.0,
             text_interval: SimTime::from_ms(5_000),
@@ -100,6 +106,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         scoring: ScoringParams {
             frame_rate_hz: RATE_HZ,
             speed_limit_m_s: 4.4704,
+            speed_limit_unit: SpeedUnit::MilesPerHour,
             max_speed_m_s: 13.4112,
             time_best_s: 900.0,
             time_max_s: 1500.0,

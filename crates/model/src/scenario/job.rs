@@ -7,6 +7,7 @@ use super::certification::CertificationParams;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
+use crate::speed_unit::SpeedUnit;
 use crate::time::SimTime;
 
 /// A job: the content of a scenario file, parsed and validated.
@@ -141,6 +142,8 @@ pub struct Task {
     /// True if the viewing directions point at a surface. False for a free path without a target, whose viewing
     /// directions point along the path.
     pub inspects_surface: bool,
+    /// Recommended distance from the inspected surface; `None` if the path has no single surface at a fixed distance.
+    pub stand_off: Option<StandOff>,
     /// Too-close threshold of this task, m; `None` to use the job's threshold.
     pub too_close_m: Option<f64>,
     /// True if the lamp is recommended in this task. Used in briefings and by the synthetic trainee.
@@ -154,6 +157,17 @@ pub struct SelectedForm {
     pub name: String,
     /// Names of all forms, in file order.
     pub available: Vec<String>,
+}
+
+/// Recommended distance from the inspected surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StandOff {
+    /// Distance between the path and the surface, m.
+    pub recommended_m: f64,
+    /// Deviation from the recommended distance at which the cue appears, m.
+    pub tolerance_m: f64,
+    /// For each path point, a unit vector toward the surface, perpendicular to it.
+    pub toward_surface: Vec<Vec3<Enu>>,
 }
 
 /// Settings for random defects, or the placed defects of a resolved file.
@@ -339,6 +353,15 @@ pub struct FeedbackThresholds {
     pub off_path_delay: SimTime,
     /// Minimum time that the cue stays visible.
     pub off_path_hold_time: SimTime,
+    /// Time that the drone must move away from a task before it has left the task and the cue turns off.
+    pub leave_delay: SimTime,
+    /// Time on the path of a task after which the drone visits that task, if the task is already done or another task is
+    /// being flown.
+    pub visit_delay: SimTime,
+    /// Excess over the speed limit at which the speeding cue appears, as a fraction of the limit.
+    pub speeding_margin: f64,
+    /// Minimum time that the speeding cue stays visible.
+    pub speeding_hold_time: SimTime,
     /// Minimum battery level displayed in green, %.
     pub battery_green_pct: f64,
     /// Minimum battery level displayed in yellow, %; lower levels are red.
@@ -354,6 +377,8 @@ pub struct ScoringParams {
     pub frame_rate_hz: f64,
     /// Speed limit during inspection, m/s.
     pub speed_limit_m_s: f64,
+    /// Unit of the speed limit in the scenario file.
+    pub speed_limit_unit: SpeedUnit,
     /// Maximum speed of the scoring scale, m/s (30 mph in the TASBID paper).
     pub max_speed_m_s: f64,
     /// Maximum flight time with an efficiency score of 100%, s.

@@ -17,7 +17,7 @@ pub use certification::CertificationParams;
 pub use forms::{form_names, select_form};
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
-    SelectedForm, SessionRules, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
+    SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
 pub use resolve::resolve;

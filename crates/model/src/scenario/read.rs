@@ -9,6 +9,7 @@ use super::point::point;
 use crate::elements::Element;
 use crate::geodesy::Geo;
 use crate::math::M_S_PER_MPH;
+use crate::speed_unit::SpeedUnit;
 use crate::time::SimTime;
 use crate::toml::{DocumentedKey, Problems, Reader, Section};
 use std::collections::BTreeMap;
@@ -302,6 +303,10 @@ fn feedback(r: &mut Reader, root: &mut Section) -> FeedbackThresholds {
         off_path_max_m: n("off_path_max_m", (1.0, 50.0), 8.0),
         off_path_delay: SimTime::from_s(n("off_path_after_s", (0.0, 10.0), 1.0)),
         off_path_hold_time: SimTime::from_s(n("off_path_hold_s", (0.0, 10.0), 2.0)),
+        leave_delay: SimTime::from_s(n("leave_after_s", (0.5, 30.0), 2.0)),
+        visit_delay: SimTime::from_s(n("visit_after_s", (0.0, 30.0), 3.0)),
+        speeding_margin: n("speeding_margin_pct", (0.0, 100.0), 5.0) / 100.0,
+        speeding_hold_time: SimTime::from_s(n("speeding_hold_s", (0.0, 10.0), 1.0)),
         battery_green_pct: n("battery_green_pct", (1.0, 100.0), 70.0),
         battery_yellow_pct: n("battery_yellow_pct", (1.0, 100.0), 30.0),
         text_interval: SimTime::from_s(n("text_interval_s", (0.5, 60.0), 2.0)),
@@ -323,15 +328,31 @@ fn feedback(r: &mut Reader, root: &mut Section) -> FeedbackThresholds {
     feedback
 }
 
+/// Reads the speed limit in m/s, and the unit in which the file states it.
+fn speed_limit(r: &mut Reader, s: &mut Section) -> (f64, SpeedUnit) {
+    let limit_mph = r.number(s, "speed_limit_mph", (1.0, 60.0), Some(10.0));
+    match r.optional_number(s, "speed_limit_m_s", (0.4, 27.0)) {
+        None => (limit_mph * M_S_PER_MPH, SpeedUnit::MilesPerHour),
+        Some(limit_m_s) => {
+            if s.has("speed_limit_mph") {
+                r.add_problem(s, "speed_limit_m_s", &limit_m_s.to_string(), "only one of the two", "speed_limit_mph is also set");
+            }
+            (limit_m_s, SpeedUnit::MetersPerSecond)
+        }
+    }
+}
+
 fn scoring(r: &mut Reader, root: &mut Section) -> ScoringParams {
     let mut s = r.section(root, "scoring");
+    let (speed_limit_m_s, speed_limit_unit) = speed_limit(r, &mut s);
     let mut n = |key: &'static str, range: (f64, f64), default: f64| r.number(&mut s, key, range, Some(default));
     let frame_rate_hz = n("frame_rate_hz", (10.0, 120.0), 30.0);
-    let (speed_limit_mph, max_speed_mph) = (n("speed_limit_mph", (1.0, 60.0), 10.0), n("max_speed_mph", (2.0, 100.0), 30.0));
+    let max_speed_mph = n("max_speed_mph", (2.0, 100.0), 30.0);
     let (time_best_min, time_max_min) = (n("time_best_min", (0.1, 120.0), 15.0), n("time_max_min", (0.2, 240.0), 25.0));
     let scoring = ScoringParams {
         frame_rate_hz,
-        speed_limit_m_s: speed_limit_mph * M_S_PER_MPH,
+        speed_limit_m_s,
+        speed_limit_unit,
         max_speed_m_s: max_speed_mph * M_S_PER_MPH,
         time_best_s: 60.0 * time_best_min,
         time_max_s: 60.0 * time_max_min,
@@ -340,13 +361,13 @@ fn scoring(r: &mut Reader, root: &mut Section) -> ScoringParams {
         task_completion_fraction: n("task_done_pct", (1.0, 100.0), 80.0) / 100.0,
         exact_path: r.boolean(&mut s, "exact_path", false),
     };
-    for (least, value, key, than) in [
-        (speed_limit_mph, max_speed_mph, "max_speed_mph", "speed_limit_mph"),
-        (time_best_min, time_max_min, "time_max_min", "time_best_min"),
-    ] {
-        if value <= least {
-            r.add_problem(&s, key, &value.to_string(), &format!("more than {than}, which is {least}"), "too small");
-        }
+    if scoring.max_speed_m_s <= speed_limit_m_s {
+        let allowed = format!("more than the speed limit, which is {}", speed_limit_unit.format_limit(speed_limit_m_s));
+        r.add_problem(&s, "max_speed_mph", &max_speed_mph.to_string(), &allowed, "too small");
+    }
+    if time_max_min <= time_best_min {
+        let allowed = format!("more than time_best_min, which is {time_best_min}");
+        r.add_problem(&s, "time_max_min", &time_max_min.to_string(), &allowed, "too small");
     }
     r.finish(&s);
     scoring

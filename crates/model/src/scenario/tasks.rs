@@ -2,7 +2,7 @@
 
 use super::bridges::Bridge;
 use super::bridges::path::{SPACING_M, TaskKind, TaskPath};
-use super::job::Task;
+use super::job::{StandOff, Task};
 use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
@@ -76,6 +76,10 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
         }),
         None => free_path(r, s, kind, &points, &look_at, closed),
     };
+    let tolerance_m = r.number(s, "stand_off_tolerance_m", (0.2, 20.0), Some(threshold_m));
+    r.describe_default(s, "stand_off_tolerance_m", "threshold_m");
+    let stand_off =
+        toward_surface(kind, &path).map(|toward_surface| StandOff { recommended_m: stand_off_m, tolerance_m, toward_surface });
     let dark = r.boolean(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
     r.describe_default(s, "dark", "true for arch_bottom and interlayer");
     let too_close_m = r.optional_number(s, "too_close_m", (0.2, 20.0));
@@ -93,6 +97,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
         path_m: path.path_m,
         viewing_directions: path.viewing_directions,
         inspects_surface: kind != TaskKind::Free || !look_at.is_empty(),
+        stand_off,
         too_close_m,
         dark,
     }
@@ -109,6 +114,26 @@ fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &
         r.add_problem(s, "bridge", &wanted, &format!("a bridge in this file: {names}"), "unknown bridge");
     }
     found
+}
+
+/// Returns unit vectors from the path points toward the inspected surface and perpendicular to it; `None` if the path has
+/// no single surface at the stand-off distance.
+fn toward_surface(kind: TaskKind, path: &TaskPath) -> Option<Vec<Vec3<Enu>>> {
+    match kind {
+        TaskKind::SlabSide | TaskKind::PierCircle => Some(path.viewing_directions.clone()),
+        // The path is parallel to the underside of the arch, which is above it. The camera also looks ahead and to the sides.
+        TaskKind::ArchBottom => Some((0..path.path_m.len()).map(|k| above(&path.path_m, k)).collect()),
+        TaskKind::Interlayer | TaskKind::Free => None,
+    }
+}
+
+/// Returns the upward unit vector that is perpendicular to a path at point `k` and lies in the path's vertical plane.
+fn above(path_m: &[Vec3<Enu>], k: usize) -> Vec3<Enu> {
+    let up = Vec3::new(0.0, 0.0, 1.0);
+    let along = path_m[(k + 1).min(path_m.len() - 1)] - path_m[k.saturating_sub(1)];
+    let length_squared = along.norm_squared();
+    let normal = if length_squared > 0.0 { up - along * (along.up() / length_squared) } else { up };
+    if normal.norm() > 1e-9 { normal.unit() } else { up }
 }
 
 /// Creates a path by resampling the points in the file. The camera points along the path unless the file specifies a

@@ -327,6 +327,7 @@ mod tests {
             path_m: (0..=40).map(|k| Vec3::new(f64::from(k), -4.0, 5.0)).collect(),
             viewing_directions: vec![Vec3::new(0.0, 1.0, 0.0); 41],
             inspects_surface: true,
+            stand_off: None,
             too_close_m: None,
             dark: false,
         }

@@ -91,6 +91,7 @@ mod tests {
     use crate::geodesy::Geo;
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
+    use crate::speed_unit::SpeedUnit;
 
     /// Number of seeds used to check the placement.
     const SEED_COUNT: u64 = 50;
@@ -128,6 +129,7 @@ mod tests {
                 path_m: path.path_m,
                 viewing_directions: path.viewing_directions,
                 inspects_surface: true,
+                stand_off: None,
                 too_close_m: None,
                 dark: false,
             }
@@ -151,6 +153,10 @@ mod tests {
             off_path_max_m: 8.0,
             off_path_delay: SimTime::from_s(1.0),
             off_path_hold_time: SimTime::from_s(2.0),
+            leave_delay: SimTime::from_ms(2_000),
+            visit_delay: SimTime::from_ms(3_000),
+            speeding_margin: 0.05,
+            speeding_hold_time: SimTime::from_ms(1_000),
             battery_green_pct: 70.0,
             battery_yellow_pct: 30.0,
             text_interval: SimTime::from_s(5.0),
@@ -158,6 +164,7 @@ mod tests {
         let scoring = ScoringParams {
             frame_rate_hz: 30.0,
             speed_limit_m_s: 4.4704,
+            speed_limit_unit: SpeedUnit::MilesPerHour,
             max_speed_m_s: 13.4112,
             time_best_s: 900.0,
             time_max_s: 1500.0,

@@ -3,7 +3,7 @@
 use super::input::FeedbackInput;
 use super::pilot_text::{Cooldown, PilotText};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::numbers::format_with_limit;
+use spandrel_model::numbers::{format_beyond_limit, format_limit};
 use spandrel_model::scenario::FeedbackThresholds;
 
 /// Too-close rule.
@@ -31,7 +31,7 @@ impl TooCloseCue {
         let clear = limit + (limits.too_close_clear_m - limits.too_close_m);
         let began = !self.is_on && clearance < limit;
         self.is_on = if self.is_on { clearance < clear } else { began };
-        let message = || format!("Too close: {} m", format_with_limit(clearance, limit, 1));
+        let message = || format!("Too close: {} m, limit {} m", format_beyond_limit(clearance, limit, 1), format_limit(limit));
         let text =
             began.then(|| self.cooldown.rate_limited_text(input.time, limits.text_interval, cue::TOO_CLOSE, message)).flatten();
         (if self.is_on { cue::TOO_CLOSE } else { 0 }, text)

@@ -91,10 +91,48 @@ impl FlownPath {
     }
 }
 
+/// Fraction of a closed path after which nothing remains to be flown (estimate: cutting a corner skips some points).
+const MIN_FINISHED_LOOP_SHARE: f64 = 0.9;
+
+impl FlownPath {
+    /// Returns whether nothing remains to be flown: the task is done, and the drone has been at both ends of the path, within
+    /// the threshold. A path no longer than its threshold is a hold position, which is never finished.
+    #[must_use]
+    pub fn is_finished(&self, closed: bool, done_share: f64) -> bool {
+        let PathCoverage { length_m, share } = self.coverage();
+        if share < done_share || length_m <= self.threshold_m {
+            return false;
+        }
+        if closed {
+            return share >= MIN_FINISHED_LOOP_SHARE;
+        }
+        let mut flown_m =
+            self.distances_along_path_m.iter().zip(&self.covered).filter(|(_, covered)| **covered).map(|(at_m, _)| *at_m);
+        let (first_m, last_m) = (flown_m.next(), flown_m.last());
+        first_m.is_some_and(|at_m| at_m <= self.threshold_m) && last_m.is_some_and(|at_m| at_m >= length_m - self.threshold_m)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use spandrel_model::frames::Vec3;
+
+    #[test]
+    fn exact_path_is_finished_once_both_ends_were_reached() {
+        let points: Vec<_> = (0..21).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
+        let path = ReferencePath::new(&points, false);
+        let fly = |closed: bool, threshold_m: f64, flown: std::ops::RangeInclusive<usize>| {
+            let mut one = FlownPath::new(&path, threshold_m);
+            flown.for_each(|point| one.add_frame(Some(point)));
+            one.is_finished(closed, 0.8)
+        };
+        assert!(fly(false, 2.0, 0..=20) && fly(false, 2.0, 2..=18));
+        assert!(!fly(false, 2.0, 0..=17) && !fly(false, 2.0, 3..=20), "done, but one end is missing");
+        assert!(!fly(false, 2.0, 0..=12), "not done");
+        assert!(fly(true, 2.0, 0..=18) && !fly(true, 2.0, 0..=17), "90% of a loop");
+        assert!(!fly(false, 20.0, 0..=20), "a hold position");
+    }
 
     #[test]
     fn exact_short_gaps_between_frames_are_covered() {

@@ -3,6 +3,7 @@
 pub mod attention;
 pub mod coverage;
 pub mod crash;
+pub mod cue_validity;
 pub mod image_quality;
 pub mod on_path;
 pub mod on_speed;

@@ -1,7 +1,8 @@
 //! Outgoing messages: cues, texts, replies, and log events.
 
 use super::{AUTOPILOT_COMPONENT_ID, CUES_INTERVAL, MONITOR_COMPONENT_ID, Monitor, SessionOutput};
-use crate::feedback::{FeedbackInput, TaskProximity};
+use crate::feedback::{FeedbackInput, HeadingOffset, SurfaceDistance, TaskProximity};
+use crate::measures::on_path::NearestOnPath;
 use crate::session::lift_off_height_m;
 use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
@@ -11,10 +12,22 @@ use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Task;
 
-/// Fraction of a path's points that the drone must pass before the path counts as flown (estimate: cutting a corner
-/// skips some points).
-const MIN_FLOWN_SHARE: f64 = 0.9;
+/// Returns the distance from the inspected surface if the task recommends one. `way_back_m` is the displacement from the drone
+/// to the nearest position on the path.
+fn surface_distance(task: &Task, nearest: NearestOnPath, way_back_m: Vec3<Enu>) -> Option<SurfaceDistance> {
+    let stand_off = task.stand_off.as_ref()?;
+    let toward_surface = *stand_off.toward_surface.get(nearest.point)?;
+    let farther_m = way_back_m.dot(toward_surface);
+    Some(SurfaceDistance {
+        actual_m: stand_off.recommended_m + farther_m,
+        recommended_m: stand_off.recommended_m,
+        tolerance_m: stand_off.tolerance_m,
+        sideways_m: (way_back_m - toward_surface * farther_m).norm(),
+    })
+}
 
 impl Monitor {
     pub(super) fn send_feedback(&mut self) {
@@ -41,16 +54,6 @@ impl Monitor {
     fn input(&self, truth: &Truth) -> FeedbackInput {
         let scenario = &self.config.scenario;
         let in_session = self.live.lift_off.is_some() && self.live.end.is_none() && self.outcome.is_none();
-        let near = |(t, task): (usize, &spandrel_model::scenario::Task)| {
-            let nearest = self.paths.nearest(t, truth.motion.position_m);
-            TaskProximity {
-                distance_m: nearest.map_or(f64::INFINITY, |nearest| nearest.distance_m),
-                threshold_m: task.threshold_m,
-                too_close_m: task.too_close_m,
-                id: task.id,
-                may_leave_task: nearest.is_some_and(|nearest| self.may_leave_task(t, nearest.point)),
-            }
-        };
         let contact = self.counted_contact();
         let onset = contact != ContactKind::None && self.live.cues & cue::CRASH == 0;
         FeedbackInput {
@@ -62,19 +65,32 @@ impl Monitor {
             clearance_m: self.live.clearance_m,
             contact,
             contact_name: if onset { self.contact_name() } else { None },
-            tasks: scenario.tasks.iter().enumerate().map(near).collect(),
+            tasks: (0..scenario.tasks.len()).map(|task| self.task_proximity(task, truth)).collect(),
             current_task: self.live.current_task,
-            last_task: self.live.last_task,
         }
     }
 
-    /// Returns whether the trainee may leave the task at this point: anywhere once its path has been flown, otherwise only at an end
-    /// of the path.
-    fn may_leave_task(&self, task: usize, point: usize) -> bool {
-        let count = self.paths.path(task).points_m().len();
-        let passed = self.live.visited_points[task].iter().filter(|passed| **passed).count();
-        let at_end = !self.config.scenario.tasks[task].closed && (point == 0 || point + 1 >= count);
-        at_end || passed as f64 >= MIN_FLOWN_SHARE * count as f64
+    fn task_proximity(&self, index: usize, truth: &Truth) -> TaskProximity {
+        let (task, position_m) = (&self.config.scenario.tasks[index], truth.motion.position_m);
+        let nearest = self.paths.nearest(index, position_m);
+        let distance_m = nearest.map_or(f64::INFINITY, |nearest| nearest.distance_m);
+        // The cues use the direction only near the path.
+        let near = nearest.filter(|_| distance_m <= self.config.scenario.feedback.off_path_max_m);
+        let foot_m = near.and_then(|_| self.paths.path(index).closest_position(position_m));
+        let way_back_m = foot_m.map(|foot_m| foot_m - position_m);
+        let heading_rad = truth.motion.ned_from_frd.yaw_rad();
+        let last = task.path_m.len().saturating_sub(1);
+        TaskProximity {
+            distance_m,
+            threshold_m: task.threshold_m,
+            way_back: way_back_m.map_or(HeadingOffset::default(), |way_back_m| HeadingOffset::new(way_back_m, heading_rad)),
+            surface: near.zip(way_back_m).and_then(|(nearest, way_back_m)| surface_distance(task, nearest, way_back_m)),
+            too_close_m: task.too_close_m,
+            id: task.id,
+            at_path_end: !task.closed && nearest.is_some_and(|nearest| nearest.point == 0 || nearest.point >= last),
+            done: self.live.done[index],
+            finished: self.live.finished[index],
+        }
     }
 
     /// Returns whether the drone is low over the pad. Heights elsewhere are not checked because a job can take the

@@ -11,6 +11,7 @@ use crate::assessment::{AssessError, AssessedSession};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SessionInfo;
 use crate::measures::attention::SiteSurvey;
+use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
 use crate::session::{EndReason, EndRule};
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
@@ -108,8 +109,12 @@ struct LiveState {
     lift_off: Option<SimTime>,
     current_task: Option<usize>,
     last_task: Option<usize>,
-    /// For each task and path point, whether it was ever the nearest point while the drone was on the path.
-    visited_points: Vec<Vec<bool>>,
+    /// For each task, the part of its path that was flown.
+    flown: Vec<FlownPath>,
+    /// For each task, whether enough of its path was flown for the task to be done.
+    done: Vec<bool>,
+    /// For each task, whether nothing of its path remains to be flown.
+    finished: Vec<bool>,
     end_rule: EndRule,
     end: Option<(SimTime, EndReason)>,
     next_end_check: SimTime,
@@ -150,16 +155,17 @@ impl Monitor {
     #[must_use]
     pub fn new(config: MonitorConfig) -> Self {
         let scenario = &config.scenario;
+        let paths = ReferencePaths::new(scenario);
         Self {
-            paths: ReferencePaths::new(scenario),
             decoder: Decoder::new(),
             encoder: Encoder::new(config.system_id, MONITOR_COMPONENT_ID),
             timeline: Timeline::new(LocalPlane::new(scenario.origin)),
             zero_unix_us: None,
             feedback: FeedbackRules::new(scenario),
             texts: TextQueue::default(),
-            live: LiveState::new(&config),
+            live: LiveState::new(&config, &paths),
             survey: None,
+            paths,
             seed: config.seed.or(scenario.seed),
             outgoing: VecDeque::new(),
             records: VecDeque::new(),
@@ -364,7 +370,7 @@ impl Monitor {
 }
 
 impl LiveState {
-    fn new(config: &MonitorConfig) -> Self {
+    fn new(config: &MonitorConfig, paths: &ReferencePaths) -> Self {
         Self {
             truth: None,
             battery_pct: None,
@@ -377,7 +383,9 @@ impl LiveState {
             lift_off: None,
             current_task: None,
             last_task: None,
-            visited_points: config.scenario.tasks.iter().map(|task| vec![false; task.path_m.len()]).collect(),
+            flown: (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect(),
+            done: vec![false; paths.len()],
+            finished: vec![false; paths.len()],
             end_rule: EndRule::new(&config.scenario, &config.vehicle),
             end: None,
             next_end_check: SimTime::ZERO,

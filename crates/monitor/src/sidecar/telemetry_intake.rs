@@ -59,7 +59,7 @@ impl Monitor {
             self.close();
             return;
         }
-        self.live = LiveState::new(&self.config);
+        self.live = LiveState::new(&self.config, &self.paths);
         self.feedback = FeedbackRules::new(&self.config.scenario);
         self.texts = TextQueue::default();
         self.last_heartbeat_sim_time = None;
@@ -171,10 +171,15 @@ impl Monitor {
             return;
         }
         let on = self.paths.task_on_path(position_m, self.live.last_task);
-        if let Some((task, nearest)) = on
-            && let Some(passed) = self.live.visited_points[task].get_mut(nearest.point)
-        {
-            *passed = true;
+        for (task, flown) in self.live.flown.iter_mut().enumerate() {
+            flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
+        }
+        if let Some((task, _)) = on {
+            let done_share = self.config.scenario.scoring.task_completion_fraction;
+            let flown = &self.live.flown[task];
+            self.live.done[task] = self.live.done[task] || flown.coverage().share >= done_share;
+            let closed = self.config.scenario.tasks[task].closed;
+            self.live.finished[task] = self.live.finished[task] || flown.is_finished(closed, done_share);
         }
         let on = on.map(|(task, _)| task);
         if let Some(task) = on.filter(|task| self.live.last_task != Some(*task)) {

@@ -3,6 +3,9 @@
 use crate::live::{new_monitor, sent_messages};
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::dialect::MavMessage;
+use spandrel_model::frames::Vec3;
+use spandrel_model::scenario::StandOff;
+use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_monitor::Monitor;
 use spandrel_testkit::job::*;
 
@@ -103,6 +106,9 @@ fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
 fn regress_hovering_beside_path_end_or_leaving_mid_path_is_off_path() {
     for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
         let mut monitored = MonitoredFlight::in_flight();
+        // Only part of the path is flown.
+        monitored.tape.fly((0.0, 20.0, 10.0), 4.0);
+        monitored.tape.fly((30.0, 20.0, 10.0), 4.0);
         monitored.tape.fly((30.0, 0.0, 10.0), 4.0);
         monitored.tape.fly((from_m.0, from_m.1, 10.0), 4.0);
         monitored.tape.fly((to_m.0, to_m.1, 10.0), 4.0);
@@ -110,6 +116,105 @@ fn regress_hovering_beside_path_end_or_leaving_mid_path_is_off_path() {
         monitored.run();
         assert!(monitored.has(cue::OFF_PATH), "{to_m:?}");
     }
+}
+
+#[test]
+fn exact_off_path_text_states_distance_and_way_back() {
+    // The path runs east. (heading, position beside the path, text)
+    let cases = [
+        (0.0, (40.0, 4.0, 10.0), "Off path 4.0 m: back"),
+        (90.0, (40.0, 4.0, 10.0), "Off path 4.0 m: right"),
+        (270.0, (40.0, 4.0, 10.0), "Off path 4.0 m: left"),
+        (90.0, (40.0, -3.0, 6.0), "Off path 5.0 m: left and up"),
+        (180.0, (40.0, 0.0, 13.04), "Off path 3.04 m: down"),
+    ];
+    for (heading_deg, to_m, text) in cases {
+        let mut monitored = MonitoredFlight::in_flight();
+        monitored.tape.yaw_rad = f64::to_radians(heading_deg);
+        monitored.tape.fly((40.0, 0.0, 10.0), 4.0);
+        monitored.tape.fly(to_m, 4.0);
+        monitored.tape.hold(1.5);
+        monitored.run();
+        assert_eq!(monitored.texts, [text], "heading {heading_deg}");
+    }
+}
+
+#[test]
+fn regress_a_task_that_is_done_raises_no_cue_until_it_is_visited_again() {
+    let off_path = |cues: Vec<(u32, i32)>| cues.iter().any(|(_, cues)| cues & cue::OFF_PATH != 0);
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((10.0, 0.0, 10.0), 4.0);
+    monitored.tape.fly((60.0, 0.0, 10.0), 4.0);
+    monitored.tape.fly((60.0, 20.0, 10.0), 4.0);
+    monitored.run();
+    // Crossing the path takes 1.5 s. Then the drone hovers 5 m beside it.
+    monitored.tape.fly((40.0, 20.0, 10.0), 4.0);
+    monitored.tape.fly((40.0, -5.0, 10.0), 4.0);
+    monitored.tape.hold(5.0);
+    assert!(!off_path(monitored.run()), "{:?}", monitored.texts);
+    // Another visit begins after 3 s on the path.
+    monitored.tape.fly((40.0, 0.0, 10.0), 4.0);
+    monitored.tape.hold(2.9);
+    monitored.tape.fly((40.0, -5.0, 10.0), 4.0);
+    monitored.tape.hold(3.0);
+    assert!(off_path(monitored.run()));
+}
+
+#[test]
+fn regress_crossing_another_path_does_not_change_the_task() {
+    let mut scenario = one_task();
+    // The second path crosses the first one at 40 m.
+    scenario.tasks.push(task(2, line((40.0, 3.0, 10.0), (40.0, 40.0, 10.0)), 2.0));
+    let mut monitored = MonitoredFlight::of(scenario);
+    monitored.tape.fly((20.0, 0.0, 10.0), 4.0);
+    monitored.tape.fly((40.0, 3.5, 10.0), 4.0);
+    monitored.tape.fly((36.0, 3.5, 10.0), 4.0);
+    monitored.tape.hold(2.0);
+    monitored.run();
+    assert_eq!(monitored.texts, ["Off path 3.5 m: back"], "from the first path, not from the second one");
+}
+
+/// Returns the job with one task whose path is 6 m south of a wall.
+fn task_at_wall() -> spandrel_model::scenario::Scenario {
+    let mut scenario = one_task();
+    let toward_surface = vec![Vec3::new(0.0, 1.0, 0.0); scenario.tasks[0].path_m.len()];
+    scenario.tasks[0].stand_off = Some(StandOff { recommended_m: 6.0, tolerance_m: 3.0, toward_surface });
+    scenario
+}
+
+#[test]
+fn exact_stand_off_cue_states_actual_and_recommended_distance() {
+    let both = cue::STAND_OFF | cue::OFF_PATH;
+    for (to_m, cues, text) in [
+        ((40.0, -4.0, 10.0), both, "Stand-off too large: 10.0 m, recommended 6 m"),
+        ((40.0, 4.5, 10.0), both, "Stand-off too small: 1.5 m, recommended 6 m"),
+        // 4 m below the path, and too far below to correct only the stand-off.
+        ((40.0, 0.0, 6.0), cue::OFF_PATH, "Off path 4.0 m: up"),
+        ((40.0, -4.0, 6.0), cue::OFF_PATH, "Off path 5.7 m: forward and up"),
+    ] {
+        let mut monitored = MonitoredFlight::of(task_at_wall());
+        monitored.tape.fly((40.0, 0.0, 10.0), 4.0);
+        monitored.tape.fly(to_m, 4.0);
+        monitored.tape.hold(1.5);
+        monitored.run();
+        assert_eq!((monitored.monitor.cues(), monitored.texts.as_slice()), (cues, [text.to_owned()].as_slice()), "{to_m:?}");
+    }
+}
+
+#[test]
+fn exact_stand_off_cue_needs_no_off_path_cue() {
+    let mut scenario = task_at_wall();
+    scenario.tasks[0].stand_off.as_mut().unwrap().tolerance_m = 1.0;
+    let mut monitored = MonitoredFlight::of(scenario);
+    monitored.tape.fly((40.0, -0.9, 10.0), 4.0);
+    monitored.tape.hold(2.0);
+    monitored.run();
+    assert_eq!(monitored.monitor.cues(), 0, "within the tolerance");
+    monitored.tape.fly((40.0, -1.1, 10.0), 4.0);
+    monitored.tape.hold(2.0);
+    monitored.run();
+    assert_eq!((monitored.monitor.cues(), monitored.texts.len()), (cue::STAND_OFF, 1));
+    assert_eq!(monitored.texts, ["Stand-off too large: 7.1 m, recommended 6 m"]);
 }
 
 #[test]
@@ -121,7 +226,7 @@ fn exact_too_close_cue_has_hysteresis() {
         monitored.run();
         assert_eq!(monitored.has(cue::TOO_CLOSE), on, "{meters} m");
     }
-    assert_eq!(monitored.texts, ["Too close: 2.4 m"]);
+    assert_eq!(monitored.texts, ["Too close: 2.4 m, limit 2.5 m"]);
 }
 
 #[test]
@@ -183,6 +288,39 @@ fn exact_speeding_cue_is_raised_only_on_or_near_path() {
 }
 
 #[test]
+fn exact_speeding_cue_has_margin_hysteresis_and_minimum_duration() {
+    // The limit is 4.4704 m/s (10 mph), and the margin 5%: 4.694 m/s.
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((20.0, 0.0, 10.0), 4.0);
+    monitored.tape.fly((25.0, 0.0, 10.0), 4.68);
+    assert!(monitored.run().iter().all(|(_, cues)| cues & cue::SPEEDING == 0), "within the margin");
+    monitored.tape.fly((30.0, 0.0, 10.0), 4.7);
+    monitored.tape.fly((40.0, 0.0, 10.0), 4.5);
+    monitored.run();
+    assert!(monitored.has(cue::SPEEDING), "still above the limit");
+    assert_eq!(monitored.texts, ["Too fast: 11 mph, limit 10 mph"]);
+    monitored.tape.hold(0.6);
+    monitored.run();
+    assert!(!monitored.has(cue::SPEEDING));
+    // Above the margin for 0.2 s: the cue stays on for a second.
+    monitored.tape.fly((41.0, 0.0, 10.0), 5.0);
+    monitored.tape.hold(3.0);
+    let on: Vec<u32> = monitored.run().iter().filter(|(_, cues)| cues & cue::SPEEDING != 0).map(|(time, _)| *time).collect();
+    let shown = on.last().unwrap() - on.first().unwrap();
+    assert!((960..1_000).contains(&shown), "{shown} ms");
+}
+
+#[test]
+fn exact_speeding_text_has_the_unit_of_the_limit() {
+    let mut scenario = one_task();
+    (scenario.scoring.speed_limit_m_s, scenario.scoring.speed_limit_unit) = (4.5, SpeedUnit::MetersPerSecond);
+    let mut monitored = MonitoredFlight::of(scenario);
+    monitored.tape.fly((25.0, 0.0, 10.0), 4.8);
+    monitored.run();
+    assert_eq!(monitored.texts, ["Too fast: 4.8 m/s, limit 4.5 m/s"]);
+}
+
+#[test]
 fn exact_texts_of_one_rule_are_rate_limited() {
     let mut monitored = MonitoredFlight::in_flight();
     for _ in 0..20 {
@@ -204,7 +342,7 @@ fn exact_crash_is_reported_immediately_and_first() {
     monitored.tape.contact(1);
     let cues = monitored.run();
     assert!(cues.last().unwrap().1 & cue::CRASH != 0, "the cue is not on after the datagram with the contact");
-    assert_eq!(monitored.texts, ["Too close: 2.0 m", "Crash: fence"]);
+    assert_eq!(monitored.texts, ["Too close: 2.0 m, limit 2.5 m", "Crash: fence"]);
     monitored.tape.contact(0);
     monitored.tape.hold(1.9);
     monitored.run();
@@ -251,7 +389,7 @@ fn exact_too_close_cue_works_below_pad_height() {
     monitored.tape.hold(0.1);
     monitored.run();
     assert!(monitored.has(cue::TOO_CLOSE));
-    assert_eq!(monitored.texts.last().unwrap(), "Too close: 2.0 m");
+    assert_eq!(monitored.texts.last().unwrap(), "Too close: 2.0 m, limit 2.5 m");
 }
 
 #[test]

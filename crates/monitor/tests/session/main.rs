@@ -4,6 +4,7 @@
 mod chunked_reading;
 mod completion;
 mod corrupt_input;
+mod cue_validity;
 mod exported_frames;
 mod feedback;
 mod link;

@@ -19,10 +19,11 @@ const MIN_STICK_CHANGE: f64 = 0.1;
 const MAX_REACTION_S: f64 = 5.0;
 
 /// The cues in display order.
-pub const KINDS: [CueKind; 6] = [
+pub const KINDS: [CueKind; 7] = [
     CueKind { bit: cue::CRASH, name: "crash", expects_reaction: true },
     CueKind { bit: cue::TOO_CLOSE, name: "too close", expects_reaction: true },
     CueKind { bit: cue::SPEEDING, name: "speeding", expects_reaction: true },
+    CueKind { bit: cue::STAND_OFF, name: "stand-off", expects_reaction: true },
     CueKind { bit: cue::OFF_PATH, name: "off path", expects_reaction: true },
     CueKind { bit: cue::BATTERY_YELLOW, name: "battery yellow", expects_reaction: false },
     CueKind { bit: cue::BATTERY_RED, name: "battery red", expects_reaction: false },

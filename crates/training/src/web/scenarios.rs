@@ -67,7 +67,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
             dt { "Defects to find" } dd { (scenario.defects.count) }
             dt { "Traffic" } dd { (scenario.traffic.cars) " cars, " (scenario.traffic.trucks) " trucks, " (scenario.traffic.pedestrians) " pedestrians" }
             dt { "Wind" } dd { (formatting::number(scenario.wind.speed_m_s, 1)) " m/s from " (formatting::number(scenario.wind.from_deg, 0)) "°" }
-            dt { "Speed limit" } dd { (formatting::number(s.speed_limit_m_s, 2)) " m/s" }
+            dt { "Speed limit" } dd { (s.speed_limit_unit.format_limit(s.speed_limit_m_s)) }
             dt { "Time" } dd { "full score up to " (formatting::duration(s.time_best_s)) ", at most " (formatting::duration(s.time_max_s)) }
         }
     };

@@ -5,8 +5,9 @@ use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
 use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TITLE_SIZE, text_width};
 use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, layout};
-use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
+use spandrel_model::speed_unit::SpeedUnit;
 
 /// Embedded JPEG pictures by name.
 pub const PICTURES: [(&str, &[u8]); 9] = [
@@ -176,7 +177,9 @@ fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
 
 fn warnings(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
-    let display = Hud { hit: Some("pier".into()), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(0b11_1100) };
+    let texts = ["Crash: pier", "Too close: 1.2 m, limit 2.5 m", "Too fast: 12 mph, limit 10 mph", "Off path 3.4 m: left and up"];
+    let cues = cue::CRASH | cue::TOO_CLOSE | cue::SPEEDING | cue::OFF_PATH;
+    let display = Hud { cue_texts: texts.into_iter().collect(), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(cues) };
     inset(pen, &layout(&display, PICTURE_ASPECT), frame);
     label(pen, frame, "warnings", (0.62, 0.68), (0.36, 0.80));
     label(pen, frame, "low battery", (0.62, 0.22), (0.86, 0.085));
@@ -227,11 +230,12 @@ fn example(cues: i32) -> Hud {
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 10.0 * spandrel_model::math::M_S_PER_MPH,
+        limit_unit: SpeedUnit::MilesPerHour,
         battery_pct: Some(86.0),
         min_green_pct: 70.0,
         min_yellow_pct: 30.0,
         cues,
-        hit: None,
+        cue_texts: CueTexts::default(),
         height_m: 12.0,
         home_distance_m: 118.0,
         mode: "Position".into(),

@@ -1,7 +1,7 @@
 //! Warnings at the lower left, with the most serious at the bottom.
 
 use super::icons::IconShape;
-use super::metrics::{BLOCK_GAP, EDGE_MARGIN, M_S_PER_MPH, MEDIUM_FONT_SIZE};
+use super::metrics::{BLOCK_GAP, EDGE_MARGIN, MEDIUM_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{text_width, wrap_text};
@@ -27,23 +27,27 @@ pub struct ActiveCue {
     pub shape: IconShape,
     /// Color of the icon and text.
     pub color: HudColor,
-    /// Message text.
-    pub text: &'static str,
-    /// Additional detail, such as the speed limit.
-    pub detail: Option<String>,
+    /// Name of the cue, in capitals.
+    pub name: String,
+    /// The rest of the monitor's text, such as ": fence" after "CRASH"; empty if there is no text.
+    pub detail: String,
 }
 
 /// Returns the active cues, the most serious first.
 pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
-    let limit = format!("limit {:.0} mph", hud.limit_m_s / M_S_PER_MPH);
     let all = [
-        (cue::CRASH, IconShape::Octagon, HudColor::Red, "CRASH", hud.hit.clone()),
-        (cue::TOO_CLOSE, IconShape::Diamond, HudColor::Orange, "TOO CLOSE", None),
-        (cue::SPEEDING, IconShape::Triangle, HudColor::Yellow, "TOO FAST", Some(limit)),
-        (cue::OFF_PATH, IconShape::Disc, HudColor::Blue, "OFF THE PATH", None),
+        (cue::CRASH, IconShape::Octagon, HudColor::Red),
+        (cue::TOO_CLOSE, IconShape::Diamond, HudColor::Orange),
+        (cue::SPEEDING, IconShape::Triangle, HudColor::Yellow),
+        (cue::STAND_OFF, IconShape::Disc, HudColor::Blue),
+        (cue::OFF_PATH, IconShape::Disc, HudColor::Blue),
     ];
-    let on = all.into_iter().filter(|(bit, ..)| hud.cues & bit != 0);
-    on.map(|(_, shape, color, words, detail)| ActiveCue { shape, color, text: words, detail }).collect()
+    let on = all.into_iter().filter(|(bit, ..)| cue::displayed(hud.cues) & bit != 0);
+    let active = |(bit, shape, color)| {
+        let (bits, detail) = cue::of_text(hud.cue_texts.text(bit)?)?;
+        Some(ActiveCue { shape, color, name: cue::label(bits)?.to_uppercase(), detail: detail.to_owned() })
+    };
+    on.filter_map(active).collect()
 }
 
 fn width(words: &str) -> f64 {
@@ -55,8 +59,8 @@ pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let room = right - EDGE_MARGIN - ICON_INDENT - TEXT_MARGIN;
     let mut bottom = pane.height - EDGE_MARGIN;
     let mut items = Vec::new();
-    for ActiveCue { shape, color, text: words, detail } in warnings(hud) {
-        let words = detail.map_or_else(|| words.to_owned(), |detail| format!("{words}: {detail}"));
+    for ActiveCue { shape, color, name, detail } in warnings(hud) {
+        let words = name + &detail;
         let lines = wrap_text(&words, MAX_LINES, |line| width(line) <= room);
         let top = bottom - MESSAGE_HEIGHT - LINE_HEIGHT * (lines.len() - 1) as f64;
         let wide = ICON_INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + TEXT_MARGIN;

@@ -8,5 +8,3 @@ pub(super) const BLOCK_GAP: f64 = 0.01;
 pub(super) const LARGE_FONT_SIZE: f64 = 0.052;
 pub(super) const MEDIUM_FONT_SIZE: f64 = 0.034;
 pub(super) const SMALL_FONT_SIZE: f64 = 0.027;
-/// Meters per second in one mile per hour.
-pub(super) const M_S_PER_MPH: f64 = spandrel_model::math::M_S_PER_MPH;

@@ -1,6 +1,6 @@
 //! Tests that HUD items do not overlap, in pictures of any aspect ratio and size.
 
-use super::tests::{ALL_CUES, hud};
+use super::tests::{ALL_CUES, crash, hud};
 use super::text_metrics::text_width;
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout};
@@ -121,7 +121,7 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
 /// map.
 fn states() -> Vec<(&'static str, Hud)> {
     let dark = |satellites| Some(GnssStatus { has_fix: false, satellites });
-    let hit = |words: &str| Hud { cues: ALL_CUES, hit: Some(words.to_owned()), ..hud() };
+    let hit = |words: &str| Hud { cues: ALL_CUES, cue_texts: crash(words), ..hud() };
     let track =
         |id, east| MapPath { id, path_m: vec![Vec3::new(east, 150.0, 30.0), Vec3::new(-90.0, 20.0, 30.0)], closed: id == 2 };
     let full = Hud {
@@ -210,7 +210,7 @@ fn prop_status_text_does_not_cover_the_hud() {
 
 #[test]
 fn prop_inset_view_does_not_cover_the_hud() {
-    let all = Hud { cues: ALL_CUES, hit: Some("suspension bridge, tower leg".into()), zoom: 2.0, ..hud() };
+    let all = Hud { cues: ALL_CUES, cue_texts: crash("suspension bridge, tower leg"), zoom: 2.0, ..hud() };
     let [_, eyes] = ViewLayout::Camera.view_rects();
     assert_eq!(eyes.which, ViewKind::Inspector);
     let small = [eyes.left, eyes.top, eyes.left + eyes.width, eyes.top + eyes.height];

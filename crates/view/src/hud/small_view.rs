@@ -41,9 +41,9 @@ pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<Draw
         top += ROW_HEIGHT + BLOCK_GAP;
     }
     let rows = ((pane.height - EDGE_MARGIN - top + BLOCK_GAP) / (ROW_HEIGHT + BLOCK_GAP)).floor().max(0.0) as usize;
-    for (k, ActiveCue { shape, color, text: words, .. }) in warnings(hud).into_iter().take(rows).enumerate() {
+    for (k, ActiveCue { shape, color, name, .. }) in warnings(hud).into_iter().take(rows).enumerate() {
         let y = pane.height - EDGE_MARGIN - ROW_HEIGHT - (ROW_HEIGHT + BLOCK_GAP) * k as f64;
-        items.extend(block(pane, (EDGE_MARGIN, y), Some((shape, true)), color, words));
+        items.extend(block(pane, (EDGE_MARGIN, y), Some((shape, true)), color, &name));
     }
     items
 }

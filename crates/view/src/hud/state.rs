@@ -1,6 +1,8 @@
 //! Inputs of the head-up display.
 
+use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::speed_unit::SpeedUnit;
 
 /// GNSS fix and satellite count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +42,8 @@ pub struct Hud {
     pub speed_m_s: f64,
     /// Speed limit, m/s.
     pub limit_m_s: f64,
+    /// Unit in which the speed limit is displayed.
+    pub limit_unit: SpeedUnit,
     /// Battery level, %.
     pub battery_pct: Option<f64>,
     /// Minimum battery level for a green display, %.
@@ -48,8 +52,8 @@ pub struct Hud {
     pub min_yellow_pct: f64,
     /// Mask of active cues, encoded as in `cues` (docs/src/reference/wire.md, "The monitor").
     pub cues: i32,
-    /// Object that the drone hit, if the monitor has reported it.
-    pub hit: Option<String>,
+    /// The monitor's texts for the active cues.
+    pub cue_texts: CueTexts,
     /// Height above the pad, m.
     pub height_m: f64,
     /// Horizontal distance from the pad, m.

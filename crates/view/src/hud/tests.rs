@@ -1,23 +1,30 @@
 //! Tests of the HUD's texts, colors, and positions.
 
 use super::*;
-use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
+use spandrel_model::speed_unit::SpeedUnit;
 
 const WIDE_ASPECT: f64 = 16.0 / 9.0;
 /// All cues shown in the lower left corner.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
+
+/// Returns the monitor's text for a crash into an object.
+pub(super) fn crash(object: &str) -> CueTexts {
+    [format!("Crash: {object}").as_str()].into_iter().collect()
+}
 
 /// Returns the HUD during a normal flight.
 pub(super) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,
         limit_m_s: 4.4704,
+        limit_unit: SpeedUnit::MilesPerHour,
         battery_pct: Some(76.0),
         min_green_pct: 70.0,
         min_yellow_pct: 30.0,
         cues: 0,
-        hit: None,
+        cue_texts: CueTexts::default(),
         height_m: 21.4,
         home_distance_m: 118.0,
         mode: "Position".into(),
@@ -68,12 +75,12 @@ fn regress_hud_in_normal_flight() {
 
 #[test]
 fn exact_item_positions_match_the_assessment_rules() {
-    let all = Hud { cues: ALL_CUES, hit: Some("bridge".into()), ..hud() };
+    let all = Hud { cues: ALL_CUES, cue_texts: crash("bridge"), ..hud() };
     let speed = find(&all, "3.2 m/s").unwrap().0;
     assert!(speed.x < 0.3 && speed.y < 0.2, "the speed must be at the upper left");
     let battery = find(&all, "76%").unwrap().0;
     assert!(battery.x > 0.7 && battery.y < 0.2, "the battery must be at the upper right");
-    for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF THE PATH"] {
+    for words in ["CRASH: bridge", "TOO CLOSE", "TOO FAST", "OFF PATH"] {
         let place = find(&all, words).unwrap().0;
         assert!(place.x < 0.5 && place.y > 0.5, "{words} must be at the lower left");
         assert!(find(&hud(), words).is_none(), "{words} must not appear without its cue");
@@ -103,7 +110,7 @@ fn exact_lost_link_and_lost_fix_are_shown() {
 
 #[test]
 fn prop_items_stay_inside_at_any_aspect_ratio() {
-    let states = [hud(), Hud { cues: ALL_CUES, hit: Some("pedestrian 3".into()), zoom: 2.0, ..hud() }];
+    let states = [hud(), Hud { cues: ALL_CUES, cue_texts: crash("pedestrian 3"), zoom: 2.0, ..hud() }];
     for aspect in [4.0 / 3.0, WIDE_ASPECT, 21.0 / 9.0] {
         for state in &states {
             for item in layout(state, aspect) {
@@ -142,21 +149,26 @@ fn changed_texts(hud: &Hud) -> Vec<String> {
 fn exact_texts_are_correct_in_every_abnormal_state() {
     let gnss = |fixed, satellites| Hud { gnss: Some(GnssStatus { has_fix: fixed, satellites }), ..hud() };
     let warned = |cues| Hud { cues, ..hud() };
-    let crash = "Red: CRASH: bridge member arch/rib-left/07";
-    let hit = Some("bridge member arch/rib-left/07".to_owned());
-    let states: [(Hud, &[&str]); 18] = [
+    let said = |text: &str, cues| Hud { cue_texts: [text].into_iter().collect(), ..warned(cues) };
+    let member = crash("bridge member arch/rib-left/07");
+    let hit = "Red: CRASH: bridge member arch/rib-left/07";
+    let states: [(Hud, &[&str]); 22] = [
         (hud(), &[]),
         (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52%"]),
         (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17%"]),
         (Hud { battery_pct: None, ..hud() }, &["Gray: no battery data"]),
-        (warned(cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST: limit 10 mph"]),
-        (warned(cue::OFF_PATH), &["Blue: OFF THE PATH"]),
+        (warned(cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST"]),
+        (said("Too fast: 11 mph, limit 10 mph", cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST: 11 mph, limit 10 mph"]),
+        (warned(cue::OFF_PATH), &["Blue: OFF PATH"]),
+        (said("Off path 3.4 m: left and up", cue::OFF_PATH), &["Blue: OFF PATH 3.4 m: left and up"]),
+        (warned(cue::STAND_OFF | cue::OFF_PATH), &["Blue: STAND-OFF"]),
+        (Hud { limit_m_s: 4.5, limit_unit: SpeedUnit::MetersPerSecond, ..hud() }, &["Gray: limit 4.5 m/s"]),
         (warned(cue::TOO_CLOSE), &["Orange: TOO CLOSE"]),
         (warned(cue::CRASH), &["Red: CRASH"]),
-        (Hud { hit: hit.clone(), ..warned(cue::CRASH) }, &[crash]),
+        (Hud { cue_texts: member.clone(), ..warned(cue::CRASH) }, &[hit]),
         (
-            Hud { hit, ..warned(ALL_CUES) },
-            &["Yellow: 3.2 m/s", crash, "Orange: TOO CLOSE", "Yellow: TOO FAST: limit 10 mph", "Blue: OFF THE PATH"],
+            Hud { cue_texts: member, ..warned(ALL_CUES) },
+            &["Yellow: 3.2 m/s", hit, "Orange: TOO CLOSE", "Yellow: TOO FAST", "Blue: OFF PATH"],
         ),
         (warned(cue::BATTERY_RED), &[]),
         (gnss(true, 255), &["White: Position   GNSS ok   link ok"]),

@@ -10,6 +10,7 @@ pub use warnings::spoken;
 
 use propellers::Propellers;
 use smoothing::SmoothedValue;
+use spandrel_mavlink::contract::cue::CueTexts;
 use warnings::WarningTones;
 
 /// Fraction of full scale available to each source; prevents clipping.
@@ -44,6 +45,8 @@ pub struct SoundInputs {
     pub distance_m: f64,
     /// Mask of active cues, as in the HUD.
     pub cues: i32,
+    /// The monitor's texts for the active cues.
+    pub cue_texts: CueTexts,
     /// Whether all sound is off, because it is muted or the flight is paused.
     pub silent: bool,
 }

@@ -1,13 +1,13 @@
 //! Tests of frequencies, levels, silence, and absence of clicks.
 
 use super::propellers::BLADES_PER_PROPELLER;
-use super::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, spoken};
-use spandrel_mavlink::contract::cue;
+use super::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
+use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 
 fn sound_inputs(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
-    SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, silent: false }
+    SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, cue_texts: CueTexts::default(), silent: false }
 }
 
 /// Returns `seconds` of sound, recorded after the levels have settled for one second.
@@ -73,9 +73,20 @@ fn exact_only_the_most_severe_warning_sounds_at_its_pitch() {
     let all = cues.into_iter().fold(0, |mask, cue| mask | cue);
     let samples = render_sound(&mut FlightSound::new(only(true, true)), sound_inputs(0.0, 1.0, all), 6.0);
     assert!(amplitude(&samples, 220.0) > 10.0 * amplitude(&samples, 1_050.0), "a crash must have priority");
-    assert_eq!(spoken(0, all), Some("Crash"));
-    assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH), Some("Off the path"));
-    assert_eq!(spoken(all, cue::SPEEDING), None);
+}
+
+#[test]
+fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
+    let texts: CueTexts = ["Off path 3.4 m: left and up", "Too fast: 11 mph, limit 10 mph", "Battery 29%"].into_iter().collect();
+    let spoken = |before, now| super::spoken(before, now, &texts);
+    assert_eq!(spoken(0, cue::CRASH | cue::SPEEDING).as_deref(), Some("Crash"));
+    let off = Some("Off path 3.4 meters: left and up");
+    assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH).as_deref(), off);
+    assert_eq!(spoken(0, cue::SPEEDING).as_deref(), Some("Too fast: 11 miles per hour, limit 10 miles per hour"));
+    assert_eq!(spoken(0, cue::BATTERY_RED).as_deref(), Some("Battery 29 percent"));
+    assert_eq!(spoken(0, cue::STAND_OFF | cue::OFF_PATH).as_deref(), Some("Stand-off"), "not the off-path cue");
+    assert_eq!(spoken(cue::STAND_OFF | cue::OFF_PATH, cue::OFF_PATH).as_deref(), off);
+    assert_eq!(spoken(cue::CRASH | cue::SPEEDING, cue::SPEEDING), None);
 }
 
 #[test]
@@ -115,7 +126,8 @@ fn prop_sound_never_clips_or_clicks() {
             sound.set(SoundInputs {
                 rotors_rad_s: (0..(any(9.0) as usize)).map(|_| any(4_000.0) - 500.0).collect(),
                 distance_m: any(300.0) - 10.0,
-                cues: any(64.0) as i32,
+                cues: any(128.0) as i32,
+                cue_texts: CueTexts::default(),
                 silent: any(1.0) < 0.2,
             });
             let mut out = vec![0.0_f32; 240 + any(2_000.0) as usize];

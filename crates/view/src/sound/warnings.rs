@@ -1,7 +1,7 @@
 //! Warning tones, distinguished by pitch and rhythm. Only the tone of the most serious warning sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
-use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
 
 /// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.
@@ -13,23 +13,40 @@ struct Tone {
     hz: f64,
     on_time_s: f64,
     period_s: f64,
-    speech: &'static str,
 }
 
 /// Tones in order of severity. Pitches and rhythms are estimates: a fifth or more apart, with faster rhythms for more
-/// urgent warnings (modeled on the bursts in ISO 7731 and IEC 60601-1-8).
-const TONES: [Tone; 5] = [
-    Tone { cue: cue::CRASH, hz: 220.0, on_time_s: 0.35, period_s: 0.5, speech: "Crash" },
-    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_time_s: 0.09, period_s: 0.18, speech: "Too close" },
-    Tone { cue: cue::SPEEDING, hz: 700.0, on_time_s: 0.15, period_s: 0.6, speech: "Too fast" },
-    Tone { cue: cue::OFF_PATH, hz: 440.0, on_time_s: 0.25, period_s: 1.2, speech: "Off the path" },
-    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_time_s: 0.4, period_s: 3.0, speech: "Battery low" },
+/// urgent warnings (modeled on the bursts in ISO 7731 and IEC 60601-1-8). Both cues about the position have the same pitch.
+const TONES: [Tone; 6] = [
+    Tone { cue: cue::CRASH, hz: 220.0, on_time_s: 0.35, period_s: 0.5 },
+    Tone { cue: cue::TOO_CLOSE, hz: 1_050.0, on_time_s: 0.09, period_s: 0.18 },
+    Tone { cue: cue::SPEEDING, hz: 700.0, on_time_s: 0.15, period_s: 0.6 },
+    Tone { cue: cue::STAND_OFF, hz: 440.0, on_time_s: 0.1, period_s: 1.2 },
+    Tone { cue: cue::OFF_PATH, hz: 440.0, on_time_s: 0.25, period_s: 1.2 },
+    Tone { cue: cue::BATTERY_RED, hz: 330.0, on_time_s: 0.4, period_s: 3.0 },
 ];
 
-/// Returns the spoken warning for the most serious cue that has just become active.
+/// Returns the spoken warning for the most serious cue that has just become active: the text that is displayed, with its
+/// units in words.
 #[must_use]
-pub fn spoken(before: i32, now: i32) -> Option<&'static str> {
-    TONES.iter().find(|tone| now & !before & tone.cue != 0).map(|tone| tone.speech)
+pub fn spoken(before: i32, now: i32, texts: &CueTexts) -> Option<String> {
+    let new = cue::displayed(now) & !cue::displayed(before);
+    let tone = TONES.iter().find(|tone| new & tone.cue != 0)?;
+    texts.text(tone.cue).map(units_in_words)
+}
+
+/// Units and how they are spoken.
+const SPOKEN_UNITS: [(&str, &str); 3] = [("m", "meters"), ("mph", "miles per hour"), ("m/s", "meters per second")];
+
+fn units_in_words(text: &str) -> String {
+    let spoken = |word: &str| {
+        let (unit, mark) = word.strip_suffix([':', ',']).map_or((word, ""), |unit| (unit, &word[unit.len()..]));
+        match SPOKEN_UNITS.iter().find(|(symbol, _)| *symbol == unit) {
+            Some((_, words)) => format!("{words}{mark}"),
+            None => word.replace('%', " percent"),
+        }
+    };
+    text.split(' ').map(spoken).collect::<Vec<_>>().join(" ")
 }
 
 /// Oscillator of the warning tones.

@@ -1,12 +1,13 @@
 //! Pictures whose content any viewer must recognize, compared with committed pictures.
 
 use super::compare::{Difference, check_picture, check_picture_at, side_by_side};
-use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::defect_codes;
 use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
@@ -242,11 +243,12 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,
+        limit_unit: SpeedUnit::MilesPerHour,
         battery_pct: Some(86.0),
         min_green_pct: 70.0,
         min_yellow_pct: 30.0,
         cues: 0,
-        hit: None,
+        cue_texts: CueTexts::default(),
         height_m: position_m.up() - studio.scenario.ground_team.pad_m.up(),
         home_distance_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
         mode: "Position".into(),
@@ -281,12 +283,13 @@ fn regress_both_views_in_every_hud_state() {
             hud.battery_pct = Some(52.0);
             hud.speed_m_s = 6.1;
             hud.cues = cue::SPEEDING | cue::OFF_PATH;
+            hud.cue_texts = ["Too fast: 14 mph, limit 10 mph", "Off path 3.4 m: left and up"].into_iter().collect();
             hud.shutter = true;
         }),
         ("red-battery-crash-too-close", pier, |hud| {
             hud.battery_pct = Some(17.0);
             hud.cues = cue::CRASH | cue::TOO_CLOSE;
-            hud.hit = Some("bridge".into());
+            hud.cue_texts = ["Crash: bridge", "Too close: 1.2 m, limit 2.5 m"].into_iter().collect();
             hud.remaining_s = 71.0;
         }),
         ("lamp-zoom-no-satellites", between, |hud| {
