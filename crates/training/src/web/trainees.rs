@@ -83,9 +83,10 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
         p { "Fly between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "It has been a long time since the last flight, and skills fade without practice." } } }
         ol.steps {
             @for step in &plan.steps {
-                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
+                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } } }
             }
         }
+        @if let Some(note) = &plan.note { p.note { (note) } }
         @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "Changes" }
