@@ -87,6 +87,9 @@ fn plan_text(plan: &TrainingPlan) -> String {
             let _ = writeln!(out, "   {label}{}", reason.words);
         }
     }
+    for drill in &plan.drills {
+        let _ = writeln!(out, "Drill {}: {}", drill.scenario, drill.words());
+    }
     if let Some(note) = &plan.note {
         let _ = writeln!(out, "{note}");
     }

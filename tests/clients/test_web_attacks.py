@@ -59,6 +59,8 @@ def forms(sessions):
         "/trainees/anna/details": ("/trainees/anna", {"age_band": "25-34"}),
         "/trainees/nobody/erase": ("/trainees", {"again": "nobody"}),
         "/scenarios/none/remove": ("/scenarios", {}),
+        "/plan-rules": ("/plan-rules", {"rules": "format = 1"}),
+        "/plan-rules/reset": ("/plan-rules", {}),
         "/live/act": ("/sessions", {"act": "note", "text": "x"}),
         "/settings/login": ("/settings", {"name": "eve", "role": "trainee", "password": webserver.PASSWORD}),
         "/settings/no-login": ("/settings", {"name": "nobody"}),
@@ -85,7 +87,7 @@ def test_cross_site_requests_are_rejected(server, sessions):
         assert status in (200, 404, 405), (path, status)
     status, _, text = ada.ask("/settings")
     assert status == 200 and "eve" not in text
-    for path in ("/scenarios", "/upload"):
+    for path in ("/scenarios", "/upload", "/plan-rules/upload"):
         status, _, _ = ada.upload("/sessions", path, {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}, b"x", token="0" * 64)
         assert status == 403, path
 

@@ -6,6 +6,8 @@ use spandrel_model::math;
 
 /// A finding with its urgency and its cause.
 pub(super) struct RankedFinding<'a> {
+    /// Index in the ranking.
+    pub index: usize,
     pub finding: Finding<'a>,
     pub urgency: f64,
     /// Index of the finding that causes this one, directly or indirectly, and has no cause itself; `None` for a cause.
@@ -21,8 +23,10 @@ fn urgency(finding: &Finding<'_>) -> f64 {
 /// Ranks findings above their limits, most urgent first, and assigns causes. If several findings explain one, the most
 /// urgent counts. Rules can't explain themselves, so every chain of causes ends.
 pub(super) fn rank(findings: Vec<Finding<'_>>) -> Vec<RankedFinding<'_>> {
-    let mut ranked: Vec<RankedFinding<'_>> =
-        findings.into_iter().map(|finding| RankedFinding { urgency: urgency(&finding), finding, cause: None }).collect();
+    let mut ranked: Vec<RankedFinding<'_>> = findings
+        .into_iter()
+        .map(|finding| RankedFinding { index: 0, urgency: urgency(&finding), finding, cause: None })
+        .collect();
     ranked.sort_by(|a, b| b.urgency.total_cmp(&a.urgency));
     let direct: Vec<Option<usize>> = ranked.iter().map(|effect| direct_cause(&ranked, effect)).collect();
     for (index, one) in ranked.iter_mut().enumerate() {
@@ -30,7 +34,7 @@ pub(super) fn rank(findings: Vec<Finding<'_>>) -> Vec<RankedFinding<'_>> {
         while let Some(next) = cause.and_then(|at| direct[at]) {
             cause = Some(next);
         }
-        one.cause = cause;
+        (one.index, one.cause) = (index, cause);
     }
     ranked
 }

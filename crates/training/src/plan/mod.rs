@@ -4,13 +4,15 @@
 mod causes;
 mod changes;
 mod finding;
+mod mastery;
 mod measure;
 mod rules;
 mod wording;
 
 pub use changes::{MeasureChange, SessionChanges};
+pub use mastery::{DrillProgress, meets_criterion};
 pub use measure::{MEASURES, MeasureUnit, RuleMeasure, SessionMeasure, TaskMeasure};
-pub use rules::{DEFAULT_RULES, PlanRule, PlanRules, read_rules};
+pub use rules::{DEFAULT_RULES, DrillCriterion, PlanRule, PlanRules, read_rules};
 
 use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
 use causes::RankedFinding;
@@ -39,6 +41,8 @@ pub struct TrainingPlan {
     pub changes: Option<SessionChanges>,
     /// Number of incomplete sessions excluded from the plan.
     pub left_out: usize,
+    /// Progress on the drills that were flown or are recommended.
+    pub drills: Vec<DrillProgress>,
     /// Note that the latest session is incomplete and counts nevertheless; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
@@ -76,8 +80,19 @@ pub struct PlanReason {
 /// Creates a plan from one trainee's records in chronological order; `None` if there are no records.
 #[must_use]
 pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> Option<TrainingPlan> {
+    plan_from(records, mastery::progress(records, rules), rules, now_unix_us)
+}
+
+/// Creates a plan from the records that count and the progress on the drills.
+fn plan_from(
+    records: &[SessionRecord],
+    mut drills: Vec<DrillProgress>,
+    rules: &PlanRules,
+    now_unix_us: u64,
+) -> Option<TrainingPlan> {
     let last = records.last()?;
-    let mut steps = recommended_steps(records, rules);
+    let mut steps = recommended_steps(records, &drills, rules);
+    add_begun_drills(&mut steps, &drills, last);
     steps.truncate(rules.steps);
     let days = now_unix_us.saturating_sub(last.started_unix_us) as f64 / DAY_US;
     let overdue = days > rules.retention_days;
@@ -87,6 +102,7 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
     } else if steps.is_empty() {
         steps.push(single_reason_step(&rules.job, last, ("job", rules.job_reason.clone()), (0.0, 0.0)));
     }
+    drills.retain(|drill| drill.sessions > 0 || steps.iter().any(|step| step.scenario == drill.scenario));
     let after = |days: f64| last.started_unix_us.saturating_add((days * DAY_US) as u64);
     Some(TrainingPlan {
         trainee: last.trainee.clone(),
@@ -97,6 +113,7 @@ pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> O
         overdue,
         changes: changes::changes(records),
         left_out: 0,
+        drills,
         note: None,
     })
 }
@@ -112,10 +129,12 @@ pub fn plan_for_policy(
     now_unix_us: u64,
 ) -> Option<TrainingPlan> {
     let newest = records.last()?.clone();
+    // An attempt that was broken off is a session in which the criterion was not met.
+    let drills = mastery::progress(&records, rules);
     let all = records.len();
     records.retain(|record| incomplete.counts(record) || record.id == newest.id);
     let left_out = all - records.len();
-    let plan = plan(&records, rules, now_unix_us)?;
+    let plan = plan_from(&records, drills, rules, now_unix_us)?;
     if incomplete.counts(&newest) {
         return Some(TrainingPlan { left_out, ..plan });
     }
@@ -126,19 +145,42 @@ pub fn plan_for_policy(
     Some(TrainingPlan { left_out, changes: None, note: Some(note), ..plan })
 }
 
-/// Returns the scenarios that the rules recommend, most urgent first.
-fn recommended_steps(records: &[SessionRecord], rules: &PlanRules) -> Vec<PlanStep> {
+/// Returns the scenarios that the rules recommend, most urgent first, except drills that were done after the flight that
+/// calls for them.
+fn recommended_steps(records: &[SessionRecord], drills: &[DrillProgress], rules: &PlanRules) -> Vec<PlanStep> {
     let findings = rules.rules.iter().flat_map(|rule| finding::findings(rule, records));
     let ranked = causes::rank(findings.filter(|finding| finding.value > finding.rule.limit).collect());
     let mut steps: Vec<PlanStep> = Vec::new();
-    let is_cause = |one: &&RankedFinding<'_>| one.cause.is_none();
-    for one in ranked.iter().filter(is_cause).chain(ranked.iter().filter(|one| one.cause.is_some())) {
+    let is_open = |one: &&RankedFinding<'_>| !is_answered(&ranked[one.cause.unwrap_or(one.index)].finding, drills);
+    let (causes, effects): (Vec<_>, Vec<_>) = ranked.iter().filter(is_open).partition(|one| one.cause.is_none());
+    for one in causes.into_iter().chain(effects) {
         let cause = one.cause.map(|index| ranked[index].finding.rule);
         let scenario = &cause.unwrap_or(one.finding.rule).scenario;
         add(&mut steps, scenario, one.urgency, reason(&one.finding, cause.map(|rule| rule.name.clone())));
     }
     steps.sort_by(|a, b| b.urgency.total_cmp(&a.urgency));
     steps
+}
+
+/// Returns whether the drill that a finding calls for was done after the finding's flight.
+fn is_answered(finding: &Finding<'_>, drills: &[DrillProgress]) -> bool {
+    let drill = drills.iter().find(|drill| drill.scenario == finding.rule.scenario);
+    drill.is_some_and(|drill| drill.done && drill.last_unix_us > Some(finding.record.started_unix_us))
+}
+
+/// Adds the drills that were begun but are not done, with less urgency than any finding.
+fn add_begun_drills(steps: &mut Vec<PlanStep>, drills: &[DrillProgress], last: &SessionRecord) {
+    for drill in drills.iter().filter(|drill| drill.sessions > 0 && !drill.done) {
+        let reason = PlanReason {
+            rule: "mastery".to_owned(),
+            session: last.id.clone(),
+            words: format!("This drill is not done yet: {}.", drill.words()),
+            value: drill.met as f64,
+            limit: drill.needed as f64,
+            consequence_of: None,
+        };
+        add(steps, &drill.scenario, 0.0, reason);
+    }
 }
 
 fn add(steps: &mut Vec<PlanStep>, scenario: &str, urgency: f64, reason: PlanReason) {

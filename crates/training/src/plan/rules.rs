@@ -10,6 +10,8 @@ pub const DEFAULT_RULES: &str = include_str!("rules.toml");
 const FORMAT_VERSION: i64 = 1;
 /// Maximum value of `in_tasks`.
 const MAX_IN_TASKS: i64 = 20;
+/// Maximum value of `mastery_of`.
+const MAX_MASTERY_SESSIONS: i64 = 20;
 
 const TASK_KINDS: &[(&str, Option<&str>)] = &[
     ("any", None),
@@ -58,6 +60,15 @@ pub struct PlanRule {
     pub reason: String,
 }
 
+/// Criterion at which a session of a drill counts toward mastery.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrillCriterion {
+    /// Machine-readable scenario name, such as `drill-gap`.
+    pub scenario: String,
+    /// Limits that the session must not exceed, as rules without reasons.
+    pub limits: Vec<PlanRule>,
+}
+
 /// Rules and parameters of the training plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRules {
@@ -75,6 +86,12 @@ pub struct PlanRules {
     pub job_reason: String,
     /// Maximum number of scenarios in a plan.
     pub steps: usize,
+    /// Number of sessions at the criterion after which a drill is done.
+    pub mastery_needed: usize,
+    /// Number of the latest sessions of a drill in which these may lie.
+    pub mastery_of: usize,
+    /// Criteria of the drills.
+    pub drills: Vec<DrillCriterion>,
     /// Rules in file order.
     pub rules: Vec<PlanRule>,
 }
@@ -122,6 +139,9 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
     }
     check_causes(reader, &read);
     let rules = read.into_iter().map(|(_, rule)| rule).collect();
+    let drills = read_drills(reader, root);
+    let mastery_of = reader.integer(root, "mastery_of", (1, MAX_MASTERY_SESSIONS), Some(3));
+    let mastery_needed = reader.integer(root, "mastery_needed", (1, mastery_of), Some(mastery_of.min(2)));
     let rules = PlanRules {
         retention_days: reader.number(root, "retention_days", (1.0, 3650.0), None),
         retention_scenario: reader.text(root, "retention_scenario", None),
@@ -130,6 +150,9 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
         job: reader.text(root, "job", None),
         job_reason: reader.text(root, "job_reason", None),
         steps: usize::try_from(steps).unwrap_or(1),
+        mastery_needed: usize::try_from(mastery_needed).unwrap_or(1),
+        mastery_of: usize::try_from(mastery_of).unwrap_or(1),
+        drills,
         rules,
     };
     reader.finish(root);
@@ -155,6 +178,40 @@ fn read_rule(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
     if matches!(rule.measure, RuleMeasure::Session(_)) && rule.in_tasks > 1 {
         reader.add_problem(section, "in_tasks", &rule.in_tasks.to_string(), "1", "this measure applies to the whole session");
     }
+    rule
+}
+
+/// Reads the drills' criteria.
+fn read_drills(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Vec<DrillCriterion> {
+    let mut drills: Vec<DrillCriterion> = Vec::new();
+    for mut section in reader.sections(root, "drills") {
+        let scenario = reader.text(&mut section, "scenario", None);
+        let limits = reader.sections(&mut section, "limits").into_iter().map(|limit| read_limit(reader, limit)).collect();
+        if drills.iter().any(|other| other.scenario == scenario) {
+            reader.add_problem(&section, "scenario", &scenario, "one table per drill", "duplicate drill");
+        }
+        reader.finish(&section);
+        drills.push(DrillCriterion { scenario, limits });
+    }
+    drills
+}
+
+fn read_limit(reader: &mut Reader<'_>, mut section: Section<'_>) -> PlanRule {
+    let rule = PlanRule {
+        name: String::new(),
+        measure: reader.keyword(&mut section, "measure", MEASURES, None),
+        task: None,
+        in_tasks: 1,
+        with: None,
+        lacked: String::new(),
+        limit: reader.number(&mut section, "limit", (0.001, 1000.0), None),
+        weight: 1.0,
+        scenario: String::new(),
+        otherwise: String::new(),
+        explains: Vec::new(),
+        reason: String::new(),
+    };
+    reader.finish(&section);
     rule
 }
 

@@ -217,18 +217,61 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
 
-#[test]
-fn exact_good_drill_flight_recommends_job() {
-    let mut job = perfect_record("anna", 1);
-    job.tasks[2].on_path = 0.3;
-    let mut drill = perfect_record("anna", 2);
+/// Returns a session of the gap drill; `on_path` is its on-path share.
+fn gap_drill(number: usize, on_path: f64) -> SessionRecord {
+    let mut drill = perfect_record("anna", number);
     drill.scenario = "drill-gap".into();
     drill.tasks.retain(|task| task.kind == "interlayer");
+    drill.tasks[0].on_path = on_path;
     drill.defects.clear();
     (drill.snapshots, drill.hits) = (0, 0);
-    let plan = plan(&[job, drill], &rules(), NOW).unwrap();
-    assert_eq!((plan.steps.len(), plan.steps[0].scenario.as_str()), (1, "two-bridges"));
-    assert_eq!(plan.changes, None, "a drill must not be compared with the job");
+    drill
+}
+
+#[test]
+fn exact_drill_is_done_after_two_of_three_sessions_at_its_criterion() {
+    let mut job = perfect_record("anna", 1);
+    job.tasks[2].on_path = 0.3;
+    let of = |drills: &[f64]| {
+        let flown = drills.iter().zip(2..).map(|(on_path, number)| gap_drill(number, *on_path));
+        let records: Vec<SessionRecord> = std::iter::once(job.clone()).chain(flown).collect();
+        let plan = plan(&records, &rules(), NOW).unwrap();
+        assert_eq!(plan.changes.is_some(), drills.len() > 1, "a drill must not be compared with the job");
+        let progress = plan.drills.iter().find(|drill| drill.scenario == "drill-gap").unwrap();
+        (plan.steps[0].scenario.clone(), progress.met, progress.done, progress.words())
+    };
+    let (scenario, met, done, words) = of(&[]);
+    assert_eq!((scenario.as_str(), met, done), ("drill-gap", 0, false));
+    assert!(words.starts_with("not flown yet; done after 2 of 3 sessions"), "{words}");
+    let (scenario, met, done, words) = of(&[0.95]);
+    assert_eq!((scenario.as_str(), met, done), ("drill-gap", 1, false));
+    assert!(words.contains("1 of 1 session met the criterion; done after 2 of 3 (complete, off path at most 10%"), "{words}");
+    for done_now in [&[0.95, 0.95][..], &[0.95, 0.5, 0.95], &[0.5, 0.95, 0.95], &[0.5, 0.5, 0.95, 0.95]] {
+        let (scenario, met, done, _) = of(done_now);
+        assert_eq!((scenario.as_str(), met, done), ("two-bridges", 2, true), "{done_now:?}");
+    }
+    for open in [&[0.95, 0.5][..], &[0.95, 0.5, 0.5], &[0.95, 0.95, 0.5, 0.5]] {
+        assert_eq!((of(open).0.as_str(), of(open).2), ("drill-gap", false), "{open:?}");
+    }
+}
+
+#[test]
+fn exact_done_drill_is_recommended_again_after_a_poor_flight() {
+    let mut poor = perfect_record("anna", 4);
+    poor.tasks[2].on_path = 0.3;
+    let records = [gap_drill(2, 1.0), gap_drill(3, 1.0), poor];
+    let plan = plan(&records, &rules(), NOW).unwrap();
+    assert_eq!(plan.steps[0].scenario, "drill-gap");
+    assert!(plan.drills[0].done);
+}
+
+#[test]
+fn exact_incomplete_drill_does_not_meet_its_criterion() {
+    let mut broken_off = gap_drill(3, 1.0);
+    broken_off.completion.as_mut().unwrap().complete = false;
+    let records = vec![gap_drill(2, 1.0), broken_off, gap_drill(4, 0.5)];
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(), NOW).unwrap();
+    assert_eq!((plan.drills[0].sessions, plan.drills[0].met, plan.drills[0].done), (3, 1, false));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Texts of the reasons in a plan.
 
 use super::finding::{Finding, missed};
-use super::measure::{MeasureUnit, RuleMeasure};
+use super::measure::{MEASURES, MeasureUnit, RuleMeasure};
 use super::rules::PlanRule;
 use crate::record::{SessionRecord, TaskRecord};
 use spandrel_model::numbers::format_with_limit;
@@ -25,6 +25,25 @@ pub(super) fn words(finding: &Finding<'_>) -> String {
     let words = words.replace("{defects}", &missed_summary(rule, finding.record));
     // Scenario text is substituted last so that braces in it are not expanded.
     words.replace("{axis}", axis).replace("{fastest}", &format!("{fastest:.1} m/s")).replace("{task}", &task)
+}
+
+/// Describes a limit of a drill's criterion, such as "off path at most 10%".
+pub(super) fn limit_words(rule: &PlanRule) -> String {
+    let name = MEASURES.iter().find(|(_, measure)| *measure == rule.measure).map_or("", |(name, _)| *name).replace('_', " ");
+    if rule.measure.unit() == MeasureUnit::Count && rule.limit < 1.0 {
+        return format!("no {name}");
+    }
+    let limit = match rule.measure.unit() {
+        // Counts are whole numbers.
+        MeasureUnit::Count => rule.limit.floor(),
+        MeasureUnit::Fraction
+        | MeasureUnit::Meters
+        | MeasureUnit::Minutes
+        | MeasureUnit::Seconds
+        | MeasureUnit::Degrees
+        | MeasureUnit::PerMinute => rule.limit,
+    };
+    format!("{name} at most {}", displayed_value(rule.measure, limit, rule.limit))
 }
 
 /// Describes the missed defects that a rule applies to, listing at most [`MAX_DEFECTS_LISTED`] of them.

@@ -35,6 +35,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
         section {
             @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
             @else { (table(&format!("{} users", people.len()), &heads, &rows)) }
+            p { a href="/plan-rules" { "Training plan rules" } }
         }
     };
     page(visitor, "/trainees", "Trainees", &body)
@@ -87,6 +88,10 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
             }
         }
         @if let Some(note) = &plan.note { p.note { (note) } }
+        @if !plan.drills.is_empty() {
+            h3 { "Drills" }
+            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) "." } } }
+        }
         @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "Changes" }
