@@ -11,7 +11,8 @@ const HEAD: &str = "# Training plan rules
 <!-- Generated from the code: SPANDREL_REFERENCE=write cargo test -p spandrel-training --test plan_rules_page -->
 
 A training plan evaluates these rules (`crates/training/src/plan/rules.toml`). A rule fires if its measure exceeds the limit, and recommends its
-scenario. The urgency of a finding is weight × (1 + log2(value / limit)). A scenario's urgency is the sum over its findings.
+scenario. The urgency of a finding is weight × (1 + log2(value / limit)). A scenario's urgency is the sum over its findings. The plan omits scenarios
+with less than 40% of the first one's urgency.
 
 The findings in the last column follow from the rule in the first column if both fire in the same task or session. They are listed as consequences, add
 their urgency to that of their cause, and do not recommend scenarios of their own. If several rules explain a finding, the most urgent one counts.

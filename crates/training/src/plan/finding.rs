@@ -12,9 +12,9 @@ const MIN_SEVERE_CONDITION_STATE: u8 = 3;
 const BATTERY_RESERVE_PCT: f64 = 20.0;
 /// Points lost per minute beyond the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
-/// Fraction of a path that the drone must pass within 8 m for its task to count as attempted (estimate: less is a
+/// Fraction of a path that the drone must fly, or pass within 8 m, for its task to count as attempted (estimate: less is a
 /// transit that happens to pass by).
-const MIN_PASSED_FRACTION: f64 = 0.5;
+const MIN_PASSED_FRACTION: f64 = 0.4;
 /// Minimum number of defects of a kind for a fraction of them to be meaningful (estimate: one missed defect is chance).
 const MIN_DEFECTS: usize = 2;
 
@@ -94,10 +94,13 @@ fn in_each_task<'a>(rule: &'a PlanRule, measure: TaskMeasure, records: &'a [Sess
 }
 
 fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Option<f64> {
-    let flown = task.attempted.then_some(());
     let technique = task.technique;
-    let near = technique.filter(|technique| technique.near_s > 0.0);
-    let reached = task.attempted || technique.is_some_and(|technique| technique.passed >= MIN_PASSED_FRACTION);
+    let reached = match technique {
+        Some(technique) => technique.passed.max(task.covered.unwrap_or(0.0)) >= MIN_PASSED_FRACTION,
+        None => task.attempted,
+    };
+    let flown = (task.attempted && reached).then_some(());
+    let near = technique.filter(|technique| reached && technique.near_s > 0.0);
     let beside = technique.zip(task.covered).map(|(technique, covered)| (technique.passed - covered).max(0.0));
     let surplus = |error_m: Option<f64>, sign: f64| error_m.map(|error_m| (sign * error_m).max(0.0));
     match measure {
@@ -116,7 +119,7 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::TooLow => surplus(near?.height_error_m, -1.0),
         TaskMeasure::TooHigh => surplus(near?.height_error_m, 1.0),
         TaskMeasure::LowClearance => near.map(|near| near.low_clearance),
-        TaskMeasure::Framing => technique?.rms_framing_deg,
+        TaskMeasure::Framing => near?.rms_framing_deg,
         TaskMeasure::LampOff => near?.lamp_off,
         TaskMeasure::StickReversals => near.map(|near| near.stick_reversals_per_min),
         TaskMeasure::YawReversals => near.map(|near| near.yaw_reversals_per_min),

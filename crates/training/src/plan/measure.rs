@@ -20,7 +20,7 @@ pub enum TaskMeasure {
     Speeding,
     /// Number of contacts in the task's window, merged if they are less than a second apart.
     Crashes,
-    /// 1 if the drone never entered the path and passed less than half of it within 8 m.
+    /// 1 if the drone neither flew nor passed at least 40% of the path.
     NotAttempted,
     /// Fraction of the path that the drone neither flew nor passed within 8 m, if it entered or passed it.
     NotCovered,

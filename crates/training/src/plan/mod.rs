@@ -159,6 +159,8 @@ fn recommended_steps(records: &[SessionRecord], drills: &[DrillProgress], rules:
         add(&mut steps, scenario, one.urgency, reason(&one.finding, cause.map(|rule| rule.name.clone())));
     }
     steps.sort_by(|a, b| b.urgency.total_cmp(&a.urgency));
+    let least = steps.first().map_or(0.0, |first| rules.focus * first.urgency);
+    steps.retain(|step| step.urgency >= least);
     steps
 }
 

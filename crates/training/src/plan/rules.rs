@@ -86,6 +86,8 @@ pub struct PlanRules {
     pub job_reason: String,
     /// Maximum number of scenarios in a plan.
     pub steps: usize,
+    /// Minimum urgency of a scenario as a fraction of the first one's, 0 to 1.
+    pub focus: f64,
     /// Number of sessions at the criterion after which a drill is done.
     pub mastery_needed: usize,
     /// Number of the latest sessions of a drill in which these may lie.
@@ -150,6 +152,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
         job: reader.text(root, "job", None),
         job_reason: reader.text(root, "job_reason", None),
         steps: usize::try_from(steps).unwrap_or(1),
+        focus: reader.number(root, "focus", (0.0, 1.0), Some(0.0)),
         mastery_needed: usize::try_from(mastery_needed).unwrap_or(1),
         mastery_of: usize::try_from(mastery_of).unwrap_or(1),
         drills,

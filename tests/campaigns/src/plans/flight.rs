@@ -4,7 +4,6 @@ use crate::weaknesses::{Hands, Weakness};
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_model::scenario::Scenario;
-use spandrel_model::shipped::SCENARIOS;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
@@ -31,11 +30,6 @@ const EXTRA_TIME_S: f64 = 300.0;
 const JOB: &str = "two-bridges";
 const AIRCRAFT: &str = "phantom2";
 
-/// Returns whether a scenario is shipped.
-pub fn is_shipped(name: &str) -> bool {
-    SCENARIOS.iter().any(|(stem, _)| *stem == name)
-}
-
 struct PlantedFlight {
     sim: Sim,
     pilot: Pilot,
@@ -45,6 +39,11 @@ struct PlantedFlight {
     encoder: Encoder,
     tamper: crate::weaknesses::Tamper,
     pilot_done_at: Option<SimTime>,
+}
+
+/// Returns the session ID of a flight.
+pub fn flight_id(weakness: &Weakness, seed: u64) -> String {
+    format!("{}-{seed}", weakness.name)
 }
 
 /// Flies the job and returns the session record.
@@ -61,7 +60,7 @@ pub fn fly(weakness: &Weakness, seed: u64) -> SessionRecord {
     flight.run(job.scoring.time_max_s + EXTRA_TIME_S);
     let assessed_session = flight.monitor.finished().unwrap().as_ref().unwrap_or_else(|error| panic!("{error}"));
     record(&RecordSource {
-        id: &format!("{}-{seed}", weakness.name),
+        id: &flight_id(weakness, seed),
         trainee: "planted",
         purpose: None,
         started_unix_us: 1_000_000,
@@ -87,7 +86,7 @@ impl PlantedFlight {
             vehicle: aircraft.clone(),
             seed,
             instance: 0,
-            flavor: &spandrel_sitl::endpoint::px4::FLAVOR,
+            flavor: &spandrel_sitl::endpoint::flavor::px4::FLAVOR,
             after_crash: None,
         };
         let mut sim = Sim::new(config, Arc::new(site));

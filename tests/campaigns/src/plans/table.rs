@@ -1,15 +1,18 @@
 //! Plans for the planted flights, and how often they recommend the right drill.
 
-use crate::flight::fly;
+use crate::flight::{flight_id, fly};
 use crate::weaknesses::{NO_WEAKNESS, Weakness};
 use spandrel_training::plan::{PlanRules, TrainingPlan, plan};
 use spandrel_training::record::SessionRecord;
 use std::fmt;
+use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Position of the right drill from which it no longer counts.
 const AMONG: usize = 3;
+/// Environment variable with the file for the flights' records, to inspect them or to continue after an interruption.
+const KEPT_RECORDS: &str = "SPANDREL_PLANTED_RECORDS";
 
 /// Result of one flight.
 struct PlantedPlan {
@@ -45,22 +48,28 @@ impl PlanTable {
             .chain(weaknesses)
             .flat_map(|weakness| seeds.iter().map(move |seed| (weakness, *seed)))
             .collect();
+        let known = kept_records();
         let next = AtomicUsize::new(0);
         let flown: Mutex<Vec<Option<SessionRecord>>> = Mutex::new(flights.iter().map(|_| None).collect());
         std::thread::scope(|scope| {
             for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
                 scope.spawn(|| {
                     while let Some((weakness, seed)) = flights.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        let record = fly(weakness, *seed);
+                        let id = flight_id(weakness, *seed);
+                        let record = known.iter().find(|record| record.id == id).cloned();
+                        let record = record.unwrap_or_else(|| fly(weakness, *seed));
                         let index = flights.iter().position(|flight| std::ptr::eq(flight.0, *weakness) && flight.1 == *seed);
-                        flown.lock().unwrap()[index.unwrap()] = Some(record);
+                        let mut flown = flown.lock().unwrap();
+                        if !known.iter().any(|known| known.id == record.id) {
+                            keep(&record);
+                        }
+                        flown[index.unwrap()] = Some(record);
                     }
                 });
             }
         });
         let records = flown.into_inner().unwrap().into_iter().map(Option::unwrap);
         let of = |((weakness, seed), record): (&(&'static Weakness, u64), SessionRecord)| {
-            log(&record);
             let plan = plan(std::slice::from_ref(&record), rules, record.started_unix_us).unwrap();
             PlantedPlan { weakness, seed: *seed, plan }
         };
@@ -90,21 +99,30 @@ impl PlanTable {
     }
 }
 
-/// Appends the record to the file in `SPANDREL_PLANTED_RECORDS`, for inspection.
-fn log(record: &SessionRecord) {
-    use std::io::Write;
-    let Ok(path) = std::env::var("SPANDREL_PLANTED_RECORDS") else { return };
+/// Returns the records in the file in `SPANDREL_PLANTED_RECORDS`. These flights are not flown again.
+fn kept_records() -> Vec<SessionRecord> {
+    let text = std::env::var(KEPT_RECORDS).ok().and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Appends a record to that file.
+fn keep(record: &SessionRecord) {
+    let Ok(path) = std::env::var(KEPT_RECORDS) else { return };
     let mut file = std::fs::OpenOptions::new().create(true).append(true).open(path).unwrap();
     writeln!(file, "{}", serde_json::to_string(record).unwrap()).unwrap();
 }
 
 impl fmt::Display for PlanTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "| weakness | seed | right drill | place | plan | first cause | spurious |\n|---|---|---|---|---|---|---|")?;
+        writeln!(
+            f,
+            "| weakness | seed | right drill | place | plan | cause of each | spurious |\n|---|---|---|---|---|---|---|"
+        )?;
         for one in self.clean.iter().chain(&self.planted) {
             let names: Vec<&str> = one.plan.steps.iter().map(|step| step.scenario.as_str()).collect();
             let place = one.position().map_or("-".to_owned(), |at| (at + 1).to_string());
-            let cause = &one.plan.steps[0].reasons[0].rule;
+            let causes: Vec<&str> = one.plan.steps.iter().map(|step| step.reasons[0].rule.as_str()).collect();
+            let cause = causes.join(", ");
             let (drills, spurious) = (one.weakness.drills.join(" or "), one.spurious().join(", "));
             let Weakness { name, .. } = one.weakness;
             writeln!(f, "| {name} | {} | {drills} | {place} | {} | {cause} | {spurious} |", one.seed, names.join(", "))?;

@@ -2,7 +2,7 @@
 //! hands do (sticks and commands), and nothing else.
 
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
-use spandrel_model::frames::Vec3;
+use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, Task, TaskKind};
@@ -135,7 +135,7 @@ fn lower_paths(job: &mut Scenario) {
 fn look_aside(job: &mut Scenario) {
     let (sin, cos) = math::sin_cos(80.0_f64.to_radians());
     let aside =
-        |view: Vec3<_>| Vec3::new(cos * view.east() + sin * view.north(), cos * view.north() - sin * view.east(), view.up());
+        |view: Vec3<Enu>| Vec3::new(cos * view.east() + sin * view.north(), cos * view.north() - sin * view.east(), view.up());
     for task in &mut job.tasks {
         task.viewing_directions.iter_mut().for_each(|view| *view = aside(*view));
     }
