@@ -140,7 +140,9 @@ fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecor
         SessionMeasure::CrashesOutside => Some(count(rule, record.contacts_outside())),
         SessionMeasure::CrashesAll => Some(count(rule, record.contacts())),
         SessionMeasure::Missed => {
-            let missed = searched(record).filter(|defect| !defect.found && has_reason(&defect.lacked)).count();
+            // A picture of something else may show a defect by chance and fail for several reasons.
+            let is_only_reason = |reasons: &[String]| rule.lacked.is_empty() || (reasons.len() == 1 && has_reason(reasons));
+            let missed = searched(record).filter(|defect| !defect.found && is_only_reason(&defect.lacked)).count();
             share(missed, searched(record).count())
         }
         SessionMeasure::MissedSevere => Some(missed(rule, record).len() as f64),
