@@ -15,9 +15,10 @@ use std::path::PathBuf;
 
 /// Recommend a trainee's next exercises, with reasons
 ///
-/// Analyzes the trainee's records (see `spandrel records import`): the weakest tasks and axes, where the trainee
-/// exceeded the speed limit, the crashes, and why pictures missed defects. The rules come from a file; --rules selects
-/// another one.
+/// Analyzes the trainee's records (see `spandrel records import`): what was not flown, the weakest tasks and axes,
+/// stand-off and height, speed, crashes, camera direction and lamp, and why pictures missed defects. A mistake that
+/// follows from another one is listed with its cause. The latest session always counts, even if it is incomplete. The
+/// rules come from a file; --rules selects another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -82,8 +83,15 @@ fn plan_text(plan: &TrainingPlan) -> String {
     for (k, step) in plan.steps.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
         for reason in &step.reasons {
-            let _ = writeln!(out, "   {}", reason.words);
+            let label = if reason.consequence_of.is_some() { "Consequence: " } else { "" };
+            let _ = writeln!(out, "   {label}{}", reason.words);
         }
+    }
+    for drill in &plan.drills {
+        let _ = writeln!(out, "Drill {}: {}", drill.scenario, drill.words());
+    }
+    if let Some(note) = &plan.note {
+        let _ = writeln!(out, "{note}");
     }
     if let Some(words) = excluded_sessions_note(plan.left_out) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");

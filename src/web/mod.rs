@@ -10,6 +10,7 @@ mod listening;
 mod live;
 mod lock;
 pub mod passwords;
+mod plan_rules;
 mod questions;
 mod request;
 mod request_pipeline;

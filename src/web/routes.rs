@@ -3,7 +3,7 @@
 use super::request::WebRequest;
 use super::response::HandlerResult;
 use super::state::ServerState;
-use super::{assets, live, questions, scenarios, sessions, settings, trainees, uploads};
+use super::{assets, live, plan_rules, questions, scenarios, sessions, settings, trainees, uploads};
 use spandrel_training::web::access::AccessLevel;
 
 /// Function that handles a request.
@@ -13,6 +13,8 @@ pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 pub const MAX_FORM_BYTES: usize = 64 * 1024;
 /// Maximum size of an uploaded scenario, bytes; the shipped scenarios are about ten thousand bytes long.
 pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
+/// Maximum size of an uploaded file with training plan rules, bytes; the shipped rules are about thirty thousand bytes long.
+pub const MAX_PLAN_RULES_BYTES: usize = 64 * 1024;
 /// Maximum size of an uploaded recording, bytes; an hour of telemetry is about one-third of this.
 pub const MAX_RECORDING_BYTES: usize = 96 * 1024 * 1024;
 
@@ -99,6 +101,10 @@ pub const ROUTES: &[Route] = &[
     show("/scenarios/{name}", AccessLevel::Login, scenarios::scenario_page),
     upload("/scenarios", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenarios::upload),
     change("/scenarios/{name}/remove", AccessLevel::Instructor, scenarios::remove),
+    show("/plan-rules", AccessLevel::Instructor, plan_rules::page),
+    change("/plan-rules", AccessLevel::Instructor, plan_rules::save),
+    upload("/plan-rules/upload", MAX_PLAN_RULES_BYTES, AccessLevel::Instructor, plan_rules::upload),
+    change("/plan-rules/reset", AccessLevel::Instructor, plan_rules::reset),
     show("/upload", AccessLevel::Instructor, uploads::page),
     upload("/upload", MAX_RECORDING_BYTES, AccessLevel::Instructor, uploads::recording),
     show("/live", AccessLevel::Instructor, live::page),

@@ -1,10 +1,10 @@
 //! Pages for trainees and cohorts.
 
+use super::plan_rules::rules_in_use;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use crate::io::clock;
-use crate::io::plan_rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::{erase_trainee, trainee_data};
 use spandrel_monitor::export::json_text;
@@ -39,7 +39,11 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let records = state.database.records(Some(&person.pseudonym))?;
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
     let incomplete = incomplete_policy(request);
-    let plan = plan_for_policy(records.clone(), incomplete, &plan_rules::rules(None)?, clock::unix_us());
+    let (rules, problem) = rules_in_use(state)?;
+    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, clock::unix_us());
+    if let Some((plan, problem)) = plan.as_mut().zip(problem) {
+        plan.note = Some(plan.note.take().map_or_else(|| problem.clone(), |note| format!("{note} {problem}")));
+    }
     let reliability = reliability_of_repeated_jobs(state, &records, incomplete)?;
     let about = pages::TraineeProfile {
         person: &person,

@@ -113,7 +113,7 @@ def test_every_page_passes_axe(browser, server, sessions, size, scheme):
     pages = {
         "sessions": "/sessions", "session": f"/sessions/{anna[0]}", "questions": f"/sessions/{anna[0]}/questions", "trainees": "/trainees",
         "trainee": "/trainees/anna", "practised": "/trainees/lena", "cohort": "/cohort?scenario=drill-hover&repetitions=2", "scenarios": "/scenarios",
-        "scenario": "/scenarios/two-bridges", "upload": "/upload", "settings": "/settings", "account": "/account", "live": "/live",
+        "scenario": "/scenarios/two-bridges", "upload": "/upload", "plan-rules": "/plan-rules", "settings": "/settings", "account": "/account", "live": "/live",
         "flight": "/flight", "missing": "/sessions/none",
     }
     for name, path in pages.items():

@@ -59,6 +59,8 @@ def forms(sessions):
         "/trainees/anna/details": ("/trainees/anna", {"age_band": "25-34"}),
         "/trainees/nobody/erase": ("/trainees", {"again": "nobody"}),
         "/scenarios/none/remove": ("/scenarios", {}),
+        "/plan-rules": ("/plan-rules", {"rules": "format = 1"}),
+        "/plan-rules/reset": ("/plan-rules", {}),
         "/live/act": ("/sessions", {"act": "note", "text": "x"}),
         "/settings/login": ("/settings", {"name": "eve", "role": "trainee", "password": webserver.PASSWORD}),
         "/settings/no-login": ("/settings", {"name": "nobody"}),
@@ -85,7 +87,7 @@ def test_cross_site_requests_are_rejected(server, sessions):
         assert status in (200, 404, 405), (path, status)
     status, _, text = ada.ask("/settings")
     assert status == 200 and "eve" not in text
-    for path in ("/scenarios", "/upload"):
+    for path in ("/scenarios", "/upload", "/plan-rules/upload"):
         status, _, _ = ada.upload("/sessions", path, {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}, b"x", token="0" * 64)
         assert status == 403, path
 
@@ -435,3 +437,19 @@ def test_200_kills_lose_no_confirmed_data(tmp_path):
     for folder in sessions.iterdir():
         if (folder / "telemetry.tlog").is_file():
             assert folder.name in after and json.loads((folder / "assessment.json").read_text(encoding="utf-8")), folder
+
+
+def test_instructors_bring_their_own_plan_rules(server):
+    """Invalid rules are rejected with line and key; valid ones apply to every plan until they are deleted."""
+    ida, anna = logged_in(server, "ida"), logged_in(server, "anna")
+    assert anna.ask("/plan-rules")[0] == 403 and anna.post("/sessions", "/plan-rules", {"rules": "format = 1"})[0] == 403
+    shipped = (spandrel.ROOT / "crates" / "training" / "src" / "plan" / "rules.toml").read_text(encoding="utf-8")
+    wrong = shipped.replace('measure = "off_path"', f'measure = "{EVIL}"', 1)
+    line = 1 + wrong[: wrong.index(EVIL)].count("\n")
+    status, _, text = ida.post("/plan-rules", "/plan-rules", {"rules": wrong})
+    assert status == 422 and f"rules.toml:{line}: rules[].measure" in text and EVIL not in text, text[:2000]
+    own = shipped.replace("steps = 3", "steps = 1", 1)
+    status, _, text = ida.upload("/plan-rules", "/plan-rules/upload", {}, own.encode(), "own.toml")
+    assert status == 200 and "The rules were saved" in text and "Delete own rules" in text
+    assert ida.post("/plan-rules", "/plan-rules/reset", {})[0] in (200, 303)
+    assert "Delete own rules" not in ida.ask("/plan-rules")[2]

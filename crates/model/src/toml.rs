@@ -385,6 +385,21 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// Reads a list of strings; empty if the key is missing.
+    pub fn texts(&mut self, section: &mut Section, key: &'static str) -> Vec<String> {
+        let path = section.full_key(key);
+        let allowed = "list of texts";
+        self.record_key(&path, allowed, "none".into());
+        let (item, line) = self.item(section, key);
+        let Some(item) = item else { return Vec::new() };
+        let one = |v: &Value| v.as_str().map(str::to_owned);
+        let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
+        values.flatten().unwrap_or_else(|| {
+            self.add_problem_at(line, &path, &display_value(item), allowed, "not a valid list");
+            Vec::new()
+        })
+    }
+
     /// Records a problem for each unknown key. Call this after reading all keys of the table.
     pub fn finish(&mut self, section: &Section) {
         let Some(table) = section.table else { return };

@@ -1,7 +1,7 @@
 //! Synthetic session records for tests.
 
 use super::questionnaire::{Answers, QuestionnaireItem};
-use super::record::{Crashes, DefectRecord, FORMAT_VERSION, Scores, SessionRecord, TaskRecord};
+use super::record::{Crashes, DefectRecord, FORMAT_VERSION, Scores, SessionRecord, SessionTechnique, TaskRecord, TaskTechnique};
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
 /// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".
@@ -56,6 +56,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
         certified: true,
         unmet: Vec::new(),
         certification: None,
+        technique: Some(SessionTechnique::default()),
         answers: Some(answers),
     }
 }
@@ -66,8 +67,10 @@ pub fn aborted_record(trainee: &str, number: usize) -> SessionRecord {
     record.completion =
         Some(Completion { complete: false, tasks_done: 0, tasks: 4, path_share: 0.15, landed_at_home: false, done_share: 0.8 });
     (record.tasks[0].state, record.tasks[0].covered) = (Some(TaskState::Part), Some(0.6));
+    record.tasks[0].technique = Some(TaskTechnique { near_s: 60.0, passed: 0.6, ..TaskTechnique::default() });
     for task in &mut record.tasks[1..] {
         (task.state, task.covered, task.attempted) = (Some(TaskState::NotAttempted), Some(0.0), false);
+        task.technique = Some(TaskTechnique::default());
     }
     record.end_reason = "abort".into();
     record.certified = false;
@@ -94,6 +97,7 @@ fn task(kind: &str, id: u32) -> TaskRecord {
         crashes: Crashes::default(),
         defects_placed: 2,
         defects_found: 2,
+        technique: Some(TaskTechnique { near_s: 100.0, passed: 1.0, ..TaskTechnique::default() }),
     }
 }
 
@@ -108,5 +112,8 @@ fn defect(id: u32) -> DefectRecord {
         found: true,
         lacked: Vec::new(),
         in_view_s: None,
+        line: false,
+        hidden: false,
+        shortfalls: Vec::new(),
     }
 }

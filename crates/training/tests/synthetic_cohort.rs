@@ -11,6 +11,8 @@ const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
 /// Limits from the shipped rules. An interlayer flight is poor if it exceeds one of them or includes a crash.
 const MAX_OFF_PATH_SHARE: f64 = 0.1;
 const MAX_SPEEDING_SHARE: f64 = 0.02;
+const RULES_OF_THE_INTERLAYER: [&str; 4] =
+    ["off the interlayer path", "too fast in the interlayer", "crashes in the interlayer", "interlayer not attempted"];
 
 fn records() -> Vec<SessionRecord> {
     RECORDS.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -49,23 +51,25 @@ fn val_less_stick_noise_improves_scores() {
 }
 
 #[test]
-fn val_only_poor_interlayer_flights_recommend_gap_drill() {
+fn val_only_poor_interlayer_flights_are_found_in_the_plan() {
     let rules = read_rules("rules.toml", DEFAULT_RULES).unwrap();
     let (mut sent, mut spared) = (0, 0);
     for record in records() {
         let task = record.tasks.iter().find(|task| task.kind == "interlayer").unwrap();
         let steady = 1.0 - task.on_path <= MAX_OFF_PATH_SHARE && task.speeding_s / task.seconds <= MAX_SPEEDING_SHARE;
         let holds = task.attempted && steady && task.crashes.total() == 0;
-        let whole = spandrel_training::plan::PlanRules { steps: 20, ..rules.clone() };
+        let whole = spandrel_training::plan::PlanRules { steps: 20, focus: 0.0, ..rules.clone() };
         let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us).unwrap();
-        let gap = plan.steps.iter().find(|step| step.scenario == "drill-gap");
-        assert_eq!(gap.is_some(), !holds, "{}: {task:?}", record.id);
-        if let Some(gap) = gap {
-            assert!(gap.reasons.iter().any(|reason| reason.words.starts_with(&task.name)));
+        // A finding that follows from a fault in all tasks is listed with its cause, whose drill is another one.
+        let about_the_task = |rule: &str| RULES_OF_THE_INTERLAYER.contains(&rule);
+        let found: Vec<_> = plan.steps.iter().flat_map(|step| &step.reasons).filter(|one| about_the_task(&one.rule)).collect();
+        assert_eq!(!found.is_empty(), !holds, "{}: {task:?}", record.id);
+        if !holds {
+            assert!(found.iter().all(|reason| reason.words.starts_with(&task.name)));
             sent += 1;
         } else {
             spared += 1;
         }
     }
-    assert!(sent >= 5 && spared >= 5, "{sent} with the drill recommended, {spared} without");
+    assert!(sent >= 5 && spared >= 5, "{sent} flights found, {spared} spared");
 }

@@ -1,5 +1,6 @@
 //! Training plan rules and their file format.
 
+use super::measure::{MEASURES, RuleMeasure};
 use spandrel_model::toml::{Problems, Reader, Section};
 
 /// Default rules of the training plan, in TOML.
@@ -7,56 +8,11 @@ pub const DEFAULT_RULES: &str = include_str!("rules.toml");
 
 /// File format version.
 const FORMAT_VERSION: i64 = 1;
+/// Maximum value of `in_tasks`.
+const MAX_IN_TASKS: i64 = 20;
+/// Maximum value of `mastery_of`.
+const MAX_MASTERY_SESSIONS: i64 = 20;
 
-/// Measure that a rule evaluates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RuleMeasure {
-    /// Fraction of a task's time off its path.
-    OffPath,
-    /// Mean vertical distance from a task's path while off it, m.
-    OffHeight,
-    /// Fraction of a task's time above the speed limit.
-    Speeding,
-    /// Number of crashes in a task's window.
-    Crashes,
-    /// Number of crashes outside all windows.
-    CrashesOutside,
-    /// Total number of crashes.
-    CrashesAll,
-    /// 1 if the task was not attempted.
-    NotAttempted,
-    /// Fraction of defects not shown in any picture.
-    Missed,
-    /// Number of missed defects in condition state 3 (poor) or worse.
-    MissedSevere,
-    /// Longest time that a missed defect was clearly visible, s; available only if the session has a report.
-    MissedInView,
-    /// Fraction of pictures that show no new defect.
-    FalseSnapshots,
-    /// Flight time beyond the time for full efficiency, min.
-    Overtime,
-    /// 1 if the flight did not end with a landing at home.
-    NotLanded,
-    /// 1 if the battery charge was below 20% at the end.
-    BatteryLow,
-}
-
-const MEASURES: &[(&str, RuleMeasure)] = &[
-    ("off_path", RuleMeasure::OffPath),
-    ("off_height", RuleMeasure::OffHeight),
-    ("speeding", RuleMeasure::Speeding),
-    ("crashes", RuleMeasure::Crashes),
-    ("crashes_outside", RuleMeasure::CrashesOutside),
-    ("crashes_all", RuleMeasure::CrashesAll),
-    ("not_attempted", RuleMeasure::NotAttempted),
-    ("missed", RuleMeasure::Missed),
-    ("missed_severe", RuleMeasure::MissedSevere),
-    ("missed_in_view", RuleMeasure::MissedInView),
-    ("false_snapshots", RuleMeasure::FalseSnapshots),
-    ("overtime", RuleMeasure::Overtime),
-    ("not_landed", RuleMeasure::NotLanded),
-    ("battery_low", RuleMeasure::BatteryLow),
-];
 const TASK_KINDS: &[(&str, Option<&str>)] = &[
     ("any", None),
     ("slab_side", Some("slab_side")),
@@ -84,6 +40,8 @@ pub struct PlanRule {
     pub measure: RuleMeasure,
     /// Kind of task; `None` for all kinds.
     pub task: Option<&'static str>,
+    /// Number of tasks of one session in which the measure must exceed the limit; 1 evaluates each task separately.
+    pub in_tasks: usize,
     /// Kind of object hit; `None` for all kinds.
     pub with: Option<&'static str>,
     /// Reason why a missed defect's best picture did not count; empty for any reason.
@@ -94,8 +52,21 @@ pub struct PlanRule {
     pub weight: f64,
     /// Scenario to fly.
     pub scenario: String,
+    /// Scenario to fly if `scenario` is not installed; empty for none.
+    pub otherwise: String,
+    /// Names of the rules whose findings in the same task or session are consequences of this one.
+    pub explains: Vec<String>,
     /// Text shown to the trainee, with placeholders for values.
     pub reason: String,
+}
+
+/// Criterion at which a session of a drill counts toward mastery.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrillCriterion {
+    /// Machine-readable scenario name, such as `drill-gap`.
+    pub scenario: String,
+    /// Limits that the session must not exceed, as rules without reasons.
+    pub limits: Vec<PlanRule>,
 }
 
 /// Rules and parameters of the training plan.
@@ -115,8 +86,29 @@ pub struct PlanRules {
     pub job_reason: String,
     /// Maximum number of scenarios in a plan.
     pub steps: usize,
+    /// Minimum urgency of a scenario as a fraction of the first one's, 0 to 1.
+    pub focus: f64,
+    /// Number of sessions at the criterion after which a drill is done.
+    pub mastery_needed: usize,
+    /// Number of the latest sessions of a drill in which these may lie.
+    pub mastery_of: usize,
+    /// Criteria of the drills.
+    pub drills: Vec<DrillCriterion>,
     /// Rules in file order.
     pub rules: Vec<PlanRule>,
+}
+
+impl PlanRules {
+    /// Returns the rules with each scenario that is not installed replaced by the rule's `otherwise`, if it has one.
+    #[must_use]
+    pub fn for_installed(mut self, is_installed: impl Fn(&str) -> bool) -> Self {
+        for rule in &mut self.rules {
+            if !rule.otherwise.is_empty() && !is_installed(&rule.scenario) {
+                rule.scenario.clone_from(&rule.otherwise);
+            }
+        }
+        self
+    }
 }
 
 /// Reads the rules from TOML.
@@ -138,15 +130,20 @@ pub fn read_rules(file: &str, text: &str) -> Result<PlanRules, Problems> {
 fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
     reader.integer(root, "format", (FORMAT_VERSION, FORMAT_VERSION), None);
     let steps = reader.integer(root, "steps", (1, 20), Some(3));
-    let mut rules: Vec<PlanRule> = Vec::new();
+    let mut read: Vec<(Section<'_>, PlanRule)> = Vec::new();
     for mut section in reader.sections(root, "rules") {
         let rule = read_rule(reader, &mut section);
-        if rules.iter().any(|other| other.name == rule.name) {
+        if read.iter().any(|(_, other)| other.name == rule.name) {
             reader.add_problem(&section, "name", &rule.name, "a unique name", "duplicate rule name");
         }
         reader.finish(&section);
-        rules.push(rule);
+        read.push((section, rule));
     }
+    check_causes(reader, &read);
+    let rules = read.into_iter().map(|(_, rule)| rule).collect();
+    let drills = read_drills(reader, root);
+    let mastery_of = reader.integer(root, "mastery_of", (1, MAX_MASTERY_SESSIONS), Some(3));
+    let mastery_needed = reader.integer(root, "mastery_needed", (1, mastery_of), Some(mastery_of.min(2)));
     let rules = PlanRules {
         retention_days: reader.number(root, "retention_days", (1.0, 3650.0), None),
         retention_scenario: reader.text(root, "retention_scenario", None),
@@ -155,6 +152,10 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
         job: reader.text(root, "job", None),
         job_reason: reader.text(root, "job_reason", None),
         steps: usize::try_from(steps).unwrap_or(1),
+        focus: reader.number(root, "focus", (0.0, 1.0), Some(0.0)),
+        mastery_needed: usize::try_from(mastery_needed).unwrap_or(1),
+        mastery_of: usize::try_from(mastery_of).unwrap_or(1),
+        drills,
         rules,
     };
     reader.finish(root);
@@ -162,17 +163,88 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
 }
 
 fn read_rule(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
-    PlanRule {
+    let in_tasks = reader.integer(section, "in_tasks", (1, MAX_IN_TASKS), Some(1));
+    let rule = PlanRule {
         name: reader.text(section, "name", None),
         measure: reader.keyword(section, "measure", MEASURES, None),
         task: reader.keyword(section, "task", TASK_KINDS, Some(0)),
+        in_tasks: usize::try_from(in_tasks).unwrap_or(1),
         with: reader.keyword(section, "with", CRASH_OBJECTS, Some(0)),
         lacked: reader.text(section, "lacked", Some("")),
         limit: reader.number(section, "limit", (0.001, 1000.0), None),
         weight: reader.number(section, "weight", (0.01, 100.0), Some(1.0)),
         scenario: reader.text(section, "scenario", None),
+        otherwise: reader.text(section, "otherwise", Some("")),
+        explains: reader.texts(section, "explains"),
         reason: reader.text(section, "reason", None),
+    };
+    if matches!(rule.measure, RuleMeasure::Session(_)) && rule.in_tasks > 1 {
+        reader.add_problem(section, "in_tasks", &rule.in_tasks.to_string(), "1", "this measure applies to the whole session");
     }
+    rule
+}
+
+/// Reads the drills' criteria.
+fn read_drills(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Vec<DrillCriterion> {
+    let mut drills: Vec<DrillCriterion> = Vec::new();
+    for mut section in reader.sections(root, "drills") {
+        let scenario = reader.text(&mut section, "scenario", None);
+        let limits = reader.sections(&mut section, "limits").into_iter().map(|limit| read_limit(reader, limit)).collect();
+        if drills.iter().any(|other| other.scenario == scenario) {
+            reader.add_problem(&section, "scenario", &scenario, "one table per drill", "duplicate drill");
+        }
+        reader.finish(&section);
+        drills.push(DrillCriterion { scenario, limits });
+    }
+    drills
+}
+
+fn read_limit(reader: &mut Reader<'_>, mut section: Section<'_>) -> PlanRule {
+    let rule = PlanRule {
+        name: String::new(),
+        measure: reader.keyword(&mut section, "measure", MEASURES, None),
+        task: None,
+        in_tasks: 1,
+        with: None,
+        lacked: String::new(),
+        limit: reader.number(&mut section, "limit", (0.001, 1000.0), None),
+        weight: 1.0,
+        scenario: String::new(),
+        otherwise: String::new(),
+        explains: Vec::new(),
+        reason: String::new(),
+    };
+    reader.finish(&section);
+    rule
+}
+
+/// Checks that every rule named in `explains` exists, and that no rule explains itself, directly or indirectly.
+fn check_causes(reader: &mut Reader<'_>, rules: &[(Section<'_>, PlanRule)]) {
+    for (section, rule) in rules {
+        for effect in rule.explains.iter().filter(|effect| !rules.iter().any(|(_, other)| other.name == **effect)) {
+            reader.add_problem(section, "explains", effect, "names of rules in this file", "unknown rule");
+        }
+        if explains_itself(rule, rules) {
+            let allowed = "rules that do not explain this one";
+            reader.add_problem(section, "explains", &rule.explains.join(", "), allowed, "circular causes");
+        }
+    }
+}
+
+fn explains_itself(rule: &PlanRule, rules: &[(Section<'_>, PlanRule)]) -> bool {
+    let mut reached: Vec<&str> = Vec::new();
+    let mut open: Vec<&str> = rule.explains.iter().map(String::as_str).collect();
+    while let Some(name) = open.pop() {
+        if name == rule.name {
+            return true;
+        }
+        if !reached.contains(&name) {
+            reached.push(name);
+            let next = rules.iter().filter(|(_, other)| other.name == name);
+            open.extend(next.flat_map(|(_, other)| other.explains.iter().map(String::as_str)));
+        }
+    }
+    false
 }
 
 #[cfg(test)]
@@ -191,5 +263,18 @@ mod tests {
         assert!(told.contains("measure = \"elegance\"") && told.contains("limit = -1"), "{told}");
         let twice = DEFAULT_RULES.replace("name = \"crashes into water\"", "name = \"hit a person\"");
         assert!(read_rules("rules.toml", &twice).unwrap_err().to_string().contains("duplicate rule name"));
+    }
+    #[test]
+    fn exact_causes_must_exist_and_not_be_circular() {
+        let unknown = DEFAULT_RULES.replacen("explains = [\n", "explains = [ \"elegance\",\n", 1);
+        let told = read_rules("rules.toml", &unknown).unwrap_err().to_string();
+        assert!(told.contains("elegance") && told.contains("unknown rule"), "{told}");
+        let name = "name = \"off a drill path\"\n";
+        assert!(DEFAULT_RULES.contains(name));
+        let circular = DEFAULT_RULES.replace(name, &format!("{name}explains = [\"off a drill path\"]\n"));
+        assert!(read_rules("rules.toml", &circular).unwrap_err().to_string().contains("circular causes"));
+        let session = DEFAULT_RULES.replace("name = \"no pictures\"\n", "name = \"no pictures\"\nin_tasks = 2\n");
+        let told = read_rules("rules.toml", &session).unwrap_err().to_string();
+        assert!(told.contains("in_tasks = 2") && told.contains("(allowed: 1)"), "{told}");
     }
 }

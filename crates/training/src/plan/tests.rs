@@ -1,5 +1,7 @@
 use super::*;
+use crate::record::{Crashes, DefectRecord, TaskRecord};
 use crate::testing::{aborted_record, perfect_record};
+use spandrel_monitor::score::completion::TaskState;
 
 const NOW: u64 = 1_700_000_000_000_000 + 864_000_000_000;
 
@@ -7,64 +9,198 @@ fn rules() -> PlanRules {
     read_rules("rules.toml", DEFAULT_RULES).unwrap()
 }
 
-/// Returns a record in which the rule's measure is `factor` times its limit.
-fn record_with_measure(rule: &PlanRule, factor: f64) -> SessionRecord {
-    let mut record = perfect_record("anna", 1);
-    let value = factor * rule.limit;
-    // Counts are integers. If the limit is 0.5, a count of 1 exceeds it and a count of 0 does not.
-    let count = if factor > 1.0 { value.ceil().max(1.0) as usize } else { 0 };
-    let mut crashes = Crashes::default();
-    match rule.with {
+fn sets(crashes: &mut Crashes, with: Option<&str>, count: usize) {
+    match with {
         Some("terrain") => crashes.terrain = count,
         Some("water") => crashes.water = count,
         Some("vehicle") => crashes.vehicle = count,
         Some("person") => crashes.person = count,
         _ => crashes.bridge = count,
     }
-    if rule.task == Some("free") {
-        record.tasks[0].kind = "free".into();
-    }
-    let task = record.tasks.iter_mut().find(|task| rule.task.is_none_or(|kind| task.kind == kind)).unwrap();
-    match rule.measure {
-        RuleMeasure::OffPath => task.on_path = 1.0 - value,
-        RuleMeasure::OffHeight => task.off_height_m = Some(value),
-        RuleMeasure::Speeding => task.speeding_s = value * task.seconds,
-        RuleMeasure::Crashes => task.crashes = crashes,
-        RuleMeasure::NotAttempted => task.attempted = count == 0,
-        RuleMeasure::CrashesOutside | RuleMeasure::CrashesAll => record.crashes_outside = crashes,
-        RuleMeasure::Missed => {
-            let missed = (10.0 * value + if factor > 1.0 { 0.999 } else { 0.0 }).floor() as usize;
-            let lacked = format!("{}: 1 lx of 50 lx needed", rule.lacked);
-            record
-                .defects
-                .iter_mut()
-                .take(missed)
-                .for_each(|defect| (defect.found, defect.lacked) = (false, vec![lacked.clone()]));
+}
+
+/// Sets a measure of one task.
+fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Crashes) {
+    let technique = task.technique.as_mut().unwrap();
+    match measure {
+        TaskMeasure::OffPath => task.on_path = 1.0 - value,
+        TaskMeasure::OffHeight => task.off_height_m = Some(value),
+        TaskMeasure::Speeding => task.speeding_s = value * task.seconds,
+        TaskMeasure::Crashes => technique.contacts = crashes,
+        TaskMeasure::NotAttempted => {
+            if value >= 1.0 {
+                (task.attempted, task.covered, technique.passed) = (false, Some(0.0), 0.3);
+            }
         }
-        RuleMeasure::MissedSevere => record.defects[0].found = count == 0,
-        RuleMeasure::MissedInView => (record.defects[0].found, record.defects[0].in_view_s) = (false, Some(value)),
-        RuleMeasure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
-        RuleMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
-        RuleMeasure::NotLanded => record.end_reason = if count > 0 { "abort".into() } else { "landed".into() },
-        RuleMeasure::BatteryLow => record.battery_at_end_pct = if count > 0 { 19.0 } else { 21.0 },
+        TaskMeasure::NotCovered => (task.covered, technique.passed) = (Some(1.0 - value), 1.0 - value),
+        TaskMeasure::BesidePath => task.covered = Some(1.0 - value),
+        TaskMeasure::TooFar => technique.stand_off_error_m = Some(value),
+        TaskMeasure::TooClose => technique.stand_off_error_m = Some(-value),
+        TaskMeasure::TooLow => technique.height_error_m = Some(-value),
+        TaskMeasure::TooHigh => technique.height_error_m = Some(value),
+        TaskMeasure::LowClearance => technique.low_clearance = value,
+        TaskMeasure::Framing => technique.rms_framing_deg = Some(value),
+        TaskMeasure::LampOff => technique.lamp_off = Some(value),
+        TaskMeasure::StickReversals => technique.stick_reversals_per_min = value,
+        TaskMeasure::YawReversals => technique.yaw_reversals_per_min = value,
+    }
+}
+
+/// Marks the given fraction of the first ten defects, rounded up above the limit.
+fn mark_defects(record: &mut SessionRecord, value: f64, mark: impl Fn(&mut DefectRecord)) {
+    let marked = (10.0 * value).ceil() as usize;
+    record.defects.iter_mut().take(marked).for_each(mark);
+}
+
+fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeasure, (value, crashes): (f64, Crashes)) {
+    let over = value > rule.limit;
+    let reason = format!("{}: 1 of 50 needed", rule.lacked);
+    match measure {
+        SessionMeasure::CrashesOutside | SessionMeasure::CrashesAll => {
+            record.technique.as_mut().unwrap().contacts_outside = crashes;
+        }
+        SessionMeasure::Missed => {
+            mark_defects(record, value, |defect| (defect.found, defect.lacked) = (false, vec![reason.clone()]));
+            if !over {
+                record.defects[0] = perfect_record("anna", 1).defects[0].clone();
+            }
+        }
+        SessionMeasure::MissedSevere => record.defects[0].found = !over,
+        SessionMeasure::MissedInView => (record.defects[0].found, record.defects[0].in_view_s) = (false, Some(value)),
+        SessionMeasure::MissedHidden | SessionMeasure::MissedLines => {
+            let hidden = measure == SessionMeasure::MissedHidden;
+            for (k, defect) in record.defects.iter_mut().enumerate() {
+                (defect.hidden, defect.line, defect.condition_state) = (hidden, !hidden, 2);
+                defect.found = k as f64 >= 10.0 * value;
+            }
+        }
+        SessionMeasure::PoorPictures => mark_defects(record, value, |defect| defect.shortfalls = vec![reason.clone()]),
+        SessionMeasure::NoPictures => record.snapshots = if over { 0 } else { 10 },
+        SessionMeasure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
+        SessionMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
+        SessionMeasure::NotLanded => record.end_reason = if over { "abort".into() } else { "landed".into() },
+        SessionMeasure::BatteryLow => record.battery_at_end_pct = if over { 19.0 } else { 21.0 },
+        SessionMeasure::BatteryFailed => record.battery_failed = over,
+        SessionMeasure::Exposure => record.technique.as_mut().unwrap().exposure_s = value,
+    }
+}
+
+/// Returns a record in which the rule's measure is `factor` times its limit.
+fn record_with_measure(rule: &PlanRule, factor: f64) -> SessionRecord {
+    let mut record = perfect_record("anna", 1);
+    // Counts are integers. If the limit is 0.5, a count of 1 exceeds it and a count of 0 does not.
+    let is_count = rule.measure.unit() == MeasureUnit::Count;
+    let value = match (is_count, factor > 1.0) {
+        (true, true) => (factor * rule.limit).ceil(),
+        (true, false) => 0.0,
+        (false, _) => factor * rule.limit,
+    };
+    let mut crashes = Crashes::default();
+    sets(&mut crashes, rule.with, value as usize);
+    match rule.measure {
+        RuleMeasure::Task(measure) => {
+            if rule.task == Some("free") {
+                record.tasks[0].kind = "free".into();
+            }
+            let fits = |task: &&mut TaskRecord| rule.task.is_none_or(|kind| task.kind == kind);
+            record.tasks.iter_mut().filter(fits).take(rule.in_tasks).for_each(|task| set_task(task, measure, value, crashes));
+        }
+        RuleMeasure::Session(measure) => set_session(&mut record, rule, measure, (value, crashes)),
     }
     record
 }
 
+fn reason_of<'a>(plan: &'a TrainingPlan, rule: &str) -> Option<(&'a PlanStep, &'a PlanReason)> {
+    plan.steps.iter().find_map(|step| Some(step).zip(step.reasons.iter().find(|reason| reason.rule == rule)))
+}
+
 #[test]
 fn exact_shipped_rules_apply_only_above_their_limit() {
-    let rules = rules();
+    let rules = PlanRules { steps: 20, focus: 0.0, ..rules() };
     for rule in &rules.rules {
-        let fired = |factor: f64| {
-            let plan = plan(&[record_with_measure(rule, factor)], &rules, NOW).unwrap();
-            let step = plan.steps.into_iter().find(|step| step.reasons.iter().any(|reason| reason.rule == rule.name));
-            step.map(|step| (step.scenario, step.reasons.into_iter().find(|reason| reason.rule == rule.name).unwrap().words))
-        };
-        let (scenario, words) = fired(1.2).unwrap_or_else(|| panic!("{} does not fire", rule.name));
-        assert_eq!(scenario, rule.scenario);
+        let of = |factor: f64| plan(&[record_with_measure(rule, factor)], &rules, NOW).unwrap();
+        let plan = of(1.2);
+        let (step, reason) = reason_of(&plan, &rule.name).unwrap_or_else(|| panic!("{} does not fire", rule.name));
+        if reason.consequence_of.is_none() {
+            assert_eq!(step.scenario, rule.scenario, "{}", rule.name);
+        }
+        let words = &reason.words;
         assert!(!words.contains(['{', '}']) && words.len() > 20, "{}: {words}", rule.name);
-        assert_eq!(fired(0.8), None, "{} fires below its limit", rule.name);
+        assert_eq!(reason_of(&of(0.8), &rule.name), None, "{} fires below its limit", rule.name);
     }
+}
+
+/// Returns the names of the rules that recommend the first scenario, and those of their consequences.
+fn first_step(record: SessionRecord) -> (String, Vec<String>, Vec<String>) {
+    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let first = &plan.steps[0];
+    let (causes, effects): (Vec<_>, Vec<_>) = first.reasons.iter().partition(|reason| reason.consequence_of.is_none());
+    let names = |reasons: Vec<&PlanReason>| reasons.iter().map(|reason| reason.rule.clone()).collect();
+    (first.scenario.clone(), names(causes), names(effects))
+}
+
+#[test]
+fn exact_cause_outranks_its_consequences() {
+    let mut record = perfect_record("anna", 1);
+    // 20 crashes are far more than their limit of 0.5, but speeding causes them.
+    record.tasks[1].speeding_s = 10.0;
+    record.tasks[1].technique.as_mut().unwrap().contacts.bridge = 20;
+    let (scenario, causes, effects) = first_step(record.clone());
+    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["too fast under the arch".to_owned()]));
+    assert_eq!(effects, ["crashes under the arch"]);
+    // Speeding in another task explains nothing here.
+    (record.tasks[1].speeding_s, record.tasks[0].speeding_s) = (0.0, 10.0);
+    let (scenario, causes, effects) = first_step(record);
+    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes under the arch".to_owned()]));
+    assert!(effects.is_empty());
+}
+
+#[test]
+fn exact_chain_of_causes_ends_at_the_first() {
+    let mut record = perfect_record("anna", 1);
+    for task in &mut record.tasks {
+        let technique = task.technique.as_mut().unwrap();
+        (technique.yaw_reversals_per_min, technique.rms_framing_deg) = (100.0, Some(60.0));
+    }
+    for defect in &mut record.defects {
+        (defect.found, defect.lacked) = (false, vec!["too oblique: 70 deg, limit 60 deg".into()]);
+    }
+    let plan = plan(&[record], &rules(), NOW).unwrap();
+    assert_eq!(plan.steps.len(), 1, "{:?}", plan.steps);
+    let effects = plan.steps[0].reasons.iter().filter(|reason| reason.consequence_of.is_some());
+    assert!(effects.clone().count() >= 4);
+    assert!(effects.clone().all(|reason| reason.consequence_of.as_deref() == Some("unsteady heading")), "{:?}", plan.steps);
+}
+
+#[test]
+fn exact_flight_beside_the_paths_is_not_called_skipped() {
+    let mut record = perfect_record("anna", 1);
+    for task in &mut record.tasks {
+        (task.attempted, task.covered, task.state) = (false, Some(0.0), Some(TaskState::NotAttempted));
+        task.technique.as_mut().unwrap().stand_off_error_m = Some(4.0);
+    }
+    let (scenario, causes, effects) = first_step(record);
+    assert_eq!(scenario, "drill-stand-off");
+    assert!(causes.contains(&"too far from the surface".to_owned()) && effects.iter().any(|rule| rule.starts_with("beside ")));
+    assert!(!causes.iter().chain(&effects).any(|rule| rule.contains("not attempted")), "{causes:?} {effects:?}");
+}
+
+#[test]
+fn exact_records_before_format_4_use_unmerged_crashes() {
+    let mut record = perfect_record("anna", 1);
+    record.technique = None;
+    record.tasks.iter_mut().for_each(|task| task.technique = None);
+    record.tasks[1].crashes.bridge = 3;
+    let (scenario, causes, _) = first_step(record);
+    assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes under the arch".to_owned()]));
+}
+
+#[test]
+fn exact_rule_without_its_scenario_uses_the_alternative() {
+    let rules = rules().for_installed(|name| name != "drill-lamp");
+    let lamp = rules.rules.iter().find(|rule| rule.name == "lamp off").unwrap();
+    assert_eq!(lamp.scenario, "practice");
+    assert!(rules.rules.iter().any(|rule| rule.scenario == "drill-framing"));
 }
 
 #[test]
@@ -81,18 +217,61 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     assert_eq!(plan.steps[1].scenario, "drill-straight-line");
 }
 
-#[test]
-fn exact_good_drill_flight_recommends_job() {
-    let mut job = perfect_record("anna", 1);
-    job.tasks[2].on_path = 0.3;
-    let mut drill = perfect_record("anna", 2);
+/// Returns a session of the gap drill; `on_path` is its on-path share.
+fn gap_drill(number: usize, on_path: f64) -> SessionRecord {
+    let mut drill = perfect_record("anna", number);
     drill.scenario = "drill-gap".into();
     drill.tasks.retain(|task| task.kind == "interlayer");
+    drill.tasks[0].on_path = on_path;
     drill.defects.clear();
     (drill.snapshots, drill.hits) = (0, 0);
-    let plan = plan(&[job, drill], &rules(), NOW).unwrap();
-    assert_eq!((plan.steps.len(), plan.steps[0].scenario.as_str()), (1, "two-bridges"));
-    assert_eq!(plan.changes, None, "a drill must not be compared with the job");
+    drill
+}
+
+#[test]
+fn exact_drill_is_done_after_two_of_three_sessions_at_its_criterion() {
+    let mut job = perfect_record("anna", 1);
+    job.tasks[2].on_path = 0.3;
+    let of = |drills: &[f64]| {
+        let flown = drills.iter().zip(2..).map(|(on_path, number)| gap_drill(number, *on_path));
+        let records: Vec<SessionRecord> = std::iter::once(job.clone()).chain(flown).collect();
+        let plan = plan(&records, &rules(), NOW).unwrap();
+        assert_eq!(plan.changes.is_some(), drills.len() > 1, "a drill must not be compared with the job");
+        let progress = plan.drills.iter().find(|drill| drill.scenario == "drill-gap").unwrap();
+        (plan.steps[0].scenario.clone(), progress.met, progress.done, progress.words())
+    };
+    let (scenario, met, done, words) = of(&[]);
+    assert_eq!((scenario.as_str(), met, done), ("drill-gap", 0, false));
+    assert!(words.starts_with("not flown yet; done after 2 of 3 sessions"), "{words}");
+    let (scenario, met, done, words) = of(&[0.95]);
+    assert_eq!((scenario.as_str(), met, done), ("drill-gap", 1, false));
+    assert!(words.contains("1 of 1 session met the criterion; done after 2 of 3 (complete, off path at most 10%"), "{words}");
+    for done_now in [&[0.95, 0.95][..], &[0.95, 0.5, 0.95], &[0.5, 0.95, 0.95], &[0.5, 0.5, 0.95, 0.95]] {
+        let (scenario, met, done, _) = of(done_now);
+        assert_eq!((scenario.as_str(), met, done), ("two-bridges", 2, true), "{done_now:?}");
+    }
+    for open in [&[0.95, 0.5][..], &[0.95, 0.5, 0.5], &[0.95, 0.95, 0.5, 0.5]] {
+        assert_eq!((of(open).0.as_str(), of(open).2), ("drill-gap", false), "{open:?}");
+    }
+}
+
+#[test]
+fn exact_done_drill_is_recommended_again_after_a_poor_flight() {
+    let mut poor = perfect_record("anna", 4);
+    poor.tasks[2].on_path = 0.3;
+    let records = [gap_drill(2, 1.0), gap_drill(3, 1.0), poor];
+    let plan = plan(&records, &rules(), NOW).unwrap();
+    assert_eq!(plan.steps[0].scenario, "drill-gap");
+    assert!(plan.drills[0].done);
+}
+
+#[test]
+fn exact_incomplete_drill_does_not_meet_its_criterion() {
+    let mut broken_off = gap_drill(3, 1.0);
+    broken_off.completion.as_mut().unwrap().complete = false;
+    let records = vec![gap_drill(2, 1.0), broken_off, gap_drill(4, 0.5)];
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(), NOW).unwrap();
+    assert_eq!((plan.drills[0].sessions, plan.drills[0].met, plan.drills[0].done), (3, 1, false));
 }
 
 #[test]
@@ -140,16 +319,33 @@ fn exact_braces_in_task_names_are_not_expanded() {
 }
 
 #[test]
-fn regress_plan_excludes_and_counts_incomplete_sessions() {
-    let records = vec![perfect_record("anna", 1), aborted_record("anna", 2)];
+fn regress_latest_session_counts_for_the_rules_even_if_incomplete() {
+    let records = vec![perfect_record("anna", 1), aborted_record("anna", 2), aborted_record("anna", 3)];
     let of = |records: &[SessionRecord], incomplete| plan_for_policy(records.to_vec(), incomplete, &rules(), NOW).unwrap();
     let without = of(&records, IncompletePolicy::Exclude);
-    assert_eq!((without.session.as_str(), without.left_out), ("session-anna-001", 1));
+    assert_eq!((without.session.as_str(), without.left_out), ("session-anna-003", 1));
+    let note = without.note.as_ref().unwrap();
+    assert!(note.contains("Incomplete: 0 of 4 tasks, 15% of the path"), "{note}");
+    assert_eq!(without.changes, None, "an incomplete session is not compared");
+    let skipped = reason_of(&without, "several tasks not attempted").unwrap().1;
+    assert_eq!(skipped.words, "3 of 4 tasks were not flown. The practice job is shorter: fly every task to its end.");
     let with = of(&records, IncompletePolicy::Include);
-    assert_eq!((with.session.as_str(), with.left_out), ("session-anna-002", 0));
-    let none = of(&records[1..], IncompletePolicy::Exclude);
-    assert_eq!((none.steps[0].scenario.as_str(), none.left_out), (rules().job.as_str(), 1));
-    assert!(none.steps[0].reasons[0].words.contains("Incomplete: 0 of 4 tasks, 15% of the path"), "{:?}", none.steps);
+    assert_eq!((with.session.as_str(), with.left_out, &with.note), ("session-anna-003", 0, &None));
+    assert!(with.changes.is_some());
+    // A complete flight afterward answers the question of what was not flown.
+    let after = of(&[records[1].clone(), perfect_record("anna", 4)], IncompletePolicy::Exclude);
+    assert_eq!((after.steps[0].scenario.as_str(), after.left_out, after.note), (rules().job.as_str(), 1, None));
+}
+
+#[test]
+fn regress_unflown_task_keeps_the_advice_of_its_last_flight() {
+    let (mut before, mut now) = (perfect_record("anna", 1), perfect_record("anna", 2));
+    before.tasks[1].on_path = 0.5;
+    now.tasks[1].attempted = false;
+    now.tasks[1].technique = Some(crate::record::TaskTechnique::default());
+    let plan = plan(&[before, now], &rules(), NOW).unwrap();
+    assert_eq!(reason_of(&plan, "off the arch path").unwrap().1.session, "session-anna-001");
+    assert_eq!(reason_of(&plan, "arch not attempted").unwrap().1.session, "session-anna-002");
 }
 
 #[test]
@@ -163,5 +359,5 @@ fn regress_missed_visible_severe_defect_is_reported() {
     assert!(words.iter().all(|words| !words.contains("No particular weakness found")), "{words:?}");
     let plain = words.iter().find(|words| words.contains("Clearly visible for up to 5.5 s")).unwrap();
     assert!(plain.contains("defect 4 (spalling, condition state 3)"), "{plain}");
-    assert_eq!(plan.steps[0].scenario, "practice");
+    assert_eq!(plan.steps[0].scenario, "drill-search");
 }

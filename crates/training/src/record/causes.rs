@@ -1,19 +1,21 @@
 //! Causes of a session's scores, computed for each task from the session's frames.
 
+use super::crashes::Crashes;
 use super::source::RecordSource;
-use super::task_record::{Crashes, DefectRecord, TaskRecord, kind_key};
+use super::task_record::{DefectRecord, TaskRecord, kind_key};
+use super::technique::{self, MAX_OFF_PATH_DISTANCE_M, SessionTechnique, TaskTechnique};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_monitor::assessment::SnapshotCounts;
 use spandrel_monitor::measures::crash::{self, Crash};
+use spandrel_monitor::measures::image_quality::angle_rad;
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths, TaskWindow};
 use spandrel_monitor::measures::on_speed;
 
-/// Maximum distance from a path at which the drone counts as off that path, m. Farther away, it counts as elsewhere
-/// (docs/src/reference/assessment.md, "Feedback during the flight").
-const MAX_OFF_PATH_DISTANCE_M: f64 = 8.0;
+/// Angle to the viewing direction beyond which a defect faces away from the path, rad: the limit for pictures (60 degrees).
+const MAX_FACING_ANGLE_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
 /// The parts of a session record computed from frames.
 pub struct ScoreCauses {
@@ -21,6 +23,8 @@ pub struct ScoreCauses {
     pub tasks: Vec<TaskRecord>,
     /// Crashes outside all task windows.
     pub crashes_outside: Crashes,
+    /// Technique outside the tasks.
+    pub technique: SessionTechnique,
     /// Defects in placement order.
     pub defects: Vec<DefectRecord>,
 }
@@ -49,14 +53,22 @@ pub fn causes(source: &RecordSource<'_>) -> ScoreCauses {
         on_path,
     };
     let defects = defects(source, &flown.paths);
+    let techniques = technique::tasks(source, &flown.paths, &flown.on_path);
+    let task = |(task, technique)| task_causes(source, &flown, (task, technique), &defects);
     ScoreCauses {
-        tasks: (0..scenario.tasks.len()).map(|task| task_causes(source, &flown, task, &defects)).collect(),
+        tasks: techniques.into_iter().enumerate().map(task).collect(),
         crashes_outside: crashes(&flown, None),
+        technique: technique::session(source),
         defects,
     }
 }
 
-fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize, defects: &[DefectRecord]) -> TaskRecord {
+fn task_causes(
+    source: &RecordSource<'_>,
+    flown: &FlownSession<'_>,
+    (task, technique): (usize, TaskTechnique),
+    defects: &[DefectRecord],
+) -> TaskRecord {
     let (described, result) = (&source.scenario.tasks[task], &source.assessed_session.assessment.tasks[task]);
     let window = flown.on_path.windows[task];
     let range = window.map_or(0..0, |window| window.first..window.last + 1);
@@ -82,6 +94,7 @@ fn task_causes(source: &RecordSource<'_>, flown: &FlownSession<'_>, task: usize,
         crashes: crashes(flown, Some(task)),
         defects_placed: own().count(),
         defects_found: own().filter(|defect| defect.found).count(),
+        technique: Some(technique),
     }
 }
 
@@ -119,17 +132,48 @@ fn defect_causes(
     let found = pictures.each.iter().any(|picture| picture.found.contains(&defect.id));
     let views = pictures.each.iter().flat_map(|picture| &picture.views).filter(|view| view.defect == defect.id && !view.shown);
     let best = views.min_by_key(|view| view.fails.len());
+    let nearest = nearest_task(paths, defect.position_m);
+    let graded = graded(source, defect.id);
     DefectRecord {
         id: defect.id,
         kind: defect.kind,
         kind_name: defect_name(defect.kind).to_owned(),
         element: defect.element,
         condition_state: defect.condition_state,
-        task: nearest_task(paths, defect.position_m).map(|task| source.scenario.tasks[task].id),
+        task: nearest.map(|task| source.scenario.tasks[task].id),
         found,
         lacked: best.filter(|_| !found).map(|view| view.fails.clone()).unwrap_or_default(),
         in_view_s: None,
+        line: defect.line,
+        hidden: nearest.is_some_and(|task| is_hidden(source, paths, task, defect)),
+        shortfalls: graded.filter(|_| found).unwrap_or_default(),
     }
+}
+
+/// Returns whether a defect faces away from the viewing direction at the nearest point of its task's path.
+fn is_hidden(source: &RecordSource<'_>, paths: &ReferencePaths, task: usize, defect: &PlacedDefect) -> bool {
+    let task_spec = &source.scenario.tasks[task];
+    let nearest = paths.path(task).nearest_exact(defect.position_m);
+    let view = nearest.and_then(|nearest| task_spec.viewing_directions.get(nearest.point)).filter(|_| task_spec.inspects_surface);
+    view.is_some_and(|view| angle_rad(*view, defect.normal * -1.0) > MAX_FACING_ANGLE_RAD)
+}
+
+/// Returns why no picture of a defect has sufficient quality for the certification, without duplicates; `None` if one
+/// has, or if the camera can't reach that quality.
+fn graded(source: &RecordSource<'_>, id: u32) -> Option<Vec<String>> {
+    let accuracy = &source.assessed_session.assessment.certification.accuracy;
+    let grade = accuracy.defects.iter().find(|grade| grade.defect == id)?;
+    if !grade.gradable || grade.found_in_frame.is_some() {
+        return None;
+    }
+    let prefix = format!("defect {id}: ");
+    let mut reasons: Vec<String> = Vec::new();
+    for reason in accuracy.pictures.iter().flat_map(|picture| &picture.fails).filter_map(|text| text.strip_prefix(&prefix)) {
+        if !reasons.iter().any(|known| known == reason) {
+            reasons.push(reason.to_owned());
+        }
+    }
+    Some(reasons)
 }
 
 fn nearest_task(paths: &ReferencePaths, position_m: Vec3<Enu>) -> Option<usize> {

@@ -2,13 +2,17 @@
 //! session folder, so it can be recreated at any time.
 
 mod causes;
+mod crashes;
 mod outcome;
 mod source;
 mod task_record;
+mod technique;
 
+pub use crashes::Crashes;
 pub use outcome::SessionOutcome;
 pub use source::{FORMAT_VERSION, RecordSource, SourceHashes};
-pub use task_record::{Crashes, DefectRecord, TaskRecord};
+pub use task_record::{DefectRecord, TaskRecord};
+pub use technique::{SessionTechnique, TaskTechnique};
 
 use super::questionnaire::{Answers, ScaleScores, scales};
 use serde::{Deserialize, Serialize};
@@ -83,6 +87,9 @@ pub struct SessionRecord {
     /// Certification scores and requirements; absent in records before format 3.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certification: Option<CertificationRecord>,
+    /// Technique outside the tasks; absent in records before format 4.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub technique: Option<SessionTechnique>,
     /// Questionnaire answers, possibly incomplete; `None` if the questionnaire was not started.
     pub answers: Option<Answers>,
 }
@@ -215,6 +222,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         completion: Some(assessment.completion),
         tasks: causes.tasks,
         crashes_outside: causes.crashes_outside,
+        technique: Some(causes.technique),
         defects: causes.defects,
         snapshots: assessment.snapshots.taken,
         hits: assessment.snapshots.hits,
@@ -253,6 +261,19 @@ impl SessionRecord {
     #[must_use]
     pub fn crashes(&self) -> Crashes {
         self.tasks.iter().map(|task| task.crashes).fold(self.crashes_outside, Crashes::combined_with)
+    }
+
+    /// Returns the crash counts of the whole session with contacts less than a second apart merged; the counts before merging
+    /// for records before format 4.
+    #[must_use]
+    pub fn contacts(&self) -> Crashes {
+        self.tasks.iter().map(TaskRecord::contacts).fold(self.contacts_outside(), Crashes::combined_with)
+    }
+
+    /// Returns the crash counts outside all task windows, as [`Self::contacts`].
+    #[must_use]
+    pub fn contacts_outside(&self) -> Crashes {
+        self.technique.map_or(self.crashes_outside, |technique| technique.contacts_outside)
     }
 
     /// Returns the questionnaire's scale scores; `None` if it was not started.

@@ -1,7 +1,8 @@
-//! Tasks, crashes and defects in a session record.
+//! Tasks and defects in a session record.
 
+use super::crashes::Crashes;
+use super::technique::TaskTechnique;
 use serde::{Deserialize, Serialize};
-use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::elements::Element;
 use spandrel_model::scenario::TaskKind;
 use spandrel_monitor::score::completion::TaskState;
@@ -45,69 +46,17 @@ pub struct TaskRecord {
     pub defects_placed: usize,
     /// Number of these defects that were found.
     pub defects_found: usize,
+    /// How the task was flown; absent in records before format 4.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub technique: Option<TaskTechnique>,
 }
 
-/// Crash counts by kind of object hit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Crashes {
-    /// Crashes into bridges.
-    pub bridge: usize,
-    /// Crashes into the ground.
-    pub terrain: usize,
-    /// Crashes into water.
-    pub water: usize,
-    /// Crashes into any other object.
-    pub other: usize,
-    /// Crashes into cars and trucks.
-    pub vehicle: usize,
-    /// Crashes into people.
-    pub person: usize,
-}
-
-impl Crashes {
-    /// Counts one crash.
-    pub(super) fn add(&mut self, with: ContactKind) {
-        match with {
-            ContactKind::None => {}
-            ContactKind::Bridge => self.bridge += 1,
-            ContactKind::Terrain => self.terrain += 1,
-            ContactKind::Water => self.water += 1,
-            ContactKind::Other => self.other += 1,
-            ContactKind::Vehicle => self.vehicle += 1,
-            ContactKind::Person => self.person += 1,
-        }
-    }
-
-    /// Returns the sum of two counts.
+impl TaskRecord {
+    /// Returns the crash counts with contacts less than a second apart merged; the counts before merging for records before
+    /// format 4.
     #[must_use]
-    pub fn combined_with(self, more: Self) -> Self {
-        Self {
-            bridge: self.bridge + more.bridge,
-            terrain: self.terrain + more.terrain,
-            water: self.water + more.water,
-            other: self.other + more.other,
-            vehicle: self.vehicle + more.vehicle,
-            person: self.person + more.person,
-        }
-    }
-
-    /// Returns the key and number of crashes of each kind.
-    #[must_use]
-    pub fn by_kind(&self) -> [(&'static str, usize); 6] {
-        [
-            ("bridge", self.bridge),
-            ("terrain", self.terrain),
-            ("water", self.water),
-            ("other", self.other),
-            ("vehicle", self.vehicle),
-            ("person", self.person),
-        ]
-    }
-
-    /// Returns the total number of crashes.
-    #[must_use]
-    pub fn total(&self) -> usize {
-        self.by_kind().iter().map(|(_, count)| count).sum()
+    pub fn contacts(&self) -> Crashes {
+        self.technique.map_or(self.crashes, |technique| technique.contacts)
     }
 }
 
@@ -133,6 +82,17 @@ pub struct DefectRecord {
     /// Time during which a picture would have shown the missed defect, s. Computed only for session reports.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub in_view_s: Option<f64>,
+    /// Whether the defect is a crack or another line. False in records before format 4.
+    #[serde(default)]
+    pub line: bool,
+    /// Whether the defect faces away from the viewing direction at the nearest point of its task's path. False in records
+    /// before format 4.
+    #[serde(default)]
+    pub hidden: bool,
+    /// Reasons why no picture of a found defect has sufficient quality for the certification. Empty if one has, if the
+    /// camera can't reach that quality, and in records before format 4.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shortfalls: Vec<String>,
 }
 
 pub(super) fn kind_key(kind: TaskKind) -> &'static str {

@@ -28,6 +28,7 @@ use spandrel_mavlink::telemetry::timeline::LinkCounts;
 use spandrel_mavlink::telemetry::{Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
+use spandrel_model::shipped::SCENARIOS;
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::assessment::{Assessment, flight_with_seed};
@@ -200,6 +201,7 @@ fn next(
             .and_then(|defect_outcome| defect_outcome.best_approach.as_ref())
             .map(|best_approach| best_approach.in_view_s);
     }
-    let rules = read_rules("rules.toml", DEFAULT_RULES).ok();
+    let is_installed = |name: &str| SCENARIOS.iter().any(|(stem, _)| *stem == name);
+    let rules = read_rules("rules.toml", DEFAULT_RULES).ok().map(|rules| rules.for_installed(is_installed));
     rules.and_then(|rules| plan::plan(&[record], &rules, metadata.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
 }

@@ -12,6 +12,7 @@ pub mod live;
 pub mod live_state;
 pub mod login;
 pub mod login_throttle;
+pub mod plan_rules;
 pub mod questionnaire_form;
 pub mod scenarios;
 pub mod sessions;

@@ -35,6 +35,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
         section {
             @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
             @else { (table(&format!("{} users", people.len()), &heads, &rows)) }
+            p { a href="/plan-rules" { "Training plan rules" } }
         }
     };
     page(visitor, "/trainees", "Trainees", &body)
@@ -83,8 +84,13 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
         p { "Fly between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "It has been a long time since the last flight, and skills fade without practice." } } }
         ol.steps {
             @for step in &plan.steps {
-                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { (reason.words) } } } }
+                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } } }
             }
+        }
+        @if let Some(note) = &plan.note { p.note { (note) } }
+        @if !plan.drills.is_empty() {
+            h3 { "Drills" }
+            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) "." } } }
         }
         @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {

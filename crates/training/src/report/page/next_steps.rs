@@ -13,7 +13,7 @@ pub fn section(review: &Review) -> Markup {
             @for step in &review.next {
                 li {
                     b { (step.scenario) }
-                    ul { @for reason in &step.reasons { li { (reason.words) } } }
+                    ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } }
                 }
             }
         }
@@ -27,6 +27,7 @@ fn table(steps: &[PlanStep]) -> Table {
         vec![
             step.scenario.clone().into(),
             reason.rule.clone().into(),
+            reason.consequence_of.clone().unwrap_or_default().into(),
             TableCell::Number(reason.value, 3),
             TableCell::Number(reason.limit, 3),
             TableCell::Number(step.urgency, 2),
@@ -36,7 +37,7 @@ fn table(steps: &[PlanStep]) -> Table {
     Table {
         name: "next",
         caption: "recommended scenarios",
-        columns: vec!["scenario", "rule", "measured", "limit", "urgency", "reason"],
+        columns: vec!["scenario", "rule", "consequence of", "measured", "limit", "urgency", "reason"],
         rows: rows.map(row).collect(),
     }
 }

@@ -1,0 +1,258 @@
+//! How a task was flown: measures that explain the scores. They also cover a drone that flew beside a path without ever
+//! being on it.
+
+use super::crashes::Crashes;
+use super::source::RecordSource;
+use serde::{Deserialize, Serialize};
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Task;
+use spandrel_monitor::measures::coverage::FlownPath;
+use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
+
+/// Maximum distance from a path at which the drone counts as off that path, m. Farther away, it counts as elsewhere
+/// (docs/src/reference/assessment.md, "Feedback during the flight").
+pub(super) const MAX_OFF_PATH_DISTANCE_M: f64 = 8.0;
+/// Stick movement that counts as a reversal, as a fraction of the travel from the center to the stop (the method of
+/// steering wheel reversals in SAE J2944; the value for sticks is an estimate).
+const REVERSAL_GAP: f64 = 0.2;
+/// Vertical component of the viewing direction above which the stand-off is mostly vertical, so that a height error is a
+/// stand-off error (45 degrees).
+const MAX_LEVEL_VIEW_UP: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Distance within which the nearest position on a path counts as its end, m.
+const END_TOLERANCE_M: f64 = 1e-6;
+
+/// How one task was flown. Frames count for the path that the drone is on or else for the nearest one within 8 m,
+/// except while the drone is past that path's ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct TaskTechnique {
+    /// Time on the path or within 8 m of it, s.
+    pub near_s: f64,
+    /// Fraction of the path's length that the drone passed within 8 m, 0 to 1.
+    pub passed: f64,
+    /// Median height above the path, m, positive upward; `None` if the stand-off is vertical or the drone never came near.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_error_m: Option<f64>,
+    /// Median distance from the surface beyond the path's, m, positive if too far; `None` if the task inspects no surface
+    /// or the drone never came near.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand_off_error_m: Option<f64>,
+    /// RMS framing error of the certification profile, degrees; `None` if the task inspects no surface or its path was
+    /// not entered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rms_framing_deg: Option<f64>,
+    /// Fraction of the time near the path below the minimum clearance, 0 to 1.
+    pub low_clearance: f64,
+    /// Fraction of the time near the path with the lamp off, 0 to 1; `None` if the task needs no lamp.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lamp_off: Option<f64>,
+    /// Number of reversals per minute near the path of the forward, right and up sticks together.
+    pub stick_reversals_per_min: f64,
+    /// Number of reversals per minute near the path of the yaw stick.
+    pub yaw_reversals_per_min: f64,
+    /// Contacts within the task's window, merged if they are less than a second apart.
+    pub contacts: Crashes,
+    /// Speed of the fastest of these contacts, m/s; 0 without contacts.
+    pub fastest_contact_m_s: f64,
+}
+
+/// Technique outside the tasks and over the whole session.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct SessionTechnique {
+    /// Contacts outside all task windows, merged if they are less than a second apart.
+    pub contacts_outside: Crashes,
+    /// Time below the minimum clearance, s.
+    pub exposure_s: f64,
+}
+
+/// Samples of one task, in frame order.
+#[derive(Default)]
+struct NearSamples {
+    frames: usize,
+    heights_m: Vec<f64>,
+    stand_offs_m: Vec<f64>,
+    low_clearance: usize,
+    lamp_off: usize,
+    sticks: [ReversalCounter; 4],
+}
+
+/// Counts the reversals of one stick axis.
+#[derive(Debug, Clone, Copy, Default)]
+struct ReversalCounter {
+    /// Lowest and highest position since the last reversal.
+    range: Option<(f64, f64)>,
+    /// Direction of the current movement; `None` until the stick has moved by the gap.
+    rising: Option<bool>,
+    count: usize,
+}
+
+impl ReversalCounter {
+    fn add(&mut self, position: f64) {
+        let (low, high) = self.range.map_or((position, position), |(low, high)| (low.min(position), high.max(position)));
+        self.range = Some((low, high));
+        let turned = match self.rising {
+            Some(true) | None if high - position > REVERSAL_GAP => Some(false),
+            Some(false) | None if position - low > REVERSAL_GAP => Some(true),
+            Some(_) | None => None,
+        };
+        if let Some(rising) = turned {
+            self.count += usize::from(self.rising.is_some());
+            self.rising = Some(rising);
+            self.range = Some((position, position));
+        }
+    }
+}
+
+/// Computes the technique of every task, in scenario order.
+pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: &OnPath) -> Vec<TaskTechnique> {
+    let (scenario, frames) = (source.scenario, &source.assessed_session.frames);
+    let count = scenario.tasks.len();
+    let mut samples: Vec<NearSamples> = (0..count).map(|_| NearSamples::default()).collect();
+    let mut passed: Vec<FlownPath> = (0..count).map(|task| FlownPath::new(paths.path(task), MAX_OFF_PATH_DISTANCE_M)).collect();
+    for (frame, on) in frames.iter().zip(&on_path.task) {
+        let near = if frame.missing { None } else { near_task(paths, &scenario.tasks, frame, on.map(|(task, _)| task)) };
+        for (task, path) in passed.iter_mut().enumerate() {
+            path.add_frame(near.and_then(|near| (near.task == task).then_some(near.point)));
+        }
+        if let Some(near) = near {
+            let described = &scenario.tasks[near.task];
+            let clearance_m = described.too_close_m.unwrap_or(f64::INFINITY).min(scenario.scoring.clearance_m);
+            samples[near.task].add(frame, &near, described, clearance_m);
+        }
+    }
+    let frame_s = 1.0 / scenario.scoring.frame_rate_hz;
+    let one = |(task, samples): (usize, NearSamples)| {
+        let passed = if samples.frames > 0 { passed[task].coverage().share } else { 0.0 };
+        with_certification(source, task, samples.technique(&scenario.tasks[task], passed, frame_s))
+    };
+    samples.into_iter().enumerate().map(one).collect()
+}
+
+/// Returns the technique outside the tasks.
+pub(super) fn session(source: &RecordSource<'_>) -> SessionTechnique {
+    let certification = &source.assessed_session.assessment.certification;
+    SessionTechnique { contacts_outside: contacts(source, None).0, exposure_s: certification.exposure_s }
+}
+
+/// Returns the merged contacts of a task, or outside all tasks, and the speed of the fastest.
+fn contacts(source: &RecordSource<'_>, task: Option<u32>) -> (Crashes, f64) {
+    let merged = &source.assessed_session.assessment.certification.crashes;
+    let mut counts = Crashes::default();
+    let mut fastest_m_s = 0.0_f64;
+    for crash in merged.iter().filter(|crash| crash.task == task) {
+        counts.add(crash.with);
+        fastest_m_s = fastest_m_s.max(crash.speed_m_s);
+    }
+    (counts, fastest_m_s)
+}
+
+/// Adds the measures that the certification profile has already computed.
+fn with_certification(source: &RecordSource<'_>, task: usize, technique: TaskTechnique) -> TaskTechnique {
+    let id = source.scenario.tasks[task].id;
+    let graded = source.assessed_session.assessment.certification.tasks.iter().find(|graded| graded.id == id);
+    let (contacts, fastest_contact_m_s) = contacts(source, Some(id));
+    let rms_framing_deg = graded.and_then(|graded| graded.precision).and_then(|precision| precision.rms_framing_deg);
+    TaskTechnique { rms_framing_deg, contacts, fastest_contact_m_s, ..technique }
+}
+
+/// Position relative to the path that a frame counts for.
+#[derive(Clone, Copy)]
+struct NearPath {
+    task: usize,
+    /// Index of the nearest path point.
+    point: usize,
+    /// Vector from the nearest position on the path to the drone, m.
+    offset_m: Vec3<Enu>,
+}
+
+fn near_task(paths: &ReferencePaths, tasks: &[Task], frame: &Frame, on: Option<usize>) -> Option<NearPath> {
+    let at = |task: usize| {
+        let path = paths.path(task);
+        if path.is_beyond(frame.position_m, MAX_OFF_PATH_DISTANCE_M) {
+            return None;
+        }
+        let point = path.nearest_exact(frame.position_m)?.point;
+        let foot_m = path.closest_position(frame.position_m)?;
+        let offset_m = frame.position_m - foot_m;
+        let ends = [path.points_m().first(), path.points_m().last()];
+        let at_end = ends.into_iter().flatten().any(|end| (*end - foot_m).norm() < END_TOLERANCE_M);
+        let past_end = at_end && !tasks[task].closed && offset_m.norm() > paths.threshold_m(task);
+        (offset_m.norm() <= MAX_OFF_PATH_DISTANCE_M && !past_end).then_some(NearPath { task, point, offset_m })
+    };
+    match on {
+        Some(task) => at(task),
+        None => (0..paths.len()).filter_map(at).min_by(|a, b| a.offset_m.norm().total_cmp(&b.offset_m.norm())),
+    }
+}
+
+impl NearSamples {
+    fn add(&mut self, frame: &Frame, near: &NearPath, task: &Task, clearance_m: f64) {
+        self.frames += 1;
+        let view = task.viewing_directions.get(near.point).filter(|_| task.inspects_surface);
+        if let Some(view) = view {
+            self.stand_offs_m.push(-near.offset_m.dot(*view));
+        }
+        if view.is_none_or(|view| view.up().abs() < MAX_LEVEL_VIEW_UP) {
+            self.heights_m.push(near.offset_m.up());
+        }
+        self.low_clearance += usize::from(frame.clearance_m.is_some_and(|clearance| clearance < clearance_m));
+        self.lamp_off += usize::from(!frame.light);
+        for (counter, position) in self.sticks.iter_mut().zip(frame.sticks) {
+            counter.add(position);
+        }
+    }
+
+    fn technique(self, task: &Task, passed: f64, frame_s: f64) -> TaskTechnique {
+        let share = |frames: usize| if self.frames > 0 { frames as f64 / self.frames as f64 } else { 0.0 };
+        let near_s = self.frames as f64 * frame_s;
+        let per_min = |reversals: usize| if near_s > 0.0 { 60.0 * reversals as f64 / near_s } else { 0.0 };
+        let [forward, right, up, yaw] = self.sticks.map(|axis| axis.count);
+        TaskTechnique {
+            near_s,
+            passed,
+            height_error_m: median(self.heights_m),
+            stand_off_error_m: median(self.stand_offs_m),
+            rms_framing_deg: None,
+            low_clearance: share(self.low_clearance),
+            lamp_off: (task.dark && self.frames > 0).then(|| share(self.lamp_off)),
+            stick_reversals_per_min: per_min(forward + right + up),
+            yaw_reversals_per_min: per_min(yaw),
+            contacts: Crashes::default(),
+            fastest_contact_m_s: 0.0,
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    let upper = *values.get(middle)?;
+    Some(if values.len() % 2 == 1 { upper } else { 0.5 * (values[middle - 1] + upper) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reversals(positions: &[f64]) -> usize {
+        let mut counter = ReversalCounter::default();
+        positions.iter().for_each(|position| counter.add(*position));
+        counter.count
+    }
+
+    #[test]
+    fn exact_reversals_need_a_movement_beyond_the_gap() {
+        assert_eq!(reversals(&[0.0, 1.0, -1.0, 1.0]), 2);
+        assert_eq!(reversals(&[0.0, 0.3, 0.6, 0.9]), 0, "one movement");
+        assert_eq!(reversals(&[0.0, 0.1, -0.05, 0.1, 0.0]), 0, "within the gap");
+        assert_eq!(reversals(&[0.0, 1.0, 0.9, 1.0, 0.85, 0.5]), 1, "a dip within the gap is no reversal");
+        assert_eq!(reversals(&[]), 0);
+    }
+
+    #[test]
+    fn exact_median_of_odd_and_even_counts() {
+        assert_eq!(median(vec![3.0, -1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
+        assert_eq!(median(Vec::new()), None);
+    }
+}

@@ -1,0 +1,76 @@
+//! The reference page of the training plan rules, generated from the shipped rules. Run this test with
+//! `SPANDREL_REFERENCE=write` to regenerate the page.
+#![allow(clippy::unwrap_used, reason = "a test")]
+
+use spandrel_training::plan::{DEFAULT_RULES, MEASURES, MeasureUnit, PlanRule, RuleMeasure, read_rules};
+use std::fmt::Write;
+use std::path::Path;
+
+const HEAD: &str = "# Training plan rules
+
+<!-- Generated from the code: SPANDREL_REFERENCE=write cargo test -p spandrel-training --test plan_rules_page -->
+
+A training plan evaluates these rules (`crates/training/src/plan/rules.toml`). A rule fires if its measure exceeds the limit, and recommends its
+scenario. The urgency of a finding is weight × (1 + log2(value / limit)). A scenario's urgency is the sum over its findings. The plan omits scenarios
+with less than 40% of the first one's urgency.
+
+The findings in the last column follow from the rule in the first column if both fire in the same task or session. They are listed as consequences, add
+their urgency to that of their cause, and do not recommend scenarios of their own. If several rules explain a finding, the most urgent one counts.
+
+Task rules evaluate each task's latest flight; a rule that requires several tasks evaluates the latest session. Session rules evaluate the latest
+session that has a value. Older incomplete sessions are omitted by default; the latest session always counts. Rules on defects count only the defects of
+tasks that were done. All limits and weights are estimates.
+";
+
+fn keyword(rule: &PlanRule) -> &'static str {
+    MEASURES.iter().find(|(_, measure)| *measure == rule.measure).unwrap().0
+}
+
+fn limit(rule: &PlanRule) -> String {
+    let limit = rule.limit;
+    match rule.measure.unit() {
+        MeasureUnit::Fraction => format!("{:.0}%", 100.0 * limit),
+        MeasureUnit::Count => format!("{:.0}", limit.floor()),
+        MeasureUnit::Meters => format!("{limit} m"),
+        MeasureUnit::Seconds => format!("{limit} s"),
+        MeasureUnit::Minutes => format!("{limit} min"),
+        MeasureUnit::Degrees => format!("{limit} degrees"),
+        MeasureUnit::PerMinute => format!("{limit} per minute"),
+    }
+}
+
+fn scope(rule: &PlanRule) -> String {
+    let details = [rule.with.map(str::to_owned), Some(rule.lacked.clone()).filter(|text| !text.is_empty())];
+    let details: Vec<String> = details.into_iter().flatten().collect();
+    let scope = match rule.measure {
+        RuleMeasure::Session(_) => "session".to_owned(),
+        RuleMeasure::Task(_) if rule.in_tasks > 1 => format!("{} tasks", rule.in_tasks),
+        RuleMeasure::Task(_) => rule.task.map_or_else(|| "each task".to_owned(), |kind| format!("`{kind}`")),
+    };
+    if details.is_empty() { scope } else { format!("{scope}: {}", details.join(", ")) }
+}
+
+fn page() -> String {
+    let rules = read_rules("rules.toml", DEFAULT_RULES).unwrap();
+    let mut out =
+        format!("{HEAD}\n| rule | measure | scope | more than | weight | scenario | explains |\n|---|---|---|---|---|---|---|\n");
+    for rule in &rules.rules {
+        let explains = rule.explains.join(", ");
+        let row = [&rule.name, &format!("`{}`", keyword(rule)), &scope(rule), &limit(rule), &rule.weight.to_string()];
+        let row: Vec<&str> = row.into_iter().map(String::as_str).collect();
+        let _ = writeln!(out, "| {} | `{}` | {explains} |", row.join(" | "), rule.scenario);
+    }
+    out
+}
+
+#[test]
+fn exact_page_lists_the_shipped_rules() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference/plan-rules.md");
+    let text = page();
+    if std::env::var_os("SPANDREL_REFERENCE").is_some_and(|value| value == "write") {
+        std::fs::write(&path, text).unwrap();
+        return;
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == text, "plan-rules.md is outdated; regenerate it with SPANDREL_REFERENCE=write");
+}

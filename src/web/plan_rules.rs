@@ -1,0 +1,104 @@
+//! The rules of the training plans: shipped, or the server's own.
+
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
+use super::state::ServerState;
+use crate::errors::AppError;
+use crate::io::replace::replace;
+use crate::io::{files, plan_rules};
+use axum::http::StatusCode;
+use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
+use spandrel_training::web::plan_rules::{PlanRulesPage, plan_rules_page};
+use std::path::PathBuf;
+
+/// Path of the page.
+const PAGE: &str = "/plan-rules";
+
+/// Returns the file with the server's own rules. It is in a folder of its own, because the scenario folder lists its files
+/// as scenarios.
+fn own_file(state: &ServerState) -> PathBuf {
+    state.scenarios.join("plan-rules").join("rules.toml")
+}
+
+/// Returns the server's own rules as text; `None` if it uses the shipped ones.
+fn own_text(state: &ServerState) -> Result<Option<String>, AppError> {
+    let path = own_file(state);
+    if path.is_file() { files::read(&path).map(Some) } else { Ok(None) }
+}
+
+/// Returns the rules in use, and a note if the server's own rules can't be used.
+///
+/// # Errors
+/// Returns an error if the shipped rules are invalid.
+pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
+    let shipped = || plan_rules::rules(None);
+    if !own_file(state).is_file() {
+        return Ok((shipped()?, None));
+    }
+    match plan_rules::rules(Some(&own_file(state))) {
+        Ok(rules) => Ok((rules, None)),
+        Err(AppError::Wrong(_) | AppError::Failed(_) | AppError::Autopilot(..)) => {
+            let note = "This server's own rules are invalid, so the shipped rules apply. Instructors can correct them.";
+            Ok((shipped()?, Some(note.to_owned())))
+        }
+    }
+}
+
+/// Responds with the page.
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let own = own_text(state)?;
+    let text = own.as_deref().unwrap_or(DEFAULT_RULES);
+    let rules = read_rules("rules.toml", text);
+    let problems = rules.as_ref().err().map(ToString::to_string);
+    let notice = problems.as_deref().map(|words| ("bad", words));
+    let about = PlanRulesPage { text, own: own.is_some(), rules: rules.as_ref().ok(), notice };
+    Ok(WebResponse::page(plan_rules_page(&request.visitor, &about)))
+}
+
+/// Validates and saves the edited rules.
+pub fn save(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    // Browsers send line breaks as CR LF.
+    let text = request.required_field("rules")?.replace("\r\n", "\n");
+    save_text(state, request, "rules.toml", &text)
+}
+
+/// Validates and saves an uploaded file.
+pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let upload = request.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?;
+    let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
+    let bytes = upload.file.bytes()?;
+    let text = std::str::from_utf8(&bytes)
+        .map_err(|error| WebError::BadRequest(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
+    save_text(state, request, &shown, text)
+}
+
+fn save_text(state: &ServerState, request: &WebRequest, shown: &str, text: &str) -> HandlerResult {
+    let rules = match read_rules(shown, text) {
+        Ok(rules) => rules,
+        Err(problems) => {
+            let words = format!("Not saved.\n{problems}");
+            let own = own_file(state).is_file();
+            let about = PlanRulesPage { text, own, rules: None, notice: Some(("bad", &words)) };
+            let shown = WebResponse::page(plan_rules_page(&request.visitor, &about));
+            return Ok(shown.with_status(StatusCode::UNPROCESSABLE_ENTITY));
+        }
+    };
+    let target = own_file(state);
+    if let Some(folder) = target.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| WebError::Failed(format!("{}: cannot create the folder: {error}", folder.display())))?;
+    }
+    replace(&target, text.as_bytes())?;
+    let notice = Some(("good", "The rules were saved and apply from now on."));
+    let about = PlanRulesPage { text, own: true, rules: Some(&rules), notice };
+    Ok(WebResponse::page(plan_rules_page(&request.visitor, &about)))
+}
+
+/// Deletes the server's own rules.
+pub fn reset(state: &ServerState, _: &WebRequest) -> HandlerResult {
+    let path = own_file(state);
+    if path.is_file() {
+        std::fs::remove_file(&path).map_err(|error| WebError::Failed(format!("{}: cannot remove: {error}", path.display())))?;
+    }
+    Ok(WebResponse::redirect(PAGE))
+}

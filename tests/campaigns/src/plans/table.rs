@@ -1,0 +1,139 @@
+//! Plans for the planted flights, and how often they recommend the right drill.
+
+use crate::flight::{flight_id, fly};
+use crate::weaknesses::{NO_WEAKNESS, Weakness};
+use spandrel_training::plan::{PlanRules, TrainingPlan, plan};
+use spandrel_training::record::SessionRecord;
+use std::fmt;
+use std::io::Write;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Position of the right drill from which it no longer counts.
+const AMONG: usize = 3;
+/// Environment variable with the file for the flights' records, to inspect them or to continue after an interruption.
+const KEPT_RECORDS: &str = "SPANDREL_PLANTED_RECORDS";
+
+/// Result of one flight.
+struct PlantedPlan {
+    weakness: &'static Weakness,
+    seed: u64,
+    plan: TrainingPlan,
+}
+
+impl PlantedPlan {
+    /// Returns the position of the right drill in the plan, from 0.
+    fn position(&self) -> Option<usize> {
+        self.plan.steps.iter().position(|step| self.weakness.drills.contains(&step.scenario.as_str()))
+    }
+
+    /// Returns the recommended scenarios that neither the weakness nor its consequences call for.
+    fn spurious(&self) -> Vec<&str> {
+        let names = self.plan.steps.iter().map(|step| step.scenario.as_str());
+        names.filter(|name| !self.weakness.drills.contains(name) && !self.weakness.also.contains(name)).collect()
+    }
+}
+
+/// Plans for all planted flights.
+pub struct PlanTable {
+    planted: Vec<PlantedPlan>,
+    /// Plans for the pilot without a fault.
+    clean: Vec<PlantedPlan>,
+}
+
+impl PlanTable {
+    /// Flies every weakness, and the pilot without one, with every seed, on all cores.
+    pub fn fly(weaknesses: &'static [Weakness], seeds: &[u64], rules: &PlanRules) -> Self {
+        let flights: Vec<(&'static Weakness, u64)> = std::iter::once(&NO_WEAKNESS)
+            .chain(weaknesses)
+            .flat_map(|weakness| seeds.iter().map(move |seed| (weakness, *seed)))
+            .collect();
+        let known = kept_records();
+        let next = AtomicUsize::new(0);
+        let flown: Mutex<Vec<Option<SessionRecord>>> = Mutex::new(flights.iter().map(|_| None).collect());
+        std::thread::scope(|scope| {
+            for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+                scope.spawn(|| {
+                    while let Some((weakness, seed)) = flights.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        let id = flight_id(weakness, *seed);
+                        let record = known.iter().find(|record| record.id == id).cloned();
+                        let record = record.unwrap_or_else(|| fly(weakness, *seed));
+                        let index = flights.iter().position(|flight| std::ptr::eq(flight.0, *weakness) && flight.1 == *seed);
+                        let mut flown = flown.lock().unwrap();
+                        if !known.iter().any(|known| known.id == record.id) {
+                            keep(&record);
+                        }
+                        flown[index.unwrap()] = Some(record);
+                    }
+                });
+            }
+        });
+        let records = flown.into_inner().unwrap().into_iter().map(Option::unwrap);
+        let of = |((weakness, seed), record): (&(&'static Weakness, u64), SessionRecord)| {
+            let plan = plan(std::slice::from_ref(&record), rules, record.started_unix_us).unwrap();
+            PlantedPlan { weakness, seed: *seed, plan }
+        };
+        let mut planted: Vec<PlantedPlan> = flights.iter().zip(records).map(of).collect();
+        let faulty = planted.split_off(seeds.len());
+        Self { planted: faulty, clean: planted }
+    }
+
+    fn share(&self, holds: impl Fn(&PlantedPlan) -> bool) -> f64 {
+        self.planted.iter().filter(|one| holds(one)).count() as f64 / self.planted.len() as f64
+    }
+
+    /// Returns the share of plans whose first scenario is the right drill.
+    pub fn share_first(&self) -> f64 {
+        self.share(|one| one.position() == Some(0))
+    }
+
+    /// Returns the share of plans whose first three scenarios contain the right drill.
+    pub fn share_among_three(&self) -> f64 {
+        self.share(|one| one.position().is_some_and(|at| at < AMONG))
+    }
+
+    /// Returns the share of all plans, those for the pilot without a fault included, with a spurious scenario.
+    pub fn share_spurious(&self) -> f64 {
+        let all = self.planted.iter().chain(&self.clean);
+        all.clone().filter(|one| !one.spurious().is_empty()).count() as f64 / all.count() as f64
+    }
+}
+
+/// Returns the records in the file in `SPANDREL_PLANTED_RECORDS`. These flights are not flown again.
+fn kept_records() -> Vec<SessionRecord> {
+    let text = std::env::var(KEPT_RECORDS).ok().and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Appends a record to that file.
+fn keep(record: &SessionRecord) {
+    let Ok(path) = std::env::var(KEPT_RECORDS) else { return };
+    let mut file = std::fs::OpenOptions::new().create(true).append(true).open(path).unwrap();
+    writeln!(file, "{}", serde_json::to_string(record).unwrap()).unwrap();
+}
+
+impl fmt::Display for PlanTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "| weakness | seed | right drill | place | plan | cause of each | spurious |\n|---|---|---|---|---|---|---|"
+        )?;
+        for one in self.clean.iter().chain(&self.planted) {
+            let names: Vec<&str> = one.plan.steps.iter().map(|step| step.scenario.as_str()).collect();
+            let place = one.position().map_or("-".to_owned(), |at| (at + 1).to_string());
+            let causes: Vec<&str> = one.plan.steps.iter().map(|step| step.reasons[0].rule.as_str()).collect();
+            let cause = causes.join(", ");
+            let (drills, spurious) = (one.weakness.drills.join(" or "), one.spurious().join(", "));
+            let Weakness { name, .. } = one.weakness;
+            writeln!(f, "| {name} | {} | {drills} | {place} | {} | {cause} | {spurious} |", one.seed, names.join(", "))?;
+        }
+        let percent = |share: f64| 100.0 * share;
+        write!(
+            f,
+            "\nright drill first: {:.1}%, among the first three: {:.1}%, plans with a spurious drill: {:.1}%",
+            percent(self.share_first()),
+            percent(self.share_among_three()),
+            percent(self.share_spurious())
+        )
+    }
+}

@@ -1,0 +1,306 @@
+//! The planted weaknesses. Each one changes either the pilot's idea of the job (where to fly, where to look) or what its
+//! hands do (sticks and commands), and nothing else.
+
+use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::{Scenario, Task, TaskKind};
+
+/// Changes a message from the pilot to the vehicle; an empty list drops it.
+pub type Tamper = fn(&mut Hands, MavMessage) -> Vec<MavMessage>;
+
+/// A pilot with one named fault.
+pub struct Weakness {
+    pub name: &'static str,
+    /// Drills that train this weakness.
+    pub drills: &'static [&'static str],
+    /// Other scenarios that are no mistake, because they train what the fault leads to.
+    pub also: &'static [&'static str],
+    pub belief: fn(&mut Scenario),
+    pub tamper: Tamper,
+}
+
+/// Full stick deflection in MANUAL_CONTROL.
+const FULL_STICK: f64 = 1000.0;
+/// Stick messages between two changes of the planted stick noise: 0.3 s at 50 Hz.
+const NOISE_PERIOD: u64 = 15;
+/// Standard deviation of the planted noise, as a fraction of full deflection.
+const NOISE: f64 = 0.35;
+/// Stick messages between two pictures of a pilot who photographs at random: 2 s at 50 Hz.
+const RANDOM_PICTURE_PERIOD: u64 = 100;
+/// Only every fourth picture is taken by a pilot who overlooks defects.
+const OVERLOOKED: u64 = 4;
+
+/// State of the pilot's hands.
+pub struct Hands {
+    status: String,
+    last_task_flown: bool,
+    random: RandomStream,
+    noise: [f64; 4],
+    stick_messages: u64,
+    pictures: u64,
+}
+
+impl Hands {
+    pub fn new(seed: u64) -> Self {
+        Self {
+            status: String::new(),
+            last_task_flown: false,
+            random: RandomStream::new(seed, "planted weakness"),
+            noise: [0.0; 4],
+            stick_messages: 0,
+            pictures: 0,
+        }
+    }
+
+    /// Takes note of what the pilot does.
+    pub fn observe(&mut self, status: &str) {
+        self.last_task_flown |= self.status == "task 4" && status != "task 4";
+        status.clone_into(&mut self.status);
+    }
+
+    fn in_task(&self) -> bool {
+        self.status.starts_with("task ")
+    }
+
+    /// Returns the planted noise of the four axes.
+    fn noise(&mut self) -> [f64; 4] {
+        if self.stick_messages.is_multiple_of(NOISE_PERIOD) {
+            self.noise = std::array::from_fn(|_| NOISE * self.random.normal());
+        }
+        self.noise
+    }
+}
+
+fn as_intended(_: &mut Scenario) {}
+
+fn untouched(_: &mut Hands, message: MavMessage) -> Vec<MavMessage> {
+    vec![message]
+}
+
+/// Changes the sticks while the pilot flies a task.
+fn with_sticks(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, [f64; 4]) -> [f64; 4]) -> Vec<MavMessage> {
+    let MavMessage::MANUAL_CONTROL(sticks) = message else { return vec![message] };
+    hands.stick_messages += 1;
+    if !hands.in_task() {
+        return vec![MavMessage::MANUAL_CONTROL(sticks)];
+    }
+    let axes = [sticks.x, sticks.y, 2 * (sticks.z - 500), sticks.r].map(|axis| f64::from(axis) / FULL_STICK);
+    let [x, y, z, r] = change(hands, axes).map(|axis| (FULL_STICK * axis.clamp(-1.0, 1.0)).round() as i16);
+    vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { x, y, z: 500 + z / 2, r, ..sticks })]
+}
+
+/// Returns the command in a message, if it is one.
+fn command(message: &MavMessage) -> Option<MavCmd> {
+    match message {
+        MavMessage::COMMAND_LONG(COMMAND_LONG_DATA { command, .. }) => Some(*command),
+        _ => None,
+    }
+}
+
+fn without(message: MavMessage, unwanted: MavCmd) -> Vec<MavMessage> {
+    if command(&message) == Some(unwanted) { Vec::new() } else { vec![message] }
+}
+
+fn faster([x, y, z, r]: [f64; 4], factor: f64) -> [f64; 4] {
+    [factor * x, factor * y, z, r]
+}
+
+/// Moves the paths at surfaces, except in the narrow interlayer, away from the surface, m (toward it if negative).
+fn move_away(job: &mut Scenario, away_m: f64) {
+    let wide = |task: &&mut Task| task.inspects_surface && task.kind != TaskKind::Interlayer;
+    for task in job.tasks.iter_mut().filter(wide) {
+        for (point, view) in task.path_m.iter_mut().zip(&task.viewing_directions) {
+            *point = *point - *view * away_m;
+        }
+    }
+}
+
+fn halve_paths(job: &mut Scenario) {
+    for task in &mut job.tasks {
+        let half = task.path_m.len().div_ceil(2);
+        task.path_m.truncate(half);
+        task.viewing_directions.truncate(half);
+        task.closed = false;
+    }
+}
+
+fn lower_paths(job: &mut Scenario) {
+    for task in job.tasks.iter_mut().filter(|task| matches!(task.kind, TaskKind::SlabSide | TaskKind::PierCircle)) {
+        task.path_m.iter_mut().for_each(|point| *point = *point - Vec3::new(0.0, 0.0, 2.5));
+    }
+}
+
+fn look_aside(job: &mut Scenario) {
+    let (sin, cos) = math::sin_cos(80.0_f64.to_radians());
+    let aside =
+        |view: Vec3<Enu>| Vec3::new(cos * view.east() + sin * view.north(), cos * view.north() - sin * view.east(), view.up());
+    for task in &mut job.tasks {
+        task.viewing_directions.iter_mut().for_each(|view| *view = aside(*view));
+    }
+}
+
+/// The planted weaknesses, with the drill that each calls for.
+pub const WEAKNESSES: &[Weakness] = &[
+    Weakness { name: "half of every path", drills: &["practice"], also: &[], belief: halve_paths, tamper: untouched },
+    Weakness {
+        name: "only the first task",
+        drills: &["practice"],
+        also: &[],
+        belief: |job| job.tasks.truncate(1),
+        tamper: untouched,
+    },
+    Weakness {
+        name: "skips the arch",
+        drills: &["drill-curve-under-arch"],
+        also: &[],
+        belief: |job| job.tasks.retain(|task| task.kind != TaskKind::ArchBottom),
+        tamper: untouched,
+    },
+    Weakness {
+        name: "skips the pier",
+        drills: &["drill-orbit"],
+        also: &[],
+        belief: |job| job.tasks.retain(|task| task.kind != TaskKind::PierCircle),
+        tamper: untouched,
+    },
+    Weakness {
+        name: "4 m off throughout",
+        drills: &["drill-stand-off"],
+        also: &[],
+        belief: |job| move_away(job, 4.0),
+        tamper: untouched,
+    },
+    Weakness {
+        name: "too close",
+        drills: &["drill-stand-off"],
+        also: &[],
+        belief: |job| move_away(job, -1.5),
+        tamper: untouched,
+    },
+    Weakness { name: "climbs too little", drills: &["drill-hover"], also: &[], belief: lower_paths, tamper: untouched },
+    Weakness {
+        name: "too fast everywhere",
+        drills: &["drill-straight-line"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 3.5)),
+    },
+    Weakness {
+        name: "too fast around the pier",
+        drills: &["drill-orbit"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| {
+            with_sticks(hands, message, |hands, axes| if hands.status == "task 4" { faster(axes, 3.0) } else { axes })
+        },
+    },
+    Weakness {
+        name: "too fast in the interlayer",
+        drills: &["drill-gap"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| {
+            with_sticks(hands, message, |hands, axes| if hands.status == "task 3" { faster(axes, 4.5) } else { axes })
+        },
+    },
+    Weakness {
+        name: "unsteady sticks",
+        drills: &["drill-hover"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| {
+            with_sticks(hands, message, |hands, [x, y, z, r]| {
+                let noise = hands.noise();
+                [x + noise[0], y + noise[1], z + noise[2], r]
+            })
+        },
+    },
+    Weakness {
+        name: "yaw noise",
+        drills: &["drill-framing"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + 2.0 * hands.noise()[3]]),
+    },
+    Weakness { name: "looks aside", drills: &["drill-framing"], also: &["drill-search"], belief: look_aside, tamper: untouched },
+    Weakness {
+        name: "gimbal never tilted",
+        drills: &["drill-framing"],
+        also: &["drill-search"],
+        belief: as_intended,
+        tamper: |_, message| without(message, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW),
+    },
+    Weakness {
+        name: "lamp never on",
+        drills: &["drill-lamp"],
+        also: &["drill-search"],
+        belief: as_intended,
+        tamper: |_, message| without(message, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF),
+    },
+    Weakness {
+        name: "no pictures",
+        drills: &["drill-search"],
+        also: &[],
+        belief: as_intended,
+        tamper: |_, message| without(message, MavCmd::MAV_CMD_IMAGE_START_CAPTURE),
+    },
+    Weakness {
+        name: "overlooks defects",
+        drills: &["drill-search"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| {
+            if command(&message) != Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE) {
+                return vec![message];
+            }
+            hands.pictures += 1;
+            if hands.pictures.is_multiple_of(OVERLOOKED) { vec![message] } else { Vec::new() }
+        },
+    },
+    Weakness {
+        name: "pictures at random",
+        drills: &["drill-search"],
+        also: &["drill-framing"],
+        belief: as_intended,
+        tamper: |hands, message| {
+            if command(&message) == Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE) {
+                return Vec::new();
+            }
+            let due = hands.in_task() && hands.stick_messages % RANDOM_PICTURE_PERIOD == 1;
+            let is_stick = matches!(message, MavMessage::MANUAL_CONTROL(_));
+            hands.stick_messages += u64::from(is_stick);
+            let picture = spandrel_mavlink::station::command(
+                1,
+                100,
+                MavCmd::MAV_CMD_IMAGE_START_CAPTURE,
+                [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+            );
+            if due && is_stick { vec![message, MavMessage::COMMAND_LONG(picture)] } else { vec![message] }
+        },
+    },
+    Weakness {
+        name: "ignores the battery",
+        drills: &["drill-landing"],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| match message {
+            MavMessage::MANUAL_CONTROL(sticks) if hands.last_task_flown => {
+                vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { x: 0, y: 0, z: 500, r: 0, ..sticks })]
+            }
+            other => vec![other],
+        },
+    },
+    Weakness {
+        name: "lands outside the home circle",
+        drills: &["drill-landing"],
+        also: &[],
+        belief: |job| job.ground_team.pad_m = job.ground_team.pad_m + Vec3::new(0.0, -9.0, 0.0),
+        tamper: untouched,
+    },
+];
+
+/// The same pilot without a fault.
+pub const NO_WEAKNESS: Weakness =
+    Weakness { name: "none", drills: &["two-bridges"], also: &[], belief: as_intended, tamper: untouched };
