@@ -128,7 +128,7 @@ macro_rules! result {
 const COLUMNS: &[(&str, &str, &str, Read)] = &[
     ("scenario", "", "Scenario name.", Read::Text(|row| Some(row.scenario.clone()))),
     ("vehicle", "", "Aircraft ID.", Read::Text(|row| Some(row.vehicle.clone()))),
-    ("pilot", "", "Pilot, as specified with --skill.", Read::Text(|row| Some(row.pilot.clone()))),
+    ("pilot", "", "Pilot, as specified with --skill or --pilot.", Read::Text(|row| Some(row.pilot.clone()))),
     ("seed", "", "Seed.", Read::Integer(|row| i64::try_from(row.seed).ok())),
     (
         "fingerprint",

@@ -275,7 +275,10 @@ mod tests {
     }
 
     /// Runs a search; returns the route and how often the clearance of each cell was queried.
-    fn search_counted(goal: GridCell, clear: impl Fn(GridCell) -> Option<f64>) -> (Option<Vec<GridCell>>, BTreeMap<GridCell, usize>) {
+    fn search_counted(
+        goal: GridCell,
+        clear: impl Fn(GridCell) -> Option<f64>,
+    ) -> (Option<Vec<GridCell>>, BTreeMap<GridCell, usize>) {
         let mut queries: BTreeMap<GridCell, usize> = BTreeMap::new();
         let found = search_grid(goal, |cell| {
             *queries.entry(cell).or_default() += 1;
