@@ -1,6 +1,8 @@
 //! Arguments shared by several subcommands, with their allowed ranges.
 
+use crate::errors::AppError;
 use crate::io::clock;
+use crate::io::files::{self, ScenarioFile};
 use spandrel_model::scenario::Scenario;
 use spandrel_sitl::endpoint::flavor as endpoint;
 use spandrel_view::flow::pipe;
@@ -14,6 +16,9 @@ pub struct JobArgs {
     /// Scenario file, or the name of a shipped scenario
     #[arg(long, value_name = "FILE|NAME", default_value = "two-bridges")]
     pub scenario: String,
+    /// Form of the scenario, if it has forms: one of several sets of defects (`spandrel check` lists them) [default: the first]
+    #[arg(long, value_name = "NAME")]
+    pub form: Option<String>,
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
@@ -24,6 +29,19 @@ pub struct JobArgs {
 }
 
 impl JobArgs {
+    /// Loads the scenario with the requested form.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be read or is invalid, or if it does not have the form.
+    pub fn load_scenario(&self) -> Result<ScenarioFile, AppError> {
+        files::scenario(&self.scenario_argument())
+    }
+
+    /// Returns the scenario with the requested form, as one argument.
+    fn scenario_argument(&self) -> String {
+        files::with_form(&self.scenario, self.form.as_deref())
+    }
+
     /// Returns the requested seed, or else the scenario's seed, or else a new one.
     pub fn seed_for(&self, scenario: &Scenario) -> u64 {
         self.seed.or(scenario.seed).unwrap_or_else(random_seed)
@@ -94,7 +112,7 @@ impl Purpose {
 /// Returns the command-line arguments shared by all child processes.
 pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
     let mut args = vec!["--log".to_owned(), log.to_string().to_lowercase()];
-    args.extend(["--scenario", &job.scenario, "--vehicle", &job.vehicle].map(str::to_owned));
+    args.extend(["--scenario", &job.scenario_argument(), "--vehicle", &job.vehicle].map(str::to_owned));
     if let Some(seed) = job.seed {
         args.extend(["--seed".to_owned(), seed.to_string()]);
     }

@@ -31,6 +31,9 @@ pub struct Args {
     /// Scenario for a telemetry log: a file, or the name of a shipped scenario
     #[arg(long, value_name = "FILE|NAME")]
     scenario: Option<String>,
+    /// Form of the scenario for a telemetry log, if it has forms [default: the first]
+    #[arg(long, value_name = "NAME", requires = "scenario")]
+    form: Option<String>,
     /// Aircraft for a telemetry log: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
@@ -89,7 +92,7 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     if args.flight.is_dir() {
         let stored = StoredSession::read(&args.flight)?;
         let scenario = match &args.scenario {
-            Some(other) => files::scenario(other)?.scenario,
+            Some(other) => files::scenario(&files::with_form(other, args.form.as_deref()))?.scenario,
             None => stored.scenario.scenario,
         };
         let vehicle = match &args.vehicle {
@@ -104,5 +107,6 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
             args.flight.display()
         )));
     };
-    Ok((files::scenario(scenario)?.scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
+    let scenario = files::scenario(&files::with_form(scenario, args.form.as_deref()))?.scenario;
+    Ok((scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
 }

@@ -25,7 +25,7 @@ const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 /// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
 /// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
 /// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It warns if it cannot place as many defects as the
-/// scenario requests.
+/// scenario requests. For each form of a scenario, it prints the predicted detection of the defects.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -38,6 +38,9 @@ pub struct Args {
     /// Scenario and vehicle files, or names of shipped scenarios and aircraft
     #[arg(value_name = "FILE", required = true)]
     files: Vec<String>,
+    /// Form to check; the files must have it [default: all forms]
+    #[arg(long, value_name = "NAME")]
+    form: Option<String>,
     /// Aircraft for the clearance check: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
@@ -62,8 +65,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();
     for file in &args.files {
-        match files::any_source(file) {
-            Ok(source) => check_scenario(&source, &aircraft, &mut findings),
+        match files::any_source(&files::with_form(file, args.form.as_deref())) {
+            Ok(source) => {
+                check_scenario(&source, &aircraft, &mut findings);
+                check_forms(&source, args.form.as_deref(), &aircraft, &mut findings);
+            }
             Err(error) => findings.problems.push(unreadable(file, &error)),
         }
     }
@@ -101,6 +107,35 @@ fn count(number: usize, what: &str) -> String {
 fn unreadable(file: &str, error: &AppError) -> Problem {
     let text = String::new;
     Problem { file: file.into(), line: 0, key: text(), value: text(), allowed: text(), message: error.to_string() }
+}
+
+/// Describes the difficulty of a scenario's forms: the requested one, or all. Files with problems have already been reported.
+fn check_forms(source: &SourceFile, requested: Option<&str>, aircraft: &Vehicle, findings: &mut Findings) {
+    for form in scenario::form_names(&source.text).iter().filter(|form| requested.is_none_or(|one| one == *form)) {
+        let text = scenario::select_form(&source.text, form);
+        let Ok(job) = scenario::read(&source.file, &text, &|name| source.read_referenced_file(name)) else { return };
+        let site = Site::build(&job, 0);
+        let (defects, detection) = (site.defects(), site.predicted_detection(&job.tasks, &defects::REFERENCE_CAMERA));
+        if defects.len() < job.defects.count {
+            findings.warnings.push(format!(
+                "{}: form {form}: only {} of {} defects could be placed: choose another defect_seed or detection_pct",
+                source.file,
+                defects.len(),
+                job.defects.count
+            ));
+        }
+        let gradable = defects.iter().filter(|defect| pictures::is_gradable(defect, &job, &aircraft.camera).0).count();
+        let percent = |share: f64| format!("{:.1}%", 100.0 * share);
+        let (low, high) = detection.iter().fold((1.0_f64, 0.0_f64), |(low, high), one| (low.min(*one), high.max(*one)));
+        findings.notes.push(format!(
+            "{}: form {form}: predicted detection {} on average ({} to {}); {gradable} of {} count for certification",
+            source.file,
+            percent(detection.iter().sum::<f64>() / detection.len().max(1) as f64),
+            percent(low),
+            percent(high),
+            count(defects.len(), "defect")
+        ));
+    }
 }
 
 fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findings) {
@@ -147,8 +182,9 @@ fn certification_notes(source: &SourceFile, scenario: &Scenario, aircraft: &Vehi
 /// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const SCENARIO_KEYS: [&str; 14] = [
+const SCENARIO_KEYS: [&str; 15] = [
     "title",
+    "forms",
     "seed",
     "origin",
     "terrain",

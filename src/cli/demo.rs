@@ -70,7 +70,7 @@ pub struct Args {
 /// # Errors
 /// Returns an error if files are invalid, a process fails, or the flight cannot be scored.
 pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
-    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    let scenario = args.job.load_scenario()?.scenario;
     files::vehicle(&args.job.vehicle)?;
     let stop = StopRequest::install(false)?;
     let seed = args.job.seed_for(&scenario);

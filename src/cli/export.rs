@@ -121,7 +121,12 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         None => (files::scenario(&args.from)?.scenario, None),
     };
     let seed = args.seed.or(scenario.seed);
-    if args.scenario.is_some() && seed.is_none() && scenario.defects.count > 0 && scenario.defects.placed.is_none() {
+    if args.scenario.is_some()
+        && seed.is_none()
+        && scenario.defects.count > 0
+        && scenario.defects.placed.is_none()
+        && scenario.defects.seed.is_none()
+    {
         return Err(AppError::invalid(format!(
             "'{}' has different defects in every session: choose a seed with --seed N",
             args.from

@@ -145,7 +145,7 @@ impl SessionStart {
     fn read(args: &Args) -> Result<Self, AppError> {
         match &args.session {
             Some(path) => Ok(Self::Resumed(path.clone(), Box::new(StoredSession::read(path)?))),
-            None => Ok(Self::New(Box::new((files::scenario(&args.job.scenario)?, files::vehicle(&args.job.vehicle)?)))),
+            None => Ok(Self::New(Box::new((args.job.load_scenario()?, files::vehicle(&args.job.vehicle)?)))),
         }
     }
 

@@ -113,7 +113,7 @@ pub struct Args {
 /// start.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(args.leash)?;
-    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    let scenario = args.job.load_scenario()?.scenario;
     let config = PilotConfig {
         seed: args.job.seed_for(&scenario),
         scenario: Arc::new(scenario),

@@ -204,7 +204,7 @@ impl TrustedLink {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let stop = StopRequest::install(false)?;
     let still = if args.leash { PauseSwitch::listen(&stop) } else { PauseSwitch::default() };
-    let scenario = Arc::new(files::scenario(&args.job.scenario)?.scenario);
+    let scenario = Arc::new(args.job.load_scenario()?.scenario);
     let vehicle = Arc::new(files::vehicle(&args.job.vehicle)?.vehicle);
     let seed = args.job.seed_for(&scenario);
     let signing = signing(args)?;

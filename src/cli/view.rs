@@ -103,7 +103,7 @@ pub struct Args {
 /// Returns an error if files are invalid, or there is no display or no graphics adapter.
 #[cfg(feature = "view")]
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let scenario = files::scenario(&args.job.scenario)?.scenario;
+    let scenario = args.job.load_scenario()?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let keys = controller::keys(args.keys.as_deref())?;
     let config = WindowConfig {

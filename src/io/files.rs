@@ -101,11 +101,49 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     Ok(ScenarioFile { text: source.text, referenced_files: seen.into_inner(), scenario })
 }
 
-/// Finds the file for an argument: a path, or a name in `library`.
+/// Separates a scenario from one of its forms in an argument, as in `pilot-study@B`.
+pub const FORM_SEPARATOR: char = '@';
+
+/// Returns the argument for a form of a scenario.
+pub fn with_form(scenario: &str, form: Option<&str>) -> String {
+    form.map_or_else(|| scenario.to_owned(), |form| format!("{scenario}{FORM_SEPARATOR}{form}"))
+}
+
+/// Finds the file for an argument: a path, or a name in `library`, and the form after an `@`.
 ///
 /// # Errors
-/// Returns an error if there is no such file or name.
+/// Returns an error if there is no such file, name or form.
 pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
+    match argument.rsplit_once(FORM_SEPARATOR) {
+        Some((scenario, form)) if !form.contains(['/', '\\', '.']) && !Path::new(argument).is_file() => {
+            let mut source = find_file(scenario, what, library)?;
+            check_form(&source, form)?;
+            source.text = scenario::select_form(&source.text, form);
+            Ok(source)
+        }
+        _ => find_file(argument, what, library),
+    }
+}
+
+/// Checks that a scenario has a form.
+fn check_form(source: &SourceFile, form: &str) -> Result<(), AppError> {
+    let names = scenario::form_names(&source.text);
+    let file = &source.file;
+    if names.iter().any(|name| name == form) {
+        return Ok(());
+    }
+    if !names.is_empty() {
+        return Err(AppError::invalid(format!("{file} has no form '{form}' (allowed: {})", names.join(", "))));
+    }
+    let have_forms = shipped::SCENARIOS.iter().filter(|(_, text)| !scenario::form_names(text).is_empty());
+    let have_forms: Vec<&str> = have_forms.map(|(name, _)| *name).collect();
+    Err(AppError::invalid(format!(
+        "{file} has no forms, so --form {form} does not apply to it (shipped scenarios with forms: {})",
+        have_forms.join(", ")
+    )))
+}
+
+fn find_file(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
     if looks_like_a_path || path.is_file() {
@@ -180,6 +218,29 @@ mod tests {
         for name in vehicle_names() {
             assert_eq!(vehicle(name).map(|file| file.vehicle.id), Ok(name.to_owned()));
         }
+    }
+
+    #[test]
+    fn exact_form_is_selected_by_name_and_by_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("copy@work.toml");
+        std::fs::write(&path, shipped::PILOT_STUDY).unwrap();
+        let path = path.display().to_string();
+        let load = |argument: &str, form| scenario(&with_form(argument, form)).unwrap().scenario;
+        for argument in ["pilot-study", &path] {
+            let selected = |form| load(argument, form).form.unwrap().name;
+            assert_eq!((selected(None), selected(Some("B"))), ("A".to_owned(), "B".to_owned()));
+            assert_eq!(load(argument, None).crc, load(argument, Some("A")).crc, "the first form is the default");
+            assert_ne!(load(argument, Some("A")).crc, load(argument, Some("B")).crc);
+        }
+    }
+
+    #[test]
+    fn exact_unknown_form_is_reported_with_the_existing_ones() {
+        let message = |argument: &str| scenario(argument).map(|_| ()).unwrap_err().to_string();
+        assert_eq!(message("pilot-study@X"), "pilot-study.toml has no form 'X' (allowed: A, B, C, H)");
+        let none = "two-bridges.toml has no forms, so --form A does not apply to it (shipped scenarios with forms: pilot-study)";
+        assert_eq!(message("two-bridges@A"), none);
     }
 
     #[test]

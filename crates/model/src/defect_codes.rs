@@ -88,6 +88,38 @@ pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
     SizeRanges { length_m, width }
 }
 
+/// Minimum length of a defect whose size follows from its predicted detection, m: the median of the detection curve for
+/// trained inspectors (docs/src/reference/domain.md, "Human detection performance").
+const MIN_TARGET_LENGTH_M: f64 = 0.026;
+/// Minimum and maximum width of a crack in reinforced concrete whose size follows from its predicted detection, m
+/// (estimate: from below the 0.012 in that AASHTO MBEI calls insignificant to above the 0.05 in of condition state 3).
+const TARGET_CRACK_WIDTH_M: (f64, f64) = (0.000_2, 0.002);
+/// Boundary between the condition states 2 and 3 of a spall, m: 6 in.
+const SPALL_BOUNDARY_M: f64 = 0.1524;
+/// Boundary between the condition states 2 and 3 of a crack in reinforced concrete, m: 0.05 in.
+const CRACK_BOUNDARY_M: f64 = 0.001_27;
+
+/// Returns the sizes among which a defect's predicted detection selects: down to the median length of the detection curve,
+/// and up to the largest random defect.
+#[must_use]
+pub fn target_size_ranges(kind: u32) -> SizeRanges {
+    let (fair, poor) = (size_ranges(kind, 2), size_ranges(kind, 3));
+    let width =
+        if kind == CRACK { TARGET_CRACK_WIDTH_M } else { (fair.width.0.min(poor.width.0), fair.width.1.max(poor.width.1)) };
+    SizeRanges { length_m: (MIN_TARGET_LENGTH_M, poor.length_m.1), width }
+}
+
+/// Returns the condition state that follows from a defect's size, m; `None` if the size does not determine it.
+#[must_use]
+pub fn condition_state(kind: u32, length_m: f64, width_m: f64) -> Option<u8> {
+    let poor = match kind {
+        SPALL => length_m > SPALL_BOUNDARY_M,
+        CRACK => width_m > CRACK_BOUNDARY_M,
+        _ => return None,
+    };
+    Some(if poor { 3 } else { 2 })
+}
+
 /// Draws a random length and width, m, both scaled by `factor`.
 pub fn draw_size(kind: u32, condition_state: u8, factor: f64, stream: &mut RandomStream) -> (f64, f64) {
     let s = size_ranges(kind, condition_state);

@@ -74,6 +74,11 @@ pub fn pow(x: f64, y: f64) -> f64 {
 pub fn tanh(x: f64) -> f64 {
     libm::tanh(x)
 }
+/// Returns the complementary error function of x.
+#[must_use]
+pub fn erfc(x: f64) -> f64 {
+    libm::erfc(x)
+}
 /// Returns the cube root of x.
 #[must_use]
 pub fn cbrt(x: f64) -> f64 {

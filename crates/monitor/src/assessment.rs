@@ -84,6 +84,9 @@ impl From<std::io::Error> for AssessError {
 pub struct Assessment {
     /// Scoring profile used for `scores`; always `paper`.
     pub profile: &'static str,
+    /// Form of the scenario: the set of defects; `None` if the scenario has no forms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<String>,
     /// The four scores and their sum.
     pub scores: Scores,
     /// Job completion.
@@ -270,6 +273,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     let end = end(scenario, &session);
     let assessment = Assessment {
         profile: "paper",
+        form: scenario.form.as_ref().map(|form| form.name.clone()),
         scores: scores(scenario, &shares, &end, &crashes, counts),
         completion,
         tasks: tasks(scenario, &on_path, &shares, (&states, &covered)),

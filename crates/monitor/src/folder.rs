@@ -38,6 +38,9 @@ pub struct SessionInfo {
     pub spandrel_version: String,
     /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
+    /// Selected form of the scenario; `None` if the scenario has no forms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<String>,
     /// The scenario's `scn_crc`, hexadecimal.
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.

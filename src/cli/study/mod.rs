@@ -51,6 +51,9 @@ pub struct Args {
     /// Scenario file, or the name of a shipped scenario; may be repeated
     #[arg(long, value_name = "FILE|NAME", default_value = "two-bridges")]
     scenario: Vec<String>,
+    /// Forms of every scenario, which must have them: sets of defects (`spandrel check` lists them) [default: the first]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    form: Vec<String>,
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
@@ -96,7 +99,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let files = args.pilot.iter().map(|file| PilotSpec::from_file(file)).collect::<Result<Vec<_>, _>>()?;
     let pilots = [args.skill.clone(), files].concat();
-    let plan = StudyPlan::read(&args.scenario, &args.vehicle, &pilots, args.seeds)?;
+    let plan = StudyPlan::read(&with_forms(&args.scenario, &args.form), &args.vehicle, &pilots, args.seeds)?;
     if let Some(number) = args.flight {
         return fly_one(&plan, number.get());
     }
@@ -111,6 +114,15 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     fly_missing(args, &plan, &missing, &mut journal)?;
     let rows: Vec<FlightRow> = plan.flights.iter().filter_map(|flight| journal.row(&plan.vehicle, &flight.id)).cloned().collect();
     write_results(args, &rows)
+}
+
+/// Returns every scenario with every form, as arguments.
+fn with_forms(scenarios: &[String], forms: &[String]) -> Vec<String> {
+    if forms.is_empty() {
+        return scenarios.to_vec();
+    }
+    let with_each = |scenario| forms.iter().map(move |form| files::with_form(scenario, Some(form)));
+    scenarios.iter().flat_map(with_each).collect()
 }
 
 /// Flies one flight and prints its row.

@@ -134,14 +134,15 @@ impl StudyPlan {
         for argument in scenarios {
             let file = files::scenario(argument)?;
             let job = Arc::new(file.scenario.clone());
+            let name = job.name_with_form();
             for pilot in pilots {
-                if !names.insert((job.name.clone(), pilot.name.clone())) {
-                    let (scenario, pilot) = (&job.name, &pilot.name);
+                if !names.insert((name.clone(), pilot.name.clone())) {
+                    let (scenario, pilot) = (&name, &pilot.name);
                     return Err(AppError::invalid(format!("the study contains {scenario} with the pilot {pilot} twice")));
                 }
                 let fingerprint = fingerprint(&file, &aircraft, pilot);
                 let flight = |seed: u64| PlannedFlight {
-                    id: FlightId { scenario: job.name.clone(), pilot: pilot.name.clone(), seed },
+                    id: FlightId { scenario: name.clone(), pilot: pilot.name.clone(), seed },
                     fingerprint: fingerprint.clone(),
                     inputs: FlightInputs { scenario: job.clone(), vehicle: shared.clone(), skill: pilot.skill, seed },
                 };

@@ -129,7 +129,7 @@ macro_rules! result {
 
 /// Name, unit, definition and value of each column. All columns but the first five are empty for failed flights.
 const COLUMNS: &[(&str, &str, &str, Read)] = &[
-    ("scenario", "", "Scenario name.", Read::Text(|row| Some(row.scenario.clone()))),
+    ("scenario", "", "Scenario name, with @ and the form if it has forms.", Read::Text(|row| Some(row.scenario.clone()))),
     ("vehicle", "", "Aircraft ID.", Read::Text(|row| Some(row.vehicle.clone()))),
     ("pilot", "", "Pilot, as specified with --skill or --pilot.", Read::Text(|row| Some(row.pilot.clone()))),
     ("seed", "", "Seed.", Read::Integer(|row| i64::try_from(row.seed).ok())),

@@ -5,13 +5,14 @@ use crate::cli::autopilot_args::AutopilotArgs;
 use crate::cli::ports::PortArgs;
 use crate::errors::AUTOPILOT_EXIT_CODES;
 use crate::io::addresses;
+use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
 use crate::io::trainee_id::TraineeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// Default scenario, which comes from the TASBID paper.
-pub const DEFAULT_SCENARIO: &str = "two-bridges";
+const DEFAULT_SCENARIO: &str = "two-bridges";
 
 /// Fly a session yourself
 ///
@@ -35,6 +36,9 @@ pub struct Args {
     /// Scenario file, or the name of a shipped scenario [default: chosen in the window; without a window, two-bridges]
     #[arg(long, value_name = "FILE|NAME")]
     pub scenario: Option<String>,
+    /// Form of the scenario, if it has forms: one of several sets of defects (`spandrel check` lists them) [default: the first]
+    #[arg(long, value_name = "NAME", requires = "scenario")]
+    pub form: Option<String>,
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
@@ -95,9 +99,14 @@ pub struct Args {
 }
 
 impl Args {
-    /// Returns a scenario's job with the requested aircraft and seed.
+    /// Returns the requested scenario with its form, as one argument, or the default.
+    pub fn scenario_argument(&self) -> String {
+        files::with_form(self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO), self.form.as_deref())
+    }
+
+    /// Returns a scenario's job with the requested aircraft and seed. The argument includes the form.
     pub fn job(&self, scenario: &str) -> JobArgs {
-        JobArgs { scenario: scenario.to_owned(), vehicle: self.vehicle.clone(), seed: self.seed }
+        JobArgs { scenario: scenario.to_owned(), form: None, vehicle: self.vehicle.clone(), seed: self.seed }
     }
 }
 

@@ -16,7 +16,6 @@ pub use args::Args;
 use crate::errors::AppError;
 use crate::io::stop::StopRequest;
 use crate::io::{controller, files};
-use args::DEFAULT_SCENARIO;
 use train_run::TrainRun;
 
 /// Runs the subcommand.
@@ -31,7 +30,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
         ));
     }
     // Errors in the files are reported before any process starts.
-    files::scenario(args.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO))?;
+    files::scenario(&args.scenario_argument())?;
     files::vehicle(&args.vehicle)?;
     controller::keys(args.keys.as_deref())?;
     check_quality(&args.quality)?;

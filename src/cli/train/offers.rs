@@ -6,7 +6,8 @@ use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::records::session_folders;
 use serde::Deserialize;
 use serde_json::Value;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{Scenario, form_names};
+use spandrel_model::shipped;
 use spandrel_monitor::folder::{ASSESSMENT, REPORT};
 use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_view::flow::pipe::{
@@ -17,13 +18,14 @@ use std::path::Path;
 
 /// Returns the choices that the start page offers.
 pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
-    let mut names: Vec<String> = files::scenario_names().into_iter().map(str::to_owned).collect();
+    let mut names: Vec<String> = files::scenario_names().into_iter().flat_map(scenarios_by_form).collect();
     if !names.contains(&choice.scenario) {
         names.push(choice.scenario.clone());
     }
     let job = |name: String| {
         let scenario = files::scenario(&name).ok()?.scenario;
-        Some(JobOffer { name, title: scenario.title.clone(), kind: contents_summary(&scenario) })
+        let form = scenario.form.as_ref().map(|form| format!(" (form {})", form.name)).unwrap_or_default();
+        Some(JobOffer { name, title: scenario.title.clone() + &form, kind: contents_summary(&scenario) })
     };
     FlightOptions {
         trainees: trainee_summaries(sessions),
@@ -31,6 +33,13 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
         choice: choice.clone(),
         web: web.map(str::to_owned),
     }
+}
+
+/// Returns a shipped scenario's forms as arguments; the scenario itself if it has no forms.
+fn scenarios_by_form(name: &str) -> Vec<String> {
+    let text = shipped::SCENARIOS.iter().find(|(shipped, _)| *shipped == name).map_or("", |(_, text)| text);
+    let forms = form_names(text);
+    if forms.is_empty() { vec![name.to_owned()] } else { forms.iter().map(|form| files::with_form(name, Some(form))).collect() }
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.

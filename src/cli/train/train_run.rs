@@ -1,6 +1,6 @@
 //! The flights in one run of `train`: those chosen in the window, or the one specified on the command line.
 
-use super::args::{Args, DEFAULT_SCENARIO, camera_file};
+use super::args::{Args, camera_file};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::photographs::PhotographJobs;
@@ -81,7 +81,7 @@ impl<'a> TrainRun<'a> {
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {
             trainee: self.args.trainee.as_str().to_owned(),
-            scenario: self.args.scenario.clone().unwrap_or_else(|| DEFAULT_SCENARIO.to_owned()),
+            scenario: self.args.scenario_argument(),
             purpose: self.args.purpose.display_name(),
         };
         let mut next = if self.args.choose || self.args.scenario.is_none() {

@@ -66,7 +66,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         },
         bridges: Vec::new(),
         tasks,
-        defects: DefectSpec { count: 0, size_factor: 1.0, elements: Vec::new(), kinds: Vec::new(), placed: None },
+        defects: DefectSpec { size_factor: 1.0, ..DefectSpec::default() },
         traffic: TrafficSpec { cars: 0, trucks: 0, pedestrians: 0, car_speed_m_s: 15.0 },
         wind: WindSpec {
             model: WindModel::Paper,
@@ -109,6 +109,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             clearance_m: 2.0,
         },
         certification: CertificationParams::default(),
+        form: None,
         crc: CRC,
     }
 }

@@ -30,6 +30,8 @@ pub struct Scenario {
     pub tasks: Vec<Task>,
     /// Defect number, size and types.
     pub defects: DefectSpec,
+    /// The selected form; `None` if the job has no forms.
+    pub form: Option<SelectedForm>,
     /// Number of vehicles and pedestrians, and vehicle speed.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.
@@ -46,6 +48,14 @@ pub struct Scenario {
     pub certification: CertificationParams,
     /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
     pub crc: u32,
+}
+
+impl Scenario {
+    /// Returns the name, followed by `@` and the form if the job has forms. Results of different forms are told apart by it.
+    #[must_use]
+    pub fn name_with_form(&self) -> String {
+        self.form.as_ref().map_or_else(|| self.name.clone(), |form| format!("{}@{}", self.name, form.name))
+    }
 }
 
 /// Height grid and water level settings.
@@ -137,8 +147,17 @@ pub struct Task {
     pub dark: bool,
 }
 
+/// The selected form of a job. Forms are sets of defects of known difficulty, such as equivalent ones for repeated sessions.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SelectedForm {
+    /// Name of the selected form.
+    pub name: String,
+    /// Names of all forms, in file order.
+    pub available: Vec<String>,
+}
+
 /// Settings for random defects, or the placed defects of a resolved file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct DefectSpec {
     /// Number of defects to place.
     pub count: usize,
@@ -148,6 +167,13 @@ pub struct DefectSpec {
     pub elements: Vec<Element>,
     /// Defect codes (AASHTO MBEI) to draw from; if empty, all codes permitted on the element.
     pub kinds: Vec<u32>,
+    /// Seed of the defects; `None` to use the session's seed.
+    pub seed: Option<u64>,
+    /// Mean predicted detection of the defects, 0 to 1 ([`crate::site::detection`]). If set, it determines the sizes, and
+    /// [`Self::size_factor`] has no effect.
+    pub mean_detection: Option<f64>,
+    /// Number of cracks and other lines among the defects; `None` to leave it to chance.
+    pub line_count: Option<usize>,
     /// Placed defects of a resolved file. If set, no random defects are drawn.
     pub placed: Option<Vec<PlacedDefect>>,
 }

@@ -3,6 +3,7 @@
 
 pub mod bridges;
 mod certification;
+mod forms;
 mod job;
 mod point;
 mod read;
@@ -13,9 +14,10 @@ mod weather;
 pub use bridges::path::TaskKind;
 pub use bridges::{Bridge, BridgeKind};
 pub use certification::CertificationParams;
+pub use forms::{form_names, select_form};
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
-    SessionRules, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
+    SelectedForm, SessionRules, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
 pub use resolve::resolve;

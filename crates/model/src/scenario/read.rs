@@ -66,6 +66,8 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         r.add_problem(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
     }
     let tasks = super::tasks::read(r, root, &bridges);
+    let mut defects = defects(r, root);
+    let form = super::forms::read(r, root, &mut defects);
     Scenario {
         name,
         title,
@@ -75,7 +77,8 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         ground_team,
         bridges,
         tasks,
-        defects: defects(r, root),
+        defects,
+        form,
         traffic: traffic(r, root),
         wind: super::weather::read(r, root),
         light: light(r, root),
@@ -229,8 +232,14 @@ fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
         elements: r.integers(&mut s, "elements", (1, 999)).into_iter().map(|i| Element::from_number(i as u16)).collect(),
         kinds: r.integers(&mut s, "kinds", (1000, 9999)).into_iter().map(|i| i as u32).collect(),
+        seed: r.optional_integer(&mut s, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64),
+        mean_detection: r.optional_number(&mut s, "detection_pct", super::forms::DETECTION_RANGE_PCT).map(|pct| pct / 100.0),
+        line_count: r.optional_integer(&mut s, "lines", (0, 200)).map(|lines| lines as usize),
         placed: super::resolve::read_placed_defects(r, &mut s),
     };
+    if let Some(lines) = defects.line_count.filter(|lines| *lines > defects.count) {
+        r.add_problem(&s, "lines", &lines.to_string(), "at most count", "too many");
+    }
     r.finish(&s);
     defects
 }

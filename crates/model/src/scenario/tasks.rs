@@ -7,9 +7,15 @@ use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
 
-/// Minimum stand-off distance of task paths derived from a bridge, m. It leaves a margin before the too-close warning
+/// Default stand-off distance of task paths derived from a bridge, m. It leaves a margin before the too-close warning
 /// at 2.5 m.
-const MIN_STAND_OFF_M: f64 = 4.0;
+const DEFAULT_STAND_OFF_M: f64 = 4.0;
+/// Minimum stand-off distance of task paths derived from a bridge, m. Below the default, the task's own too-close warning
+/// must leave [`WARNING_MARGIN_M`].
+const MIN_STAND_OFF_M: f64 = 2.0;
+/// Minimum distance between the stand-off and the too-close warning of a task with a small stand-off, m (estimate: the
+/// position error of a trained pilot).
+const WARNING_MARGIN_M: f64 = 0.5;
 /// Maximum on-path threshold, m. The threshold must be below 8 m, the outer limit of the off-path band.
 const MAX_THRESHOLD_M: f64 = 7.999;
 
@@ -57,7 +63,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     let name = r.text(s, "name", None);
     let kind = r.keyword(s, "kind", &TASK_KINDS, None);
     let bridge = read_bridge_index(r, s, kind, bridges);
-    let stand_off_m = r.number(s, "stand_off_m", (MIN_STAND_OFF_M, 50.0), Some(MIN_STAND_OFF_M));
+    let stand_off_m = r.number(s, "stand_off_m", (MIN_STAND_OFF_M, 50.0), Some(DEFAULT_STAND_OFF_M));
     let threshold_m = r.number(s, "threshold_m", (0.2, MAX_THRESHOLD_M), Some(default_threshold_m(kind)));
     r.describe_default(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
     let closed = r.boolean(s, "closed", false);
@@ -72,6 +78,11 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     };
     let dark = r.boolean(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
     r.describe_default(s, "dark", "true for arch_bottom and interlayer");
+    let too_close_m = r.optional_number(s, "too_close_m", (0.2, 20.0));
+    if stand_off_m < DEFAULT_STAND_OFF_M && too_close_m.is_none_or(|limit| limit > stand_off_m - WARNING_MARGIN_M) {
+        let allowed = format!("at least 4, or too_close_m at most {}", stand_off_m - WARNING_MARGIN_M);
+        r.add_problem(s, "stand_off_m", &stand_off_m.to_string(), &allowed, "too small for the too-close warning");
+    }
     Task {
         id,
         name,
@@ -82,7 +93,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
         path_m: path.path_m,
         viewing_directions: path.viewing_directions,
         inspects_surface: kind != TaskKind::Free || !look_at.is_empty(),
-        too_close_m: r.optional_number(s, "too_close_m", (0.2, 20.0)),
+        too_close_m,
         dark,
     }
 }

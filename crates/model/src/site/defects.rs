@@ -3,9 +3,12 @@
 //! path by more than the task's threshold. Each seed yields different positions.
 
 use super::camera_pose::CameraPose;
+use super::detection;
 use super::faces::{MemberFace, face_at};
 use super::light::{RayCast, tangent_vectors};
 use super::query_types::Surface;
+pub use super::reference_camera::{CAMERA_CLEARANCE_M, REFERENCE_CAMERA, REFERENCE_LAMP};
+use super::reference_camera::{CAMERA_DISTANCE_FRACTIONS, nearest_points, pose_toward};
 use super::visibility;
 use crate::defect_codes;
 use crate::elements::Element;
@@ -16,31 +19,6 @@ use crate::scenario::bridges::Member;
 use crate::scenario::{DefectSpec, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
-/// Reference camera, which can photograph every placed defect. Its resolution is lower than that of the shipped cameras
-/// (3000 px over 100 degrees; estimate for a small low-end inspection drone), and its gimbal has the full range.
-/// Placement must not depend on the aircraft, because the simulator and the monitor each derive the defects from the
-/// scenario and the seed alone.
-pub const REFERENCE_CAMERA: Camera = Camera {
-    position_m: Vec3::new(0.0, 0.0, 0.0),
-    width_px: 3000,
-    height_px: 2250,
-    hfov_rad: 100.0 * math::PI / 180.0,
-    zoom_max: 1.0,
-    f_number: 2.8,
-    iso_max: 1600.0,
-    max_exposure_time_s: 0.01,
-    gimbal_pitch_min_rad: -math::FRAC_PI_2,
-    gimbal_pitch_max_rad: math::FRAC_PI_2,
-    gimbal_rate_rad_s: 1.0,
-};
-/// Lamp of the reference camera (estimate: a small clip-on light).
-pub const REFERENCE_LAMP: Lamp = Lamp { luminous_flux_lm: 1000.0, beam_angle_rad: math::PI / 3.0 };
-
-/// Minimum distance of the reference camera from any surface, m (half of 0.59 m tip to tip, plus a margin).
-pub const CAMERA_CLEARANCE_M: f64 = 0.8;
-/// Candidate distances by which the reference camera leaves the path toward the defect, as fractions of the task's
-/// threshold. The largest one leaves a margin.
-const CAMERA_DISTANCE_FRACTIONS: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
 /// Half angle of the search cone about the path's viewing direction, rad (estimate of camera pan and tilt).
 const SEARCH_CONE_HALF_ANGLE_RAD: f64 = 0.9;
 /// Unit vector pointing up.
@@ -54,12 +32,12 @@ const EDGE_MARGIN_M: f64 = 0.03;
 const MIN_FREE_DEPTH_M: f64 = 0.5;
 /// Minimum distance between the centers of two defects, m, so that a photo rarely shows two defects.
 const MIN_SEPARATION_M: f64 = 2.0;
+/// Maximum difference between the predicted detection of a defect and the mean of its set (estimate: the set then contains
+/// easy and hard defects, and none that everybody or nobody finds).
+const MAX_DETECTION_SPREAD: f64 = 0.25;
 /// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
 /// gradually.
 const MAX_ATTEMPTS: usize = 3000;
-/// Number of path points to try as reference camera positions, nearest first.
-const CANDIDATE_POINT_COUNT: usize = 5;
-
 /// Returns the properties of an aircraft's camera and lamp that fall short of the reference, each with both values.
 /// Empty if there are none.
 #[must_use]
@@ -110,16 +88,18 @@ pub fn place_defects(settings: &DefectSpec, context: &PlacementContext, seed: u6
         return placed.clone();
     }
     let tasks: Vec<&Task> = context.tasks.iter().filter(|t| !t.path_m.is_empty()).collect();
+    let seed = settings.seed.unwrap_or(seed);
     let mut stream = RandomStream::new(seed, "site.defects");
     let mut defects: Vec<PlacedDefect> = Vec::new();
     if tasks.is_empty() {
         return defects;
     }
+    let slots = draw_slots(settings, seed);
     let first = stream.below(tasks.len());
-    for k in 0..settings.count {
+    for (k, slot) in slots.iter().enumerate() {
         let found = (0..tasks.len()).find_map(|turn| {
             let task = tasks[(first + k + turn) % tasks.len()];
-            (0..MAX_ATTEMPTS).find_map(|attempt| try_place(settings, context, task, (attempt, &defects), &mut stream))
+            (0..MAX_ATTEMPTS).find_map(|attempt| try_place((settings, slot), context, task, (attempt, &defects), &mut stream))
         });
         if let Some(mut defect) = found {
             defect.id = defects.len() as u32 + 1;
@@ -129,9 +109,38 @@ pub fn place_defects(settings: &DefectSpec, context: &PlacementContext, seed: u6
     defects
 }
 
+/// Requirements of one of the defects to place.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slot {
+    /// True for a line, false for an area, `None` for either.
+    line: Option<bool>,
+    /// Predicted detection, 0 to 1; `None` to draw the size from the catalog.
+    detection: Option<f64>,
+}
+
+/// Returns the requirements of all defects: lines at even intervals, and the difficulties in random order. They use a
+/// stream of their own, so that they do not affect the positions of defects without requirements.
+fn draw_slots(settings: &DefectSpec, seed: u64) -> Vec<Slot> {
+    let count = settings.count;
+    let mut slots = vec![Slot::default(); count];
+    if let Some(lines) = settings.line_count.map(|lines| lines.min(count)) {
+        for (k, slot) in slots.iter_mut().enumerate() {
+            slot.line = Some((k + 1) * lines / count > k * lines / count);
+        }
+    }
+    if let Some(mean) = settings.mean_detection {
+        let mut targets = detection::spread_targets(count, mean, MAX_DETECTION_SPREAD);
+        let mut stream = RandomStream::new(seed, "site.defects.difficulty");
+        for slot in &mut slots {
+            slot.detection = Some(targets.swap_remove(stream.below(targets.len())));
+        }
+    }
+    slots
+}
+
 /// Draws a line of sight, a defect code and a size; `None` if the defect cannot be placed there.
 fn try_place(
-    settings: &DefectSpec,
+    (settings, slot): (&DefectSpec, &Slot),
     context: &PlacementContext,
     task: &Task,
     (attempt, others): (usize, &[PlacedDefect]),
@@ -150,10 +159,10 @@ fn try_place(
     let roll = stream.range(0.0, math::PI);
     let hit = (context.cast)(task.path_m[n], direction, MAX_SEARCH_DISTANCE_M)?;
     let member = (hit.surface == Surface::Bridge).then(|| context.members.get(hit.object.0 as usize)).flatten()?;
-    let kind = choose_code(settings, member.element, kind_draw)?;
+    let kind = choose_code((settings, slot), member.element, kind_draw)?;
     let (length_m, width_m) = defect_codes::draw_size(kind, condition_state, settings.size_factor, stream);
     let face = face_at(&member.solid, task.path_m[n] + direction * hit.distance_m)?;
-    let defect = PlacedDefect {
+    let mut defect = PlacedDefect {
         id: 0,
         element: member.element,
         member: member.name.clone(),
@@ -166,6 +175,9 @@ fn try_place(
         width_m,
         line: defect_codes::is_line(kind),
     };
+    if let Some(target) = slot.detection {
+        resize(&mut defect, target, context, stream)?;
+    }
     let separation = MIN_SEPARATION_M * (1.5 - 1.5 * attempt as f64 / MAX_ATTEMPTS as f64).min(1.0);
     let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
     (apart
@@ -175,11 +187,27 @@ fn try_place(
     .then_some(defect)
 }
 
-fn choose_code(settings: &DefectSpec, element: Element, draw: f64) -> Option<u32> {
+/// Gives a defect the size with the target detection, and the condition state of this size. `None` if no size in the
+/// catalog has it.
+fn resize(defect: &mut PlacedDefect, target: f64, context: &PlacementContext, stream: &mut RandomStream) -> Option<()> {
+    let limits = defect_codes::target_size_ranges(defect.kind);
+    let width = stream.range(limits.width.0, limits.width.1);
+    let width_m = |length_m: f64| if defect.line { width } else { width * length_m };
+    let view = detection::view_scale(defect, context.tasks, &REFERENCE_CAMERA, context.cast)?;
+    let length_m = view.length_for(target, limits.length_m, &width_m, defect.line)?;
+    (defect.width_m, defect.length_m) = (width_m(length_m), length_m);
+    if let Some(state) = defect_codes::condition_state(defect.kind, defect.length_m, defect.width_m) {
+        defect.condition_state = state;
+    }
+    Some(())
+}
+
+fn choose_code((settings, slot): (&DefectSpec, &Slot), element: Element, draw: f64) -> Option<u32> {
     if !settings.elements.is_empty() && !settings.elements.contains(&element) {
         return None;
     }
-    let wanted = |k: &&u32| settings.kinds.is_empty() || settings.kinds.contains(*k);
+    let suits = |k: u32| slot.line.is_none_or(|line| line == defect_codes::is_line(k));
+    let wanted = |k: &&u32| (settings.kinds.is_empty() || settings.kinds.contains(*k)) && suits(**k);
     let legal: Vec<u32> = element.permitted_defects().iter().filter(wanted).copied().collect();
     legal.get((draw * legal.len() as f64) as usize).copied()
 }
@@ -230,16 +258,9 @@ fn is_exposed(defect: &PlacedDefect, object: u32, context: &PlacementContext) ->
 /// sufficient clearance; `None` if no candidate qualifies.
 #[must_use]
 pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext) -> Option<CameraPose> {
-    let mut order: Vec<usize> = (0..task.path_m.len()).collect();
-    order.sort_by(|a, b| {
-        let d = |k: usize| (task.path_m[k] - defect.position_m).norm_squared();
-        d(*a).total_cmp(&d(*b)).then(a.cmp(b))
-    });
-    order.iter().step_by(2).take(CANDIDATE_POINT_COUNT).find_map(|k| {
+    nearest_points(defect.position_m, task).into_iter().find_map(|k| {
         CAMERA_DISTANCE_FRACTIONS.iter().find_map(|share| {
-            let to = defect.position_m - task.path_m[*k];
-            let step = (share * task.threshold_m).min(to.norm() - CAMERA_CLEARANCE_M).max(0.0);
-            let pose = camera_aimed_at(task.path_m[*k] + to.unit() * step, defect.position_m);
+            let pose = pose_toward(defect.position_m, task, k, *share);
             // Checks the cheapest conditions first: line of sight and pixels, then clearance, then light.
             let bright =
                 visibility::evaluate_defect(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), context.cast, &|_, _| 1e9);
@@ -252,14 +273,6 @@ pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext)
             (bright.is_some_and(|v| v.hit) && air() && lit()).then_some(pose)
         })
     })
-}
-
-/// Returns the pose of a roll-free camera that is aimed at a point, with the lamp on.
-fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
-    let forward = (at_m - position_m).unit();
-    let level = forward.cross(Vec3::new(0.0, 0.0, 1.0));
-    let right = if level.norm() > 1e-9 { level.unit() } else { Vec3::new(1.0, 0.0, 0.0) };
-    CameraPose { position_m, forward, right, lamp_on: true }
 }
 
 /// Draws a direction uniformly within a cone about an axis.
@@ -331,7 +344,7 @@ mod tests {
     }
 
     fn settings() -> DefectSpec {
-        DefectSpec { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None }
+        DefectSpec { count: 10, size_factor: 1.0, ..DefectSpec::default() }
     }
 
     /// Calls `with` with the placement context and the boxes of the test site, under the given ambient illuminance.
@@ -406,6 +419,25 @@ mod tests {
             assert_eq!(place_defects(&resolved, context, 99), placed[..2].to_vec());
             let illegal = DefectSpec { elements: vec![Element::SteelGirder], kinds: vec![defect_codes::CRACK], ..settings() };
             assert!(place_defects(&illegal, context, 3).is_empty());
+        });
+    }
+
+    #[test]
+    fn prop_sizes_follow_from_the_predicted_detection() {
+        /// Rounding of a sum of ten probabilities.
+        const ROUNDING: f64 = 1e-9;
+        with_test_site(1000.0, |context, _| {
+            for (seed, mean) in [(1, 0.75), (2, 0.55), (3, 0.9)] {
+                let wanted = DefectSpec { mean_detection: Some(mean), line_count: Some(3), seed: Some(seed), ..settings() };
+                let placed = place_defects(&wanted, context, 99);
+                assert_eq!((placed.len(), placed.iter().filter(|d| d.line).count()), (10, 3));
+                let predicted =
+                    |d: &PlacedDefect| detection::predicted_detection(d, context.tasks, &REFERENCE_CAMERA, context.cast);
+                let found = placed.iter().map(predicted).sum::<f64>() / 10.0;
+                assert!((found - mean).abs() < ROUNDING, "{found}, expected {mean}");
+                assert!(placed.iter().all(|d| find_view(d, &context.tasks[0], context).is_some()), "photographable");
+                assert_eq!(placed, place_defects(&wanted, context, 98), "independent of the session's seed");
+            }
         });
     }
 

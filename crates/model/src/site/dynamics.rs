@@ -196,7 +196,7 @@ mod tests {
             },
             bridges,
             tasks,
-            defects: DefectSpec { count: 10, size_factor: 1.0, elements: vec![], kinds: vec![], placed: None },
+            defects: DefectSpec { count: 10, size_factor: 1.0, ..DefectSpec::default() },
             traffic: TrafficSpec { cars: 12, trucks: 4, pedestrians: 8, car_speed_m_s: 13.4 },
             wind: WindSpec {
                 model: WindModel::Physical,
@@ -212,6 +212,7 @@ mod tests {
             feedback,
             scoring,
             certification: CertificationParams::default(),
+            form: None,
             crc: 0,
         }
     }

@@ -7,6 +7,7 @@ pub mod bridge_closures;
 mod camera_pose;
 pub mod convex;
 pub mod defects;
+pub mod detection;
 pub mod dynamics;
 mod faces;
 pub mod geometry;
@@ -17,6 +18,7 @@ pub mod light;
 pub mod movers;
 mod nearest_points;
 mod query_types;
+mod reference_camera;
 pub mod sun;
 pub mod terrain;
 pub mod traffic;
@@ -31,7 +33,7 @@ pub use visibility::DefectView;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::LocalPlane;
 use crate::scenario::bridges::{Lane, Member};
-use crate::scenario::{PlacedDefect, Scenario};
+use crate::scenario::{PlacedDefect, Scenario, Task};
 use crate::vehicle::{Camera, Lamp};
 use bridge_closures::BridgeClosures;
 use dynamics::{Dynamics, StaticQueries};
@@ -108,6 +110,14 @@ impl Site {
     #[must_use]
     pub fn defects(&self) -> &[PlacedDefect] {
         &self.dynamics.defects
+    }
+
+    /// Returns the predicted detection of each defect in a camera's pictures, 0 to 1 ([`detection::predicted_detection`]).
+    /// `tasks` are the job's tasks.
+    #[must_use]
+    pub fn predicted_detection(&self, tasks: &[Task], camera: &Camera) -> Vec<f64> {
+        let cast = self.cast();
+        self.defects().iter().map(|defect| detection::predicted_detection(defect, tasks, camera, &cast)).collect()
     }
 
     /// Returns the nearest surface within `max_m` (bridges, terrain, water, traffic, crew, truck; never the landing pad).

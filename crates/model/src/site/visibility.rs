@@ -210,7 +210,7 @@ fn visible_px<'a>(
 
 /// Returns the length in pixels of a segment of `length_m` along a unit direction through the center of the defect. Uses the
 /// scale at the center, which preserves the precision of sub-pixel widths.
-fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, direction: Vec3<Enu>, length_m: f64) -> f64 {
+pub(super) fn length_px(pose: &CameraPose, camera: &Camera, defect: &PlacedDefect, direction: Vec3<Enu>, length_m: f64) -> f64 {
     let to = defect.position_m - pose.position_m;
     let distance = to.norm().max(1e-9);
     let ray = to / distance;

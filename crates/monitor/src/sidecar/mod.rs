@@ -349,6 +349,7 @@ impl Monitor {
             started_utc,
             spandrel_version: env!("CARGO_PKG_VERSION").to_owned(),
             scenario: self.config.scenario.name.clone(),
+            form: self.config.scenario.form.as_ref().map(|form| form.name.clone()),
             scenario_crc: format!("{:08x}", self.config.scenario.crc),
             scenario_sha256: super::folder::sha256_hex(scenario_toml),
             vehicle: self.config.vehicle.id.clone(),
