@@ -42,7 +42,8 @@ pub struct Args {
     job: JobArgs,
     #[command(flatten)]
     skill: SkillArgs,
-    /// Trainee ID for the session: letters, digits, '-' and '_', at most 32 characters [default: synthetic-SKILL]
+    /// Trainee ID for the session: letters, digits, '-' and '_', at most 32 characters [default:
+    /// synthetic-SKILL]
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
@@ -88,7 +89,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
         [args::common_args(&job, quiet), args.flavor.to_args(), autopilot_args, sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     sim.read_announcement()?;
-    tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.skill, args.speed);
+    tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.name(), args.speed);
     let lost = wait_for_end(&mut monitor, &mut pilot, &mut sim, &stop);
     monitor.finish();
     sim.finish();
@@ -101,7 +102,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
 }
 
 fn monitor_args(args: &Args) -> Vec<String> {
-    let trainee = args.trainee.as_ref().map_or_else(|| format!("synthetic-{}", args.skill.skill), |id| id.as_str().to_owned());
+    let trainee = args.trainee.as_ref().map_or_else(|| format!("synthetic-{}", args.skill.name()), |id| id.as_str().to_owned());
     ["--sessions", &args.sessions.display().to_string(), "--trainee", &trainee, "--port", "0"].map(str::to_owned).to_vec()
 }
 

@@ -21,33 +21,47 @@ const MAX_DATAGRAM_WAIT: Duration = Duration::from_millis(50);
 /// Wall time without a datagram after which a connected vehicle is considered lost.
 const SILENCE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// The synthetic trainee's skill level.
+/// The synthetic trainee's numbers: a skill level or a file.
 #[derive(Debug, Clone, clap::Args)]
 pub struct SkillArgs {
     /// The synthetic trainee's skill level: novice, trained or expert
     #[arg(long, value_name = "SKILL", default_value = "trained", value_parser = ["novice", "trained", "expert"])]
     pub skill: String,
-    /// Parameters to take from the expert instead, to measure their individual effects: delay, gain, noise, preview,
-    /// lapses
+    /// Pilot file (TOML) that sets the synthetic trainee's numbers, instead of a skill level
+    #[arg(long, value_name = "FILE", conflicts_with = "skill")]
+    pub pilot: Option<String>,
+    /// Numbers to take from the expert instead, to measure their individual effects: delay, gain, noise, preview, lapses,
+    /// pace, search, photo, orientation, judgment
     #[arg(long, value_name = "FACTOR,...", value_delimiter = ',', value_parser = SkillFactor::from_str)]
     pub expert_in: Vec<SkillFactor>,
 }
 
 impl SkillArgs {
-    /// Returns the synthetic trainee's parameters.
+    /// Returns the synthetic trainee's numbers.
     ///
     /// # Errors
-    /// Returns an error if there is no such skill level.
+    /// Returns an error if there is no such skill level, or if the pilot file is invalid.
     pub fn skill(&self) -> Result<Skill, AppError> {
-        let base = self.skill.parse::<Skill>().map_err(AppError::invalid)?;
+        let base = match &self.pilot {
+            Some(file) => files::pilot(file)?,
+            None => self.skill.parse::<Skill>().map_err(AppError::invalid)?,
+        };
         Ok(self.expert_in.iter().fold(base, |pilot, factor| pilot.with(*factor, Skill::EXPERT)))
+    }
+
+    /// Returns a name for messages and for the default trainee ID.
+    pub fn name(&self) -> &str {
+        if self.pilot.is_some() { "pilot" } else { &self.skill }
     }
 
     /// Formats the options as command-line arguments for a child process.
     pub fn to_args(&self) -> Vec<String> {
-        let mut args = vec!["--skill".to_owned(), self.skill.clone()];
+        let mut args = match &self.pilot {
+            Some(file) => vec!["--pilot".to_owned(), file.clone()],
+            None => vec!["--skill".to_owned(), self.skill.clone()],
+        };
         if !self.expert_in.is_empty() {
-            let factors: Vec<String> = self.expert_in.iter().map(|factor| format!("{factor:?}").to_lowercase()).collect();
+            let factors: Vec<&str> = self.expert_in.iter().map(|factor| factor.name()).collect();
             args.extend(["--expert-in".to_owned(), factors.join(",")]);
         }
         args
@@ -57,13 +71,14 @@ impl SkillArgs {
 /// Fly the job as a synthetic trainee
 ///
 /// Connects to the vehicle over UDP like a ground station, and uses only manual control, lamp, gimbal and snapshot
-/// commands. It takes off, flies the tasks in order, photographs the defects it notices, and lands. Its errors result
-/// from its reaction delay, gain, noise, preview and attention lapses.
+/// commands. It takes off, flies the tasks in order, stops to look, photographs the defects it notices, and lands. Its
+/// errors result from human numbers such as reaction delay, noise and detection sizes, which a pilot file can set.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel pilot --skill novice --seed 3 --connect 127.0.0.1:18570   connect to a running simulator
   spandrel pilot --skill novice --expert-in delay,noise              use the expert's delay and noise
+  spandrel pilot --pilot anna.toml                                   use the numbers in a file
   spandrel pilot --port 0 --announce                                 wait for a simulator with --gcs to connect
 
 Prints one JSON line at the end of the flight.
@@ -170,10 +185,12 @@ mod tests {
 
     #[test]
     fn exact_expert_parameters_round_trip_through_arguments() {
-        let args = SkillArgs { skill: "novice".into(), expert_in: vec![SkillFactor::Delay, SkillFactor::Lapses] };
+        let args = SkillArgs { skill: "novice".into(), pilot: None, expert_in: vec![SkillFactor::Delay, SkillFactor::Lapses] };
         assert_eq!(args.to_args(), ["--skill", "novice", "--expert-in", "delay,lapses"]);
         let skill = args.skill().unwrap();
         assert_eq!((skill.delay_s, skill.lapses_per_min), (Skill::EXPERT.delay_s, Skill::EXPERT.lapses_per_min));
         assert_eq!(skill.gain, Skill::NOVICE.gain);
+        let file = SkillArgs { skill: "trained".into(), pilot: Some("anna.toml".into()), expert_in: vec![SkillFactor::Pace] };
+        assert_eq!(file.to_args(), ["--pilot", "anna.toml", "--expert-in", "pace"]);
     }
 }

@@ -1,6 +1,7 @@
 //! Loads scenario and vehicle files from a path, from a session folder, or from the program itself.
 
 use crate::errors::AppError;
+use spandrel_clients::pilot::{Skill, skill_file};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped;
 use spandrel_model::vehicle::{self, Vehicle};
@@ -64,6 +65,14 @@ pub fn vehicle(argument: &str) -> Result<VehicleFile, AppError> {
     let source = find_source(argument, "vehicle", shipped::VEHICLES)?;
     let vehicle = vehicle::read(&source.file, &source.text)?;
     Ok(VehicleFile { text: source.text, vehicle })
+}
+
+/// Loads and validates a pilot file for the synthetic trainee.
+///
+/// # Errors
+/// Returns an error if it cannot be read or is invalid; all problems are listed.
+pub fn pilot(argument: &str) -> Result<Skill, AppError> {
+    Ok(skill_file::read(argument, &read(Path::new(argument))?)?)
 }
 
 /// Loads a vehicle whose ID differs from its file name (a session's `vehicle.toml`).

@@ -9,6 +9,7 @@ mod contract;
 mod dictionary;
 mod messages;
 mod parameters;
+mod pilots;
 mod table;
 
 use std::path::Path;

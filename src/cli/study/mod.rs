@@ -58,8 +58,18 @@ pub struct Args {
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
     /// Pilots: novice, trained or expert, each with parameters to take from the expert, as in novice+delay+noise
-    #[arg(long, value_name = "PILOT,...", value_delimiter = ',', default_value = "novice,trained,expert")]
+    #[arg(
+        long,
+        value_name = "PILOT,...",
+        value_delimiter = ',',
+        default_value = "novice,trained,expert",
+        default_value_if("pilot", clap::builder::ArgPredicate::IsPresent, None)
+    )]
     skill: Vec<PilotSpec>,
+    /// Pilot file (TOML) with a synthetic trainee's numbers, in addition to --skill; may be repeated. With pilot files, no skill
+    /// level is flown by default
+    #[arg(long, value_name = "FILE")]
+    pilot: Vec<String>,
     /// Seeds of each pilot: a number of seeds from 1, or a range
     #[arg(long, value_name = "N|FIRST-LAST", default_value = "20")]
     seeds: SeedRange,
@@ -87,7 +97,9 @@ pub struct Args {
 /// # Errors
 /// Returns an error if files are invalid, results cannot be written, the study was interrupted, or a flight failed.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let plan = StudyPlan::read(&with_forms(&args.scenario, &args.form), &args.vehicle, &args.skill, args.seeds)?;
+    let files = args.pilot.iter().map(|file| PilotSpec::from_file(file)).collect::<Result<Vec<_>, _>>()?;
+    let pilots = [args.skill.clone(), files].concat();
+    let plan = StudyPlan::read(&with_forms(&args.scenario, &args.form), &args.vehicle, &pilots, args.seeds)?;
     if let Some(number) = args.flight {
         return fly_one(&plan, number.get());
     }

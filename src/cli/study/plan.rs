@@ -41,11 +41,21 @@ impl FromStr for SeedRange {
     }
 }
 
-/// A synthetic pilot: a skill level, and the parameters to take from the expert.
+/// A synthetic pilot: a skill level with the numbers to take from the expert, or a pilot file.
 #[derive(Debug, Clone)]
 pub struct PilotSpec {
     pub name: String,
     pub skill: Skill,
+}
+
+impl PilotSpec {
+    /// Reads a pilot file. The pilot's name is the file name.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be read or is invalid.
+    pub fn from_file(file: &str) -> Result<Self, AppError> {
+        Ok(Self { name: file.to_owned(), skill: files::pilot(file)? })
+    }
 }
 
 /// Parses the skill options of `spandrel pilot`.

@@ -44,6 +44,8 @@ pub struct FlightResult {
     pub seconds: f64,
     pub end_reason: String,
     pub crashes: i64,
+    /// Crashes in each task, then outside of all tasks, separated by spaces.
+    pub crashes_by_task: String,
     pub speeding_tasks: i64,
     pub off_path_tasks: i64,
     pub pictures: i64,
@@ -108,6 +110,7 @@ impl FlightResult {
             seconds: one.end.seconds,
             end_reason: one.end.reason.label().to_owned(),
             crashes: count(one.crashes.other + one.crashes.person + one.crashes.vehicle),
+            crashes_by_task: one.crashes.by_task.values().map(ToString::to_string).collect::<Vec<_>>().join(" "),
             speeding_tasks: count(one.tasks.iter().filter(|task| task.speeding > 0.0).count()),
             off_path_tasks: count(one.tasks.iter().filter(|task| task.on_path < 1.0).count()),
             pictures: count(one.snapshots.taken),
@@ -149,7 +152,7 @@ macro_rules! result {
 const COLUMNS: &[(&str, &str, &str, Read)] = &[
     ("scenario", "", "Scenario name, with @ and the form if it has forms.", Read::Text(|row| Some(row.scenario.clone()))),
     ("vehicle", "", "Aircraft ID.", Read::Text(|row| Some(row.vehicle.clone()))),
-    ("pilot", "", "Pilot, as specified with --skill.", Read::Text(|row| Some(row.pilot.clone()))),
+    ("pilot", "", "Pilot, as specified with --skill or --pilot.", Read::Text(|row| Some(row.pilot.clone()))),
     ("seed", "", "Seed.", Read::Integer(|row| i64::try_from(row.seed).ok())),
     (
         "fingerprint",
@@ -203,6 +206,12 @@ const COLUMNS: &[(&str, &str, &str, Read)] = &[
     ("seconds", "s", "Flight duration.", result!(Float, seconds)),
     ("end_reason", "", "Reason why the flight ended.", result!(Text, end_reason)),
     ("crashes", "", "Number of crashes.", result!(Integer, crashes)),
+    (
+        "crashes_by_task",
+        "",
+        "Number of crashes in each task, then outside of all tasks, separated by spaces.",
+        result!(Text, crashes_by_task),
+    ),
     ("speeding_tasks", "", "Number of tasks with speeding.", result!(Integer, speeding_tasks)),
     ("off_path_tasks", "", "Number of tasks with time off the path.", result!(Integer, off_path_tasks)),
     ("pictures", "", "Number of pictures taken.", result!(Integer, pictures)),

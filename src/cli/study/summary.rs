@@ -279,6 +279,7 @@ mod tests {
             seconds: 600.0,
             end_reason: "landed".into(),
             crashes: 1,
+            crashes_by_task: "0 1 0 0 0".to_owned(),
             speeding_tasks: 0,
             off_path_tasks: 0,
             pictures: 0,

@@ -1,40 +1,45 @@
-//! In-flight guidance: follows the leg, avoids obstacles, searches for defects, takes pictures, and recovers from
-//! upsets.
+//! In-flight guidance: follows the leg at a chosen pace, stops to look, avoids obstacles, and recovers from upsets.
 
 use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
-use super::guidance_state::PhotoTarget;
+use super::guidance_state::LookDirection;
 use super::perception::MotionState;
-use super::stick_command::{heading_and_elevation, sticks};
+use super::setbacks::SetbackDecision;
+use super::stick_command::{MIN_HORIZONTAL, aim_error_rad, heading_and_elevation, sticks};
 use super::stick_response::StickAxes;
 use super::track::TrackCommand;
-use super::visual_search::{Glimpse, camera_pose};
 use super::{Pilot, PilotPhase};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
 
 /// Minimum time without progress before the aircraft counts as stuck, s.
 const STUCK_TIMEOUT_S: f64 = 6.0;
-/// Duration of the back-off maneuver after getting stuck, s.
-const BACK_OFF_DURATION_S: f64 = 2.0;
-/// Maximum duration of an approach to a noticed defect, s.
-const MAX_INSPECTION_DURATION_S: f64 = 7.0;
-/// Minimum battery level for continuing the job, %.
-const MIN_BATTERY_PCT: f64 = 12.0;
-/// Maximum aiming error for taking a picture, rad.
-const MAX_AIM_ERROR_RAD: f64 = 0.12;
-/// Maximum number of picture attempts per defect.
-const MAX_PICTURE_ATTEMPTS: u32 = 2;
-/// Time to ignore a poorly visible defect, s; it may be easier to see from farther along the path (estimate).
-const IGNORE_DEFECT_DURATION_S: f64 = 15.0;
-/// Standard deviation of a trained pilot's visual estimate of the incidence angle, rad (4 degrees; estimate).
-const ANGLE_JUDGMENT_SIGMA_RAD: f64 = 0.07;
-/// Relative standard deviation of a trained pilot's estimates of size and brightness on a screen (estimate).
-const SIZE_JUDGMENT_SIGMA: f64 = 0.15;
+/// Duration of the back-off maneuver after a contact or getting stuck, s (estimate).
+const BACK_OFF_DURATION_S: f64 = 2.5;
+/// Speed of the back-off maneuver, away from the surface and up, m/s (estimate).
+const BACK_OFF_SPEED_M_S: f64 = 1.0;
+const BACK_OFF_CLIMB_M_S: f64 = 0.5;
+/// Free height above the aircraft needed to climb while backing off, m (estimate).
+const CLIMB_ROOM_M: f64 = 4.0;
+/// Radius of the part of a leg that the pilot leaves out after repeated setbacks, m (estimate).
+const LEFT_OUT_RADIUS_M: f64 = 7.0;
+/// Slowest chosen speed along a leg, m/s (estimate).
+const MIN_PACE_M_S: f64 = 0.5;
+/// Largest distance at which a surface affects the chosen speed, m (estimate).
+const MAX_PACE_CLEARANCE_M: f64 = 15.0;
+/// Time between two choices of the speed, s (estimate: about one fixation).
+const PACE_INTERVAL_S: f64 = 0.3;
+/// Spread of the duration of stops to look (lognormal; estimate).
+const LOOK_DURATION_SIGMA_LN: f64 = 0.4;
+/// Angle between the camera and the direction of a look below which the pilot looks, rad (estimate: well inside the picture).
+const MAX_LOOK_ERROR_RAD: f64 = 0.26;
+/// Longest time to turn the camera for a look, s (estimate).
+const MAX_TURN_TIME_S: f64 = 2.5;
+/// Largest angle between the drone's heading and the direction to the pilot at which the drone faces the pilot, rad.
+const FACING_ANGLE_RAD: f64 = math::PI / 3.0;
 
 impl Pilot {
     /// Runs one control step in the flight phase and returns the stick axes.
@@ -42,14 +47,21 @@ impl Pilot {
         if !self.link.status.armed && self.phase_time_s() > 1.0 {
             return self.recover_from_disarm();
         }
+        self.handle_contact(belief);
         self.plan_next_leg(belief);
+        self.choose_pace(belief);
         let Some(mut wish) = self.follow(belief) else { return [0.0; 4] };
+        self.look_around(belief, &mut wish);
         self.search_picture(belief, &mut wish);
-        self.control_payload(&wish, belief);
-        wish.velocity_m_s += self.avoid_obstacles(belief);
+        self.control_payload(&wish);
+        let push = self.avoid_obstacles(belief);
+        if push.norm() > 0.0 {
+            wish.hands_off = false;
+            wish.velocity_m_s += push;
+        }
         // The pilot misjudges speed, so the actual velocity differs from the intended one.
         wish.velocity_m_s = wish.velocity_m_s / self.perception.perceived_speed_ratio();
-        sticks(wish.velocity_m_s, belief, wish.line_of_sight, &self.config)
+        sticks(&wish, belief, &self.config)
     }
 
     /// Handles a motor stop in flight: continues the job unless the session is over.
@@ -75,13 +87,14 @@ impl Pilot {
     fn plan_next_leg(&mut self, belief: &MotionState) {
         let Some(site) = &self.site else { return };
         let map = Self::map(&self.config, site, self.now);
-        if self.link.status.battery_pct.is_some_and(|pct| pct < MIN_BATTERY_PCT)
+        if self.link.status.battery_pct.is_some_and(|pct| pct < self.config.skill.return_battery_pct)
             && !matches!(self.guidance.leg, Some((FlightGoal::Home, _)))
         {
             self.goals = [FlightGoal::Home].into();
             self.guidance.leg = None;
+            self.guidance.target = None;
         }
-        match (&self.guidance.leg, self.guidance.needs_plan) {
+        match (&self.guidance.leg, self.guidance.needs_plan && self.now >= self.guidance.back_off_until) {
             (Some((job, leg)), true) => {
                 let (job, fresh) = (*job, map.resume(leg, self.guidance.progress.next, belief.position_m));
                 self.guidance.begin_leg(fresh, job, self.now);
@@ -90,17 +103,65 @@ impl Pilot {
                 let Some(job) = self.goals.pop_front() else { return };
                 let leg = map.leg(job, belief.position_m);
                 self.guidance.begin_leg(leg, job, self.now);
+                self.guidance.setbacks.begin_task();
             }
             (Some(_), false) => {}
         }
+    }
+
+    /// Backs off after a contact, and gives a place up after repeated ones.
+    fn handle_contact(&mut self, belief: &MotionState) {
+        let touching = self.link.status.contact != ContactKind::None;
+        let onset = touching && !self.guidance.touching;
+        self.guidance.touching = touching;
+        if onset {
+            self.suffer_setback(belief);
+        }
+    }
+
+    fn suffer_setback(&mut self, belief: &MotionState) {
+        self.guidance.target = None;
+        self.guidance.back_off_until = self.now + SimTime::from_s(BACK_OFF_DURATION_S);
+        self.guidance.best_since = self.guidance.back_off_until;
+        self.guidance.needs_plan = true;
+        let on_task = matches!(self.guidance.leg, Some((FlightGoal::Task(_), _)));
+        match self.guidance.setbacks.note(belief.position_m, self.now) {
+            Some(SetbackDecision::LeaveOutPlace) => {
+                if !self.guidance.leave_out(belief.position_m, LEFT_OUT_RADIUS_M) && on_task {
+                    self.guidance.leg = None;
+                }
+            }
+            Some(SetbackDecision::GiveTaskUp) if on_task => self.guidance.leg = None,
+            Some(SetbackDecision::GiveTaskUp | SetbackDecision::TryAgain) | None => {}
+        }
+    }
+
+    /// Chooses a speed for the surroundings: the preferred speed, or less, so that the nearest surface here and one second
+    /// ahead stays at least a time gap away.
+    fn choose_pace(&mut self, belief: &MotionState) {
+        let Some(site) = &self.site else { return };
+        if self.now < self.guidance.pace_due {
+            return;
+        }
+        self.guidance.pace_due = self.now + SimTime::from_s(PACE_INTERVAL_S);
+        let skill = &self.config.skill;
+        let preferred = if self.guidance.task().is_some() { skill.speed_m_s } else { skill.transit_speed_m_s };
+        let ahead = belief.position_m + belief.velocity_m_s * skill.preview_s;
+        let clearance_m = [belief.position_m, ahead]
+            .iter()
+            .filter_map(|p| site.nearest(*p, MAX_PACE_CLEARANCE_M, self.now))
+            .fold(MAX_PACE_CLEARANCE_M, |least, near| near.distance_m.min(least));
+        let free_m = (clearance_m - 0.5 * self.config.vehicle.hull.tip_to_tip_m).max(0.0);
+        self.guidance.pace_m_s = preferred.min(free_m / skill.time_gap_s).max(MIN_PACE_M_S);
     }
 
     /// Returns the leg's command, or `None` if the leg has just ended.
     fn follow(&mut self, belief: &MotionState) -> Option<TrackCommand> {
         let flight = &mut self.guidance;
         let (job, leg) = flight.leg.as_ref()?;
-        let wish = leg.command(&mut flight.progress, belief, &self.config.skill);
-        if flight.progress.along_m > flight.best_along_m + 0.3 || flight.target.is_some() {
+        let wish = leg.command(&mut flight.progress, belief, &self.config.skill, flight.pace_m_s);
+        let pausing = flight.target.is_some() || self.now < flight.look_until || self.now < flight.back_off_until;
+        if flight.progress.along_m > flight.best_along_m + 0.3 || pausing {
             flight.best_along_m = flight.best_along_m.max(flight.progress.along_m);
             flight.best_since = self.now;
         }
@@ -116,121 +177,65 @@ impl Pilot {
         Some(wish)
     }
 
-    /// Returns a velocity correction away from visible obstacles; backs off if the aircraft is stuck.
+    /// Stops at intervals along a task to look at the surface.
+    fn look_around(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
+        let (skill, flight) = (&self.config.skill, &mut self.guidance);
+        if flight.target.is_some() || wish.task.is_none() {
+            return;
+        }
+        if flight.progress.along_m >= flight.next_look_m {
+            flight.next_look_m = flight.progress.along_m + skill.look_spacing_m * self.choices.range(0.7, 1.3);
+            flight.looks = LookDirection::ALL.into_iter().rev().collect();
+            flight.look_until = self.now;
+        }
+        if self.now >= flight.look_until && flight.looks.pop().is_some() {
+            flight.look_duration_s = skill.look_duration_s * math::exp(LOOK_DURATION_SIGMA_LN * self.choices.normal());
+            flight.look_since = self.now;
+            flight.look_until = self.now + SimTime::from_s(flight.look_duration_s);
+        }
+        if self.now < flight.look_until {
+            wish.velocity_m_s = Vec3::zero();
+            wish.hands_off = true;
+            let direction = LookDirection::ALL[(LookDirection::ALL.len() - 1).saturating_sub(flight.looks.len())];
+            let (look, sweep_rad) = (wish.line_of_sight, skill.look_sweep_deg.to_radians());
+            wish.line_of_sight = look.map(|look| turned(look, direction, sweep_rad, belief.yaw_rad));
+            // The look begins once the camera has turned.
+            let error_rad =
+                wish.line_of_sight.map_or(0.0, |look| aim_error_rad(look, belief.yaw_rad, self.link.status.gimbal_pitch_rad));
+            if error_rad > MAX_LOOK_ERROR_RAD && (self.now - flight.look_since).s() < MAX_TURN_TIME_S {
+                flight.look_until = self.now + SimTime::from_s(flight.look_duration_s);
+            }
+        }
+    }
+
+    /// Returns a velocity correction away from visible obstacles; backs off after a setback.
     fn avoid_obstacles(&mut self, belief: &MotionState) -> Vec3<Enu> {
-        let Some(site) = &self.site else { return Vec3::zero() };
+        let Some(site) = self.site.clone() else { return Vec3::zero() };
         let safe_m = 0.5 * self.config.vehicle.hull.tip_to_tip_m + 0.7;
         let Some(near) = site.nearest(belief.position_m, safe_m + 1.0, self.now) else { return Vec3::zero() };
         if (self.now - self.guidance.best_since).s() > STUCK_TIMEOUT_S {
-            self.guidance.best_since = self.now;
-            self.guidance.back_off_until = self.now + SimTime::from_s(BACK_OFF_DURATION_S);
-            self.guidance.needs_plan = true;
+            self.suffer_setback(belief);
         }
-        let push = if self.now < self.guidance.back_off_until { 1.5 } else { 0.0 };
         let gap = (safe_m - near.distance_m).max(0.0);
-        near.normal * (push + 1.5 * self.config.skill.gain * gap)
+        let push = near.normal * (1.5 * self.config.skill.gain * gap);
+        if self.now >= self.guidance.back_off_until {
+            return push;
+        }
+        let up = Vec3::new(0.0, 0.0, 1.0);
+        let room_above = site.ray(belief.position_m, up, CLIMB_ROOM_M, self.now).is_none();
+        let climb_m_s = if room_above { BACK_OFF_CLIMB_M_S } else { 0.0 };
+        push + near.normal * BACK_OFF_SPEED_M_S + up * climb_m_s
     }
 
-    /// Searches the picture and points the camera at a noticed defect.
-    fn search_picture(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
-        self.glimpse(wish.task.is_some());
-        let Some(target) = self.guidance.target else { return };
-        if (self.now - target.since).s() > MAX_INSPECTION_DURATION_S || target.attempts >= MAX_PICTURE_ATTEMPTS {
-            if target.attempts == 0 {
-                self.visual_search.ignore_until(target.defect, self.now + SimTime::from_s(IGNORE_DEFECT_DURATION_S));
-            }
-            self.guidance.target = None;
-            return;
-        }
-        let line = target.position_m - belief.position_m;
-        wish.line_of_sight = Some(line.unit());
-        // Slowly approaches a point along the defect's normal, no farther out than the corridor allows.
-        let threshold_m = wish.task.map_or(2.0, |t| self.config.scenario.tasks[t].threshold_m);
-        let stand_m = target.normal * line.norm().clamp(2.0, 6.0);
-        let shift = (target.position_m + stand_m - belief.position_m).limited(0.5 * threshold_m);
-        let pull_back = wish.velocity_m_s - wish.velocity_m_s.unit() * wish.velocity_m_s.norm().min(3.0);
-        wish.velocity_m_s = pull_back + shift * 0.25;
-        self.photograph(target, line, belief);
-    }
-
-    fn glimpse(&mut self, working: bool) {
-        let skill = self.config.skill;
-        let Some(picture) = self.perception.delayed_view(skill.delay_s) else { return };
-        let Some(site) = &self.site else { return };
-        let vehicle = &self.config.vehicle;
-        let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
-        let views = || site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
-        if self.guidance.target.is_some() || !working || self.stick_response.is_lapsed(self.now) {
-            return;
-        }
-        match self.visual_search.glimpse(views, site, &skill, self.now, true) {
-            Glimpse::Defect { id, judgment_error } => {
-                self.guidance.target = site.defects().iter().find(|d| d.id == id).map(|d| PhotoTarget {
-                    defect: id,
-                    position_m: d.position_m,
-                    normal: d.normal,
-                    since: self.now,
-                    triggered: None,
-                    attempts: 0,
-                    judgment_error,
-                });
-            }
-            Glimpse::Distractor => self.guidance.distractor_trigger = Some(self.now + SimTime::from_s(skill.delay_s)),
-            Glimpse::Nothing => {}
-        }
-    }
-
-    /// Takes a picture when the camera is aimed and the defect seems well framed; retries if the result looks poor.
-    fn photograph(&mut self, mut target: PhotoTarget, line: Vec3<Enu>, belief: &MotionState) {
-        if let Some(pressed) = target.triggered {
-            if (self.now - pressed).s() < 0.6 + self.config.skill.delay_s {
-                return;
-            }
-            if self.is_well_framed(&target) {
-                self.guidance.target = None;
-                return;
-            }
-            target.triggered = None;
-        }
-        let (yaw, pitch) = heading_and_elevation(line.unit());
-        let off = math::wrap_pi(yaw - belief.yaw_rad).abs().max((pitch - self.link.status.gimbal_pitch_rad).abs());
-        if off < MAX_AIM_ERROR_RAD && belief.velocity_m_s.norm() < 0.8 && self.is_well_framed(&target) {
-            target.triggered = Some(self.now);
-            target.attempts += 1;
-            self.trigger_camera();
-        }
-        self.guidance.target = Some(target);
-    }
-
-    /// Checks whether this pilot considers the defect well framed on the screen.
-    fn is_well_framed(&self, target: &PhotoTarget) -> bool {
-        let (vehicle, skill) = (&self.config.vehicle, self.config.skill);
-        let (Some(site), Some(picture)) = (&self.site, self.perception.delayed_view(skill.delay_s)) else { return true };
-        let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
-        let views = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
-        let error = skill.noise * target.judgment_error;
-        let flattered = math::exp(SIZE_JUDGMENT_SIGMA * error);
-        views.iter().find(|view| view.defect_id == target.defect).is_some_and(|view| {
-            let seen = DefectView {
-                incidence_rad: view.incidence_rad - ANGLE_JUDGMENT_SIGMA_RAD * error,
-                extent_px: view.extent_px * flattered,
-                width_px: view.width_px * flattered,
-                illuminance_lux: view.illuminance_lux * flattered,
-                ..*view
-            };
-            seen.conditions().iter().all(|condition| *condition)
-        })
-    }
-
-    fn trigger_camera(&mut self) {
-        self.pictures += 1;
-        let mut params = [0.0; 7];
-        params[2] = 1.0;
-        self.link.send_command_to(100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, params);
+    /// Checks whether the drone's nose points at the pilot, who stands beside the landing pad.
+    pub(super) fn faces_pilot(&self, motion: &MotionState) -> bool {
+        let way = self.config.scenario.ground_team.inspector_m - motion.position_m;
+        let (bearing_rad, _) = heading_and_elevation(way.unit());
+        math::wrap_pi(bearing_rad - motion.yaw_rad).abs() < FACING_ANGLE_RAD
     }
 
     /// Controls the lamp and gimbal, and takes a picture if a distractor triggered one.
-    fn control_payload(&mut self, wish: &TrackCommand, _belief: &MotionState) {
+    fn control_payload(&mut self, wish: &TrackCommand) {
         if self.guidance.distractor_trigger.is_some_and(|at| at <= self.now) {
             self.guidance.distractor_trigger = None;
             self.trigger_camera();
@@ -250,6 +255,46 @@ impl Pilot {
             let nan = f32::NAN;
             let degrees = pitch.to_degrees() as f32;
             self.link.send_command(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW, [degrees, 0.0, nan, nan, 0.0, 0.0, 0.0]);
+        }
+    }
+}
+
+/// Returns a line of sight turned by `sweep_rad` in a direction. A camera that looks straight up or down uses the drone's heading
+/// to tell left from right.
+fn turned(look: Vec3<Enu>, direction: LookDirection, sweep_rad: f64, yaw_rad: f64) -> Vec3<Enu> {
+    let level = look.horizontal_norm();
+    let heading_rad = if level > MIN_HORIZONTAL { heading_and_elevation(look).0 } else { yaw_rad };
+    let (sh, ch) = math::sin_cos(heading_rad);
+    let right = Vec3::new(ch, -sh, 0.0);
+    let up = right.cross(look).unit();
+    let (to_right, to_up) = direction.components();
+    let (sin, cos) = math::sin_cos(sweep_rad);
+    (look * cos + (right * to_right + up * to_up) * sin).unit()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-12;
+
+    #[test]
+    fn exact_looks_turn_by_the_sweep_in_their_direction() {
+        let north = Vec3::new(0.0, 1.0, 0.0);
+        let up = Vec3::new(0.0, 0.0, 1.0);
+        let quarter = math::FRAC_PI_2;
+        let cases = [
+            (north, LookDirection::Right, Vec3::new(1.0, 0.0, 0.0)),
+            (north, LookDirection::Left, Vec3::new(-1.0, 0.0, 0.0)),
+            (north, LookDirection::Up, up),
+            (north, LookDirection::Down, -up),
+            // Under an arch, with the drone's nose to the east.
+            (up, LookDirection::Right, Vec3::new(0.0, -1.0, 0.0)),
+            (up, LookDirection::Down, Vec3::new(1.0, 0.0, 0.0)),
+        ];
+        for (look, direction, expected) in cases {
+            let seen = turned(look, direction, quarter, quarter);
+            assert!((seen - expected).norm() < TOLERANCE, "{look:?} {direction:?}: {seen:?}");
         }
     }
 }

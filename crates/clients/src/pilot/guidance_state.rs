@@ -1,19 +1,63 @@
-//! In-flight guidance state: the leg, its progress, and the defect being photographed.
+//! In-flight guidance state: the leg, its progress, stops, setbacks, and the defect being photographed.
 
 use super::goals::FlightGoal;
+use super::setbacks::Setbacks;
 use super::track::{LegProgress, TrackLeg};
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::DefectView;
 use spandrel_model::time::SimTime;
+
+/// Phase of photographing a defect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum PhotoPhase {
+    /// Follows the path until the spot is near.
+    Noticed,
+    /// Flies to the spot.
+    Approach,
+    /// Frames the defect with the drone stopped.
+    Settle { steady_since: Option<SimTime> },
+    /// Looks at the picture that was taken.
+    Review { pressed: SimTime, view: Option<DefectView> },
+}
+
+/// Direction of a look, relative to the surface straight ahead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LookDirection {
+    Up,
+    Down,
+    Left,
+    Right,
+}
+
+impl LookDirection {
+    /// The order in which a pilot looks around: with the gimbal first, which needs no turning of the drone.
+    pub(super) const ALL: [Self; 4] = [Self::Up, Self::Down, Self::Left, Self::Right];
+
+    /// Returns the components to the right and up of a unit step in this direction.
+    pub(super) fn components(self) -> (f64, f64) {
+        match self {
+            Self::Up => (0.0, 1.0),
+            Self::Down => (0.0, -1.0),
+            Self::Left => (-1.0, 0.0),
+            Self::Right => (1.0, 0.0),
+        }
+    }
+}
 
 /// A noticed defect that is being photographed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PhotoTarget {
     pub(super) defect: u32,
     pub(super) position_m: Vec3<Enu>,
-    pub(super) normal: Vec3<Enu>,
+    /// Position from which the pilot wants to photograph.
+    pub(super) spot_m: Vec3<Enu>,
+    /// Smallest distance to the spot so far, m.
+    pub(super) nearest_m: f64,
     pub(super) since: SimTime,
-    pub(super) triggered: Option<SimTime>,
-    pub(super) attempts: u32,
+    pub(super) phase: PhotoPhase,
+    pub(super) shots: u32,
+    /// Number of spots from which the picture did not seem good enough.
+    pub(super) poor_spots: u32,
     /// The pilot's judgment error for this defect, as a multiple of a trained pilot's standard deviation.
     pub(super) judgment_error: f64,
 }
@@ -29,6 +73,20 @@ pub struct Guidance {
     pub(super) needs_plan: bool,
     pub(super) target: Option<PhotoTarget>,
     pub(super) distractor_trigger: Option<SimTime>,
+    /// Speed that the pilot chooses for the surroundings, m/s, and when to choose anew.
+    pub(super) pace_m_s: f64,
+    pub(super) pace_due: SimTime,
+    /// Position along the leg of the next stop to look, m.
+    pub(super) next_look_m: f64,
+    /// Directions left to look in during the present stop.
+    pub(super) looks: Vec<LookDirection>,
+    /// Beginning, duration (s) and end of the present look.
+    pub(super) look_since: SimTime,
+    pub(super) look_duration_s: f64,
+    pub(super) look_until: SimTime,
+    pub(super) setbacks: Setbacks,
+    /// Whether the aircraft was in contact in the previous step.
+    pub(super) touching: bool,
 }
 
 impl Guidance {
@@ -44,6 +102,15 @@ impl Guidance {
             needs_plan: false,
             target: None,
             distractor_trigger: None,
+            pace_m_s: 1.0,
+            pace_due: SimTime::ZERO,
+            next_look_m: 0.0,
+            looks: Vec::new(),
+            look_since: SimTime::ZERO,
+            look_duration_s: 0.0,
+            look_until: SimTime::ZERO,
+            setbacks: Setbacks::default(),
+            touching: false,
         }
     }
 
@@ -51,6 +118,8 @@ impl Guidance {
     pub fn replan(&mut self) {
         self.needs_plan = true;
         self.target = None;
+        self.looks.clear();
+        self.look_until = SimTime::ZERO;
     }
 
     /// Returns the index of the active task, if any.
@@ -65,6 +134,20 @@ impl Guidance {
         self.progress = LegProgress { next: 1, along_m: 0.0 };
         self.best_along_m = 0.0;
         self.best_since = now;
+        self.next_look_m = 0.0;
         self.needs_plan = false;
+    }
+
+    /// Moves the progress to the first point of the leg that is at least `distance_m` away from a place and lies behind it.
+    /// Returns false if there is none.
+    pub(super) fn leave_out(&mut self, place_m: Vec3<Enu>, distance_m: f64) -> bool {
+        let Some((_, leg)) = &self.leg else { return false };
+        let next = self.progress.next;
+        let behind = (next..leg.points_m.len()).find(|k| (leg.points_m[*k] - place_m).norm() >= distance_m);
+        if let Some(k) = behind {
+            self.progress.next = k;
+            self.needs_plan = true;
+        }
+        behind.is_some()
     }
 }

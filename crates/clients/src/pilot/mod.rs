@@ -16,6 +16,11 @@ pub mod visual_search;
 pub mod flight_plan;
 mod guidance;
 mod guidance_state;
+pub mod orientation;
+pub mod photo_spot;
+mod photography;
+pub mod setbacks;
+pub mod skill_file;
 mod stick_command;
 
 pub use config::PilotConfig;
@@ -23,12 +28,16 @@ pub use skill::{Skill, SkillFactor};
 
 use goals::FlightGoal;
 use guidance_state::Guidance;
-use perception::{MotionState, Perception};
+use orientation::Orientation;
+use perception::{MAX_JUDGED_DISTANCE_M, MotionState, NearSurface, Perception};
 use spandrel_mavlink::dialect::MavCmd;
+use spandrel_model::random::RandomStream;
 use spandrel_model::site::Site;
 use spandrel_model::time::{Schedule, SimTime};
 use std::collections::VecDeque;
+use std::sync::Arc;
 use stick_response::StickResponse;
+use track::TrackCommand;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
 
@@ -77,11 +86,14 @@ enum PilotPhase {
 #[derive(Debug)]
 pub struct Pilot {
     config: PilotConfig,
-    site: Option<Site>,
+    site: Option<Arc<Site>>,
     link: VehicleLink,
     perception: Perception,
     stick_response: StickResponse,
     visual_search: VisualSearch,
+    orientation: Orientation,
+    /// Random choices that are neither perception nor motor noise.
+    choices: RandomStream,
     goals: VecDeque<FlightGoal>,
     guidance: Guidance,
     phase: PilotPhase,
@@ -110,6 +122,8 @@ impl Pilot {
             perception: Perception::new(config.seed),
             stick_response: StickResponse::new(config.seed),
             visual_search: VisualSearch::new(config.seed),
+            orientation: Orientation::new(config.seed),
+            choices: RandomStream::new(config.seed, "pilot choices"),
             goals: jobs,
             guidance: Guidance::new(),
             phase: PilotPhase::Prepare,
@@ -144,7 +158,7 @@ impl Pilot {
         if self.site.is_none()
             && let Some(seed) = self.link.status.seed
         {
-            self.site = Some(Site::build(&self.config.scenario, seed));
+            self.site = Some(Arc::new(Site::build(&self.config.scenario, seed)));
         }
     }
 
@@ -204,16 +218,29 @@ impl Pilot {
             }
             self.perception.reset();
             self.stick_response.release();
+            self.orientation.reset();
             self.guidance.replan();
             self.respawned_at = Some(self.now);
         }
         self.take_off_after_respawn();
         self.perception.observe(motion);
         let skill = self.config.skill;
-        let Some(belief) = self.perception.estimate(&skill, dt_s) else { return };
+        let surface = self.near_surface(&motion);
+        let Some(belief) = self.perception.estimate(&skill, surface, dt_s) else { return };
         let axes = self.fly_phase(&belief);
+        let axes = match self.phase {
+            PilotPhase::Fly => self.orientation.step(axes, &skill, self.faces_pilot(&motion), self.now, dt_s),
+            PilotPhase::Prepare | PilotPhase::Climb | PilotPhase::Descend | PilotPhase::Done => axes,
+        };
         let axes = self.stick_response.step(axes, &skill, self.now, dt_s);
         self.link.send_sticks(axes);
+    }
+
+    /// Returns the surface whose distance the pilot judges; `None` in open air and near the landing pad.
+    fn near_surface(&self, motion: &MotionState) -> Option<NearSurface> {
+        let site = self.site.as_ref().filter(|_| self.phase == PilotPhase::Fly)?;
+        let near = site.nearest(motion.position_m, MAX_JUDGED_DISTANCE_M, self.now)?;
+        Some(NearSurface { distance_m: near.distance_m, normal: near.normal })
     }
 
     /// Prepares another takeoff if the aircraft was put back on the ground with its motors off.
@@ -318,7 +345,7 @@ impl Pilot {
         let speed_m_s = if aside_m > MAX_PAD_OFFSET_M { 2.0 } else { 1.0 };
         let wish =
             (level * (0.6 * self.config.skill.gain)).limited(speed_m_s) + spandrel_model::frames::Vec3::new(0.0, 0.0, -rate);
-        let mut axes = stick_command::sticks(wish, belief, None, &self.config);
+        let mut axes = stick_command::sticks(&TrackCommand::velocity(wish), belief, &self.config);
         if height_m < 0.5 && aside_m <= MAX_PAD_OFFSET_M {
             axes[2] = -1.0_f64.min(0.5 / self.config.vehicle.limits.descend_m_s).abs();
         }

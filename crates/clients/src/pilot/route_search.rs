@@ -4,7 +4,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap, VecDeque};
 
 /// Grid spacing, m: finer than the height of the interlayer.
 const GRID_SPACING_M: f64 = 2.0;
@@ -21,6 +21,8 @@ const CLEARANCE_FRACTIONS: [f64; 3] = [1.0, 0.7, 0.4];
 const SEARCH_MARGIN_M: f64 = 40.0;
 /// Maximum number of expanded cells; the two-bridge site needs about a tenth.
 const MAX_EXPANSIONS: usize = 400_000;
+/// Expanded cells after which the search checks whether the goal is in a closed pocket; most searches end sooner.
+const PROBE_AFTER_EXPANSIONS: usize = 1_000;
 
 type GridCell = [i32; 3];
 
@@ -41,13 +43,13 @@ pub fn route(
     let found = match required_clearance_m {
         Some(required_clearance_m) => CLEARANCE_FRACTIONS.into_iter().find_map(|share| {
             space.rule = Some(space.clearance_rule(clearance_m + share * (required_clearance_m - clearance_m).max(0.0)));
-            space.is_line_clear(from, to, PREFERRED_CLEARANCE_M).then(Vec::new).or_else(|| search(&space))
+            space.is_line_clear(from, to, PREFERRED_CLEARANCE_M).then(Vec::new).or_else(|| space.search())
         }),
         None => None,
     };
     let found = found.or_else(|| {
         space.rule = None;
-        if space.is_line_clear(from, to, PREFERRED_CLEARANCE_M) { Some(Vec::new()) } else { search(&space) }
+        if space.is_line_clear(from, to, PREFERRED_CLEARANCE_M) { Some(Vec::new()) } else { space.search() }
     });
     let cells = found.unwrap_or_default();
     let mut points = vec![from];
@@ -98,6 +100,22 @@ impl SearchSpace<'_> {
         self.site.traffic().min_distance_over_time_m(p, still).unwrap_or(still)
     }
 
+    /// Returns the clearance at a cell's center, in meters; `None` if the route may not pass there. The goal is always allowed.
+    fn cell_clearance_m(&self, cell: GridCell, goal: GridCell) -> Option<f64> {
+        let p = self.center(cell);
+        if !self.is_inside(p) {
+            return None;
+        }
+        let clearance_m = self.clearance(p);
+        (cell == goal || clearance_m >= self.required_clearance_at_m(p)).then_some(clearance_m)
+    }
+
+    fn search(&self) -> Option<Vec<GridCell>> {
+        let d = (self.to - self.origin) / GRID_SPACING_M;
+        let goal = [d.east().round() as i32, d.north().round() as i32, d.up().round() as i32];
+        search_grid(goal, |cell| self.cell_clearance_m(cell, goal))
+    }
+
     /// Returns the required clearance at a point, in meters.
     fn required_clearance_at_m(&self, p: Vec3<Enu>) -> f64 {
         let Some(keep) = &self.rule else { return self.clearance_m };
@@ -131,24 +149,29 @@ impl SearchSpace<'_> {
     }
 }
 
-fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
-    let goal = {
-        let d = (space.to - space.origin) / GRID_SPACING_M;
-        [d.east().round() as i32, d.north().round() as i32, d.up().round() as i32]
-    };
+/// Searches for a route from cell [0, 0, 0] to the goal. `clearance` returns a cell's clearance, m, or `None` if the cell is
+/// blocked or outside the search box. It is called at most once per cell, because a distance query costs far more than
+/// the rest of the search.
+fn search_grid(goal: GridCell, mut clearance: impl FnMut(GridCell) -> Option<f64>) -> Option<Vec<GridCell>> {
+    let mut known: BTreeMap<GridCell, Option<f64>> = BTreeMap::new();
+    let mut clearance = |cell: GridCell| *known.entry(cell).or_insert_with(|| clearance(cell));
     let mut open = BinaryHeap::new();
     let mut best: BTreeMap<GridCell, (f64, GridCell)> = BTreeMap::new();
+    let mut pocket = PocketProbe::new(goal);
     best.insert([0, 0, 0], (0.0, [0, 0, 0]));
     open.push(Reverse((0u64, [0, 0, 0])));
-    for _ in 0..MAX_EXPANSIONS {
+    for expansions in 0..MAX_EXPANSIONS {
         let Reverse((_, cell)) = open.pop()?;
         if cell == goal {
             return Some(reconstruct_path(&best, goal));
         }
+        if expansions >= PROBE_AFTER_EXPANSIONS && pocket.step(&mut clearance, |cell| best.contains_key(cell)) {
+            return None;
+        }
         let cost = best[&cell].0;
         for next in neighbors(cell) {
-            let Some(step) = step_cost(space, cell, next, goal) else { continue };
-            let total = cost + step;
+            let Some(clearance_m) = clearance(next) else { continue };
+            let total = cost + step_cost(cell, next, clearance_m);
             if best.get(&next).is_none_or(|(known, _)| total < *known) {
                 best.insert(next, (total, cell));
                 let estimate = total + distance(next, goal);
@@ -160,17 +183,39 @@ fn search(space: &SearchSpace) -> Option<Vec<GridCell>> {
     None
 }
 
-fn step_cost(space: &SearchSpace, from: GridCell, to: GridCell, goal: GridCell) -> Option<f64> {
-    let p = space.center(to);
-    if !space.is_inside(p) {
-        return None;
+/// Flood from the goal, one cell at a time, that finds out whether the goal is in a closed pocket. Without it, the search would
+/// first visit every cell outside of the pocket.
+struct PocketProbe {
+    queue: VecDeque<GridCell>,
+    seen: BTreeSet<GridCell>,
+    connected: bool,
+}
+
+impl PocketProbe {
+    fn new(goal: GridCell) -> Self {
+        Self { queue: [goal].into(), seen: [goal].into(), connected: false }
     }
-    let clearance = space.clearance(p);
-    if clearance < space.required_clearance_at_m(p) && to != goal {
-        return None;
+
+    /// Visits the next cell. Returns true if every cell that can be reached from the goal has been visited without meeting
+    /// a cell reached by the search.
+    fn step(&mut self, mut clearance: impl FnMut(GridCell) -> Option<f64>, reached: impl Fn(&GridCell) -> bool) -> bool {
+        if self.connected {
+            return false;
+        }
+        let Some(cell) = self.queue.pop_front() else { return true };
+        for next in neighbors(cell) {
+            self.connected |= reached(&next);
+            if clearance(next).is_some() && self.seen.insert(next) {
+                self.queue.push_back(next);
+            }
+        }
+        false
     }
-    let closeness = (PREFERRED_CLEARANCE_M - clearance).max(0.0) / PREFERRED_CLEARANCE_M;
-    Some(distance(from, to) * (1.0 + 6.0 * closeness * closeness))
+}
+
+fn step_cost(from: GridCell, to: GridCell, clearance_m: f64) -> f64 {
+    let closeness = (PREFERRED_CLEARANCE_M - clearance_m).max(0.0) / PREFERRED_CLEARANCE_M;
+    distance(from, to) * (1.0 + 6.0 * closeness * closeness)
 }
 
 fn neighbors(c: GridCell) -> impl Iterator<Item = GridCell> {
@@ -210,4 +255,68 @@ fn straighten(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
         at = far;
     }
     kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Half the edge of the cube-shaped search box, in cells.
+    const HALF_EDGE: i32 = 20;
+
+    /// Returns a cell's clearance in an empty box, and `None` outside of it.
+    fn in_box(cell: GridCell) -> Option<f64> {
+        cell.iter().all(|c| c.abs() <= HALF_EDGE).then_some(PREFERRED_CLEARANCE_M)
+    }
+
+    /// Returns whether a cell belongs to a closed shell around `center`, two cells away from it.
+    fn is_shell(cell: GridCell, center: GridCell) -> bool {
+        (0..3).map(|k| (cell[k] - center[k]).abs()).max() == Some(2)
+    }
+
+    /// Runs a search; returns the route and how often the clearance of each cell was queried.
+    fn search_counted(
+        goal: GridCell,
+        clear: impl Fn(GridCell) -> Option<f64>,
+    ) -> (Option<Vec<GridCell>>, BTreeMap<GridCell, usize>) {
+        let mut queries: BTreeMap<GridCell, usize> = BTreeMap::new();
+        let found = search_grid(goal, |cell| {
+            *queries.entry(cell).or_default() += 1;
+            clear(cell)
+        });
+        (found, queries)
+    }
+
+    #[test]
+    fn regress_each_cell_is_queried_once() {
+        // A wall with one opening far from the straight line.
+        let wall = |cell: GridCell| if cell[0] == 5 && cell[1] != 12 { None } else { in_box(cell) };
+        let (found, queries) = search_counted([10, 0, 0], wall);
+        let route = found.expect("the opening is passable");
+        assert!(route.iter().any(|cell| cell[0] == 5 && cell[1] == 12), "{route:?}");
+        assert!(queries.len() > 1_000, "only {} cells", queries.len());
+        assert!(queries.values().all(|count| *count == 1));
+    }
+
+    #[test]
+    fn regress_goal_in_a_pocket_ends_the_search_early() {
+        let goal = [12, 0, 0];
+        let (found, queries) = search_counted(goal, |cell| if is_shell(cell, goal) { None } else { in_box(cell) });
+        assert_eq!(found, None);
+        let all = (2 * HALF_EDGE as usize + 1).pow(3);
+        assert!(queries.len() < all / 4, "{} of {all} cells", queries.len());
+    }
+
+    #[test]
+    fn regress_start_in_a_pocket_ends_the_search_at_its_walls() {
+        let (found, queries) = search_counted([12, 0, 0], |cell| if is_shell(cell, [0, 0, 0]) { None } else { in_box(cell) });
+        assert_eq!(found, None);
+        assert_eq!(queries.len(), 5 * 5 * 5, "the pocket and its walls");
+    }
+
+    #[test]
+    fn exact_open_route_is_straight() {
+        let (found, _) = search_counted([3, 3, 0], in_box);
+        assert_eq!(found, Some(vec![[0, 0, 0], [1, 1, 0], [2, 2, 0], [3, 3, 0]]));
+    }
 }

@@ -3,6 +3,7 @@
 use super::config::PilotConfig;
 use super::perception::MotionState;
 use super::stick_response::StickAxes;
+use super::track::TrackCommand;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 
@@ -11,24 +12,39 @@ const YAW_GAIN_PER_S: f64 = 1.3;
 /// Fraction of the perceived speed error that a trained pilot adds to the stick command (estimate).
 const SPEED_FEEDBACK_GAIN: f64 = 0.35;
 
-/// Heading (clockwise from north) and elevation of a line of sight, rad.
-pub(super) fn heading_and_elevation(look: Vec3<Enu>) -> (f64, f64) {
-    (math::atan2(look.east(), look.north()), math::asin(look.up()))
+/// Minimum horizontal part of a line of sight that defines a heading.
+pub(super) const MIN_HORIZONTAL: f64 = 0.2;
+
+/// Returns the angle between a line of sight and the camera's optical axis, rad; counts only the elevation if the line is nearly
+/// vertical.
+pub(super) fn aim_error_rad(look: Vec3<Enu>, yaw_rad: f64, gimbal_pitch_rad: f64) -> f64 {
+    let (heading, elevation) = heading_and_elevation(look);
+    let level = look.horizontal_norm();
+    let aside = if level > MIN_HORIZONTAL { math::wrap_pi(heading - yaw_rad) * level } else { 0.0 };
+    math::hypot(aside, elevation - gimbal_pitch_rad)
 }
 
-/// Returns the stick axes for a desired velocity and line of sight, using the pilot's learned model of the aircraft.
-pub(super) fn sticks(wanted: Vec3<Enu>, belief: &MotionState, look: Option<Vec3<Enu>>, config: &PilotConfig) -> StickAxes {
+/// Heading (clockwise from north) and elevation of a line of sight, rad.
+pub(super) fn heading_and_elevation(look: Vec3<Enu>) -> (f64, f64) {
+    (math::atan2(look.east(), look.north()), math::asin(look.up().clamp(-1.0, 1.0)))
+}
+
+/// Returns the stick axes for a command, using the pilot's learned model of the aircraft.
+pub(super) fn sticks(wish: &TrackCommand, belief: &MotionState, config: &PilotConfig) -> StickAxes {
     let limits = &config.vehicle.limits;
     let gain = config.skill.gain;
-    let push = wanted + (wanted - belief.velocity_m_s) * (SPEED_FEEDBACK_GAIN * gain);
+    let wanted = wish.velocity_m_s;
+    let push = if wish.hands_off { Vec3::zero() } else { wanted + (wanted - belief.velocity_m_s) * (SPEED_FEEDBACK_GAIN * gain) };
     let (s, c) = math::sin_cos(belief.yaw_rad);
     let forward = push.east() * s + push.north() * c;
     let right = push.east() * c - push.north() * s;
     let up = push.up();
     let climb = if up > 0.0 { limits.climb_m_s } else { limits.descend_m_s };
     // A near-vertical line of sight does not define a heading.
-    let turn =
-        look.filter(|l| l.horizontal_norm() > 0.2).map_or(0.0, |l| math::wrap_pi(heading_and_elevation(l).0 - belief.yaw_rad));
+    let look = wish.line_of_sight.filter(|_| wish.turns);
+    let turn = look
+        .filter(|l| l.horizontal_norm() > MIN_HORIZONTAL)
+        .map_or(0.0, |l| math::wrap_pi(heading_and_elevation(l).0 - belief.yaw_rad));
     [
         forward / limits.forward_m_s,
         right / limits.sideways_speed_m_s,

@@ -52,13 +52,16 @@ impl StickResponse {
         if lapse && !self.is_lapsed(now) {
             self.lapse_until = now + SimTime::from_s(self.random.range(LAPSE_DURATION_S.0, LAPSE_DURATION_S.1));
         }
+        // Self-centering sticks that the pilot has let go of do not move.
+        let released = wanted.iter().all(|axis| axis.abs() < 1e-9);
+        let skilled_noise = if released { 0.0 } else { skill.noise };
         let follow = 1.0 - math::exp(-dt_s / NEUROMUSCULAR_LAG_S);
         for (axis, target) in wanted.iter().enumerate() {
             let drift = self.noise[axis].step(dt_s, &mut self.random);
             if now < self.lapse_until {
                 continue;
             }
-            let noisy = target + drift * skill.noise * (PROPORTIONAL_NOISE * target.abs() + TREMOR_AMPLITUDE);
+            let noisy = target + drift * skilled_noise * (PROPORTIONAL_NOISE * target.abs() + TREMOR_AMPLITUDE);
             self.out[axis] += follow * (noisy.clamp(-1.0, 1.0) - self.out[axis]);
         }
         self.out
@@ -73,6 +76,17 @@ impl StickResponse {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_released_sticks_center_without_tremor() {
+        // After 40 time constants, nothing of the deflection is left.
+        let mut hand = StickResponse::new(1);
+        let steady = Skill { lapses_per_min: 0.0, ..Skill::NOVICE };
+        let held = hand.step([0.5; 4], &steady, SimTime::from_ms(0), 0.5);
+        assert!(held.iter().all(|axis| *axis > 0.3));
+        let released = hand.step([0.0; 4], &steady, SimTime::from_ms(20), 40.0 * NEUROMUSCULAR_LAG_S);
+        assert!(released.iter().all(|axis| axis.abs() < 1e-12), "{released:?}");
+    }
 
     #[test]
     fn exact_lapse_freezes_the_sticks() {

@@ -45,6 +45,18 @@ pub struct TrackCommand {
     pub task: Option<usize>,
     /// Whether the end of the leg has been reached.
     pub done: bool,
+    /// Whether the pilot lets go of the sticks that move the aircraft, so that the autopilot holds position.
+    pub hands_off: bool,
+    /// Whether the pilot turns toward the line of sight; if not, only the gimbal follows it.
+    pub turns: bool,
+}
+
+impl TrackCommand {
+    /// Returns a command with a velocity and no line of sight.
+    #[must_use]
+    pub fn velocity(velocity_m_s: Vec3<Enu>) -> Self {
+        Self { velocity_m_s, line_of_sight: None, task: None, done: false, hands_off: false, turns: true }
+    }
 }
 
 impl TrackLeg {
@@ -120,10 +132,10 @@ impl TrackLeg {
     }
 
     /// Returns the speed, in m/s, that the bends within the preview allow.
-    fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64) -> f64 {
+    fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64, pace_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;
-        let mut speed = self.speed_m_s[progress.next];
+        let mut speed = self.speed_m_s[progress.next].min(pace_m_s);
         let horizon_m = skill.preview_s * now_m_s.max(1.0) + 1.0;
         for next in progress.next..self.points_m.len() {
             ahead_m += self.segment_m(next);
@@ -131,7 +143,7 @@ impl TrackLeg {
                 break;
             }
             let there = match self.speed_m_s.get(next + 1) {
-                Some(following) => following * self.bend_speed_factor(next),
+                Some(following) => following.min(pace_m_s) * self.bend_speed_factor(next),
                 None => 0.0,
             };
             speed = speed.min((there * there + 2.0 * BRAKING_DECELERATION_M_S2 * ahead_m.max(0.0)).sqrt());
@@ -147,10 +159,10 @@ impl TrackLeg {
         0.65 + 0.35 * into.dot(out)
     }
 
-    /// Returns the pilot's command for the perceived motion.
-    pub fn command(&self, progress: &mut LegProgress, motion: &MotionState, skill: &Skill) -> TrackCommand {
+    /// Returns the pilot's command for the perceived motion, no faster than `pace_m_s` along the leg.
+    pub fn command(&self, progress: &mut LegProgress, motion: &MotionState, skill: &Skill, pace_m_s: f64) -> TrackCommand {
         self.advance(progress, motion.position_m);
-        let speed = self.speed(*progress, skill, motion.velocity_m_s.norm());
+        let speed = self.speed(*progress, skill, motion.velocity_m_s.norm(), pace_m_s);
         let here = self.point_ahead(*progress, 0.0);
         // Trained pilots look 1.5 s ahead. A shorter preview moves the aim point closer.
         let aim = self.point_ahead(*progress, (speed * skill.preview_s).max(MIN_AIM_DISTANCE_M));
@@ -165,6 +177,8 @@ impl TrackLeg {
             line_of_sight: self.line_of_sight[progress.next].or_else(|| self.heading_ahead(*progress)),
             task: self.task[progress.next],
             done: left_m < 1.0 && (motion.position_m - end).norm() < 2.5,
+            hands_off: false,
+            turns: true,
         }
     }
 
@@ -186,6 +200,17 @@ mod tests {
     use super::*;
     use spandrel_model::time::SimTime;
 
+    /// A pace that does not limit the speed of 3 m/s.
+    const PACE_M_S: f64 = 10.0;
+
+    #[test]
+    fn exact_pace_limits_the_speed_along_the_leg() {
+        let leg = straight();
+        let mut progress = LegProgress { next: 3, along_m: 2.0 };
+        let wish = leg.command(&mut progress, &at(2.0, 0.0), &Skill::EXPERT, 1.2);
+        assert!((wish.velocity_m_s.norm() - 1.2).abs() < 1e-9, "{wish:?}");
+    }
+
     fn straight() -> TrackLeg {
         let mut leg = TrackLeg::new();
         for k in 0..=20 {
@@ -203,7 +228,7 @@ mod tests {
     fn exact_command_returns_to_the_leg() {
         let leg = straight();
         let mut progress = LegProgress { next: 1, along_m: 0.0 };
-        let wish = leg.command(&mut progress, &at(2.0, 1.0), &Skill::TRAINED);
+        let wish = leg.command(&mut progress, &at(2.0, 1.0), &Skill::TRAINED, PACE_M_S);
         assert!(wish.velocity_m_s.north() < -0.5 && wish.velocity_m_s.east() > 2.0, "{wish:?}");
     }
 
@@ -212,8 +237,8 @@ mod tests {
         let leg = straight();
         let mut a = LegProgress { next: 17, along_m: 16.5 };
         let mut b = a;
-        let novice = leg.command(&mut a, &at(16.5, 0.0), &Skill::NOVICE).velocity_m_s.east();
-        let expert = leg.command(&mut b, &at(16.5, 0.0), &Skill::EXPERT).velocity_m_s.east();
+        let novice = leg.command(&mut a, &at(16.5, 0.0), &Skill::NOVICE, PACE_M_S).velocity_m_s.east();
+        let expert = leg.command(&mut b, &at(16.5, 0.0), &Skill::EXPERT, PACE_M_S).velocity_m_s.east();
         assert!(novice > expert, "{novice} {expert}");
     }
 }
