@@ -69,7 +69,7 @@ class Vehicle:
         return wait_for(kind, next_one)
 
     def discard(self):
-        """Discards the messages that have arrived so far."""
+        """Discards the messages that have arrived so far. Otherwise, they fill the socket's buffer, which then loses the next ones."""
         while self.station.recv_match(blocking=False) is not None:
             pass
 
