@@ -183,9 +183,12 @@ fn searched(record: &SessionRecord) -> impl Iterator<Item = &DefectRecord> + Clo
 /// Returns the missed defects that a rule applies to (severe ones, or those clearly visible), most severe first.
 pub(super) fn missed<'a>(rule: &PlanRule, record: &'a SessionRecord) -> Vec<&'a DefectRecord> {
     let in_view = rule.measure == RuleMeasure::Session(SessionMeasure::MissedInView);
-    let about = |defect: &&DefectRecord| match in_view {
-        true => defect.in_view_s.is_some_and(|seconds| seconds > rule.limit),
-        false => defect.condition_state >= MIN_SEVERE_CONDITION_STATE,
+    let about = |defect: &&DefectRecord| {
+        if in_view {
+            defect.in_view_s.is_some_and(|seconds| seconds > rule.limit)
+        } else {
+            defect.condition_state >= MIN_SEVERE_CONDITION_STATE
+        }
     };
     let mut missed: Vec<&DefectRecord> = searched(record).filter(|defect| !defect.found).filter(about).collect();
     missed.sort_by(|a, b| {

@@ -65,7 +65,7 @@ fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeas
                 record.defects[0] = perfect_record("anna", 1).defects[0].clone();
             }
         }
-        SessionMeasure::MissedSevere => record.defects[0].found = !over,
+        SessionMeasure::MissedSevere => record.defects.iter_mut().take(value as usize).for_each(|defect| defect.found = false),
         SessionMeasure::MissedInView => (record.defects[0].found, record.defects[0].in_view_s) = (false, Some(value)),
         SessionMeasure::MissedHidden | SessionMeasure::MissedLines => {
             let hidden = measure == SessionMeasure::MissedHidden;
@@ -143,13 +143,13 @@ fn first_step(record: SessionRecord) -> (String, Vec<String>, Vec<String>) {
 fn exact_cause_outranks_its_consequences() {
     let mut record = perfect_record("anna", 1);
     // 20 crashes are far more than their limit of 0.5, but speeding causes them.
-    record.tasks[1].speeding_s = 10.0;
+    record.tasks[1].speeding_s = 30.0;
     record.tasks[1].technique.as_mut().unwrap().contacts.bridge = 20;
     let (scenario, causes, effects) = first_step(record.clone());
     assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["too fast under the arch".to_owned()]));
     assert_eq!(effects, ["crashes under the arch"]);
     // Speeding in another task explains nothing here.
-    (record.tasks[1].speeding_s, record.tasks[0].speeding_s) = (0.0, 10.0);
+    (record.tasks[1].speeding_s, record.tasks[0].speeding_s) = (0.0, 30.0);
     let (scenario, causes, effects) = first_step(record);
     assert_eq!((scenario.as_str(), causes), ("drill-curve-under-arch", vec!["crashes under the arch".to_owned()]));
     assert!(effects.is_empty());
@@ -209,7 +209,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     record.tasks[2].on_path = 0.3;
     record.tasks[2].off_sideways_m = Some(0.4);
     record.tasks[2].off_height_m = Some(2.1);
-    record.tasks[0].on_path = 0.85;
+    record.tasks[0].on_path = 0.6;
     let plan = plan(&[record], &rules(), NOW).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     let words = &plan.steps[0].reasons[0].words;
@@ -272,6 +272,19 @@ fn exact_incomplete_drill_does_not_meet_its_criterion() {
     let records = vec![gap_drill(2, 1.0), broken_off, gap_drill(4, 0.5)];
     let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(), NOW).unwrap();
     assert_eq!((plan.drills[0].sessions, plan.drills[0].met, plan.drills[0].done), (3, 1, false));
+}
+
+#[test]
+fn exact_scenarios_far_less_urgent_than_the_first_are_omitted() {
+    let mut record = perfect_record("anna", 1);
+    // Urgencies: 1.5 (1 + log2 7) = 5.7 for the interlayer, 1 + log2 1.5 = 1.6 for the slab.
+    (record.tasks[2].on_path, record.tasks[0].on_path) = (0.3, 0.85);
+    let names = |focus: f64| {
+        let plan = plan(std::slice::from_ref(&record), &PlanRules { focus, ..rules() }, NOW).unwrap();
+        plan.steps.into_iter().map(|step| step.scenario).collect::<Vec<_>>()
+    };
+    assert_eq!(names(0.4), ["drill-gap"]);
+    assert_eq!(names(0.2), ["drill-gap", "drill-straight-line"]);
 }
 
 #[test]
@@ -341,7 +354,7 @@ fn regress_latest_session_counts_for_the_rules_even_if_incomplete() {
 fn regress_unflown_task_keeps_the_advice_of_its_last_flight() {
     let (mut before, mut now) = (perfect_record("anna", 1), perfect_record("anna", 2));
     before.tasks[1].on_path = 0.5;
-    now.tasks[1].attempted = false;
+    (now.tasks[1].attempted, now.tasks[1].covered) = (false, Some(0.0));
     now.tasks[1].technique = Some(crate::record::TaskTechnique::default());
     let plan = plan(&[before, now], &rules(), NOW).unwrap();
     assert_eq!(reason_of(&plan, "off the arch path").unwrap().1.session, "session-anna-001");
