@@ -202,10 +202,11 @@ impl Pilot {
         Some(wish)
     }
 
-    /// Stops at intervals along a task to look at the surface.
+    /// Stops at intervals along a task to look at the surface, if the job has defects to find.
     fn look_around(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
+        let nothing_to_find = self.site.as_ref().is_none_or(|site| site.defects().is_empty());
         let (skill, flight) = (&self.config.skill, &mut self.guidance);
-        if flight.target.is_some() || wish.task.is_none() {
+        if flight.target.is_some() || wish.task.is_none() || nothing_to_find {
             return;
         }
         if flight.progress.along_m >= flight.next_look_m {
