@@ -121,8 +121,7 @@ fn with_forms(scenarios: &[String], forms: &[String]) -> Vec<String> {
     if forms.is_empty() {
         return scenarios.to_vec();
     }
-    let with_each = |scenario| forms.iter().map(move |form| files::with_form(scenario, Some(form)));
-    scenarios.iter().flat_map(with_each).collect()
+    scenarios.iter().flat_map(|scenario| forms.iter().map(move |form| files::with_form(scenario, Some(form)))).collect()
 }
 
 /// Flies one flight and prints its row.

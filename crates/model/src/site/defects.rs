@@ -38,6 +38,7 @@ const MAX_DETECTION_SPREAD: f64 = 0.25;
 /// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
 /// gradually.
 const MAX_ATTEMPTS: usize = 3000;
+
 /// Returns the properties of an aircraft's camera and lamp that fall short of the reference, each with both values.
 /// Empty if there are none.
 #[must_use]

@@ -61,11 +61,12 @@ fn val_shipped_paths_clear_the_default_aircraft() {
             7,
         );
         for task in &scenario.tasks {
-            // The minimum stand-off is 4 m, except in the interlayer, where it is the minimum that `check` requires.
+            // The minimum stand-off is 4 m, or 0.5 m more than the task's own warning. In the interlayer, it is the minimum
+            // that `check` requires.
             let least = match task.kind {
                 TaskKind::Interlayer => 0.5 * aircraft.hull.tip_to_tip_m + 0.5,
                 TaskKind::Free => 1.0,
-                _ => 4.0 - 1e-6,
+                _ => task.too_close_m.map_or(4.0, |limit_m| limit_m + 0.5) - 1e-6,
             };
             // The path around the pier is intentionally close to the water, so only members are checked there.
             let near = |p| match task.kind {
@@ -131,4 +132,23 @@ fn val_default_job_requires_the_lamp_only_in_the_interlayer() {
         }
     }
     assert!(4 * dark > inside, "only {dark} of {inside} defects in the interlayer are too dark without the lamp");
+}
+
+#[test]
+fn val_camera_drills_place_all_defects_and_only_the_lamp_drill_needs_the_lamp() {
+    use spandrel_model::site::defects::REFERENCE_CAMERA;
+    use spandrel_model::site::visibility::required_illuminance_lux;
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let needed_lux = required_illuminance_lux(&REFERENCE_CAMERA);
+    for (drill, dark) in [("stand-off", false), ("framing", false), ("search", false), ("lamp", true)] {
+        let scenario = read_scenario(&root.join(format!("scenarios/drill-{drill}.toml")));
+        for seed in 1..=3 {
+            let site = Site::build(&scenario, seed);
+            assert_eq!(site.defects().len(), scenario.defects.count, "{drill}, seed {seed}");
+            for defect in site.defects() {
+                let ambient_lux = site.ambient_lux(defect.position_m, Some(defect.normal), SimTime::ZERO);
+                assert_eq!(ambient_lux < needed_lux, dark, "{drill}, seed {seed}: {ambient_lux} lx on {defect:?}");
+            }
+        }
+    }
 }
