@@ -24,8 +24,9 @@ const SOURCES: &str = "## Sources
 - Renner, Velichkovsky and Helmert, *The Perception of Egocentric Distances in Virtual Environments*, ACM Computing Surveys 46, 2013.
 - Newell and Rosenbloom, *Mechanisms of Skill Acquisition and the Law of Practice*, 1981.
 
-An estimate has no source. The novice's estimates were calibrated so that a group of novices resembles the participants of the TASBID pilot
-study; the others, so that the levels differ plausibly. They don't describe any real person.
+An estimate has no source, and describes no real person. The estimates were calibrated on a few flights of `two-bridges` (seeds 101 to 111) and
+`pilot-study`: the trained pilot's and the expert's so that the certification separates them, the novice's so that a flight of `pilot-study` takes as
+long as in the TASBID pilot study.
 ";
 
 fn practice() -> String {

@@ -28,6 +28,10 @@ const CLIMB_ROOM_M: f64 = 4.0;
 const LEFT_OUT_RADIUS_M: f64 = 7.0;
 /// Slowest chosen speed along a leg, m/s (estimate).
 const MIN_PACE_M_S: f64 = 0.5;
+/// Speed along the path while a cue makes the pilot return to it, m/s (estimate).
+const RETURN_PACE_M_S: f64 = 0.2;
+/// Time for which the pilot remembers a cue about the path, s (estimate).
+const CUE_ATTENTION_S: f64 = 2.0;
 /// Largest distance at which a surface affects the chosen speed, m (estimate).
 const MAX_PACE_CLEARANCE_M: f64 = 15.0;
 /// Time between two choices of the speed, s (estimate: about one fixation).
@@ -152,7 +156,28 @@ impl Pilot {
             .filter_map(|p| site.nearest(*p, MAX_PACE_CLEARANCE_M, self.now))
             .fold(MAX_PACE_CLEARANCE_M, |least, near| near.distance_m.min(least));
         let free_m = (clearance_m - 0.5 * self.config.vehicle.hull.tip_to_tip_m).max(0.0);
-        self.guidance.pace_m_s = preferred.min(free_m / skill.time_gap_s).max(MIN_PACE_M_S);
+        let cued = self.now < self.guidance.cued_until;
+        let preferred = if cued { RETURN_PACE_M_S } else { preferred };
+        self.guidance.pace_m_s = preferred.min(free_m / skill.time_gap_s).max(if cued { 0.0 } else { MIN_PACE_M_S });
+        self.follow_off_path_cue();
+    }
+
+    /// Notices the cue that the aircraft is off the path: the pilot returns before continuing along it.
+    fn follow_off_path_cue(&mut self) {
+        let (Some(task), Some(seen)) = (self.guidance.task(), self.perception.delayed_view(self.config.skill.delay_s)) else {
+            self.guidance.off_path_since = None;
+            return;
+        };
+        let (task, feedback) = (&self.config.scenario.tasks[task], &self.config.scenario.feedback);
+        let distance_m = task.path_m.iter().map(|p| (*p - seen.position_m).norm()).fold(f64::INFINITY, f64::min);
+        if distance_m <= task.threshold_m || distance_m > feedback.off_path_max_m {
+            self.guidance.off_path_since = None;
+            return;
+        }
+        let since = *self.guidance.off_path_since.get_or_insert(self.now);
+        if self.now - since >= feedback.off_path_delay {
+            self.guidance.cued_until = self.now + SimTime::from_s(CUE_ATTENTION_S);
+        }
     }
 
     /// Returns the leg's command, or `None` if the leg has just ended.
@@ -177,10 +202,11 @@ impl Pilot {
         Some(wish)
     }
 
-    /// Stops at intervals along a task to look at the surface.
+    /// Stops at intervals along a task to look at the surface, if the job has defects to find.
     fn look_around(&mut self, belief: &MotionState, wish: &mut TrackCommand) {
+        let nothing_to_find = self.site.as_ref().is_none_or(|site| site.defects().is_empty());
         let (skill, flight) = (&self.config.skill, &mut self.guidance);
-        if flight.target.is_some() || wish.task.is_none() {
+        if flight.target.is_some() || wish.task.is_none() || nothing_to_find {
             return;
         }
         if flight.progress.along_m >= flight.next_look_m {

@@ -76,6 +76,9 @@ pub struct Guidance {
     /// Speed that the pilot chooses for the surroundings, m/s, and when to choose anew.
     pub(super) pace_m_s: f64,
     pub(super) pace_due: SimTime,
+    /// Since when the aircraft has been off the task's path, and until when the pilot follows the cue about it.
+    pub(super) off_path_since: Option<SimTime>,
+    pub(super) cued_until: SimTime,
     /// Position along the leg of the next stop to look, m.
     pub(super) next_look_m: f64,
     /// Directions left to look in during the present stop.
@@ -104,6 +107,8 @@ impl Guidance {
             distractor_trigger: None,
             pace_m_s: 1.0,
             pace_due: SimTime::ZERO,
+            off_path_since: None,
+            cued_until: SimTime::ZERO,
             next_look_m: 0.0,
             looks: Vec::new(),
             look_since: SimTime::ZERO,

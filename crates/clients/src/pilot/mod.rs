@@ -226,7 +226,8 @@ impl Pilot {
         self.perception.observe(motion);
         let skill = self.config.skill;
         let surface = self.near_surface(&motion);
-        let Some(belief) = self.perception.estimate(&skill, surface, dt_s) else { return };
+        let cued = self.now < self.guidance.cued_until;
+        let Some(belief) = self.perception.estimate(&skill, (surface, cued), dt_s) else { return };
         let axes = self.fly_phase(&belief);
         let axes = match self.phase {
             PilotPhase::Fly => self.orientation.step(axes, &skill, self.faces_pilot(&motion), self.now, dt_s),

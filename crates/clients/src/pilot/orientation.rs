@@ -21,8 +21,10 @@ enum ReversedAxes {
     Sideways,
     /// Forward and backward.
     Forward,
-    /// Both: the pilot believes that the drone points the other way.
-    Both,
+    /// Up and down.
+    Vertical,
+    /// Left and right, forward and backward: the pilot believes that the drone points the other way.
+    Mirrored,
 }
 
 /// State of the pilot's orientation.
@@ -39,7 +41,7 @@ impl Orientation {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let random = RandomStream::new(seed, "pilot orientation");
-        Self { random, reversed: ReversedAxes::Both, wrong_until: SimTime::ZERO, looking_until: SimTime::ZERO }
+        Self { random, reversed: ReversedAxes::Mirrored, wrong_until: SimTime::ZERO, looking_until: SimTime::ZERO }
     }
 
     /// Checks whether an episode is in progress.
@@ -54,7 +56,7 @@ impl Orientation {
         let begins = self.random.uniform() < skill.disorientations_per_min * factor / 60.0 * dt_s;
         if begins && now >= self.looking_until {
             let wait_s = -skill.recovery_s * math::ln((1.0 - self.random.uniform()).max(1e-12));
-            let choices = [ReversedAxes::Sideways, ReversedAxes::Forward, ReversedAxes::Both];
+            let choices = [ReversedAxes::Sideways, ReversedAxes::Forward, ReversedAxes::Vertical, ReversedAxes::Mirrored];
             self.reversed = choices[self.random.below(choices.len())];
             self.wrong_until = now + SimTime::from_s(wait_s.clamp(RECOVERY_RANGE_S.0, RECOVERY_RANGE_S.1));
             self.looking_until = self.wrong_until + SimTime::from_s(REORIENTATION_S);
@@ -64,7 +66,8 @@ impl Orientation {
             return match self.reversed {
                 ReversedAxes::Sideways => [forward, -right, up, -yaw],
                 ReversedAxes::Forward => [-forward, right, up, yaw],
-                ReversedAxes::Both => [-forward, -right, up, yaw],
+                ReversedAxes::Vertical => [forward, right, -up, yaw],
+                ReversedAxes::Mirrored => [-forward, -right, up, yaw],
             };
         }
         if now < self.looking_until { [0.0; 4] } else { axes }
@@ -98,7 +101,7 @@ mod tests {
         let mut mind = Orientation::new(2);
         let skill = Skill { disorientations_per_min: 30.0, recovery_s: 1.0, ..Skill::NOVICE };
         let axes: Vec<StickAxes> = (0..3_000).map(|k| mind.step(WISH, &skill, false, SimTime::from_ms(20 * k), STEP_S)).collect();
-        let is_wrong = |a: &StickAxes| a[0] < 0.0 || a[1] < 0.0;
+        let is_wrong = |a: &StickAxes| a.iter().any(|axis| *axis < 0.0);
         let first = axes.iter().position(is_wrong).expect("an episode within a minute");
         let noticed = first + axes[first..].iter().position(|a| !is_wrong(a)).expect("the episode ends");
         assert_eq!(axes[noticed], [0.0; 4], "lets go of the sticks");

@@ -25,6 +25,9 @@ const FULL_ERROR_DISTANCE_M: f64 = 5.0;
 /// Time in which a changed judgment of distance takes effect, s (estimate: two fixations).
 const JUDGMENT_TAU_S: f64 = 0.6;
 
+/// Factor of the position errors while a cue gives the direction and the distance to the path (estimate).
+const CUED_UNCERTAINTY: f64 = 0.3;
+
 /// The nearest surface, as seen from the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearSurface {
@@ -81,6 +84,8 @@ pub struct Perception {
     heading: DriftProcess,
     distance: DriftProcess,
     judged_offset_m: Vec3<Enu>,
+    /// Factor of the position errors, which is lower while a cue tells the pilot where the path is.
+    uncertainty: f64,
     last_speed_ratio: f64,
 }
 
@@ -94,7 +99,17 @@ impl Perception {
         let heading = DriftProcess::new(SPEED_ERROR_TAU_S, &mut random);
         let distance = DriftProcess::new(DISTANCE_ERROR_TAU_S, &mut random);
         let judged_offset_m = Vec3::zero();
-        Self { history: VecDeque::new(), random, position, speed, heading, distance, judged_offset_m, last_speed_ratio: 1.0 }
+        Self {
+            history: VecDeque::new(),
+            random,
+            position,
+            speed,
+            heading,
+            distance,
+            judged_offset_m,
+            uncertainty: 1.0,
+            last_speed_ratio: 1.0,
+        }
     }
 
     /// Adds the current motion to the delay line.
@@ -114,8 +129,9 @@ impl Perception {
     }
 
     /// Returns the perceived motion: delayed, not extrapolated, and with drifting errors. A pilot who underestimates the
-    /// distance to a surface believes that the aircraft is closer to it, and so keeps farther away.
-    pub fn estimate(&mut self, skill: &Skill, surface: Option<NearSurface>, dt_s: f64) -> Option<MotionState> {
+    /// distance to a surface believes that the aircraft is closer to it, and so keeps farther away. `cued`: whether a cue
+    /// tells the pilot where the path is.
+    pub fn estimate(&mut self, skill: &Skill, (surface, cued): (Option<NearSurface>, bool), dt_s: f64) -> Option<MotionState> {
         let truth = self.delayed_view(skill.delay_s)?;
         let mut offset = [0.0; 3];
         for (axis, drift) in self.position.iter_mut().enumerate() {
@@ -125,13 +141,14 @@ impl Perception {
         let perceived_ratio = skill.distance_ratio * math::exp(skill.distance_error * self.distance.step(dt_s, &mut self.random));
         let judged = surface.map_or(Vec3::zero(), |near| near.normal * ((perceived_ratio - 1.0) * near.distance_m));
         let follow = 1.0 - math::exp(-dt_s / JUDGMENT_TAU_S);
+        self.uncertainty += (if cued { CUED_UNCERTAINTY } else { 1.0 } - self.uncertainty) * follow;
         self.judged_offset_m += (judged - self.judged_offset_m) * follow;
         let speed_error = self.speed.step(dt_s, &mut self.random) * RELATIVE_SPEED_ERROR * skill.noise;
         let heading_error = self.heading.step(dt_s, &mut self.random) * HEADING_ERROR_RAD * skill.noise;
         self.last_speed_ratio = (1.0 + speed_error).clamp(0.4, 2.0);
         Some(MotionState {
             time: truth.time,
-            position_m: truth.position_m + offset_m + self.judged_offset_m,
+            position_m: truth.position_m + (offset_m + self.judged_offset_m) * self.uncertainty,
             velocity_m_s: truth.velocity_m_s * self.last_speed_ratio,
             yaw_rad: math::wrap_pi(truth.yaw_rad + heading_error),
         })
@@ -202,7 +219,7 @@ mod tests {
         let mut belief = None;
         for ms in (0..20_000).step_by(20) {
             eyes.observe(still(ms));
-            belief = eyes.estimate(&skill, wall, 0.02);
+            belief = eyes.estimate(&skill, (wall, false), 0.02);
         }
         let north = belief.expect("observed").position_m.north();
         assert!((north - 3.0).abs() < 1e-9, "{north}");

@@ -104,3 +104,49 @@ pub fn is_way_clear(site: &Site, vehicle: &Vehicle, (from, to): (Vec3<Enu>, Vec3
     let steps = ((to - from).norm() / STEP_M).ceil().max(1.0) as usize;
     (1..=steps).all(|k| site.nearest(from.lerp(to, k as f64 / steps as f64), clearance_m, at).is_none())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::{scenario, shipped, vehicle};
+
+    /// Rounding of a limited step, m.
+    const ROUNDING_M: f64 = 1e-9;
+    const SEEDS: [u64; 3] = [1, 2, 3];
+
+    /// Spots stay in the corridor of their task, keep clear of everything, and see the defect's front.
+    #[test]
+    fn prop_spots_are_in_the_corridor_with_a_clear_view() {
+        let no_files = |name: &str| Err(format!("{name}: not found"));
+        let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &no_files).expect("valid");
+        let aircraft = vehicle::read("phantom2.toml", shipped::PHANTOM2).expect("valid");
+        let wishes = SpotWishes { distance_m: job_distance_m(&job, &aircraft.camera), incidence_rad: 0.9 };
+        let at = SimTime::ZERO;
+        let mut found = 0;
+        for seed in SEEDS {
+            let site = Site::build(&job, seed);
+            for (defect, task) in site.defects().iter().flat_map(|d| job.tasks.iter().map(move |t| (d, t))) {
+                let start = (task.path_m[0], None);
+                let Some(spot) = choose_spot((&site, task, &aircraft), defect, wishes, start, at) else { continue };
+                found += 1;
+                let off_m = task.path_m.iter().map(|p| (*p - spot).norm()).fold(f64::INFINITY, f64::min);
+                assert!(off_m <= 0.75 * task.threshold_m + ROUNDING_M, "defect {}, seed {seed}: {off_m} m", defect.id);
+                assert!((spot - defect.position_m).dot(defect.normal) > 0.0, "defect {}, seed {seed}", defect.id);
+                assert!(site.nearest(spot, 0.5 * aircraft.hull.tip_to_tip_m + EXTRA_CLEARANCE_M, at).is_none());
+                let other = choose_spot((&site, task, &aircraft), defect, wishes, (task.path_m[0], Some((spot, 1.0))), at);
+                assert!(other.is_none_or(|other| (other - spot).norm() >= 1.0));
+            }
+        }
+        assert!(found >= 20, "only {found} of {} defects have a spot", 10 * SEEDS.len());
+    }
+
+    #[test]
+    fn exact_job_distance_follows_from_the_focal_length() {
+        let no_files = |name: &str| Err(format!("{name}: not found"));
+        let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &no_files).expect("valid");
+        let aircraft = vehicle::read("phantom2.toml", shipped::PHANTOM2).expect("valid");
+        // 2.54 mm/px with 4000 px over 84 degrees: 2000 px / tan(42 deg) = 2221 px.
+        const TOLERANCE_M: f64 = 0.01;
+        assert!((job_distance_m(&job, &aircraft.camera) - 5.642).abs() < TOLERANCE_M);
+    }
+}
