@@ -86,11 +86,12 @@ mod tests {
     #[test]
     fn exact_many_setbacks_end_the_task() {
         let mut memory = Setbacks::default();
-        let mut decisions =
-            (1..=MAX_SETBACKS_PER_TASK).map(|k| memory.note(at(20.0 * f64::from(k)), SimTime::from_s(10.0 * f64::from(k))));
-        assert!(decisions.by_ref().take(MAX_SETBACKS_PER_TASK as usize - 1).all(|d| d == Some(SetbackDecision::TryAgain)));
-        assert_eq!(decisions.next(), Some(Some(SetbackDecision::GiveTaskUp)));
-        drop(decisions);
+        let decisions: Vec<Option<SetbackDecision>> = (1..=MAX_SETBACKS_PER_TASK)
+            .map(|k| memory.note(at(20.0 * f64::from(k)), SimTime::from_s(10.0 * f64::from(k))))
+            .collect();
+        let (last, before) = decisions.split_last().expect("one for each setback");
+        assert!(before.iter().all(|d| *d == Some(SetbackDecision::TryAgain)), "{decisions:?}");
+        assert_eq!(*last, Some(SetbackDecision::GiveTaskUp));
         memory.begin_task();
         assert_eq!(memory.note(at(500.0), SimTime::from_s(500.0)), Some(SetbackDecision::TryAgain));
     }
