@@ -265,7 +265,7 @@ fn exact_reliability_covers_every_measure_and_labels_changes() {
     }
     let cohort = analyzed(&records);
     let of = |measure: &str| reliability_of(&cohort.reliability, measure).unwrap();
-    assert_eq!(cohort.reliability.len(), 7);
+    assert_eq!(cohort.reliability.len(), 8);
     let conformity = of("conformity").reliability.unwrap();
     assert_eq!((conformity.n, conformity.repetitions), (8, 3));
     assert!(

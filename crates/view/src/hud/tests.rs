@@ -204,7 +204,7 @@ fn exact_small_picture_shows_speed_battery_and_warnings() {
         let all = words(&wrong, size_px);
         assert_eq!(
             all.iter().map(|(_, words)| words.as_str()).collect::<Vec<_>>(),
-            ["3.2 m/s", "17%", "LINK LOST 4 s", "CRASH", "TOO CLOSE", "TOO FAST", "OFF THE PATH"]
+            ["3.2 m/s", "17%", "LINK LOST 4 s", "CRASH", "TOO CLOSE", "TOO FAST", "OFF PATH"]
         );
         assert!(all.iter().all(|(height, _)| height * size_px.1 > 11.99), "{size_px:?}: {all:?}");
     }

@@ -26,7 +26,7 @@ const FULL_STICK: f64 = 1000.0;
 /// Stick messages between two changes of the planted stick noise: 0.3 s at 50 Hz.
 const NOISE_PERIOD: u64 = 15;
 /// Standard deviation of the planted noise, as a fraction of full deflection.
-const NOISE: f64 = 0.35;
+const NOISE: f64 = 0.25;
 /// Stick messages between two pictures of a pilot who photographs at random: 2 s at 50 Hz.
 const RANDOM_PICTURE_PERIOD: u64 = 100;
 /// Only every fourth picture is taken by a pilot who overlooks defects.
@@ -185,7 +185,7 @@ pub const WEAKNESSES: &[Weakness] = &[
         drills: &["drill-straight-line"],
         also: &[],
         belief: as_intended,
-        tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 3.5)),
+        tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 5.0)),
     },
     Weakness {
         name: "too fast around the pier",
@@ -193,7 +193,7 @@ pub const WEAKNESSES: &[Weakness] = &[
         also: &[],
         belief: as_intended,
         tamper: |hands, message| {
-            with_sticks(hands, message, |hands, axes| if hands.status == "task 4" { faster(axes, 3.0) } else { axes })
+            with_sticks(hands, message, |hands, axes| if hands.status == "task 4" { faster(axes, 6.0) } else { axes })
         },
     },
     Weakness {
@@ -222,7 +222,7 @@ pub const WEAKNESSES: &[Weakness] = &[
         drills: &["drill-framing"],
         also: &[],
         belief: as_intended,
-        tamper: |hands, message| with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + 2.0 * hands.noise()[3]]),
+        tamper: |hands, message| with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + 2.8 * hands.noise()[3]]),
     },
     Weakness { name: "looks aside", drills: &["drill-framing"], also: &["drill-search"], belief: look_aside, tamper: untouched },
     Weakness {
