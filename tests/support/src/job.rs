@@ -89,20 +89,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             gnss_shadow: false,
             respawn_after: SimTime::from_ms(3_000),
         },
-        feedback: FeedbackThresholds {
-            too_close_m: 2.5,
-            too_close_clear_m: 2.8,
-            off_path_max_m: 8.0,
-            off_path_delay: SimTime::from_ms(1_000),
-            off_path_hold_time: SimTime::from_ms(2_000),
-            leave_delay: SimTime::from_ms(2_000),
-            visit_delay: SimTime::from_ms(3_000),
-            speeding_margin: 0.05,
-            speeding_hold_time: SimTime::from_ms(1_000),
-            battery_green_pct: 70.0,
-            battery_yellow_pct: 30.0,
-            text_interval: SimTime::from_ms(5_000),
-        },
+        feedback: feedback(),
         scoring: ScoringParams {
             frame_rate_hz: RATE_HZ,
             speed_limit_m_s: 4.4704,
@@ -118,6 +105,23 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         certification: CertificationParams::default(),
         form: None,
         crc: CRC,
+    }
+}
+
+fn feedback() -> FeedbackThresholds {
+    FeedbackThresholds {
+        too_close_m: 2.5,
+        too_close_clear_m: 2.8,
+        off_path_max_m: 8.0,
+        off_path_delay: SimTime::from_ms(1_000),
+        off_path_hold_time: SimTime::from_ms(2_000),
+        leave_delay: SimTime::from_ms(2_000),
+        visit_delay: SimTime::from_ms(3_000),
+        speeding_margin: 0.05,
+        speeding_hold_time: SimTime::from_ms(1_000),
+        battery_green_pct: 70.0,
+        battery_yellow_pct: 30.0,
+        text_interval: SimTime::from_ms(5_000),
     }
 }
 

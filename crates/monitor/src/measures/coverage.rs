@@ -108,7 +108,7 @@ impl FlownPath {
         }
         let mut flown_m =
             self.distances_along_path_m.iter().zip(&self.covered).filter(|(_, covered)| **covered).map(|(at_m, _)| *at_m);
-        let (first_m, last_m) = (flown_m.next(), flown_m.last());
+        let (first_m, last_m) = (flown_m.next(), flown_m.next_back());
         first_m.is_some_and(|at_m| at_m <= self.threshold_m) && last_m.is_some_and(|at_m| at_m >= length_m - self.threshold_m)
     }
 }

@@ -112,7 +112,7 @@ fn move_away(job: &mut Scenario, away_m: f64) {
     let wide = |task: &&mut Task| task.inspects_surface && task.kind != TaskKind::Interlayer;
     for task in job.tasks.iter_mut().filter(wide) {
         for (point, view) in task.path_m.iter_mut().zip(&task.viewing_directions) {
-            *point = *point - *view * away_m;
+            *point -= *view * away_m;
         }
     }
 }
@@ -128,7 +128,7 @@ fn halve_paths(job: &mut Scenario) {
 
 fn lower_paths(job: &mut Scenario) {
     for task in job.tasks.iter_mut().filter(|task| matches!(task.kind, TaskKind::SlabSide | TaskKind::PierCircle)) {
-        task.path_m.iter_mut().for_each(|point| *point = *point - Vec3::new(0.0, 0.0, 2.5));
+        task.path_m.iter_mut().for_each(|point| *point -= Vec3::new(0.0, 0.0, 2.5));
     }
 }
 
@@ -185,7 +185,7 @@ pub const WEAKNESSES: &[Weakness] = &[
         drills: &["drill-straight-line"],
         also: &[],
         belief: as_intended,
-        tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 5.0)),
+        tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 8.0)),
     },
     Weakness {
         name: "too fast around the pier",
@@ -296,7 +296,7 @@ pub const WEAKNESSES: &[Weakness] = &[
         name: "lands outside the home circle",
         drills: &["drill-landing"],
         also: &[],
-        belief: |job| job.ground_team.pad_m = job.ground_team.pad_m + Vec3::new(0.0, -9.0, 0.0),
+        belief: |job| job.ground_team.pad_m += Vec3::new(0.0, -9.0, 0.0),
         tamper: untouched,
     },
 ];
