@@ -117,11 +117,11 @@ class Browser:
         return self.ask(path, body=body, headers={"Content-Type": f"multipart/form-data; boundary={boundary}"})
 
 
-def flown(folder, *trainees, seed=7):
+def flown(folder, *trainees, seed=7, skill="novice"):
     """Creates real sessions of a hover drill, the shortest flight, one for each trainee."""
     for k, trainee in enumerate(trainees):
         spandrel.run(
-            "demo", "--scenario", "drill-hover", "--skill", "novice", "--seed", str(seed + k), "--speed", "max", "--trainee", trainee,
+            "demo", "--scenario", "drill-hover", "--skill", skill, "--seed", str(seed + k), "--speed", "max", "--trainee", trainee,
             "--sessions", str(folder),
         )
     return sorted(path for path in folder.iterdir() if (path / "telemetry.tlog").is_file())
