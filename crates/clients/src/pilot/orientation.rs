@@ -104,7 +104,7 @@ mod tests {
         let is_wrong = |a: &StickAxes| a.iter().any(|axis| *axis < 0.0);
         let first = axes.iter().position(is_wrong).expect("an episode within a minute");
         let noticed = first + axes[first..].iter().position(|a| !is_wrong(a)).expect("the episode ends");
-        assert_eq!(axes[noticed], [0.0; 4], "lets go of the sticks");
+        assert_eq!(axes[noticed], [0.0; 4], "releases the sticks");
         let resumed = axes[noticed..].iter().position(|a| *a != [0.0; 4]).expect("continues");
         assert_eq!(resumed, (REORIENTATION_S / STEP_S) as usize, "steps of {STEP_S} s without input");
     }

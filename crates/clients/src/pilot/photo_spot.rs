@@ -24,7 +24,7 @@ const LEAVING_COST_PER_M: f64 = 0.15;
 /// Cost of twice the wanted distance, and of twice the wanted incidence (estimate: both matter more than the way there).
 const QUALITY_COST: f64 = 10.0;
 
-/// What the pilot wants from a spot.
+/// Requirements for a spot from which to photograph.
 #[derive(Debug, Clone, Copy)]
 pub struct SpotWishes {
     /// Largest distance to the defect, m.

@@ -1,4 +1,4 @@
-//! Photographing a noticed defect as a person does: fly there, let go of the sticks, frame, wait until the picture stands still,
+//! Photographing a noticed defect as a person does: fly there, release the sticks, frame, wait until the image is steady,
 //! press, look at the result, and repeat if in doubt.
 
 use super::Pilot;
@@ -163,7 +163,7 @@ impl Pilot {
         self.guidance.target = Some(target);
     }
 
-    /// Lets go of the sticks, turns toward the defect, and presses once the picture stands still.
+    /// Releases the sticks, turns toward the defect, and presses the shutter once the image is steady.
     fn settle(&mut self, mut target: PhotoTarget, steady_since: Option<SimTime>, belief: &MotionState, wish: &mut TrackCommand) {
         let skill = self.config.skill;
         let aimed = self.aim(&target, belief, wish);

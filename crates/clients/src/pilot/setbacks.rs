@@ -60,7 +60,7 @@ impl Setbacks {
         })
     }
 
-    /// Starts a new task: places stay known, but the count begins anew.
+    /// Starts a new task: resets the count but remembers the places.
     pub fn begin_task(&mut self) {
         self.in_task = 0;
     }

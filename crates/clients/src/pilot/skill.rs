@@ -50,7 +50,7 @@ pub struct Skill {
     pub photo_speed_m_s: f64,
     /// Turn rate below which the pilot takes a picture, degrees/s.
     pub photo_turn_deg_s: f64,
-    /// Time for which the picture must stand still before the pilot presses, s.
+    /// Time for which the image must be steady before the pilot presses the shutter, s.
     pub steady_s: f64,
     /// Angle from the center of the picture below which the pilot accepts the framing, degrees.
     pub framing_deg: f64,
@@ -197,7 +197,7 @@ pub const FIELDS: [SkillField; 29] = [
     field!(photo_distance_ratio, "", 0.2 to 4.0, Photo, "distance from which the pilot photographs, relative to the largest one that meets the job's ground sampling distance", "estimate"),
     field!(photo_speed_m_s, "m/s", 0.02 to 3.0, Photo, "speed below which the pilot takes a picture", "estimate: 0.3 m/s or less looks stopped"),
     field!(photo_turn_deg_s, "°/s", 0.2 to 90.0, Photo, "turn rate below which the pilot takes a picture", "estimate"),
-    field!(steady_s, "s", 0.0 to 5.0, Photo, "time for which the picture must stand still before the pilot presses", "estimate: 1 to 3 fixations"),
+    field!(steady_s, "s", 0.0 to 5.0, Photo, "time for which the image must be steady before the pilot presses the shutter", "estimate: 1 to 3 fixations"),
     field!(framing_deg, "°", 1.0 to 30.0, Photo, "angle from the center of the picture below which the pilot accepts the framing", "estimate"),
     field!(photo_incidence_deg, "°", 5.0 to 85.0, Photo, "angle from the surface normal up to which the pilot photographs", "estimate: inspection practice is at most 60"),
     field!(doubt, "", 0.0 to 1.0, Photo, "probability of photographing a defect again after a good picture", "estimate"),

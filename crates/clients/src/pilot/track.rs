@@ -45,7 +45,7 @@ pub struct TrackCommand {
     pub task: Option<usize>,
     /// Whether the end of the leg has been reached.
     pub done: bool,
-    /// Whether the pilot lets go of the sticks that move the aircraft, so that the autopilot holds position.
+    /// Whether the pilot releases the sticks that move the aircraft, so that the autopilot holds position.
     pub hands_off: bool,
     /// Whether the pilot turns toward the line of sight; if not, only the gimbal follows it.
     pub turns: bool,

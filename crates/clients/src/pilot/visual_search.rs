@@ -4,15 +4,12 @@
 use super::skill::Skill;
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
+use spandrel_model::site::detection::{CLEAR_EXTENT_PX, probability_with_median};
 use spandrel_model::site::{CameraPose, DefectView, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use std::collections::BTreeMap;
 
-/// Spread of the lognormal detection curve (Campbell et al. 2020: 50% at 26 mm, 90% at 113 mm).
-const POD_SIGMA_LN: f64 = 1.147;
-/// Minimum extent of a clearly visible object, px (estimate).
-const CLEAR_EXTENT_PX: f64 = 40.0;
 /// Minimum extent for detection, px (a tenth of the pixels in a clear picture; estimate).
 const MIN_EXTENT_PX: f64 = 6.0;
 /// Maximum incidence angle for detection, rad (70 degrees; more oblique surfaces are foreshortened to a third; estimate).
@@ -125,11 +122,7 @@ fn detection_probability(view: &DefectView, length_m: f64, line: bool, skill: &S
     let light_contrast = (view.illuminance_lux / (FULL_CONTRAST_RATIO * view.required_illuminance_lux)).min(1.0);
     let size_share = (view.extent_px / CLEAR_EXTENT_PX).min(1.0);
     let effective_mm = length_m * 1000.0 * size_share * line_contrast * light_contrast;
-    normal_cdf((math::ln(effective_mm.max(1e-6)) - math::ln(skill.median_length_mm)) / POD_SIGMA_LN)
-}
-
-fn normal_cdf(x: f64) -> f64 {
-    0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
+    probability_with_median(effective_mm, skill.median_length_mm)
 }
 
 /// Returns the camera pose for an aircraft at `position` with its heading and gimbal pitch (the gimbal keeps the

@@ -52,7 +52,7 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Returns the name, followed by `@` and the form if the job has forms. Results of different forms are told apart by it.
+    /// Returns the name, followed by `@` and the form if the job has forms. It distinguishes the results of different forms.
     #[must_use]
     pub fn name_with_form(&self) -> String {
         self.form.as_ref().map_or_else(|| self.name.clone(), |form| format!("{}@{}", self.name, form.name))

@@ -15,7 +15,7 @@ pub const MEDIAN_LENGTH_MM: f64 = 26.0;
 pub const LENGTH_SIGMA_LN: f64 = 1.147;
 /// Extent in the picture from which the curve applies without a reduction, px (estimate: four times the smallest extent
 /// that the scorer accepts).
-const CLEAR_EXTENT_PX: f64 = 40.0;
+pub const CLEAR_EXTENT_PX: f64 = 40.0;
 /// Millimeters in a meter.
 const MM_PER_M: f64 = 1000.0;
 /// Steps of the search for a length: each halves the interval, so the result is exact to the last bit of the ratio.
@@ -24,7 +24,14 @@ const BISECTION_STEPS: usize = 60;
 /// Returns the probability that a trained inspector detects a defect of this length, in mm, that is clearly visible.
 #[must_use]
 pub fn probability_of_detection(length_mm: f64) -> f64 {
-    let z = (math::ln(length_mm.max(1e-9)) - math::ln(MEDIAN_LENGTH_MM)) / LENGTH_SIGMA_LN;
+    probability_with_median(length_mm, MEDIAN_LENGTH_MM)
+}
+
+/// Returns the probability that a person who detects half of all defects of length `median_mm` detects one of this length,
+/// in mm, that is clearly visible.
+#[must_use]
+pub fn probability_with_median(length_mm: f64, median_mm: f64) -> f64 {
+    let z = (math::ln(length_mm.max(1e-9)) - math::ln(median_mm)) / LENGTH_SIGMA_LN;
     0.5 * math::erfc(-z / std::f64::consts::SQRT_2)
 }
 
