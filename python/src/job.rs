@@ -21,12 +21,46 @@ pub fn vehicles() -> Vec<&'static str> {
     shipped::VEHICLES.iter().map(|(name, _)| *name).collect()
 }
 
-/// Reads a scenario by shipped name or file path. Height maps are read from the file's folder.
-pub fn read_scenario(name: &str) -> PyResult<Scenario> {
+/// Reads a scenario by shipped name or file path. A form of the scenario follows an `@`, as in `pilot-study@B`.
+pub fn read_scenario(argument: &str) -> PyResult<Scenario> {
+    let (name, text) = read_scenario_text(argument)?;
+    parse_scenario(name, &text)
+}
+
+/// Reads the form of a scenario that has this CRC; `None` if there is none, or if the argument selects another form.
+pub fn read_form_with_crc(argument: &str, crc: u32) -> PyResult<Option<Scenario>> {
+    if split_form(argument).1.is_some() {
+        return Ok(None);
+    }
+    let text = read_text(argument, "scenario", shipped::SCENARIOS)?;
+    scenario::form_with_crc(&text, crc).map(|form| parse_scenario(argument, &form)).transpose()
+}
+
+fn read_scenario_text(argument: &str) -> PyResult<(&str, String)> {
+    let (name, form) = split_form(argument);
     let text = read_text(name, "scenario", shipped::SCENARIOS)?;
+    let Some(form) = form else { return Ok((name, text)) };
+    let forms = scenario::form_names(&text);
+    if !forms.iter().any(|one| one == form) {
+        let allowed = if forms.is_empty() { "it has none".to_owned() } else { format!("allowed: {}", forms.join(", ")) };
+        return Err(JobError::new_err(format!("{name}: no form '{form}' ({allowed})")));
+    }
+    Ok((name, scenario::select_form(&text, form)))
+}
+
+/// Splits an argument into the scenario and its form, if it selects one.
+fn split_form(argument: &str) -> (&str, Option<&str>) {
+    match argument.rsplit_once('@') {
+        Some((name, form)) if !form.contains(['/', '\\', '.']) => (name, Some(form)),
+        Some(_) | None => (argument, None),
+    }
+}
+
+/// Parses a scenario. Height maps are read from the file's folder.
+fn parse_scenario(name: &str, text: &str) -> PyResult<Scenario> {
     let folder = Path::new(name).parent().unwrap_or(Path::new("."));
     let sibling = |file: &str| fs::read_to_string(folder.join(file)).map_err(|error| error.to_string());
-    scenario::read(&file_name(name), &text, &sibling).map_err(|problems| errors::problems(&problems))
+    scenario::read(&file_name(name), text, &sibling).map_err(|problems| errors::problems(&problems))
 }
 
 /// Reads a vehicle by shipped name or file path.

@@ -79,3 +79,21 @@ def test_exact_unscorable_logs_raise_errors(flight, tmp_path):
 def test_exact_unwritable_log_raises_an_error(tmp_path):
     with pytest.raises(OSError, match="flight.tlog"), spandrel.Vehicle().record(tmp_path / "no" / "flight.tlog"):
         pass
+
+
+def test_exact_the_flown_form_is_found_in_the_log(tmp_path):
+    path = tmp_path / "flight.tlog"
+    vehicle = spandrel.Vehicle("pilot-study@B", AIRCRAFT, seed=7)
+    with vehicle.record(path):
+        vehicle.arm()
+        vehicle.take_off(3)
+        vehicle.run_for(8.0)
+        vehicle.land()
+        vehicle.run_until(lambda state: not state.armed, sim_s=30)
+        vehicle.run_for(2.0)
+    found = spandrel.assess(path, "pilot-study", AIRCRAFT)
+    assert found.data == spandrel.assess(path, "pilot-study@B", AIRCRAFT).data
+    with pytest.raises(spandrel.AssessmentError, match="pilot-study"):
+        spandrel.assess(path, "pilot-study@A", AIRCRAFT)
+    with pytest.raises(spandrel.JobError, match=r"no form 'X' \(allowed: A, B, C, H\)"):
+        spandrel.Vehicle("pilot-study@X", AIRCRAFT, seed=7)

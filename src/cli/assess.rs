@@ -2,11 +2,11 @@
 
 use super::{args, table};
 use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files::ScenarioFile;
 use crate::io::log_file::LogFile;
 use crate::io::session_folder::StoredSession;
 use crate::io::{files, log_check, scoring};
 use serde_json::json;
-use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{AssessError, assess_log, export};
@@ -31,7 +31,7 @@ pub struct Args {
     /// Scenario for a telemetry log: a file, or the name of a shipped scenario
     #[arg(long, value_name = "FILE|NAME")]
     scenario: Option<String>,
-    /// Form of the scenario for a telemetry log, if it has forms [default: the first]
+    /// Form of the scenario for a telemetry log, if it has forms [default: the one in the log]
     #[arg(long, value_name = "NAME", requires = "scenario")]
     form: Option<String>,
     /// Aircraft for a telemetry log: a file, or the name of a shipped aircraft
@@ -52,12 +52,16 @@ pub struct Args {
 /// Returns an error if files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (mut scenario, vehicle, log) = inputs(args)?;
-    scenario.seed = args.seed.or(scenario.seed);
-    let assessed_session = match assess_log(&log, &scenario, &vehicle, build_site) {
-        Ok(assessed_session) => assessed_session,
+    scenario.scenario.seed = args.seed.or(scenario.scenario.seed);
+    let scored = match args.form {
+        Some(_) => assess_log(&log, &scenario.scenario, &vehicle, build_site).map(|assessed| (scenario, assessed)),
+        None => scoring::assess_any_form(&log, scenario, &vehicle),
+    };
+    let (scenario, assessed_session) = match scored {
+        Ok(scored) => scored,
         Err(error) => return Err(explain(&error, args, &log)?),
     };
-    for warning in log_check::warnings(&log, &scenario, &vehicle)? {
+    for warning in log_check::warnings(&log, &scenario.scenario, &vehicle)? {
         tracing::warn!("{warning}");
     }
     match &args.json {
@@ -88,12 +92,12 @@ fn explain(error: &AssessError, args: &Args, log: &LogFile) -> Result<AppError, 
     }
 }
 
-fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
+fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile), AppError> {
     if args.flight.is_dir() {
         let stored = StoredSession::read(&args.flight)?;
         let scenario = match &args.scenario {
-            Some(other) => files::scenario(&files::with_form(other, args.form.as_deref()))?.scenario,
-            None => stored.scenario.scenario,
+            Some(other) => files::scenario(&files::with_form(other, args.form.as_deref()))?,
+            None => stored.scenario,
         };
         let vehicle = match &args.vehicle {
             Some(other) => files::vehicle(other)?.vehicle,
@@ -107,6 +111,6 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
             args.flight.display()
         )));
     };
-    let scenario = files::scenario(&files::with_form(scenario, args.form.as_deref()))?.scenario;
+    let scenario = files::scenario(&files::with_form(scenario, args.form.as_deref()))?;
     Ok((scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
 }

@@ -20,6 +20,17 @@ pub struct ScenarioFile {
     pub scenario: Scenario,
 }
 
+impl ScenarioFile {
+    /// Returns the form of this scenario with this CRC; `None` if it has no such form.
+    #[must_use]
+    pub fn form_with_crc(&self, crc: u32) -> Option<Self> {
+        let text = scenario::form_with_crc(&self.text, crc)?;
+        let referenced = |name: &str| self.referenced_files.get(name).cloned().ok_or_else(|| format!("{name}: not loaded"));
+        let scenario = scenario::read(&self.scenario.name, &text, &referenced).ok()?;
+        Some(Self { text, referenced_files: self.referenced_files.clone(), scenario })
+    }
+}
+
 /// A vehicle with its source text.
 #[derive(Debug, Clone)]
 pub struct VehicleFile {

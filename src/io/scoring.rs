@@ -1,5 +1,6 @@
 //! Scores logs and stored sessions.
 
+use super::files::ScenarioFile;
 use super::session_folder::StoredSession;
 use crate::errors::AppError;
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
@@ -15,6 +16,29 @@ use spandrel_monitor::{AssessError, AssessedSession, assess_log, export};
 /// Returns an error if there is nothing to score.
 pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &Vehicle) -> Result<AssessedSession, AppError> {
     assess_log(log, scenario, vehicle, build_site).map_err(|error| scoring_error(&error))
+}
+
+/// Scores a log of a flight in this scenario, or in another form of it. Also returns the form that was flown.
+///
+/// # Errors
+/// Returns an error if there is nothing to score, or if the flight was flown in another scenario.
+pub fn assess_any_form(
+    log: &(impl TelemetryLog + ?Sized),
+    scenario: ScenarioFile,
+    vehicle: &Vehicle,
+) -> Result<(ScenarioFile, AssessedSession), AssessError> {
+    match assess_log(log, &scenario.scenario, vehicle, build_site) {
+        Ok(assessed_session) => Ok((scenario, assessed_session)),
+        Err(AssessError::OtherScenario { name, received, expected }) => {
+            let Some(mut flown) = scenario.form_with_crc(received) else {
+                return Err(AssessError::OtherScenario { name, received, expected });
+            };
+            flown.scenario.seed = scenario.scenario.seed;
+            let assessed_session = assess_log(log, &flown.scenario, vehicle, build_site)?;
+            Ok((flown, assessed_session))
+        }
+        Err(error) => Err(error),
+    }
 }
 
 /// Returns a stored session's scored frames, for exports.

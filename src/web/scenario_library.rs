@@ -18,6 +18,14 @@ pub struct StoredScenario {
     pub text: String,
 }
 
+impl StoredScenario {
+    /// Returns the form of this scenario with this CRC; `None` if it has no such form.
+    #[must_use]
+    pub fn form_with_crc(&self, crc: u32) -> Option<Scenario> {
+        read(&self.named.name, &scenario::form_with_crc(&self.text, crc)?).ok()
+    }
+}
+
 /// Returns all shipped scenarios, then the uploaded ones.
 pub fn all(folder: &Path) -> Vec<StoredScenario> {
     let shipped = files::scenario_names().into_iter().filter_map(|name| {

@@ -5,7 +5,6 @@ use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenario_library as scenarios;
 use super::state::ServerState;
-use crate::errors::AppError;
 use crate::io::report;
 use crate::io::scoring;
 use crate::io::session_folder::SessionFolder;
@@ -16,7 +15,7 @@ use spandrel_mavlink::telemetry::tlog;
 use spandrel_monitor::export::json_text;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::sidecar::build_site;
-use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
+use spandrel_monitor::{AssessError, Monitor, MonitorConfig, SessionOutput};
 use spandrel_training::web::scenarios as pages;
 use std::path::{Path, PathBuf};
 
@@ -76,8 +75,9 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
         return Ok(UploadOutcome::AlreadyImported(id, trainee));
     }
     // A recording that cannot be scored counts as an invalid file, no matter which error the scorer reports.
-    let unfit = |error: AppError| WebError::BadRequest(format!("cannot import this recording: {error}"));
-    let assessed_session = scoring::grade(log, &scenario.scenario, &vehicle.vehicle).map_err(unfit)?;
+    let unfit =
+        |error: AssessError| WebError::BadRequest(format!("cannot import this recording: {}", scoring::scoring_error(&error)));
+    let (scenario, assessed_session) = scoring::assess_any_form(log, scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
         let words =

@@ -11,7 +11,8 @@ const SEED: &str = "5";
 /// Runs `assess` on a log of the landing drill. Returns the exit code, the JSON and the messages.
 fn assess(log: &Path, vehicle: &str, more: &[&str]) -> (Option<i32>, String, String) {
     let mut command = Command::new(PROGRAM);
-    command.arg("assess").arg(log).args(["--scenario", "drill-landing", "--vehicle", vehicle, "--json", "-"]).args(more);
+    let job: &[&str] = if more.contains(&"--scenario") { &[] } else { &["--scenario", "drill-landing"] };
+    command.arg("assess").arg(log).args(job).args(["--vehicle", vehicle, "--json", "-"]).args(more);
     let output = command.output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
     (output.status.code(), text(&output.stdout), text(&output.stderr))
@@ -19,9 +20,14 @@ fn assess(log: &Path, vehicle: &str, more: &[&str]) -> (Option<i32>, String, Str
 
 /// Flies the landing drill. Returns its log and its scores.
 fn flown(folder: &Path) -> (Vec<u8>, String) {
+    flown_job(folder, &["--scenario", "drill-landing"])
+}
+
+/// Flies a short job. Returns its log and its scores.
+fn flown_job(folder: &Path, job: &[&str]) -> (Vec<u8>, String) {
     let sessions = folder.join("sessions");
-    let demo = ["demo", "--scenario", "drill-landing", "--seed", SEED, "--speed", "max", "--log", "warn", "--sessions"];
-    let output = Command::new(PROGRAM).args(demo).arg(&sessions).output().unwrap();
+    let demo = ["demo", "--seed", SEED, "--speed", "max", "--log", "warn", "--sessions"];
+    let output = Command::new(PROGRAM).args(demo).arg(&sessions).args(job).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let session = std::fs::read_dir(&sessions).unwrap().next().unwrap().unwrap().path();
     (std::fs::read(session.join("telemetry.tlog")).unwrap(), std::fs::read_to_string(session.join("assessment.json")).unwrap())
@@ -86,4 +92,24 @@ fn wire_foreign_logs_are_scored_with_their_seed_and_warnings() {
     let (code, _, err) = assess(&whole, "elios3", &[]);
     assert!(code == Some(0) && err.contains("was not 'elios3'"), "{code:?}: {err}");
     assert!(err.contains("84.0 deg in the log, but 98.0 deg in the vehicle file"), "{err}");
+}
+
+#[test]
+fn wire_log_of_another_form_is_scored_with_the_form_that_was_flown() {
+    let folder = tempfile::tempdir().unwrap();
+    let job = folder.path().join("job.toml");
+    let forms: String =
+        ["A", "B"].map(|name| format!("\n[[forms]]\nname = \"{name}\"\ndefect_seed = 1\ndetection_pct = 75.0\n")).concat();
+    let (_, drill) = spandrel_model::shipped::SCENARIOS.iter().find(|(name, _)| *name == "drill-landing").unwrap();
+    std::fs::write(&job, (*drill).to_owned() + &forms).unwrap();
+    let job = job.display().to_string();
+    let (log, scores) = flown_job(folder.path(), &["--scenario", &job, "--form", "B"]);
+    let path = folder.path().join("b.tlog");
+    std::fs::write(&path, log).unwrap();
+    let score = |form: &[&str]| assess(&path, "phantom2", &[&["--scenario", &job], form].concat());
+    let (code, out, err) = score(&[]);
+    assert_eq!((code, out), (Some(0), scores), "{err}");
+    assert_eq!(score(&["--form", "B"]).0, Some(0));
+    let (code, _, err) = score(&["--form", "A"]);
+    assert!(code == Some(2) && err.contains("use the flight's scenario"), "{code:?} {err}");
 }

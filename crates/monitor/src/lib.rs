@@ -20,12 +20,13 @@
 //! ```
 //!
 //! [`measures`] computes measures from the frames (on path, speeding, crashes, picture contents), [`feedback`] raises cues,
-//! [`score`] computes conformity, efficiency, safety and accuracy, and [`session`] determines where a session starts and ends.
+//! [`guidance`] determines the next step, [`score`] computes conformity, efficiency, safety and accuracy, and [`session`] determines where a session starts and ends.
 
 pub mod assessment;
 pub mod export;
 pub mod feedback;
 pub mod folder;
+pub mod guidance;
 pub mod measures;
 pub mod recording;
 pub mod score;

@@ -4,14 +4,15 @@ use super::hud::GnssStatus;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::cue::CueTexts;
+use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
-    GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
+    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
 };
 use spandrel_model::time::SimTime;
 
-/// Timeout for a cue that is not repeated; the monitor repeats active cues at 5 Hz.
+/// Timeout for a cue or a step that is not repeated; the monitor repeats both at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
@@ -23,13 +24,21 @@ pub struct Feed {
     gnss: Option<GnssStatus>,
     cues: Option<(SimTime, i32)>,
     cue_texts: CueTexts,
+    guidance: Option<(SimTime, Guidance)>,
 }
 
 impl Feed {
     /// Checks whether [`Self::handle_datagram`] uses a message; other messages need not be decoded.
     #[must_use]
     pub fn is_relevant(message_id: u32) -> bool {
-        matches!(message_id, HEARTBEAT_DATA::ID | GPS_RAW_INT_DATA::ID | NAMED_VALUE_INT_DATA::ID | STATUSTEXT_DATA::ID)
+        matches!(
+            message_id,
+            HEARTBEAT_DATA::ID
+                | GPS_RAW_INT_DATA::ID
+                | NAMED_VALUE_INT_DATA::ID
+                | STATUSTEXT_DATA::ID
+                | DEBUG_FLOAT_ARRAY_DATA::ID
+        )
     }
 
     /// Processes a datagram received at simulation time `now`.
@@ -63,6 +72,11 @@ impl Feed {
                     self.set_cues(cues, now);
                 }
             }
+            MavMessage::DEBUG_FLOAT_ARRAY(_) => {
+                if let Some(guidance) = Guidance::of(message) {
+                    self.guidance = Some((now, guidance));
+                }
+            }
             MavMessage::STATUSTEXT(text) if component != 1 => {
                 if let Ok(words) = text.text.to_str() {
                     self.handle_text(words);
@@ -93,6 +107,12 @@ impl Feed {
     #[must_use]
     pub fn gnss(&self) -> Option<GnssStatus> {
         self.gnss
+    }
+
+    /// Returns the next step of the job; `None` if the monitor does not guide the pilot, or has stopped.
+    #[must_use]
+    pub fn guidance(&self, now: SimTime) -> Option<Guidance> {
+        self.guidance.filter(|(heard, _)| now.saturating_sub(*heard) <= CUE_TIMEOUT).map(|(_, guidance)| guidance)
     }
 
     /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not

@@ -262,6 +262,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         position_m: moment.drone.pose.position_m,
         heading_rad: moment.drone.pose.ned_from_frd.yaw_rad(),
         pad_m,
+        guidance: feed.guidance(at),
         tracks: if map { tracks(scenario) } else { Vec::new() },
     }
 }

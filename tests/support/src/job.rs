@@ -122,6 +122,8 @@ fn feedback() -> FeedbackThresholds {
         battery_green_pct: 70.0,
         battery_yellow_pct: 30.0,
         text_interval: SimTime::from_ms(5_000),
+        // Tests of the cues expect no other texts.
+        guidance: GuidancePolicy::Never,
     }
 }
 

@@ -10,6 +10,7 @@
 //! | [`named_values`] | NAMED_VALUE_INT and NAMED_VALUE_FLOAT: names, types and meanings |
 //! | [`contact`] | contact codes and their order of severity |
 //! | [`cue`] | bit flags of the monitor's cues |
+//! | [`guidance`] | the next step of the job and the way to it |
 //! | [`modes`] | flight modes of PX4 and ArduCopter: name and control source |
 //! | [`sticks`] | conversion of stick positions |
 //! | [`continuity`] | detection of restarts and respawns |
@@ -17,6 +18,7 @@
 pub mod contact;
 pub mod continuity;
 pub mod cue;
+pub mod guidance;
 pub mod modes;
 pub mod named_values;
 pub mod sticks;

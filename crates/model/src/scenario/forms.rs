@@ -98,7 +98,7 @@ pub(super) fn state_selected_form(document: &mut Table) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Scenario, read, resolve};
+    use super::super::{Scenario, form_with_crc, read, resolve};
     use super::*;
     use crate::shipped::{PILOT_STUDY, TWO_BRIDGES};
     use crate::toml::Problems;
@@ -133,6 +133,12 @@ mod tests {
         let checksums = ["A", "B", "C", "H"].map(|form| parse(&select_form(PILOT_STUDY, form)).unwrap().crc);
         assert_eq!(parse(PILOT_STUDY).unwrap().crc, checksums[0], "the first form is the default");
         assert!((0..4).all(|k| !checksums[..k].contains(&checksums[k])), "{checksums:?}");
+        for (form, crc) in ["A", "B", "C", "H"].into_iter().zip(checksums) {
+            let found = form_with_crc(PILOT_STUDY, crc).unwrap();
+            assert_eq!(parse(&found).unwrap().form.unwrap().name, form);
+        }
+        assert_eq!(form_with_crc(PILOT_STUDY, checksums[0] ^ 1), None);
+        assert_eq!(form_with_crc(TWO_BRIDGES, parse(TWO_BRIDGES).unwrap().crc).as_deref(), Some(TWO_BRIDGES));
     }
 
     #[test]

@@ -368,6 +368,19 @@ pub struct FeedbackThresholds {
     pub battery_yellow_pct: f64,
     /// Minimum interval between two text messages from the same rule.
     pub text_interval: SimTime,
+    /// Flights with guidance.
+    pub guidance: GuidancePolicy,
+}
+
+/// Flights in which the monitor tells the pilot the next step and the way to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GuidancePolicy {
+    /// All flights.
+    Always,
+    /// All flights except assessments.
+    Practice,
+    /// None.
+    Never,
 }
 
 /// Scoring parameters.

@@ -16,8 +16,9 @@ pub use bridges::{Bridge, BridgeKind};
 pub use certification::CertificationParams;
 pub use forms::{form_names, select_form};
 pub use job::{
-    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
-    SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
+    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, PlacedDefect, Scenario,
+    ScoringParams, SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel,
+    WindSpec,
 };
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
-pub use resolve::resolve;
+pub use resolve::{form_with_crc, resolve};

@@ -2,8 +2,8 @@
 
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
-    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams, SessionRules,
-    TerrainSource, TerrainSpec, TrafficSpec,
+    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, Scenario, ScoringParams,
+    SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
 };
 use super::point::point;
 use crate::elements::Element;
@@ -310,6 +310,12 @@ fn feedback(r: &mut Reader, root: &mut Section) -> FeedbackThresholds {
         battery_green_pct: n("battery_green_pct", (1.0, 100.0), 70.0),
         battery_yellow_pct: n("battery_yellow_pct", (1.0, 100.0), 30.0),
         text_interval: SimTime::from_s(n("text_interval_s", (0.5, 60.0), 2.0)),
+        guidance: r.keyword(
+            &mut s,
+            "guidance",
+            &[("always", GuidancePolicy::Always), ("practice", GuidancePolicy::Practice), ("never", GuidancePolicy::Never)],
+            Some(1),
+        ),
     };
     if feedback.too_close_clear_m < feedback.too_close_m {
         r.add_problem(

@@ -1,6 +1,7 @@
 //! Resolved scenario files: the source text plus the seed and placed defects of a session. A resolved file has the same
 //! CRC as its source.
 
+use super::forms;
 use super::job::PlacedDefect;
 use super::point::point;
 use crate::elements::Element;
@@ -90,12 +91,20 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };
     document.remove("seed");
-    super::forms::state_selected_form(document.as_table_mut());
+    forms::state_selected_form(document.as_table_mut());
     if let Some(defects) = document.get_mut("defects").and_then(Item::as_table_like_mut) {
         defects.remove("placed");
         defects.remove("none_placed");
     }
     crc32fast::hash(canonical_form(document.as_item()).as_bytes())
+}
+
+/// Returns the text of the form with this CRC, as announced by a vehicle or recorded in its telemetry; `None` if no form has
+/// it. A scenario without forms is its own only form.
+#[must_use]
+pub fn form_with_crc(text: &str, crc: u32) -> Option<String> {
+    let forms = forms::form_names(text).into_iter().map(|name| forms::select_form(text, &name));
+    std::iter::once(text.to_owned()).chain(forms).find(|form| self::crc(form) == crc)
 }
 
 /// Returns the canonical form of a TOML item: sorted keys without comments or formatting.

@@ -160,6 +160,7 @@ mod tests {
             battery_green_pct: 70.0,
             battery_yellow_pct: 30.0,
             text_interval: SimTime::from_s(5.0),
+            guidance: GuidancePolicy::Always,
         };
         let scoring = ScoringParams {
             frame_rate_hz: 30.0,

@@ -25,6 +25,7 @@ pub struct FeedbackRules {
     scoring: ScoringParams,
     limits: FeedbackThresholds,
     active_task: active_task::ActiveTask,
+    current: Option<usize>,
     battery: battery::BatteryCue,
     speeding: speeding::SpeedingCue,
     stand_off: stand_off::StandOffCue,
@@ -41,6 +42,7 @@ impl FeedbackRules {
             scoring: scenario.scoring.clone(),
             limits: scenario.feedback.clone(),
             active_task: active_task::ActiveTask::default(),
+            current: None,
             battery: battery::BatteryCue::default(),
             speeding: speeding::SpeedingCue::default(),
             stand_off: stand_off::StandOffCue::default(),
@@ -50,9 +52,16 @@ impl FeedbackRules {
         }
     }
 
+    /// Returns the index of the task that is being flown; `None` between tasks.
+    #[must_use]
+    pub fn current_task(&self) -> Option<usize> {
+        self.current
+    }
+
     /// Updates all rules and returns the active cue mask and the texts to send, most urgent first.
     pub fn update(&mut self, input: &FeedbackInput) -> (i32, Vec<PilotText>) {
-        let task = self.active_task.update(input, &self.limits).map(|task| &input.tasks[task]);
+        self.current = self.active_task.update(input, &self.limits);
+        let task = self.current.map(|task| &input.tasks[task]);
         let mut mask = 0;
         let mut texts = Vec::new();
         let mut put = |(bits, text): (i32, Option<PilotText>)| {

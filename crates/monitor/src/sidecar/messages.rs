@@ -1,19 +1,23 @@
 //! Outgoing messages: cues, texts, replies, and log events.
 
-use super::{AUTOPILOT_COMPONENT_ID, CUES_INTERVAL, MONITOR_COMPONENT_ID, Monitor, SessionOutput};
+use super::{AUTOPILOT_COMPONENT_ID, CUES_INTERVAL, GUIDANCE_INTERVAL, MONITOR_COMPONENT_ID, Monitor, SessionOutput};
 use crate::feedback::{FeedbackInput, HeadingOffset, SurfaceDistance, TaskProximity};
+use crate::guidance::GuidanceInput;
 use crate::measures::on_path::NearestOnPath;
+use crate::score::certification::job_time;
 use crate::session::lift_off_height_m;
 use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
 use spandrel_mavlink::station;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Task;
+use spandrel_model::time::SimTime;
 
 /// Returns the distance from the inspected surface if the task recommends one. `way_back_m` is the displacement from the drone
 /// to the nearest position on the path.
@@ -49,6 +53,39 @@ impl Monitor {
             let severity = if quiet { MavSeverity::MAV_SEVERITY_INFO } else { MavSeverity::MAV_SEVERITY_WARNING };
             self.text(&text.text, severity);
         }
+    }
+
+    pub(super) fn send_guidance(&mut self, truth: &Truth) {
+        if !self.guides || self.guidance_sent.is_some_and(|sent| truth.time - sent < GUIDANCE_INTERVAL) {
+            return;
+        }
+        self.guidance_sent = Some(truth.time);
+        let guidance = self.guidance(truth);
+        self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
+        if let Some(words) = self.announcer.update(truth.time, &guidance) {
+            self.event("guidance", json!({ "words": words }));
+            self.send_text(&words, MavSeverity::MAV_SEVERITY_INFO);
+        }
+    }
+
+    fn guidance(&self, truth: &Truth) -> Guidance {
+        let scenario = &self.config.scenario;
+        let tasks: Vec<TaskProximity> = (0..scenario.tasks.len()).map(|task| self.task_proximity(task, truth)).collect();
+        let length_m = self.live.flown.iter().map(|flown| flown.coverage().length_m).sum();
+        let input = GuidanceInput {
+            scenario,
+            paths: &self.paths,
+            flown: &self.live.flown,
+            tasks: &tasks,
+            active_task: self.feedback.current_task(),
+            position_m: truth.motion.position_m,
+            heading_rad: truth.motion.ned_from_frd.yaw_rad(),
+            taken_off: self.live.lift_off.is_some(),
+            over: self.live.end.is_some() || self.outcome.is_some(),
+            flown_s: self.flight_time().map_or(0.0, SimTime::s),
+            needed_s: job_time::needed_s(scenario, length_m, scenario.defects.count),
+        };
+        input.next_step()
     }
 
     fn input(&self, truth: &Truth) -> FeedbackInput {
@@ -156,6 +193,10 @@ impl Monitor {
 
     pub(super) fn text(&mut self, words: &str, severity: MavSeverity) {
         self.event("text", json!({ "text": words }));
+        self.send_text(words, severity);
+    }
+
+    fn send_text(&mut self, words: &str, severity: MavSeverity) {
         self.send(&MavMessage::STATUSTEXT(STATUSTEXT_DATA { severity, text: words.into(), ..STATUSTEXT_DATA::default() }));
     }
 

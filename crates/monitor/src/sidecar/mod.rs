@@ -10,6 +10,7 @@
 use crate::assessment::{AssessError, AssessedSession};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SessionInfo;
+use crate::guidance::StepAnnouncer;
 use crate::measures::attention::SiteSurvey;
 use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
@@ -23,7 +24,7 @@ use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{GuidancePolicy, Scenario};
 use spandrel_model::site::Site;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
@@ -39,6 +40,10 @@ mod telemetry_intake;
 pub const MONITOR_COMPONENT_ID: u8 = 191;
 /// The autopilot's component ID (MAV_COMP_ID_AUTOPILOT1).
 const AUTOPILOT_COMPONENT_ID: u8 = 1;
+/// Purpose of a session that is an assessment, in `session.json`.
+const ASSESSMENT: &str = "assessment";
+/// Interval between two `guidance` messages (estimate: smooth enough for a display).
+const GUIDANCE_INTERVAL: SimTime = SimTime::from_ms(200);
 /// Interval at which the monitor repeats `cues`, 5 Hz (docs/src/reference/wire.md, "Scoring data").
 const CUES_INTERVAL: SimTime = SimTime::from_ms(200);
 /// Heartbeat interval in simulation time, which keeps runs reproducible at any simulation speed.
@@ -124,6 +129,15 @@ struct LiveState {
     closures: BridgeClosures,
 }
 
+/// Returns whether the monitor guides the pilot in a session with this purpose.
+fn guides(policy: GuidancePolicy, purpose: Option<&str>) -> bool {
+    match policy {
+        GuidancePolicy::Always => true,
+        GuidancePolicy::Practice => purpose != Some(ASSESSMENT),
+        GuidancePolicy::Never => false,
+    }
+}
+
 /// Live monitor of one session.
 #[derive(Debug, Clone)]
 pub struct Monitor {
@@ -136,6 +150,9 @@ pub struct Monitor {
     zero_unix_us: Option<u64>,
     feedback: FeedbackRules,
     texts: TextQueue,
+    guides: bool,
+    announcer: StepAnnouncer,
+    guidance_sent: Option<SimTime>,
     live: LiveState,
     survey: Option<Arc<dyn SiteSurvey>>,
     seed: Option<u64>,
@@ -163,6 +180,9 @@ impl Monitor {
             zero_unix_us: None,
             feedback: FeedbackRules::new(scenario),
             texts: TextQueue::default(),
+            guides: guides(scenario.feedback.guidance, config.purpose.as_deref()),
+            announcer: StepAnnouncer::default(),
+            guidance_sent: None,
             live: LiveState::new(&config, &paths),
             survey: None,
             paths,

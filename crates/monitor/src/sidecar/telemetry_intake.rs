@@ -6,6 +6,7 @@ use super::{
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
+use crate::guidance::StepAnnouncer;
 use crate::measures::attention;
 use crate::measures::crash::is_soft_pad_contact;
 use crate::session::{EndReason, EndRuleInput as EndInput, lift_off_height_m};
@@ -62,6 +63,8 @@ impl Monitor {
         self.live = LiveState::new(&self.config, &self.paths);
         self.feedback = FeedbackRules::new(&self.config.scenario);
         self.texts = TextQueue::default();
+        self.announcer = StepAnnouncer::default();
+        self.guidance_sent = None;
         self.last_heartbeat_sim_time = None;
         self.handle_sample(sample, None);
     }
@@ -154,6 +157,7 @@ impl Monitor {
         }
         self.update_task(truth.motion.position_m);
         self.send_feedback();
+        self.send_guidance(&truth);
         self.check_end(&truth);
         let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_INTERVAL);
         if due(self.last_heartbeat_sim_time) {

@@ -14,6 +14,10 @@ pub fn new_monitor(scenario: Scenario) -> Monitor {
     Monitor::new(config(scenario))
 }
 
+pub fn new_monitor_with_purpose(scenario: Scenario, purpose: Option<&str>) -> Monitor {
+    Monitor::new(MonitorConfig { purpose: purpose.map(str::to_owned), ..config(scenario) })
+}
+
 fn config(scenario: Scenario) -> MonitorConfig {
     MonitorConfig {
         scenario,

@@ -7,6 +7,7 @@ mod corrupt_input;
 mod cue_validity;
 mod exported_frames;
 mod feedback;
+mod guidance;
 mod link;
 mod live;
 mod output;

@@ -64,7 +64,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&JobDrawings>, choice: &VehicleSele
             @if let Some(drawn) = drawn {
                 section aria-label="Now" {
                     dl.readout {
-                        @for (key, words) in [("task", "Task"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Contact"), ("traffic", "Traffic")] {
+                        @for (key, words) in [("task", "Task"), ("step", "Next step"), ("progress", "Path flown"), ("time", "Time"), ("speed", "Speed"), ("height", "Height"), ("clearance", "Clearance"), ("battery", "Battery"), ("contact", "Contact"), ("traffic", "Traffic")] {
                             div { dt { (words) } dd data-now=(key) { "–" } }
                         }
                     }

@@ -4,7 +4,8 @@
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
-use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::cue::{self, CueTexts};
+use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
@@ -53,6 +54,8 @@ pub struct LiveFlightState {
     armed: bool,
     gates: BridgeClosures,
     cues: i32,
+    cue_texts: CueTexts,
+    guidance: Option<Guidance>,
     messages: VecDeque<(u64, f64, &'static str, String)>,
     message_count: u64,
     /// The vehicle's system ID, once received.
@@ -83,6 +86,8 @@ impl LiveFlightState {
             armed: false,
             gates: BridgeClosures::default(),
             cues: 0,
+            cue_texts: CueTexts::default(),
+            guidance: None,
             messages: VecDeque::new(),
             message_count: 0,
             system: None,
@@ -117,12 +122,15 @@ impl LiveFlightState {
             Some(MavMessage::STATUSTEXT(text)) => {
                 let kind = if text.severity as u8 <= MavSeverity::MAV_SEVERITY_WARNING as u8 { "warn" } else { "info" };
                 let words: String = text.text.to_str().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
+                self.cue_texts.add(&words);
                 self.push_message(kind, words);
             }
             Some(message) => {
                 if let Some(NamedValue::Cues(cues)) = NamedValue::of(message) {
                     self.cues = cues;
+                    self.cue_texts.retain_active(cues);
                 }
+                self.guidance = Guidance::of(message).or(self.guidance);
             }
             None => {}
         }
@@ -175,6 +183,7 @@ impl LiveFlightState {
         // If the clock jumps backward, a new flight has started. Earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
+            (self.cue_texts, self.guidance) = (CueTexts::default(), None);
         }
         self.current_task = job.paths.task_on_path(truth.motion.position_m, self.current_task).map(|(task, _)| task);
         self.truth = Some(truth);
@@ -199,7 +208,9 @@ impl LiveFlightState {
             json!([e, n, u])
         });
         let task = self.current_task.and_then(|on| self.job.as_ref()?.tasks.get(on)).map(|(id, name)| format!("{id} · {name}"));
-        let cues: Vec<&str> = cue::ALL.iter().filter(|(bit, _)| self.cues & bit != 0).map(|(_, name)| *name).collect();
+        let shown = cue::displayed(self.cues);
+        let cues: Vec<&str> =
+            cue::ALL.iter().filter(|(bit, _)| shown & bit != 0).filter_map(|(bit, _)| self.cue_texts.text(*bit)).collect();
         let words: Vec<Value> = self
             .messages
             .iter()
@@ -219,6 +230,8 @@ impl LiveFlightState {
             "contact": self.contact.label(),
             "armed": self.armed,
             "task": task,
+            "step": self.guidance.map(|guidance| guidance.words()),
+            "progress": self.guidance.and_then(|guidance| guidance.progress),
             "cues": cues,
             "words": words,
         })
@@ -229,6 +242,7 @@ impl LiveFlightState {
 mod tests {
     use super::*;
     use spandrel_mavlink::codec::{Decoder, Encoder};
+    use spandrel_mavlink::contract::guidance::GuidanceStep;
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA};
     use spandrel_model::scenario::read;
 
@@ -276,7 +290,26 @@ mod tests {
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");
         assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));
-        assert_eq!(moment["cues"], json!(["too close", "speeding"]));
+        assert_eq!(moment["cues"], json!(["Too close", "Too fast"]), "without a text, the label");
+        let text = STATUSTEXT_DATA { text: "Too close: 2.1 m, limit 2.5 m".into(), ..STATUSTEXT_DATA::default() };
+        feed_message(&mut live_state, &MavMessage::STATUSTEXT(text));
+        assert_eq!(live_state.to_json(true)["cues"], json!(["Too close: 2.1 m, limit 2.5 m", "Too fast"]));
+        assert_eq!(live_state.to_json(true)["step"], Value::Null);
+        let guidance = Guidance {
+            step: GuidanceStep::FollowPath,
+            task: Some(3),
+            way: None,
+            progress: Some(0.5),
+            tasks_done: 2,
+            tasks: 4,
+            deviation: None,
+            stand_off: None,
+            flown_s: 90.0,
+            needed_s: 300.0,
+        };
+        feed_message(&mut live_state, &guidance.message(2_000_000));
+        let moment = live_state.to_json(true);
+        assert_eq!((&moment["step"], &moment["progress"]), (&json!("Task 3: follow the path"), &json!(0.5)));
     }
 
     #[test]

@@ -252,6 +252,7 @@ fn example(cues: i32) -> Hud {
         position_m: Vec3::new(-60.0, 130.0, 12.0),
         heading_rad: 0.6,
         pad_m: Vec3::new(-120.0, 60.0, 5.0),
+        guidance: None,
         tracks: vec![line(1, [(-50.0, -5.0), (50.0, -5.0)]), line(4, [(-70.0, 150.0), (-64.0, 156.0)])],
     }
 }

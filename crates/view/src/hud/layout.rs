@@ -9,6 +9,7 @@ use super::small_view::essential_items;
 use super::speed::speed;
 use super::state::Hud;
 use super::status::status;
+use super::task_panel::task_panel;
 use super::{DrawItem, HudColor, TextAlign};
 
 /// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; the font size in a picture 360 px
@@ -23,6 +24,7 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     let pane = Pane::of(aspect);
     let mut items = crosshair(hud, pane);
     items.extend(speed(hud, pane));
+    items.extend(task_panel(hud, pane));
     items.extend(battery(hud, pane));
     items.extend(status(hud, pane));
     items.extend(readouts(hud, pane));

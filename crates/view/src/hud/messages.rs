@@ -5,7 +5,7 @@ use super::metrics::{BLOCK_GAP, EDGE_MARGIN, MEDIUM_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{text_width, wrap_text};
-use super::{DrawItem, HudColor, TextAlign, map};
+use super::{DrawItem, HudColor, TextAlign, map, task_panel};
 use spandrel_mavlink::contract::cue;
 
 /// Mean width of a capital letter.
@@ -55,7 +55,8 @@ fn width(words: &str) -> f64 {
 }
 
 pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let right = map::left(hud, pane).map_or(pane.width - EDGE_MARGIN, |left| left - BLOCK_GAP);
+    let neighbors = [map::left(hud, pane), task_panel::left(hud, pane)];
+    let right = neighbors.into_iter().flatten().map(|left| left - BLOCK_GAP).fold(pane.width - EDGE_MARGIN, f64::min);
     let room = right - EDGE_MARGIN - ICON_INDENT - TEXT_MARGIN;
     let mut bottom = pane.height - EDGE_MARGIN;
     let mut items = Vec::new();

@@ -16,6 +16,7 @@ mod small_view;
 mod speed;
 pub mod state;
 mod status;
+mod task_panel;
 #[cfg(test)]
 mod tests;
 mod text_metrics;

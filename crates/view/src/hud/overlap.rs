@@ -4,6 +4,7 @@ use super::tests::{ALL_CUES, crash, hud};
 use super::text_metrics::text_width;
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::Vec3;
 
 /// A rectangle: left, top, right, bottom, in units of the picture's height.
@@ -117,6 +118,22 @@ fn check(items: Vec<DrawItem>, aspect: f64, what: &str) {
     }
 }
 
+/// Returns guidance with the longest possible texts.
+fn longest_guidance() -> Guidance {
+    Guidance {
+        step: GuidanceStep::FlyToTask,
+        task: Some(12),
+        way: Some(WayTo { distance_m: 4_321.0, bearing_rad: 3.1, up_m: -120.0 }),
+        progress: Some(1.0),
+        tasks_done: 11,
+        tasks: 12,
+        deviation: Some(PathDeviation { distance_m: 188.8, above_m: -188.8 }),
+        stand_off: Some(StandOffReading { actual_m: 88.8, recommended_m: 18.5, tolerance_m: 10.5 }),
+        flown_s: 5_999.0,
+        needed_s: 5_999.0,
+    }
+}
+
 /// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the
 /// map.
 fn states() -> Vec<(&'static str, Hud)> {
@@ -137,6 +154,7 @@ fn states() -> Vec<(&'static str, Hud)> {
         remaining_s: 5_999.0,
         lamp: true,
         pictures: 999,
+        guidance: Some(longest_guidance()),
         tracks: [1, 2, 3, 4].map(|id| track(id, 150.0)).to_vec(),
         ..hit("bridge member suspension/hanger-left/upper/07")
     };
@@ -154,6 +172,7 @@ fn states() -> Vec<(&'static str, Hud)> {
         ("long name", hit("bridge member arch/rib-left/07")),
         ("name without spaces", hit(&"bridge-member-".repeat(4)[..43])),
         ("name longer than telemetry allows", hit(&"WWWW ".repeat(40))),
+        ("guidance", Hud { guidance: Some(longest_guidance()), ..hud() }),
         ("zoomed", Hud { zoom: 3.1, lamp: true, ..hud() }),
         ("everything", full),
     ];
@@ -210,7 +229,8 @@ fn prop_status_text_does_not_cover_the_hud() {
 
 #[test]
 fn prop_inset_view_does_not_cover_the_hud() {
-    let all = Hud { cues: ALL_CUES, cue_texts: crash("suspension bridge, tower leg"), zoom: 2.0, ..hud() };
+    let (cue_texts, guidance) = (crash("suspension bridge, tower leg"), Some(longest_guidance()));
+    let all = Hud { cues: ALL_CUES, cue_texts, zoom: 2.0, guidance, ..hud() };
     let [_, eyes] = ViewLayout::Camera.view_rects();
     assert_eq!(eyes.which, ViewKind::Inspector);
     let small = [eyes.left, eyes.top, eyes.left + eyes.width, eyes.top + eyes.height];

@@ -1,6 +1,7 @@
 //! Inputs of the head-up display.
 
 use spandrel_mavlink::contract::cue::CueTexts;
+use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::speed_unit::SpeedUnit;
 
@@ -84,6 +85,8 @@ pub struct Hud {
     pub heading_rad: f64,
     /// Position of the pad, ENU, m.
     pub pad_m: Vec3<Enu>,
+    /// The next step of the job; `None` if the monitor does not guide the pilot.
+    pub guidance: Option<Guidance>,
     /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
 }

@@ -2,6 +2,7 @@
 
 use super::*;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::Vec3;
 use spandrel_model::speed_unit::SpeedUnit;
 
@@ -40,6 +41,7 @@ pub(super) fn hud() -> Hud {
         position_m: Vec3::new(10.0, -4.0, 20.0),
         heading_rad: 1.2,
         pad_m: Vec3::new(-100.0, 60.0, 5.0),
+        guidance: None,
         tracks: vec![MapPath { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
     }
 }
@@ -210,4 +212,29 @@ fn exact_small_picture_shows_speed_battery_and_warnings() {
     }
     let least = words(&wrong, (144.0, 81.0));
     assert_eq!(least.last().map(|(_, words)| words.as_str()), Some("CRASH"), "the most serious warning must stay: {least:?}");
+}
+
+#[test]
+fn exact_task_panel_shows_the_next_step() {
+    let guidance = Guidance {
+        step: GuidanceStep::FollowPath,
+        task: Some(2),
+        way: Some(WayTo { distance_m: 6.2, bearing_rad: -0.5, up_m: 2.0 }),
+        progress: Some(0.357),
+        tasks_done: 1,
+        tasks: 4,
+        deviation: Some(PathDeviation { distance_m: 1.24, above_m: -0.4 }),
+        stand_off: Some(StandOffReading { actual_m: 7.1, recommended_m: 5.0, tolerance_m: 1.5 }),
+        flown_s: 75.0,
+        needed_s: 480.0,
+    };
+    let guided = Hud { guidance: Some(guidance), ..hud() };
+    for words in ["Inspect task 2 of 4", "35%", "6 m, 29° left", "2 m up", "1.2 m, 0.4 m below", "1:15 of 8:00"] {
+        assert!(find(&guided, words).is_some(), "{words}\n{}", snapshot(&guided));
+        assert!(find(&hud(), words).is_none(), "{words}");
+    }
+    assert_eq!(find(&guided, "7.1 m (5 ± 1.5)").unwrap().1, HudColor::Yellow, "outside the tolerance");
+    let inside = StandOffReading { actual_m: 6.4, recommended_m: 5.0, tolerance_m: 1.5 };
+    let guided = Hud { guidance: Some(Guidance { stand_off: Some(inside), ..guidance }), ..hud() };
+    assert_eq!(find(&guided, "6.4 m (5 ± 1.5)").unwrap().1, HudColor::White);
 }

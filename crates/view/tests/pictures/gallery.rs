@@ -264,6 +264,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         position_m,
         heading_rad: 0.0,
         pad_m: studio.scenario.ground_team.pad_m,
+        guidance: None,
         tracks: studio.scenario.tasks.iter().map(track).collect(),
     }
 }

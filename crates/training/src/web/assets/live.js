@@ -94,6 +94,8 @@ function show(now) {
     move(now.place);
   }
   put("task", now.task ?? "off path");
+  put("step", now.step ?? "–");
+  put("progress", now.progress === null ? "–" : `${Math.floor(100 * now.progress)}%`);
   put("time", now.t_s === null ? "–" : `${Math.floor(now.t_s / 60)}:${String(Math.floor(now.t_s % 60)).padStart(2, "0")}`);
   put("speed", number(now.speed_m_s, 1, "m/s"));
   put("height", number(now.height_m, 1, "m"));

@@ -1,0 +1,74 @@
+//! Tests of the guidance that the monitor sends: steps, texts, and the flights that have none.
+
+use crate::live::{new_monitor_with_purpose, sent_messages};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep};
+use spandrel_mavlink::dialect::MavMessage;
+use spandrel_model::scenario::{GuidancePolicy, Scenario};
+use spandrel_monitor::Monitor;
+use spandrel_testkit::job::*;
+
+/// Largest difference between a distance and its value as a 32-bit float, m.
+const FLOAT_TOLERANCE_M: f64 = 1e-3;
+
+fn guided_job(guidance: GuidancePolicy) -> Scenario {
+    let mut scenario = one_task();
+    scenario.feedback.guidance = guidance;
+    scenario
+}
+
+/// Sends the tape to the monitor. Returns the guidance and the texts that it sends.
+fn run(monitor: &mut Monitor, tape: &mut Tape) -> (Vec<Guidance>, Vec<String>) {
+    let (mut steps, mut texts) = (Vec::new(), Vec::new());
+    for datagram in std::mem::take(&mut tape.datagrams) {
+        monitor.handle_datagram(&datagram);
+        for message in sent_messages(monitor) {
+            steps.extend(Guidance::of(&message));
+            if let MavMessage::STATUSTEXT(text) = message {
+                texts.push(text.text.to_str().unwrap().to_owned());
+            }
+        }
+    }
+    (steps, texts)
+}
+
+#[test]
+fn wire_guidance_leads_through_the_job() {
+    let mut monitor = new_monitor_with_purpose(guided_job(GuidancePolicy::Practice), None);
+    let mut tape = Tape::new();
+    tape.hold(2.0);
+    let (steps, texts) = run(&mut monitor, &mut tape);
+    assert!(steps.iter().all(|guidance| guidance.step == GuidanceStep::TakeOff && guidance.way.is_none()));
+    assert_eq!(texts, ["Take off"]);
+    // The path leads from (10, 0, 10) to (60, 0, 10).
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((35.0, 0.0, 10.0), 5.0);
+    let (steps, texts) = run(&mut monitor, &mut tape);
+    let last = steps.last().unwrap();
+    assert_eq!((last.step, last.task, last.tasks), (GuidanceStep::FollowPath, Some(1), 1));
+    assert!((last.progress.unwrap() - 0.5).abs() < 0.03, "{last:?}");
+    assert!(last.deviation.unwrap().distance_m < FLOAT_TOLERANCE_M, "{last:?}");
+    assert_eq!(texts.last().map(String::as_str), Some("Task 1: follow the path"));
+    tape.fly((60.0, 0.0, 10.0), 5.0);
+    tape.fly((60.0, -30.0, 10.0), 5.0);
+    tape.hold(2.0);
+    let (steps, texts) = run(&mut monitor, &mut tape);
+    assert_eq!(steps.last().map(|guidance| (guidance.step, guidance.tasks_done)), Some((GuidanceStep::FlyHome, 1)));
+    assert!(texts.last().unwrap().starts_with("Fly home: "), "{texts:?}");
+}
+
+#[test]
+fn exact_policy_and_purpose_select_the_guided_flights() {
+    for (policy, purpose, guided) in [
+        (GuidancePolicy::Always, Some("assessment"), true),
+        (GuidancePolicy::Practice, Some("assessment"), false),
+        (GuidancePolicy::Practice, Some("practice"), true),
+        (GuidancePolicy::Practice, None, true),
+        (GuidancePolicy::Never, Some("practice"), false),
+    ] {
+        let mut monitor = new_monitor_with_purpose(guided_job(policy), purpose);
+        let mut tape = Tape::new();
+        tape.hold(2.0);
+        let (steps, texts) = run(&mut monitor, &mut tape);
+        assert_eq!((!steps.is_empty(), !texts.is_empty()), (guided, guided), "{policy:?}, {purpose:?}");
+    }
+}

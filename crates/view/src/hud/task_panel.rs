@@ -1,0 +1,119 @@
+//! The next step of the job, at the right between the readouts and the map: task, way, position relative to the path,
+//! stand-off, time.
+
+use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
+use super::pane::Pane;
+use super::state::Hud;
+use super::{DrawItem, HudColor, TextAlign};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_model::math;
+use spandrel_model::numbers::format_limit;
+
+/// Top of the panel: below the readouts with their longest list.
+const TOP: f64 = 0.395;
+/// Width of the panel, height of a line, and padding.
+const WIDTH: f64 = 0.42;
+const LINE_HEIGHT: f64 = 0.037;
+const PADDING: f64 = 0.012;
+/// Width of the arrow's column, and the arrow's half length.
+const ARROW_COLUMN: f64 = 0.045;
+const ARROW_SIZE: f64 = 0.015;
+
+/// Returns the left edge of the panel, or `None` without guidance.
+pub(super) fn left(hud: &Hud, pane: Pane) -> Option<f64> {
+    hud.guidance.map(|_| pane.width - EDGE_MARGIN - WIDTH)
+}
+
+/// A line of the panel: a gray name at the left, and a value at the right.
+struct PanelLine {
+    name: String,
+    color: HudColor,
+    value: String,
+}
+
+/// Returns the panel; empty without guidance.
+pub(super) fn task_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
+    let Some(guidance) = &hud.guidance else { return Vec::new() };
+    let lines = details(guidance);
+    let rows = 1 + usize::from(guidance.way.is_some()) + lines.len();
+    let (left, right) = (pane.width - EDGE_MARGIN - WIDTH, pane.width - EDGE_MARGIN);
+    let middle = |row: usize| TOP + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
+    let mut items = vec![pane.panel((left, TOP), (right, TOP + 2.0 * PADDING + LINE_HEIGHT * rows as f64))];
+    let (from, to) = (left + PADDING, right - PADDING);
+    items.push(pane.text((from, middle(0)), TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, title(guidance)));
+    if let Some(progress) = guidance.progress {
+        let words = format!("{:.0}%", (100.0 * progress).floor());
+        items.push(pane.text((to, middle(0)), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, words));
+    }
+    let mut row = 1;
+    if let Some(way) = &guidance.way {
+        items.push(pane.fill(&arrow((from + 0.5 * ARROW_COLUMN, middle(row)), way.bearing_rad), HudColor::Yellow));
+        let place = (from + ARROW_COLUMN, middle(row));
+        items.push(pane.text(place, TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, direction_words(way)));
+        row += 1;
+    }
+    for (k, PanelLine { name, color, value }) in lines.into_iter().enumerate() {
+        items.push(pane.text((from, middle(row + k)), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, name));
+        items.push(pane.text((to, middle(row + k)), TextAlign::Right, SMALL_FONT_SIZE, color, value));
+    }
+    items
+}
+
+fn title(guidance: &Guidance) -> String {
+    let task = guidance.task.map_or_else(String::new, |task| format!(" task {task} of {}", guidance.tasks));
+    match guidance.step {
+        GuidanceStep::TakeOff => "Take off".to_owned(),
+        GuidanceStep::FlyToTask => format!("Fly to{task}"),
+        GuidanceStep::FollowPath => format!("Inspect{task}"),
+        GuidanceStep::FlyHome => "Fly home".to_owned(),
+        GuidanceStep::Land => "Land on the pad".to_owned(),
+        GuidanceStep::Over => "Session over".to_owned(),
+    }
+}
+
+/// Returns the horizontal way in words. Unlike in a text message, there is a degree sign.
+fn direction_words(way: &WayTo) -> String {
+    WayTo { up_m: 0.0, ..*way }.words().replace(" deg", "°")
+}
+
+fn details(guidance: &Guidance) -> Vec<PanelLine> {
+    let white = |name: &str, value: String| PanelLine { name: name.to_owned(), color: HudColor::White, value };
+    let mut lines = Vec::new();
+    if let Some(way) = &guidance.way {
+        lines.push(white("height", format!("{:.0} m {}", way.up_m.abs(), if way.up_m < 0.0 { "down" } else { "up" })));
+    }
+    if let Some(deviation) = &guidance.deviation {
+        lines.push(white("path", deviation_words(deviation)));
+    }
+    if let Some(reading) = &guidance.stand_off {
+        let off = (reading.actual_m - reading.recommended_m).abs() > reading.tolerance_m;
+        let color = if off { HudColor::Yellow } else { HudColor::White };
+        lines.push(PanelLine { name: "stand-off".to_owned(), color, value: stand_off_words(reading) });
+    }
+    let minutes = |seconds: f64| {
+        let whole = seconds.max(0.0).round();
+        format!("{:.0}:{:02.0}", (whole / 60.0).floor(), whole % 60.0)
+    };
+    if guidance.flown_s > 0.0 {
+        lines.push(white("time", format!("{} of {}", minutes(guidance.flown_s), minutes(guidance.needed_s))));
+    }
+    lines
+}
+
+fn deviation_words(deviation: &PathDeviation) -> String {
+    let side = if deviation.above_m < 0.0 { "below" } else { "above" };
+    format!("{:.1} m, {:.1} m {side}", deviation.distance_m, deviation.above_m.abs())
+}
+
+fn stand_off_words(reading: &StandOffReading) -> String {
+    let (recommended, tolerance) = (format_limit(reading.recommended_m), format_limit(reading.tolerance_m));
+    format!("{:.1} m ({recommended} ± {tolerance})", reading.actual_m.max(0.0))
+}
+
+/// Returns an arrowhead that points up for straight ahead.
+fn arrow((x, y): (f64, f64), bearing_rad: f64) -> [(f64, f64); 3] {
+    let (sin, cos) = math::sin_cos(bearing_rad);
+    [(0.0, 1.0), (0.7, -0.8), (-0.7, -0.8)].map(|(right, ahead): (f64, f64)| {
+        (x + ARROW_SIZE * (right * cos + ahead * sin), y - ARROW_SIZE * (ahead * cos - right * sin))
+    })
+}
