@@ -34,6 +34,9 @@ pub struct Args {
     /// Form of the scenario for a telemetry log, if it has forms [default: the first]
     #[arg(long, value_name = "NAME", requires = "scenario")]
     form: Option<String>,
+    /// Difficulty level of the scenario for a telemetry log, if it has levels [default: the standard level]
+    #[arg(long, value_name = "N", requires = "scenario", conflicts_with = "form")]
+    level: Option<u8>,
     /// Aircraft for a telemetry log: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
@@ -92,7 +95,7 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
     if args.flight.is_dir() {
         let stored = StoredSession::read(&args.flight)?;
         let scenario = match &args.scenario {
-            Some(other) => files::scenario(&files::with_form(other, args.form.as_deref()))?.scenario,
+            Some(other) => files::scenario(&files::with_variant(other, args.form.as_deref(), args.level))?.scenario,
             None => stored.scenario.scenario,
         };
         let vehicle = match &args.vehicle {
@@ -107,6 +110,6 @@ fn inputs(args: &Args) -> Result<(Scenario, Vehicle, LogFile), AppError> {
             args.flight.display()
         )));
     };
-    let scenario = files::scenario(&files::with_form(scenario, args.form.as_deref()))?.scenario;
+    let scenario = files::scenario(&files::with_variant(scenario, args.form.as_deref(), args.level))?.scenario;
     Ok((scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
 }

@@ -8,7 +8,7 @@ use crate::io::plan_rules::rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
-use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
+use spandrel_training::plan::{MeasureChange, PlanStep, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionOutcome, excluded_sessions_note};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -17,8 +17,9 @@ use std::path::PathBuf;
 ///
 /// Analyzes the trainee's records (see `spandrel records import`): what was not flown, the weakest tasks and axes,
 /// stand-off and height, speed, crashes, camera direction and lamp, and why pictures missed defects. A mistake that
-/// follows from another one is listed with its cause. The latest session always counts, even if it is incomplete. The
-/// rules come from a file; --rules selects another one.
+/// follows from another one is listed with its cause. The latest session always counts, even if it is incomplete. For a
+/// drill with difficulty levels, the plan recommends the level that follows from the earlier sessions. The rules come from
+/// a file; --rules selects another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -82,10 +83,14 @@ fn plan_text(plan: &TrainingPlan) -> String {
     );
     for (k, step) in plan.steps.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
+        if let Some(level) = &step.level {
+            let _ = writeln!(out, "   {}", level.words);
+        }
         for reason in &step.reasons {
             let label = if reason.consequence_of.is_some() { "Consequence: " } else { "" };
             let _ = writeln!(out, "   {label}{}", reason.words);
         }
+        let _ = writeln!(out, "   To fly it: {}", command(&plan.trainee, step));
     }
     for drill in &plan.drills {
         let _ = writeln!(out, "Drill {}: {}", drill.scenario, drill.words());
@@ -105,6 +110,12 @@ fn plan_text(plan: &TrainingPlan) -> String {
         }
     }
     out
+}
+
+/// Returns the command that flies a step of the plan.
+fn command(trainee: &str, step: &PlanStep) -> String {
+    let level = step.level.as_ref().map(|level| format!(" --level {}", level.level)).unwrap_or_default();
+    format!("spandrel train --trainee {trainee} --scenario {}{level}", step.scenario)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::scenario_library::find;
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::replace::replace;
@@ -26,11 +27,17 @@ fn own_text(state: &ServerState) -> Result<Option<String>, AppError> {
     if path.is_file() { files::read(&path).map(Some) } else { Ok(None) }
 }
 
-/// Returns the rules in use, and a note if the server's own rules can't be used.
+/// Returns the rules in use with the difficulty levels of the drills, which may be uploaded scenarios, and a note if the server's own rules can't be used.
 ///
 /// # Errors
 /// Returns an error if the shipped rules are invalid.
 pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
+    let (rules, note) = valid_rules(state)?;
+    let levels = |name: &str| find(&state.scenarios, name)?.scenario.difficulty;
+    Ok((rules.with_levels(levels), note))
+}
+
+fn valid_rules(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
     let shipped = || plan_rules::rules(None);
     if !own_file(state).is_file() {
         return Ok((shipped()?, None));

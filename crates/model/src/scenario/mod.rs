@@ -3,6 +3,7 @@
 
 pub mod bridges;
 mod certification;
+mod difficulty;
 mod forms;
 mod job;
 mod point;
@@ -14,9 +15,10 @@ mod weather;
 pub use bridges::path::TaskKind;
 pub use bridges::{Bridge, BridgeKind};
 pub use certification::CertificationParams;
+pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
-    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, LightSpec, PlacedDefect, Scenario, ScoringParams,
     SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
