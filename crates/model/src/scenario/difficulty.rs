@@ -311,6 +311,14 @@ fn stated(table: &Item, key: &str, default: i64) -> i64 {
     table.get(key).and_then(Item::as_integer).unwrap_or(default)
 }
 
+/// Adds the standard level to a document that relies on the default.
+pub(super) fn state_level(document: &mut DocumentMut) {
+    let standard = document.get(TABLE).map(|table| stated(table, STANDARD, DEFAULT_LEVELS.1));
+    if let Some(standard) = standard.filter(|_| !document.contains_key(SELECTED)) {
+        document[SELECTED] = value(standard);
+    }
+}
+
 /// Removes the table from a document at the standard level. Its checksum is then that of the file without the table, because
 /// the flight is the same.
 pub(super) fn remove_standard_level(document: &mut DocumentMut) {

@@ -2,8 +2,8 @@
 
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
-    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams, SessionRules,
-    TerrainSource, TerrainSpec, TrafficSpec,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, LightSpec, Scenario, ScoringParams,
+    SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
 };
 use super::point::point;
 use crate::elements::Element;
@@ -46,11 +46,7 @@ pub fn read_with_keys(
 }
 
 /// Parses a scenario file at its selected difficulty level only.
-fn read_level(
-    file: &str,
-    text: &str,
-    siblings: SiblingLoader,
-) -> (Result<Scenario, Problems>, BTreeMap<String, DocumentedKey>) {
+fn read_level(file: &str, text: &str, siblings: SiblingLoader) -> (Result<Scenario, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let scenario = reader.parse().map(|document| {
         let mut root = reader.root(&document);

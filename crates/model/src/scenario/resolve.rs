@@ -11,12 +11,13 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 /// Tolerance for the length of unit vectors that are rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
-/// Inserts a seed and placed defects into the source text. Parsing the result yields the same job with exactly these defects.
+/// Inserts a seed, placed defects and the difficulty level into the source text. Parsing the result yields the same job with exactly these defects.
 /// Invalid TOML is returned unchanged.
 #[must_use]
 pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_string() };
     document["seed"] = value(i64::try_from(seed).unwrap_or(i64::MAX));
+    super::difficulty::state_level(&mut document);
     let mut tables = ArrayOfTables::new();
     for defect in placed {
         tables.push(defect_table(defect));

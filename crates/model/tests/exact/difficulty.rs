@@ -72,6 +72,9 @@ fn exact_each_level_has_its_own_checksum_which_survives_resolving() {
     let source = select_level(DRILL_HOVER, 3);
     let (job, resolved) = (parse(&source).unwrap(), parse(&resolve(&source, 5, &[])).unwrap());
     assert_eq!((resolved.crc, &resolved.difficulty), (job.crc, &job.difficulty));
+    let standard = resolve(DRILL_HOVER, 5, &[]);
+    assert!(standard.contains("\nlevel = 5\n"), "a session states its level: {standard}");
+    assert_eq!(parse(&standard).unwrap().crc, parse(DRILL_HOVER).unwrap().crc);
 }
 
 #[test]
@@ -87,7 +90,10 @@ fn regress_wrong_levels_and_tables_are_reported() {
     let standard = "difficulty.standard = 10: too large (allowed: 1 to levels, which is 9)";
     assert_eq!(problem("standard = 5", "standard = 10"), standard);
     let empty = problem("wind_speed_m_s = [0.0, 8.0]\nthreshold_m = [2.5, 0.8]\n", "");
-    assert!(empty.starts_with("difficulty: nothing changes with the level (allowed: at least one of wind_speed_m_s, "), "{empty}");
+    assert!(
+        empty.starts_with("difficulty: nothing changes with the level (allowed: at least one of wind_speed_m_s, "),
+        "{empty}"
+    );
 }
 
 #[test]
@@ -114,7 +120,8 @@ fn regress_job_must_be_valid_at_both_ends() {
     let text = DRILL_HOVER.replace("[difficulty]\n", "[difficulty]\ntime_max_min = [25.0, 15.0]\n");
     let line = text.lines().position(|line| line == "[difficulty]").unwrap() + 1;
     let found = parse(&text).unwrap_err().to_string();
-    let expected = "invalid at the hardest level: scoring.time_max_min = 15: too small (allowed: more than time_best_min, which is 15)";
+    let expected =
+        "invalid at the hardest level: scoring.time_max_min = 15: too small (allowed: more than time_best_min, which is 15)";
     assert_eq!(found, format!("job.toml:{line}: difficulty = level 9: {expected}"));
     assert!(parse(&text.replace("15.0]", "15.1]")).is_ok());
 }

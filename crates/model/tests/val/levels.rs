@@ -19,7 +19,8 @@ const DETECTION_TOLERANCE: f64 = 0.03;
 /// Returns every shipped job with levels at every level.
 fn levels() -> Vec<(String, Vec<Scenario>)> {
     let texts = toml_files("scenarios").into_iter().map(|path| std::fs::read_to_string(path).unwrap());
-    let at = |text: &str, level: u8| spandrel_model::scenario::read("drill.toml", &select_level(text, level), &|_| Err(String::new()));
+    let at =
+        |text: &str, level: u8| spandrel_model::scenario::read("drill.toml", &select_level(text, level), &|_| Err(String::new()));
     let jobs = texts.filter_map(|text| level_count(&text).map(|levels| (text, levels))).map(|(text, levels)| {
         let all: Vec<Scenario> = (1..=levels).map(|level| at(&text, level).unwrap()).collect();
         (all[0].name.clone(), all)
