@@ -2,7 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::scenario_library::find;
+use super::scenario_library::all;
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::replace::replace;
@@ -33,7 +33,12 @@ fn own_text(state: &ServerState) -> Result<Option<String>, AppError> {
 /// Returns an error if the shipped rules are invalid.
 pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
     let (rules, note) = valid_rules(state)?;
-    let levels = |name: &str| find(&state.scenarios, name)?.scenario.difficulty;
+    // Reading all scenarios takes longer than the plan, and only uploaded ones can add anything.
+    if rules.drills.iter().all(|drill| drill.difficulty.is_some()) {
+        return Ok((rules, note));
+    }
+    let known = all(&state.scenarios);
+    let levels = |name: &str| known.iter().find(|job| job.named.name == name)?.scenario.difficulty.clone();
     Ok((rules.with_levels(levels), note))
 }
 

@@ -46,7 +46,11 @@ fn level_title(scenario: &Scenario) -> Option<String> {
 fn scenarios_by_form(name: &str) -> Vec<String> {
     let text = shipped::SCENARIOS.iter().find(|(shipped, _)| *shipped == name).map_or("", |(_, text)| text);
     let forms = form_names(text);
-    if forms.is_empty() { vec![name.to_owned()] } else { forms.iter().map(|form| files::with_variant(name, Some(form), None)).collect() }
+    if forms.is_empty() {
+        vec![name.to_owned()]
+    } else {
+        forms.iter().map(|form| files::with_variant(name, Some(form), None)).collect()
+    }
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.

@@ -88,8 +88,17 @@ fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRu
         done: met >= rules.mastery_needed,
         last_unix_us: flown.last().map(|record| record.started_unix_us),
         criterion: format!("complete, {}", limits.join(", ")),
-        next_level: rules.staircase.as_ref().and_then(|rule| staircase::advice(records, drill, rule)),
+        next_level: next_level(&flown, drill, rules),
     }
+}
+
+/// Returns the level of the drill's next session; `None` if the drill has no levels or difficulty does not adapt.
+fn next_level(flown: &[&SessionRecord], drill: &DrillCriterion, rules: &PlanRules) -> Option<LevelAdvice> {
+    let (difficulty, rule) = (drill.difficulty.as_ref()?, rules.staircase.as_ref()?);
+    // A session without a level was flown before the drill had levels, with the values of the standard level.
+    let level = |record: &SessionRecord| record.level.map_or(difficulty.standard, |level| level.level);
+    let session = |record: &&SessionRecord| StaircaseSession { level: level(record), met: meets_criterion(record, drill) };
+    Some(staircase::advice(&flown.iter().map(session).collect::<Vec<_>>(), difficulty, rule))
 }
 
 /// Returns whether a session met the criterion; `None` if it says nothing about the standard level, because an easier level was
