@@ -93,7 +93,8 @@ fn plan_text(plan: &TrainingPlan) -> String {
         let _ = writeln!(out, "   To fly it: {}", command(&plan.trainee, step));
     }
     for drill in &plan.drills {
-        let _ = writeln!(out, "Drill {}: {}", drill.scenario, drill.words());
+        let next = drill.next_level.as_ref().map(|next| format!("; next level: {}", next.level)).unwrap_or_default();
+        let _ = writeln!(out, "Drill {}: {}{next}", drill.scenario, drill.words());
     }
     if let Some(note) = &plan.note {
         let _ = writeln!(out, "{note}");
@@ -121,6 +122,22 @@ fn command(trainee: &str, step: &PlanStep) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_training::record::SessionLevel;
+    use spandrel_training::testing::perfect_record;
+
+    #[test]
+    fn exact_plan_prints_the_level_and_the_command_that_flies_it() {
+        let mut record = perfect_record("anna", 1);
+        (record.scenario, record.level) = ("drill-gap".into(), Some(SessionLevel { level: 5, levels: 9, standard: 5 }));
+        let plan = plan_for_policy(vec![record], IncompletePolicy::Exclude, &rules(None).unwrap(), 0).unwrap();
+        let text = plan_text(&plan);
+        let level = "1. drill-gap\n   Level 6 of 9 (wind 1.99 m/s, gap 3.25 m): the last session met the criterion at level 5.\n";
+        assert!(text.contains(level), "{text}");
+        let command = "   To fly it: spandrel train --trainee anna --scenario drill-gap --level 6\nDrill drill-gap: ";
+        assert!(text.contains(command) && text.contains("level 5 or harder); next level: 6\n"), "{text}");
+        let json = json_text(&plan);
+        assert!(json.contains("\"level\": 6") && json.contains("\"next_level\": {"), "{json}");
+    }
 
     #[test]
     fn exact_scenarios_in_the_rules_are_shipped() {

@@ -90,7 +90,7 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
         @if let Some(note) = &plan.note { p.note { (note) } }
         @if !plan.drills.is_empty() {
             h3 { "Drills" }
-            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) "." } } }
+            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) @if let Some(next) = &drill.next_level { "; next level: " (next.level) } "." } } }
         }
         @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
