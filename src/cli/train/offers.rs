@@ -135,6 +135,9 @@ mod tests {
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
         assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
+        let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
+        let offers = flight_options(&folder.path().join("none-yet"), &harder, None);
+        assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
     }
 
     #[test]
