@@ -89,7 +89,7 @@ def assess(
     tlog: str | os.PathLike[str], scenario: str | os.PathLike[str], vehicle: str | os.PathLike[str]
 ) -> Assessment:
     """Scores a telemetry log. `scenario` and `vehicle` must be the ones used in the flight, given by shipped name or file path.
-    If the scenario has forms, the flown form is found in the log; `pilot-study@B` accepts only form B.
+    If the scenario has forms or difficulty levels, the flown one is found in the log; `pilot-study@B` accepts only form B.
 
     Raises AssessmentError if the log contains no session or belongs to a different scenario.
     """

@@ -21,37 +21,34 @@ pub fn vehicles() -> Vec<&'static str> {
     shipped::VEHICLES.iter().map(|(name, _)| *name).collect()
 }
 
-/// Reads a scenario by shipped name or file path. A form of the scenario follows an `@`, as in `pilot-study@B`.
+/// Reads a scenario by shipped name or file path. A form or a difficulty level follows an `@`, as in `pilot-study@B` or
+/// `drill-gap@6`.
 pub fn read_scenario(argument: &str) -> PyResult<Scenario> {
-    let (name, text) = read_scenario_text(argument)?;
-    parse_scenario(name, &text)
+    let (name, variant) = split_variant(argument);
+    let text = read_text(name, "scenario", shipped::SCENARIOS)?;
+    let Some(variant) = variant else { return parse_scenario(name, &text) };
+    let selected = scenario::select_variant(&text, variant).ok_or_else(|| {
+        let names = scenario::variant_names(&text);
+        let allowed = if names.is_empty() { "it has none".to_owned() } else { format!("allowed: {}", names.join(", ")) };
+        JobError::new_err(format!("{name}: no form or difficulty level '{variant}' ({allowed})"))
+    })?;
+    parse_scenario(name, &selected)
 }
 
-/// Reads the form of a scenario that has this CRC; `None` if there is none, or if the argument selects another form.
-pub fn read_form_with_crc(argument: &str, crc: u32) -> PyResult<Option<Scenario>> {
-    if split_form(argument).1.is_some() {
+/// Reads the form or difficulty level of a scenario that has this CRC; `None` if there is none, or if the argument selects
+/// another one.
+pub fn read_variant_with_crc(argument: &str, crc: u32) -> PyResult<Option<Scenario>> {
+    if split_variant(argument).1.is_some() {
         return Ok(None);
     }
     let text = read_text(argument, "scenario", shipped::SCENARIOS)?;
-    scenario::form_with_crc(&text, crc).map(|form| parse_scenario(argument, &form)).transpose()
+    scenario::variant_with_crc(&text, crc).map(|variant| parse_scenario(argument, &variant)).transpose()
 }
 
-fn read_scenario_text(argument: &str) -> PyResult<(&str, String)> {
-    let (name, form) = split_form(argument);
-    let text = read_text(name, "scenario", shipped::SCENARIOS)?;
-    let Some(form) = form else { return Ok((name, text)) };
-    let forms = scenario::form_names(&text);
-    if !forms.iter().any(|one| one == form) {
-        let allowed = if forms.is_empty() { "it has none".to_owned() } else { format!("allowed: {}", forms.join(", ")) };
-        return Err(JobError::new_err(format!("{name}: no form '{form}' ({allowed})")));
-    }
-    Ok((name, scenario::select_form(&text, form)))
-}
-
-/// Splits an argument into the scenario and its form, if it selects one.
-fn split_form(argument: &str) -> (&str, Option<&str>) {
+/// Splits an argument into the scenario and its form or difficulty level, if it selects one.
+fn split_variant(argument: &str) -> (&str, Option<&str>) {
     match argument.rsplit_once('@') {
-        Some((name, form)) if !form.contains(['/', '\\', '.']) => (name, Some(form)),
+        Some((name, variant)) if !variant.contains(['/', '\\', '.']) => (name, Some(variant)),
         Some(_) | None => (argument, None),
     }
 }

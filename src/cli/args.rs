@@ -19,6 +19,10 @@ pub struct JobArgs {
     /// Form of the scenario, if it has forms: one of several sets of defects (`spandrel check` lists them) [default: the first]
     #[arg(long, value_name = "NAME")]
     pub form: Option<String>,
+    /// Difficulty level of the scenario, if it has levels: 1 is the easiest (`spandrel check` lists them) [default: the standard
+    /// level]
+    #[arg(long, value_name = "N", conflicts_with = "form")]
+    pub level: Option<u8>,
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
@@ -29,17 +33,17 @@ pub struct JobArgs {
 }
 
 impl JobArgs {
-    /// Loads the scenario with the requested form.
+    /// Loads the scenario with the requested form or level.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read or is invalid, or if it does not have the form.
+    /// Returns an error if the file cannot be read or is invalid, or if it does not have the form or the level.
     pub fn load_scenario(&self) -> Result<ScenarioFile, AppError> {
         files::scenario(&self.scenario_argument())
     }
 
-    /// Returns the scenario with the requested form, as one argument.
+    /// Returns the scenario with the requested form or level, as one argument.
     fn scenario_argument(&self) -> String {
-        files::with_form(&self.scenario, self.form.as_deref())
+        files::with_variant(&self.scenario, self.form.as_deref(), self.level)
     }
 
     /// Returns the requested seed, or else the scenario's seed, or else a new one.

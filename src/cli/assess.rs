@@ -34,6 +34,9 @@ pub struct Args {
     /// Form of the scenario for a telemetry log, if it has forms [default: the one in the log]
     #[arg(long, value_name = "NAME", requires = "scenario")]
     form: Option<String>,
+    /// Difficulty level of the scenario for a telemetry log, if it has levels [default: the one in the log]
+    #[arg(long, value_name = "N", requires = "scenario", conflicts_with = "form")]
+    level: Option<u8>,
     /// Aircraft for a telemetry log: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<String>,
@@ -53,9 +56,10 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let (mut scenario, vehicle, log) = inputs(args)?;
     scenario.scenario.seed = args.seed.or(scenario.scenario.seed);
-    let scored = match args.form {
-        Some(_) => assess_log(&log, &scenario.scenario, &vehicle, build_site).map(|assessed| (scenario, assessed)),
-        None => scoring::assess_any_form(&log, scenario, &vehicle),
+    let selected = args.form.is_some() || args.level.is_some();
+    let scored = match selected {
+        true => assess_log(&log, &scenario.scenario, &vehicle, build_site).map(|assessed| (scenario, assessed)),
+        false => scoring::assess_any_variant(&log, scenario, &vehicle),
     };
     let (scenario, assessed_session) = match scored {
         Ok(scored) => scored,
@@ -96,7 +100,7 @@ fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile), AppError> {
     if args.flight.is_dir() {
         let stored = StoredSession::read(&args.flight)?;
         let scenario = match &args.scenario {
-            Some(other) => files::scenario(&files::with_form(other, args.form.as_deref()))?,
+            Some(other) => files::scenario(&files::with_variant(other, args.form.as_deref(), args.level))?,
             None => stored.scenario,
         };
         let vehicle = match &args.vehicle {
@@ -111,6 +115,6 @@ fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile), AppError> {
             args.flight.display()
         )));
     };
-    let scenario = files::scenario(&files::with_form(scenario, args.form.as_deref()))?;
+    let scenario = files::scenario(&files::with_variant(scenario, args.form.as_deref(), args.level))?;
     Ok((scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
 }

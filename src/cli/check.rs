@@ -25,7 +25,8 @@ const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 /// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
 /// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
 /// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It warns if it cannot place as many defects as the
-/// scenario requests. For each form of a scenario, it prints the predicted detection of the defects.
+/// scenario requests. For each form of a scenario, it prints the predicted detection of the defects; for each difficulty
+/// level, it prints what the level changes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -41,6 +42,9 @@ pub struct Args {
     /// Form to check; the files must have it [default: all forms]
     #[arg(long, value_name = "NAME")]
     form: Option<String>,
+    /// Difficulty level to check; the files must have it [default: the standard, the easiest and the hardest level]
+    #[arg(long, value_name = "N", conflicts_with = "form")]
+    level: Option<u8>,
     /// Aircraft for the clearance check: a file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
@@ -65,10 +69,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     let mut findings = Findings::default();
     for file in &args.files {
-        match files::any_source(&files::with_form(file, args.form.as_deref())) {
+        match files::any_source(&files::with_variant(file, args.form.as_deref(), args.level)) {
             Ok(source) => {
                 check_scenario(&source, &aircraft, &mut findings);
                 check_forms(&source, args.form.as_deref(), &aircraft, &mut findings);
+                check_levels(&source, args.level, &aircraft, &mut findings);
             }
             Err(error) => findings.problems.push(unreadable(file, &error)),
         }
@@ -138,6 +143,25 @@ fn check_forms(source: &SourceFile, requested: Option<&str>, aircraft: &Vehicle,
     }
 }
 
+/// Describes a scenario's difficulty levels: the requested one, or all. Checks the paths and the defects at the easiest and at the
+/// hardest level, too, unless a level is requested. Files with problems have already been reported.
+fn check_levels(source: &SourceFile, requested: Option<u8>, aircraft: &Vehicle, findings: &mut Findings) {
+    let read = |text: &str| scenario::read(&source.file, text, &|name| source.read_referenced_file(name)).ok();
+    let Some(difficulty) = read(&source.text).and_then(|job| job.difficulty) else { return };
+    let levels = difficulty.levels();
+    for level in (1..=levels).filter(|level| requested.is_none_or(|one| one == *level)) {
+        let standard = if level == difficulty.standard { ", the standard level" } else { "" };
+        findings.notes.push(format!("{}: level {level} of {levels}{standard}: {}", source.file, difficulty.settings_at(level)));
+    }
+    for level in [1, levels].into_iter().filter(|level| requested.is_none() && *level != difficulty.level) {
+        let Some(job) = read(&scenario::select_level(&source.text, level)) else { continue };
+        let at_level = |words: &str| format!("at level {level}: {words}");
+        let problems = clearance_problems(source, &job, aircraft).into_iter();
+        findings.problems.extend(problems.map(|problem| Problem { message: at_level(&problem.message), ..problem }));
+        findings.warnings.extend(missing_defects_warning(source, &job).map(|warning| at_level(&warning)));
+    }
+}
+
 fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findings) {
     if is_vehicle_file(&source.text) {
         match vehicle::read(&source.file, &source.text) {
@@ -182,8 +206,9 @@ fn certification_notes(source: &SourceFile, scenario: &Scenario, aircraft: &Vehi
 /// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const SCENARIO_KEYS: [&str; 15] = [
+const SCENARIO_KEYS: [&str; 16] = [
     "title",
+    "difficulty",
     "forms",
     "seed",
     "origin",
@@ -300,6 +325,28 @@ mod tests {
             check_scenario(&files::any_source(name).unwrap(), &aircraft, &mut findings);
             assert_eq!(findings.problems, [], "{name}");
         }
+    }
+
+    #[test]
+    fn exact_levels_are_described_and_checked_at_both_ends() {
+        let aircraft = files::vehicle("phantom2").unwrap().vehicle;
+        let check = |source: &SourceFile, level| {
+            let mut findings = Findings::default();
+            check_levels(source, level, &aircraft, &mut findings);
+            findings
+        };
+        let source = files::any_source("drill-gap").unwrap();
+        let found = check(&source, None);
+        assert_eq!((found.problems, found.warnings, found.notes.len()), (vec![], vec![], 9));
+        assert_eq!(found.notes[8], "drill-gap.toml: level 9 of 9: wind 5 m/s, gap 2.8 m");
+        assert!(found.notes[4].contains("level 5 of 9, the standard level: wind 0.98 m/s, gap 3.4 m"), "{}", found.notes[4]);
+        assert_eq!(check(&source, Some(9)).notes, found.notes[8..]);
+        let mut wide = aircraft.clone();
+        wide.hull.tip_to_tip_m = 2.0;
+        let mut findings = Findings::default();
+        check_levels(&source, None, &wide, &mut findings);
+        assert!(findings.problems[0].message.starts_with("at level 9: the path of task 1 "), "{:?}", findings.problems);
+        assert!(check(&files::any_source("two-bridges").unwrap(), None).notes.is_empty());
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::io::plan_rules::rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
-use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
+use spandrel_training::plan::{MeasureChange, PlanStep, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionOutcome, excluded_sessions_note};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -17,8 +17,9 @@ use std::path::PathBuf;
 ///
 /// Analyzes the trainee's records (see `spandrel records import`): what was not flown, the weakest tasks and axes,
 /// stand-off and height, speed, crashes, camera direction and lamp, and why pictures missed defects. A mistake that
-/// follows from another one is listed with its cause. The latest session always counts, even if it is incomplete. The
-/// rules come from a file; --rules selects another one.
+/// follows from another one is listed with its cause. The latest session always counts, even if it is incomplete. For a
+/// drill with difficulty levels, the plan recommends the level that follows from the earlier sessions. The rules come from
+/// a file; --rules selects another one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -82,13 +83,18 @@ fn plan_text(plan: &TrainingPlan) -> String {
     );
     for (k, step) in plan.steps.iter().enumerate() {
         let _ = writeln!(out, "{}. {}", k + 1, step.scenario);
+        if let Some(level) = &step.level {
+            let _ = writeln!(out, "   {}", level.words);
+        }
         for reason in &step.reasons {
             let label = if reason.consequence_of.is_some() { "Consequence: " } else { "" };
             let _ = writeln!(out, "   {label}{}", reason.words);
         }
+        let _ = writeln!(out, "   To fly it: {}", command(&plan.trainee, step));
     }
     for drill in &plan.drills {
-        let _ = writeln!(out, "Drill {}: {}", drill.scenario, drill.words());
+        let next = drill.next_level.as_ref().map(|next| format!("; next level: {}", next.level)).unwrap_or_default();
+        let _ = writeln!(out, "Drill {}: {}{next}", drill.scenario, drill.words());
     }
     if let Some(note) = &plan.note {
         let _ = writeln!(out, "{note}");
@@ -107,9 +113,31 @@ fn plan_text(plan: &TrainingPlan) -> String {
     out
 }
 
+/// Returns the command that flies a step of the plan.
+fn command(trainee: &str, step: &PlanStep) -> String {
+    let level = step.level.as_ref().map(|level| format!(" --level {}", level.level)).unwrap_or_default();
+    format!("spandrel train --trainee {trainee} --scenario {}{level}", step.scenario)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_training::record::SessionLevel;
+    use spandrel_training::testing::perfect_record;
+
+    #[test]
+    fn exact_plan_prints_the_level_and_the_command_that_flies_it() {
+        let mut record = perfect_record("anna", 1);
+        (record.scenario, record.level) = ("drill-gap".into(), Some(SessionLevel { level: 5, levels: 9, standard: 5 }));
+        let plan = plan_for_policy(vec![record], IncompletePolicy::Exclude, &rules(None).unwrap(), 0).unwrap();
+        let text = plan_text(&plan);
+        let level = "1. drill-gap\n   Level 6 of 9 (wind 1.99 m/s, gap 3.25 m): the last session met the criterion at level 5.\n";
+        assert!(text.contains(level), "{text}");
+        let command = "   To fly it: spandrel train --trainee anna --scenario drill-gap --level 6\nDrill drill-gap: ";
+        assert!(text.contains(command) && text.contains("level 5 or harder); next level: 6\n"), "{text}");
+        let json = json_text(&plan);
+        assert!(json.contains("\"level\": 6") && json.contains("\"next_level\": {"), "{json}");
+    }
 
     #[test]
     fn exact_scenarios_in_the_rules_are_shipped() {

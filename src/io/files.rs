@@ -21,10 +21,10 @@ pub struct ScenarioFile {
 }
 
 impl ScenarioFile {
-    /// Returns the form of this scenario with this CRC; `None` if it has no such form.
+    /// Returns the form or difficulty level of this scenario with this CRC; `None` if it has none.
     #[must_use]
-    pub fn form_with_crc(&self, crc: u32) -> Option<Self> {
-        let text = scenario::form_with_crc(&self.text, crc)?;
+    pub fn variant_with_crc(&self, crc: u32) -> Option<Self> {
+        let text = scenario::variant_with_crc(&self.text, crc)?;
         let referenced = |name: &str| self.referenced_files.get(name).cloned().ok_or_else(|| format!("{name}: not loaded"));
         let scenario = scenario::read(&self.scenario.name, &text, &referenced).ok()?;
         Some(Self { text, referenced_files: self.referenced_files.clone(), scenario })
@@ -112,28 +112,57 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     Ok(ScenarioFile { text: source.text, referenced_files: seen.into_inner(), scenario })
 }
 
-/// Separates a scenario from one of its forms in an argument, as in `pilot-study@B`.
+/// Separates a scenario from one of its forms or difficulty levels in an argument, as in `pilot-study@B` or `drill-gap@6`.
 pub const FORM_SEPARATOR: char = '@';
 
-/// Returns the argument for a form of a scenario.
-pub fn with_form(scenario: &str, form: Option<&str>) -> String {
-    form.map_or_else(|| scenario.to_owned(), |form| format!("{scenario}{FORM_SEPARATOR}{form}"))
+/// Returns the argument for a form or a difficulty level of a scenario. A scenario has at most one of the two.
+pub fn with_variant(scenario: &str, form: Option<&str>, level: Option<u8>) -> String {
+    let variant = form.map(str::to_owned).or_else(|| level.map(|level| level.to_string()));
+    variant.map_or_else(|| scenario.to_owned(), |variant| format!("{scenario}{FORM_SEPARATOR}{variant}"))
 }
 
-/// Finds the file for an argument: a path, or a name in `library`, and the form after an `@`.
+/// Finds the file for an argument: a path, or a name in `library`, and the form or the difficulty level after an `@`.
 ///
 /// # Errors
-/// Returns an error if there is no such file, name or form.
+/// Returns an error if there is no such file, name, form or level.
 pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {
     match argument.rsplit_once(FORM_SEPARATOR) {
-        Some((scenario, form)) if !form.contains(['/', '\\', '.']) && !Path::new(argument).is_file() => {
+        Some((scenario, variant)) if !variant.contains(['/', '\\', '.']) && !Path::new(argument).is_file() => {
             let mut source = find_file(scenario, what, library)?;
-            check_form(&source, form)?;
-            source.text = scenario::select_form(&source.text, form);
+            source.text = select_variant(&source, variant)?;
             Ok(source)
         }
         _ => find_file(argument, what, library),
     }
+}
+
+/// Selects a form or a difficulty level of a scenario.
+fn select_variant(source: &SourceFile, variant: &str) -> Result<String, AppError> {
+    if scenario::form_names(&source.text).is_empty() {
+        let levels = scenario::level_count(&source.text);
+        if levels.is_some() || variant.parse::<u8>().is_ok() {
+            return select_level(source, variant, levels);
+        }
+    }
+    check_form(source, variant)?;
+    Ok(scenario::select_form(&source.text, variant))
+}
+
+/// Selects a difficulty level of a scenario with `levels` levels.
+fn select_level(source: &SourceFile, level: &str, levels: Option<u8>) -> Result<String, AppError> {
+    let file = &source.file;
+    let Some(levels) = levels else {
+        let have_levels = shipped::SCENARIOS.iter().filter(|(_, text)| scenario::level_count(text).is_some());
+        let have_levels: Vec<&str> = have_levels.map(|(name, _)| *name).collect();
+        return Err(AppError::invalid(format!(
+            "{file} has no difficulty levels, so --level {level} does not apply to it (shipped scenarios with levels: {})",
+            have_levels.join(", ")
+        )));
+    };
+    let selected = level.parse().ok().filter(|number| (1..=levels).contains(number));
+    let selected = selected
+        .ok_or_else(|| AppError::invalid(format!("{file} has no difficulty level '{level}' (allowed: 1 to {levels})")))?;
+    Ok(scenario::select_level(&source.text, selected))
 }
 
 /// Checks that a scenario has a form.
@@ -237,7 +266,7 @@ mod tests {
         let path = folder.path().join("copy@work.toml");
         std::fs::write(&path, shipped::PILOT_STUDY).unwrap();
         let path = path.display().to_string();
-        let load = |argument: &str, form| scenario(&with_form(argument, form)).unwrap().scenario;
+        let load = |argument: &str, form| scenario(&with_variant(argument, form, None)).unwrap().scenario;
         for argument in ["pilot-study", &path] {
             let selected = |form| load(argument, form).form.unwrap().name;
             assert_eq!((selected(None), selected(Some("B"))), ("A".to_owned(), "B".to_owned()));
@@ -252,6 +281,18 @@ mod tests {
         assert_eq!(message("pilot-study@X"), "pilot-study.toml has no form 'X' (allowed: A, B, C, H)");
         let none = "two-bridges.toml has no forms, so --form A does not apply to it (shipped scenarios with forms: pilot-study)";
         assert_eq!(message("two-bridges@A"), none);
+    }
+
+    #[test]
+    fn exact_level_is_selected_and_unknown_ones_are_reported() {
+        let message = |argument: &str| scenario(argument).map(|_| ()).unwrap_err().to_string();
+        let selected = |level| scenario(&with_variant("drill-hover", None, level)).unwrap().scenario.difficulty.unwrap().level;
+        assert_eq!((selected(None), selected(Some(7))), (5, 7));
+        assert_eq!(message("drill-hover@10"), "drill-hover.toml has no difficulty level '10' (allowed: 1 to 9)");
+        assert_eq!(message("drill-hover@A"), "drill-hover.toml has no difficulty level 'A' (allowed: 1 to 9)");
+        let none = message("two-bridges@3");
+        assert!(none.starts_with("two-bridges.toml has no difficulty levels, so --level 3 does not apply to it"), "{none}");
+        assert!(message("pilot-study@3").contains("has no form '3'"));
     }
 
     #[test]

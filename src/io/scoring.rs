@@ -18,11 +18,11 @@ pub fn grade(log: &(impl TelemetryLog + ?Sized), scenario: &Scenario, vehicle: &
     assess_log(log, scenario, vehicle, build_site).map_err(|error| scoring_error(&error))
 }
 
-/// Scores a log of a flight in this scenario, or in another form of it. Also returns the form that was flown.
+/// Scores a log of a flight in this scenario, or in another form or difficulty level of it. Also returns the one that was flown.
 ///
 /// # Errors
 /// Returns an error if there is nothing to score, or if the flight was flown in another scenario.
-pub fn assess_any_form(
+pub fn assess_any_variant(
     log: &(impl TelemetryLog + ?Sized),
     scenario: ScenarioFile,
     vehicle: &Vehicle,
@@ -30,7 +30,7 @@ pub fn assess_any_form(
     match assess_log(log, &scenario.scenario, vehicle, build_site) {
         Ok(assessed_session) => Ok((scenario, assessed_session)),
         Err(AssessError::OtherScenario { name, received, expected }) => {
-            let Some(mut flown) = scenario.form_with_crc(received) else {
+            let Some(mut flown) = scenario.variant_with_crc(received) else {
                 return Err(AssessError::OtherScenario { name, received, expected });
             };
             flown.scenario.seed = scenario.scenario.seed;

@@ -67,8 +67,8 @@ impl FigureCache {
 }
 
 fn compute_figures(records: &[SessionRecord], selection: &Selection) -> CohortFigures {
-    let flown: BTreeSet<&str> = records.iter().map(|record| record.scenario.as_str()).collect();
-    CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().map(str::to_owned).collect() }
+    let flown: BTreeSet<String> = records.iter().map(SessionRecord::scenario_with_level).collect();
+    CohortFigures { cohort: cohort(records, selection), flown_scenarios: flown.into_iter().collect() }
 }
 
 /// Values cached by key, for one version of their source data.

@@ -2,6 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::scenario_library::all;
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::replace::replace;
@@ -26,11 +27,22 @@ fn own_text(state: &ServerState) -> Result<Option<String>, AppError> {
     if path.is_file() { files::read(&path).map(Some) } else { Ok(None) }
 }
 
-/// Returns the rules in use, and a note if the server's own rules can't be used.
+/// Returns the rules in use with the difficulty levels of the drills, which may be uploaded scenarios, and a note if the server's own rules can't be used.
 ///
 /// # Errors
 /// Returns an error if the shipped rules are invalid.
 pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
+    let (rules, note) = valid_rules(state)?;
+    // Reading all scenarios takes longer than the plan, and only uploaded ones can add anything.
+    if rules.drills.iter().all(|drill| drill.difficulty.is_some()) {
+        return Ok((rules, note));
+    }
+    let known = all(&state.scenarios);
+    let levels = |name: &str| known.iter().find(|job| job.named.name == name)?.scenario.difficulty.clone();
+    Ok((rules.with_levels(levels), note))
+}
+
+fn valid_rules(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
     let shipped = || plan_rules::rules(None);
     if !own_file(state).is_file() {
         return Ok((shipped()?, None));

@@ -19,10 +19,10 @@ pub struct StoredScenario {
 }
 
 impl StoredScenario {
-    /// Returns the form of this scenario with this CRC; `None` if it has no such form.
+    /// Returns the form or difficulty level of this scenario with this CRC; `None` if it has none.
     #[must_use]
-    pub fn form_with_crc(&self, crc: u32) -> Option<Scenario> {
-        read(&self.named.name, &scenario::form_with_crc(&self.text, crc)?).ok()
+    pub fn variant_with_crc(&self, crc: u32) -> Option<Scenario> {
+        read(&self.named.name, &scenario::variant_with_crc(&self.text, crc)?).ok()
     }
 }
 

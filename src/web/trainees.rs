@@ -63,12 +63,12 @@ fn reliability_of_repeated_jobs(
     records: &[SessionRecord],
     incomplete: IncompletePolicy,
 ) -> Result<JobReliability, WebError> {
-    let mut flown: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut flown: BTreeMap<String, usize> = BTreeMap::new();
     for record in records {
-        *flown.entry(&record.scenario).or_default() += 1;
+        *flown.entry(record.scenario_with_level()).or_default() += 1;
     }
     let repeated = flown.into_iter().filter(|(_, times)| *times > 1);
-    let known = repeated.map(|(job, _)| Ok((job.to_owned(), state.figures.reliability(job, incomplete)?)));
+    let known = repeated.map(|(job, _)| Ok((job.clone(), state.figures.reliability(&job, incomplete)?)));
     known.collect()
 }
 

@@ -77,7 +77,7 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
     // A recording that cannot be scored counts as an invalid file, no matter which error the scorer reports.
     let unfit =
         |error: AssessError| WebError::BadRequest(format!("cannot import this recording: {}", scoring::scoring_error(&error)));
-    let (scenario, assessed_session) = scoring::assess_any_form(log, scenario, &vehicle.vehicle).map_err(unfit)?;
+    let (scenario, assessed_session) = scoring::assess_any_variant(log, scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
         let words =

@@ -85,6 +85,29 @@ pub struct Reader<'a> {
     pub problems: Vec<Problem>,
     /// Keys that were read, by path; keys of repeated tables are listed once.
     pub documented_keys: BTreeMap<String, DocumentedKey>,
+    /// Adjustments by full key.
+    adjustments: BTreeMap<&'static str, Adjustment>,
+}
+
+/// A change to a number while it is read.
+pub struct Adjustment {
+    change: Box<dyn Fn(f64) -> f64>,
+    /// Numbers before the change, in file order.
+    own: Vec<f64>,
+}
+
+impl Adjustment {
+    /// Creates an adjustment. `change` returns the number to use instead of the one in the file, within the key's range.
+    #[must_use]
+    pub fn new(change: impl Fn(f64) -> f64 + 'static) -> Self {
+        Self { change: Box::new(change), own: Vec::new() }
+    }
+}
+
+impl fmt::Debug for Adjustment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Adjustment").field("own", &self.own).finish_non_exhaustive()
+    }
 }
 
 /// A table in the file, with the keys that were read from it so far.
@@ -99,7 +122,7 @@ impl<'a> Reader<'a> {
     /// Creates a reader for one file.
     #[must_use]
     pub fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, problems: Vec::new(), documented_keys: BTreeMap::new() }
+        Self { file, text, problems: Vec::new(), documented_keys: BTreeMap::new(), adjustments: BTreeMap::new() }
     }
 
     /// Parses the text; returns `None` and records a problem if there is a syntax error.
@@ -201,8 +224,36 @@ impl<'a> Reader<'a> {
         self.documented_keys.entry(path).or_insert_with(|| DocumentedKey { allowed: allowed.into(), default });
     }
 
+    /// Adjusts a number that is read later, or several in repeated tables.
+    pub fn adjust(&mut self, key: &'static str, adjustment: Adjustment) {
+        self.adjustments.insert(key, adjustment);
+    }
+
+    /// Ends the adjustment of a key. Returns the numbers that were adjusted, as the file states them or by default.
+    pub fn take_adjusted(&mut self, key: &str) -> Vec<f64> {
+        self.adjustments.remove(key).map_or_else(Vec::new, |adjustment| adjustment.own)
+    }
+
+    fn adjusted(&mut self, path: &str, own: f64) -> f64 {
+        self.adjustments.get_mut(path).map_or(own, |adjustment| {
+            adjustment.own.push(own);
+            (adjustment.change)(own)
+        })
+    }
+
     /// Reads a number within [min, max]; required if there is no default.
-    pub fn number(&mut self, section: &mut Section, key: &'static str, (min, max): (f64, f64), default: Option<f64>) -> f64 {
+    pub fn number(&mut self, section: &mut Section, key: &'static str, range: (f64, f64), default: Option<f64>) -> f64 {
+        let own = self.unadjusted_number(section, key, range, default);
+        self.adjusted(&section.full_key(key), own)
+    }
+
+    fn unadjusted_number(
+        &mut self,
+        section: &mut Section,
+        key: &'static str,
+        (min, max): (f64, f64),
+        default: Option<f64>,
+    ) -> f64 {
         let path = section.full_key(key);
         let allowed = format!("{min} to {max}");
         self.record_key(&path, &allowed, default.map_or("required".into(), |d| d.to_string()));
@@ -231,8 +282,8 @@ impl<'a> Reader<'a> {
         let present = section.has(key);
         let path = section.full_key(key);
         self.record_key(&path, &format!("{} to {}", range.0, range.1), "none".into());
-        let value = self.number(section, key, range, Some(range.0));
-        present.then_some(value)
+        let own = self.unadjusted_number(section, key, range, Some(range.0));
+        present.then(|| self.adjusted(&path, own))
     }
 
     /// Reads an integer within [min, max]; required if there is no default.

@@ -87,6 +87,9 @@ pub struct Assessment {
     /// Form of the scenario: the set of defects; `None` if the scenario has no forms.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<String>,
+    /// Difficulty level of the scenario; `None` if the scenario has no levels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<u8>,
     /// The four scores and their sum.
     pub scores: Scores,
     /// Job completion.
@@ -274,6 +277,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     let assessment = Assessment {
         profile: "paper",
         form: scenario.form.as_ref().map(|form| form.name.clone()),
+        level: scenario.difficulty.as_ref().map(|difficulty| difficulty.level),
         scores: scores(scenario, &shares, &end, &crashes, counts),
         completion,
         tasks: tasks(scenario, &on_path, &shares, (&states, &covered)),

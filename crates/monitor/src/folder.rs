@@ -41,6 +41,9 @@ pub struct SessionInfo {
     /// Selected form of the scenario; `None` if the scenario has no forms.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub form: Option<String>,
+    /// Selected difficulty level of the scenario; `None` if the scenario has no levels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<u8>,
     /// The scenario's `scn_crc`, hexadecimal.
     pub scenario_crc: String,
     /// SHA-256 of `scenario.toml`, hexadecimal.

@@ -4,6 +4,7 @@
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
+use spandrel_model::scenario::{read, select_level};
 use spandrel_model::time::SimTime;
 use spandrel_sitl::sim::{Sim, SimEvent};
 use spandrel_testkit::station::{GCS, Station};
@@ -124,4 +125,19 @@ fn flight_same_inputs_give_identical_results_despite_wind_collision_and_respawn(
     let mut other = Station::airborne("two-bridges", SEED + 1).vehicle.sim;
     fly(&mut other, &inputs, end, |_, _| {});
     assert_ne!(hex(&other), hex(&first), "another seed must give a different result");
+}
+
+/// At its standard level, a drill with difficulty levels flies like the same file without them. Other levels differ.
+#[test]
+fn flight_standard_level_does_not_change_the_flight() {
+    let levels = spandrel_model::shipped::DRILL_HOVER;
+    let digest = |text: &str| {
+        let drill = read("drill-hover.toml", text, &|file| Err(file.to_owned())).unwrap();
+        let mut station = Station::of(drill, "phantom2", SEED);
+        station.climb_manually();
+        hex(&station.vehicle.sim)
+    };
+    let (plain, _) = levels.split_once("# [easiest, hardest]").unwrap();
+    assert_eq!([digest(levels), digest(&select_level(levels, 5))], [digest(plain), digest(plain)]);
+    assert_ne!(digest(&select_level(levels, 6)), digest(plain));
 }

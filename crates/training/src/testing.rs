@@ -18,6 +18,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
         spandrel_version: "0.1.0".into(),
         scorer_version: 1,
         scenario: "two-bridges".into(),
+        level: None,
         scenario_sha256: "s".into(),
         vehicle: "phantom2".into(),
         vehicle_sha256: "v".into(),

@@ -2,7 +2,7 @@
 //! `SPANDREL_REFERENCE=write` to regenerate the page.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-use spandrel_training::plan::{DEFAULT_RULES, MEASURES, MeasureUnit, PlanRule, RuleMeasure, read_rules};
+use spandrel_training::plan::{DEFAULT_RULES, MEASURES, MeasureUnit, PlanRule, PlanRules, RuleMeasure, read_rules};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -59,6 +59,35 @@ fn page() -> String {
         let row = [&rule.name, &format!("`{}`", keyword(rule)), &scope(rule), &limit(rule), &rule.weight.to_string()];
         let row: Vec<&str> = row.into_iter().map(String::as_str).collect();
         let _ = writeln!(out, "| {} | `{}` | {explains} |", row.join(" | "), rule.scenario);
+    }
+    out + &drills(&rules.with_shipped_levels())
+}
+
+/// Returns the section on the drills: their criteria and difficulty levels.
+fn drills(rules: &PlanRules) -> String {
+    let rule = rules.staircase.unwrap();
+    let (needed, of, up, down) = (rules.mastery_needed, rules.mastery_of, rule.up, rule.down);
+    let mut out = format!(
+        "
+## Drills
+
+A drill is done after {needed} of its latest {of} sessions that count were complete and within these limits. Sessions that met them at an easier level than
+the standard one, or did not meet them at a harder one, don't count.
+
+After a session within the limits, the next one is {up} level harder; after any other, {down} levels easier. This weighted up-down staircase (Kaernbach 1991)
+settles where {down} of {} sessions are within the limits. [Difficulty of the drills](../instructor/records.md#difficulty-of-the-drills) describes the
+rule.
+
+| drill | limits | easiest level | standard level | hardest level |
+|---|---|---|---|---|
+",
+        up + down
+    );
+    for drill in &rules.drills {
+        let limits: Vec<String> = drill.limits.iter().map(|one| format!("`{}` {}", keyword(one), limit(one))).collect();
+        let levels = drill.difficulty.as_ref().unwrap();
+        let at = [1, levels.standard, levels.levels()].map(|level| format!("{level}: {}", levels.settings_at(level)));
+        let _ = writeln!(out, "| `{}` | {} | {} |", drill.scenario, limits.join(", "), at.join(" | "));
     }
     out
 }

@@ -1,11 +1,11 @@
 //! Tests of session records: the recorded causes must match each test flight's known faults.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{Difficulty, Scenario};
 use spandrel_monitor::assessment::AssessedSession;
 use spandrel_monitor::measures::attention::SiteSurvey;
 use spandrel_testkit::job::*;
-use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
+use spandrel_training::record::{RecordSource, SessionLevel, SessionRecord, SourceHashes, record};
 
 /// Tolerance for fault durations, s: a fault can start and end anywhere within a frame (40 ms at 25 Hz).
 const DURATION_TOLERANCE_S: f64 = 0.081;
@@ -128,4 +128,17 @@ fn exact_sideways_deviation_is_not_a_height_deviation() {
     assert!(task.off_height_m.unwrap() < POSITION_TOLERANCE_M && task.off_sideways_m.unwrap() > 4.0);
     // 3 to 5 m at 2 m/s, 3 s hovering, 5 to 8 m at 4 m/s, 8 to 3 m at 4 m/s.
     assert!((task.off_path_s - (1.0 + 3.0 + 0.75 + 1.25)).abs() < 2.0 * DURATION_TOLERANCE_S, "{}", task.off_path_s);
+}
+
+#[test]
+fn exact_record_states_the_level_that_was_flown() {
+    let mut job = two_tasks();
+    let record = |job: &Scenario| session_record(&score_tape(&faulty_flight(), job), job);
+    assert_eq!((record(&job).level, record(&job).scenario_with_level()), (None, job.name.clone()));
+    job.difficulty = Some(Difficulty { level: 2, standard: 1, settings: vec!["wind 1 m/s".into(), "wind 8 m/s".into()] });
+    assert_eq!(record(&job).level, Some(SessionLevel { level: 2, levels: 2, standard: 1 }));
+    assert_eq!(record(&job).scenario_with_level(), format!("{}@2", job.name));
+    let kept = serde_json::to_value(record(&job)).unwrap();
+    assert_eq!(kept["level"], serde_json::json!({ "level": 2, "levels": 2, "standard": 1 }));
+    assert_eq!(serde_json::from_value::<SessionRecord>(kept).unwrap(), record(&job));
 }

@@ -54,6 +54,9 @@ pub struct Args {
     /// Forms of every scenario, which must have them: sets of defects (`spandrel check` lists them) [default: the first]
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     form: Vec<String>,
+    /// Difficulty levels of every scenario, which must have them (`spandrel check` lists them) [default: the standard level]
+    #[arg(long, value_name = "N,...", value_delimiter = ',', conflicts_with = "form")]
+    level: Vec<u8>,
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     vehicle: String,
@@ -99,7 +102,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let files = args.pilot.iter().map(|file| PilotSpec::from_file(file)).collect::<Result<Vec<_>, _>>()?;
     let pilots = [args.skill.clone(), files].concat();
-    let plan = StudyPlan::read(&with_forms(&args.scenario, &args.form), &args.vehicle, &pilots, args.seeds)?;
+    let plan = StudyPlan::read(&with_variants(&args.scenario, &args.form, &args.level), &args.vehicle, &pilots, args.seeds)?;
     if let Some(number) = args.flight {
         return fly_one(&plan, number.get());
     }
@@ -116,12 +119,15 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     write_results(args, &rows)
 }
 
-/// Returns every scenario with every form, as arguments.
-fn with_forms(scenarios: &[String], forms: &[String]) -> Vec<String> {
-    if forms.is_empty() {
-        return scenarios.to_vec();
+/// Returns every scenario with every form or level, as arguments.
+fn with_variants(scenarios: &[String], forms: &[String], levels: &[u8]) -> Vec<String> {
+    let forms = forms.iter().map(|form| (Some(form.as_str()), None));
+    let mut variants: Vec<(Option<&str>, Option<u8>)> = forms.chain(levels.iter().map(|level| (None, Some(*level)))).collect();
+    if variants.is_empty() {
+        variants.push((None, None));
     }
-    scenarios.iter().flat_map(|scenario| forms.iter().map(move |form| files::with_form(scenario, Some(form)))).collect()
+    let with = |scenario: &String| variants.iter().map(|(form, level)| files::with_variant(scenario, *form, *level)).collect();
+    scenarios.iter().flat_map(|scenario: &String| -> Vec<String> { with(scenario) }).collect()
 }
 
 /// Flies one flight and prints its row.

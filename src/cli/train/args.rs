@@ -39,6 +39,10 @@ pub struct Args {
     /// Form of the scenario, if it has forms: one of several sets of defects (`spandrel check` lists them) [default: the first]
     #[arg(long, value_name = "NAME", requires = "scenario")]
     pub form: Option<String>,
+    /// Difficulty level of the scenario, if it has levels: 1 is the easiest (`spandrel check` lists them) [default: the standard
+    /// level]
+    #[arg(long, value_name = "N", requires = "scenario", conflicts_with = "form")]
+    pub level: Option<u8>,
     /// Aircraft file, or the name of a shipped aircraft
     #[arg(long, value_name = "FILE|NAME", default_value = "phantom2")]
     pub vehicle: String,
@@ -99,14 +103,14 @@ pub struct Args {
 }
 
 impl Args {
-    /// Returns the requested scenario with its form, as one argument, or the default.
+    /// Returns the requested scenario with its form or level, as one argument, or the default.
     pub fn scenario_argument(&self) -> String {
-        files::with_form(self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO), self.form.as_deref())
+        files::with_variant(self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO), self.form.as_deref(), self.level)
     }
 
-    /// Returns a scenario's job with the requested aircraft and seed. The argument includes the form.
+    /// Returns a scenario's job with the requested aircraft and seed. The argument includes the form or the level.
     pub fn job(&self, scenario: &str) -> JobArgs {
-        JobArgs { scenario: scenario.to_owned(), form: None, vehicle: self.vehicle.clone(), seed: self.seed }
+        JobArgs { scenario: scenario.to_owned(), form: None, level: None, vehicle: self.vehicle.clone(), seed: self.seed }
     }
 }
 

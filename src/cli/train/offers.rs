@@ -24,8 +24,9 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
     }
     let job = |name: String| {
         let scenario = files::scenario(&name).ok()?.scenario;
-        let form = scenario.form.as_ref().map(|form| format!(" (form {})", form.name)).unwrap_or_default();
-        Some(JobOffer { name, title: scenario.title.clone() + &form, kind: contents_summary(&scenario) })
+        let form = scenario.form.as_ref().map(|form| format!(" (form {})", form.name));
+        let variant = form.or_else(|| level_title(&scenario)).unwrap_or_default();
+        Some(JobOffer { name, title: scenario.title.clone() + &variant, kind: contents_summary(&scenario) })
     };
     FlightOptions {
         trainees: trainee_summaries(sessions),
@@ -35,11 +36,21 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
     }
 }
 
+/// Returns the words that distinguish a level other than the standard one.
+fn level_title(scenario: &Scenario) -> Option<String> {
+    let difficulty = scenario.difficulty.as_ref().filter(|one| one.level != one.standard)?;
+    Some(format!(" (level {} of {})", difficulty.level, difficulty.levels()))
+}
+
 /// Returns a shipped scenario's forms as arguments; the scenario itself if it has no forms.
 fn scenarios_by_form(name: &str) -> Vec<String> {
     let text = shipped::SCENARIOS.iter().find(|(shipped, _)| *shipped == name).map_or("", |(_, text)| text);
     let forms = form_names(text);
-    if forms.is_empty() { vec![name.to_owned()] } else { forms.iter().map(|form| files::with_form(name, Some(form))).collect() }
+    if forms.is_empty() {
+        vec![name.to_owned()]
+    } else {
+        forms.iter().map(|form| files::with_variant(name, Some(form), None)).collect()
+    }
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.
@@ -124,6 +135,9 @@ mod tests {
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
         assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
+        let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
+        let offers = flight_options(&folder.path().join("none-yet"), &harder, None);
+        assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
     }
 
     #[test]

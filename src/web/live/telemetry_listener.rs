@@ -199,7 +199,7 @@ impl LiveListener {
 
     fn read_scenario(&self, crc: u32) -> Option<Scenario> {
         let ListenerPaths { sessions, scenarios: uploads, .. } = &self.paths;
-        let known = scenarios::all(uploads).iter().find_map(|job| job.form_with_crc(crc));
+        let known = scenarios::all(uploads).iter().find_map(|job| job.variant_with_crc(crc));
         known.or_else(|| {
             let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
             let folders = crate::records::session_folders(&here).ok()?;

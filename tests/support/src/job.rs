@@ -104,6 +104,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         },
         certification: CertificationParams::default(),
         form: None,
+        difficulty: None,
         crc: CRC,
     }
 }

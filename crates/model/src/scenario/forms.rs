@@ -98,7 +98,7 @@ pub(super) fn state_selected_form(document: &mut Table) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Scenario, form_with_crc, read, resolve};
+    use super::super::{Scenario, read, resolve, select_variant, variant_names, variant_with_crc};
     use super::*;
     use crate::shipped::{PILOT_STUDY, TWO_BRIDGES};
     use crate::toml::Problems;
@@ -134,11 +134,13 @@ mod tests {
         assert_eq!(parse(PILOT_STUDY).unwrap().crc, checksums[0], "the first form is the default");
         assert!((0..4).all(|k| !checksums[..k].contains(&checksums[k])), "{checksums:?}");
         for (form, crc) in ["A", "B", "C", "H"].into_iter().zip(checksums) {
-            let found = form_with_crc(PILOT_STUDY, crc).unwrap();
+            let found = variant_with_crc(PILOT_STUDY, crc).unwrap();
             assert_eq!(parse(&found).unwrap().form.unwrap().name, form);
         }
-        assert_eq!(form_with_crc(PILOT_STUDY, checksums[0] ^ 1), None);
-        assert_eq!(form_with_crc(TWO_BRIDGES, parse(TWO_BRIDGES).unwrap().crc).as_deref(), Some(TWO_BRIDGES));
+        assert_eq!(variant_with_crc(PILOT_STUDY, checksums[0] ^ 1), None);
+        assert_eq!(variant_names(PILOT_STUDY), ["A", "B", "C", "H"]);
+        assert_eq!((variant_names(TWO_BRIDGES), select_variant(TWO_BRIDGES, "1")), (Vec::new(), None));
+        assert_eq!(variant_with_crc(TWO_BRIDGES, parse(TWO_BRIDGES).unwrap().crc).as_deref(), Some(TWO_BRIDGES));
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct Scenario {
     pub defects: DefectSpec,
     /// The selected form; `None` if the job has no forms.
     pub form: Option<SelectedForm>,
+    /// Difficulty levels and the selected one; `None` if the job has no levels.
+    pub difficulty: Option<Difficulty>,
     /// Number of vehicles and pedestrians, and vehicle speed.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.
@@ -52,10 +54,13 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Returns the name, followed by `@` and the form if the job has forms. It distinguishes the results of different forms.
+    /// Returns the name, followed by `@` and the form or a level other than the standard one, if the job has forms or levels.
+    /// It distinguishes the results of different forms and levels.
     #[must_use]
     pub fn name_with_form(&self) -> String {
-        self.form.as_ref().map_or_else(|| self.name.clone(), |form| format!("{}@{}", self.name, form.name))
+        let form = self.form.as_ref().map(|form| form.name.clone());
+        let level = || self.difficulty.as_ref().filter(|one| one.level != one.standard).map(|one| one.level.to_string());
+        form.or_else(level).map_or_else(|| self.name.clone(), |variant| format!("{}@{variant}", self.name))
     }
 }
 
@@ -157,6 +162,31 @@ pub struct SelectedForm {
     pub name: String,
     /// Names of all forms, in file order.
     pub available: Vec<String>,
+}
+
+/// Difficulty levels of a job. Level 1 is the easiest.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difficulty {
+    /// Selected level, from 1.
+    pub level: u8,
+    /// Standard level, at which the file's own values apply.
+    pub standard: u8,
+    /// Values at each level as text, from the easiest, such as "wind 2.73 m/s, on path within 1.33 m".
+    pub settings: Vec<String>,
+}
+
+impl Difficulty {
+    /// Returns the number of levels.
+    #[must_use]
+    pub fn levels(&self) -> u8 {
+        u8::try_from(self.settings.len()).unwrap_or(u8::MAX)
+    }
+
+    /// Returns the values at a level as text; empty if the level does not exist.
+    #[must_use]
+    pub fn settings_at(&self, level: u8) -> &str {
+        usize::from(level).checked_sub(1).and_then(|index| self.settings.get(index)).map_or("", String::as_str)
+    }
 }
 
 /// Recommended distance from the inspected surface.

@@ -3,6 +3,7 @@
 
 pub mod bridges;
 mod certification;
+mod difficulty;
 mod forms;
 mod job;
 mod point;
@@ -14,11 +15,12 @@ mod weather;
 pub use bridges::path::TaskKind;
 pub use bridges::{Bridge, BridgeKind};
 pub use certification::CertificationParams;
+pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
-    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, PlacedDefect, Scenario,
-    ScoringParams, SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel,
-    WindSpec,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, PlacedDefect,
+    Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec, WindEvent,
+    WindModel, WindSpec,
 };
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
-pub use resolve::{form_with_crc, resolve};
+pub use resolve::{resolve, select_variant, variant_names, variant_with_crc};

@@ -2,8 +2,8 @@
 
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
-    AfterCrash, BatteryModel, DefectSpec, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, Scenario, ScoringParams,
-    SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, Scenario,
+    ScoringParams, SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
 };
 use super::point::point;
 use crate::elements::Element;
@@ -38,6 +38,15 @@ pub fn read_with_keys(
     text: &str,
     siblings: SiblingLoader,
 ) -> (Result<Scenario, Problems>, BTreeMap<String, DocumentedKey>) {
+    let (result, keys) = read_level(file, text, siblings);
+    let levels = result.as_ref().ok().and_then(|scenario| scenario.difficulty.as_ref()).map(Difficulty::levels);
+    let Some(levels) = levels else { return (result, keys) };
+    let ends = super::difficulty::check_ends(file, text, levels, |text| read_level(file, text, siblings).0);
+    (ends.and(result), keys)
+}
+
+/// Parses a scenario file at its selected difficulty level only.
+fn read_level(file: &str, text: &str, siblings: SiblingLoader) -> (Result<Scenario, Problems>, BTreeMap<String, DocumentedKey>) {
     let mut reader = Reader::new(file, text);
     let scenario = reader.parse().map(|document| {
         let mut root = reader.root(&document);
@@ -55,6 +64,7 @@ pub fn read_with_keys(
 
 fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Scenario {
     r.integer(root, "format", (1, FORMAT), None);
+    let difficulty = super::difficulty::read(r, root);
     let name = read_name(r, root, "name");
     let title = r.text(root, "title", None);
     // The protocol transmits the seed in a signed 32-bit field.
@@ -69,7 +79,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let tasks = super::tasks::read(r, root, &bridges);
     let mut defects = defects(r, root);
     let form = super::forms::read(r, root, &mut defects);
-    Scenario {
+    let mut scenario = Scenario {
         name,
         title,
         seed,
@@ -80,6 +90,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         tasks,
         defects,
         form,
+        difficulty: None,
         traffic: traffic(r, root),
         wind: super::weather::read(r, root),
         light: light(r, root),
@@ -88,7 +99,9 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         scoring: scoring(r, root),
         certification: super::certification::read(r, root),
         crc: 0,
-    }
+    };
+    scenario.difficulty = difficulty.map(|table| table.finish(r, &scenario));
+    scenario
 }
 
 /// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.

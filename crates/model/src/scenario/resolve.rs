@@ -1,9 +1,9 @@
 //! Resolved scenario files: the source text plus the seed and placed defects of a session. A resolved file has the same
 //! CRC as its source.
 
-use super::forms;
 use super::job::PlacedDefect;
 use super::point::point;
+use super::{difficulty, forms};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
@@ -12,12 +12,13 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 /// Tolerance for the length of unit vectors that are rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
-/// Inserts a seed and placed defects into the source text. Parsing the result yields the same job with exactly these defects.
+/// Inserts a seed, placed defects and the difficulty level into the source text. Parsing the result yields the same job with exactly these defects.
 /// Invalid TOML is returned unchanged.
 #[must_use]
 pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_string() };
     document["seed"] = value(i64::try_from(seed).unwrap_or(i64::MAX));
+    super::difficulty::state_level(&mut document);
     let mut tables = ArrayOfTables::new();
     for defect in placed {
         tables.push(defect_table(defect));
@@ -86,12 +87,13 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
 }
 
 /// Returns the CRC-32 of the text in canonical form. Excludes the seed and placed defects, so that a resolved file has
-/// the same CRC as its source. Each form of a job has a different CRC.
+/// the same CRC as its source. Each form of a job has a different CRC, and so does each difficulty level.
 #[must_use]
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };
     document.remove("seed");
     forms::state_selected_form(document.as_table_mut());
+    difficulty::remove_standard_level(&mut document);
     if let Some(defects) = document.get_mut("defects").and_then(Item::as_table_like_mut) {
         defects.remove("placed");
         defects.remove("none_placed");
@@ -99,12 +101,30 @@ pub fn crc(text: &str) -> u32 {
     crc32fast::hash(canonical_form(document.as_item()).as_bytes())
 }
 
-/// Returns the text of the form with this CRC, as announced by a vehicle or recorded in its telemetry; `None` if no form has
-/// it. A scenario without forms is its own only form.
+/// Returns the names of a scenario's variants: its forms, or its difficulty levels as numbers; empty if it has neither.
 #[must_use]
-pub fn form_with_crc(text: &str, crc: u32) -> Option<String> {
-    let forms = forms::form_names(text).into_iter().map(|name| forms::select_form(text, &name));
-    std::iter::once(text.to_owned()).chain(forms).find(|form| self::crc(form) == crc)
+pub fn variant_names(text: &str) -> Vec<String> {
+    let forms = forms::form_names(text);
+    let levels = || (1..=difficulty::level_count(text).unwrap_or(0)).map(|level| level.to_string()).collect();
+    if forms.is_empty() { levels() } else { forms }
+}
+
+/// Returns the text of a scenario with another variant selected; `None` if there is no variant with this name.
+#[must_use]
+pub fn select_variant(text: &str, name: &str) -> Option<String> {
+    if forms::form_names(text).iter().any(|form| form == name) {
+        return Some(forms::select_form(text, name));
+    }
+    let level = name.parse().ok().filter(|level| (1..=difficulty::level_count(text).unwrap_or(0)).contains(level));
+    level.map(|level| difficulty::select_level(text, level))
+}
+
+/// Returns the text of the variant with this CRC, as announced by a vehicle or recorded in its telemetry; `None` if there is
+/// none. A scenario without variants is its own only one.
+#[must_use]
+pub fn variant_with_crc(text: &str, crc: u32) -> Option<String> {
+    let variants = variant_names(text).into_iter().filter_map(|name| select_variant(text, &name));
+    std::iter::once(text.to_owned()).chain(variants).find(|variant| self::crc(variant) == crc)
 }
 
 /// Returns the canonical form of a TOML item: sorted keys without comments or formatting.

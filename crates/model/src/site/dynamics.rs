@@ -221,6 +221,7 @@ mod tests {
             scoring,
             certification: CertificationParams::default(),
             form: None,
+            difficulty: None,
             crc: 0,
         }
     }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod bridges;
+mod difficulty;
 mod elements;
 mod geometry;
 mod ground;

@@ -3,4 +3,5 @@
 
 mod documentation;
 mod forms;
+mod levels;
 mod shipped_files;

@@ -376,6 +376,7 @@ impl Monitor {
             spandrel_version: env!("CARGO_PKG_VERSION").to_owned(),
             scenario: self.config.scenario.name.clone(),
             form: self.config.scenario.form.as_ref().map(|form| form.name.clone()),
+            level: self.config.scenario.difficulty.as_ref().map(|difficulty| difficulty.level),
             scenario_crc: format!("{:08x}", self.config.scenario.crc),
             scenario_sha256: super::folder::sha256_hex(scenario_toml),
             vehicle: self.config.vehicle.id.clone(),

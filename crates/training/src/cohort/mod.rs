@@ -87,7 +87,7 @@ pub struct Cohort {
 #[must_use]
 pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);
-    let on_job = records.iter().filter(|record| scenarios.contains(&record.scenario));
+    let on_job = records.iter().filter(|record| scenarios.contains(&record.scenario_with_level()));
     let (counted, left_out): (Vec<&SessionRecord>, Vec<&SessionRecord>) =
         on_job.partition(|record| selection.incomplete.counts(record));
     let mut runs = SessionsByTrainee::new();
@@ -142,13 +142,13 @@ fn scenarios(records: &[SessionRecord], selection: &Selection) -> Vec<String> {
     if !selection.scenarios.is_empty() {
         return selection.scenarios.clone();
     }
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     let all = !records.iter().any(|record| selection.incomplete.counts(record));
     for record in records.iter().filter(|record| all || selection.incomplete.counts(record)) {
-        *counts.entry(&record.scenario).or_default() += 1;
+        *counts.entry(record.scenario_with_level()).or_default() += 1;
     }
     let most = counts.values().copied().max();
-    counts.into_iter().find(|(_, count)| Some(*count) == most).map(|(name, _)| name.to_owned()).into_iter().collect()
+    counts.into_iter().find(|(_, count)| Some(*count) == most).map(|(name, _)| name).into_iter().collect()
 }
 
 #[cfg(test)]

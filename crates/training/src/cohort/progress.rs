@@ -93,15 +93,15 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario, sorted by descending number of tasks, then by name. Changes are labeled with
+/// Groups one trainee's sessions by scenario and level, sorted by descending number of tasks, then by name. Changes are labeled with
 /// the reliability of the measures on that job, as far as it is known.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliability: &JobReliability) -> Vec<JobProgress> {
-    let mut jobs: BTreeMap<&str, Vec<&SessionRecord>> = BTreeMap::new();
+    let mut jobs: BTreeMap<String, Vec<&SessionRecord>> = BTreeMap::new();
     for record in records {
-        jobs.entry(&record.scenario).or_default().push(record);
+        jobs.entry(record.scenario_with_level()).or_default().push(record);
     }
-    let on_job = |(scenario, mut sessions): (&str, Vec<&SessionRecord>)| {
+    let on_job = |(scenario, mut sessions): (String, Vec<&SessionRecord>)| {
         sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
         let last = sessions.last()?;
         let tasks = last.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
@@ -109,9 +109,9 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliabili
         let all = sessions.len();
         sessions.retain(|record| incomplete.counts(record));
         let left_out = all - sessions.len();
-        let reliability = reliability.get(scenario).cloned().unwrap_or_default();
+        let reliability = reliability.get(&scenario).cloned().unwrap_or_default();
         let progress = progress(&trainee, &sessions, &reliability);
-        Some(JobProgress { scenario: scenario.to_owned(), tasks, progress, left_out, reliability })
+        Some(JobProgress { scenario, tasks, progress, left_out, reliability })
     };
     let mut found: Vec<JobProgress> = jobs.into_iter().filter_map(on_job).collect();
     found.sort_by_key(|job| std::cmp::Reverse(job.tasks.len()));

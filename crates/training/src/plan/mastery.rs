@@ -2,8 +2,9 @@
 
 use super::finding::findings;
 use super::rules::{DrillCriterion, PlanRules};
+use super::staircase::{self, LevelAdvice, StaircaseSession};
 use super::wording::limit_words;
-use crate::record::{SessionOutcome, SessionRecord};
+use crate::record::{SessionLevel, SessionOutcome, SessionRecord};
 use serde::Serialize;
 
 /// A trainee's progress on one drill.
@@ -13,8 +14,10 @@ pub struct DrillProgress {
     pub scenario: String,
     /// Number of sessions of this drill.
     pub sessions: usize,
-    /// Number of the latest sessions (at most `of`) that met the criterion.
+    /// Number of the latest sessions that count (at most `of`) and met the criterion.
     pub met: usize,
+    /// Number of the latest sessions that count (at most `of`): those that decide about the standard level.
+    pub counted: usize,
     /// Number of sessions that must meet the criterion.
     pub needed: usize,
     /// Number of latest sessions that count.
@@ -26,15 +29,21 @@ pub struct DrillProgress {
     pub last_unix_us: Option<u64>,
     /// The criterion as text.
     pub criterion: String,
+    /// Difficulty level of the next session; absent if the drill has no levels or difficulty does not adapt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub next_level: Option<LevelAdvice>,
 }
 
 impl DrillProgress {
     /// Describes the progress, such as "1 of the last 2 sessions met the criterion; done after 2 of 3".
     #[must_use]
     pub fn words(&self) -> String {
-        let counted = self.sessions.min(self.of);
+        let counted = self.counted;
         let state = match (self.done, counted) {
             (true, _) => format!("done: {} of the last {counted} sessions met the criterion", self.met),
+            (false, 0) if self.sessions > 0 => {
+                format!("no session at the standard level yet; done after {} of {} at the criterion", self.needed, self.of)
+            }
             (false, 0) => format!("not flown yet; done after {} of {} sessions at the criterion", self.needed, self.of),
             (false, 1) => format!("{} of 1 session met the criterion; done after {} of {}", self.met, self.needed, self.of),
             (false, _) => {
@@ -64,16 +73,38 @@ pub fn progress(records: &[SessionRecord], rules: &PlanRules) -> Vec<DrillProgre
 
 fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRules) -> DrillProgress {
     let flown: Vec<&SessionRecord> = records.iter().filter(|record| record.scenario == drill.scenario).collect();
-    let met = flown.iter().rev().take(rules.mastery_of).filter(|record| meets_criterion(record, drill)).count();
-    let limits: Vec<String> = drill.limits.iter().map(limit_words).collect();
+    let results: Vec<bool> = flown.iter().filter_map(|record| result_at_standard_level(record, drill)).collect();
+    let latest = &results[results.len().saturating_sub(rules.mastery_of)..];
+    let met = latest.iter().filter(|met| **met).count();
+    let standard = drill.difficulty.as_ref().map(|difficulty| format!("level {} or harder", difficulty.standard));
+    let limits: Vec<String> = drill.limits.iter().map(limit_words).chain(standard).collect();
     DrillProgress {
         scenario: drill.scenario.clone(),
         sessions: flown.len(),
         met,
+        counted: latest.len(),
         needed: rules.mastery_needed,
         of: rules.mastery_of,
         done: met >= rules.mastery_needed,
         last_unix_us: flown.last().map(|record| record.started_unix_us),
         criterion: format!("complete, {}", limits.join(", ")),
+        next_level: next_level(&flown, drill, rules),
     }
+}
+
+/// Returns the level of the drill's next session; `None` if the drill has no levels or difficulty does not adapt.
+fn next_level(flown: &[&SessionRecord], drill: &DrillCriterion, rules: &PlanRules) -> Option<LevelAdvice> {
+    let (difficulty, rule) = (drill.difficulty.as_ref()?, rules.staircase.as_ref()?);
+    // A session without a level was flown before the drill had levels, with the values of the standard level.
+    let level = |record: &SessionRecord| record.level.map_or(difficulty.standard, |level| level.level);
+    let session = |record: &&SessionRecord| StaircaseSession { level: level(record), met: meets_criterion(record, drill) };
+    Some(staircase::advice(&flown.iter().map(session).collect::<Vec<_>>(), difficulty, rule))
+}
+
+/// Returns whether a session met the criterion; `None` if it says nothing about the standard level, because an easier level was
+/// mastered or a harder one was not.
+fn result_at_standard_level(record: &SessionRecord, drill: &DrillCriterion) -> Option<bool> {
+    let met = meets_criterion(record, drill);
+    let decides = |level: SessionLevel| staircase::decides(StaircaseSession { level: level.level, met }, level.standard);
+    record.level.is_none_or(decides).then_some(met)
 }

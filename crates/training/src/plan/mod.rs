@@ -7,12 +7,14 @@ mod finding;
 mod mastery;
 mod measure;
 mod rules;
+mod staircase;
 mod wording;
 
 pub use changes::{MeasureChange, SessionChanges};
 pub use mastery::{DrillProgress, meets_criterion};
 pub use measure::{MEASURES, MeasureUnit, RuleMeasure, SessionMeasure, TaskMeasure};
-pub use rules::{DEFAULT_RULES, DrillCriterion, PlanRule, PlanRules, read_rules};
+pub use rules::{DEFAULT_RULES, DrillCriterion, PlanRule, PlanRules, StaircaseRule, read_rules};
+pub use staircase::{LevelAdvice, StaircaseSession};
 
 use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
 use causes::RankedFinding;
@@ -57,6 +59,9 @@ pub struct PlanStep {
     pub urgency: f64,
     /// Reasons: the causes first, most urgent first, then their consequences.
     pub reasons: Vec<PlanReason>,
+    /// Recommended difficulty level; absent if the scenario has no levels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub level: Option<LevelAdvice>,
 }
 
 /// Reason to fly a scenario, as determined by one rule.
@@ -103,6 +108,9 @@ fn plan_from(
         steps.push(single_reason_step(&rules.job, last, ("job", rules.job_reason.clone()), (0.0, 0.0)));
     }
     drills.retain(|drill| drill.sessions > 0 || steps.iter().any(|step| step.scenario == drill.scenario));
+    for step in &mut steps {
+        step.level = drills.iter().find(|drill| drill.scenario == step.scenario).and_then(|drill| drill.next_level.clone());
+    }
     let after = |days: f64| last.started_unix_us.saturating_add((days * DAY_US) as u64);
     Some(TrainingPlan {
         trainee: last.trainee.clone(),
@@ -191,7 +199,7 @@ fn add(steps: &mut Vec<PlanStep>, scenario: &str, urgency: f64, reason: PlanReas
             step.urgency += urgency;
             step.reasons.push(reason);
         }
-        None => steps.push(PlanStep { scenario: scenario.to_owned(), urgency, reasons: vec![reason] }),
+        None => steps.push(PlanStep { scenario: scenario.to_owned(), urgency, reasons: vec![reason], level: None }),
     }
 }
 
@@ -213,7 +221,7 @@ fn single_reason_step(
     (value, limit): (f64, f64),
 ) -> PlanStep {
     let reason = PlanReason { rule: rule.to_owned(), session: record.id.clone(), words, value, limit, consequence_of: None };
-    PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason] }
+    PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason], level: None }
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Training plan rules and their file format.
 
 use super::measure::{MEASURES, RuleMeasure};
+use spandrel_model::scenario::{self, Difficulty};
+use spandrel_model::shipped::SCENARIOS;
 use spandrel_model::toml::{Problems, Reader, Section};
 
 /// Default rules of the training plan, in TOML.
@@ -12,6 +14,8 @@ const FORMAT_VERSION: i64 = 1;
 const MAX_IN_TASKS: i64 = 20;
 /// Maximum value of `mastery_of`.
 const MAX_MASTERY_SESSIONS: i64 = 20;
+/// Maximum number of levels between two sessions: a scenario has at most 20.
+const MAX_LEVEL_STEP: i64 = 19;
 
 const TASK_KINDS: &[(&str, Option<&str>)] = &[
     ("any", None),
@@ -67,6 +71,28 @@ pub struct DrillCriterion {
     pub scenario: String,
     /// Limits that the session must not exceed, as rules without reasons.
     pub limits: Vec<PlanRule>,
+    /// Difficulty levels of the drill; `None` if it has none, or before [`PlanRules::with_levels`].
+    pub difficulty: Option<Difficulty>,
+}
+
+/// Rule by which a drill's difficulty adapts: a weighted up-down staircase. A trainee's level settles where the criterion is met
+/// in a fraction `down` / (`up` + `down`) of the sessions (Kaernbach 1991).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StaircaseRule {
+    /// Level of the first session, relative to the standard level.
+    pub first: i8,
+    /// Number of levels by which the next session is harder after a session that met the criterion.
+    pub up: u8,
+    /// Number of levels by which the next session is easier after a session that did not.
+    pub down: u8,
+}
+
+impl StaircaseRule {
+    /// Returns the fraction of sessions that meet the criterion at the level where the staircase settles, 0 to 1.
+    #[must_use]
+    pub fn target(&self) -> f64 {
+        f64::from(self.down) / (f64::from(self.up) + f64::from(self.down))
+    }
 }
 
 /// Rules and parameters of the training plan.
@@ -92,6 +118,8 @@ pub struct PlanRules {
     pub mastery_needed: usize,
     /// Number of the latest sessions of a drill in which these may lie.
     pub mastery_of: usize,
+    /// Rule by which difficulty adapts; `None` if it does not adapt.
+    pub staircase: Option<StaircaseRule>,
     /// Criteria of the drills.
     pub drills: Vec<DrillCriterion>,
     /// Rules in file order.
@@ -108,6 +136,25 @@ impl PlanRules {
             }
         }
         self
+    }
+
+    /// Returns the rules with the drills' difficulty levels. `levels` returns those of a scenario; for `None`, the drill keeps
+    /// what it has.
+    #[must_use]
+    pub fn with_levels(mut self, levels: impl Fn(&str) -> Option<Difficulty>) -> Self {
+        for drill in &mut self.drills {
+            drill.difficulty = levels(&drill.scenario).or_else(|| drill.difficulty.take());
+        }
+        self
+    }
+
+    /// Returns the rules with the difficulty levels of the shipped drills.
+    #[must_use]
+    pub fn with_shipped_levels(self) -> Self {
+        self.with_levels(|name| {
+            let (_, text) = SCENARIOS.iter().find(|(shipped, _)| *shipped == name)?;
+            scenario::read(name, text, &|file| Err(file.to_owned())).ok()?.difficulty
+        })
     }
 }
 
@@ -155,6 +202,7 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
         focus: reader.number(root, "focus", (0.0, 1.0), Some(0.0)),
         mastery_needed: usize::try_from(mastery_needed).unwrap_or(1),
         mastery_of: usize::try_from(mastery_of).unwrap_or(1),
+        staircase: read_staircase(reader, root),
         drills,
         rules,
     };
@@ -184,6 +232,18 @@ fn read_rule(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
     rule
 }
 
+/// Reads how difficulty adapts.
+fn read_staircase(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Option<StaircaseRule> {
+    let mut section = reader.section(root, "difficulty");
+    let adapt = reader.boolean(&mut section, "adapt", true);
+    let first = reader.integer(&mut section, "first", (-MAX_LEVEL_STEP, MAX_LEVEL_STEP), Some(0));
+    let up = reader.integer(&mut section, "up", (1, MAX_LEVEL_STEP), Some(1));
+    let down = reader.integer(&mut section, "down", (1, MAX_LEVEL_STEP), Some(2));
+    reader.finish(&section);
+    let step = |number: i64| u8::try_from(number).unwrap_or(1);
+    adapt.then(|| StaircaseRule { first: i8::try_from(first).unwrap_or(0), up: step(up), down: step(down) })
+}
+
 /// Reads the drills' criteria.
 fn read_drills(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Vec<DrillCriterion> {
     let mut drills: Vec<DrillCriterion> = Vec::new();
@@ -194,7 +254,7 @@ fn read_drills(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Vec<DrillCrit
             reader.add_problem(&section, "scenario", &scenario, "one table per drill", "duplicate drill");
         }
         reader.finish(&section);
-        drills.push(DrillCriterion { scenario, limits });
+        drills.push(DrillCriterion { scenario, limits, difficulty: None });
     }
     drills
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::record::{Crashes, DefectRecord, TaskRecord};
+use crate::record::{Crashes, DefectRecord, SessionLevel, TaskRecord};
 use crate::testing::{aborted_record, perfect_record};
 use spandrel_monitor::score::completion::TaskState;
 
@@ -373,4 +373,90 @@ fn regress_missed_visible_severe_defect_is_reported() {
     let plain = words.iter().find(|words| words.contains("Clearly visible for up to 5.5 s")).unwrap();
     assert!(plain.contains("defect 4 (spalling, condition state 3)"), "{plain}");
     assert_eq!(plan.steps[0].scenario, "drill-search");
+}
+
+/// Returns a session of the gap drill at a difficulty level.
+fn gap_drill_at(number: usize, level: u8, met: bool) -> SessionRecord {
+    let mut drill = gap_drill(number, if met { 1.0 } else { 0.5 });
+    drill.level = Some(SessionLevel { level, levels: 9, standard: 5 });
+    drill
+}
+
+/// Returns the plan after sessions of the gap drill at these levels, with whether they met the criterion.
+fn plan_after(flown: &[(u8, bool)], rules: &PlanRules) -> TrainingPlan {
+    let records: Vec<SessionRecord> = (1..).zip(flown).map(|(number, (level, met))| gap_drill_at(number, *level, *met)).collect();
+    plan(&records, rules, NOW).unwrap()
+}
+
+#[test]
+fn exact_plan_names_the_level_and_the_reason() {
+    let rules = rules().with_shipped_levels();
+    let level = |flown: &[(u8, bool)]| plan_after(flown, &rules).steps[0].level.clone().unwrap();
+    let after_success = level(&[(5, true)]);
+    assert_eq!((after_success.level, after_success.levels, after_success.standard), (6, 9, 5));
+    let words = "Level 6 of 9 (wind 1.99 m/s, gap 3.25 m): the last session met the criterion at level 5.";
+    assert_eq!(after_success.words, words);
+    assert_eq!(level(&[(5, false)]).level, 3);
+    let mut job = perfect_record("anna", 1);
+    job.tasks[2].on_path = 0.3;
+    let first = plan(&[job], &rules, NOW).unwrap();
+    assert_eq!(first.steps[0].scenario, "drill-gap");
+    assert!(
+        first.steps[0].level.as_ref().unwrap().words.starts_with("Level 5 of 9 (wind 0.98 m/s, gap 3.4 m): start at this level")
+    );
+    // An incomplete session did not meet the criterion, although the policy leaves it out otherwise.
+    let mut broken_off = gap_drill_at(1, 5, true);
+    broken_off.completion.as_mut().unwrap().complete = false;
+    let records = vec![broken_off, gap_drill_at(2, 3, true)];
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules, NOW).unwrap();
+    assert_eq!(plan.drills[0].next_level.as_ref().unwrap().level, 4);
+    // A session of an older version has no level: its values are those of the standard level.
+    let older = super::plan(&[gap_drill(1, 1.0)], &rules, NOW).unwrap();
+    assert_eq!(older.steps[0].level.as_ref().unwrap().level, 6);
+}
+
+#[test]
+fn exact_mastery_counts_sessions_that_decide_about_the_standard_level() {
+    let rules = rules().with_shipped_levels();
+    let progress = |flown: &[(u8, bool)]| plan_after(flown, &rules).drills[0].clone();
+    let counted = |flown: &[(u8, bool)]| (progress(flown).met, progress(flown).counted, progress(flown).done);
+    assert_eq!(counted(&[(5, true), (6, true)]), (2, 2, true));
+    // Mastering an easier level says nothing about the standard level, nor does failing at a harder one.
+    assert_eq!(counted(&[(3, true), (4, true)]), (0, 0, false));
+    assert_eq!(counted(&[(5, true), (6, true), (7, false), (9, false)]), (2, 2, true));
+    assert_eq!(counted(&[(5, true), (6, true), (4, false), (2, false)]), (1, 3, false));
+    assert_eq!(counted(&[(5, false), (3, true), (4, true), (5, true), (6, true)]), (2, 3, true));
+    let words = progress(&[(3, true)]).words();
+    assert!(words.starts_with("no session at the standard level yet; done after 2 of 3 at the criterion (complete, "), "{words}");
+    assert!(words.ends_with("crashes all, level 5 or harder)"), "{words}");
+}
+
+#[test]
+fn exact_levels_can_be_switched_off_and_changed() {
+    let read = |from: &str, to: &str| {
+        assert!(DEFAULT_RULES.contains(from), "{from}");
+        read_rules("rules.toml", &DEFAULT_RULES.replacen(from, to, 1))
+    };
+    let off = read("adapt = true", "adapt = false").unwrap().with_shipped_levels();
+    let plan = plan_after(&[(5, true)], &off);
+    assert!(plan.steps.iter().all(|step| step.level.is_none()) && plan.drills[0].next_level.is_none());
+    let other = read("up = 1\ndown = 2", "up = 2\ndown = 3").unwrap().with_shipped_levels();
+    assert_eq!(plan_after(&[(5, true), (7, false)], &other).steps[0].level.as_ref().unwrap().level, 4);
+    let error = read("down = 2", "down = 0").unwrap_err().to_string();
+    assert!(error.ends_with("difficulty.down = 0: out of range (allowed: whole number 1 to 19)"), "{error}");
+    let before = DEFAULT_RULES.replacen("[difficulty]\nadapt = true\nfirst = 0\nup = 1\ndown = 2\n", "", 1);
+    assert_eq!(read_rules("rules.toml", &before).unwrap().staircase, rules().staircase, "rules written before there were levels");
+}
+
+#[test]
+fn exact_sessions_at_different_levels_are_not_compared() {
+    let changes = |levels: [u8; 2]| plan_after(&[(levels[0], true), (levels[1], true)], &rules()).changes;
+    assert!(changes([5, 6]).is_none() && changes([6, 6]).is_some());
+    let standard = [gap_drill(1, 1.0), gap_drill_at(2, 5, true)];
+    assert!(plan(&standard, &rules(), NOW).unwrap().changes.is_some(), "an older session was flown at the standard level");
+    assert_eq!(gap_drill_at(1, 6, true).scenario_with_level(), "drill-gap@6");
+    assert_eq!(gap_drill_at(1, 5, true).scenario_with_level(), "drill-gap");
+    let mut invalid = gap_drill_at(1, 5, true);
+    invalid.level = Some(SessionLevel { level: 10, levels: 9, standard: 5 });
+    assert_eq!(invalid.check().unwrap_err(), "level.level = 10, level.standard = 5 (allowed: 1 to 9)");
 }

@@ -3,12 +3,14 @@
 
 mod causes;
 mod crashes;
+mod level;
 mod outcome;
 mod source;
 mod task_record;
 mod technique;
 
 pub use crashes::Crashes;
+pub use level::SessionLevel;
 pub use outcome::SessionOutcome;
 pub use source::{FORMAT_VERSION, RecordSource, SourceHashes};
 pub use task_record::{DefectRecord, TaskRecord};
@@ -43,6 +45,9 @@ pub struct SessionRecord {
     pub scorer_version: u32,
     /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
+    /// Difficulty level; absent if the scenario had no levels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<SessionLevel>,
     /// SHA-256 of the flown `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
     /// Vehicle ID, such as `phantom2`.
@@ -206,6 +211,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         spandrel_version: source.spandrel_version.to_owned(),
         scorer_version: SCORER_VERSION,
         scenario: source.scenario.name.clone(),
+        level: source.scenario.difficulty.as_ref().map(SessionLevel::of),
         scenario_sha256: source.hashes.scenario.clone(),
         vehicle: source.vehicle.to_owned(),
         vehicle_sha256: source.hashes.vehicle.clone(),
@@ -251,6 +257,14 @@ impl SessionOutcome for SessionRecord {
 }
 
 impl SessionRecord {
+    /// Returns the scenario name, followed by `@` and a level other than the standard one. Only sessions with the same name
+    /// are comparable.
+    #[must_use]
+    pub fn scenario_with_level(&self) -> String {
+        let other = self.level.filter(|level| level.level != level.standard);
+        other.map_or_else(|| self.scenario.clone(), |level| format!("{}@{}", self.scenario, level.level))
+    }
+
     /// Returns the task numbers in scenario order.
     #[must_use]
     pub fn task_ids(&self) -> Vec<u32> {
@@ -306,6 +320,9 @@ impl SessionRecord {
             if let Some(value) = value.filter(|value| !(0.0..=most).contains(value)) {
                 return Err(format!("{key} = {value} (allowed: 0 to {most})"));
             }
+        }
+        if let Some(level) = self.level {
+            level.check()?;
         }
         // Older formats lack this data, so such a session counts as incomplete.
         if !(1..=FORMAT_VERSION).contains(&self.format) {

@@ -203,5 +203,12 @@ fn next(
     }
     let is_installed = |name: &str| SCENARIOS.iter().any(|(stem, _)| *stem == name);
     let rules = read_rules("rules.toml", DEFAULT_RULES).ok().map(|rules| rules.for_installed(is_installed));
-    rules.and_then(|rules| plan::plan(&[record], &rules, metadata.started_unix_us)).map_or_else(Vec::new, |plan| plan.steps)
+    // The flown scenario may be an uploaded one.
+    let own = |name: &str| scenario.difficulty.clone().filter(|_| name == scenario.name);
+    let rules = rules.map(|rules| rules.with_shipped_levels().with_levels(own));
+    let plan = rules.and_then(|rules| plan::plan(&[record], &rules, metadata.started_unix_us));
+    let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
+    // The level of another drill depends on sessions that are unknown here.
+    steps.iter_mut().filter(|step| step.scenario != scenario.name).for_each(|step| step.level = None);
+    steps
 }

@@ -18,6 +18,14 @@ pub struct PlanRulesPage<'a> {
     pub notice: Option<(&'a str, &'a str)>,
 }
 
+/// Describes how difficulty adapts.
+fn staircase_words(rules: &PlanRules) -> String {
+    rules.staircase.map_or_else(
+        || "Difficulty does not adapt.".to_owned(),
+        |rule| format!("Difficulty adapts: up {} after a session at the criterion, down {} after another.", rule.up, rule.down),
+    )
+}
+
 /// Renders the page.
 #[must_use]
 pub fn plan_rules_page(visitor: &Visitor, about: &PlanRulesPage<'_>) -> Markup {
@@ -27,7 +35,7 @@ pub fn plan_rules_page(visitor: &Visitor, about: &PlanRulesPage<'_>) -> Markup {
         }
         p { "The rules determine which scenarios the training plans on this server recommend. " @if about.own { "This server uses its own rules." } @else { "This server uses the shipped rules." } }
         @if let Some(rules) = about.rules {
-            p.note { (rules.rules.len()) " rules, criteria for " (rules.drills.len()) " drills. A drill is done after " (rules.mastery_needed) " of " (rules.mastery_of) " sessions at its criterion." }
+            p.note { (rules.rules.len()) " rules, criteria for " (rules.drills.len()) " drills. A drill is done after " (rules.mastery_needed) " of " (rules.mastery_of) " sessions at its criterion. " (staircase_words(rules)) }
         }
         (section("edit", "Edit", &editor(visitor, about.text)))
         (section("upload", "Upload", &upload(visitor)))

@@ -5,7 +5,7 @@ use super::layout::{message, page, section, table, token};
 use crate::report::formatting;
 use crate::report::plots::job::job_plan;
 use maud::{Markup, html};
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{Difficulty, Scenario};
 use spandrel_model::site::Site;
 
 /// An entry in the scenario list.
@@ -55,6 +55,18 @@ fn upload(visitor: &Visitor) -> Markup {
     }
 }
 
+/// Describes the ends of the difficulty levels and the standard level.
+fn levels(difficulty: &Difficulty) -> String {
+    let (standard, last) = (difficulty.standard, difficulty.levels());
+    let at = |level: u8| difficulty.settings_at(level);
+    format!(
+        "{last} levels. Level 1: {}. Level {standard}, the standard level: {}. Level {last}: {}.",
+        at(1),
+        at(standard),
+        at(last)
+    )
+}
+
 /// Renders one scenario's page. Only instructors see the file, because it contains the seed and thus reveals the
 /// defects.
 #[must_use]
@@ -69,6 +81,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
             dt { "Wind" } dd { (formatting::number(scenario.wind.speed_m_s, 1)) " m/s from " (formatting::number(scenario.wind.from_deg, 0)) "°" }
             dt { "Speed limit" } dd { (s.speed_limit_unit.format_limit(s.speed_limit_m_s)) }
             dt { "Time" } dd { "full score up to " (formatting::duration(s.time_best_s)) ", at most " (formatting::duration(s.time_max_s)) }
+            @if let Some(difficulty) = &scenario.difficulty { dt { "Difficulty" } dd { (levels(difficulty)) } }
         }
     };
     let rows = html! {

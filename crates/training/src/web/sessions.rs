@@ -119,7 +119,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
         @if !record.defects.is_empty() { (section("defects", "Defects", &defects(record))) }
         (section("compare", "Compare with", &compare(record, page_data.others)))
     };
-    page(visitor, "/sessions", &format!("Session: {}", record.scenario), &body)
+    page(visitor, "/sessions", &format!("Session: {}", record.scenario_with_level()), &body)
 }
 
 fn actions(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {

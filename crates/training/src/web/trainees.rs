@@ -84,13 +84,13 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
         p { "Fly between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "It has been a long time since the last flight, and skills fade without practice." } } }
         ol.steps {
             @for step in &plan.steps {
-                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } } }
+                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } @if let Some(level) = &step.level { p { (level.words) } } ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } } }
             }
         }
         @if let Some(note) = &plan.note { p.note { (note) } }
         @if !plan.drills.is_empty() {
             h3 { "Drills" }
-            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) "." } } }
+            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) @if let Some(next) = &drill.next_level { "; next level: " (next.level) } "." } } }
         }
         @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
@@ -109,7 +109,7 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
 /// Returns the reliability of the measures on the job of a session; empty if unknown.
 fn reliability_of_session<'a>(profile: &TraineeProfile<'a>, session: &str) -> &'a [MeasureReliability] {
     let flown = profile.records.iter().find(|record| record.id == session);
-    flown.and_then(|record| profile.reliability.get(&record.scenario)).map_or(&[], Vec::as_slice)
+    flown.and_then(|record| profile.reliability.get(&record.scenario_with_level())).map_or(&[], Vec::as_slice)
 }
 
 fn change_is_within_error(change: &MeasureChange, known: &[MeasureReliability]) -> bool {

@@ -13,6 +13,7 @@ pub fn section(review: &Review) -> Markup {
             @for step in &review.next {
                 li {
                     b { (step.scenario) }
+                    @if let Some(level) = &step.level { p { (level.words) } }
                     ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } }
                 }
             }
@@ -26,6 +27,7 @@ fn table(steps: &[PlanStep]) -> Table {
     let row = |(step, reason): (&PlanStep, &crate::plan::PlanReason)| {
         vec![
             step.scenario.clone().into(),
+            step.level.as_ref().map(|level| level.level.to_string()).unwrap_or_default().into(),
             reason.rule.clone().into(),
             reason.consequence_of.clone().unwrap_or_default().into(),
             TableCell::Number(reason.value, 3),
@@ -37,7 +39,7 @@ fn table(steps: &[PlanStep]) -> Table {
     Table {
         name: "next",
         caption: "recommended scenarios",
-        columns: vec!["scenario", "rule", "consequence of", "measured", "limit", "urgency", "reason"],
+        columns: vec!["scenario", "level", "rule", "consequence of", "measured", "limit", "urgency", "reason"],
         rows: rows.map(row).collect(),
     }
 }

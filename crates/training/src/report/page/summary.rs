@@ -24,6 +24,7 @@ pub fn header(review: &Review) -> Markup {
                 p {
                     b { (review.metadata.trainee) } " · " (utc(&review.metadata.started_utc)) " · " (review.vehicle.name)
                     @if let Some(purpose) = &review.metadata.purpose { " · " (purpose) }
+                    @if let Some(difficulty) = &review.scenario.difficulty { " · level " (difficulty.level) " of " (difficulty.levels()) }
                 }
                 p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
             }
