@@ -206,8 +206,9 @@ fn certification_notes(source: &SourceFile, scenario: &Scenario, aircraft: &Vehi
 /// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const SCENARIO_KEYS: [&str; 16] = [
+const SCENARIO_KEYS: [&str; 17] = [
     "title",
+    "briefing",
     "difficulty",
     "forms",
     "seed",

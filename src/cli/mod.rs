@@ -4,6 +4,7 @@
 mod args;
 mod assess;
 mod autopilot_args;
+mod brief;
 mod check;
 mod cohort;
 mod demo;
@@ -49,6 +50,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Brief(brief::Args),
     Train(train::Args),
     Demo(demo::Args),
     Sim(sim::Args),
@@ -89,6 +91,7 @@ pub fn main() -> ExitCode {
 fn run(cli: &Cli) -> Result<(), AppError> {
     logging::start(cli.log);
     match &cli.command {
+        Command::Brief(args) => brief::run(args),
         Command::Train(args) => train::run(args, cli.log),
         Command::Demo(args) => demo::run(args, cli.log),
         Command::Sim(args) => sim::run(args),

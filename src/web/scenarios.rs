@@ -10,10 +10,13 @@ use crate::io::files;
 use crate::io::replace::replace;
 use axum::http::StatusCode;
 use spandrel_model::site::Site;
+use spandrel_training::briefing::Briefing;
 use spandrel_training::web::scenarios::{self as pages, ScenarioEntry};
 
 /// Maximum number of uploaded scenarios.
 const MAX_UPLOADS: usize = 200;
+/// Aircraft of the briefing, as in the other commands.
+const DEFAULT_VEHICLE: &str = "phantom2";
 /// Seed for drawing the site; the geometry is the same for every seed.
 const ANY_SEED: u64 = 0;
 
@@ -32,6 +35,15 @@ pub fn scenario_page(state: &ServerState, request: &WebRequest) -> HandlerResult
     let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
     let site = Site::build(&job.scenario, ANY_SEED);
     Ok(WebResponse::page(pages::scenario_page(&request.visitor, &job.named, &job.scenario, &site, &job.text)))
+}
+
+/// Responds with the briefing for a scenario.
+pub fn briefing_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
+    let site = Site::build(&job.scenario, ANY_SEED);
+    let vehicle = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
+    let briefing = Briefing::new(&job.scenario, &vehicle, &site);
+    Ok(WebResponse::page(pages::briefing_page(&request.visitor, &briefing, &job.scenario, &site)))
 }
 
 /// Validates and saves an uploaded scenario.

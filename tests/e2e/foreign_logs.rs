@@ -101,7 +101,9 @@ fn wire_log_of_another_form_is_scored_with_the_form_that_was_flown() {
     let forms: String =
         ["A", "B"].map(|name| format!("\n[[forms]]\nname = \"{name}\"\ndefect_seed = 1\ndetection_pct = 75.0\n")).concat();
     let (_, drill) = spandrel_model::shipped::SCENARIOS.iter().find(|(name, _)| *name == "drill-landing").unwrap();
-    std::fs::write(&job, (*drill).to_owned() + &forms).unwrap();
+    // A job has either forms or difficulty levels.
+    let drill = drill.split("[difficulty]").next().unwrap();
+    std::fs::write(&job, drill.to_owned() + &forms).unwrap();
     let job = job.display().to_string();
     let (log, scores) = flown_job(folder.path(), &["--scenario", &job, "--form", "B"]);
     let path = folder.path().join("b.tlog");

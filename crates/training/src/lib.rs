@@ -1,4 +1,4 @@
-//! Evaluation after the flight, as pure functions: session records ([`record`]), statistics ([`statistics`]), training plans
+//! Before and after the flight, as pure functions: the briefing ([`briefing`]), session records ([`record`]), statistics ([`statistics`]), training plans
 //! ([`plan`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements for learning record stores
 //! ([`xapi`]), session reports ([`report`]) and web pages ([`web`]). The application reads the session folders, maintains the
 //! database and serves the pages.
@@ -12,6 +12,7 @@
 //! assert!(change.mean_difference > 0.0);
 //! ```
 
+pub mod briefing;
 pub mod cohort;
 pub mod plan;
 pub mod questionnaire;

@@ -17,6 +17,8 @@ pub struct Scenario {
     pub name: String,
     /// One-line display title.
     pub title: String,
+    /// The instructor's own words at the start of the briefing, one paragraph each.
+    pub briefing: Vec<String>,
     /// Seed for all random content (defects, traffic, turbulence, sensors); `None` if each session draws a new seed.
     pub seed: Option<u64>,
     /// Geographic position of the local frame's origin.

@@ -20,6 +20,8 @@ pub const FORMAT: i64 = 1;
 const MAX_CELLS_PER_SIDE: f64 = 2_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MAX_BRIDGES: usize = 16;
+/// Maximum length of a paragraph of the briefing, characters (estimate: longer ones belong in a document of their own).
+const MAX_BRIEFING_CHARS: usize = 1_000;
 
 /// Function that loads a file by name from the scenario's folder and returns its text or an error message.
 pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
@@ -67,6 +69,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let difficulty = super::difficulty::read(r, root);
     let name = read_name(r, root, "name");
     let title = r.text(root, "title", None);
+    let briefing = read_briefing(r, root);
     // The protocol transmits the seed in a signed 32-bit field.
     let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
@@ -82,6 +85,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let mut scenario = Scenario {
         name,
         title,
+        briefing,
         seed,
         origin,
         terrain,
@@ -105,6 +109,16 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
 }
 
 /// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.
+/// Reads the instructor's words for the briefing.
+fn read_briefing(r: &mut Reader, root: &mut Section) -> Vec<String> {
+    let words = r.texts(root, "briefing");
+    for paragraph in words.iter().filter(|paragraph| paragraph.chars().count() > MAX_BRIEFING_CHARS) {
+        let length = format!("{} characters", paragraph.chars().count());
+        r.add_problem(root, "briefing", &length, &format!("at most {MAX_BRIEFING_CHARS} characters a paragraph"), "too long");
+    }
+    words
+}
+
 fn read_name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let before = r.problems.len();
     let name = r.text(s, key, None);

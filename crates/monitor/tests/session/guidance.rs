@@ -41,14 +41,14 @@ fn wire_guidance_leads_through_the_job() {
     assert_eq!(texts, ["Take off"]);
     // The path leads from (10, 0, 10) to (60, 0, 10).
     tape.fly((0.0, 0.0, 10.0), 2.0);
-    tape.fly((35.0, 0.0, 10.0), 5.0);
+    tape.fly((35.0, 0.0, 10.0), 4.0);
     let (steps, texts) = run(&mut monitor, &mut tape);
     let last = steps.last().unwrap();
     assert_eq!((last.step, last.task, last.tasks), (GuidanceStep::FollowPath, Some(1), 1));
     assert!((last.progress.unwrap() - 0.5).abs() < 0.03, "{last:?}");
     assert!(last.deviation.unwrap().distance_m < FLOAT_TOLERANCE_M, "{last:?}");
     assert_eq!(texts.last().map(String::as_str), Some("Task 1: follow the path"));
-    tape.fly((60.0, 0.0, 10.0), 5.0);
+    tape.fly((60.0, 0.0, 10.0), 4.0);
     tape.fly((60.0, -30.0, 10.0), 5.0);
     tape.hold(2.0);
     let (steps, texts) = run(&mut monitor, &mut tape);

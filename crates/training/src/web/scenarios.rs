@@ -2,7 +2,9 @@
 
 use super::access::{AccessLevel, Visitor};
 use super::layout::{message, page, section, table, token};
+use crate::briefing::Briefing;
 use crate::report::formatting;
+use crate::report::page::briefing_contents;
 use crate::report::plots::job::job_plan;
 use maud::{Markup, html};
 use spandrel_model::scenario::{Difficulty, Scenario};
@@ -91,6 +93,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     };
     let body = html! {
         p.lead { (scenario.title) }
+        p { a href={ "/scenarios/" (named.name) "/briefing" } { "Briefing" } ": tasks in order, hazards, what counts, and the site check, to read before the flight or to print." }
         (section("facts", "Summary", &facts))
         @if !scenario.tasks.is_empty() {
             (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance (m)", true)], &rows)))
@@ -104,6 +107,13 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         })) }
     };
     page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
+}
+
+/// Renders the briefing for a scenario.
+#[must_use]
+pub fn briefing_page(visitor: &Visitor, briefing: &Briefing, scenario: &Scenario, site: &Site) -> Markup {
+    let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site)) };
+    page(visitor, "/scenarios", &format!("Briefing {}", briefing.job), &body)
 }
 
 /// Reason why a recording was not imported.

@@ -9,8 +9,8 @@ use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation
 use spandrel_model::math;
 use spandrel_model::numbers::format_limit;
 
-/// Top of the panel: below the readouts with their longest list.
-const TOP: f64 = 0.395;
+/// Top of the panel: just above the map, below the status text of the window.
+const TOP: f64 = 0.455;
 /// Width of the panel, height of a line, and padding.
 const WIDTH: f64 = 0.42;
 const LINE_HEIGHT: f64 = 0.037;

@@ -1,6 +1,7 @@
 //! The report page, section by section. User-provided text is escaped by maud; data for the page's script is escaped by
 //! [`series`].
 
+mod briefing;
 mod certification;
 pub mod cohort;
 mod compare;
@@ -19,6 +20,7 @@ mod summary;
 mod tasks;
 pub mod within_error;
 
+pub use briefing::{briefing, contents as briefing_contents};
 pub use compare::comparison;
 
 use super::Review;

@@ -1,0 +1,55 @@
+//! Hazards of a job, derived from its scenario and site.
+
+use super::count;
+use super::tasks::TaskBriefing;
+use spandrel_model::scenario::{AfterCrash, Scenario};
+use spandrel_model::site::Site;
+
+/// Wind from which the briefing warns, m/s (estimate: the TASBID paper's "gentle" level is 4.9 m/s).
+const NOTABLE_WIND_M_S: f64 = 4.0;
+/// Clearance below which a path counts as confined, m (estimate: about two aircraft widths on each side).
+const CONFINED_CLEARANCE_M: f64 = 2.5;
+
+pub(super) fn hazards(scenario: &Scenario, site: &Site) -> Vec<String> {
+    let mut lines = Vec::new();
+    let tasks: Vec<TaskBriefing> = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site)).collect();
+    for task in &tasks {
+        if let Some(clearance_m) = task.clearance_m.filter(|clearance_m| *clearance_m < CONFINED_CLEARANCE_M) {
+            lines.push(format!("Confined space: in task {}, structure comes within {clearance_m:.1} m of the path.", task.id));
+        }
+    }
+    let dark: Vec<String> = tasks.iter().filter(|task| task.lamp).map(|task| task.id.to_string()).collect();
+    if !dark.is_empty() {
+        let noun = if dark.len() == 1 { "task" } else { "tasks" };
+        lines.push(format!("Darkness: the lamp is needed in {noun} {}.", dark.join(", ")));
+    }
+    if scenario.wind.speed_m_s >= NOTABLE_WIND_M_S || !scenario.wind.events.is_empty() {
+        let gusts = if scenario.wind.events.is_empty() { "" } else { " The wind changes or gusts during the flight." };
+        lines
+            .push(format!("Wind: {:.1} m/s.{gusts} Expect turbulence behind piers and under the deck.", scenario.wind.speed_m_s));
+    }
+    let traffic = &scenario.traffic;
+    let vehicles = traffic.cars + traffic.trucks;
+    if vehicles > 0 {
+        lines.push(format!("Traffic: {} on the bridges. Stay away from the roadway.", count(vehicles, "vehicle")));
+    }
+    if traffic.pedestrians > 0 {
+        lines.push(format!("People: {} on the walkways. Never fly above them.", count(traffic.pedestrians, "pedestrian")));
+    }
+    if scenario.rules.gnss_shadow {
+        lines.push("GNSS: the structure blocks satellites. Under the deck, the position can drift.".to_owned());
+    }
+    if is_over_water(scenario, site) {
+        lines.push("Water: parts of the paths are above water. An emergency landing there loses the aircraft.".to_owned());
+    }
+    match scenario.rules.after_crash {
+        AfterCrash::End => lines.push("A crash ends the session.".to_owned()),
+        AfterCrash::Continue | AfterCrash::Respawn => {}
+    }
+    lines
+}
+
+fn is_over_water(scenario: &Scenario, site: &Site) -> bool {
+    let mut points = scenario.tasks.iter().flat_map(|task| &task.path_m);
+    points.any(|point| site.ground_up_m(point.east(), point.north()) < scenario.terrain.water_level_m)
+}

@@ -1,0 +1,50 @@
+//! Tests of the briefing.
+
+use super::*;
+use spandrel_model::{scenario, shipped, vehicle};
+
+fn briefing(text: &str) -> Briefing {
+    let scenario = scenario::read("job.toml", text, &|file| Err(file.to_owned())).unwrap();
+    let vehicle = vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap();
+    Briefing::new(&scenario, &vehicle, &Site::build(&scenario, 0))
+}
+
+#[test]
+fn exact_briefing_of_the_paper_job_names_order_direction_and_hazards() {
+    let briefing = briefing(shipped::TWO_BRIDGES);
+    let ids: Vec<u32> = briefing.tasks.iter().map(|task| task.id).collect();
+    assert_eq!(ids, [1, 2, 3, 4]);
+    let loops: Vec<bool> = briefing.tasks.iter().map(|task| task.place.contains("once around")).collect();
+    assert_eq!(loops, [false, false, false, true]);
+    let lamp: Vec<String> = briefing.tasks.iter().filter(|task| task.lamp).map(|task| task.id.to_string()).collect();
+    assert!(
+        briefing.hazards.iter().any(|line| line.starts_with("Darkness") == !lamp.is_empty() && line.contains(&lamp.join(", ")))
+    );
+    assert_eq!(briefing.site_check.len(), 3);
+    let total_m: f64 = briefing.tasks.iter().map(|task| task.length_m).sum();
+    let path = briefing.conditions.iter().find(|(name, _)| name == "path").map(|(_, value)| value.clone());
+    assert_eq!(path, Some(format!("{total_m:.0} m in 4 tasks")));
+}
+
+#[test]
+fn exact_every_shipped_job_has_a_briefing_that_fits_a_terminal() {
+    for (name, text) in shipped::SCENARIOS {
+        let briefing = briefing(text);
+        assert!(!briefing.counts.is_empty() && !briefing.site_check.is_empty(), "{name}");
+        let shown = text::render(&briefing);
+        assert!(shown.lines().all(|line| line.chars().count() <= 96), "{name}:\n{shown}");
+        assert!(shown.contains(&briefing.title) && !shown.contains("inf") && !shown.contains("NaN"), "{name}:\n{shown}");
+        for line in briefing.hazards.iter().chain(&briefing.site_check) {
+            assert!(line.ends_with('.'), "{name}: {line}");
+        }
+    }
+}
+
+#[test]
+fn exact_the_instructors_words_come_first() {
+    let text = format!("briefing = [\"Meet at the gate.\", \"Bring a vest.\"]\n{}", shipped::TWO_BRIDGES);
+    let briefing = briefing(&text);
+    assert_eq!(briefing.notes, ["Meet at the gate.", "Bring a vest."]);
+    let shown = text::render(&briefing);
+    assert!(shown.find("Meet at the gate.") < shown.find("Tasks, in this order"), "{shown}");
+}

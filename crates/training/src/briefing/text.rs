@@ -1,0 +1,74 @@
+//! The briefing as plain text, for a terminal.
+
+use super::{Briefing, TaskBriefing};
+use std::fmt::Write as _;
+
+/// Maximum line length, characters.
+const MAX_WIDTH: usize = 96;
+
+/// Renders the briefing.
+#[must_use]
+pub fn render(briefing: &Briefing) -> String {
+    let mut out = format!("{}\n{}\n", briefing.title, "=".repeat(briefing.title.chars().count()));
+    let mut put = |words: &str, indent: &str| {
+        for line in wrap(words, MAX_WIDTH - indent.len()) {
+            let _ = writeln!(out, "{indent}{line}");
+        }
+    };
+    for note in &briefing.notes {
+        put("", "");
+        put(note, "");
+    }
+    put("", "");
+    for (name, value) in &briefing.conditions {
+        put(&format!("{name:<10}{value}"), "  ");
+    }
+    if !briefing.tasks.is_empty() {
+        put("", "");
+        put("Tasks, in this order", "");
+    }
+    for task in &briefing.tasks {
+        put(&format!("{}  {}: {}", task.id, task.name, task.place), "  ");
+        put(&task_numbers(task), "     ");
+    }
+    let lists = [("Hazards", &briefing.hazards), ("What counts", &briefing.counts), ("Site check", &briefing.site_check)];
+    for (heading, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
+        put("", "");
+        put(heading, "");
+        for line in lines {
+            put(line, "  ");
+        }
+    }
+    out
+}
+
+/// Returns a task's numbers, such as "152 m long, 12 to 24 m above the pad, stand-off 5 ± 1.5 m, lamp needed".
+#[must_use]
+pub fn task_numbers(task: &TaskBriefing) -> String {
+    let (low_m, high_m) = task.heights_m;
+    let height = if high_m - low_m < 1.0 { format!("{high_m:.0} m") } else { format!("{low_m:.0} to {high_m:.0} m") };
+    let mut parts = vec![format!("{:.0} m long", task.length_m), format!("{height} above the pad")];
+    match task.stand_off_m {
+        Some((recommended_m, tolerance_m)) => parts.push(format!("stand-off {recommended_m:.1} ± {tolerance_m:.1} m")),
+        None => parts.push(format!("within {:.1} m of the path", task.threshold_m)),
+    }
+    if task.lamp {
+        parts.push("lamp needed".to_owned());
+    }
+    parts.join(", ")
+}
+
+/// Splits a text into lines of at most `width` characters, at spaces. Keeps the spaces inside a line.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split_inclusive(' ') {
+        let line = lines.last().map_or(0, |line| line.chars().count());
+        if line > 0 && line + word.trim_end().chars().count() > width {
+            lines.push(String::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push_str(word);
+        }
+    }
+    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
+}

@@ -1,0 +1,51 @@
+//! `spandrel brief`: the briefing before a flight.
+
+use super::args;
+use crate::errors::{AppError, EXIT_CODES};
+use crate::io::files;
+use spandrel_model::site::Site;
+use spandrel_monitor::export::json_text;
+use spandrel_training::briefing::{Briefing, text};
+use spandrel_training::report::page;
+
+/// Seed for building the site; the briefing is the same for every seed.
+const ANY_SEED: u64 = 0;
+
+/// Print the briefing for a job
+///
+/// The tasks in order, with direction, length, height, stand-off and lamp; the conditions and hazards; what counts; and the
+/// site check before takeoff. The key `briefing` in the scenario file adds your own words.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXIT_CODES, after_long_help = format!("\
+Examples:
+  spandrel brief --scenario two-bridges
+  spandrel brief --scenario pilot-study --form B --vehicle m30
+  spandrel brief --scenario two-bridges --html briefing.html     a page with drawings, to print
+
+{EXIT_CODES}"))]
+pub struct Args {
+    #[command(flatten)]
+    job: args::JobArgs,
+    /// Write a page with drawings of the site to this file; '-' for standard output [default: print text]
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    html: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the subcommand.
+///
+/// # Errors
+/// Returns an error if the scenario or the aircraft is invalid, or if the page cannot be written.
+pub fn run(args: &Args) -> Result<(), AppError> {
+    let scenario = args.job.load_scenario()?.scenario;
+    let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
+    let site = Site::build(&scenario, ANY_SEED);
+    let briefing = Briefing::new(&scenario, &vehicle, &site);
+    match (&args.html, args.json) {
+        (Some(file), _) => files::write(file, page::briefing(&briefing, &scenario, &site).as_bytes()),
+        (None, true) => files::write("-", json_text(&briefing).as_bytes()),
+        (None, false) => files::write("-", text::render(&briefing).as_bytes()),
+    }
+}
