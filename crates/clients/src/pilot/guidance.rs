@@ -176,7 +176,7 @@ impl Pilot {
             return;
         }
         let since = *self.guidance.off_path_since.get_or_insert(self.now);
-        if self.now - since >= feedback.off_path_delay {
+        if self.now - since >= feedback.off_path_delay + SimTime::from_s(self.config.skill.notice_cue_s) {
             self.guidance.cued_until = self.now + SimTime::from_s(CUE_ATTENTION_S);
         }
     }
