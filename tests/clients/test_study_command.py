@@ -54,6 +54,15 @@ def test_flight_killed_study_resumes_to_the_same_tables(tmp_path):
     assert "| flights | 3 | 3 |" in printed and printed == (whole / "summary.md").read_text(encoding="utf-8")
 
 
+def test_regress_beginners_hold_the_hover_drill(tmp_path):
+    """They passed its path of 0.4 m at more than the threshold, and landed without having been on it."""
+    study = ["study", "--scenario", "drill-hover", "--skill", "novice,trained", "--seeds", "10-13", "--log", "error"]
+    spandrel.run(*study, "--out", str(tmp_path))
+    flights = [json.loads(line) for line in journal(tmp_path).splitlines()]
+    incomplete = [(flight["pilot"], flight["seed"]) for flight in flights if not flight["result"]["complete"]]
+    assert len(flights) == 8 and incomplete == []
+
+
 def test_val_rows_match_demo_flights_and_pyarrow_reads_them(tmp_path):
     summary = json.loads(spandrel.run(*STUDY, "--out", str(tmp_path / "study"), "--json", "-"))
     table = pyarrow.parquet.read_table(tmp_path / "study" / "flights.parquet")

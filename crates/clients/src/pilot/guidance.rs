@@ -3,6 +3,7 @@
 use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
 use super::guidance_state::LookDirection;
+use super::hold::distance_to_path_m;
 use super::perception::MotionState;
 use super::setbacks::SetbackDecision;
 use super::stick_command::{MIN_HORIZONTAL, aim_error_rad, heading_and_elevation, sticks};
@@ -169,13 +170,13 @@ impl Pilot {
             return;
         };
         let (task, feedback) = (&self.config.scenario.tasks[task], &self.config.scenario.feedback);
-        let distance_m = task.path_m.iter().map(|p| (*p - seen.position_m).norm()).fold(f64::INFINITY, f64::min);
+        let distance_m = distance_to_path_m(task, seen.position_m);
         if distance_m <= task.threshold_m || distance_m > feedback.off_path_max_m {
             self.guidance.off_path_since = None;
             return;
         }
         let since = *self.guidance.off_path_since.get_or_insert(self.now);
-        if self.now - since >= feedback.off_path_delay {
+        if self.now - since >= feedback.off_path_delay + SimTime::from_s(self.config.skill.notice_cue_s) {
             self.guidance.cued_until = self.now + SimTime::from_s(CUE_ATTENTION_S);
         }
     }
@@ -185,21 +186,27 @@ impl Pilot {
         let flight = &mut self.guidance;
         let (job, leg) = flight.leg.as_ref()?;
         let wish = leg.command(&mut flight.progress, belief, &self.config.skill, flight.pace_m_s);
-        let pausing = flight.target.is_some() || self.now < flight.look_until || self.now < flight.back_off_until;
+        let holding = flight.hold.is_some();
+        let pausing = holding || flight.target.is_some() || self.now < flight.look_until || self.now < flight.back_off_until;
         if flight.progress.along_m > flight.best_along_m + 0.3 || pausing {
             flight.best_along_m = flight.best_along_m.max(flight.progress.along_m);
             flight.best_since = self.now;
         }
-        if wish.done && flight.target.is_none() {
-            let job = *job;
-            flight.leg = None;
-            match job {
-                FlightGoal::Task(_) => self.tasks_flown += 1,
-                FlightGoal::Home => self.enter(PilotPhase::Descend),
-            }
-            return None;
+        let (job, arrived) = (*job, (wish.done || holding) && flight.target.is_none());
+        let ended = arrived
+            && match job {
+                FlightGoal::Task(task) => self.has_held(task),
+                FlightGoal::Home => true,
+            };
+        if !ended {
+            return Some(wish);
         }
-        Some(wish)
+        self.guidance.leg = None;
+        match job {
+            FlightGoal::Task(_) => self.tasks_flown += 1,
+            FlightGoal::Home => self.enter(PilotPhase::Descend),
+        }
+        None
     }
 
     /// Stops at intervals along a task to look at the surface, if the job has defects to find.

@@ -1,6 +1,7 @@
 //! In-flight guidance state: the leg, its progress, stops, setbacks, and the defect being photographed.
 
 use super::goals::FlightGoal;
+use super::hold::Hold;
 use super::setbacks::Setbacks;
 use super::track::{LegProgress, TrackLeg};
 use spandrel_model::frames::{Enu, Vec3};
@@ -87,6 +88,8 @@ pub struct Guidance {
     pub(super) look_since: SimTime,
     pub(super) look_duration_s: f64,
     pub(super) look_until: SimTime,
+    /// Progress of holding position at the end of a very short path.
+    pub(super) hold: Option<Hold>,
     pub(super) setbacks: Setbacks,
     /// Whether the aircraft was in contact in the previous step.
     pub(super) touching: bool,
@@ -114,6 +117,7 @@ impl Guidance {
             look_since: SimTime::ZERO,
             look_duration_s: 0.0,
             look_until: SimTime::ZERO,
+            hold: None,
             setbacks: Setbacks::default(),
             touching: false,
         }
@@ -140,6 +144,7 @@ impl Guidance {
         self.best_along_m = 0.0;
         self.best_since = now;
         self.next_look_m = 0.0;
+        self.hold = None;
         self.needs_plan = false;
     }
 

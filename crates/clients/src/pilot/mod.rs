@@ -16,6 +16,7 @@ pub mod visual_search;
 pub mod flight_plan;
 mod guidance;
 mod guidance_state;
+pub mod hold;
 pub mod orientation;
 pub mod photo_spot;
 mod photography;

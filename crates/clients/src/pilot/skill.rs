@@ -21,8 +21,12 @@ pub struct Skill {
     pub preview_s: f64,
     /// Attention lapses per minute; during a lapse, the sticks do not move.
     pub lapses_per_min: f64,
+    /// Time until the pilot notices a displayed cue that the aircraft is off the path, s.
+    pub notice_cue_s: f64,
     /// Preferred speed along a surface under inspection, m/s.
     pub speed_m_s: f64,
+    /// Largest speed along a path, relative to a prudent one for the kind of task.
+    pub path_speed_ratio: f64,
     /// Preferred speed between tasks, m/s.
     pub transit_speed_m_s: f64,
     /// Time to the nearest surface that the pilot keeps, s: limits the speed near structure.
@@ -83,7 +87,7 @@ pub enum SkillFactor {
     Noise,
     /// Selects [`Skill::preview_s`].
     Preview,
-    /// Selects [`Skill::lapses_per_min`].
+    /// Selects the numbers of attention: lapses and noticed cues.
     Lapses,
     /// Selects the chosen speeds, stops and battery reserve.
     Pace,
@@ -177,13 +181,15 @@ macro_rules! field {
 
 /// All numbers, in the order of the reference page.
 #[rustfmt::skip]
-pub const FIELDS: [SkillField; 29] = [
+pub const FIELDS: [SkillField; 31] = [
     field!(delay_s, "s", 0.0 to 0.9, Delay, "delay from an event to the control response", "Pfeiffer and Scaramuzza: 220 ms; others estimate"),
     field!(gain, "", 0.1 to 2.0, Gain, "gain of the position and heading loops, relative to the trained pilot", "estimate"),
     field!(noise, "", 0.0 to 6.0, Noise, "noise of perceived speed and heading, and of the hands, relative to the trained pilot", "estimate; McRuer and Jex for the trained pilot's hands"),
     field!(preview_s, "s", 0.2 to 4.0, Preview, "look-ahead of the gaze", "Pfeiffer and Scaramuzza: 1.5 s; novice estimate"),
     field!(lapses_per_min, "1/min", 0.0 to 30.0, Lapses, "attention lapses of 1 to 3 s, during which the sticks don't move", "estimate"),
+    field!(notice_cue_s, "s", 0.0 to 120.0, Lapses, "time until the pilot notices a displayed off-path cue", "estimate"),
     field!(speed_m_s, "m/s", 0.2 to 10.0, Pace, "preferred speed along a surface", "estimate: about 1 m/s, the certification's inspection speed"),
+    field!(path_speed_ratio, "", 0.1 to 4.0, Pace, "largest speed along a path, relative to a prudent one (1.4 to 3.3 m/s, by the kind of task)", "estimate: prudent for all levels"),
     field!(transit_speed_m_s, "m/s", 0.5 to 13.0, Pace, "preferred speed between tasks", "estimate"),
     field!(time_gap_s, "s", 0.2 to 10.0, Pace, "time to the nearest surface that the pilot keeps; limits the speed near structure", "estimate: drivers keep 1 to 2 s"),
     field!(look_spacing_m, "m", 2.0 to 1000.0, Pace, "distance between stops to look at the surface", "estimate: one picture width at a stand-off of 4.5 m is 8 m"),
@@ -217,7 +223,9 @@ impl Skill {
         noise: 2.0,
         preview_s: 0.7,
         lapses_per_min: 0.5,
+        notice_cue_s: 0.0,
         speed_m_s: 2.2,
+        path_speed_ratio: 1.0,
         transit_speed_m_s: 5.0,
         time_gap_s: 1.2,
         look_spacing_m: 25.0,
@@ -249,7 +257,9 @@ impl Skill {
         noise: 1.0,
         preview_s: 1.5,
         lapses_per_min: 0.1,
+        notice_cue_s: 0.0,
         speed_m_s: 1.4,
+        path_speed_ratio: 1.0,
         transit_speed_m_s: 5.0,
         time_gap_s: 1.7,
         look_spacing_m: 14.0,
@@ -281,7 +291,9 @@ impl Skill {
         noise: 0.7,
         preview_s: 1.5,
         lapses_per_min: 0.02,
+        notice_cue_s: 0.0,
         speed_m_s: 2.1,
+        path_speed_ratio: 1.0,
         transit_speed_m_s: 7.0,
         time_gap_s: 1.5,
         look_spacing_m: 12.0,

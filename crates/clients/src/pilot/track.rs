@@ -135,7 +135,8 @@ impl TrackLeg {
     fn speed(&self, progress: LegProgress, skill: &Skill, now_m_s: f64, pace_m_s: f64) -> f64 {
         let start: f64 = (1..progress.next).map(|k| self.segment_m(k)).sum();
         let mut ahead_m = start - progress.along_m;
-        let mut speed = self.speed_m_s[progress.next].min(pace_m_s);
+        let ratio = skill.path_speed_ratio;
+        let mut speed = (self.speed_m_s[progress.next] * ratio).min(pace_m_s);
         let horizon_m = skill.preview_s * now_m_s.max(1.0) + 1.0;
         for next in progress.next..self.points_m.len() {
             ahead_m += self.segment_m(next);
@@ -143,7 +144,7 @@ impl TrackLeg {
                 break;
             }
             let there = match self.speed_m_s.get(next + 1) {
-                Some(following) => following.min(pace_m_s) * self.bend_speed_factor(next),
+                Some(following) => (following * ratio).min(pace_m_s) * self.bend_speed_factor(next),
                 None => 0.0,
             };
             speed = speed.min((there * there + 2.0 * BRAKING_DECELERATION_M_S2 * ahead_m.max(0.0)).sqrt());
