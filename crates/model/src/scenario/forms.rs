@@ -119,7 +119,7 @@ mod tests {
         let job = |form: &str| parse(&select_form(PILOT_STUDY, form)).unwrap();
         let defects = |form: &str| (job(form).defects.seed, job(form).defects.mean_detection);
         assert_eq!(defects("B"), (Some(2), Some(0.75)), "the detection of [defects]");
-        assert_eq!(defects("H"), (Some(4), Some(0.23)), "the detection of the form");
+        assert_eq!(defects("H"), (Some(4), Some(0.55)), "the detection of the form");
         assert_eq!((job("H").name_with_form(), job("H").name), ("pilot-study@H".to_owned(), "pilot-study".to_owned()));
         assert_eq!(parse(TWO_BRIDGES).unwrap().name_with_form(), "two-bridges");
     }
