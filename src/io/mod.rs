@@ -18,6 +18,7 @@ pub mod links;
 pub mod log_check;
 pub mod log_file;
 pub mod logging;
+pub mod map_tiles;
 pub mod mcap;
 pub mod net;
 pub mod pacing;
@@ -25,7 +26,6 @@ pub mod params;
 pub mod parquet;
 pub mod pause;
 pub mod plan_rules;
-#[cfg(feature = "view")]
 pub mod png;
 pub mod progress;
 pub mod replace;

@@ -9,6 +9,7 @@ mod hashing;
 mod listening;
 mod live;
 mod lock;
+mod map_tiles;
 pub mod passwords;
 mod plan_rules;
 mod questions;

@@ -91,6 +91,11 @@ impl WebResponse {
         Self::new("image/jpeg", jpeg)
     }
 
+    /// Responds with a map tile.
+    pub fn map_tile(png: Vec<u8>) -> Self {
+        Self::new("image/png", png)
+    }
+
     /// Responds with a file that browsers may cache until its URL changes.
     pub fn asset(kind: &'static str, text: String) -> Self {
         Self { cacheable: true, ..Self::new(kind, text.into_bytes()) }

@@ -3,7 +3,7 @@
 use super::request::WebRequest;
 use super::response::HandlerResult;
 use super::state::ServerState;
-use super::{assets, live, plan_rules, questions, scenarios, sessions, settings, trainees, uploads};
+use super::{assets, live, map_tiles, plan_rules, questions, scenarios, sessions, settings, trainees, uploads};
 use spandrel_training::web::access::AccessLevel;
 
 /// Function that handles a request.
@@ -99,6 +99,7 @@ pub const ROUTES: &[Route] = &[
     compute("/cohort/tables/{name}", AccessLevel::Instructor, trainees::cohort_table),
     show("/scenarios", AccessLevel::Login, scenarios::scenario_list),
     show("/scenarios/{name}", AccessLevel::Login, scenarios::scenario_page),
+    compute("/tiles/{name}/{z}/{x}/{y}", AccessLevel::Public, map_tiles::tile),
     show("/scenarios/{name}/briefing", AccessLevel::Login, scenarios::briefing_page),
     upload("/scenarios", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenarios::upload),
     change("/scenarios/{name}/remove", AccessLevel::Instructor, scenarios::remove),
@@ -125,10 +126,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_anonymous_visitors_reach_only_the_login_page() {
+    fn exact_anonymous_visitors_reach_only_the_login_page_and_map_tiles() {
         let open: Vec<&str> =
             ROUTES.iter().filter(|route| route.required_access == AccessLevel::Public).map(|route| route.path).collect();
-        assert_eq!(open, ["/", "/assets/{name}", "/login", "/login", "/logout"]);
+        // Ground stations cannot log in, and map tiles show no defects.
+        assert_eq!(open, ["/", "/assets/{name}", "/login", "/login", "/logout", "/tiles/{name}/{z}/{x}/{y}"]);
     }
 
     #[test]

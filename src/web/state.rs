@@ -8,10 +8,11 @@ use super::session_importer::SessionImporter;
 use super::temp_files;
 use crate::errors::AppError;
 use crate::io::answers;
+use crate::io::map_tiles::MapTiles;
 use crate::records::{Database, RecordsLocation};
 use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 /// Server settings.
 #[derive(Debug, Clone)]
@@ -47,6 +48,8 @@ pub struct ServerState {
     pub importer: SessionImporter,
     /// Locked while an answer file is read, modified and written.
     pub answers: Mutex<()>,
+    /// Map tiles of the job that was requested last.
+    pub map_tiles: Mutex<Option<Arc<MapTiles>>>,
     /// Locked while a recording is scored, because scoring is slow.
     pub scoring: Mutex<()>,
 }
@@ -81,6 +84,7 @@ impl ServerState {
             live,
             importer: taking_in,
             answers,
+            map_tiles: Mutex::default(),
             scoring,
         })
     }

@@ -39,6 +39,7 @@ pub mod scene;
 pub mod shaders;
 pub mod shadows;
 pub mod shot;
+pub mod site_map;
 pub mod sky;
 pub mod sound;
 pub mod stage;

@@ -1,12 +1,21 @@
 //! Instructions for connecting a ground station or a script.
 
 use crate::cli::ports::PortArgs;
+use crate::io::files;
 use std::path::Path;
 
-/// Returns the instructions for one flight. `web` is the web pages' address, and `window` is true if a window shows the
-/// flight.
+/// Returns the address of the site's map tiles for a ground station. The web pages know only shipped scenarios.
+fn map_tiles(scenario: &str, web: Option<&str>) -> String {
+    match web.filter(|_| files::scenario_names().contains(&scenario)) {
+        Some(web) => format!("{}/tiles/{scenario}/{{z}}/{{x}}/{{y}}.png", web.trim_end_matches('/')),
+        None => "none".to_owned(),
+    }
+}
+
+/// Returns the instructions for one flight of a scenario. `web` is the web pages' address, and `window` is true if a window
+/// shows the flight.
 pub fn connection_instructions(
-    title: &str,
+    (title, scenario): (&str, &str),
     args: &PortArgs,
     ports: &serde_json::Value,
     session: &Path,
@@ -24,6 +33,7 @@ pub fn connection_instructions(
   pymavlink        udpout:127.0.0.1:{}
   session folder   {}
   web pages        {}
+  map tiles        {}
 {}
 Take off, fly the tasks and land on the pad. You then see your scores, and the vehicle stays connected.
 Press Ctrl-C to end the session early.
@@ -35,6 +45,7 @@ Press Ctrl-C to end the session early.
         port("gcs_port"),
         session.display(),
         web.unwrap_or("none"),
+        map_tiles(scenario, web),
         if window {
             "A window shows both views and the flight keys; you can also fly with a ground station or a script."
         } else {
@@ -51,8 +62,14 @@ mod tests {
     #[test]
     fn exact_instructions_match_window_availability() {
         let ports = parse_args(&[]).ports;
-        let told = |window| connection_instructions("Drill", &ports, &serde_json::Value::Null, Path::new("s"), (None, window));
+        let told = |window| {
+            connection_instructions(("Drill", "drill-hover"), &ports, &serde_json::Value::Null, Path::new("s"), (None, window))
+        };
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
+        assert!(told(true).contains("map tiles        none"));
+        let served = map_tiles("drill-hover", Some("http://127.0.0.1:8080/"));
+        assert_eq!(served, "http://127.0.0.1:8080/tiles/drill-hover/{z}/{x}/{y}.png");
+        assert_eq!(map_tiles("my-job.toml", Some("http://127.0.0.1:8080")), "none");
         assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }
 }

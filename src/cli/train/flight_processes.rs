@@ -119,7 +119,7 @@ impl FlightProcesses {
 
     /// Returns the instructions for connecting ground stations and scripts.
     pub fn connection_info(&self, args: &Args, web: Option<&str>, window: bool) -> String {
-        connection_instructions(&self.title, &args.ports, &self.ports, &self.session, (web, window))
+        connection_instructions((&self.title, &self.choice.scenario), &args.ports, &self.ports, &self.session, (web, window))
     }
 
     /// Waits until the session ends, a stop is requested, or a process exits unexpectedly. Meanwhile, handles the

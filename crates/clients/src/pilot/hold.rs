@@ -1,7 +1,6 @@
 //! Holding position: a very short path is held for a while instead of flown. The pilot trusts the display, which shows whether
 //! the aircraft is on the path, more than their own judgment.
 
-use super::Pilot;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Task;
 use spandrel_model::time::SimTime;
@@ -46,16 +45,6 @@ pub fn is_held(task: &Task) -> bool {
 #[must_use]
 pub fn distance_to_path_m(task: &Task, position_m: Vec3<Enu>) -> f64 {
     task.path_m.iter().map(|p| (*p - position_m).norm()).fold(f64::INFINITY, f64::min)
-}
-
-impl Pilot {
-    /// Holds position at the end of a leg whose path is very short. Returns whether the pilot goes on.
-    pub(super) fn has_held(&mut self, task: usize) -> bool {
-        let (task, seen) = (&self.config.scenario.tasks[task], self.perception.delayed_view(self.config.skill.delay_s));
-        let Some(seen) = seen.filter(|_| is_held(task)) else { return true };
-        let on_path = distance_to_path_m(task, seen.position_m) <= task.threshold_m;
-        self.guidance.hold.get_or_insert(Hold::new(self.now)).step(on_path, self.now)
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Hazards of a job, derived from its scenario and site.
 
-use super::count;
+use super::counting::count;
 use super::tasks::TaskBriefing;
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::site::Site;

@@ -2,12 +2,14 @@
 //! computed from the scenario, the aircraft and the site, so it holds for every job; [`text`] renders it for a terminal, and
 //! `report::page::briefing` as a page.
 
+mod counting;
 mod hazards;
 mod tasks;
 pub mod text;
 
 pub use tasks::TaskBriefing;
 
+use counting::count;
 use serde::Serialize;
 use spandrel_model::scenario::{Scenario, WindModel};
 use spandrel_model::site::Site;
@@ -60,7 +62,7 @@ fn conditions(scenario: &Scenario, vehicle: &Vehicle) -> Vec<(String, String)> {
     let scoring = &scenario.scoring;
     let mut rows = vec![
         ("aircraft", vehicle.name.clone()),
-        ("path", format!("{length_m:.0} m in {}", count(scenario.tasks.len(), "task"))),
+        ("tasks", format!("{}, {length_m:.0} m of path", scenario.tasks.len())),
         ("time", format!("about {:.0} min needed, {:.0} min allowed", needed_s / 60.0, scoring.time_max_s / 60.0)),
         (
             "speed",
@@ -124,11 +126,6 @@ fn site_check(scenario: &Scenario) -> Vec<String> {
             team.home_radius_m
         ),
     ]
-}
-
-/// Returns a number with its noun, such as "1 car" or "3 cars".
-fn count(number: usize, what: &str) -> String {
-    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
 }
 
 #[cfg(test)]

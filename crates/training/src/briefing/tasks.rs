@@ -44,7 +44,11 @@ impl TaskBriefing {
         Self {
             id: task.id,
             name: task.name.clone(),
-            place: format!("{}{bridge}{}", place_words(task.kind), direction_words(task)),
+            place: if is_hover(task) {
+                "hover at one place".to_owned()
+            } else {
+                format!("{}{bridge}{}", place_words(task.kind), direction_words(task))
+            },
             length_m: length_m(task),
             heights_m: (low_m, high_m),
             stand_off_m: task.stand_off.as_ref().map(|stand_off| (stand_off.recommended_m, stand_off.tolerance_m)),
@@ -55,13 +59,18 @@ impl TaskBriefing {
     }
 }
 
+/// Returns whether a path is so short that the task is to hover.
+fn is_hover(task: &Task) -> bool {
+    length_m(task) < MIN_DIRECTED_M
+}
+
 fn place_words(kind: TaskKind) -> &'static str {
     match kind {
         TaskKind::SlabSide => "along the edge of the deck",
         TaskKind::ArchBottom => "under the arch",
         TaskKind::Interlayer => "between the arch and the deck",
         TaskKind::PierCircle => "around the pier",
-        TaskKind::Free => "along the path",
+        TaskKind::Free => "along the free path",
     }
 }
 
@@ -88,10 +97,7 @@ fn direction_words(task: &Task) -> String {
     let (Some(first), Some(last)) = (task.path_m.first(), task.path_m.last()) else { return String::new() };
     let way = *last - *first;
     if way.horizontal_norm() < MIN_DIRECTED_M {
-        return match way.norm() < MIN_DIRECTED_M {
-            true => ", hovering".to_owned(),
-            false => format!(", {}", if way.up() > 0.0 { "from bottom to top" } else { "from top to bottom" }),
-        };
+        return format!(", {}", if way.up() > 0.0 { "from bottom to top" } else { "from top to bottom" });
     }
     let (from, to) = (compass(*first - *last), compass(way));
     format!(", from {from} to {to}")

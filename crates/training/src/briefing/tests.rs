@@ -22,8 +22,8 @@ fn exact_briefing_of_the_paper_job_names_order_direction_and_hazards() {
     );
     assert_eq!(briefing.site_check.len(), 3);
     let total_m: f64 = briefing.tasks.iter().map(|task| task.length_m).sum();
-    let path = briefing.conditions.iter().find(|(name, _)| name == "path").map(|(_, value)| value.clone());
-    assert_eq!(path, Some(format!("{total_m:.0} m in 4 tasks")));
+    let tasks = briefing.conditions.iter().find(|(name, _)| name == "tasks").map(|(_, value)| value.clone());
+    assert_eq!(tasks, Some(format!("4, {total_m:.0} m of path")));
 }
 
 #[test]

@@ -5,14 +5,17 @@ use std::fmt::Write as _;
 
 /// Maximum line length, characters.
 const MAX_WIDTH: usize = 96;
+/// Additional indent of a paragraph's second and later lines.
+const HANGING_INDENT: usize = 3;
 
 /// Renders the briefing.
 #[must_use]
 pub fn render(briefing: &Briefing) -> String {
     let mut out = format!("{}\n{}\n", briefing.title, "=".repeat(briefing.title.chars().count()));
     let mut put = |words: &str, indent: &str| {
-        for line in wrap(words, MAX_WIDTH - indent.len()) {
-            let _ = writeln!(out, "{indent}{line}");
+        let hanging = if indent.is_empty() { 0 } else { HANGING_INDENT };
+        for (k, line) in wrap(words, MAX_WIDTH - indent.len() - hanging).into_iter().enumerate() {
+            let _ = writeln!(out, "{indent}{:width$}{line}", "", width = if k == 0 { 0 } else { hanging });
         }
     };
     for note in &briefing.notes {
@@ -46,8 +49,13 @@ pub fn render(briefing: &Briefing) -> String {
 #[must_use]
 pub fn task_numbers(task: &TaskBriefing) -> String {
     let (low_m, high_m) = task.heights_m;
-    let height = if high_m - low_m < 1.0 { format!("{high_m:.0} m") } else { format!("{low_m:.0} to {high_m:.0} m") };
-    let mut parts = vec![format!("{:.0} m long", task.length_m), format!("{height} above the pad")];
+    let height = if high_m - low_m < 1.0 {
+        format!("{:.0} m {} the pad", high_m.abs(), if high_m < 0.0 { "below" } else { "above" })
+    } else {
+        format!("{low_m:.0} to {high_m:.0} m above the pad")
+    };
+    let mut parts = if task.length_m < 1.0 { Vec::new() } else { vec![format!("{:.0} m long", task.length_m)] };
+    parts.push(height);
     match task.stand_off_m {
         Some((recommended_m, tolerance_m)) => parts.push(format!("stand-off {recommended_m:.1} ± {tolerance_m:.1} m")),
         None => parts.push(format!("within {:.1} m of the path", task.threshold_m)),

@@ -72,7 +72,7 @@ fn tasks(tasks: &[TaskBriefing]) -> Markup {
                     th scope="row" { (task.id) " · " (task.name) }
                     td { (task.place) }
                     td.number { (number(task.length_m, 0)) }
-                    td.number { (number(task.heights_m.0, 0)) " to " (number(task.heights_m.1, 0)) }
+                    td.number { (heights_words(task.heights_m)) }
                     td.number { @match task.stand_off_m {
                         Some((recommended_m, tolerance_m)) => { (number(recommended_m, 1)) " ± " (number(tolerance_m, 1)) },
                         None => "–",
@@ -84,8 +84,14 @@ fn tasks(tasks: &[TaskBriefing]) -> Markup {
     }
 }
 
+/// Returns a range of heights, or one height if both ends are the same.
+fn heights_words((low_m, high_m): (f64, f64)) -> String {
+    let (low, high) = (formatting::number(low_m, 0), formatting::number(high_m, 0));
+    if low == high { high } else { format!("{low} to {high}") }
+}
+
 fn conditions(rows: &[(String, String)]) -> Markup {
-    html! { dl.facts { @for (name, value) in rows { dt { (name) } dd { (value) } } } }
+    html! { table.list { tbody { @for (name, value) in rows { tr { th scope="row" { (name) } td { (value) } } } } } }
 }
 
 fn site_check(items: &[String]) -> Markup {

@@ -1,7 +1,7 @@
 //! Drawings of a job without a flight, used on the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
-use super::map::{extent, near_bridge_data, north, pad, reference_paths, scale, structure};
+use super::map::{extent, near_bridge_data, north, pad, reference_paths, scale, structure, task_numbers};
 use super::plot_map::PlotMap;
 use super::svg_figure;
 use crate::report::outline::ParallelView;
@@ -27,6 +27,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
             (lake(scenario, site, &map))
             (structure(site, &map, None))
             (reference_paths(scenario, &map, None))
+            (task_numbers(scenario, &map, None))
             (pad(scenario, &map))
             (north(&map))
             (drone(&map, None))
@@ -61,6 +62,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
             (ground(scenario, site, &map, bridge))
             (structure(site, &map, Some(&prefix)))
             (reference_paths(scenario, &map, Some(&bridge.name)))
+            (task_numbers(scenario, &map, Some(&bridge.name)))
             (drone(&map, Some(bridge)))
             (scale(&map))
         },
@@ -75,7 +77,7 @@ pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
     points.push(Vec3::new(pad_m.east() - END_MARGIN_M, pad_m.north(), pad_m.up()));
     points.push(Vec3::new(pad_m.east() + END_MARGIN_M, pad_m.north(), pad_m.up() + TOP_MARGIN_M));
     let map = PlotMap::around(ParallelView::from_south(), &points);
-    let body = html! { (structure(site, &map, None)) (reference_paths(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
+    let body = html! { (structure(site, &map, None)) (reference_paths(scenario, &map, None)) (task_numbers(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
     svg_figure(map.size, "Job site viewed from the south", "map", &body)
 }
 
@@ -104,6 +106,7 @@ mod tests {
         let (scenario, site) = job(include_str!("../../../../../scenarios/two-bridges.toml"));
         let plan = job_plan(&scenario, &site).into_string();
         assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));
+        assert_eq!(plan.matches("class=\"start\"").count(), 4, "each path has its number");
         assert!(plan.contains("class=\"lake\"") && plan.contains("class=\"structure\""));
         for bridge in &scenario.bridges {
             let side = job_side(&scenario, &site, bridge).into_string();

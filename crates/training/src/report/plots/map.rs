@@ -11,6 +11,7 @@ use crate::report::outline::{ParallelView, outlines};
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
 use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
 
@@ -192,18 +193,50 @@ fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&
     }
 }
 
-/// Draws the reference paths of one bridge or of all bridges.
-pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
-    let of = |task: &&Task| {
+/// Returns the tasks at one bridge or at all bridges. Free paths belong to every bridge.
+fn tasks_at<'a>(scenario: &'a Scenario, bridge: Option<&'a str>) -> impl Iterator<Item = &'a Task> {
+    scenario.tasks.iter().filter(move |task| {
         let own = task.bridge.and_then(|k| scenario.bridges.get(k)).map(|own| own.name.as_str());
         bridge.is_none() || own.is_none() || own == bridge
-    };
+    })
+}
+
+/// Distance along a path that determines the direction of the arrow at its start, in drawing units.
+const ARROW_BASE: f64 = 16.0;
+/// Distance of the arrow's tip from the start, in drawing units: just outside the number's circle.
+const ARROW_TIP: f64 = 22.0;
+
+/// Draws the number of each task at the start of its path, with an arrow along an open path.
+pub(super) fn task_numbers(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
+    html! {
+        @for task in tasks_at(scenario, bridge).filter(|task| !task.path_m.is_empty()) {
+            @let start = map.at(task.path_m[0]);
+            g.start transform={ "translate(" (coord(start.0)) " " (coord(start.1)) ")" } {
+                @if let Some(angle_deg) = start_direction_deg(task, map, start) {
+                    path transform={ "rotate(" (coord(angle_deg)) ")" } d={ "M" (coord(ARROW_TIP)) " 0L10 -6L10 6Z" } {}
+                }
+                circle r="9" {}
+                text.mark y="4" text-anchor="middle" { (task.id) }
+            }
+        }
+    }
+}
+
+/// Returns the direction of an open path at its start, clockwise from the right; `None` if it is closed or too short.
+fn start_direction_deg(task: &Task, map: &PlotMap, start: (f64, f64)) -> Option<f64> {
+    let away = |point: &(f64, f64)| math::hypot(point.0 - start.0, point.1 - start.1) >= ARROW_BASE;
+    let next = task.path_m.iter().map(|point| map.at(*point)).find(away).filter(|_| !task.closed)?;
+    Some(math::atan2(next.1 - start.1, next.0 - start.0).to_degrees())
+}
+
+/// Draws the reference paths of one bridge or of all bridges.
+pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
     let reference = |task: &Task| {
         let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
         line(&simplify_polyline(&points, TRACK_TOLERANCE), task.closed)
     };
     html! {
-        g.reference { @for task in scenario.tasks.iter().filter(of) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
+        g.reference { @for task in tasks_at(scenario, bridge) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
     }
 }
 
