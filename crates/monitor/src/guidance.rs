@@ -94,8 +94,12 @@ impl GuidanceInput<'_> {
 
     /// Returns the task to fly: the active one until nothing of it remains, then the first one that is not done.
     fn task(&self) -> Option<usize> {
-        let unfinished = |task: &usize| !self.tasks[*task].finished && !(self.tasks[*task].done && self.is_hold_position(*task));
-        self.active_task.filter(unfinished).or_else(|| self.tasks.iter().position(|task| !task.done))
+        self.active_task.filter(|task| !self.is_finished(*task)).or_else(|| self.tasks.iter().position(|task| !task.done))
+    }
+
+    /// Returns whether nothing of a task remains to be flown.
+    fn is_finished(&self, task: usize) -> bool {
+        self.tasks[task].finished || (self.tasks[task].done && self.is_hold_position(task))
     }
 
     /// Returns whether a path is so short that reaching it flies all of it.
