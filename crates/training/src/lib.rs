@@ -1,7 +1,7 @@
 //! Evaluation after the flight, as pure functions: session records ([`record`]), statistics ([`statistics`]), training plans
-//! ([`plan`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements for learning record stores
-//! ([`xapi`]), session reports ([`report`]) and web pages ([`web`]). The application reads the session folders, maintains the
-//! database and serves the pages.
+//! ([`plan`]), things to do better ([`advice`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements
+//! for learning record stores ([`xapi`]), session reports ([`report`]) and web pages ([`web`]). The application reads the
+//! session folders, maintains the database and serves the pages.
 //!
 //! ```
 //! use spandrel_training::statistics::paired_t;
@@ -12,12 +12,14 @@
 //! assert!(change.mean_difference > 0.0);
 //! ```
 
+pub mod advice;
 pub mod cohort;
 pub mod plan;
 pub mod questionnaire;
 pub mod record;
 pub mod report;
 pub mod statistics;
+mod time_text;
 pub mod trainee;
 pub mod web;
 pub mod xapi;

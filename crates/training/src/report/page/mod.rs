@@ -11,12 +11,14 @@ mod feedback;
 mod figure;
 mod flight_section;
 mod gallery;
+mod moment;
 mod next_steps;
 pub mod progress;
 mod record;
 pub mod series;
 mod summary;
 mod tasks;
+mod to_do_better;
 pub mod within_error;
 
 pub use compare::comparison;
@@ -31,9 +33,10 @@ pub fn session(review: &Review) -> String {
     let title = format!("Session report: {}, {}", review.metadata.trainee, review.metadata.started_utc);
     let sketcher = gallery::sketcher(review);
     let sections = [
+        ("better", "Do better", to_do_better::section(review)),
         ("scores", "Scores", summary::scores(review)),
         ("tasks", "Tasks", tasks::section(review)),
-        ("next", "Next", next_steps::section(review)),
+        ("next", "Plan", next_steps::section(review)),
         ("flight", "Flight", flight_section::section(review)),
         ("pictures", "Pictures", gallery::section(review, &sketcher)),
         ("defects", "Defects", defects_found::section(review, &sketcher)),
