@@ -3,12 +3,15 @@
 
 use spandrel_mavlink::telemetry::Timeline;
 use spandrel_model::geodesy::LocalPlane;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{PlacedDefect, Scenario, TaskKind};
+use spandrel_model::site::Site;
 use spandrel_monitor::assessment::flight_with_seed;
+use spandrel_monitor::sidecar::build_site;
+use spandrel_monitor::{AssessedSession, assess_log};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_training::advice::{AdvicePoint, FlightEvidence, MAX_POINTS, MissedDefect, SessionAdvice, session_advice};
-use spandrel_training::plan::{DEFAULT_RULES, PlanRules, plan, read_rules};
+use spandrel_training::plan::{DEFAULT_RULES, PlanReason, PlanRule, PlanRules, PlanStep, RuleMeasure, plan, read_rules};
 use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 use spandrel_training::report::{Review, SessionMetadata, advice_of, page};
 
@@ -19,9 +22,9 @@ const BRIDGE: i32 = 1;
 
 fn job() -> Scenario {
     let mut first = task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0);
-    first.kind = spandrel_model::scenario::TaskKind::SlabSide;
+    first.kind = TaskKind::SlabSide;
     let mut second = task(2, line((60.0, 20.0, 10.0), (10.0, 20.0, 10.0)), 3.0);
-    second.kind = spandrel_model::scenario::TaskKind::PierCircle;
+    second.kind = TaskKind::PierCircle;
     scenario(vec![first, second])
 }
 
@@ -44,7 +47,7 @@ fn flight(spoil: impl FnOnce(&mut Tape)) -> Tape {
     tape
 }
 
-fn session_record(assessed_session: &spandrel_monitor::AssessedSession, job: &Scenario) -> SessionRecord {
+fn session_record(assessed_session: &AssessedSession, job: &Scenario, placed: &[PlacedDefect]) -> SessionRecord {
     record(&RecordSource {
         id: "a-session",
         trainee: "anna",
@@ -55,7 +58,7 @@ fn session_record(assessed_session: &spandrel_monitor::AssessedSession, job: &Sc
         vehicle: "test",
         hashes: &SourceHashes::of(b"s", b"v", b"t", b""),
         assessed_session,
-        placed: &[],
+        placed,
         answers: None,
     })
 }
@@ -66,7 +69,7 @@ fn advice(tape: &Tape, missed: &[MissedDefect]) -> SessionAdvice {
     let mut timeline = Timeline::new(LocalPlane::new(job.origin));
     timeline.push_log(tape.log(0).as_slice()).unwrap();
     let (flight, _) = flight_with_seed(&timeline, &job, &vehicle()).unwrap();
-    let record = session_record(&assessed_session, &job);
+    let record = session_record(&assessed_session, &job, &[]);
     let steps = plan(std::slice::from_ref(&record), &rules(), record.started_unix_us).unwrap().steps;
     let evidence = FlightEvidence {
         scenario: &job,
@@ -171,6 +174,63 @@ fn exact_tasks_not_flown_point_to_the_end() {
     let point = point(&advice, "pier not attempted");
     assert!(point.words.starts_with("You did not fly task 2: the flight ended at "), "{}", point.words);
     assert!((point.t_s - last_s).abs() < MOMENT_TOLERANCE_S, "{point:?} {last_s}");
+}
+
+/// Returns a plan with one step whose only reason is a rule.
+fn step_for(rule: &PlanRule) -> PlanStep {
+    let reason = PlanReason {
+        rule: rule.name.clone(),
+        session: "a-session".into(),
+        words: "Rule without a moment.".into(),
+        value: 9.0,
+        limit: rule.limit,
+        tasks: if matches!(rule.measure, RuleMeasure::Task(_)) { vec![1, 2] } else { Vec::new() },
+        consequence_of: None,
+    };
+    PlanStep { scenario: rule.scenario.clone(), urgency: 1.0, reasons: vec![reason], level: None }
+}
+
+#[test]
+fn prop_every_rule_has_a_sentence_with_a_number_and_a_moment() {
+    let (job, mut tape) = (two_bridges(), record_inspection(&two_bridges(), 240.0, 6));
+    tape.battery(12);
+    tape.hold(1.0);
+    let log = tape.log(0);
+    let mut timeline = Timeline::new(LocalPlane::new(job.origin));
+    timeline.push_log(log.as_slice()).unwrap();
+    let (flight, _) = flight_with_seed(&timeline, &job, &phantom()).unwrap();
+    let assessed_session = assess_log(log.as_slice(), &job, &phantom(), build_site).unwrap();
+    let site = Site::build(&job, assessed_session.seed);
+    let record = session_record(&assessed_session, &job, site.defects());
+    let missed: Vec<MissedDefect> = record
+        .defects
+        .iter()
+        .filter(|defect| !defect.found)
+        .map(|defect| MissedDefect { id: defect.id, t_s: 100.0, in_view_s: 4.5 * f64::from(defect.id % 2), nearest_m: 3.0 })
+        .collect();
+    let (vehicle, rules) = (phantom(), rules());
+    let evidence = FlightEvidence {
+        scenario: &job,
+        vehicle: &vehicle,
+        flight: &flight,
+        assessed_session: &assessed_session,
+        record: &record,
+        missed: &missed,
+    };
+    let end_s = assessed_session.assessment.end.seconds;
+    let mut with_moment = 0;
+    for rule in &rules.rules {
+        let advice = session_advice(&[step_for(rule)], &rules, &evidence);
+        let [point] = advice.points.as_slice() else { panic!("{}: {advice:#?}", rule.name) };
+        println!("{:32} {}", rule.name, point.words);
+        assert!((0.0..=end_s + MOMENT_TOLERANCE_S).contains(&point.t_s) && point.frame >= 1, "{point:?}");
+        assert!(point.words.ends_with('.') && !point.words.contains("NaN") && !point.words.contains("inf"), "{point:?}");
+        if !point.words.starts_with("Rule without") {
+            with_moment += 1;
+            assert!(point.words.chars().any(|c| c.is_ascii_digit()), "{point:?}");
+        }
+    }
+    assert!(with_moment > rules.rules.len() / 3, "{with_moment} of {} rules", rules.rules.len());
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub(super) fn missed(scan: &FlightScan<'_>, kind: &str, about: fn(&DefectRecord)
     } else {
         format!("at {at} you were nearest to a view of defect {id}: search slowly there")
     };
-    Some((format!("You missed {} of {all} {kind}defects; {hint}.", missed.len()), frame))
+    Some((format!("You missed {} of {all} {kind}; {hint}.", missed.len()), frame))
 }
 
 /// Defects that were in clear view.
@@ -54,7 +54,7 @@ pub(super) fn failed(scan: &FlightScan<'_>, lacked: &str) -> Option<Sentence> {
         "too dark" => ("too dark", "switch on the lamp"),
         "too oblique" => ("taken at too flat an angle", "point the nose straight at the surface"),
         "too small" => ("taken from too far away", "move closer"),
-        "line too thin" => ("taken too far from fine cracks", "move closer"),
+        "line too thin" => ("taken from too far for a fine crack", "move closer"),
         other => (other, "correct this before the picture"),
     };
     let subject = if count == 1 { "picture of a defect was".to_owned() } else { format!("pictures of {count} defects were") };

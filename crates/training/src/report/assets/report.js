@@ -289,6 +289,6 @@
   const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);
   if (asked) {
     show(Flight.indexAt(s.t, Number(asked[1])));
-    byId('flight').scrollIntoView();
+    byId('flight').scrollIntoView({ behavior: 'instant' });
   }
 })();

@@ -36,7 +36,7 @@ pub fn session(review: &Review) -> String {
         ("better", "Do better", to_do_better::section(review)),
         ("scores", "Scores", summary::scores(review)),
         ("tasks", "Tasks", tasks::section(review)),
-        ("next", "Plan", next_steps::section(review)),
+        ("next", "Next", next_steps::section(review)),
         ("flight", "Flight", flight_section::section(review)),
         ("pictures", "Pictures", gallery::section(review, &sketcher)),
         ("defects", "Defects", defects_found::section(review, &sketcher)),
