@@ -51,6 +51,8 @@ pub fn scores_text(assessment: &Value, advice: Option<&SessionAdvice>) -> String
     }
     if !complete {
         let _ = writeln!(out, "\nscores for the completed part of the flight:");
+    } else if advice.is_some() {
+        let _ = writeln!(out);
     }
     let _ = writeln!(out, "{:<14}{:>8}{:>11}", "score", "raw", "of 100");
     for name in ["conformity", "efficiency", "safety", "accuracy"] {
@@ -80,7 +82,6 @@ fn to_do_better(out: &mut String, advice: &SessionAdvice) {
     if let Some(next) = &advice.next {
         let _ = writeln!(out, "next flight   {}", next.command);
     }
-    let _ = writeln!(out);
 }
 
 /// Lists every requirement of the certification profile with its limit and the value reached.
@@ -254,6 +255,9 @@ conformity                no evidence     at least 75 points    not met
             Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\n\
             scores for the completed part of the flight:\n";
         assert!(text.starts_with(start), "{text}");
+        let advice = SessionAdvice { note: Some("Fly it to the end.".into()), ..SessionAdvice::default() };
+        let advised = scores_text(&assessment, Some(&advice));
+        assert!(advised.contains("to do better:\nFly it to the end.\n\nscores for the completed part"), "{advised}");
         assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("partly flown (64% of path)"), "{text}");
     }
 }
