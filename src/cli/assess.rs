@@ -7,9 +7,12 @@ use crate::io::log_file::LogFile;
 use crate::io::session_folder::StoredSession;
 use crate::io::{files, log_check, scoring};
 use serde_json::json;
+use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{AssessError, assess_log, export};
+use spandrel_training::advice::SessionAdvice;
+use spandrel_training::report::{SessionMetadata, advice_of};
 use std::path::PathBuf;
 
 /// Score a recorded flight again
@@ -70,8 +73,19 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     }
     match &args.json {
         Some(target) => files::write(target, export::json_text(&assessed_session.assessment).as_bytes()),
-        None => files::write("-", table::scores_text(&json!(assessed_session.assessment)).as_bytes()),
+        None => {
+            let advice = advice(args, &scenario.scenario, &vehicle, &log);
+            files::write("-", table::scores_text(&json!(assessed_session.assessment), advice.as_ref()).as_bytes())
+        }
     }
+}
+
+/// Returns the advice for the scored flight; `None` if it cannot be computed, because the scores do not depend on it.
+fn advice(args: &Args, scenario: &Scenario, vehicle: &Vehicle, log: &LogFile) -> Option<SessionAdvice> {
+    let stored = args.flight.is_dir().then(|| StoredSession::read(&args.flight).ok()).flatten();
+    let trainee = stored.map_or_else(|| "NAME".to_owned(), |stored| stored.trainee);
+    let advice = advice_of(log, scenario, vehicle, &SessionMetadata { trainee, ..SessionMetadata::default() });
+    advice.inspect_err(|error| tracing::warn!("cannot compute what to do better: {error}")).ok()
 }
 
 /// Returns the error to report, with the file and the options that can solve the problem.

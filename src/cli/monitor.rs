@@ -330,17 +330,16 @@ impl MonitorProcess {
         // The report reads the telemetry again; keeping the flight in memory as well would double memory use.
         self.monitor.free_flight_data();
         // The scores are saved; the report can be written again later.
-        if json.is_some()
-            && let Err(error) = report::write(self.folder.path())
-        {
-            tracing::warn!("cannot write the report: {error}");
-        }
+        let advice = json.as_ref().and_then(|_| {
+            let written = report::write(self.folder.path());
+            written.inspect_err(|error| tracing::warn!("cannot write the report: {error}")).ok()
+        });
         if let Err(refused) = self.folder.sync() {
             tracing::warn!("{refused}; a power failure could damage the session");
         }
         let assessed_session = self.outcome()?;
         if !announce {
-            print!("{}", table::scores_text(&json!(assessed_session.assessment)));
+            print!("{}", table::scores_text(&json!(assessed_session.assessment), advice.as_ref()));
             table::print_locations(self.folder.path());
         }
         Ok(())

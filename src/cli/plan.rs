@@ -8,7 +8,7 @@ use crate::io::plan_rules::rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
-use spandrel_training::plan::{MeasureChange, PlanStep, TrainingPlan, plan_for_policy};
+use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionOutcome, excluded_sessions_note};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -90,7 +90,7 @@ fn plan_text(plan: &TrainingPlan) -> String {
             let label = if reason.consequence_of.is_some() { "Consequence: " } else { "" };
             let _ = writeln!(out, "   {label}{}", reason.words);
         }
-        let _ = writeln!(out, "   To fly it: {}", command(&plan.trainee, step));
+        let _ = writeln!(out, "   To fly it: {}", step.command(&plan.trainee));
     }
     for drill in &plan.drills {
         let next = drill.next_level.as_ref().map(|next| format!("; next level: {}", next.level)).unwrap_or_default();
@@ -111,12 +111,6 @@ fn plan_text(plan: &TrainingPlan) -> String {
         }
     }
     out
-}
-
-/// Returns the command that flies a step of the plan.
-fn command(trainee: &str, step: &PlanStep) -> String {
-    let level = step.level.as_ref().map(|level| format!(" --level {}", level.level)).unwrap_or_default();
-    format!("spandrel train --trainee {trainee} --scenario {}{level}", step.scenario)
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
-use crate::io::replace::replace;
-use crate::io::report::{address, comparison_page, review};
+use crate::io::report::{self, address, comparison_page, review};
 use crate::records::read_json_lines;
 use spandrel_monitor::folder::REPORT;
 use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
@@ -48,20 +47,18 @@ pub struct Args {
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
-    let text = match &args.other {
-        Some(other) => comparison_page(&args.session, other, |scenario| reliability(args, scenario))?,
-        None => page::session(&review(&args.session)?),
+    let text = match (&args.other, &args.out) {
+        (Some(other), _) => comparison_page(&args.session, other, |scenario| reliability(args, scenario))?,
+        (None, Some(_)) => page::session(&review(&args.session)?),
+        (None, None) => {
+            report::write(&args.session)?;
+            progress.finish();
+            println!("report        {}", address(&args.session.join(REPORT)));
+            return Ok(());
+        }
     };
     progress.finish();
-    match &args.out {
-        Some(target) => files::write(target, text.as_bytes()),
-        None => {
-            let path = args.session.join(REPORT);
-            replace(&path, text.as_bytes())?;
-            println!("report        {}", address(&path));
-            Ok(())
-        }
-    }
+    files::write(args.out.as_deref().unwrap_or("-"), text.as_bytes())
 }
 
 /// Returns the reliability of the measures on a job over the first two sessions of each trainee; empty without records.

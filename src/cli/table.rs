@@ -7,6 +7,7 @@ use serde_json::Value;
 use spandrel_monitor::folder::REPORT;
 use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::{self, Completion, TaskState};
+use spandrel_training::advice::SessionAdvice;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -28,13 +29,13 @@ pub fn report_outcome(session: &Path) -> Result<(), AppError> {
     let text = std::fs::read_to_string(&path)
         .map_err(|_| AppError::failed(format!("the session was not scored; the recorded data is in {}", session.display())))?;
     let assessment = serde_json::from_str(&text).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
-    print!("{}", scores_text(&assessment));
+    print!("{}", scores_text(&assessment, report::saved_advice(session).as_ref()));
     print_locations(session);
     Ok(())
 }
 
-/// Formats a session's scores, tasks, crashes, pictures and end as text.
-pub fn scores_text(assessment: &Value) -> String {
+/// Formats a session's advice, scores, tasks, crashes, pictures and end as text.
+pub fn scores_text(assessment: &Value, advice: Option<&SessionAdvice>) -> String {
     let mut out = String::new();
     let scores = &assessment["scores"];
     let completion = Completion::deserialize(&assessment["completion"]).ok();
@@ -44,7 +45,14 @@ pub fn scores_text(assessment: &Value) -> String {
     }
     if !complete {
         verdict(&mut out, &assessment["certification"]);
+    }
+    if let Some(advice) = advice {
+        to_do_better(&mut out, advice);
+    }
+    if !complete {
         let _ = writeln!(out, "\nscores for the completed part of the flight:");
+    } else if advice.is_some() {
+        let _ = writeln!(out);
     }
     let _ = writeln!(out, "{:<14}{:>8}{:>11}", "score", "raw", "of 100");
     for name in ["conformity", "efficiency", "safety", "accuracy"] {
@@ -63,6 +71,17 @@ pub fn scores_text(assessment: &Value) -> String {
     end(&mut out, assessment);
     requirements(&mut out, &assessment["certification"]["requirements"]);
     out
+}
+
+/// Lists what to do better, and the scenario to fly next.
+fn to_do_better(out: &mut String, advice: &SessionAdvice) {
+    let _ = writeln!(out, "\nto do better:");
+    for (k, words) in advice.sentences().enumerate() {
+        let _ = if advice.points.len() > 1 { writeln!(out, "{}. {words}", k + 1) } else { writeln!(out, "{words}") };
+    }
+    if let Some(next) = &advice.next {
+        let _ = writeln!(out, "next flight   {}", next.command);
+    }
 }
 
 /// Lists every requirement of the certification profile with its limit and the value reached.
@@ -171,7 +190,34 @@ crashes       3 with structures or the ground, 0 with people, 0 with vehicles (t
 snapshots     5 taken, 3 with defects; 4 of 10 defects found
 end           landed after 12 min 30 s of flight, 0 missing frames
 ";
-        assert_eq!(scores_text(&assessment), expected);
+        assert_eq!(scores_text(&assessment, None), expected);
+    }
+
+    #[test]
+    fn exact_advice_follows_the_headline() {
+        let advice: SessionAdvice = serde_json::from_value(json!({
+            "points": [{"words": "You left the path.", "rule": "off the slab path", "frame": 31, "t_s": 1.0, "drill": "drill-hover"},
+                {"words": "You hit the bridge once.", "rule": "crashes at the pier", "frame": 61, "t_s": 2.0, "drill": "drill-orbit"}],
+            "next": {"scenario": "drill-hover", "command": "spandrel train --trainee anna --scenario drill-hover"}
+        }))
+        .unwrap();
+        let completion =
+            json!({"complete": true, "tasks_done": 2, "tasks": 2, "path_share": 0.9, "landed_at_home": true, "done_share": 0.8});
+        let expected = "\
+Complete: 2 of 2 tasks, 90% of the path
+
+to do better:
+1. You left the path.
+2. You hit the bridge once.
+next flight   spandrel train --trainee anna --scenario drill-hover
+
+score              raw     of 100
+";
+        let text = scores_text(&json!({"completion": completion}), Some(&advice));
+        assert!(text.starts_with(expected), "{text}");
+        let note = SessionAdvice { note: Some("Nothing to correct: fly the next job.".into()), ..SessionAdvice::default() };
+        let text = scores_text(&json!({"completion": completion}), Some(&note));
+        assert!(text.contains("\nto do better:\nNothing to correct: fly the next job.\n\nscore"), "{text}");
     }
 
     #[test]
@@ -204,11 +250,14 @@ conformity                no evidence     at least 75 points    not met
             "tasks": [{"id": 1, "attempted": true, "state": "part", "covered": 0.64, "on_path": 0.5, "speeding": 0.0},
                 {"id": 2, "attempted": false, "state": "not_attempted", "covered": 0.0}],
         });
-        let text = scores_text(&assessment);
+        let text = scores_text(&assessment, None);
         let start = "Incomplete: 0 of 2 tasks, 31% of the path\n\
             Not certified: task 1 not done: 64% of its path, 80% needed (and 1 more)\n\n\
             scores for the completed part of the flight:\n";
         assert!(text.starts_with(start), "{text}");
+        let advice = SessionAdvice { note: Some("Fly it to the end.".into()), ..SessionAdvice::default() };
+        let advised = scores_text(&assessment, Some(&advice));
+        assert!(advised.contains("to do better:\nFly it to the end.\n\nscores for the completed part"), "{advised}");
         assert!(!text.contains("overall") && !text.contains("of 300") && text.contains("partly flown (64% of path)"), "{text}");
     }
 }

@@ -5,7 +5,9 @@ use super::replace::replace;
 use super::session_folder::StoredSession;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
-use spandrel_monitor::folder::{REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, sha256_hex};
+use spandrel_monitor::export::json_text;
+use spandrel_monitor::folder::{ADVICE, REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, sha256_hex};
+use spandrel_training::advice::SessionAdvice;
 use spandrel_training::cohort::MeasureReliability;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
@@ -15,12 +17,21 @@ const MAX_PICTURE_BYTES: u64 = 400_000;
 /// Maximum total size of the photographs on a page, bytes; keeps the page under 10 MB.
 const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
-/// Writes the report into a session folder.
+/// Writes the report and the advice into a session folder, and returns the advice.
 ///
 /// # Errors
-/// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
-pub fn write(session: &Path) -> Result<(), AppError> {
-    replace(&session.join(REPORT), page::session(&review(session)?).as_bytes())
+/// Returns an error if files are invalid, the session has no data to report, or a file cannot be written.
+pub fn write(session: &Path) -> Result<SessionAdvice, AppError> {
+    let review = review(session)?;
+    // The report comes last: a session with a report is complete.
+    replace(&session.join(ADVICE), json_text(&review.advice).as_bytes())?;
+    replace(&session.join(REPORT), page::session(&review).as_bytes())?;
+    Ok(review.advice)
+}
+
+/// Returns the advice that was written with a session's report; `None` if there is none, or if another version wrote it.
+pub fn saved_advice(session: &Path) -> Option<SessionAdvice> {
+    serde_json::from_slice(&std::fs::read(session.join(ADVICE)).ok()?).ok()
 }
 
 /// Returns the names and contents of the files in a session's SCORM package.
@@ -89,14 +100,19 @@ pub fn review(session: &Path) -> Result<Review, AppError> {
 fn review_with_pictures(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
     let stored = StoredSession::read(session)?;
     let about = SessionMetadata { pictures, ..session_facts(session, &stored)? };
-    Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about).map_err(|error| match error {
+    let review = Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about);
+    review.map_err(|error| review_error(&error))
+}
+
+fn review_error(error: &AssessError) -> AppError {
+    match error {
         AssessError::OtherScenario { .. } | AssessError::OtherSeed { .. } => AppError::invalid(error.to_string()),
         AssessError::NeverFlown
         | AssessError::NotTelemetry
         | AssessError::NoTruth
         | AssessError::NoSeed
         | AssessError::Unreadable(_) => AppError::failed(error.to_string()),
-    })
+    }
 }
 
 fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetadata, AppError> {

@@ -9,7 +9,9 @@ use super::replace::replace_durably;
 use crate::errors::AppError;
 use spandrel_mavlink::telemetry::tlog;
 use spandrel_model::scenario::{self, PlacedDefect};
-use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex};
+use spandrel_monitor::folder::{
+    ADVICE, ASSESSMENT, EVENTS, REPORT, SCENARIO, SESSION, SessionInfo, TELEMETRY, VEHICLE, sha256_hex,
+};
 use spandrel_monitor::{SessionOutput, export};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -152,7 +154,7 @@ impl SessionFolder {
     pub fn sync(&self) -> Result<(), WriteError> {
         self.telemetry.sync()?;
         self.events.sync()?;
-        sync_folder(&self.path, &[SCENARIO, VEHICLE, SESSION, ASSESSMENT, REPORT])?;
+        sync_folder(&self.path, &[SCENARIO, VEHICLE, SESSION, ASSESSMENT, ADVICE, REPORT])?;
         self.path.parent().map_or(Ok(()), |sessions| sync_folder(sessions, &[]))
     }
 

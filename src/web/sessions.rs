@@ -12,6 +12,7 @@ use spandrel_monitor::folder::{REPORT, TELEMETRY};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
 use spandrel_training::web::sessions as pages;
+use spandrel_training::web::standing::standing;
 use std::path::{Path, PathBuf};
 
 /// Number of sessions on each list page.
@@ -62,8 +63,11 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let record = record(state, request, request.path_param("id"))?;
     let mut others = state.database.list(Some(&record.trainee), MAX_COMPARISONS, 0)?;
     others.retain(|other| other.id != record.id && state.folder(&other.id).is_some());
-    let folder = state.folder(&record.id).is_some();
-    Ok(WebResponse::page(pages::session(&request.visitor, &record, &pages::SessionPageData { folder, others: &others })))
+    let folder = state.folder(&record.id);
+    let advice = folder.as_deref().and_then(report::saved_advice);
+    let standing = standing(&record, &state.database.records(Some(&record.trainee))?);
+    let about = pages::SessionPageData { folder: folder.is_some(), others: &others, advice: advice.as_ref(), standing };
+    Ok(WebResponse::page(pages::session(&request.visitor, &record, &about)))
 }
 
 /// Responds with a session's report under the report's own policy. Creates the report again if it is missing or another

@@ -375,7 +375,7 @@ def test_regress_server_on_a_bad_disk_imports_only_complete_sessions(shim, flown
             assert len(taken) == 1 if confirmed else len(taken) <= 1, (kind, first, statuses, taken)
             for folder in taken:
                 there = {path.name for path in folder.iterdir() if path.is_file()}
-                assert wanted - there <= {"report.html"}, (kind, first, "a session must be complete", wanted - there)
+                assert wanted - there <= {"report.html", "advice.json"}, (kind, first, "a session must be complete", wanted - there)
             answers = root / "sessions" / flown.name / "answers.json"
             if statuses[:1] == [200]:
                 assert json.loads(answers.read_text(encoding="utf-8"))["answers"]["frustration"] == 3, (kind, first)
@@ -546,7 +546,7 @@ def test_regress_second_monitor_is_rejected_and_files_are_synced(shim, tmp_path)
         assert second.returncode == 2 and "another monitor is recording this session" in second.stderr, second.stderr
         watched.fly()
         synced = {pathlib.Path(line.split()[2]).name for line in operations(log) if line.split()[1] == "fsync"}
-        wanted = {"telemetry.tlog", "events.jsonl", "assessment.json", "session.json", "report.html", "scenario.toml", session.name}
+        wanted = {"telemetry.tlog", "events.jsonl", "assessment.json", "session.json", "advice.json", "report.html", "scenario.toml", session.name}
         assert wanted <= synced, wanted - synced
         assert spandrel.run("assess", str(session), "--json", "-") == (session / "assessment.json").read_text(encoding="utf-8")
     finally:

@@ -87,6 +87,31 @@ def test_report_opens_without_errors_or_requests(browser, session, size, scheme)
     assert wrong == []
 
 
+def test_links_move_the_slider_to_their_moment(browser, session):
+    page, wrong = open_page(browser, session / "report.html")
+    link = page.locator("#better a.moment-link").first
+    link.click()
+    assert link.inner_text() == f"Show {page.inner_text('#moment-text')}"
+    asked = link.get_attribute("data-t")
+    assert page.evaluate("location.hash") == "#flight"
+    page.goto("about:blank")
+    page.goto((session / "report.html").as_uri() + f"#t={asked}")
+    page.wait_for_selector("body.live")
+    assert f"Show {page.inner_text('#moment-text')}" == page.locator("#better a.moment-link").first.inner_text()
+    assert page.evaluate("document.getElementById('flight').getBoundingClientRect().top") < 100
+    assert wrong == []
+
+
+@pytest.mark.parametrize("size", list(SIZES))
+def test_first_screen_says_what_to_do_better(browser, session, size):
+    page, _ = open_page(browser, session / "report.html", size)
+    width, height = SIZES[size]
+    points = page.locator("ol.advice > li")
+    assert 1 <= points.count() <= 3
+    box = points.last.bounding_box()
+    assert box["x"] + box["width"] <= width and box["y"] + box["height"] <= height, box
+
+
 def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
     page, wrong = open_page(browser, session / "report.html")
     most = int(page.get_attribute("#moment", "max"))
@@ -193,6 +218,8 @@ def test_every_figure_has_its_data_table(browser, session):
     page, _ = open_page(browser, session / "report.html")
     for section in page.query_selector_all("main > section"):
         name = section.get_attribute("id")
+        if name == "better":
+            continue  # sentences only, no figure
         assert section.query_selector("table") and section.query_selector("a[download]"), name
 
 

@@ -18,6 +18,8 @@ pub const EVENTS: &str = "events.jsonl";
 pub const SIMULATOR_RESTARTED: &str = "simulator_restarted";
 /// Session scores and measures.
 pub const ASSESSMENT: &str = "assessment.json";
+/// Things to do better, and the scenario to fly next. Written with the report.
+pub const ADVICE: &str = "advice.json";
 /// Report page.
 pub const REPORT: &str = "report.html";
 /// Folder that contains the pictures.

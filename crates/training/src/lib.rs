@@ -1,7 +1,7 @@
-//! Before and after the flight, as pure functions: the briefing ([`briefing`]), session records ([`record`]), statistics ([`statistics`]), training plans
-//! ([`plan`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements for learning record stores
-//! ([`xapi`]), session reports ([`report`]) and web pages ([`web`]). The application reads the session folders, maintains the
-//! database and serves the pages.
+//! Before and after the flight, as pure functions: the briefing ([`briefing`]), session records ([`record`]), statistics
+//! ([`statistics`]), training plans ([`plan`]), things to do better ([`advice`]), cohort analysis ([`cohort`]), questionnaires
+//! ([`questionnaire`]), statements for learning record stores ([`xapi`]), session reports ([`report`]) and web pages ([`web`]).
+//! The application reads the session folders, maintains the database and serves the pages.
 //!
 //! ```
 //! use spandrel_training::statistics::paired_t;
@@ -12,6 +12,7 @@
 //! assert!(change.mean_difference > 0.0);
 //! ```
 
+pub mod advice;
 pub mod briefing;
 pub mod cohort;
 pub mod plan;
@@ -19,6 +20,7 @@ pub mod questionnaire;
 pub mod record;
 pub mod report;
 pub mod statistics;
+mod time_text;
 pub mod trainee;
 pub mod web;
 pub mod xapi;

@@ -14,7 +14,7 @@ use spandrel_training::cohort::{Selection, cohort};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::feedback::KINDS;
-use spandrel_training::report::{Review, SessionMetadata, page};
+use spandrel_training::report::{Jpeg, Review, SessionMetadata, page};
 use spandrel_training::testing::perfect_record;
 use std::sync::OnceLock;
 
@@ -157,6 +157,25 @@ fn exact_user_text_is_escaped_everywhere() {
         let before = page.split("<script type=\"application/json\"").next().unwrap_or_default();
         assert!(!before.contains("\"'>"));
     }
+}
+
+#[test]
+fn exact_defects_are_ringed_on_photographs() {
+    let (job, tape) = (two_bridges(), record_inspection(&two_bridges(), 240.0, 6));
+    let pictures = short_review().pictures.iter().filter_map(|picture| u32::try_from(picture.index).ok());
+    let pictures: Vec<(u32, Jpeg)> = pictures.map(|index| (index, Jpeg { bytes: vec![0xff, 0xd8] })).collect();
+    let review = Review::of(&tape.log(0), &job, &phantom(), SessionMetadata { pictures, ..metadata() }).unwrap();
+    let page = page::session(&review);
+    let seen = review.pictures.iter().flat_map(|picture| &picture.views).count();
+    assert!(seen > 0, "the flight shows no defect");
+    let mut ringed = 0;
+    for picture in &review.pictures {
+        let card = page.split(&format!("id=\"picture-{}\"", picture.number)).nth(1).unwrap().split("</li>").next().unwrap();
+        assert!(card.contains("data:image/jpeg;base64,"), "{card}");
+        ringed += card.matches("<g class=\"ring ").count();
+        assert_eq!(card.matches("<g class=\"ring found\"").count(), picture.views.iter().filter(|view| view.hit).count());
+    }
+    assert_eq!(ringed, seen);
 }
 
 #[test]

@@ -10,6 +10,7 @@ use spandrel_model::scenario::{Scenario, form_names};
 use spandrel_model::shipped;
 use spandrel_monitor::folder::{ASSESSMENT, REPORT};
 use spandrel_monitor::score::completion::{Completion, verdict};
+use spandrel_training::advice::SessionAdvice;
 use spandrel_view::flow::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightSummary, JobOffer, Purpose, SCORE_NAMES, TraineeSummary,
 };
@@ -101,6 +102,7 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         complete,
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
+        advice: report::saved_advice(session).iter().flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
             Some(web) => format!("{web}/sessions/{id}/questions"),

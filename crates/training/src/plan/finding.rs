@@ -7,9 +7,9 @@ use spandrel_monitor::score::completion::TaskState;
 use std::cmp::Ordering;
 
 /// Minimum condition state of a severe missed defect: poor (AASHTO MBEI).
-const MIN_SEVERE_CONDITION_STATE: u8 = 3;
+pub const MIN_SEVERE_CONDITION_STATE: u8 = 3;
 /// A landing with less battery charge than this counts as late, % (docs/src/reference/assessment.md, "Certification").
-const BATTERY_RESERVE_PCT: f64 = 20.0;
+pub const BATTERY_RESERVE_PCT: f64 = 20.0;
 /// Points lost per minute beyond the time for full efficiency (TASBID).
 const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
 /// Fraction of a path that the drone must fly, or pass within 8 m, for its task to count as attempted (estimate: less is a
@@ -36,6 +36,16 @@ impl Finding<'_> {
     pub(super) fn shares_scope_with(&self, other: &Self) -> bool {
         let tasks = self.task.zip(other.task);
         self.record.id == other.record.id && tasks.is_none_or(|(a, b)| a.id == b.id)
+    }
+
+    /// Returns the numbers of the tasks in which the value exceeds the limit; empty for a session.
+    pub(super) fn tasks_over_limit(&self) -> Vec<u32> {
+        let RuleMeasure::Task(measure) = self.rule.measure else { return Vec::new() };
+        let is_over = |task: &&TaskRecord| task_value(self.rule, measure, task).is_some_and(|value| value > self.rule.limit);
+        match self.task {
+            Some(task) => vec![task.id],
+            None => self.record.tasks.iter().filter(|task| fits(self.rule, task)).filter(is_over).map(|task| task.id).collect(),
+        }
     }
 }
 

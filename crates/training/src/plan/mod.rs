@@ -10,6 +10,8 @@ mod rules;
 mod staircase;
 mod wording;
 
+pub(crate) use finding::{BATTERY_RESERVE_PCT, MIN_SEVERE_CONDITION_STATE};
+
 pub use changes::{MeasureChange, SessionChanges};
 pub use mastery::{DrillProgress, meets_criterion};
 pub use measure::{MEASURES, MeasureUnit, RuleMeasure, SessionMeasure, TaskMeasure};
@@ -77,9 +79,21 @@ pub struct PlanReason {
     pub value: f64,
     /// Limit that the value must exceed for the rule to fire.
     pub limit: f64,
+    /// Numbers of the tasks in which the value exceeds the limit; empty if the measure applies to the whole session.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tasks: Vec<u32>,
     /// Name of the rule whose finding caused this one; absent for a cause.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub consequence_of: Option<String>,
+}
+
+impl PlanStep {
+    /// Returns the command that flies this step.
+    #[must_use]
+    pub fn command(&self, trainee: &str) -> String {
+        let level = self.level.as_ref().map(|level| format!(" --level {}", level.level)).unwrap_or_default();
+        format!("spandrel train --trainee {trainee} --scenario {}{level}", self.scenario)
+    }
 }
 
 /// Creates a plan from one trainee's records in chronological order; `None` if there are no records.
@@ -187,6 +201,7 @@ fn add_begun_drills(steps: &mut Vec<PlanStep>, drills: &[DrillProgress], last: &
             words: format!("This drill is not done yet: {}.", drill.words()),
             value: drill.met as f64,
             limit: drill.needed as f64,
+            tasks: Vec::new(),
             consequence_of: None,
         };
         add(steps, &drill.scenario, 0.0, reason);
@@ -210,6 +225,7 @@ fn reason(finding: &Finding<'_>, consequence_of: Option<String>) -> PlanReason {
         words: wording::words(finding),
         value: finding.value,
         limit: finding.rule.limit,
+        tasks: finding.tasks_over_limit(),
         consequence_of,
     }
 }
@@ -220,7 +236,8 @@ fn single_reason_step(
     (rule, words): (&str, String),
     (value, limit): (f64, f64),
 ) -> PlanStep {
-    let reason = PlanReason { rule: rule.to_owned(), session: record.id.clone(), words, value, limit, consequence_of: None };
+    let (rule, session) = (rule.to_owned(), record.id.clone());
+    let reason = PlanReason { rule, session, words, value, limit, tasks: Vec::new(), consequence_of: None };
     PlanStep { scenario: scenario.to_owned(), urgency: 0.0, reasons: vec![reason], level: None }
 }
 

@@ -6,13 +6,13 @@ use super::source::RecordSource;
 use serde::{Deserialize, Serialize};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::Task;
+use spandrel_model::scenario::{Scenario, Task};
 use spandrel_monitor::measures::coverage::FlownPath;
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 
 /// Maximum distance from a path at which the drone counts as off that path, m. Farther away, it counts as elsewhere
 /// (docs/src/reference/assessment.md, "Feedback during the flight").
-pub(super) const MAX_OFF_PATH_DISTANCE_M: f64 = 8.0;
+pub const MAX_OFF_PATH_DISTANCE_M: f64 = 8.0;
 /// Stick movement that counts as a reversal, as a fraction of the travel from the center to the stop (the method of
 /// steering wheel reversals in SAE J2944; the value for sticks is an estimate).
 const REVERSAL_GAP: f64 = 0.2;
@@ -109,15 +109,12 @@ pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: 
     let count = scenario.tasks.len();
     let mut samples: Vec<NearSamples> = (0..count).map(|_| NearSamples::default()).collect();
     let mut passed: Vec<FlownPath> = (0..count).map(|task| FlownPath::new(paths.path(task), MAX_OFF_PATH_DISTANCE_M)).collect();
-    for (frame, on) in frames.iter().zip(&on_path.task) {
-        let near = if frame.missing { None } else { near_task(paths, &scenario.tasks, frame, on.map(|(task, _)| task)) };
+    for (frame, near) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)) {
         for (task, path) in passed.iter_mut().enumerate() {
             path.add_frame(near.and_then(|near| (near.task == task).then_some(near.point)));
         }
         if let Some(near) = near {
-            let described = &scenario.tasks[near.task];
-            let clearance_m = described.too_close_m.unwrap_or(f64::INFINITY).min(scenario.scoring.clearance_m);
-            samples[near.task].add(frame, &near, described, clearance_m);
+            samples[near.task].add(frame, &near, &scenario.tasks, clearance_limit_m(scenario, near.task));
         }
     }
     let frame_s = 1.0 / scenario.scoring.frame_rate_hz;
@@ -156,13 +153,52 @@ fn with_certification(source: &RecordSource<'_>, task: usize, technique: TaskTec
 }
 
 /// Position relative to the path that a frame counts for.
-#[derive(Clone, Copy)]
-struct NearPath {
-    task: usize,
+#[derive(Debug, Clone, Copy)]
+pub struct NearPath {
+    /// Index of the task.
+    pub task: usize,
     /// Index of the nearest path point.
-    point: usize,
+    pub point: usize,
     /// Vector from the nearest position on the path to the drone, m.
-    offset_m: Vec3<Enu>,
+    pub offset_m: Vec3<Enu>,
+}
+
+impl NearPath {
+    /// Returns the distance from the surface beyond the path's in meters, positive if too far; `None` if the task inspects no
+    /// surface.
+    pub fn stand_off_error_m(&self, tasks: &[Task]) -> Option<f64> {
+        self.view(tasks).map(|view| -self.offset_m.dot(view))
+    }
+
+    /// Returns the height above the path in meters, positive upward; `None` if the stand-off is vertical.
+    pub fn height_error_m(&self, tasks: &[Task]) -> Option<f64> {
+        let is_level = self.view(tasks).is_none_or(|view| view.up().abs() < MAX_LEVEL_VIEW_UP);
+        is_level.then(|| self.offset_m.up())
+    }
+
+    /// Returns the viewing direction at the nearest path point; `None` if the task inspects no surface.
+    pub fn view(&self, tasks: &[Task]) -> Option<Vec3<Enu>> {
+        let task = &tasks[self.task];
+        task.viewing_directions.get(self.point).copied().filter(|_| task.inspects_surface)
+    }
+}
+
+/// Returns the path that each frame counts for; `None` for a missing frame and for one that is elsewhere.
+pub fn near_frames<'a>(
+    scenario: &'a Scenario,
+    frames: &'a [Frame],
+    paths: &'a ReferencePaths,
+    on_path: &'a OnPath,
+) -> impl Iterator<Item = Option<NearPath>> + 'a {
+    frames
+        .iter()
+        .zip(&on_path.task)
+        .map(|(frame, on)| if frame.missing { None } else { near_task(paths, &scenario.tasks, frame, on.map(|(task, _)| task)) })
+}
+
+/// Returns the minimum clearance near a task's path, m.
+pub fn clearance_limit_m(scenario: &Scenario, task: usize) -> f64 {
+    scenario.tasks[task].too_close_m.unwrap_or(f64::INFINITY).min(scenario.scoring.clearance_m)
 }
 
 fn near_task(paths: &ReferencePaths, tasks: &[Task], frame: &Frame, on: Option<usize>) -> Option<NearPath> {
@@ -186,15 +222,10 @@ fn near_task(paths: &ReferencePaths, tasks: &[Task], frame: &Frame, on: Option<u
 }
 
 impl NearSamples {
-    fn add(&mut self, frame: &Frame, near: &NearPath, task: &Task, clearance_m: f64) {
+    fn add(&mut self, frame: &Frame, near: &NearPath, tasks: &[Task], clearance_m: f64) {
         self.frames += 1;
-        let view = task.viewing_directions.get(near.point).filter(|_| task.inspects_surface);
-        if let Some(view) = view {
-            self.stand_offs_m.push(-near.offset_m.dot(*view));
-        }
-        if view.is_none_or(|view| view.up().abs() < MAX_LEVEL_VIEW_UP) {
-            self.heights_m.push(near.offset_m.up());
-        }
+        self.stand_offs_m.extend(near.stand_off_error_m(tasks));
+        self.heights_m.extend(near.height_error_m(tasks));
         self.low_clearance += usize::from(frame.clearance_m.is_some_and(|clearance| clearance < clearance_m));
         self.lamp_off += usize::from(!frame.light);
         for (counter, position) in self.sticks.iter_mut().zip(frame.sticks) {

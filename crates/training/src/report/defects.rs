@@ -2,6 +2,7 @@
 
 use super::context::ReviewContext;
 use super::formatting;
+use crate::advice::MissedDefect;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::visibility::evaluate_defect;
@@ -63,6 +64,14 @@ impl DefectOutcome {
         }
     }
 
+    /// Returns how close the flight came to a picture of the defect; `None` if a picture shows it.
+    #[must_use]
+    pub fn missed(&self) -> Option<MissedDefect> {
+        let approach = self.best_approach.as_ref()?;
+        let (nearest_m, _) = approach.nearest;
+        Some(MissedDefect { id: self.defect.id, t_s: approach.moment_s(), in_view_s: approach.in_view_s, nearest_m })
+    }
+
     /// Returns a camera pose that shows the defect well.
     #[must_use]
     pub fn reference_view(&self) -> CameraPose {
@@ -71,6 +80,14 @@ impl DefectOutcome {
         // If the camera points straight up or down, any horizontal direction can be "right".
         let right = if forward.up().abs() > 0.999 { Vec3::new(1.0, 0.0, 0.0) } else { forward.cross(up).unit() };
         CameraPose { position_m: self.defect.position_m + self.defect.normal * VIEW_DISTANCE_M, forward, right, lamp_on: true }
+    }
+}
+
+impl BestApproach {
+    /// Returns the time of the best view or else of the closest approach, s since lift-off.
+    #[must_use]
+    pub fn moment_s(&self) -> f64 {
+        self.best.as_ref().map_or(self.nearest.1, |(t_s, _)| *t_s)
     }
 }
 

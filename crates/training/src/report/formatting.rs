@@ -1,5 +1,7 @@
 //! Display names and number formats. No other code rounds values.
 
+pub use crate::time_text::{clock, duration};
+
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_monitor::session::EndReason;
@@ -13,27 +15,6 @@ pub fn number(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     // Values that round to zero are shown without a sign.
     if text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.')) { text[1..].to_owned() } else { text }
-}
-
-/// Formats a flight time as `minutes:seconds`.
-#[must_use]
-pub fn clock(t_s: f64) -> String {
-    if !t_s.is_finite() {
-        return "–".into();
-    }
-    let whole = t_s.max(0.0).round() as u64;
-    format!("{}:{:02}", whole / 60, whole % 60)
-}
-
-/// Formats a duration, such as `2 min 5 s`.
-#[must_use]
-pub fn duration(t_s: f64) -> String {
-    let whole = t_s.max(0.0).round() as u64;
-    match (whole / 60, whole % 60) {
-        (0, seconds) => format!("{seconds} s"),
-        (minutes, 0) => format!("{minutes} min"),
-        (minutes, seconds) => format!("{minutes} min {seconds} s"),
-    }
 }
 
 /// Returns the display name of an end reason.

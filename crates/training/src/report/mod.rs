@@ -21,8 +21,9 @@ pub mod task_proximity;
 
 pub use context::ReviewContext;
 
-use crate::plan::{self, DEFAULT_RULES, PlanStep, read_rules};
-use crate::record::{RecordSource, SourceHashes, record};
+use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, session_advice};
+use crate::plan::{self, DEFAULT_RULES, PlanRules, PlanStep, read_rules};
+use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 use spandrel_mavlink::telemetry::{Frame, Timeline};
@@ -102,6 +103,8 @@ pub struct Review {
     pub coverage: coverage::SurfaceCoverage,
     /// Recommended scenarios, based on this session and the default rules.
     pub next: Vec<PlanStep>,
+    /// Things to do better, and the scenario to fly next.
+    pub advice: SessionAdvice,
     /// Statistics of the telemetry link.
     pub link: LinkCounts,
 }
@@ -126,17 +129,19 @@ impl Review {
         drop(timeline);
         let site = Site::build(scenario, seed).with_closures(attention::bridge_closures(&flight));
         let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: &site })?;
+        let assessed_session = AssessedSession { assessment, frames, seed };
+        let (assessment, frames) = (&assessed_session.assessment, &assessed_session.frames);
         let paths = ReferencePaths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
-        let scene = ReviewContext { flight: &flight, frames: &frames, scenario, vehicle, site: &site };
+        let scene = ReviewContext { flight: &flight, frames, scenario, vehicle, site: &site };
         let track = task_proximity::steps(&paths, &on_path, &scene);
-        let pictures = pictures::evaluate_pictures(&scene, &assessment, &track);
+        let pictures = pictures::evaluate_pictures(&scene, assessment, &track);
         let coverage = coverage::compute_coverage(&scene, &pictures);
-        let (crashes, tasks) = (crash::crashes(&frames, &on_path), task_proximity::tasks(&scene, &on_path, &track));
+        let (crashes, tasks) = (crash::crashes(frames, &on_path), task_proximity::tasks(&scene, &on_path, &track));
         let (feedback, defects) =
-            (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, &assessment));
-        let assessed_session = AssessedSession { assessment, frames, seed };
-        let next = next(&metadata, scenario, vehicle, &assessed_session, (&site, &defects));
+            (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, assessment));
+        let scored = ScoredFlight { scene, metadata: &metadata, assessed_session: &assessed_session };
+        let (next, advice) = scored.plan_and_advice(&defects);
         let AssessedSession { assessment, frames, .. } = assessed_session;
         Ok(Self {
             crashes,
@@ -145,6 +150,7 @@ impl Review {
             defects,
             coverage,
             next,
+            advice,
             link,
             metadata,
             scenario: scenario.clone(),
@@ -167,48 +173,96 @@ impl Review {
     }
 }
 
-/// Returns the scenarios recommended by the default rules for this session alone; empty if the rules are invalid, which
-/// a test rules out.
-fn next(
-    metadata: &SessionMetadata,
+/// Computes a session's advice without the rest of the review.
+///
+/// # Errors
+/// Fails if the log cannot be read, belongs to a different scenario or seed, or contains no session.
+pub fn advice_of(
+    log: &(impl TelemetryLog + ?Sized),
     scenario: &Scenario,
     vehicle: &Vehicle,
-    assessed_session: &AssessedSession,
-    (site, defect_outcomes): (&Site, &[defects::DefectOutcome]),
-) -> Vec<PlanStep> {
-    let hashes = SourceHashes {
-        scenario: metadata.scenario_sha256.clone(),
-        vehicle: metadata.vehicle_sha256.clone(),
-        telemetry: metadata.telemetry_sha256.clone(),
-        answers: String::new(),
-    };
-    let mut record = record(&RecordSource {
-        id: &metadata.folder,
-        trainee: &metadata.trainee,
-        purpose: metadata.purpose.as_deref(),
-        started_unix_us: metadata.started_unix_us,
-        spandrel_version: env!("CARGO_PKG_VERSION"),
-        scenario,
-        vehicle: &vehicle.id,
-        hashes: &hashes,
-        assessed_session,
-        placed: site.defects(),
-        answers: None,
-    });
-    for defect in &mut record.defects {
-        let defect_outcome = defect_outcomes.iter().find(|defect_outcome| defect_outcome.defect.id == defect.id);
-        defect.in_view_s = defect_outcome
-            .and_then(|defect_outcome| defect_outcome.best_approach.as_ref())
-            .map(|best_approach| best_approach.in_view_s);
+    metadata: &SessionMetadata,
+) -> Result<SessionAdvice, AssessError> {
+    let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
+    timeline.push_log(log)?;
+    let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
+    drop(timeline);
+    let site = Site::build(scenario, seed).with_closures(attention::bridge_closures(&flight));
+    let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: &site })?;
+    let assessed_session = AssessedSession { assessment, frames, seed };
+    let scene = ReviewContext { flight: &flight, frames: &assessed_session.frames, scenario, vehicle, site: &site };
+    let defects = defects::defect_outcomes(&scene, &assessed_session.assessment);
+    Ok(ScoredFlight { scene, metadata, assessed_session: &assessed_session }.plan_and_advice(&defects).1)
+}
+
+/// A scored session, from which its plan and advice are computed.
+struct ScoredFlight<'a> {
+    scene: ReviewContext<'a>,
+    metadata: &'a SessionMetadata,
+    assessed_session: &'a AssessedSession,
+}
+
+impl ScoredFlight<'_> {
+    /// Returns the scenarios recommended by the default rules for this session alone, and the advice; both are empty if the
+    /// rules are invalid, which a test rules out.
+    fn plan_and_advice(&self, defect_outcomes: &[defects::DefectOutcome]) -> (Vec<PlanStep>, SessionAdvice) {
+        let Some(rules) = rules_for(self.scene.scenario) else { return Default::default() };
+        let record = self.record(defect_outcomes);
+        let missed: Vec<MissedDefect> = defect_outcomes.iter().filter_map(defects::DefectOutcome::missed).collect();
+        let plan = plan::plan(std::slice::from_ref(&record), &rules, self.metadata.started_unix_us);
+        let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
+        // The level of another drill depends on sessions that are unknown here.
+        steps.iter_mut().filter(|step| step.scenario != self.scene.scenario.name).for_each(|step| step.level = None);
+        let advice = session_advice(
+            &steps,
+            &rules,
+            &FlightEvidence {
+                scenario: self.scene.scenario,
+                vehicle: self.scene.vehicle,
+                flight: self.scene.flight,
+                assessed_session: self.assessed_session,
+                record: &record,
+                missed: &missed,
+            },
+        );
+        (steps, advice)
     }
+
+    /// Creates the session's record, with the times for which missed defects were in view.
+    fn record(&self, defect_outcomes: &[defects::DefectOutcome]) -> SessionRecord {
+        let metadata = self.metadata;
+        let hashes = SourceHashes {
+            scenario: metadata.scenario_sha256.clone(),
+            vehicle: metadata.vehicle_sha256.clone(),
+            telemetry: metadata.telemetry_sha256.clone(),
+            answers: String::new(),
+        };
+        let mut record = record(&RecordSource {
+            id: &metadata.folder,
+            trainee: &metadata.trainee,
+            purpose: metadata.purpose.as_deref(),
+            started_unix_us: metadata.started_unix_us,
+            spandrel_version: env!("CARGO_PKG_VERSION"),
+            scenario: self.scene.scenario,
+            vehicle: &self.scene.vehicle.id,
+            hashes: &hashes,
+            assessed_session: self.assessed_session,
+            placed: self.scene.site.defects(),
+            answers: None,
+        });
+        for defect in &mut record.defects {
+            let outcome = defect_outcomes.iter().find(|outcome| outcome.defect.id == defect.id);
+            defect.in_view_s = outcome.and_then(|outcome| outcome.best_approach.as_ref()).map(|approach| approach.in_view_s);
+        }
+        record
+    }
+}
+
+/// Returns the default rules with the difficulty levels of the shipped drills and of the flown scenario, which may be an
+/// uploaded one.
+fn rules_for(scenario: &Scenario) -> Option<PlanRules> {
     let is_installed = |name: &str| SCENARIOS.iter().any(|(stem, _)| *stem == name);
-    let rules = read_rules("rules.toml", DEFAULT_RULES).ok().map(|rules| rules.for_installed(is_installed));
-    // The flown scenario may be an uploaded one.
+    let rules = read_rules("rules.toml", DEFAULT_RULES).ok()?.for_installed(is_installed);
     let own = |name: &str| scenario.difficulty.clone().filter(|_| name == scenario.name);
-    let rules = rules.map(|rules| rules.with_shipped_levels().with_levels(own));
-    let plan = rules.and_then(|rules| plan::plan(&[record], &rules, metadata.started_unix_us));
-    let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
-    // The level of another drill depends on sessions that are unknown here.
-    steps.iter_mut().filter(|step| step.scenario != scenario.name).for_each(|step| step.level = None);
-    steps
+    Some(rules.with_shipped_levels().with_levels(own))
 }

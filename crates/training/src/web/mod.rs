@@ -17,4 +17,5 @@ pub mod questionnaire_form;
 pub mod scenarios;
 pub mod sessions;
 pub mod settings;
+pub mod standing;
 pub mod trainees;

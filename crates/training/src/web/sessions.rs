@@ -2,6 +2,8 @@
 
 use super::access::{AccessLevel, Visitor};
 use super::layout::{page, page_navigation, section, table};
+use super::standing::SessionStanding;
+use crate::advice::SessionAdvice;
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
@@ -101,6 +103,10 @@ pub struct SessionPageData<'a> {
     pub folder: bool,
     /// The same trainee's other sessions.
     pub others: &'a [SessionListEntry],
+    /// Things to do better, from the session folder.
+    pub advice: Option<&'a SessionAdvice>,
+    /// Comparison with the trainee's other sessions on this job.
+    pub standing: Option<SessionStanding>,
 }
 
 /// Renders a session's page.
@@ -112,6 +118,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
             "flight time " (formatting::duration(record.seconds)) ", ended: " (record.end_reason.replace('_', " "))
         }
+        (section("better", "Do better", &to_do_better(record, page_data)))
         (actions(record, page_data))
         (section("scores", "Scores", &scores(record)))
         @if let Some(certification) = &record.certification { (section("certification", "Certification", &requirements(certification))) }
@@ -120,6 +127,44 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
         (section("compare", "Compare with", &compare(record, page_data.others)))
     };
     page(visitor, "/sessions", &format!("Session: {}", record.scenario_with_level()), &body)
+}
+
+/// Renders the outcome, the things to do better with links to their moments in the report, and the next flight.
+fn to_do_better(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
+    html! {
+        p { b { (record.completion_summary()) ". " (record.verdict()) "." } }
+        @if let Some(standing) = &page_data.standing { p { (standing_text(standing, record.scores.overall_max)) } }
+        @if let Some(advice) = page_data.advice {
+            @if let Some(note) = &advice.note { p { (note) } }
+            ol.advice {
+                @for point in &advice.points {
+                    li { (point.words) " "
+                        @if page_data.folder { a href={ "/sessions/" (record.id) "/report#t=" (formatting::number(point.t_s, 2)) } { "Show " (formatting::clock(point.t_s)) } } }
+                }
+            }
+            @if let Some(next) = &advice.next {
+                p { "Next flight: " b { (next.scenario) } ", " code { (next.command) } ". "
+                    a href={ "/trainees/" (record.trainee) } { "Training plan" } }
+            }
+        }
+    }
+}
+
+/// Describes how a session compares with the trainee's other sessions on the job.
+fn standing_text(standing: &SessionStanding, most: f64) -> String {
+    let best = if standing.is_best {
+        "This is the personal best on this job.".to_owned()
+    } else {
+        format!("Personal best on this job: {} of {}.", formatting::number(standing.best, 0), formatting::number(most, 0))
+    };
+    let points = |change: f64| formatting::number(change.abs(), 0);
+    match standing.change {
+        Some(change) if points(change) == "0" => format!("{best} Change since last time: none."),
+        Some(change) => {
+            format!("{best} Change since last time: {} points {}.", points(change), if change > 0.0 { "up" } else { "down" })
+        }
+        None => best,
+    }
 }
 
 fn actions(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
@@ -275,7 +320,34 @@ fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
 mod tests {
     use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
     use super::*;
+    use crate::advice::{AdvicePoint, NextFlight};
     use crate::testing::{aborted_record, perfect_record};
+
+    fn page_data(folder: bool, others: &[SessionListEntry]) -> SessionPageData<'_> {
+        SessionPageData { folder, others, advice: None, standing: None }
+    }
+
+    #[test]
+    fn exact_advice_is_escaped_and_links_to_its_moment() {
+        let point = AdvicePoint {
+            words: HOSTILE_NAME.into(),
+            rule: HOSTILE_NAME.into(),
+            frame: 301,
+            t_s: 10.0,
+            drill: HOSTILE_NAME.into(),
+        };
+        let next = Some(NextFlight { scenario: HOSTILE_NAME.into(), command: HOSTILE_NAME.into() });
+        let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next };
+        let standing = Some(SessionStanding { best: 350.0, is_best: false, change: Some(-30.0) });
+        let record = perfect_record("anna", 1);
+        let data = SessionPageData { advice: Some(&advice), standing, ..page_data(true, &[]) };
+        let text = session(&administrator(), &record, &data).into_string();
+        check(&text);
+        assert!(text.contains("/report#t=10.00\">Show 0:10</a>"), "{text}");
+        assert!(text.contains("Personal best on this job: 350 of 400. Change since last time: 30 points down."), "{text}");
+        let bare = session(&administrator(), &record, &SessionPageData { folder: false, ..data }).into_string();
+        assert!(!bare.contains("#t="), "there is no report to link to");
+    }
 
     #[test]
     fn exact_session_page_escapes_record_text() {
@@ -300,7 +372,7 @@ mod tests {
             unmet: vec![HOSTILE_NAME.into()],
         };
         let others = [other];
-        check(&session(&administrator(), &record, &SessionPageData { folder: true, others: &others }).into_string());
+        check(&session(&administrator(), &record, &page_data(true, &others)).into_string());
         let listing = SessionList { lines: &others, trainee: Some(HOSTILE_NAME), page: 1, last: 9, count: 401 };
         check(&list(&administrator(), &listing).into_string());
     }
@@ -308,12 +380,12 @@ mod tests {
     #[test]
     fn regress_incomplete_session_shows_completion_without_overall_score() {
         let record = aborted_record("anna", 1);
-        let text = session(&administrator(), &record, &SessionPageData { folder: true, others: &[] }).into_string();
+        let text = session(&administrator(), &record, &page_data(true, &[])).into_string();
         assert!(text.contains("Incomplete: 0 of 4 tasks, 15% of the path"), "{text}");
         assert!(text.contains("Not certified: task 1 not done: 60% of its path, 80% needed (and 1 more)"), "{text}");
         assert!(text.contains("cover only the part that was flown") && !text.contains("<h3>Overall</h3>"), "{text}");
         assert!(
-            session(&administrator(), &perfect_record("anna", 1), &SessionPageData { folder: true, others: &[] })
+            session(&administrator(), &perfect_record("anna", 1), &page_data(true, &[]))
                 .into_string()
                 .contains("<h3>Overall</h3>")
         );
@@ -322,9 +394,7 @@ mod tests {
     #[test]
     fn exact_questionnaire_link_shows_progress() {
         let mut record = perfect_record("anna", 1);
-        let text = |record: &SessionRecord| {
-            session(&administrator(), record, &SessionPageData { folder: true, others: &[] }).into_string()
-        };
+        let text = |record: &SessionRecord| session(&administrator(), record, &page_data(true, &[])).into_string();
         assert!(text(&record).contains("all 24 answered"));
         if let Some(answers) = &mut record.answers {
             answers.given.pop_first();
@@ -332,7 +402,7 @@ mod tests {
         assert!(text(&record).contains("23 of 24"));
         record.answers = None;
         assert!(text(&record).contains("Answer the questionnaire"));
-        let bare = session(&administrator(), &record, &SessionPageData { folder: false, others: &[] }).into_string();
+        let bare = session(&administrator(), &record, &page_data(false, &[])).into_string();
         assert!(!bare.contains("/report") && bare.contains("not on this machine"));
     }
 }

@@ -111,6 +111,9 @@ pub struct FlightSummary {
     pub verdict: Option<String>,
     /// Reason why the flight ended or why it has no scores.
     pub why: String,
+    /// Sentences on what to do better, at most three.
+    #[serde(default)]
+    pub advice: Vec<String>,
     /// Address of the report, if one was written.
     pub report: Option<String>,
     /// Address of the questionnaire if a server is running, otherwise the command that starts it.
@@ -215,6 +218,7 @@ mod tests {
             complete: true,
             verdict: Some("Certified".into()),
             why: "landed".into(),
+            advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
             report: Some("file:///a%20b".into()),
             questionnaire: "spandrel questionnaire x".into(),
         };

@@ -1,9 +1,14 @@
-//! Result page: four scores, links to the report and questionnaire, and the next steps.
+//! Result page: what to do better, the four scores, links to the report and questionnaire, and the next steps.
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{FlightSummary, SCORE_NAMES};
-use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, text_width};
+use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, text_width};
 use crate::hud::{HudColor, TextAlign};
+
+/// Left margin.
+const LEFT: f64 = 0.04;
+/// Vertical distance between the bars of two scores.
+const BAR_SPACING: f64 = 0.055;
 
 /// Checks whether a browser can open the address.
 fn is_openable(address: &str) -> bool {
@@ -26,44 +31,79 @@ pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
 }
 
 pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow], focus: usize) {
-    let left = 0.04;
     let half = 0.52 * pen.width;
     let Some(ended) = ended else { return };
+    let top = headline(pen, ended);
+    let top = to_do_better(pen, &ended.advice, top) + 0.03;
+    let bottom = scores(pen, (LEFT, top), half, ended);
+    locations(pen, bottom + 0.02, half, ended);
+    menu::draw(pen, (LEFT + half + 0.08, top), pen.width - half - 2.0 * LEFT - 0.08, rows, focus);
+}
+
+/// Draws how much of the job was done and why the flight ended, and returns the y position below.
+fn headline(pen: &mut PageWriter, ended: &FlightSummary) -> f64 {
     let (title, note) = match &ended.completion {
-        Some(words) if !ended.complete => (words.as_str(), format!("{}. Scores for the part you flew:", ended.why)),
+        Some(words) if !ended.complete => (words.as_str(), format!("{}. The scores cover the part you flew.", ended.why)),
         _ => ("Flight ended", ended.why.clone()),
     };
     // Shrinks the headline to fit on one line; its length depends on the job.
-    let height = TITLE_SIZE.min((pen.width - 2.0 * left) / text_width(title, 1.0));
-    pen.text((left, 0.08), TextAlign::Left, height, HudColor::White, title);
-    pen.lines((left, 0.155), pen.width - 2.0 * left, SMALL_TEXT_SIZE, HudColor::Gray, &note);
-    for (k, (name, score)) in SCORE_NAMES.iter().zip(&ended.scores).enumerate() {
-        bar(pen, (left, 0.21 + 0.085 * k as f64), half, name, score.map(|score| score.pct));
+    let height = TITLE_SIZE.min((pen.width - 2.0 * LEFT) / text_width(title, 1.0));
+    pen.text((LEFT, 0.08), TextAlign::Left, height, HudColor::White, title);
+    pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &note)
+}
+
+/// Draws the sentences on what to do better, and returns the y position below.
+fn to_do_better(pen: &mut PageWriter, advice: &[String], top: f64) -> f64 {
+    if advice.is_empty() {
+        return top;
     }
+    pen.text((LEFT, top + 0.02), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, "Do better next time");
+    let indent = if advice.len() > 1 { 0.045 } else { 0.0 };
+    let mut y = top + 0.07;
+    for (k, words) in advice.iter().enumerate() {
+        if advice.len() > 1 {
+            pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, (k + 1).to_string());
+        }
+        y = pen.lines((LEFT + indent, y), pen.width - 2.0 * LEFT - indent, SMALL_TEXT_SIZE, HudColor::White, words) + 0.006;
+    }
+    y
+}
+
+/// Draws the four scores, their sum and the verdict, and returns the y position below.
+fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &FlightSummary) -> f64 {
+    for (k, (name, score)) in SCORE_NAMES.iter().zip(&ended.scores).enumerate() {
+        bar(pen, (left, top + BAR_SPACING * k as f64), width, name, score.map(|score| score.pct));
+    }
+    let mut y = top + BAR_SPACING * SCORE_NAMES.len() as f64 + 0.02;
     let overall = match ended.overall {
         Some((sum, most)) => Some(format!("overall  {sum:.1} of {most:.0}")),
         None => ended.scores.iter().all(Option::is_none).then(|| "no scores".to_owned()),
     };
-    let mut y = if overall.is_some() { 0.64 } else { 0.58 };
     if let Some(words) = overall {
-        pen.text((left, 0.59), TextAlign::Left, 1.3 * TEXT_SIZE, HudColor::White, words);
+        pen.text((left, y), TextAlign::Left, TEXT_SIZE, HudColor::White, words);
+        y += LINE_SPACING * TEXT_SIZE;
     }
-    if let Some(verdict) = &ended.verdict {
-        y = pen.lines((left, y), half, SMALL_TEXT_SIZE, HudColor::White, verdict);
+    match &ended.verdict {
+        Some(verdict) => pen.lines((left, y), width, SMALL_TEXT_SIZE, HudColor::White, verdict),
+        None => y,
     }
-    y = y.max(0.68) + 0.02;
-    for (name, address) in
-        [("report", ended.report.as_deref().unwrap_or("not available")), ("questionnaire", ended.questionnaire.as_str())]
-    {
-        pen.text((left, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);
-        y = pen.lines((left + 0.26, y), pen.width - left - 0.30, SMALL_TEXT_SIZE, HudColor::White, address) + 0.02;
+}
+
+/// Draws what no button opens.
+fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) {
+    let mut y = y;
+    let report = ended.report.is_none().then_some("not available");
+    let questionnaire = Some(ended.questionnaire.as_str()).filter(|address| !is_openable(address));
+    for (name, words) in [("report", report), ("questionnaire", questionnaire)] {
+        let Some(words) = words else { continue };
+        pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);
+        y = pen.lines((LEFT + 0.24, y), width - 0.24, SMALL_TEXT_SIZE, HudColor::White, words);
     }
-    menu::draw(pen, (left + half + 0.08, 0.20), pen.width - half - 2.0 * left - 0.08, rows, focus);
 }
 
 /// Draws a score as a bar from 0 to 100 with its value.
 fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Option<f64>) {
-    const BAR_HEIGHT: f64 = 0.05;
+    const BAR_HEIGHT: f64 = 0.042;
     let (from, full) = (x + 0.28, width - 0.44);
     pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, TEXT_SIZE, HudColor::White, name);
     pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);

@@ -41,6 +41,13 @@ fn ended() -> FlightSummary {
         complete: true,
         verdict: Some("Not certified: 12% battery at landing, 20% needed".into()),
         why: "landed after 12 min 30 s".into(),
+        advice: [
+            "You flew up to 6.2 m/s in tasks 1, 2 and 4, over the 4.5 m/s limit for 2 min 34 s, longest from 12:10: slow down.",
+            "You hit the bridge 14 times in task 3, first at 5:40, hardest at 16:02 (2.1 m/s): slow down near it and keep your distance.",
+            "You missed 6 of 10 defects; at 15:12 you were nearest to a view of defect 10: search slowly there.",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
         report: Some("file:///sessions/a/report.html".into()),
         questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),
     }

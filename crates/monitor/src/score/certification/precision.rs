@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Angle between the optical axis and the viewing direction up to which the framing error is 0, degrees (estimate: the
 /// point of the surface straight across from the drone leaves the picture of the shipped cameras at 42 degrees; paths
 /// under the arch and in the interlayer have surfaces on several sides).
-const FRAMING_TOLERANCE_DEG: f64 = 45.0;
+pub const FRAMING_TOLERANCE_DEG: f64 = 45.0;
 /// RMS framing error at which the precision is 0, degrees: that of a random heading toward a vertical surface, whose angle
 /// is uniformly distributed from 0 to 180 degrees.
 const MAX_FRAMING_ERROR_DEG: f64 = 67.5;

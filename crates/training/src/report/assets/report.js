@@ -58,6 +58,11 @@
     return t < end;
   });
 
+  // Links to moments.
+  for (const link of all('a.moment-link')) {
+    link.addEventListener('click', () => { stop(); show(Flight.indexAt(s.t, Number(link.dataset.t))); });
+  }
+
   // Charts.
   const limits = {
     speed: () => s.t.map(() => data.limits.speed),
@@ -280,4 +285,10 @@
 
   curves.draw();
   show(0);
+  // The address may ask for a moment: the web page of a session links to it.
+  const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);
+  if (asked) {
+    show(Flight.indexAt(s.t, Number(asked[1])));
+    byId('flight').scrollIntoView({ behavior: 'instant' });
+  }
 })();

@@ -3,6 +3,7 @@
 
 use super::figure::figure;
 use super::gallery::{DefectMark, frame};
+use super::moment;
 use crate::report::Review;
 use crate::report::defects::DefectOutcome;
 use crate::report::formatting;
@@ -60,7 +61,7 @@ fn card(review: &Review, outcome: &DefectOutcome, sketcher: &Sketcher) -> Markup
             (frame(sketcher, (&outcome.reference_view(), &review.vehicle.camera), exposure, &marks, &alt))
             p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (defect_name(defect.kind)) ", condition state " (defect.condition_state) }
             p { "On " (defect.member) " (" (defect.element.name()) "), " (size(outcome)) "." }
-            p.note { "It was " (outcome.description()) "." }
+            p.note { "It was " (outcome.description()) "." @if let Some(approach) = &outcome.best_approach { " " (moment::labeled(approach.moment_s(), &format!("Show {}", formatting::clock(approach.moment_s())))) } }
         }
     }
 }

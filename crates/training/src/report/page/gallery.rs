@@ -1,8 +1,10 @@
 //! The trainee's pictures and their verdicts. Shows the photograph if the session contains it; otherwise, a drawing of
 //! the camera's view.
 
+use super::moment;
 use crate::report::Review;
 use crate::report::assets::base64;
+use crate::report::defects::DefectOutcome;
 use crate::report::formatting;
 use crate::report::pictures::{PictureVerdict, ReviewedPicture};
 use crate::report::plots::coord;
@@ -46,15 +48,20 @@ fn verdict_counts(review: &Review) -> String {
 
 fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Markup {
     html! {
-        li.shot {
+        li.shot id=(anchor(picture)) {
             (image(review, picture, sketcher))
             p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
-                b { "Picture " (picture.number) } " at " (formatting::clock(picture.t_s))
+                b { "Picture " (picture.number) } " at " (moment::link(picture.t_s))
                 @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
             p { (capitalize(&picture.reason)) "." }
             p.note { (target(picture)) }
         }
     }
+}
+
+/// Returns the ID of a picture's card.
+pub fn anchor(picture: &ReviewedPicture) -> String {
+    format!("picture-{}", picture.number)
 }
 
 fn capitalize(words: &str) -> String {
@@ -82,30 +89,44 @@ fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mar
     let words = format!("Picture {}: {}", picture.number, picture.reason);
     let index = u32::try_from(picture.index).ok();
     let photograph = review.metadata.pictures.iter().find(|(number, _)| Some(*number) == index);
+    let marks = marks(review, picture);
     if let Some((_, jpeg)) = photograph {
-        return html! { img.frame alt=(words) loading="lazy" src={ "data:image/jpeg;base64," (base64(&jpeg.bytes)) }; };
+        return ringed_photograph(picture, &jpeg.bytes, &marks, &words);
     }
     let exposure = picture.target.as_ref().map_or(SketchExposure { light: 1.0, by_lamp: false }, |t| SketchExposure {
         light: t.lux / t.required_illuminance_lux,
         by_lamp: picture.pose.lamp_on && t.lux < 4.0 * t.required_illuminance_lux,
     });
-    let shown = |id: u32| picture.views.iter().find(|view| view.defect_id == id);
-    let marks: Vec<DefectMark> = review
-        .defects
-        .iter()
-        .filter_map(|defect_outcome| {
-            let view = shown(defect_outcome.defect.id)?;
-            let class = if view.hit { "found" } else { "missed" };
-            Some(DefectMark {
-                id: defect_outcome.defect.id,
-                at_m: defect_outcome.defect.position_m,
-                length_m: defect_outcome.defect.length_m,
-                class,
-                hidden: !view.unoccluded,
-            })
-        })
-        .collect();
     frame(sketcher, (&picture.pose, &picture.camera), exposure, &marks, &words)
+}
+
+/// Returns the marks of the defects in a picture.
+fn marks(review: &Review, picture: &ReviewedPicture) -> Vec<DefectMark> {
+    let shown = |id: u32| picture.views.iter().find(|view| view.defect_id == id);
+    let mark = |outcome: &DefectOutcome| {
+        let (defect, view) = (&outcome.defect, shown(outcome.defect.id)?);
+        let class = if view.hit { "found" } else { "missed" };
+        Some(DefectMark { id: defect.id, at_m: defect.position_m, length_m: defect.length_m, class, hidden: !view.unoccluded })
+    };
+    review.defects.iter().filter_map(mark).collect()
+}
+
+/// Renders a photograph with marked defects.
+fn ringed_photograph(picture: &ReviewedPicture, jpeg: &[u8], marks: &[DefectMark], words: &str) -> Markup {
+    let size = drawing_size(&picture.camera);
+    html! {
+        svg.frame viewBox={ "0 0 " (coord(size.0)) " " (coord(size.1)) } role="img" aria-label=(words) {
+            title { (words) }
+            image href={ "data:image/jpeg;base64," (base64(jpeg)) } width=(coord(size.0)) height=(coord(size.1)) preserveAspectRatio="none" {}
+            (rings((&picture.pose, &picture.camera), marks))
+        }
+    }
+}
+
+/// Returns the width and height of a drawing of the camera's view, px.
+fn drawing_size(camera: &Camera) -> (f64, f64) {
+    let width = WIDTH_PX as f64;
+    (width, width * f64::from(camera.height_px) / f64::from(camera.width_px))
 }
 
 /// A defect to mark in a drawing.
@@ -130,15 +151,7 @@ pub fn frame(
     marks: &[DefectMark],
     words: &str,
 ) -> Markup {
-    let (w, h) = (WIDTH_PX as f64, WIDTH_PX as f64 * f64::from(camera.height_px) / f64::from(camera.width_px));
-    let focal = camera.focal_px() * w / f64::from(camera.width_px);
-    let down = pose.forward.cross(pose.right);
-    let place = |mark: &DefectMark| {
-        let to = mark.at_m - pose.position_m;
-        let depth = to.dot(pose.forward).max(0.01);
-        let middle = (0.5 * w + focal * to.dot(pose.right) / depth, 0.5 * h + focal * to.dot(down) / depth);
-        (middle, (0.5 * focal * mark.length_m / depth).clamp(7.0, 0.5 * w))
-    };
+    let (w, h) = drawing_size(camera);
     let edge = 0.5 * (1.0 - CENTRAL_FRACTION);
     // If the image cannot be encoded, the page shows only its text.
     let drawing = sketcher.png(pose, camera, exposure).map(|png| base64(&png)).unwrap_or_default();
@@ -147,12 +160,28 @@ pub fn frame(
             title { (words) }
             image href={ "data:image/png;base64," (drawing) } width=(coord(w)) height=(coord(h)) {}
             rect.central x=(coord(edge * w)) y=(coord(edge * h)) width=(coord(CENTRAL_FRACTION * w)) height=(coord(CENTRAL_FRACTION * h)) {}
-            @for mark in marks {
-                @let ((x, y), r) = place(mark);
-                g class={ "ring " (mark.class) @if mark.hidden { " hidden-behind" } } {
-                    circle cx=(coord(x)) cy=(coord(y)) r=(coord(r)) {}
-                    text x=(coord(x + r + 3.0)) y=(coord(y + 5.0)) { (mark.id) }
-                }
+            (rings((pose, camera), marks))
+        }
+    }
+}
+
+/// Renders the rings around defects in a drawing of the camera's view.
+fn rings((pose, camera): (&CameraPose, &Camera), marks: &[DefectMark]) -> Markup {
+    let (w, h) = drawing_size(camera);
+    let focal = camera.focal_px() * w / f64::from(camera.width_px);
+    let down = pose.forward.cross(pose.right);
+    let place = |mark: &DefectMark| {
+        let to = mark.at_m - pose.position_m;
+        let depth = to.dot(pose.forward).max(0.01);
+        let middle = (0.5 * w + focal * to.dot(pose.right) / depth, 0.5 * h + focal * to.dot(down) / depth);
+        (middle, (0.5 * focal * mark.length_m / depth).clamp(7.0, 0.5 * w))
+    };
+    html! {
+        @for mark in marks {
+            @let ((x, y), r) = place(mark);
+            g class={ "ring " (mark.class) @if mark.hidden { " hidden-behind" } } {
+                circle cx=(coord(x)) cy=(coord(y)) r=(coord(r)) {}
+                text x=(coord(x + r + 3.0)) y=(coord(y + 5.0)) { (mark.id) }
             }
         }
     }

@@ -12,12 +12,14 @@ mod feedback;
 mod figure;
 mod flight_section;
 mod gallery;
+mod moment;
 mod next_steps;
 pub mod progress;
 mod record;
 pub mod series;
 mod summary;
 mod tasks;
+mod to_do_better;
 pub mod within_error;
 
 pub use briefing::{briefing, contents as briefing_contents};
@@ -33,6 +35,7 @@ pub fn session(review: &Review) -> String {
     let title = format!("Session report: {}, {}", review.metadata.trainee, review.metadata.started_utc);
     let sketcher = gallery::sketcher(review);
     let sections = [
+        ("better", "Do better", to_do_better::section(review)),
         ("scores", "Scores", summary::scores(review)),
         ("tasks", "Tasks", tasks::section(review)),
         ("next", "Next", next_steps::section(review)),

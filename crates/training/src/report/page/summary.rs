@@ -15,8 +15,9 @@ pub fn header(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let end = &review.assessment.end;
     let certification = &review.assessment.certification;
+    let telemetry = &review.assessment.telemetry;
     html! {
-        a.skip href="#scores" { "Skip to scores" }
+        a.skip href="#better" { "Skip to what to do better" }
         header {
             div {
                 p.kicker { "Session report" }
@@ -26,12 +27,13 @@ pub fn header(review: &Review) -> Markup {
                     @if let Some(purpose) = &review.metadata.purpose { " · " (purpose) }
                     @if let Some(difficulty) = &review.scenario.difficulty { " · level " (difficulty.level) " of " (difficulty.levels()) }
                 }
-                p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) ". " (telemetry_summary(review)) }
+                p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) "." @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
             }
             div.overall {
                 @if review.assessment.completion.complete {
                     p.figure { (formatting::number(scores.overall, 0)) span.of { " of " (formatting::number(scores.overall_max, 0)) } }
                     p { "overall" }
+                    p { (review.assessment.completion.headline()) }
                 } @else {
                     p.headline { (review.assessment.completion.headline()) }
                 }
@@ -47,12 +49,7 @@ fn utc(text: &str) -> String {
 }
 
 fn telemetry_summary(review: &Review) -> String {
-    let telemetry = &review.assessment.telemetry;
-    if telemetry.missing_frames == 0 {
-        "The telemetry is complete.".into()
-    } else {
-        format!("The telemetry covers {}% of the session.", formatting::number(100.0 * telemetry.covered, 1))
-    }
+    format!("The telemetry covers {}% of the session.", formatting::number(100.0 * review.assessment.telemetry.covered, 1))
 }
 
 /// Renders the radar chart, the score cards and their table.

@@ -1,0 +1,190 @@
+//! Things to do better after a flight: at most three sentences, each with a number and a moment. They are the causes that the
+//! training plan lists, in the plan's order; this module only finds the moments and the words.
+
+mod camera;
+mod crashes;
+mod flight_scan;
+mod pictures;
+mod session_end;
+mod technique;
+mod wording;
+
+pub use flight_scan::{FlightEvidence, MissedDefect};
+
+use crate::plan::{PlanReason, PlanRule, PlanRules, PlanStep, RuleMeasure, SessionMeasure, TaskMeasure};
+use crate::record::{SessionOutcome, SessionRecord};
+use flight_scan::FlightScan;
+use serde::{Deserialize, Serialize};
+use wording::Sentence;
+
+/// Maximum number of things to do better: more are not remembered in the next flight.
+pub const MAX_POINTS: usize = 3;
+
+/// What to do better, and what to fly next.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SessionAdvice {
+    /// At most [`MAX_POINTS`] things to do better, in the plan's order.
+    pub points: Vec<AdvicePoint>,
+    /// Sentence to show if there are no points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+    /// Scenario to fly next; `None` if the rules are invalid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub next: Option<NextFlight>,
+}
+
+/// One thing to do better.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AdvicePoint {
+    /// Sentence shown to the trainee.
+    pub words: String,
+    /// Name of the plan's rule that fired.
+    pub rule: String,
+    /// Number of the frame that shows it best, from 1.
+    pub frame: u32,
+    /// Time of that frame since lift-off, s.
+    pub t_s: f64,
+    /// Scenario that trains it.
+    pub drill: String,
+}
+
+/// The scenario to fly next.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NextFlight {
+    /// Machine-readable scenario name, such as `drill-gap`.
+    pub scenario: String,
+    /// Command that flies it.
+    pub command: String,
+}
+
+impl SessionAdvice {
+    /// Returns the sentences to show, at least one for a session with advice.
+    pub fn sentences(&self) -> impl Iterator<Item = &str> {
+        self.points.iter().map(|point| point.words.as_str()).chain(self.note.as_deref())
+    }
+}
+
+/// A cause in the plan, with all tasks in which the same measure is above its limit.
+struct Cause<'a> {
+    step: usize,
+    reason: &'a PlanReason,
+    rule: &'a PlanRule,
+    tasks: Vec<u32>,
+}
+
+/// Returns the advice after a session. `steps` is the plan for this session alone.
+#[must_use]
+pub fn session_advice(steps: &[PlanStep], rules: &PlanRules, evidence: &FlightEvidence<'_>) -> SessionAdvice {
+    let causes = chosen(causes(steps, rules));
+    let scan = FlightScan::new(evidence);
+    let points: Vec<AdvicePoint> = causes.iter().map(|cause| point(cause, &steps[cause.step].scenario, &scan)).collect();
+    let next =
+        steps.first().map(|step| NextFlight { scenario: step.scenario.clone(), command: step.command(&evidence.record.trainee) });
+    SessionAdvice { note: points.is_empty().then(|| no_findings(evidence.record)), points, next }
+}
+
+/// Returns the plan's causes in its order. Causes with the same measure are one: they are the same habit in several tasks.
+fn causes<'a>(steps: &'a [PlanStep], rules: &'a PlanRules) -> Vec<Cause<'a>> {
+    let mut causes: Vec<Cause<'a>> = Vec::new();
+    let reasons = steps.iter().enumerate().flat_map(|(step, one)| one.reasons.iter().map(move |reason| (step, reason)));
+    for (step, reason) in reasons.filter(|(_, reason)| reason.consequence_of.is_none()) {
+        let Some(rule) = rules.rules.iter().find(|rule| rule.name == reason.rule) else { continue };
+        let same = |known: &&mut Cause<'a>| {
+            (known.rule.measure, known.rule.with, &known.rule.lacked) == (rule.measure, rule.with, &rule.lacked)
+        };
+        match causes.iter_mut().find(same) {
+            Some(known) => {
+                known.tasks.extend(reason.tasks.iter().filter(|task| !known.tasks.contains(task)).copied().collect::<Vec<_>>());
+                known.tasks.sort_unstable();
+            }
+            None => causes.push(Cause { step, reason, rule, tasks: reason.tasks.clone() }),
+        }
+    }
+    causes
+}
+
+/// Selects the most urgent cause of each step of the plan, then the next ones, and returns them in the plan's order.
+fn chosen(causes: Vec<Cause<'_>>) -> Vec<Cause<'_>> {
+    let is_first = |k: &usize| causes[..*k].iter().all(|earlier| earlier.step != causes[*k].step);
+    let (mut picks, rest): (Vec<usize>, Vec<usize>) = (0..causes.len()).partition(is_first);
+    picks.extend(rest);
+    picks.truncate(MAX_POINTS);
+    causes.into_iter().enumerate().filter(|(k, _)| picks.contains(k)).map(|(_, cause)| cause).collect()
+}
+
+fn point(cause: &Cause<'_>, drill: &str, scan: &FlightScan<'_>) -> AdvicePoint {
+    let (words, frame) = sentence(cause, scan).unwrap_or_else(|| (cause.reason.words.clone(), scan.last_frame()));
+    AdvicePoint {
+        words,
+        rule: cause.rule.name.clone(),
+        frame: u32::try_from(frame + 1).unwrap_or(u32::MAX),
+        t_s: scan.t_s(frame),
+        drill: drill.to_owned(),
+    }
+}
+
+/// Returns the sentence for a cause; `None` if the flight's frames do not show it.
+fn sentence(cause: &Cause<'_>, scan: &FlightScan<'_>) -> Option<Sentence> {
+    let (rule, tasks) = (cause.rule, cause.tasks.as_slice());
+    match rule.measure {
+        RuleMeasure::Task(measure) => task_sentence(measure, rule, tasks, scan),
+        RuleMeasure::Session(measure) => session_sentence(measure, rule, scan),
+    }
+}
+
+fn task_sentence(measure: TaskMeasure, rule: &PlanRule, tasks: &[u32], scan: &FlightScan<'_>) -> Option<Sentence> {
+    match measure {
+        TaskMeasure::OffPath => technique::off_path(scan, tasks),
+        TaskMeasure::OffHeight => technique::off_height(scan, tasks),
+        TaskMeasure::Speeding => technique::speeding(scan, tasks),
+        TaskMeasure::Crashes => crashes::in_tasks(scan, rule, tasks),
+        TaskMeasure::NotAttempted => session_end::not_attempted(scan, tasks),
+        TaskMeasure::NotCovered => session_end::not_covered(scan, tasks),
+        TaskMeasure::BesidePath => technique::beside_path(scan, tasks),
+        TaskMeasure::TooFar => technique::stand_off(scan, tasks, rule.limit, 1.0),
+        TaskMeasure::TooClose => technique::stand_off(scan, tasks, rule.limit, -1.0),
+        TaskMeasure::TooLow => technique::height(scan, tasks, rule.limit, -1.0),
+        TaskMeasure::TooHigh => technique::height(scan, tasks, rule.limit, 1.0),
+        TaskMeasure::LowClearance => technique::low_clearance(scan, tasks),
+        TaskMeasure::Framing => camera::framing(scan, tasks),
+        TaskMeasure::LampOff => camera::lamp_off(scan, tasks),
+        TaskMeasure::StickReversals => technique::reversals(scan, tasks, &[0, 1, 2]),
+        TaskMeasure::YawReversals => technique::reversals(scan, tasks, &[3]),
+    }
+}
+
+fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<'_>) -> Option<Sentence> {
+    match measure {
+        SessionMeasure::CrashesOutside => crashes::outside(scan, rule),
+        SessionMeasure::CrashesAll => crashes::anywhere(scan, rule),
+        SessionMeasure::Missed if !rule.lacked.is_empty() => pictures::failed(scan, &rule.lacked),
+        SessionMeasure::Missed => pictures::missed(scan, "defects", |_| true),
+        SessionMeasure::MissedSevere => pictures::missed(scan, "severe defects", pictures::is_severe),
+        SessionMeasure::MissedInView => pictures::missed_in_view(scan),
+        SessionMeasure::MissedHidden => pictures::missed(scan, "defects that face away from the path", |defect| defect.hidden),
+        SessionMeasure::MissedLines => pictures::missed(scan, "cracks", |defect| defect.line),
+        SessionMeasure::PoorPictures => pictures::poor(scan, &rule.lacked),
+        SessionMeasure::NoPictures => pictures::none_taken(scan),
+        SessionMeasure::FalseSnapshots => pictures::without_defect(scan),
+        SessionMeasure::Overtime => session_end::overtime(scan),
+        SessionMeasure::NotLanded => session_end::not_landed(scan),
+        SessionMeasure::BatteryLow => session_end::battery_low(scan),
+        SessionMeasure::BatteryFailed => session_end::battery_failed(scan),
+        SessionMeasure::Exposure => technique::exposure(scan),
+    }
+}
+
+/// Returns the sentence for a flight without findings. It praises only a flight that did the job.
+fn no_findings(record: &SessionRecord) -> String {
+    if record.certified && record.is_complete() {
+        return "Nothing to correct: fly the next job.".to_owned();
+    }
+    match (record.is_complete(), record.unmet.first()) {
+        (true, Some(unmet)) => format!("No single mistake stands out, but you are not certified yet: {unmet}."),
+        (true, None) => "No single mistake stands out: fly the job again.".to_owned(),
+        (false, _) => "No single mistake stands out, but the job is not finished: fly it to the end.".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,156 @@
+//! Sentences on how the drone was flown.
+
+use super::flight_scan::{FlightScan, Stretches};
+use super::wording::{Sentence, how_long, in_tasks, surface};
+use crate::record::{MAX_OFF_PATH_DISTANCE_M, clearance_limit_m};
+use crate::time_text::clock;
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::numbers::format_limit;
+use spandrel_monitor::measures::on_speed;
+
+/// Period in which the busiest stick movements are sought, s (estimate: long enough to notice when replayed).
+const BUSY_PERIOD_S: f64 = 10.0;
+
+/// Returns the stretches of frames with a value, and the values' mean and maximum.
+fn measured(scan: &FlightScan<'_>, value: impl Fn(usize) -> Option<f64>) -> Option<(Stretches, f64, f64)> {
+    let stretches = scan.stretches(|frame| value(frame).is_some())?;
+    let values = (0..scan.frames().len()).filter_map(value);
+    let (sum, most) = values.fold((0.0, f64::NEG_INFINITY), |(sum, most), value| (sum + value, f64::max(most, value)));
+    Some((stretches, sum / stretches.frames as f64, most))
+}
+
+pub(super) fn off_path(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let (stretches, _, most_m) = measured(scan, |frame| scan.off_path_m(frame, &tasks).map(|offset| offset.norm()))?;
+    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
+    Some((format!("You left the path{place} {time}, up to {most_m:.1} m away: return before you go on."), stretches.longest))
+}
+
+pub(super) fn off_height(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let height_m = |frame: usize| {
+        let offset_m = scan.off_path_m(frame, &tasks)?;
+        let is_near = offset_m.norm() <= MAX_OFF_PATH_DISTANCE_M;
+        (is_near && offset_m.up().abs() > offset_m.horizontal_norm()).then(|| offset_m.up())
+    };
+    let (stretches, mean_m, _) = measured(scan, height_m)?;
+    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
+    let side = if mean_m > 0.0 { "above" } else { "below" };
+    Some((format!("You drifted {:.1} m {side} the path{place} {time}: hold your altitude.", mean_m.abs()), stretches.longest))
+}
+
+pub(super) fn beside_path(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let away_m = |frame: usize| {
+        let near = scan.near(frame, &tasks).filter(|_| scan.on_path.task[frame].is_none())?;
+        Some(near.offset_m.norm())
+    };
+    let (stretches, mean_m, _) = measured(scan, away_m)?;
+    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
+    Some((format!("You flew {mean_m:.1} m beside the path{place} {time}: fly on the path itself."), stretches.longest))
+}
+
+/// Too far from the surface (`sign` is 1) or too close to it (-1).
+pub(super) fn stand_off(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: f64) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let error_m = |frame: usize| {
+        let error_m = scan.near(frame, &tasks)?.stand_off_error_m(&scan.evidence.scenario.tasks)?;
+        (sign * error_m > limit_m).then_some(sign * error_m)
+    };
+    let (stretches, mean_m, _) = measured(scan, error_m)?;
+    let (place, time, surface) = (in_tasks(scan, ids), how_long(scan, &stretches), surface(scan, &tasks));
+    let words = if sign > 0.0 {
+        format!("You flew {mean_m:.1} m too far from {surface}{place} {time}: move closer.")
+    } else {
+        format!("You flew {mean_m:.1} m too close to {surface}{place} {time}: back off.")
+    };
+    Some((words, stretches.longest))
+}
+
+/// Too high (`sign` is 1) or too low (-1).
+pub(super) fn height(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: f64) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let error_m = |frame: usize| {
+        let error_m = scan.near(frame, &tasks)?.height_error_m(&scan.evidence.scenario.tasks)?;
+        (sign * error_m > limit_m).then_some(sign * error_m)
+    };
+    let (stretches, mean_m, _) = measured(scan, error_m)?;
+    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
+    let (side, remedy) = if sign > 0.0 { ("above", "descend to it") } else { ("below", "climb to it") };
+    Some((format!("You flew {mean_m:.1} m {side} the path{place} {time}: {remedy}."), stretches.longest))
+}
+
+pub(super) fn speeding(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let limit_m_s = scan.evidence.scenario.scoring.speed_limit_m_s;
+    let windows: Vec<_> = scan.task_indices(ids).iter().map(|task| scan.on_path.windows[*task]).collect();
+    let speeds: Vec<f64> = scan.frames().iter().map(Frame::speed_m_s).collect();
+    let is_speeding = on_speed::speeding(&speeds, &windows, limit_m_s);
+    let (stretches, _, most_m_s) = measured(scan, |frame| is_speeding[frame].then(|| speeds[frame]))?;
+    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
+    let words = format!("You flew up to {most_m_s:.1} m/s{place}, over the {limit_m_s:.1} m/s limit {time}: slow down.");
+    Some((words, stretches.longest))
+}
+
+pub(super) fn low_clearance(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let limit_m = tasks.iter().map(|task| clearance_limit_m(scan.evidence.scenario, *task)).fold(0.0, f64::max);
+    let clearance_m = |frame: usize| {
+        let near = scan.near(frame, &tasks)?;
+        let limit_m = clearance_limit_m(scan.evidence.scenario, near.task);
+        scan.frames()[frame].clearance_m.filter(|clearance| *clearance < limit_m)
+    };
+    too_close(scan, &in_tasks(scan, ids), limit_m, clearance_m)
+}
+
+/// Time below the minimum clearance in the whole session. The limit is that of the last task entered.
+pub(super) fn exposure(scan: &FlightScan<'_>) -> Option<Sentence> {
+    let (scenario, team) = (scan.evidence.scenario, &scan.evidence.scenario.ground_team);
+    let mut task = None;
+    let entered = |on: &Option<(usize, usize)>| {
+        task = on.map(|(task, _)| task).or(task);
+        task.map_or(scenario.scoring.clearance_m, |task| clearance_limit_m(scenario, task))
+    };
+    let limits_m: Vec<f64> = scan.on_path.task.iter().map(entered).collect();
+    let clearance_m = |frame: usize| {
+        let now = &scan.frames()[frame];
+        let is_home = (now.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
+        now.clearance_m.filter(|clearance| *clearance < limits_m[frame] && !is_home && !now.missing)
+    };
+    too_close(scan, "", scenario.scoring.clearance_m, clearance_m)
+}
+
+fn too_close(scan: &FlightScan<'_>, place: &str, limit_m: f64, clearance_m: impl Fn(usize) -> Option<f64>) -> Option<Sentence> {
+    let (stretches, _, most_m) = measured(scan, |frame| clearance_m(frame).map(|clearance| -clearance))?;
+    let (limit, time, least_m) = (format_limit(limit_m), how_long(scan, &stretches), -most_m);
+    let words = format!(
+        "You were less than {limit} m from the structure{place} {time}, {least_m:.1} m at the closest: keep your distance."
+    );
+    Some((words, stretches.longest))
+}
+
+/// Reversals of the sticks with the given indices.
+pub(super) fn reversals(scan: &FlightScan<'_>, ids: &[u32], axes: &[usize]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let per_min = scan.evidence.record.tasks.iter().filter(|task| ids.contains(&task.id)).filter_map(|task| task.technique);
+    let of = |technique: crate::record::TaskTechnique| {
+        if axes == [3] { technique.yaw_reversals_per_min } else { technique.stick_reversals_per_min }
+    };
+    let most = per_min.map(of).fold(0.0, f64::max);
+    let frame = busiest(scan, &tasks, axes)?;
+    let (place, at) = (in_tasks(scan, ids), clock(scan.t_s(frame)));
+    let (sticks, remedy) =
+        if axes == [3] { ("yaw stick", "hold your heading") } else { ("sticks", "make small, smooth corrections") };
+    Some((format!("You reversed the {sticks} up to {most:.0} times a minute{place}, most often from {at}: {remedy}."), frame))
+}
+
+/// Returns the first frame of the period with the most stick travel near the tasks' paths.
+fn busiest(scan: &FlightScan<'_>, tasks: &[usize], axes: &[usize]) -> Option<usize> {
+    let frames = scan.frames();
+    let near: Vec<usize> = (1..frames.len()).filter(|frame| scan.near(*frame, tasks).is_some()).collect();
+    let moved = |frame: usize, axis: usize| (frames[frame].sticks[axis] - frames[frame - 1].sticks[axis]).abs();
+    let travels: Vec<f64> = near.iter().map(|frame| axes.iter().map(|axis| moved(*frame, *axis)).sum()).collect();
+    let period = ((BUSY_PERIOD_S * scan.rate_hz()) as usize).clamp(1, travels.len().max(1));
+    let sums = travels.windows(period).map(|window| window.iter().sum::<f64>());
+    let best = sums.enumerate().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
+    near.get(best.0).copied()
+}

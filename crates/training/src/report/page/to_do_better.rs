@@ -1,0 +1,50 @@
+//! The first section: the things to do better, and the next flight.
+
+use super::{gallery, moment};
+use crate::advice::{AdvicePoint, SessionAdvice};
+use crate::report::pictures::ReviewedPicture;
+use crate::report::{Review, formatting};
+use maud::{Markup, html};
+
+/// Maximum time between a moment and the picture that shows it, s (estimate: at inspection speed, the drone still faces the
+/// same surface).
+const MAX_PICTURE_AGE_S: f64 = 5.0;
+
+/// Renders the "Do better" section of a session report.
+pub fn section(review: &Review) -> Markup {
+    let advice = &review.advice;
+    html! {
+        @if advice.points.is_empty() {
+            p { (advice.note.as_deref().unwrap_or_default()) }
+        } @else {
+            ol.advice { @for point in &advice.points { (item(review, point)) } }
+        }
+        (next(advice))
+    }
+}
+
+fn item(review: &Review, point: &AdvicePoint) -> Markup {
+    html! {
+        li {
+            b { (point.words) }
+            p { (moment::labeled(point.t_s, &format!("Show {}", formatting::clock(point.t_s))))
+                @if let Some(picture) = picture_near(review, point.t_s) { " · " a href={ "#" (gallery::anchor(picture)) } { "picture " (picture.number) } }
+                " · practice " b.drill { (point.drill) } }
+        }
+    }
+}
+
+/// Returns the picture taken nearest to a moment, if any was taken close to it.
+fn picture_near(review: &Review, t_s: f64) -> Option<&ReviewedPicture> {
+    let age_s = |picture: &&ReviewedPicture| (picture.t_s - t_s).abs();
+    let near = review.pictures.iter().filter(|picture| age_s(picture) <= MAX_PICTURE_AGE_S);
+    near.min_by(|a, b| age_s(a).total_cmp(&age_s(b)))
+}
+
+fn next(advice: &SessionAdvice) -> Markup {
+    html! {
+        @if let Some(next) = &advice.next {
+            p.next-flight { "Next flight: " b { (next.scenario) } br; code { (next.command) } }
+        }
+    }
+}
