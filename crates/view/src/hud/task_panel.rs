@@ -80,7 +80,7 @@ fn details(guidance: &Guidance) -> Vec<PanelLine> {
     let white = |name: &str, value: String| PanelLine { name: name.to_owned(), color: HudColor::White, value };
     let mut lines = Vec::new();
     if let Some(way) = &guidance.way {
-        lines.push(white("height", format!("{:.0} m {}", way.up_m.abs(), if way.up_m < 0.0 { "down" } else { "up" })));
+        lines.push(white("height", height_words(way.up_m)));
     }
     if let Some(deviation) = &guidance.deviation {
         lines.push(white("path", deviation_words(deviation)));
@@ -98,6 +98,16 @@ fn details(guidance: &Guidance) -> Vec<PanelLine> {
         lines.push(white("time", format!("{} of {}", minutes(guidance.flown_s), minutes(guidance.needed_s))));
     }
     lines
+}
+
+/// Returns the height of the next place in words.
+fn height_words(up_m: f64) -> String {
+    let meters = up_m.abs().round();
+    match up_m {
+        _ if meters < 1.0 => "level".to_owned(),
+        down if down < 0.0 => format!("{meters:.0} m down"),
+        _ => format!("{meters:.0} m up"),
+    }
 }
 
 fn deviation_words(deviation: &PathDeviation) -> String {

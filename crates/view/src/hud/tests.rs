@@ -234,6 +234,8 @@ fn exact_task_panel_shows_the_next_step() {
         assert!(find(&hud(), words).is_none(), "{words}");
     }
     assert_eq!(find(&guided, "7.1 m (5 ± 1.5)").unwrap().1, HudColor::Yellow, "outside the tolerance");
+    let level = Guidance { way: Some(WayTo { distance_m: 6.2, bearing_rad: -0.5, up_m: -0.4 }), ..guidance };
+    assert!(find(&Hud { guidance: Some(level), ..hud() }, "level").is_some());
     let inside = StandOffReading { actual_m: 6.4, recommended_m: 5.0, tolerance_m: 1.5 };
     let guided = Hud { guidance: Some(Guidance { stand_off: Some(inside), ..guidance }), ..hud() };
     assert_eq!(find(&guided, "6.4 m (5 ± 1.5)").unwrap().1, HudColor::White);
