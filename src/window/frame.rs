@@ -52,6 +52,7 @@ impl Cockpit {
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Briefing
             | Page::Waiting
             | Page::Results => {
                 self.speaker.silence();

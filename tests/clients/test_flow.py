@@ -133,7 +133,7 @@ def folders(training):
 
 @pytest.mark.timeout(2400)
 def test_wire_keyboard_controls_a_complete_session(screen, tmp_path):
-    """Start page, controller check, tutorial, flight, pause, restart, end; takes a screenshot of every page."""
+    """Start page, controller check, tutorial, briefing, flight, pause, restart, end; takes a screenshot of every page."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
     try:
         start = training.wait_for_screenshot("start", is_page)
@@ -149,6 +149,7 @@ def test_wire_keyboard_controls_a_complete_session(screen, tmp_path):
         page = training.wait_for_screenshot("tutorial-1", other_page(controls), ENTER)
         for number in range(2, 7):
             page = training.wait_for_screenshot(f"tutorial-{number}", other_page(page), ENTER)
+        page = training.wait_for_screenshot("briefing", other_page(page), ENTER)
         training.wait_for_screenshot("flight", in_flight, ENTER)
         training.wait_for_screenshot("paused", paused, ESCAPE)
         spandrel.wait_for("the simulation is paused", lambda: "simulation paused" in training.output(), LIMIT_S)

@@ -6,13 +6,15 @@ use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::records::session_folders;
 use serde::Deserialize;
 use serde_json::Value;
-use spandrel_model::scenario::{Scenario, form_names};
+use spandrel_model::scenario::{DefectSpec, Scenario, form_names};
 use spandrel_model::shipped;
+use spandrel_model::site::Site;
 use spandrel_monitor::folder::{ASSESSMENT, REPORT};
 use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_training::advice::SessionAdvice;
+use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobOffer, Purpose, SCORE_NAMES, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobBriefing, JobOffer, Purpose, SCORE_NAMES, TraineeSummary,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,13 +29,35 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
         let scenario = files::scenario(&name).ok()?.scenario;
         let form = scenario.form.as_ref().map(|form| format!(" (form {})", form.name));
         let variant = form.or_else(|| level_title(&scenario)).unwrap_or_default();
-        Some(JobOffer { name, title: scenario.title.clone() + &variant, kind: contents_summary(&scenario) })
+        Some(JobOffer {
+            name,
+            title: scenario.title.clone() + &variant,
+            kind: contents_summary(&scenario),
+            briefing: job_briefing(&scenario),
+        })
     };
     FlightOptions {
         trainees: trainee_summaries(sessions),
         scenarios: names.into_iter().filter_map(job).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
+    }
+}
+
+/// Seed for building the site; the briefing is the same for every seed.
+const ANY_SEED: u64 = 0;
+
+/// Returns what the window's briefing page shows.
+fn job_briefing(scenario: &Scenario) -> JobBriefing {
+    // Without its defects, a site is built much faster.
+    let bare = Scenario { defects: DefectSpec::default(), ..scenario.clone() };
+    let briefing = SiteBriefing::new(scenario, &Site::build(&bare, ANY_SEED));
+    let task = |task: &TaskBriefing| format!("{}  {}: {}", task.id, task.name, text::task_numbers(task));
+    JobBriefing {
+        notes: scenario.briefing.clone(),
+        tasks: briefing.tasks.iter().map(task).collect(),
+        hazards: briefing.hazards,
+        site_check: briefing.site_check,
     }
 }
 

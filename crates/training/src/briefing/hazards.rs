@@ -10,10 +10,9 @@ const NOTABLE_WIND_M_S: f64 = 4.0;
 /// Clearance below which a path counts as confined, m (estimate: about two aircraft widths on each side).
 const CONFINED_CLEARANCE_M: f64 = 2.5;
 
-pub(super) fn hazards(scenario: &Scenario, site: &Site) -> Vec<String> {
+pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing]) -> Vec<String> {
     let mut lines = Vec::new();
-    let tasks: Vec<TaskBriefing> = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site)).collect();
-    for task in &tasks {
+    for task in tasks {
         if let Some(clearance_m) = task.clearance_m.filter(|clearance_m| *clearance_m < CONFINED_CLEARANCE_M) {
             lines.push(format!("Confined space: in task {}, structure comes within {clearance_m:.1} m of the path.", task.id));
         }

@@ -38,19 +38,40 @@ pub struct Briefing {
     pub site_check: Vec<String>,
 }
 
+/// The parts of a briefing that follow from the job and its site alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SiteBriefing {
+    /// The tasks in the order in which they are flown.
+    pub tasks: Vec<TaskBriefing>,
+    /// Hazards, one sentence each.
+    pub hazards: Vec<String>,
+    /// Items of the site check, which the trainee acknowledges before takeoff.
+    pub site_check: Vec<String>,
+}
+
+impl SiteBriefing {
+    /// Computes the parts. The result does not depend on the seed and the defects of the site.
+    #[must_use]
+    pub fn new(scenario: &Scenario, site: &Site) -> Self {
+        let tasks: Vec<TaskBriefing> = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site)).collect();
+        Self { hazards: hazards::hazards(scenario, site, &tasks), site_check: site_check(scenario), tasks }
+    }
+}
+
 impl Briefing {
     /// Computes the briefing for a job with an aircraft. The result does not depend on the seed of the site.
     #[must_use]
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, site: &Site) -> Self {
+        let SiteBriefing { tasks, hazards, site_check } = SiteBriefing::new(scenario, site);
         Self {
             job: scenario.name_with_form(),
             title: scenario.title.clone(),
             notes: scenario.briefing.clone(),
-            tasks: scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site)).collect(),
+            tasks,
             conditions: conditions(scenario, vehicle),
-            hazards: hazards::hazards(scenario, site),
+            hazards,
             counts: counts(scenario),
-            site_check: site_check(scenario),
+            site_check,
         }
     }
 }
@@ -116,7 +137,7 @@ fn site_check(scenario: &Scenario) -> Vec<String> {
     let [east, north, _] = (team.pad_m - team.inspector_m).array();
     let away_m = (east * east + north * north).sqrt();
     vec![
-        "Risk: I know the hazards above, and I stop if somebody enters the flight area.".to_owned(),
+        "Risk: I know the hazards, and I stop if somebody enters the flight area.".to_owned(),
         format!(
             "Battery: full. I land with at least {:.0}%, and fly home at the low-battery warning ({:.0}%).",
             scenario.certification.min_battery_pct, scenario.rules.low_battery_pct

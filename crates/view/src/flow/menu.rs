@@ -35,8 +35,10 @@ pub enum MenuAction {
     DeadBand,
     /// Set the expo.
     Expo,
-    /// Start the flight.
+    /// Continue to the flight.
     Fly,
+    /// Acknowledge the briefing and start the flight.
+    Acknowledge,
     /// Return to the running flight.
     KeepFlying,
     /// Return to the previous page.

@@ -2,6 +2,7 @@
 //! messages to `spandrel train`. It has no side effects: it consumes inputs and messages and produces pages and
 //! requests.
 
+mod briefing;
 mod controls;
 mod menu;
 mod names;
@@ -160,6 +161,7 @@ impl WindowFlow {
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Briefing
             | Page::Waiting
             | Page::Flight
             | Page::Paused

@@ -51,6 +51,8 @@ pub enum Page {
     Calibrating,
     /// Tutorial: current page number, and whether a flight follows.
     Tutorial(usize, bool),
+    /// Tasks, hazards and site check before the flight.
+    Briefing,
     /// The simulator is starting.
     Waiting,
     /// Flight in progress.

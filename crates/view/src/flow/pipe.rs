@@ -46,6 +46,30 @@ pub struct JobOffer {
     pub title: String,
     /// Short description of the job type.
     pub kind: String,
+    /// What to know before the flight.
+    #[serde(default)]
+    pub briefing: JobBriefing,
+}
+
+/// The briefing for a job, as text.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct JobBriefing {
+    /// The instructor's own words.
+    pub notes: Vec<String>,
+    /// The tasks in order.
+    pub tasks: Vec<String>,
+    /// Hazards.
+    pub hazards: Vec<String>,
+    /// Items of the site check.
+    pub site_check: Vec<String>,
+}
+
+impl JobBriefing {
+    /// Returns whether there is nothing to read.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// Selection of trainee, job, and purpose.
@@ -200,7 +224,12 @@ mod tests {
         let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
         let offers = FlightOptions {
             trainees: vec![TraineeSummary { name: "anna".into(), sessions: 3, practices: 2 }],
-            scenarios: vec![JobOffer { name: "drill-hover".into(), title: "Drill: \"hover\"\n".into(), kind: "drill".into() }],
+            scenarios: vec![JobOffer {
+                name: "drill-hover".into(),
+                title: "Drill: \"hover\"\n".into(),
+                kind: "drill".into(),
+                briefing: JobBriefing::default(),
+            }],
             choice: choice(),
             web: None,
         };

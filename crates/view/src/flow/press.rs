@@ -89,6 +89,7 @@ impl WindowFlow {
             | MenuAction::FindController
             | MenuAction::Calibrate
             | MenuAction::Fly
+            | MenuAction::Acknowledge
             | MenuAction::KeepFlying
             | MenuAction::Back
             | MenuAction::Next
@@ -149,7 +150,8 @@ impl WindowFlow {
             MenuAction::Fly if self.choice.purpose == Purpose::Practice && self.needs_tutorial() => {
                 self.show_page(Page::Tutorial(0, true))
             }
-            MenuAction::Fly => self.choose(),
+            MenuAction::Fly => self.brief(),
+            MenuAction::Acknowledge => self.choose(),
             MenuAction::Back => self.back(),
             MenuAction::Next => self.turn_tutorial_page(),
             MenuAction::Skip => self.finish_tutorial(),
@@ -190,6 +192,15 @@ impl WindowFlow {
         self.show_page(Page::Waiting);
     }
 
+    /// Shows the briefing of the chosen job, or starts the flight if there is none.
+    fn brief(&mut self) {
+        if self.chosen_job().is_some_and(|job| !job.briefing.is_empty()) {
+            self.show_page(Page::Briefing);
+        } else {
+            self.choose();
+        }
+    }
+
     fn choose(&mut self) {
         self.send(FromWindow::Chosen(self.choice.clone()));
         self.wait(STARTING_TEXT);
@@ -208,12 +219,13 @@ impl WindowFlow {
     fn finish_tutorial(&mut self) {
         self.tutorial_done.insert(self.choice.trainee.clone());
         match self.page {
-            Page::Tutorial(_, true) => self.choose(),
+            Page::Tutorial(_, true) => self.brief(),
             Page::Opening
             | Page::Start
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Briefing
             | Page::Waiting
             | Page::Flight
             | Page::Paused
@@ -231,7 +243,7 @@ impl WindowFlow {
     fn back(&mut self) {
         match self.page {
             Page::Controls | Page::Tutorial(0, false) => self.show_page(Page::Start),
-            Page::Tutorial(0, true) => self.show_page(Page::Controls),
+            Page::Tutorial(0, true) | Page::Briefing => self.show_page(Page::Controls),
             Page::Tutorial(page, flight) => self.show_page(Page::Tutorial(page - 1, flight)),
             Page::Calibrating => self.out.push_back(WindowRequest::Cancel),
             Page::Paused => self.send(FromWindow::Resume),

@@ -1,7 +1,7 @@
 //! Menu rows of each page.
 
 use super::menu::{MenuAction, MenuRow};
-use super::{Page, WindowFlow, summary, tutorial};
+use super::{Page, WindowFlow, briefing, summary, tutorial};
 
 impl WindowFlow {
     /// Returns the menu rows of the current page.
@@ -18,6 +18,7 @@ impl WindowFlow {
                 ]
             }
             Page::Tutorial(page, flight) => tutorial_rows(page, flight),
+            Page::Briefing => briefing::rows(),
             Page::Paused => vec![
                 MenuRow::button(MenuAction::Resume, "Resume (Esc)"),
                 MenuRow::button(MenuAction::Restart, "Restart"),
@@ -34,8 +35,7 @@ impl WindowFlow {
     }
 
     fn start_rows(&self) -> Vec<MenuRow> {
-        let job = self.offers.as_ref().and_then(|offers| offers.scenarios.iter().find(|job| job.name == self.choice.scenario));
-        let title = job.map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
+        let title = self.chosen_job().map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
         vec![
             MenuRow::text_field(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, "Job", title),

@@ -1,8 +1,8 @@
 //! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
 
-use super::pipe::Purpose;
+use super::pipe::{JobOffer, Purpose};
 use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, wrap_text};
-use super::{Page, WindowFlow, controls, menu, paused, summary, tutorial};
+use super::{Page, WindowFlow, briefing, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
 impl WindowFlow {
@@ -21,6 +21,7 @@ impl WindowFlow {
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Briefing
             | Page::Waiting
             | Page::Results => pen.ground(HudColor::PageBackground),
         }
@@ -28,6 +29,10 @@ impl WindowFlow {
             Page::Start => self.start(&mut pen, &rows),
             Page::Controls | Page::Calibrating => controls::page(&mut pen, &self.controls, &rows, self.focus),
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
+            Page::Briefing => match self.chosen_job() {
+                Some(job) => briefing::page(&mut pen, job, &rows, self.focus),
+                None => waiting(&mut pen, self.waiting_for),
+            },
             Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
             Page::Waiting => waiting(&mut pen, self.waiting_for),
             Page::Opening | Page::Flight | Page::Paused | Page::ConfirmEnd => waiting(&mut pen, "Spandrel"),
@@ -53,6 +58,11 @@ impl WindowFlow {
         }
     }
 
+    /// Returns the selected job, if it is one of the offered ones.
+    pub(super) fn chosen_job(&self) -> Option<&JobOffer> {
+        self.offers.as_ref()?.scenarios.iter().find(|job| job.name == self.choice.scenario)
+    }
+
     /// Returns a heading and an explanation for each selected value.
     fn choice_explanation(&self) -> Vec<(&'static str, String)> {
         let offers = self.offers.as_ref();
@@ -65,7 +75,7 @@ impl WindowFlow {
         };
         let new = !self.choice.trainee.is_empty() && self.needs_tutorial();
         let who = if new { format!("{who} Your first practice starts with a tutorial.") } else { who };
-        let job = offers.and_then(|o| o.scenarios.iter().find(|job| job.name == self.choice.scenario));
+        let job = self.chosen_job();
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {
             Purpose::Practice => "You can pause and restart; the map shows the paths.",

@@ -1,7 +1,7 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobOffer, Purpose, ToWindow,
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobBriefing, JobOffer, Purpose, ToWindow,
     TraineeSummary,
 };
 use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
@@ -9,7 +9,12 @@ use crate::hud::{DrawItem, ScreenPoint};
 use std::net::SocketAddr;
 
 fn offers() -> FlightOptions {
-    let job = |name: &str, title: &str| JobOffer { name: name.into(), title: title.into(), kind: "1 task".into() };
+    let job = |name: &str, title: &str| JobOffer {
+        name: name.into(),
+        title: title.into(),
+        kind: "1 task".into(),
+        briefing: JobBriefing::default(),
+    };
     FlightOptions {
         trainees: vec![
             TraineeSummary { name: "anna".into(), sessions: 2, practices: 1 },
@@ -398,4 +403,65 @@ fn regress_start_and_result_pages() {
     over.handle_message(ToWindow::Ended(ended()));
     assert_eq!(words(&started()), start, "\n{}", words(&started()));
     assert_eq!(words(&over), end, "\n{}", words(&over));
+}
+
+/// Returns a briefing as long as the one of the paper's job.
+fn long_briefing() -> JobBriefing {
+    let repeated = |words: &str, count: usize| vec![words.to_owned(); count];
+    JobBriefing {
+        notes: repeated("Meet at the gate, and bring a vest.", 1),
+        tasks: repeated(
+            "3  Interlayer between deck and arch: 59 m long, 27 m above the pad, within 1.8 m of the path, lamp needed",
+            4,
+        ),
+        hazards: repeated("Wind: 1.0 m/s. The wind changes or gusts during the flight. Expect turbulence behind piers.", 6),
+        site_check: repeated("Battery: full. I land with at least 20%, and fly home at the low-battery warning (30%).", 3),
+    }
+}
+
+#[test]
+fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
+    let mut flow = started();
+    let mut offers = offers();
+    offers.scenarios[1].briefing = long_briefing();
+    flow.handle_message(ToWindow::Offers(offers));
+    press(&mut flow, &[KeyPress::Down, KeyPress::Down, KeyPress::Down, KeyPress::Enter]);
+    assert_eq!(flow.page(), Page::Controls);
+    press(&mut flow, &[KeyPress::Enter]);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Briefing, vec![]), "nothing starts yet");
+    press(&mut flow, &[KeyPress::Escape]);
+    assert_eq!(flow.page(), Page::Controls);
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
+    assert_eq!(flow.page(), Page::Waiting);
+    assert!(matches!(pending_requests(&mut flow)[..], [WindowRequest::Send(FromWindow::Chosen(_))]));
+}
+
+#[test]
+fn prop_briefing_is_complete_and_does_not_overlap_at_any_aspect_ratio() {
+    let mut flow = started();
+    let mut offers = offers();
+    offers.scenarios[1].briefing = long_briefing();
+    flow.handle_message(ToWindow::Offers(offers));
+    press(&mut flow, &[KeyPress::Down, KeyPress::Down, KeyPress::Down, KeyPress::Enter, KeyPress::Enter]);
+    for aspect in [1.0, 4.0 / 3.0, 16.0 / 9.0, 21.0 / 9.0] {
+        let sheet = flow.sheet(aspect);
+        let texts: Vec<(ScreenPoint, f64, String)> = sheet
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                DrawItem::Text { place, height, words, .. } => Some((*place, *height, words.clone())),
+                DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+            })
+            .collect();
+        let all: String = texts.iter().map(|(.., words)| words.as_str()).collect::<Vec<_>>().join(" ");
+        let briefing = long_briefing();
+        let (tasks, hazards) = (briefing.tasks.len(), briefing.hazards.len());
+        assert_eq!((all.matches("Interlayer").count(), all.matches("Wind:").count()), (tasks, hazards), "aspect {aspect}: {all}");
+        for (k, (a, height, words)) in texts.iter().enumerate() {
+            let near = |(b, other, _): &&(ScreenPoint, f64, String)| {
+                (a.y - b.y).abs() < 0.5 * (height + other) - 1e-9 && (a.x - b.x).abs() < 0.01
+            };
+            assert!(!texts[..k].iter().any(|one| near(&one)), "aspect {aspect}: '{words}' overlaps another line");
+        }
+    }
 }
