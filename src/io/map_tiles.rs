@@ -2,14 +2,14 @@
 
 use super::png::png;
 use crate::errors::AppError;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{DefectSpec, Scenario};
 use spandrel_model::site::Site;
 use spandrel_view::site_map::{SiteMap, TileAddress};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum number of tiles to keep (estimate: about 20 MB; a ground station shows fewer than 100).
-const MAX_TILES: usize = 1_000;
+/// Maximum number of tiles to keep (estimate: a ground station shows fewer than 100). A tile has at most 200 kB.
+const MAX_TILES: usize = 300;
 /// Seed for building the site; the tiles do not show what depends on it.
 const ANY_SEED: u64 = 0;
 
@@ -18,15 +18,26 @@ const ANY_SEED: u64 = 0;
 pub struct MapTiles {
     scenario: Scenario,
     site: Site,
-    drawn: Mutex<BTreeMap<(u8, u32, u32), Vec<u8>>>,
+    /// The tiles that were drawn, oldest first.
+    drawn: Mutex<VecDeque<(TileAddress, Vec<u8>)>>,
+}
+
+/// The job whose tiles were requested last.
+#[derive(Debug)]
+pub struct LatestMap {
+    /// Name of the job.
+    pub name: String,
+    /// Its tiles.
+    pub tiles: Arc<MapTiles>,
 }
 
 impl MapTiles {
     /// Builds the job's site.
     #[must_use]
     pub fn new(scenario: Scenario) -> Self {
-        let site = Site::build(&scenario, ANY_SEED);
-        Self { scenario, site, drawn: Mutex::default() }
+        // The tiles show no defects, and without them, the site is built much faster.
+        let bare = Scenario { defects: DefectSpec::default(), ..scenario.clone() };
+        Self { site: Site::build(&bare, ANY_SEED), scenario, drawn: Mutex::default() }
     }
 
     /// Returns the CRC of the scenario.
@@ -35,27 +46,32 @@ impl MapTiles {
         self.scenario.crc
     }
 
-    /// Returns a tile as a PNG file; `None` if the address is invalid. `row` may end with ".png".
-    pub fn tile(&self, zoom: &str, column: &str, row: &str) -> Option<Result<Vec<u8>, AppError>> {
-        let row = row.strip_suffix(".png").unwrap_or(row);
-        let key = (zoom.parse().ok()?, column.parse().ok()?, row.parse().ok()?);
-        let address = TileAddress::new(key.0, key.1, key.2)?;
-        let known = self.drawn.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
-        Some(match known {
-            Some(bytes) => Ok(bytes),
-            None => self.draw(key, address),
-        })
+    /// Returns a tile that was drawn before.
+    pub fn drawn(&self, address: TileAddress) -> Option<Vec<u8>> {
+        let drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
+        drawn.iter().find(|(known, _)| *known == address).map(|(_, bytes)| bytes.clone())
     }
 
-    fn draw(&self, key: (u8, u32, u32), address: TileAddress) -> Result<Vec<u8>, AppError> {
+    /// Draws a tile and returns it as a PNG file.
+    ///
+    /// # Errors
+    /// Returns an error if it cannot be encoded.
+    pub fn draw(&self, address: TileAddress) -> Result<Vec<u8>, AppError> {
         let bytes = png(&SiteMap::new(&self.scenario, &self.site).tile(address))?;
         let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
         if drawn.len() >= MAX_TILES {
-            drawn.pop_first();
+            drawn.pop_front();
         }
-        drawn.insert(key, bytes.clone());
+        drawn.push_back((address, bytes.clone()));
         Ok(bytes)
     }
+}
+
+/// Reads the address of a tile; `None` if it is invalid. `row` may end with ".png".
+#[must_use]
+pub fn address(zoom: &str, column: &str, row: &str) -> Option<TileAddress> {
+    let row = row.strip_suffix(".png").unwrap_or(row);
+    TileAddress::new(zoom.parse().ok()?, column.parse().ok()?, row.parse().ok()?)
 }
 
 #[cfg(test)]
@@ -66,11 +82,13 @@ mod tests {
     #[test]
     fn exact_tiles_are_png_files_and_wrong_addresses_have_none() {
         let tiles = MapTiles::new(files::scenario("drill-hover").unwrap().scenario);
-        let first = tiles.tile("14", "8573", "5793.png").unwrap().unwrap();
+        let place = address("14", "8573", "5793.png").unwrap();
+        assert_eq!(tiles.drawn(place), None);
+        let first = tiles.draw(place).unwrap();
         assert_eq!(&first[..8], b"\x89PNG\r\n\x1a\n");
-        assert_eq!(tiles.tile("14", "8573", "5793").unwrap(), Ok(first), "the same tile from memory");
+        assert_eq!((address("14", "8573", "5793"), tiles.drawn(place)), (Some(place), Some(first)));
         for (zoom, column, row) in [("x", "0", "0"), ("3", "8", "0"), ("3", "0", "-1"), ("23", "0", "0"), ("3", "0", "1.jpg")] {
-            assert_eq!(tiles.tile(zoom, column, row), None, "{zoom}/{column}/{row}");
+            assert_eq!(address(zoom, column, row), None, "{zoom}/{column}/{row}");
         }
     }
 }

@@ -99,7 +99,7 @@ pub const ROUTES: &[Route] = &[
     compute("/cohort/tables/{name}", AccessLevel::Instructor, trainees::cohort_table),
     show("/scenarios", AccessLevel::Login, scenarios::scenario_list),
     show("/scenarios/{name}", AccessLevel::Login, scenarios::scenario_page),
-    compute("/tiles/{name}/{z}/{x}/{y}", AccessLevel::Public, map_tiles::tile),
+    show("/tiles/{name}/{z}/{x}/{y}", AccessLevel::Public, map_tiles::tile),
     show("/scenarios/{name}/briefing", AccessLevel::Login, scenarios::briefing_page),
     upload("/scenarios", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenarios::upload),
     change("/scenarios/{name}/remove", AccessLevel::Instructor, scenarios::remove),

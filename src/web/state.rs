@@ -8,11 +8,11 @@ use super::session_importer::SessionImporter;
 use super::temp_files;
 use crate::errors::AppError;
 use crate::io::answers;
-use crate::io::map_tiles::MapTiles;
+use crate::io::map_tiles::LatestMap;
 use crate::records::{Database, RecordsLocation};
 use spandrel_training::questionnaire::Languages;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 /// Server settings.
 #[derive(Debug, Clone)]
@@ -49,7 +49,9 @@ pub struct ServerState {
     /// Locked while an answer file is read, modified and written.
     pub answers: Mutex<()>,
     /// Map tiles of the job that was requested last.
-    pub map_tiles: Mutex<Option<Arc<MapTiles>>>,
+    pub map_tiles: Mutex<Option<LatestMap>>,
+    /// Locked while a map tile is drawn.
+    pub tile_drawing: Mutex<()>,
     /// Locked while a recording is scored, because scoring is slow.
     pub scoring: Mutex<()>,
 }
@@ -85,6 +87,7 @@ impl ServerState {
             importer: taking_in,
             answers,
             map_tiles: Mutex::default(),
+            tile_drawing: Mutex::default(),
             scoring,
         })
     }

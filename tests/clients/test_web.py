@@ -374,6 +374,21 @@ def test_trainee_can_be_exported_and_erased(browser, server, sessions, tmp_path)
     assert person.go("/settings").status == 200, "administrators must not be able to erase themselves"
 
 
+def test_briefing_and_map_tiles_are_served(browser, server):
+    person = BrowserUser(browser, server, "anna")
+    person.go("/scenarios/two-bridges")
+    person.page.click("text=Briefing")
+    expect(person.page.locator("#check")).to_contain_text("Landing place")
+    assert person.page.locator("svg.map").count() == 3
+    person.save_screenshot("briefing")
+    # Ground stations cannot log in. This tile contains the job's origin.
+    anonymous = webserver.Browser(server.address)
+    status, headers, _ = anonymous.ask("/tiles/two-bridges/17/68587/46258.png")
+    assert (status, headers["Content-Type"]) == (200, "image/png")
+    for wrong in ["/tiles/two-bridges/99/1/1.png", "/tiles/two-bridges/3/8/0", "/tiles/no-such-job/3/0/0", "/tiles/two-bridges/3/0/x.png"]:
+        assert anonymous.ask(wrong)[0] == 404, wrong
+
+
 def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_path):
     person = BrowserUser(browser, server, "ida")
     good = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")

@@ -34,6 +34,8 @@ pub struct GuidanceInput<'a> {
     pub position_m: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub heading_rad: f64,
+    /// For each task, whether the drone has held position long enough; only for hold positions.
+    pub held: &'a [bool],
     /// Whether the drone has taken off.
     pub taken_off: bool,
     /// Whether the session is over.
@@ -50,11 +52,12 @@ impl GuidanceInput<'_> {
     pub fn next_step(&self) -> Guidance {
         let step = self.step();
         let task = match step {
-            GuidanceStep::FlyToTask | GuidanceStep::FollowPath => self.task(),
+            GuidanceStep::FlyToTask | GuidanceStep::FollowPath | GuidanceStep::HoldPosition => self.task(),
             GuidanceStep::TakeOff | GuidanceStep::FlyHome | GuidanceStep::Land | GuidanceStep::Over => None,
         };
         let target_m = match step {
             GuidanceStep::FlyToTask | GuidanceStep::FollowPath => task.and_then(|task| self.target_on_path_m(task)),
+            GuidanceStep::HoldPosition => task.and_then(|task| self.paths.path(task).closest_position(self.position_m)),
             GuidanceStep::FlyHome => Some(self.scenario.ground_team.pad_m),
             GuidanceStep::TakeOff | GuidanceStep::Land | GuidanceStep::Over => None,
         };
@@ -85,6 +88,7 @@ impl GuidanceInput<'_> {
             return GuidanceStep::TakeOff;
         }
         match self.task() {
+            Some(task) if self.active_task == Some(task) && self.is_hold_position(task) => GuidanceStep::HoldPosition,
             Some(task) if self.active_task == Some(task) => GuidanceStep::FollowPath,
             Some(_) => GuidanceStep::FlyToTask,
             None if self.is_home() => GuidanceStep::Land,
@@ -94,17 +98,16 @@ impl GuidanceInput<'_> {
 
     /// Returns the task to fly: the active one until nothing of it remains, then the first one that is not done.
     fn task(&self) -> Option<usize> {
-        self.active_task.filter(|task| !self.is_finished(*task)).or_else(|| self.tasks.iter().position(|task| !task.done))
+        let is_open = |task: &usize| match self.is_hold_position(*task) {
+            true => !self.held[*task],
+            false => !self.tasks[*task].done,
+        };
+        let is_unfinished = |task: &usize| if self.is_hold_position(*task) { is_open(task) } else { !self.tasks[*task].finished };
+        self.active_task.filter(is_unfinished).or_else(|| (0..self.tasks.len()).find(|task| is_open(task)))
     }
 
-    /// Returns whether nothing of a task remains to be flown.
-    fn is_finished(&self, task: usize) -> bool {
-        self.tasks[task].finished || (self.tasks[task].done && self.is_hold_position(task))
-    }
-
-    /// Returns whether a path is so short that reaching it flies all of it.
     fn is_hold_position(&self, task: usize) -> bool {
-        self.flown[task].coverage().length_m <= self.paths.threshold_m(task)
+        self.scenario.tasks[task].is_hold_position()
     }
 
     fn is_home(&self) -> bool {
@@ -174,6 +177,43 @@ impl GuidanceInput<'_> {
     }
 }
 
+/// Time for which the drone must stay at a hold position without leaving it (estimate: an exercise of a beginner's lesson).
+const HOLD_DURATION: SimTime = SimTime::from_ms(10_000);
+
+/// Measures for how long the drone stays on the path of a task, and remembers which hold positions were held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldTimer {
+    /// Task whose path the drone is on, and the time since when.
+    on_path: Option<(usize, SimTime)>,
+    held: Vec<bool>,
+}
+
+impl HoldTimer {
+    /// Creates the timer for a number of tasks.
+    #[must_use]
+    pub fn new(tasks: usize) -> Self {
+        Self { on_path: None, held: vec![false; tasks] }
+    }
+
+    /// Updates the timer with the task whose path the drone is on.
+    pub fn update(&mut self, now: SimTime, task: Option<usize>) {
+        let before = self.on_path;
+        self.on_path = task.map(|task| (task, before.filter(|(other, _)| *other == task).map_or(now, |(_, since)| since)));
+        if let Some((task, since)) = self.on_path
+            && now - since >= HOLD_DURATION
+            && let Some(held) = self.held.get_mut(task)
+        {
+            *held = true;
+        }
+    }
+
+    /// For each task, returns whether the drone has stayed on its path long enough.
+    #[must_use]
+    pub fn held(&self) -> &[bool] {
+        &self.held
+    }
+}
+
 /// Interval at which the way to a task or home is repeated, for ground stations that show only texts (estimate).
 const REPETITION_INTERVAL: SimTime = SimTime::from_ms(10_000);
 
@@ -194,7 +234,11 @@ impl StepAnnouncer {
         self.current = Some((key, since));
         let repeated = match guidance.step {
             GuidanceStep::FlyToTask | GuidanceStep::FlyHome => true,
-            GuidanceStep::TakeOff | GuidanceStep::FollowPath | GuidanceStep::Land | GuidanceStep::Over => false,
+            GuidanceStep::TakeOff
+            | GuidanceStep::FollowPath
+            | GuidanceStep::HoldPosition
+            | GuidanceStep::Land
+            | GuidanceStep::Over => false,
         };
         let said = self.announced.filter(|(announced, _)| *announced == key);
         let is_news = said.is_none_or(|(_, at)| repeated && now - at >= REPETITION_INTERVAL);
@@ -220,14 +264,20 @@ mod tests {
         paths: ReferencePaths,
         flown: Vec<FlownPath>,
         finished: Vec<bool>,
+        held: Vec<bool>,
     }
 
     impl Flight {
         fn new() -> Self {
-            let scenario = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
+            Self::of(shipped::TWO_BRIDGES)
+        }
+
+        fn of(text: &str) -> Self {
+            let scenario = scenario::read("job.toml", text, &|file| Err(file.to_owned())).unwrap();
             let paths = ReferencePaths::new(&scenario);
             let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
-            Self { finished: vec![false; paths.len()], scenario, paths, flown }
+            let open = vec![false; paths.len()];
+            Self { finished: open.clone(), held: open, scenario, paths, flown }
         }
 
         /// Marks the points of a task's path as flown.
@@ -264,6 +314,7 @@ mod tests {
                 flown: &self.flown,
                 tasks: &tasks,
                 active_task,
+                held: &self.held,
                 position_m,
                 heading_rad: 0.0,
                 taken_off: true,
@@ -325,6 +376,22 @@ mod tests {
         let ahead = back.guidance(back.point_m(0, middle), Some(0)).way.unwrap();
         let before = back.point_m(0, middle - 1) - back.point_m(0, middle);
         assert!(before.array()[1] * math::cos(ahead.bearing_rad) + before.array()[0] * math::sin(ahead.bearing_rad) > 0.0);
+    }
+
+    #[test]
+    fn exact_a_hold_position_is_held_before_the_way_leads_home() {
+        let mut flight = Flight::of(shipped::DRILL_HOVER);
+        let place_m = flight.point_m(0, 0);
+        flight.fly_all(0);
+        let guidance = flight.guidance(place_m, Some(0));
+        assert_eq!((guidance.step, guidance.words()), (GuidanceStep::HoldPosition, "Task 1: hold position".to_owned()));
+        let mut timer = HoldTimer::new(1);
+        for (ms, task, held) in [(0, Some(0), false), (9_000, None, false), (9_500, Some(0), false), (19_500, Some(0), true)] {
+            timer.update(SimTime::from_ms(ms), task);
+            assert_eq!(timer.held(), [held], "{ms} ms");
+        }
+        flight.held = timer.held().to_vec();
+        assert_eq!(flight.guidance(place_m, Some(0)).step, GuidanceStep::FlyHome);
     }
 
     #[test]

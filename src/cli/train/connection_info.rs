@@ -6,6 +6,7 @@ use std::path::Path;
 
 /// Returns the address of the site's map tiles for a ground station. The web pages know only shipped scenarios.
 fn map_tiles(scenario: &str, web: Option<&str>) -> String {
+    let scenario = scenario.split(files::FORM_SEPARATOR).next().unwrap_or(scenario);
     match web.filter(|_| files::scenario_names().contains(&scenario)) {
         Some(web) => format!("{}/tiles/{scenario}/{{z}}/{{x}}/{{y}}.png", web.trim_end_matches('/')),
         None => "none".to_owned(),
@@ -69,6 +70,8 @@ mod tests {
         assert!(told(true).contains("map tiles        none"));
         let served = map_tiles("drill-hover", Some("http://127.0.0.1:8080/"));
         assert_eq!(served, "http://127.0.0.1:8080/tiles/drill-hover/{z}/{x}/{y}.png");
+        let form = map_tiles("pilot-study@B", Some("http://127.0.0.1:8080"));
+        assert_eq!(form, "http://127.0.0.1:8080/tiles/pilot-study/{z}/{x}/{y}.png");
         assert_eq!(map_tiles("my-job.toml", Some("http://127.0.0.1:8080")), "none");
         assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }

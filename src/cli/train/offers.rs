@@ -52,7 +52,7 @@ fn job_briefing(scenario: &Scenario) -> JobBriefing {
     // Without its defects, a site is built much faster.
     let bare = Scenario { defects: DefectSpec::default(), ..scenario.clone() };
     let briefing = SiteBriefing::new(scenario, &Site::build(&bare, ANY_SEED));
-    let task = |task: &TaskBriefing| format!("{}  {}: {}", task.id, task.name, text::task_numbers(task));
+    let task = |task: &TaskBriefing| format!("{}  {}: {}, {}", task.id, task.name, task.place, text::task_numbers(task));
     JobBriefing {
         notes: scenario.briefing.clone(),
         tasks: briefing.tasks.iter().map(task).collect(),

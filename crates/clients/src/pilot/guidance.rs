@@ -3,7 +3,7 @@
 use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
 use super::guidance_state::LookDirection;
-use super::hold::{Hold, distance_to_path_m, is_held};
+use super::hold::{Hold, distance_to_path_m};
 use super::perception::MotionState;
 use super::setbacks::SetbackDecision;
 use super::stick_command::{MIN_HORIZONTAL, aim_error_rad, heading_and_elevation, sticks};
@@ -117,7 +117,7 @@ impl Pilot {
     /// Holds position at the end of a leg whose path is very short. Returns whether the pilot goes on.
     pub(super) fn has_held(&mut self, task: usize) -> bool {
         let (task, seen) = (&self.config.scenario.tasks[task], self.perception.delayed_view(self.config.skill.delay_s));
-        let Some(seen) = seen.filter(|_| is_held(task)) else { return true };
+        let Some(seen) = seen.filter(|_| task.is_hold_position()) else { return true };
         let on_path = distance_to_path_m(task, seen.position_m) <= task.threshold_m;
         self.guidance.hold.get_or_insert(Hold::new(self.now)).step(on_path, self.now)
     }

@@ -5,8 +5,6 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Task;
 use spandrel_model::time::SimTime;
 
-/// Largest length of a path that is held, relative to the task's threshold: from the middle, all of it is on the path.
-const HELD_LENGTH_THRESHOLDS: f64 = 2.0;
 /// Time on the path after which the pilot goes on, s (estimate: an exercise of a beginner's lesson).
 const HOLD_DURATION_S: f64 = 10.0;
 /// Time after which the pilot goes on in any case, s (estimate).
@@ -32,13 +30,6 @@ impl Hold {
         let held = self.on_path_since.is_some_and(|since| (now - since).s() >= HOLD_DURATION_S);
         held || (now - self.since).s() >= MAX_HOLD_DURATION_S
     }
-}
-
-/// Checks whether a task's path is so short that it is held instead of flown.
-#[must_use]
-pub fn is_held(task: &Task) -> bool {
-    let length_m: f64 = task.path_m.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-    !task.closed && length_m < HELD_LENGTH_THRESHOLDS * task.threshold_m
 }
 
 /// Returns the distance to a task's path that the display shows, m.
@@ -76,7 +67,7 @@ mod tests {
         for (file, text) in shipped::SCENARIOS {
             let job = scenario::read(file, text, &no_files).expect("valid");
             for task in &job.tasks {
-                assert_eq!(is_held(task), job.name == "drill-hover", "{file}, task {}", task.id);
+                assert_eq!(task.is_hold_position(), job.name == "drill-hover", "{file}, task {}", task.id);
             }
         }
     }

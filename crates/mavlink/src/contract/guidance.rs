@@ -25,10 +25,13 @@ pub enum GuidanceStep {
     Land,
     /// The session is over.
     Over,
+    /// Hold position at the path of the task, which is too short to be flown along.
+    HoldPosition,
 }
 
 impl GuidanceStep {
-    const ALL: [Self; 6] = [Self::TakeOff, Self::FlyToTask, Self::FollowPath, Self::FlyHome, Self::Land, Self::Over];
+    const ALL: [Self; 7] =
+        [Self::TakeOff, Self::FlyToTask, Self::FollowPath, Self::FlyHome, Self::Land, Self::Over, Self::HoldPosition];
 
     fn code(self) -> f32 {
         match self {
@@ -38,6 +41,7 @@ impl GuidanceStep {
             Self::FlyHome => 3.0,
             Self::Land => 4.0,
             Self::Over => 5.0,
+            Self::HoldPosition => 6.0,
         }
     }
 
@@ -184,6 +188,7 @@ impl Guidance {
             },
             GuidanceStep::Land => "Land on the pad".to_owned(),
             GuidanceStep::Over => "The session is over".to_owned(),
+            GuidanceStep::HoldPosition => format!("{task}hold position"),
         }
     }
 }
@@ -250,7 +255,7 @@ mod tests {
         };
         assert_eq!(of(&|_| {}), Some(guidance()));
         assert_eq!(of(&|array| array.name = "other".into()), None);
-        for step in [-1.0, 0.5, 6.0, f32::NAN, f32::INFINITY] {
+        for step in [-1.0, 0.5, 7.0, f32::NAN, f32::INFINITY] {
             assert_eq!(of(&|array| array.data[0] = step), None, "{step}");
         }
         assert_eq!(of(&|array| array.data[6] = f32::NAN), None);

@@ -162,9 +162,9 @@ pub(super) fn read<'d>(r: &mut Reader, root: &mut Section<'d>) -> Option<Difficu
         }
         return None;
     }
-    if level.is_some_and(|level| level > i64::from(position.levels)) {
+    if let Some(level) = level.filter(|level| *level > i64::from(position.levels)) {
         let allowed = format!("1 to {}", position.levels);
-        r.add_problem(root, SELECTED, &position.level.to_string(), &allowed, "unknown difficulty level");
+        r.add_problem(root, SELECTED, &level.to_string(), &allowed, "unknown difficulty level");
     }
     if quantities.is_empty() {
         let keys = QUANTITIES.map(|one| one.key).join(", ");
@@ -183,7 +183,8 @@ fn read_levels(r: &mut Reader, section: &mut Section, level: Option<i64>) -> Lev
     if standard > levels {
         r.add_problem(section, STANDARD, &standard.to_string(), &format!("1 to levels, which is {levels}"), "too large");
     }
-    let small = |number: i64| u8::try_from(number).unwrap_or(1);
+    // Values that are too large have been reported. Within the levels, interpolation is always possible.
+    let small = |number: i64| u8::try_from(number.clamp(1, levels.max(1))).unwrap_or(1);
     LevelPosition { level: small(level.unwrap_or(standard)), levels: small(levels), standard: small(standard) }
 }
 

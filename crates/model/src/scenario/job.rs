@@ -157,6 +157,25 @@ pub struct Task {
     pub dark: bool,
 }
 
+/// Largest length of the path of a hold position, relative to the task's threshold: from the middle, all of it is on the path.
+const HOLD_LENGTH_THRESHOLDS: f64 = 2.0;
+
+impl Task {
+    /// Returns the length of the path, m. A closed path includes the way from its last point to its first.
+    #[must_use]
+    pub fn length_m(&self) -> f64 {
+        let closing = if self.closed { self.path_m.first() } else { None };
+        let pieces = self.path_m.iter().zip(self.path_m.iter().skip(1).chain(closing));
+        pieces.map(|(from, to)| (*to - *from).norm()).sum()
+    }
+
+    /// Returns whether the path is so short that the task is to hold position.
+    #[must_use]
+    pub fn is_hold_position(&self) -> bool {
+        !self.closed && self.length_m() < HOLD_LENGTH_THRESHOLDS * self.threshold_m
+    }
+}
+
 /// The selected form of a job. Forms are sets of defects of known difficulty, such as equivalent ones for repeated sessions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SelectedForm {

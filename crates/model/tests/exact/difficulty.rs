@@ -89,6 +89,12 @@ fn regress_wrong_levels_and_tables_are_reported() {
     assert!(forms.ends_with("difficulty: a job with forms (allowed: only in a file without [[forms]])"), "{forms}");
     let standard = "difficulty.standard = 10: too large (allowed: 1 to levels, which is 9)";
     assert_eq!(problem("standard = 5", "standard = 10"), standard);
+    for (standard, level) in [(8, 9), (5, 6), (8, 6)] {
+        // There is no arithmetic on a level that does not exist.
+        let text =
+            DRILL_HOVER.replacen("levels = 9", "levels = 5", 1).replacen("standard = 5", &format!("standard = {standard}"), 1);
+        assert!(parse(&format!("level = {level}\n{text}")).is_err(), "standard {standard}, level {level}");
+    }
     let empty = problem("wind_speed_m_s = [0.0, 8.0]\nthreshold_m = [2.5, 0.8]\n", "");
     assert!(
         empty.starts_with("difficulty: nothing changes with the level (allowed: at least one of wind_speed_m_s, "),

@@ -60,6 +60,7 @@ impl Monitor {
             return;
         }
         self.guidance_sent = Some(truth.time);
+        self.holds.update(truth.time, self.live.current_task);
         let guidance = self.guidance(truth);
         self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
         if let Some(words) = self.announcer.update(truth.time, &guidance) {
@@ -78,6 +79,7 @@ impl Monitor {
             flown: &self.live.flown,
             tasks: &tasks,
             active_task: self.feedback.current_task(),
+            held: self.holds.held(),
             position_m: truth.motion.position_m,
             heading_rad: truth.motion.ned_from_frd.yaw_rad(),
             taken_off: self.live.lift_off.is_some(),

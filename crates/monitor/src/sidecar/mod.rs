@@ -10,7 +10,7 @@
 use crate::assessment::{AssessError, AssessedSession};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SessionInfo;
-use crate::guidance::StepAnnouncer;
+use crate::guidance::{HoldTimer, StepAnnouncer};
 use crate::measures::attention::SiteSurvey;
 use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
@@ -152,6 +152,7 @@ pub struct Monitor {
     texts: TextQueue,
     guides: bool,
     announcer: StepAnnouncer,
+    holds: HoldTimer,
     guidance_sent: Option<SimTime>,
     live: LiveState,
     survey: Option<Arc<dyn SiteSurvey>>,
@@ -182,6 +183,7 @@ impl Monitor {
             texts: TextQueue::default(),
             guides: guides(scenario.feedback.guidance, config.purpose.as_deref()),
             announcer: StepAnnouncer::default(),
+            holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
             live: LiveState::new(&config, &paths),
             survey: None,

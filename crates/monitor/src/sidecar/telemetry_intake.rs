@@ -6,7 +6,7 @@ use super::{
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
-use crate::guidance::StepAnnouncer;
+use crate::guidance::{HoldTimer, StepAnnouncer};
 use crate::measures::attention;
 use crate::measures::crash::is_soft_pad_contact;
 use crate::session::{EndReason, EndRuleInput as EndInput, lift_off_height_m};
@@ -64,6 +64,7 @@ impl Monitor {
         self.feedback = FeedbackRules::new(&self.config.scenario);
         self.texts = TextQueue::default();
         self.announcer = StepAnnouncer::default();
+        self.holds = HoldTimer::new(self.paths.len());
         self.guidance_sent = None;
         self.last_heartbeat_sim_time = None;
         self.handle_sample(sample, None);

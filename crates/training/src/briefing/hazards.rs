@@ -2,11 +2,13 @@
 
 use super::counting::count;
 use super::tasks::TaskBriefing;
-use spandrel_model::scenario::{AfterCrash, Scenario};
+use spandrel_model::scenario::{AfterCrash, Scenario, WindModel, WindSpec};
 use spandrel_model::site::Site;
 
 /// Wind from which the briefing warns, m/s (estimate: the TASBID paper's "gentle" level is 4.9 m/s).
 const NOTABLE_WIND_M_S: f64 = 4.0;
+/// Constant force of the paper's wind model from which the briefing warns, N (its "gentle" level).
+const NOTABLE_FORCE_N: f64 = 3.0;
 /// Clearance below which a path counts as confined, m (estimate: about two aircraft widths on each side).
 const CONFINED_CLEARANCE_M: f64 = 2.5;
 
@@ -22,11 +24,7 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing]) 
         let noun = if dark.len() == 1 { "task" } else { "tasks" };
         lines.push(format!("Darkness: the lamp is needed in {noun} {}.", dark.join(", ")));
     }
-    if scenario.wind.speed_m_s >= NOTABLE_WIND_M_S || !scenario.wind.events.is_empty() {
-        let gusts = if scenario.wind.events.is_empty() { "" } else { " The wind changes or gusts during the flight." };
-        lines
-            .push(format!("Wind: {:.1} m/s.{gusts} Expect turbulence behind piers and under the deck.", scenario.wind.speed_m_s));
-    }
+    lines.extend(wind_hazard(&scenario.wind));
     let traffic = &scenario.traffic;
     let vehicles = traffic.cars + traffic.trucks;
     if vehicles > 0 {
@@ -46,6 +44,20 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing]) 
         AfterCrash::Continue | AfterCrash::Respawn => {}
     }
     lines
+}
+
+fn wind_hazard(wind: &WindSpec) -> Option<String> {
+    let changes = if wind.events.is_empty() { "" } else { " It changes or gusts during the flight." };
+    match wind.model {
+        WindModel::Paper if wind.paper_force_n >= NOTABLE_FORCE_N => {
+            Some(format!("Wind: a force of {:.1} N.{changes} Expect to be pushed off the path.", wind.paper_force_n))
+        }
+        WindModel::Physical if wind.speed_m_s >= NOTABLE_WIND_M_S || !wind.events.is_empty() => Some(format!(
+            "Wind: {:.1} m/s on average.{changes} Expect turbulence behind piers and under the deck.",
+            wind.speed_m_s
+        )),
+        WindModel::Paper | WindModel::Physical => None,
+    }
 }
 
 fn is_over_water(scenario: &Scenario, site: &Site) -> bool {

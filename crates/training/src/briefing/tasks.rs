@@ -6,7 +6,7 @@ use spandrel_model::math;
 use spandrel_model::scenario::{Scenario, Task, TaskKind};
 use spandrel_model::site::Site;
 
-/// Shortest distance between the ends of a path that gives it a direction, m (estimate). A shorter path is a place to hover.
+/// Shortest distance between the ends of a path that gives it a direction, m (estimate).
 const MIN_DIRECTED_M: f64 = 2.0;
 
 /// The briefing for one task.
@@ -44,12 +44,12 @@ impl TaskBriefing {
         Self {
             id: task.id,
             name: task.name.clone(),
-            place: if is_hover(task) {
+            place: if task.is_hold_position() {
                 "hover at one place".to_owned()
             } else {
                 format!("{}{bridge}{}", place_words(task.kind), direction_words(task))
             },
-            length_m: length_m(task),
+            length_m: task.length_m(),
             heights_m: (low_m, high_m),
             stand_off_m: task.stand_off.as_ref().map(|stand_off| (stand_off.recommended_m, stand_off.tolerance_m)),
             threshold_m: task.threshold_m,
@@ -57,11 +57,6 @@ impl TaskBriefing {
             clearance_m: clearance_m(task, site),
         }
     }
-}
-
-/// Returns whether a path is so short that the task is to hover.
-fn is_hover(task: &Task) -> bool {
-    length_m(task) < MIN_DIRECTED_M
 }
 
 fn place_words(kind: TaskKind) -> &'static str {
@@ -84,18 +79,15 @@ fn clearance_m(task: &Task, site: &Site) -> Option<f64> {
     })
 }
 
-fn length_m(task: &Task) -> f64 {
-    let closing = if task.closed { task.path_m.first() } else { None };
-    let pieces = task.path_m.iter().zip(task.path_m.iter().skip(1).chain(closing));
-    pieces.map(|(from, to)| (*to - *from).norm()).sum()
-}
-
 fn direction_words(task: &Task) -> String {
     if task.closed {
         return ", once around, in either direction".to_owned();
     }
     let (Some(first), Some(last)) = (task.path_m.first(), task.path_m.last()) else { return String::new() };
     let way = *last - *first;
+    if way.norm() < MIN_DIRECTED_M {
+        return ", ending where it starts".to_owned();
+    }
     if way.horizontal_norm() < MIN_DIRECTED_M {
         return format!(", {}", if way.up() > 0.0 { "from bottom to top" } else { "from top to bottom" });
     }

@@ -211,8 +211,8 @@ impl ScoredFlight<'_> {
         let missed: Vec<MissedDefect> = defect_outcomes.iter().filter_map(defects::DefectOutcome::missed).collect();
         let plan = plan::plan(std::slice::from_ref(&record), &rules, self.metadata.started_unix_us);
         let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
-        // The level of another drill depends on sessions that are unknown here.
-        steps.iter_mut().filter(|step| step.scenario != self.scene.scenario.name).for_each(|step| step.level = None);
+        // A level depends on the trainee's other sessions, which are unknown here.
+        steps.iter_mut().for_each(|step| step.level = None);
         let advice = session_advice(
             &steps,
             &rules,

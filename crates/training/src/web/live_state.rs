@@ -14,11 +14,16 @@ use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::time::SimTime;
 use spandrel_monitor::measures::on_path::ReferencePaths;
 use std::collections::VecDeque;
 
 /// Placeholder origin for decoding before the job is known. Positions decoded with it are never displayed.
 const PLACEHOLDER_ORIGIN: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
+/// Component ID of the autopilot, whose texts are no cues.
+const AUTOPILOT_COMPONENT_ID: u8 = 1;
+/// Time after which a step that is not repeated is no longer shown; the monitor repeats it at 5 Hz.
+const GUIDANCE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Maximum number of messages kept for the page.
 const MAX_MESSAGES: usize = 40;
 /// Identity of the job being flown.
@@ -55,7 +60,8 @@ pub struct LiveFlightState {
     gates: BridgeClosures,
     cues: i32,
     cue_texts: CueTexts,
-    guidance: Option<Guidance>,
+    /// The next step, and the simulation time when it was received.
+    guidance: Option<(SimTime, Guidance)>,
     messages: VecDeque<(u64, f64, &'static str, String)>,
     message_count: u64,
     /// The vehicle's system ID, once received.
@@ -122,7 +128,9 @@ impl LiveFlightState {
             Some(MavMessage::STATUSTEXT(text)) => {
                 let kind = if text.severity as u8 <= MavSeverity::MAV_SEVERITY_WARNING as u8 { "warn" } else { "info" };
                 let words: String = text.text.to_str().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
-                self.cue_texts.add(&words);
+                if frame.component_id != AUTOPILOT_COMPONENT_ID {
+                    self.cue_texts.add(&words);
+                }
                 self.push_message(kind, words);
             }
             Some(message) => {
@@ -130,7 +138,8 @@ impl LiveFlightState {
                     self.cues = cues;
                     self.cue_texts.retain_active(cues);
                 }
-                self.guidance = Guidance::of(message).or(self.guidance);
+                let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
+                self.guidance = Guidance::of(message).map(|guidance| (now, guidance)).or(self.guidance);
             }
             None => {}
         }
@@ -144,7 +153,7 @@ impl LiveFlightState {
 
     fn record_sender(&mut self, frame: &ReceivedFrame) {
         if let Some(MavMessage::HEARTBEAT(beat)) = &frame.message
-            && frame.component_id == 1
+            && frame.component_id == AUTOPILOT_COMPONENT_ID
         {
             self.system = Some(frame.system_id);
             self.autopilot = Some(beat.autopilot);
@@ -216,6 +225,8 @@ impl LiveFlightState {
             .iter()
             .map(|(id, t_s, kind, words)| json!({ "id": id, "t_s": t_s, "kind": kind, "words": words }))
             .collect();
+        let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
+        let guidance = self.guidance.filter(|(at, _)| now.saturating_sub(*at) <= GUIDANCE_TIMEOUT).map(|(_, guidance)| guidance);
         let open = self.gates.is_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
         json!({
             "heard": heard,
@@ -230,8 +241,8 @@ impl LiveFlightState {
             "contact": self.contact.label(),
             "armed": self.armed,
             "task": task,
-            "step": self.guidance.map(|guidance| guidance.words()),
-            "progress": self.guidance.and_then(|guidance| guidance.progress),
+            "step": guidance.map(|guidance| guidance.words()),
+            "progress": guidance.and_then(|guidance| guidance.progress),
             "cues": cues,
             "words": words,
         })
@@ -292,7 +303,8 @@ mod tests {
         assert_eq!((&moment["speed_m_s"], &moment["t_s"]), (&json!(3.0), &json!(2.0)));
         assert_eq!(moment["cues"], json!(["Too close", "Too fast"]), "without a text, the label");
         let text = STATUSTEXT_DATA { text: "Too close: 2.1 m, limit 2.5 m".into(), ..STATUSTEXT_DATA::default() };
-        feed_message(&mut live_state, &MavMessage::STATUSTEXT(text));
+        let bytes = Encoder::new(1, 191).encode(&MavMessage::STATUSTEXT(text));
+        Decoder::new().datagram(&bytes).iter().for_each(|frame| live_state.handle_frame(frame));
         assert_eq!(live_state.to_json(true)["cues"], json!(["Too close: 2.1 m, limit 2.5 m", "Too fast"]));
         assert_eq!(live_state.to_json(true)["step"], Value::Null);
         let guidance = Guidance {

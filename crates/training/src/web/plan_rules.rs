@@ -22,7 +22,12 @@ pub struct PlanRulesPage<'a> {
 fn staircase_words(rules: &PlanRules) -> String {
     rules.staircase.map_or_else(
         || "Difficulty does not adapt.".to_owned(),
-        |rule| format!("Difficulty adapts: up {} after a session at the criterion, down {} after another.", rule.up, rule.down),
+        |rule| {
+            format!(
+                "Difficulty adapts: {} harder after a session that met the criterion, {} easier after any other.",
+                rule.up, rule.down
+            )
+        },
     )
 }
 

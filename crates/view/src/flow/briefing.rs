@@ -42,8 +42,8 @@ pub fn page(pen: &mut PageWriter, job: &JobOffer, rows: &[MenuRow], focus: usize
 }
 
 fn columns(briefing: &JobBriefing) -> [Vec<Block<'_>>; 2] {
-    let left: Vec<Block<'_>> = vec![("Tasks, in this order", &briefing.tasks), ("Site check", &briefing.site_check)];
-    let right: Vec<Block<'_>> = vec![("From your instructor", &briefing.notes), ("Hazards", &briefing.hazards)];
+    let left: Vec<Block<'_>> = vec![("Site check", &briefing.site_check), ("Tasks, in this order", &briefing.tasks)];
+    let right: Vec<Block<'_>> = vec![("Hazards", &briefing.hazards), ("From your instructor", &briefing.notes)];
     [left, right].map(|column| column.into_iter().filter(|(_, lines)| !lines.is_empty()).collect())
 }
 
@@ -60,7 +60,10 @@ fn column_height(column: &[Block<'_>], width: f64, size: f64) -> f64 {
     LINE_SPACING * size * column.iter().map(block).sum::<f64>()
 }
 
-/// Draws a column. What does not fit even at the smallest size is left out; `spandrel brief` shows all of it.
+/// Text at the end of a column in which not everything fits.
+const MORE: &str = "More: see the briefing on the web pages, or run spandrel brief.";
+
+/// Draws a column. If it does not fit even at the smallest size, it ends with a reference to the complete briefing.
 fn draw_column(pen: &mut PageWriter, (x, width): (f64, f64), column: &[Block<'_>], size: f64) {
     let line = LINE_SPACING * size;
     let mut y = TOP + 0.5 * line;
@@ -69,7 +72,8 @@ fn draw_column(pen: &mut PageWriter, (x, width): (f64, f64), column: &[Block<'_>
         y += line;
         for words in *paragraphs {
             let lines = wrap_text(words, width, size);
-            if y + line * lines.len() as f64 > MENU_TOP {
+            if y + line * (lines.len() + 1) as f64 > MENU_TOP {
+                pen.lines((x, y), width, size, HudColor::Yellow, MORE);
                 return;
             }
             y = pen.lines((x, y), width, size, HudColor::White, words) + PARAGRAPH_GAP * line;

@@ -68,6 +68,7 @@ fn title(guidance: &Guidance) -> String {
         GuidanceStep::FlyHome => "Fly home".to_owned(),
         GuidanceStep::Land => "Land on the pad".to_owned(),
         GuidanceStep::Over => "Session over".to_owned(),
+        GuidanceStep::HoldPosition => format!("Hold position:{task}"),
     }
 }
 
