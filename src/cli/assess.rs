@@ -57,7 +57,7 @@ pub struct Args {
 /// # Errors
 /// Returns an error if files are invalid or there is nothing to score.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let (mut scenario, vehicle, log) = inputs(args)?;
+    let (mut scenario, vehicle, log, trainee) = inputs(args)?;
     scenario.scenario.seed = args.seed.or(scenario.scenario.seed);
     let selected = args.form.is_some() || args.level.is_some();
     let scored = match selected {
@@ -74,16 +74,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     match &args.json {
         Some(target) => files::write(target, export::json_text(&assessed_session.assessment).as_bytes()),
         None => {
-            let advice = advice(args, &scenario.scenario, &vehicle, &log);
+            let advice = advice(trainee, &scenario.scenario, &vehicle, &log);
             files::write("-", table::scores_text(&json!(assessed_session.assessment), advice.as_ref()).as_bytes())
         }
     }
 }
 
 /// Returns the advice for the scored flight; `None` if it cannot be computed, because the scores do not depend on it.
-fn advice(args: &Args, scenario: &Scenario, vehicle: &Vehicle, log: &LogFile) -> Option<SessionAdvice> {
-    let stored = args.flight.is_dir().then(|| StoredSession::read(&args.flight).ok()).flatten();
-    let trainee = stored.map_or_else(|| "NAME".to_owned(), |stored| stored.trainee);
+fn advice(trainee: String, scenario: &Scenario, vehicle: &Vehicle, log: &LogFile) -> Option<SessionAdvice> {
     let advice = advice_of(log, scenario, vehicle, &SessionMetadata { trainee, ..SessionMetadata::default() });
     advice.inspect_err(|error| tracing::warn!("cannot compute what to do better: {error}")).ok()
 }
@@ -110,7 +108,11 @@ fn explain(error: &AssessError, args: &Args, log: &LogFile) -> Result<AppError, 
     }
 }
 
-fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile), AppError> {
+/// Trainee in the advice for a telemetry log, which does not name one.
+const UNKNOWN_TRAINEE: &str = "NAME";
+
+/// Returns the scenario, the vehicle, the log and the trainee.
+fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile, String), AppError> {
     if args.flight.is_dir() {
         let stored = StoredSession::read(&args.flight)?;
         let scenario = match &args.scenario {
@@ -121,7 +123,7 @@ fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile), AppError> {
             Some(other) => files::vehicle(other)?.vehicle,
             None => stored.vehicle.vehicle,
         };
-        return Ok((scenario, vehicle, stored.log));
+        return Ok((scenario, vehicle, stored.log, stored.trainee));
     }
     let (Some(scenario), Some(vehicle)) = (&args.scenario, &args.vehicle) else {
         return Err(AppError::invalid(format!(
@@ -130,5 +132,5 @@ fn inputs(args: &Args) -> Result<(ScenarioFile, Vehicle, LogFile), AppError> {
         )));
     };
     let scenario = files::scenario(&files::with_variant(scenario, args.form.as_deref(), args.level))?;
-    Ok((scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?))
+    Ok((scenario, files::vehicle(vehicle)?.vehicle, LogFile::open(&args.flight)?, UNKNOWN_TRAINEE.to_owned()))
 }

@@ -8,9 +8,6 @@ use spandrel_monitor::export::json_text;
 use spandrel_training::briefing::{Briefing, text};
 use spandrel_training::report::page;
 
-/// Seed for building the site; the briefing is the same for every seed.
-const ANY_SEED: u64 = 0;
-
 /// Print the briefing for a job
 ///
 /// The tasks in order, with direction, length, height, stand-off and lamp; the conditions and hazards; what counts; and the
@@ -41,7 +38,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = args.job.load_scenario()?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
-    let site = Site::build(&scenario, ANY_SEED);
+    let site = Site::without_defects(&scenario);
     let briefing = Briefing::new(&scenario, &vehicle, &site);
     match (&args.html, args.json) {
         (Some(file), _) => files::write(file, page::briefing(&briefing, &scenario, &site).as_bytes()),

@@ -3,13 +3,11 @@
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files::{self, SourceFile};
 use serde_json::json;
-use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{self, Scenario, Task};
-use spandrel_model::site::{NearestPoint, Site, defects};
+use spandrel_model::site::{Site, defects};
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_model::vehicle::{self, Vehicle};
 use spandrel_monitor::measures::image_quality;
-use spandrel_monitor::measures::on_path::ReferencePaths;
 use spandrel_monitor::score::certification::{job_time, pictures, requirements};
 
 /// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
@@ -186,9 +184,8 @@ fn check_scenario(source: &SourceFile, aircraft: &Vehicle, findings: &mut Findin
 /// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.
 fn certification_notes(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<String> {
     let mut notes = requirements::describe(scenario);
-    let paths = ReferencePaths::new(scenario);
-    let path_m: f64 = (0..paths.len()).flat_map(|task| paths.path(task).lengths_by_point_m()).sum();
-    let needed_min = job_time::needed_s(scenario, path_m, scenario.defects.count) / 60.0;
+    let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
+    let needed_min = job_time::job_needed_s(scenario) / 60.0;
     notes.push(format!(
         "time that the job needs: {needed_min:.1} min for {path_m:.0} m of path and {}",
         count(scenario.defects.count, "defect")
@@ -241,11 +238,11 @@ fn is_vehicle_file(text: &str) -> bool {
 
 fn clearance_problems(source: &SourceFile, scenario: &Scenario, aircraft: &Vehicle) -> Vec<Problem> {
     let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
-    // The result does not depend on defects or traffic, so any seed works.
-    let site = Site::build(&Scenario { defects: scenario_without_defects(scenario), ..scenario.clone() }, 0);
+    let site = Site::without_defects(scenario);
     let lines: Vec<usize> = task_line_numbers(&source.text);
     let tight = |(k, task): (usize, &Task)| {
-        let (at_m, clearance_m, object) = min_clearance(task, &site, needed_m)?;
+        let (at_m, near) = site.min_path_clearance(task, needed_m)?;
+        let (clearance_m, object) = (near.distance_m, site.object_name(near.object));
         let [east, north, up] = at_m.array();
         Some(Problem {
             file: source.file.clone(),
@@ -285,21 +282,6 @@ fn missing_defects_warning(source: &SourceFile, scenario: &Scenario) -> Option<S
     })
 }
 
-fn scenario_without_defects(scenario: &Scenario) -> scenario::DefectSpec {
-    scenario::DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() }
-}
-
-/// Returns the point with the smallest clearance along the path, if that clearance is below the minimum.
-fn min_clearance(task: &Task, site: &Site, needed_m: f64) -> Option<(Vec3<Enu>, f64, String)> {
-    let points = &task.path_m;
-    let wrap = if task.closed { points.first() } else { points.last() };
-    let pieces = points.iter().zip(points.iter().skip(1).chain(wrap));
-    let (at_m, near) = pieces.fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
-        site.geometry().min_clearance(*from, *to, best.map_or(needed_m, |b| b.1.distance_m)).or(best)
-    })?;
-    Some((at_m, near.distance_m, site.object_name(near.object)))
-}
-
 /// Returns the line number of each task's table.
 fn task_line_numbers(text: &str) -> Vec<usize> {
     let heads = text.lines().enumerate().filter(|(_, line)| {
@@ -312,6 +294,7 @@ fn task_line_numbers(text: &str) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::frames::{Enu, Vec3};
 
     #[test]
     fn exact_task_lines_are_found() {

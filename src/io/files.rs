@@ -138,49 +138,30 @@ pub fn find_source(argument: &str, what: &str, library: &[(&'static str, &'stati
 
 /// Selects a form or a difficulty level of a scenario.
 fn select_variant(source: &SourceFile, variant: &str) -> Result<String, AppError> {
-    if scenario::form_names(&source.text).is_empty() {
-        let levels = scenario::level_count(&source.text);
-        if levels.is_some() || variant.parse::<u8>().is_ok() {
-            return select_level(source, variant, levels);
-        }
-    }
-    check_form(source, variant)?;
-    Ok(scenario::select_form(&source.text, variant))
+    scenario::select_variant(&source.text, variant).ok_or_else(|| unknown_variant(source, variant))
 }
 
-/// Selects a difficulty level of a scenario with `levels` levels.
-fn select_level(source: &SourceFile, level: &str, levels: Option<u8>) -> Result<String, AppError> {
+/// Returns the error for a form or a difficulty level that a scenario does not have.
+fn unknown_variant(source: &SourceFile, variant: &str) -> AppError {
     let file = &source.file;
-    let Some(levels) = levels else {
-        let have_levels = shipped::SCENARIOS.iter().filter(|(_, text)| scenario::level_count(text).is_some());
-        let have_levels: Vec<&str> = have_levels.map(|(name, _)| *name).collect();
-        return Err(AppError::invalid(format!(
-            "{file} has no difficulty levels, so --level {level} does not apply to it (shipped scenarios with levels: {})",
-            have_levels.join(", ")
-        )));
+    let forms = scenario::form_names(&source.text);
+    let shipped_with = |has: fn(&str) -> bool| {
+        let names: Vec<&str> = shipped::SCENARIOS.iter().filter(|(_, text)| has(text)).map(|(name, _)| *name).collect();
+        names.join(", ")
     };
-    let selected = level.parse().ok().filter(|number| (1..=levels).contains(number));
-    let selected = selected
-        .ok_or_else(|| AppError::invalid(format!("{file} has no difficulty level '{level}' (allowed: 1 to {levels})")))?;
-    Ok(scenario::select_level(&source.text, selected))
-}
-
-/// Checks that a scenario has a form.
-fn check_form(source: &SourceFile, form: &str) -> Result<(), AppError> {
-    let names = scenario::form_names(&source.text);
-    let file = &source.file;
-    if names.iter().any(|name| name == form) {
-        return Ok(());
-    }
-    if !names.is_empty() {
-        return Err(AppError::invalid(format!("{file} has no form '{form}' (allowed: {})", names.join(", "))));
-    }
-    let have_forms = shipped::SCENARIOS.iter().filter(|(_, text)| !scenario::form_names(text).is_empty());
-    let have_forms: Vec<&str> = have_forms.map(|(name, _)| *name).collect();
-    Err(AppError::invalid(format!(
-        "{file} has no forms, so --form {form} does not apply to it (shipped scenarios with forms: {})",
-        have_forms.join(", ")
-    )))
+    AppError::invalid(if !forms.is_empty() {
+        format!("{file} has no form '{variant}' (allowed: {})", forms.join(", "))
+    } else if let Some(levels) = scenario::level_count(&source.text) {
+        format!("{file} has no difficulty level '{variant}' (allowed: 1 to {levels})")
+    } else if variant.parse::<u8>().is_ok() {
+        let others = shipped_with(|text| scenario::level_count(text).is_some());
+        format!(
+            "{file} has no difficulty levels, so --level {variant} does not apply to it (shipped scenarios with levels: {others})"
+        )
+    } else {
+        let others = shipped_with(|text| !scenario::form_names(text).is_empty());
+        format!("{file} has no forms, so --form {variant} does not apply to it (shipped scenarios with forms: {others})")
+    })
 }
 
 fn find_file(argument: &str, what: &str, library: &[(&'static str, &'static str)]) -> Result<SourceFile, AppError> {

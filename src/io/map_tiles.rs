@@ -2,7 +2,7 @@
 
 use super::png::png;
 use crate::errors::AppError;
-use spandrel_model::scenario::{DefectSpec, Scenario};
+use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_view::site_map::{SiteMap, TileAddress};
 use std::collections::VecDeque;
@@ -10,8 +10,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Maximum number of tiles to keep (estimate: a ground station shows fewer than 100). A tile has at most 200 kB.
 const MAX_TILES: usize = 300;
-/// Seed for building the site; the tiles do not show what depends on it.
-const ANY_SEED: u64 = 0;
 
 /// The tiles of one job.
 #[derive(Debug)]
@@ -35,9 +33,7 @@ impl MapTiles {
     /// Builds the job's site.
     #[must_use]
     pub fn new(scenario: Scenario) -> Self {
-        // The tiles show no defects, and without them, the site is built much faster.
-        let bare = Scenario { defects: DefectSpec::default(), ..scenario.clone() };
-        Self { site: Site::build(&bare, ANY_SEED), scenario, drawn: Mutex::default() }
+        Self { site: Site::without_defects(&scenario), scenario, drawn: Mutex::default() }
     }
 
     /// Returns the CRC of the scenario.

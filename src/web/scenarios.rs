@@ -17,8 +17,6 @@ use spandrel_training::web::scenarios::{self as pages, ScenarioEntry};
 const MAX_UPLOADS: usize = 200;
 /// Aircraft of the briefing, as in the other commands.
 const DEFAULT_VEHICLE: &str = "phantom2";
-/// Seed for drawing the site; the geometry is the same for every seed.
-const ANY_SEED: u64 = 0;
 
 /// Responds with the list of scenarios.
 pub fn scenario_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
@@ -33,14 +31,14 @@ fn render_list(state: &ServerState, request: &WebRequest, told: Option<(&str, &s
 /// Responds with a scenario's page, including drawings of its site.
 pub fn scenario_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
-    let site = Site::build(&job.scenario, ANY_SEED);
+    let site = Site::without_defects(&job.scenario);
     Ok(WebResponse::page(pages::scenario_page(&request.visitor, &job.named, &job.scenario, &site, &job.text)))
 }
 
 /// Responds with the briefing for a scenario.
 pub fn briefing_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
-    let site = Site::build(&job.scenario, ANY_SEED);
+    let site = Site::without_defects(&job.scenario);
     let vehicle = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
     let briefing = Briefing::new(&job.scenario, &vehicle, &site);
     Ok(WebResponse::page(pages::briefing_page(&request.visitor, &briefing, &job.scenario, &site)))

@@ -7,7 +7,7 @@ use crate::measures::on_path::ReferencePaths;
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{HOLD_DURATION, Scenario};
 use spandrel_model::time::SimTime;
 
 /// Distance along the path to the place that the pilot is guided to while following it, m (estimate: far enough that the
@@ -176,9 +176,6 @@ impl GuidanceInput<'_> {
         }
     }
 }
-
-/// Time for which the drone must stay at a hold position without leaving it (estimate: an exercise of a beginner's lesson).
-const HOLD_DURATION: SimTime = SimTime::from_ms(10_000);
 
 /// Measures for how long the drone stays on the path of a task, and remembers which hold positions were held.
 #[derive(Debug, Clone, PartialEq)]

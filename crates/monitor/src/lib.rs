@@ -20,7 +20,8 @@
 //! ```
 //!
 //! [`measures`] computes measures from the frames (on path, speeding, crashes, picture contents), [`feedback`] raises cues,
-//! [`guidance`] determines the next step, [`score`] computes conformity, efficiency, safety and accuracy, and [`session`] determines where a session starts and ends.
+//! [`guidance`] determines the next step, [`score`] computes conformity, efficiency, safety and accuracy, and [`session`]
+//! determines where a session starts and ends.
 
 pub mod assessment;
 pub mod export;

@@ -4,7 +4,7 @@ use super::hud::GnssStatus;
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::cue::CueTexts;
-use spandrel_mavlink::contract::guidance::Guidance;
+use spandrel_mavlink::contract::guidance::{self, Guidance};
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
@@ -12,7 +12,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_model::time::SimTime;
 
-/// Timeout for a cue or a step that is not repeated; the monitor repeats both at 5 Hz.
+/// Timeout for a cue that is not repeated; the monitor repeats active cues at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
@@ -112,7 +112,7 @@ impl Feed {
     /// Returns the next step of the job; `None` if the monitor does not guide the pilot, or has stopped.
     #[must_use]
     pub fn guidance(&self, now: SimTime) -> Option<Guidance> {
-        self.guidance.filter(|(heard, _)| now.saturating_sub(*heard) <= CUE_TIMEOUT).map(|(_, guidance)| guidance)
+        self.guidance.filter(|(heard, _)| now.saturating_sub(*heard) <= guidance::TIMEOUT).map(|(_, guidance)| guidance)
     }
 
     /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not

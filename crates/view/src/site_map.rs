@@ -3,7 +3,7 @@
 
 use crate::picture::Picture;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::{Site, Surface};
@@ -90,14 +90,13 @@ fn pixel_of(geo: Geo, zoom: u8) -> (f64, f64) {
 pub struct SiteMap<'a> {
     scenario: &'a Scenario,
     site: &'a Site,
-    plane: LocalPlane,
 }
 
 impl<'a> SiteMap<'a> {
     /// Creates the map of a job.
     #[must_use]
     pub fn new(scenario: &'a Scenario, site: &'a Site) -> Self {
-        Self { scenario, site, plane: LocalPlane::new(scenario.origin) }
+        Self { scenario, site }
     }
 
     /// Draws a tile. Outside the terrain, it has one color.
@@ -106,11 +105,12 @@ impl<'a> SiteMap<'a> {
         let mut canvas = Canvas::new();
         for y in 0..TILE_PX {
             for x in 0..TILE_PX {
-                let here_m = self.plane.enu_from_geo(Geo { altitude_m: self.scenario.origin.altitude_m, ..address.geo_at(x, y) });
+                let here_m =
+                    self.site.plane().enu_from_geo(Geo { altitude_m: self.scenario.origin.altitude_m, ..address.geo_at(x, y) });
                 canvas.set(x, y, self.color_at(here_m));
             }
         }
-        let place = |point_m: Vec3<Enu>| address.place(self.plane.geo_from_enu(point_m));
+        let place = |point_m: Vec3<Enu>| address.place(self.site.plane().geo_from_enu(point_m));
         for task in &self.scenario.tasks {
             let mut points: Vec<(f64, f64)> = task.path_m.iter().map(|point_m| place(*point_m)).collect();
             points.extend(points.first().copied().filter(|_| task.closed));

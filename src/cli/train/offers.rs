@@ -6,7 +6,7 @@ use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::records::session_folders;
 use serde::Deserialize;
 use serde_json::Value;
-use spandrel_model::scenario::{DefectSpec, Scenario, form_names};
+use spandrel_model::scenario::{Scenario, form_names};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
 use spandrel_monitor::folder::{ASSESSMENT, REPORT};
@@ -44,14 +44,9 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
     }
 }
 
-/// Seed for building the site; the briefing is the same for every seed.
-const ANY_SEED: u64 = 0;
-
 /// Returns what the window's briefing page shows.
 fn job_briefing(scenario: &Scenario) -> JobBriefing {
-    // Without its defects, a site is built much faster.
-    let bare = Scenario { defects: DefectSpec::default(), ..scenario.clone() };
-    let briefing = SiteBriefing::new(scenario, &Site::build(&bare, ANY_SEED));
+    let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario));
     let task = |task: &TaskBriefing| format!("{}  {}: {}, {}", task.id, task.name, task.place, text::task_numbers(task));
     JobBriefing {
         notes: scenario.briefing.clone(),

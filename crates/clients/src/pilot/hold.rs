@@ -2,11 +2,9 @@
 //! the aircraft is on the path, more than their own judgment.
 
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::Task;
+use spandrel_model::scenario::{HOLD_DURATION, Task};
 use spandrel_model::time::SimTime;
 
-/// Time on the path after which the pilot goes on, s (estimate: an exercise of a beginner's lesson).
-const HOLD_DURATION_S: f64 = 10.0;
 /// Time after which the pilot goes on in any case, s (estimate).
 const MAX_HOLD_DURATION_S: f64 = 60.0;
 
@@ -27,7 +25,7 @@ impl Hold {
     /// Updates with what the display shows, and returns whether the pilot goes on.
     pub fn step(&mut self, on_path: bool, now: SimTime) -> bool {
         self.on_path_since = on_path.then(|| self.on_path_since.unwrap_or(now));
-        let held = self.on_path_since.is_some_and(|since| (now - since).s() >= HOLD_DURATION_S);
+        let held = self.on_path_since.is_some_and(|since| now - since >= HOLD_DURATION);
         held || (now - self.since).s() >= MAX_HOLD_DURATION_S
     }
 }
@@ -50,8 +48,8 @@ mod tests {
         assert!(!hold.step(true, at(1.0)));
         assert!(!hold.step(false, at(5.0)), "a gust");
         assert!(!hold.step(true, at(6.0)));
-        assert!(!hold.step(true, at(6.0 + 0.99 * HOLD_DURATION_S)));
-        assert!(hold.step(true, at(6.0 + HOLD_DURATION_S)));
+        assert!(!hold.step(true, at(6.0 + 0.99 * HOLD_DURATION.s())));
+        assert!(hold.step(true, at(6.0 + HOLD_DURATION.s())));
     }
 
     #[test]

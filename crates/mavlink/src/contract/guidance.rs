@@ -4,13 +4,16 @@
 //! grows at its end.
 
 use crate::dialect::{DEBUG_FLOAT_ARRAY_DATA, MavMessage};
+use spandrel_model::time::SimTime;
 
 /// Name in the message.
 pub const NAME: &str = "guidance";
+/// Age at which a step that was not repeated is out of date; the monitor repeats it at 5 Hz.
+pub const TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Number of values.
 const LENGTH: usize = 15;
 
-/// What the pilot has to do next.
+/// The pilot's next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GuidanceStep {
     /// Take off.
@@ -84,7 +87,7 @@ pub struct StandOffReading {
 /// The next step of the job.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guidance {
-    /// What to do.
+    /// The step.
     pub step: GuidanceStep,
     /// Number of the task in the scenario, if the step belongs to a task.
     pub task: Option<u32>,

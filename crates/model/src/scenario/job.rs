@@ -159,14 +159,21 @@ pub struct Task {
 
 /// Largest length of the path of a hold position, relative to the task's threshold: from the middle, all of it is on the path.
 const HOLD_LENGTH_THRESHOLDS: f64 = 2.0;
+/// Time for which a hold position is held without leaving it (estimate: an exercise of a beginner's lesson).
+pub const HOLD_DURATION: SimTime = SimTime::from_ms(10_000);
 
 impl Task {
-    /// Returns the length of the path, m. A closed path includes the way from its last point to its first.
+    /// Returns the segments of the path. A closed path includes the one from its last point to its first; an open path ends with
+    /// a segment of length 0, so that a path of a single point has one.
+    pub fn segments(&self) -> impl Iterator<Item = (Vec3<Enu>, Vec3<Enu>)> {
+        let end = if self.closed { self.path_m.first() } else { self.path_m.last() };
+        self.path_m.iter().copied().zip(self.path_m.iter().skip(1).chain(end).copied())
+    }
+
+    /// Returns the length of the path, m.
     #[must_use]
     pub fn length_m(&self) -> f64 {
-        let closing = if self.closed { self.path_m.first() } else { None };
-        let pieces = self.path_m.iter().zip(self.path_m.iter().skip(1).chain(closing));
-        pieces.map(|(from, to)| (*to - *from).norm()).sum()
+        self.segments().map(|(from, to)| (to - from).norm()).sum()
     }
 
     /// Returns whether the path is so short that the task is to hold position.

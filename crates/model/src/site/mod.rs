@@ -33,7 +33,7 @@ pub use visibility::DefectView;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::LocalPlane;
 use crate::scenario::bridges::{Lane, Member};
-use crate::scenario::{PlacedDefect, Scenario, Task};
+use crate::scenario::{DefectSpec, PlacedDefect, Scenario, Task};
 use crate::vehicle::{Camera, Lamp};
 use bridge_closures::BridgeClosures;
 use dynamics::{Dynamics, StaticQueries};
@@ -49,7 +49,28 @@ pub struct Site {
     dynamics: Dynamics,
 }
 
+/// Seed of a site whose random content is not used.
+const ANY_SEED: u64 = 0;
+
 impl Site {
+    /// Builds a site without defects, which is much faster, for uses of the bridges, the terrain and the paths alone. Only the
+    /// traffic depends on a seed then.
+    #[must_use]
+    pub fn without_defects(scenario: &Scenario) -> Self {
+        let defects = DefectSpec { count: 0, placed: Some(Vec::new()), ..scenario.defects.clone() };
+        Self::build(&Scenario { defects, ..scenario.clone() }, ANY_SEED)
+    }
+
+    /// Returns the place on a task's path with the smallest clearance to the structure and the terrain; `None` if it is at least
+    /// `less_than_m` everywhere.
+    #[must_use]
+    pub fn min_path_clearance(&self, task: &Task, less_than_m: f64) -> Option<(Vec3<Enu>, NearestPoint)> {
+        task.segments().fold(None, |best: Option<(Vec3<Enu>, NearestPoint)>, (from, to)| {
+            let limit_m = best.map_or(less_than_m, |(_, near)| near.distance_m);
+            self.geometry.min_clearance(from, to, limit_m).or(best)
+        })
+    }
+
     /// Builds geometry, traffic, defects and light from a scenario and a seed. The seed determines defects and traffic.
     #[must_use]
     pub fn build(scenario: &Scenario, seed: u64) -> Self {

@@ -4,7 +4,6 @@ use super::{AUTOPILOT_COMPONENT_ID, CUES_INTERVAL, GUIDANCE_INTERVAL, MONITOR_CO
 use crate::feedback::{FeedbackInput, HeadingOffset, SurfaceDistance, TaskProximity};
 use crate::guidance::GuidanceInput;
 use crate::measures::on_path::NearestOnPath;
-use crate::score::certification::job_time;
 use crate::session::lift_off_height_m;
 use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
@@ -72,7 +71,6 @@ impl Monitor {
     fn guidance(&self, truth: &Truth) -> Guidance {
         let scenario = &self.config.scenario;
         let tasks: Vec<TaskProximity> = (0..scenario.tasks.len()).map(|task| self.task_proximity(task, truth)).collect();
-        let length_m = self.live.flown.iter().map(|flown| flown.coverage().length_m).sum();
         let input = GuidanceInput {
             scenario,
             paths: &self.paths,
@@ -85,7 +83,7 @@ impl Monitor {
             taken_off: self.live.lift_off.is_some(),
             over: self.live.end.is_some() || self.outcome.is_some(),
             flown_s: self.flight_time().map_or(0.0, SimTime::s),
-            needed_s: job_time::needed_s(scenario, length_m, scenario.defects.count),
+            needed_s: self.needed_s,
         };
         input.next_step()
     }

@@ -14,6 +14,7 @@ use crate::guidance::{HoldTimer, StepAnnouncer};
 use crate::measures::attention::SiteSurvey;
 use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
+use crate::score::certification::job_time;
 use crate::session::{EndReason, EndRule};
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -154,6 +155,8 @@ pub struct Monitor {
     announcer: StepAnnouncer,
     holds: HoldTimer,
     guidance_sent: Option<SimTime>,
+    /// Time that the job needs, s.
+    needed_s: f64,
     live: LiveState,
     survey: Option<Arc<dyn SiteSurvey>>,
     seed: Option<u64>,
@@ -185,6 +188,7 @@ impl Monitor {
             announcer: StepAnnouncer::default(),
             holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
+            needed_s: job_time::job_needed_s(scenario),
             live: LiveState::new(&config, &paths),
             survey: None,
             paths,

@@ -20,7 +20,7 @@ use wording::Sentence;
 /// Maximum number of things to do better: more are not remembered in the next flight.
 pub const MAX_POINTS: usize = 3;
 
-/// What to do better, and what to fly next.
+/// Advice after a session, and the recommended next flight.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SessionAdvice {
     /// At most [`MAX_POINTS`] things to do better, in the plan's order.

@@ -11,10 +11,9 @@ pub use tasks::TaskBriefing;
 
 use counting::count;
 use serde::Serialize;
-use spandrel_model::scenario::{Scenario, WindModel};
+use spandrel_model::scenario::{Scenario, Task, WindModel};
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::measures::on_path::ReferencePaths;
 use spandrel_monitor::score::certification::{job_time, requirements};
 
 /// The contents of a briefing.
@@ -32,7 +31,7 @@ pub struct Briefing {
     pub conditions: Vec<(String, String)>,
     /// Hazards, one sentence each.
     pub hazards: Vec<String>,
-    /// What counts: the scores and the requirements of the certification, one sentence each.
+    /// Scores and certification requirements, one sentence each.
     pub counts: Vec<String>,
     /// Items of the site check, which the trainee acknowledges before takeoff.
     pub site_check: Vec<String>,
@@ -77,9 +76,8 @@ impl Briefing {
 }
 
 fn conditions(scenario: &Scenario, vehicle: &Vehicle) -> Vec<(String, String)> {
-    let paths = ReferencePaths::new(scenario);
-    let length_m: f64 = (0..paths.len()).flat_map(|task| paths.path(task).lengths_by_point_m()).sum();
-    let needed_s = job_time::needed_s(scenario, length_m, scenario.defects.count);
+    let length_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
+    let needed_s = job_time::job_needed_s(scenario);
     let scoring = &scenario.scoring;
     let mut rows = vec![
         ("aircraft", vehicle.name.clone()),

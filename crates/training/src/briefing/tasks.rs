@@ -54,7 +54,7 @@ impl TaskBriefing {
             stand_off_m: task.stand_off.as_ref().map(|stand_off| (stand_off.recommended_m, stand_off.tolerance_m)),
             threshold_m: task.threshold_m,
             lamp: task.dark,
-            clearance_m: clearance_m(task, site),
+            clearance_m: site.min_path_clearance(task, MAX_CLEARANCE_M).map(|(_, near)| near.distance_m),
         }
     }
 }
@@ -67,16 +67,6 @@ fn place_words(kind: TaskKind) -> &'static str {
         TaskKind::PierCircle => "around the pier",
         TaskKind::Free => "along the free path",
     }
-}
-
-/// Returns the smallest distance between the path and the structure; `None` if nothing is near.
-fn clearance_m(task: &Task, site: &Site) -> Option<f64> {
-    let end = if task.closed { task.path_m.first() } else { task.path_m.last() };
-    let pieces = task.path_m.iter().zip(task.path_m.iter().skip(1).chain(end));
-    pieces.fold(None, |best: Option<f64>, (from, to)| {
-        let near = site.geometry().min_clearance(*from, *to, best.unwrap_or(MAX_CLEARANCE_M));
-        near.map(|near| near.1.distance_m).or(best)
-    })
 }
 
 fn direction_words(task: &Task) -> String {

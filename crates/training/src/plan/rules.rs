@@ -138,8 +138,8 @@ impl PlanRules {
         self
     }
 
-    /// Returns the rules with the drills' difficulty levels. `levels` returns those of a scenario; for `None`, the drill keeps
-    /// what it has.
+    /// Returns the rules with the drills' difficulty levels. `levels` returns those of a scenario; if it returns `None`,
+    /// the drill's levels stay unchanged.
     #[must_use]
     pub fn with_levels(mut self, levels: impl Fn(&str) -> Option<Difficulty>) -> Self {
         for drill in &mut self.drills {

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
-use spandrel_mavlink::contract::guidance::Guidance;
+use spandrel_mavlink::contract::guidance::{self, Guidance};
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
@@ -22,8 +22,6 @@ use std::collections::VecDeque;
 const PLACEHOLDER_ORIGIN: Geo = Geo { latitude_deg: 0.0, longitude_deg: 0.0, altitude_m: 0.0 };
 /// Component ID of the autopilot, whose texts are no cues.
 const AUTOPILOT_COMPONENT_ID: u8 = 1;
-/// Time after which a step that is not repeated is no longer shown; the monitor repeats it at 5 Hz.
-const GUIDANCE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Maximum number of messages kept for the page.
 const MAX_MESSAGES: usize = 40;
 /// Identity of the job being flown.
@@ -226,7 +224,7 @@ impl LiveFlightState {
             .map(|(id, t_s, kind, words)| json!({ "id": id, "t_s": t_s, "kind": kind, "words": words }))
             .collect();
         let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
-        let guidance = self.guidance.filter(|(at, _)| now.saturating_sub(*at) <= GUIDANCE_TIMEOUT).map(|(_, guidance)| guidance);
+        let guidance = self.guidance.filter(|(at, _)| now.saturating_sub(*at) <= guidance::TIMEOUT).map(|(_, guidance)| guidance);
         let open = self.gates.is_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
         json!({
             "heard": heard,

@@ -46,7 +46,7 @@ pub struct JobOffer {
     pub title: String,
     /// Short description of the job type.
     pub kind: String,
-    /// What to know before the flight.
+    /// The job's briefing.
     #[serde(default)]
     pub briefing: JobBriefing,
 }

@@ -1,6 +1,7 @@
 //! Tests of the map tiles.
 
 use super::*;
+use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::{scenario, shipped};
 
 /// Largest error of the projection and its inverse, deg: about a millimeter.

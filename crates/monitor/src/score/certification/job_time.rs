@@ -1,7 +1,7 @@
 //! Efficiency: flight time compared with the time that this job needs.
 
 use serde::Serialize;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{Scenario, Task};
 
 use crate::measures::coverage::PathCoverage;
 
@@ -38,6 +38,13 @@ impl JobTime {
         let most = scenario.certification.max_time_ratio;
         if complete { (100.0 * (most - self.ratio) / (most - 1.0)).clamp(0.0, 100.0) } else { 0.0 }
     }
+}
+
+/// Returns the time in seconds that a job needs with all its defects.
+#[must_use]
+pub fn job_needed_s(scenario: &Scenario) -> f64 {
+    let path_length_m = scenario.tasks.iter().map(Task::length_m).sum();
+    needed_s(scenario, path_length_m, scenario.defects.count)
 }
 
 /// Returns the time in seconds that a job needs: path length over the inspection speed, plus the times
