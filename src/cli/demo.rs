@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
     /// Simulation speed: a multiple of real time (0.1 to 100), or max
-    #[arg(long, value_name = "X|max", default_value = "5")]
+    #[arg(long, value_name = "X|max", default_value = "30")]
     speed: SimulationSpeed,
     /// Protocol of the built-in autopilot; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]

@@ -21,8 +21,8 @@ const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 /// The view uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another
 /// computer. Defects and traffic match the seed that the simulator reports, even after it restarts; --seed applies
 /// until the first report, or if the vehicle reports no seed. With --fly, the keyboard in the window (and a calibrated
-/// controller, if one is connected) flies the vehicle. Tab swaps the views, the mouse turns the inspector's view, the
-/// wheel zooms, F follows the aircraft again, and M hides the map. It needs no graphics card: a software Vulkan driver
+/// controller, if one is connected) flies the vehicle. Tab changes the layout, the mouse turns the inspector's view, the
+/// wheel zooms, F follows the aircraft again, M hides the map, and V hides the path. It needs no graphics card: a software Vulkan driver
 /// is enough (Debian and Ubuntu: mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
@@ -61,7 +61,7 @@ pub struct Args {
     #[arg(long, value_name = "PRESET", default_value = "auto")]
     quality: String,
     /// Window size in px
-    #[arg(long, value_name = "WxH", default_value = "1600x560")]
+    #[arg(long, value_name = "WxH", default_value = "1280x720")]
     size: String,
     /// Disable sound; the [sound] table in the key bindings file configures propellers, warnings, speech and volume
     #[arg(long)]

@@ -14,7 +14,7 @@ use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
 use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
-use spandrel_view::arrange::ViewKind;
+use spandrel_view::arrange::{ViewKind, WindowShape};
 use spandrel_view::flow::pipe::FromWindow;
 use spandrel_view::flow::{Page, WindowFlow};
 use spandrel_view::gpu::PageTextures;
@@ -62,6 +62,8 @@ pub struct Cockpit {
     pub(super) pictures: PageTextures,
     pub(super) inspector_camera: InspectorCamera,
     pub(super) map: bool,
+    /// Whether the path is drawn into the pictures.
+    pub(super) path: bool,
     pub(super) held: HeldKeys,
     /// Last pause state sent to the pilot thread.
     pub(super) was_paused: bool,
@@ -86,6 +88,7 @@ impl Cockpit {
     ) -> Self {
         Self {
             map: plan.map,
+            path: true,
             image_writer: threads.flight.as_ref().and(plan.camera_file.clone()).map(PictureWriter::start),
             plan,
             keys,
@@ -183,6 +186,7 @@ impl Cockpit {
         match self.keys.window_action(key) {
             Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
             Some(WindowAction::Map) => self.map = !self.map,
+            Some(WindowAction::Path) => self.path = !self.path,
             Some(WindowAction::Follow) => self.inspector_camera = InspectorCamera::default(),
             Some(WindowAction::Pause) => self.flow.pause(),
             Some(WindowAction::Restart) => self.flow.restart(),
@@ -226,10 +230,18 @@ impl Cockpit {
         self.mouse = Some((x, y));
     }
 
+    /// Returns the aspect ratios of the window and of the camera's picture.
+    pub(super) fn shape(&self) -> WindowShape {
+        let size = self.screen.as_ref().map(|screen| screen.window.inner_size());
+        let window = size.map_or(1.0, |size| f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
+        WindowShape { window, camera: self.flow.camera_aspect }
+    }
+
     /// Returns the on-screen height of the inspector's view in pixels.
     fn inspector_view_height_px(&self) -> f64 {
         let window = self.screen.as_ref().map_or(1.0, |screen| f64::from(screen.window.inner_size().height.max(1)));
-        let eyes = self.flow.arrangement.view_rects().into_iter().find(|view_rect| view_rect.which == ViewKind::Inspector);
+        let eyes =
+            self.flow.arrangement.view_rects(self.shape()).into_iter().find(|view_rect| view_rect.which == ViewKind::Inspector);
         window * eyes.map_or(1.0, |view_rect| view_rect.height)
     }
 

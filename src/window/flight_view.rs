@@ -1,13 +1,12 @@
 //! A flight in the window: receives its telemetry and loads its scene.
 
 use super::listener::TelemetryListener;
-use super::panes::{PaneContent, RenderJob, ViewPanes};
+use super::panes::{PaneContent, RenderJob, ViewOptions, ViewPanes};
 use super::screen::WindowSurface;
 use crate::errors::AppError;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::ViewRect;
-use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::live::LiveMoment;
 use spandrel_view::quality::Quality;
 use std::net::{IpAddr, SocketAddr};
@@ -162,15 +161,14 @@ impl FlightView {
         screen: &mut WindowSurface,
         places: &[ViewRect],
         now: Option<&LiveMoment>,
-        inspector_camera: &InspectorCamera,
-        map: bool,
+        options: &ViewOptions,
     ) -> Result<Vec<PaneContent>, AppError> {
         if let Some(previous_panes) = self.previous_panes.take() {
             previous_panes.close(screen);
         }
         let (SceneLoading::Ready(panes), Some(now)) = (&mut self.scene, now) else { return Ok(Vec::new()) };
         let feed = self.listener.live().feed().clone();
-        panes.draw(screen, places, now, &feed, inspector_camera, map)
+        panes.draw(screen, places, now, &feed, options)
     }
 
     /// Returns both views, once the scene is ready.

@@ -2,18 +2,20 @@
 
 use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
-use super::panes::PaneContent;
+use super::panes::{PaneContent, ViewOptions};
 use super::pilot::{PilotCommand, PilotThread};
 use super::window_text::{WindowText, help, paint_flight, waiting};
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::png::png;
 use serde_json::json;
+use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::FlightStarted;
 use spandrel_view::flow::{Page, PageLayout, WindowRequest};
 use spandrel_view::gpu::{PageTextures, paint_sheet};
 use spandrel_view::hud;
 use spandrel_view::live::LiveMoment;
+use spandrel_view::path_guide::PathAids;
 use spandrel_view::sound::SoundInputs;
 
 /// Turn rate of the inspector's view under keyboard control, rad/s, and zoom factor per second (estimates: comfortable
@@ -164,13 +166,26 @@ impl Cockpit {
         self.listen(started);
         let text = self.text(now.is_some(), started);
         let map = self.map && self.plan.map && self.flow.shows_map();
+        let options = ViewOptions {
+            inspector_camera: self.inspector_camera,
+            map,
+            path_aids: self.path_aids(),
+            key_names: self.flow.key_names().clone(),
+        };
+        if let Some(flight) = &self.threads.flight {
+            self.flow.camera_aspect = flight.job.1.camera.aspect();
+            if self.flow.arrangement == ViewLayout::Camera {
+                flight.listener.live().request_obstacles();
+            }
+        }
+        let shape = self.shape();
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };
-        let shown = flight.draw(screen, &self.flow.arrangement.view_rects(), now.as_ref(), &self.inspector_camera, map)?;
+        let shown = flight.draw(screen, &self.flow.arrangement.view_rects(shape), now.as_ref(), &options)?;
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
-        let (pictures, arrangement) = (&mut self.pictures, self.flow.arrangement);
+        let (pictures, anchor) = (&mut self.pictures, self.flow.arrangement.words(shape));
         screen.show(|ui| {
-            paint_flight(ui, &shown, &text, arrangement);
+            paint_flight(ui, &shown, &text, anchor);
             paint_page(ui, &sheet, pictures);
         })?;
         if shown.is_empty() {
@@ -249,6 +264,11 @@ impl Cockpit {
         self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_FACTOR_PER_S, step_s * way("zoom_in", "zoom_out")));
     }
 
+    /// Returns how much of the path is drawn: nothing in an assessment, and less for better pilots.
+    fn path_aids(&self) -> PathAids {
+        if self.path && self.plan.map { self.flow.path_aids() } else { PathAids::None }
+    }
+
     fn announce(&self) {
         let Some(screen) = self.screen.as_ref().filter(|_| self.plan.announce) else { return };
         let size = screen.window.inner_size();
@@ -258,14 +278,14 @@ impl Cockpit {
 
     fn save_screenshot(&mut self, shown: &[PaneContent], text: &WindowText) -> Result<(), AppError> {
         let first = self.threads.flight.as_ref().and_then(|flight| flight.first_frame_at);
+        let anchor = self.flow.arrangement.words(self.shape());
         let (Some(plan), Some(first), Some(screen)) = (&self.plan.picture, first, &mut self.screen) else {
             return Ok(());
         };
         if self.stopwatch.elapsed().saturating_sub(first) < plan.after {
             return Ok(());
         }
-        let arrangement = self.flow.arrangement;
-        let picture = screen.picture(|ui| paint_flight(ui, shown, text, arrangement))?;
+        let picture = screen.picture(|ui| paint_flight(ui, shown, text, anchor))?;
         files::write(&plan.path.display().to_string(), &png(&picture)?)?;
         self.stop.request();
         Ok(())

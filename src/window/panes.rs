@@ -10,10 +10,12 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::{ViewKind, ViewRect, render_size_px};
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
+use spandrel_view::flow::KeyNames;
 use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
-use spandrel_view::hud::{self, DrawItem};
+use spandrel_view::hud::{self, DrawItem, Hud};
 use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::live::LiveMoment;
+use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
 use spandrel_view::quality::Quality;
 use spandrel_view::scene::Scene;
@@ -70,12 +72,25 @@ pub struct ViewPanes {
     exposure_meters: [ExposureMeter; 2],
 }
 
+/// What the user chose to see.
+#[derive(Debug, Clone)]
+pub struct ViewOptions {
+    /// Direction and zoom of the inspector's view.
+    pub inspector_camera: InspectorCamera,
+    /// Whether the reference paths may be shown on a map.
+    pub map: bool,
+    /// How much of the path is drawn into the pictures.
+    pub path_aids: PathAids,
+    /// Names of the keys.
+    pub key_names: KeyNames,
+}
+
 /// A view to show.
 pub struct PaneContent {
     /// Position in the window.
     pub view_rect: ViewRect,
-    /// egui texture with the rendered image.
-    pub picture: egui::TextureId,
+    /// egui texture with the rendered image; `None` for instruments.
+    pub picture: Option<egui::TextureId>,
     /// The view's overlay.
     pub items: Vec<DrawItem>,
 }
@@ -112,8 +127,7 @@ impl ViewPanes {
         places: &[ViewRect],
         now: &LiveMoment,
         feed: &Feed,
-        inspector_camera: &InspectorCamera,
-        map: bool,
+        options: &ViewOptions,
     ) -> Result<Vec<PaneContent>, AppError> {
         if self.job.site.traffic().closures() != &now.closures {
             self.job.site = self.job.site.with_closures(now.closures.clone());
@@ -124,9 +138,22 @@ impl ViewPanes {
         let (mut shown, mut begun) = (Vec::new(), false);
         for view_rect in order {
             let view_rect = self.fit_view(screen, *view_rect);
-            let (shot, items) = self.render(screen, &view_rect, now, feed, inspector_camera, map);
+            let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
+            if let Some(lesson) = &mut display.lesson {
+                lesson.how = options.key_names.fill(&lesson.how);
+            }
+            if view_rect.which == ViewKind::Instruments {
+                let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(screen, &view_rect));
+                shown.push(PaneContent { view_rect, picture: None, items });
+                continue;
+            }
+            // The instruments include a map.
+            let tracks =
+                if places.iter().any(|place| place.which == ViewKind::Instruments) { Vec::new() } else { display.tracks };
+            let display = Hud { tracks, ..display };
+            let (shot, items) = self.render(screen, &view_rect, now, &display, options);
             let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
-            shown.push(PaneContent { view_rect, picture: pane.id, items });
+            shown.push(PaneContent { view_rect, picture: Some(pane.id), items });
             match &self.secondary {
                 Some(aside) if view_rect.which == ViewKind::Camera => {
                     aside.start(shot)?;
@@ -165,7 +192,7 @@ impl ViewPanes {
     fn fit_view(&self, screen: &WindowSurface, view_rect: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
         match view_rect.which {
-            ViewKind::Inspector => view_rect,
+            ViewKind::Inspector | ViewKind::Instruments => view_rect,
             ViewKind::Camera => {
                 let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
                 view_rect.fit_aspect(self.job.vehicle.camera.aspect(), shape)
@@ -179,9 +206,8 @@ impl ViewPanes {
         screen: &WindowSurface,
         view_rect: &ViewRect,
         now: &LiveMoment,
-        feed: &Feed,
-        inspector_camera: &InspectorCamera,
-        map: bool,
+        display: &Hud,
+        options: &ViewOptions,
     ) -> (Shot, Vec<DrawItem>) {
         let window = screen.window.inner_size();
         let on_screen = (view_rect.width * f64::from(window.width), view_rect.height * f64::from(window.height));
@@ -189,20 +215,29 @@ impl ViewPanes {
         let moment = &now.moment;
         let (stage, [eyes, film]) = (self.job.stage(), &mut self.exposure_meters);
         match view_rect.which {
-            ViewKind::Inspector => {
-                let shot = stage.inspector_view(inspector_camera, moment, size_px, eyes);
-                let items = stage.drone_marker(&shot, moment);
+            ViewKind::Inspector | ViewKind::Instruments => {
+                let shot = stage.inspector_view(&options.inspector_camera, moment, size_px, eyes);
+                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), options.path_aids);
+                items.extend(stage.lesson_items(&shot, moment, display.lesson.as_ref()));
+                items.extend(stage.drone_marker(&shot, moment));
                 (shot, items)
             }
             ViewKind::Camera => {
-                let display = stage::display(&stage, moment, &now.hud, (feed, false), map);
-                // Text keeps its normal size on the screen, so displays with a larger scale factor use more pixels for
-                // it.
-                let scale = screen.window.scale_factor();
-                (stage.camera_frame(moment, size_px, film), hud::layout_px(&display, (on_screen.0 / scale, on_screen.1 / scale)))
+                let shot = stage.camera_frame(moment, size_px, film);
+                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), options.path_aids);
+                items.extend(stage.lesson_items(&shot, moment, display.lesson.as_ref()));
+                items.extend(hud::layout_px(display, logical_size_px(screen, view_rect)));
+                (shot, items)
             }
         }
     }
+}
+
+/// Returns a view's size in px at standard pixel density: text keeps its normal size on the screen, so displays with a larger
+/// scale factor use more pixels for it.
+fn logical_size_px(screen: &WindowSurface, view_rect: &ViewRect) -> (f64, f64) {
+    let (window, scale) = (screen.window.inner_size(), screen.window.scale_factor());
+    (view_rect.width * f64::from(window.width) / scale, view_rect.height * f64::from(window.height) / scale)
 }
 
 /// Returns a view's texture, and recreates it if the size has changed.

@@ -4,7 +4,7 @@ use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
 use super::panes::PaneContent;
 use spandrel_clients::rc::keyboard::KeyBindings;
-use spandrel_view::arrange::ViewLayout;
+use spandrel_view::arrange::TextAnchor;
 use spandrel_view::gpu::paint;
 
 /// The window's texts.
@@ -32,9 +32,10 @@ pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) 
 pub fn help(keys: &KeyBindings, flies: bool) -> String {
     let key = |name: &str| keys.label(name);
     let mut words = format!(
-        "{} views    {} map    drag or {} {} look around    wheel zoom    {} follow the drone",
+        "{} views    {} map    {} path    drag or {} {} look around    wheel zoom    {} follow the drone",
         key("swap"),
         key("map"),
+        key("path"),
         key("look_left"),
         key("look_right"),
         key("follow")
@@ -61,7 +62,7 @@ pub fn help(keys: &KeyBindings, flies: bool) -> String {
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.
-pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, arrangement: ViewLayout) {
+pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, anchor: TextAnchor) {
     let area = ui.ctx().content_rect();
     let painter = ui.ctx().layer_painter(egui::LayerId::background());
     for view in shown {
@@ -72,7 +73,9 @@ pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText,
             at(view_rect.left + view_rect.width, view_rect.top + view_rect.height),
         );
         let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
-        painter.image(view.picture, rect, whole, egui::Color32::WHITE);
+        if let Some(picture) = view.picture {
+            painter.image(picture, rect, whole, egui::Color32::WHITE);
+        }
         paint(&painter.with_clip_rect(rect), &view.items, rect);
         let edge = egui::Stroke::new(1.0, egui::Color32::from_gray(20));
         painter.rect_stroke(rect, 0.0, edge, egui::StrokeKind::Inside);
@@ -88,11 +91,10 @@ pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText,
     }
     if !lines.is_empty() {
         let font = egui::FontId::proportional(0.75 * size);
-        let stand = arrangement.words();
-        let corner = area.min + egui::vec2(stand.left_edge as f32 * area.width(), stand.edge as f32 * area.height());
-        let room = stand.width as f32 * area.width() - 1.2 * size;
+        let corner = area.min + egui::vec2(anchor.left_edge as f32 * area.width(), anchor.edge as f32 * area.height());
+        let room = anchor.width as f32 * area.width() - 1.2 * size;
         let galley = painter.layout(lines.join("\n"), font, egui::Color32::from_gray(235), room);
-        let down = if stand.extends_down { 0.6 * size } else { -0.6 * size - galley.size().y };
+        let down = if anchor.extends_down { 0.6 * size } else { -0.6 * size - galley.size().y };
         let rect = egui::Rect::from_min_size(corner + egui::vec2(0.6 * size, down), galley.size());
         painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
         painter.galley(rect.min, galley, egui::Color32::WHITE);

@@ -6,7 +6,6 @@ use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::math;
 use spandrel_model::scenario::{HOLD_DURATION, Scenario};
 use spandrel_model::time::SimTime;
 
@@ -168,12 +167,7 @@ impl GuidanceInput<'_> {
     }
 
     fn way_to(&self, target_m: Vec3<Enu>) -> WayTo {
-        let offset = HeadingOffset::new(target_m - self.position_m, self.heading_rad);
-        WayTo {
-            distance_m: math::hypot(offset.forward_m, offset.right_m),
-            bearing_rad: math::atan2(offset.right_m, offset.forward_m),
-            up_m: offset.up_m,
-        }
+        HeadingOffset::new(target_m - self.position_m, self.heading_rad).way()
     }
 }
 
@@ -251,6 +245,7 @@ impl StepAnnouncer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::math;
     use spandrel_model::{scenario, shipped};
 
     /// Largest difference that rounding explains, m and rad.

@@ -28,6 +28,7 @@ pub mod export;
 pub mod feedback;
 pub mod folder;
 pub mod guidance;
+pub mod lesson;
 pub mod measures;
 pub mod recording;
 pub mod score;

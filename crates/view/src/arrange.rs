@@ -7,18 +7,29 @@ pub enum ViewKind {
     Inspector,
     /// The aircraft camera's view.
     Camera,
+    /// The instruments.
+    Instruments,
 }
 
 /// How the views share the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ViewLayout {
-    /// Side by side: inspector on the left, camera on the right, as in the TASBID paper.
+    /// Camera large, with the inspector's view and the instruments beside it or below it.
     #[default]
-    SideBySide,
-    /// Camera large, inspector inset.
     Camera,
     /// Inspector large, camera inset.
     Inspector,
+    /// Side by side: inspector on the left, camera on the right, as in the TASBID paper.
+    SideBySide,
+}
+
+/// Aspect ratios (width over height) of the window and of the camera's picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WindowShape {
+    /// Of the window.
+    pub window: f64,
+    /// Of the camera's picture.
+    pub camera: f64,
 }
 
 /// Rectangle of a view, as fractions of the window's width and height.
@@ -51,9 +62,19 @@ pub struct TextAnchor {
 
 /// Side of the inset view as a fraction of the window's width or height.
 const INSET_SIZE: f64 = 0.3;
-/// Top edge of the inset view, as a fraction of the window's height: below the speed readout, even for a wide picture
-/// in a narrow window.
-const INSET_TOP: f64 = 0.23;
+/// Smallest width of the column beside the camera view, and smallest height of the strip below it, relative to the window's
+/// height.
+const MIN_COLUMN_WIDTH: f64 = 0.36;
+const MIN_STRIP_HEIGHT: f64 = 0.26;
+/// Aspect ratio of the inspector's view in the column and in the strip, and its largest share of them.
+const INSPECTOR_ASPECT: f64 = 4.0 / 3.0;
+const MAX_INSPECTOR_SHARE: f64 = 0.55;
+/// Distance of the status text from the top of the camera view, and its largest width, relative to the camera view: below the
+/// speed readout and left of the other readouts.
+const STATUS_TEXT_TOP: f64 = 0.145;
+const STATUS_TEXT_WIDTH: f64 = 0.6;
+/// Height of the button in the inspector's view above its middle, relative to the window.
+const BUTTON_DOWN: f64 = 0.0325;
 
 impl ViewRect {
     /// Returns the largest centered rectangle of the given `aspect` ratio (width over height) in a window with the
@@ -78,51 +99,101 @@ pub fn largest_even_size_px((width, height): (u32, u32), aspect: f64) -> (u32, u
     if w / h > aspect { (even(h * aspect, width), height) } else { (width, even(w / aspect, height)) }
 }
 
+impl WindowShape {
+    /// Returns the rectangle from a position and size relative to the window's height.
+    fn rect(self, which: ViewKind, (x, y): (f64, f64), (width, height): (f64, f64)) -> ViewRect {
+        ViewRect { which, left: x / self.window, top: y, width: width / self.window, height }
+    }
+
+    /// Returns the camera view with the other views in a column at its left.
+    fn with_column(self) -> [ViewRect; 3] {
+        let column = (self.window - self.camera).max(MIN_COLUMN_WIDTH).min(0.5 * self.window);
+        let width = (self.window - column).min(self.camera);
+        let height = width / self.camera;
+        let inspector = (column / INSPECTOR_ASPECT).min(MAX_INSPECTOR_SHARE);
+        [
+            self.rect(ViewKind::Camera, (column, 0.5 * (1.0 - height)), (width, height)),
+            self.rect(ViewKind::Inspector, (0.0, 0.0), (column, inspector)),
+            self.rect(ViewKind::Instruments, (0.0, inspector), (column, 1.0 - inspector)),
+        ]
+    }
+
+    /// Returns the camera view with the other views in a strip below it.
+    fn with_strip(self) -> [ViewRect; 3] {
+        let strip = (1.0 - self.window / self.camera).clamp(MIN_STRIP_HEIGHT, 0.5);
+        let height = 1.0 - strip;
+        let width = (height * self.camera).min(self.window);
+        let inspector = (strip * INSPECTOR_ASPECT).min(MAX_INSPECTOR_SHARE * self.window);
+        [
+            self.rect(ViewKind::Camera, (0.5 * (self.window - width), 0.0), (width, width / self.camera)),
+            self.rect(ViewKind::Inspector, (0.0, height), (inspector, strip)),
+            self.rect(ViewKind::Instruments, (inspector, height), (self.window - inspector, strip)),
+        ]
+    }
+
+    /// Returns the arrangement with the larger camera view.
+    fn with_instruments(self) -> [ViewRect; 3] {
+        let (column, strip) = (self.with_column(), self.with_strip());
+        if column[0].width >= strip[0].width { column } else { strip }
+    }
+}
+
 impl ViewLayout {
     /// Returns the layout to which the Tab key switches next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
-            Self::SideBySide => Self::Camera,
             Self::Camera => Self::Inspector,
             Self::Inspector => Self::SideBySide,
+            Self::SideBySide => Self::Camera,
         }
     }
 
     /// Returns the position of the status text in the window, which never overlaps the HUD warnings.
     #[must_use]
-    pub fn words(self) -> TextAnchor {
+    pub fn words(self, shape: WindowShape) -> TextAnchor {
         match self {
-            Self::SideBySide => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5, extends_down: false },
-            // Between the inset view and the HUD readouts on the right, above the center of the picture.
-            Self::Camera => TextAnchor { left_edge: INSET_SIZE, edge: INSET_TOP, width: 0.35, extends_down: true },
+            Self::Camera => {
+                let [camera, ..] = shape.with_instruments();
+                TextAnchor {
+                    left_edge: camera.left,
+                    edge: camera.top + STATUS_TEXT_TOP * camera.height,
+                    width: STATUS_TEXT_WIDTH * camera.width,
+                    extends_down: true,
+                }
+            }
             // Left of the inset view.
             Self::Inspector => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5 - 0.5 * INSET_SIZE, extends_down: false },
+            Self::SideBySide => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5, extends_down: false },
         }
     }
 
     /// Returns the center of the button in the inspector's view, as fractions of the window's width and height.
     #[must_use]
-    pub fn button(self) -> (f64, f64) {
+    pub fn button(self, shape: WindowShape) -> (f64, f64) {
         match self {
-            Self::SideBySide => (0.25, 0.04),
-            Self::Camera => (0.5 * INSET_SIZE, INSET_TOP + 0.0325),
+            Self::Camera => {
+                let [_, inspector, _] = shape.with_instruments();
+                (inspector.left + 0.5 * inspector.width, inspector.top + BUTTON_DOWN)
+            }
             Self::Inspector => (0.5, 0.04),
+            Self::SideBySide => (0.25, 0.04),
         }
     }
 
-    /// Returns both views in drawing order.
+    /// Returns the views in drawing order.
     #[must_use]
-    pub fn view_rects(self) -> [ViewRect; 2] {
+    pub fn view_rects(self, shape: WindowShape) -> Vec<ViewRect> {
         let half = |which, left| ViewRect { which, left, top: 0.0, width: 0.5, height: 1.0 };
         let whole = |which| ViewRect { which, left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
-        let small = |which, (left, top)| ViewRect { which, left, top, width: INSET_SIZE, height: INSET_SIZE };
         match self {
-            Self::SideBySide => [half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
-            // The HUD has text in all corners and along the top, and its warnings extend far along the bottom. The
-            // inset view goes between the speed readout and the warnings.
-            Self::Camera => [whole(ViewKind::Camera), small(ViewKind::Inspector, (0.0, INSET_TOP))],
-            Self::Inspector => [whole(ViewKind::Inspector), small(ViewKind::Camera, (0.5 - 0.5 * INSET_SIZE, 1.0 - INSET_SIZE))],
+            Self::Camera => shape.with_instruments().to_vec(),
+            Self::Inspector => {
+                let (left, top) = (0.5 - 0.5 * INSET_SIZE, 1.0 - INSET_SIZE);
+                let inset = ViewRect { which: ViewKind::Camera, left, top, width: INSET_SIZE, height: INSET_SIZE };
+                vec![whole(ViewKind::Inspector), inset]
+            }
+            Self::SideBySide => vec![half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
         }
     }
 }
@@ -140,20 +211,48 @@ pub fn render_size_px((width, height): (f64, f64), most: Option<f64>) -> (u32, u
 mod tests {
     use super::*;
 
+    /// Largest difference that rounding explains.
+    const ROUNDING_ERROR: f64 = 1e-12;
+
+    #[test]
+    fn prop_views_fill_their_places_without_overlap_in_any_window() {
+        let windows = (0..30).map(|k| 0.7 + 0.08 * f64::from(k));
+        for window in windows.chain([4.0 / 3.0, 16.0 / 9.0, 21.0 / 9.0]) {
+            for camera in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+                let shape = WindowShape { window, camera };
+                let [large, inspector, instruments] = shape.with_instruments();
+                let is_apart = |a: &ViewRect, b: &ViewRect| {
+                    a.left + a.width <= b.left + ROUNDING_ERROR
+                        || b.left + b.width <= a.left + ROUNDING_ERROR
+                        || a.top + a.height <= b.top + ROUNDING_ERROR
+                        || b.top + b.height <= a.top + ROUNDING_ERROR
+                };
+                let all = [large, inspector, instruments];
+                for (k, place) in all.iter().enumerate() {
+                    let (right, bottom) = (place.left + place.width, place.top + place.height);
+                    assert!(place.left >= 0.0 && place.top >= -ROUNDING_ERROR, "{shape:?}: {place:?}");
+                    assert!(right <= 1.0 + ROUNDING_ERROR && bottom <= 1.0 + ROUNDING_ERROR, "{shape:?}: {place:?}");
+                    assert!(all[..k].iter().all(|other| is_apart(place, other)), "{shape:?}: {all:?}");
+                }
+                assert!((large.width * window / large.height - camera).abs() < 1e-9, "{shape:?}: {large:?}");
+                let area = |place: &ViewRect| place.width * place.height;
+                assert!(area(&large) > 0.3 && area(&large) > area(&inspector), "{shape:?}: {all:?}");
+            }
+        }
+    }
+
     #[test]
     fn exact_tab_cycles_through_layouts_that_show_both_views() {
+        let shape = WindowShape { window: 16.0 / 9.0, camera: 4.0 / 3.0 };
         let mut seen = ViewLayout::default();
+        let [camera, ..] = shape.with_instruments();
+        assert!((camera.height - 1.0).abs() < ROUNDING_ERROR, "the camera view has the window's height: {camera:?}");
         for _ in 0..3 {
-            let [a, b] = seen.view_rects();
-            assert_ne!(a.which, b.which);
-            for place in [a, b] {
-                assert!(place.left >= 0.0 && place.left + place.width <= 1.0 && place.top + place.height <= 1.0 + 1e-12);
-            }
+            let kinds: Vec<ViewKind> = seen.view_rects(shape).iter().map(|place| place.which).collect();
+            assert!(kinds.contains(&ViewKind::Camera) && kinds.contains(&ViewKind::Inspector), "{seen:?}");
             seen = seen.next();
         }
-        assert_eq!(seen, ViewLayout::SideBySide);
-        let [left, right] = seen.view_rects();
-        assert_eq!((left.which, left.left, right.left), (ViewKind::Inspector, 0.0, 0.5));
+        assert_eq!(seen, ViewLayout::Camera);
     }
 
     #[test]

@@ -5,15 +5,21 @@ use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::{self, Guidance};
+use spandrel_mavlink::contract::lesson::{self, LessonStatus};
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
-    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavMessage, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA,
+    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavFrame, MavMessage, NAMED_VALUE_INT_DATA,
+    OBSTACLE_DISTANCE_DATA, STATUSTEXT_DATA,
 };
 use spandrel_model::time::SimTime;
 
 /// Timeout for a cue that is not repeated; the monitor repeats active cues at 5 Hz.
 const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
+/// Time for which a remark about a lesson is shown.
+const REMARK_DURATION: SimTime = SimTime::from_ms(8_000);
+/// Age at which distances of obstacles are out of date.
+const OBSTACLE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
 
@@ -25,6 +31,19 @@ pub struct Feed {
     cues: Option<(SimTime, i32)>,
     cue_texts: CueTexts,
     guidance: Option<(SimTime, Guidance)>,
+    obstacles: Option<(SimTime, ObstacleSectors)>,
+    lesson: Option<(SimTime, LessonStatus)>,
+    /// Last remark about a lesson, without its prefix.
+    lesson_remark: Option<(SimTime, String)>,
+}
+
+/// Distances of obstacles in sectors around the aircraft, from OBSTACLE_DISTANCE.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObstacleSectors {
+    /// Distance in each sector, clockwise from the nose, m; infinite if nothing is within the range.
+    pub sectors_m: Vec<f64>,
+    /// Largest distance that can be measured, m.
+    pub range_m: f64,
 }
 
 impl Feed {
@@ -38,6 +57,7 @@ impl Feed {
                 | NAMED_VALUE_INT_DATA::ID
                 | STATUSTEXT_DATA::ID
                 | DEBUG_FLOAT_ARRAY_DATA::ID
+                | OBSTACLE_DISTANCE_DATA::ID
         )
     }
 
@@ -72,13 +92,17 @@ impl Feed {
                     self.set_cues(cues, now);
                 }
             }
+            MavMessage::OBSTACLE_DISTANCE(data) => self.obstacles = ObstacleSectors::of(data).map(|sectors| (now, sectors)),
             MavMessage::DEBUG_FLOAT_ARRAY(_) => {
                 if let Some(guidance) = Guidance::of(message) {
                     self.guidance = Some((now, guidance));
+                } else if let Some(status) = LessonStatus::from_message(message) {
+                    self.set_lesson(now, status);
                 }
             }
             MavMessage::STATUSTEXT(text) if component != 1 => {
                 if let Ok(words) = text.text.to_str() {
+                    self.handle_lesson_text(now, words);
                     self.handle_text(words);
                 }
             }
@@ -115,6 +139,36 @@ impl Feed {
         self.guidance.filter(|(heard, _)| now.saturating_sub(*heard) <= guidance::TIMEOUT).map(|(_, guidance)| guidance)
     }
 
+    /// Returns the distances of obstacles around the aircraft, if they are measured.
+    #[must_use]
+    pub fn obstacles(&self, now: SimTime) -> Option<&ObstacleSectors> {
+        self.obstacles.as_ref().filter(|(heard, _)| now.saturating_sub(*heard) <= OBSTACLE_TIMEOUT).map(|(_, sectors)| sectors)
+    }
+
+    /// Returns the current step of a lesson, and what went wrong in it; `None` if there is none, or the monitor has stopped.
+    #[must_use]
+    pub fn lesson(&self, now: SimTime) -> Option<(LessonStatus, Option<&str>)> {
+        let (_, status) = self.lesson.filter(|(heard, _)| now.saturating_sub(*heard) <= lesson::TIMEOUT)?;
+        let remark = self.lesson_remark.as_ref().filter(|(heard, _)| now.saturating_sub(*heard) <= REMARK_DURATION);
+        Some((status, remark.map(|(_, words)| words.as_str())))
+    }
+
+    fn set_lesson(&mut self, now: SimTime, status: LessonStatus) {
+        if self.lesson.is_some_and(|(_, before)| before.step != status.step) {
+            self.lesson_remark = None;
+        }
+        self.lesson = Some((now, status));
+    }
+
+    /// Keeps a remark about a lesson. The instruction of a step begins with its number.
+    fn handle_lesson_text(&mut self, now: SimTime, words: &str) {
+        if let Some(remark) = words.strip_prefix(lesson::TEXT_PREFIX)
+            && !remark.starts_with(|first: char| first.is_ascii_digit())
+        {
+            self.lesson_remark = Some((now, remark.to_owned()));
+        }
+    }
+
     /// Returns the mask of active cues. `held`: the cues come from a recording that stores only changes, so they do not
     /// time out.
     #[must_use]
@@ -126,6 +180,27 @@ impl Feed {
     #[must_use]
     pub fn cue_texts(&self) -> &CueTexts {
         &self.cue_texts
+    }
+}
+
+impl ObstacleSectors {
+    /// Decodes the sectors; `None` if they do not cover the full circle in the aircraft's frame.
+    fn of(data: &OBSTACLE_DISTANCE_DATA) -> Option<Self> {
+        let width_deg = if data.increment_f > 0.0 { f64::from(data.increment_f) } else { f64::from(data.increment) };
+        if data.frame != MavFrame::MAV_FRAME_BODY_FRD || width_deg <= 0.0 {
+            return None;
+        }
+        let count = (360.0 / width_deg).round() as usize;
+        let distances = data.distances.get(..count)?;
+        let first = (f64::from(data.angle_offset) / width_deg).round().rem_euclid(count as f64) as usize;
+        let mut sectors_m = vec![f64::INFINITY; count];
+        for (k, distance) in distances.iter().enumerate() {
+            // Greater than the range: no obstacle; the maximum: unknown.
+            if *distance <= data.max_distance {
+                sectors_m[(first + k) % count] = f64::from(*distance) / 100.0;
+            }
+        }
+        Some(Self { sectors_m, range_m: f64::from(data.max_distance) / 100.0 })
     }
 }
 

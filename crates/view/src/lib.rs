@@ -31,6 +31,7 @@ pub mod material_groups;
 pub mod matrix;
 pub mod mesh;
 pub mod noise;
+pub mod path_guide;
 #[cfg(feature = "gpu")]
 pub mod photo;
 pub mod picture;

@@ -3,11 +3,15 @@
 use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
-use super::hud::{DrawItem, Hud, MapPath, marker};
+use super::hud::lesson_panel::how_to;
+use super::hud::{DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
+use super::path_guide::{GuidedView, PathAids, place_of_way_m, ring_items};
 use super::scene::{DronePose, Scene};
 use super::shot::{LampBeam, SensorResponse, Shot, wind};
 use super::sky::Sky;
+use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math;
@@ -19,6 +23,10 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 
 /// Objects within this distance in front of the aircraft do not count as hiding it, m (about the aircraft's size).
 const DRONE_CLEARANCE_M: f64 = 0.5;
+/// Objects within this distance in front of the path do not count as hiding it, m.
+const PATH_CLEARANCE_M: f64 = 0.2;
+/// Largest distance of a surface on which the stand-off is shown, m.
+const MAX_SURFACE_DISTANCE_M: f64 = 40.0;
 
 /// Inputs that stay constant during a session.
 #[derive(Debug, Clone, Copy)]
@@ -120,6 +128,43 @@ impl Stage<'_> {
         let hidden = clear_m > 0.0 && self.site.ray(from, to.unit(), clear_m, moment.at).is_some();
         let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
         marker(&shot.eye, aspect, moment.drone.pose.position_m, hidden)
+    }
+
+    /// Returns the ring of a lesson's step, drawn below the rest of a shot's overlay.
+    #[must_use]
+    pub fn lesson_items(&self, shot: &Shot, moment: &SceneMoment, lesson: Option<&LessonDisplay>) -> Vec<DrawItem> {
+        let Some((way, radius_m)) = lesson.and_then(|lesson| lesson.status.way.zip(lesson.status.radius_m)) else {
+            return Vec::new();
+        };
+        let (drone_m, heading_rad) = (moment.drone.pose.position_m, moment.drone.pose.ned_from_frd.yaw_rad());
+        let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
+        ring_items(&shot.eye, aspect, place_of_way_m(drone_m, heading_rad, &way), radius_m)
+    }
+
+    /// Returns the path of the next task, drawn below the rest of a shot's overlay.
+    #[must_use]
+    pub fn path_items(&self, shot: &Shot, moment: &SceneMoment, guidance: Option<&Guidance>, aids: PathAids) -> Vec<DrawItem> {
+        let Some(guidance) = guidance.filter(|_| aids != PathAids::None) else { return Vec::new() };
+        let from = shot.eye.position_m;
+        let is_hidden = |point_m: Vec3<Enu>| {
+            let to = point_m - from;
+            let clear_m = to.norm() - PATH_CLEARANCE_M;
+            clear_m > 0.0 && self.site.geometry().ray(from, to.unit(), clear_m).is_some()
+        };
+        let surface = |from_m: Vec3<Enu>, direction: Vec3<Enu>| {
+            let hit = self.site.geometry().ray(from_m, direction, MAX_SURFACE_DISTANCE_M)?;
+            Some((from_m + direction * hit.distance_m, hit.normal))
+        };
+        self.scene.paths.items(&GuidedView {
+            eye: &shot.eye,
+            aspect: f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1)),
+            drone_m: moment.drone.pose.position_m,
+            heading_rad: moment.drone.pose.ned_from_frd.yaw_rad(),
+            guidance,
+            aids,
+            is_hidden: &is_hidden,
+            surface: &surface,
+        })
     }
 
     /// Returns the shot as seen by a person at any position.
@@ -238,6 +283,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
     let pad_m = scenario.ground_team.pad_m;
     let from_pad = moment.drone.pose.position_m - pad_m;
     let wide = math::tan(0.5 * stage.vehicle.camera.hfov_rad);
+    let (roll_rad, pitch_rad, heading_rad) = moment.drone.pose.ned_from_frd.euler();
     Hud {
         speed_m_s: moment.velocity_m_s.norm(),
         limit_m_s: scenario.scoring.speed_limit_m_s,
@@ -260,11 +306,36 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         shutter: shutter(inputs.last_picture, at),
         time_s: inputs.blink_time_s,
         position_m: moment.drone.pose.position_m,
-        heading_rad: moment.drone.pose.ned_from_frd.yaw_rad(),
+        heading_rad,
+        roll_rad,
+        pitch_rad,
+        obstacles: feed.obstacles(at).map(|sectors| Obstacles {
+            sectors_m: sectors.sectors_m.clone(),
+            range_m: sectors.range_m,
+            too_close_m: scenario.feedback.too_close_m,
+        }),
+        way_back: way_back(stage, moment, feed, held),
         pad_m,
         guidance: feed.guidance(at),
+        lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
+            how: how_to(status.task).to_owned(),
+            remark: remark.map(str::to_owned),
+            status,
+        }),
         tracks: if map { tracks(scenario) } else { Vec::new() },
     }
+}
+
+/// Returns the direction in the camera's picture that leads back to the path, while the off-path cue is active.
+fn way_back(stage: &Stage, moment: &SceneMoment, feed: &Feed, held: bool) -> Option<WayBack> {
+    if cue::displayed(feed.cues(moment.at, held)) & cue::OFF_PATH == 0 {
+        return None;
+    }
+    let drone_m = moment.drone.pose.position_m;
+    let target_m = stage.scene.paths.nearest_m(feed.guidance(moment.at).and_then(|guidance| guidance.task), drone_m)?;
+    let to = target_m - drone_m;
+    let up = moment.camera.right.cross(moment.camera.forward);
+    Some(WayBack { direction_rad: math::atan2(to.dot(moment.camera.right), to.dot(up)) })
 }
 
 /// Height above the pad at which the flight time starts, m (docs/src/reference/assessment.md, "Frames").

@@ -2,6 +2,7 @@
 
 use super::args::Args;
 use super::connection_info::connection_instructions;
+use super::offers;
 use super::window::WindowProcess;
 use crate::cli::args::common_args;
 use crate::cli::autopilot_args::AUTOPILOT_FOLDER;
@@ -114,6 +115,7 @@ impl FlightProcesses {
             seed: self.ports["seed"].as_u64().unwrap_or_default(),
             connect: self.port("payload_port")?,
             fly: self.port("gcs_port"),
+            path_aids: offers::path_aids(&args.sessions, &self.choice.trainee),
         }))
     }
 

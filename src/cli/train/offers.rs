@@ -14,10 +14,11 @@ use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobBriefing, JobOffer, Purpose, SCORE_NAMES, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobBriefing, JobOffer, NextJob, Purpose, SCORE_NAMES, TraineeSummary,
 };
+use spandrel_view::path_guide::PathAids;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Returns the choices that the start page offers.
 pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
@@ -38,11 +39,15 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
     };
     FlightOptions {
         trainees: trainee_summaries(sessions),
+        lesson: job_named(FIRST_LESSON),
         scenarios: names.into_iter().filter_map(job).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
     }
 }
+
+/// Lesson for trainees without sessions.
+const FIRST_LESSON: &str = "first-flight";
 
 /// Returns what the window's briefing page shows.
 fn job_briefing(scenario: &Scenario) -> JobBriefing {
@@ -73,18 +78,70 @@ fn scenarios_by_form(name: &str) -> Vec<String> {
     }
 }
 
+/// Returns how much of the path a trainee sees in practice, from the conformity of the earlier sessions.
+pub fn path_aids(sessions: &Path, trainee: &str) -> PathAids {
+    let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
+    let mut flown: Vec<(u64, f64)> = folders
+        .iter()
+        .filter_map(|folder| {
+            let (who, started) = trainee_and_start(folder).ok()?;
+            let text = std::fs::read_to_string(folder.join(ASSESSMENT)).ok().filter(|_| who == trainee)?;
+            let assessment: Value = serde_json::from_str(&text).ok()?;
+            Some((started, assessment["scores"]["conformity"]["pct"].as_f64()?))
+        })
+        .collect();
+    flown.sort_by_key(|(started, _)| *started);
+    PathAids::for_conformity(&flown.into_iter().map(|(_, pct)| pct).collect::<Vec<_>>())
+}
+
+/// A trainee's sessions.
+#[derive(Default)]
+struct KnownSessions {
+    sessions: u32,
+    practices: u32,
+    /// Start time and folder of the latest session.
+    latest: Option<(u64, PathBuf)>,
+}
+
+impl KnownSessions {
+    fn summary(self, name: String) -> TraineeSummary {
+        let advice = self.latest.and_then(|(_, folder)| report::saved_advice(&folder));
+        TraineeSummary {
+            name,
+            sessions: self.sessions,
+            practices: self.practices,
+            last: advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
+            next: advice.as_ref().and_then(next_job),
+        }
+    }
+}
+
+/// Returns a job with its title, if it is installed.
+fn job_named(scenario: &str) -> Option<NextJob> {
+    let title = files::scenario(scenario).ok()?.scenario.title;
+    Some(NextJob { scenario: scenario.to_owned(), title })
+}
+
+/// Returns the job that the advice recommends, if it is installed.
+fn next_job(advice: &SessionAdvice) -> Option<NextJob> {
+    job_named(&advice.next.as_ref()?.scenario)
+}
+
 /// Returns each trainee with the number of sessions and practice sessions.
 fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
     // If the folder does not exist yet, there are no sessions.
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
-    let mut count: BTreeMap<String, (u32, u32)> = BTreeMap::new();
+    let mut found: BTreeMap<String, KnownSessions> = BTreeMap::new();
     for folder in &folders {
-        let Ok((trainee, _)) = trainee_and_start(folder) else { continue };
-        let practice = purpose(folder).as_deref() == Some(Purpose::Practice.word());
-        let (sessions, practices) = count.entry(trainee).or_default();
-        (*sessions, *practices) = (*sessions + 1, *practices + u32::from(practice));
+        let Ok((trainee, started_unix_us)) = trainee_and_start(folder) else { continue };
+        let known = found.entry(trainee).or_default();
+        known.sessions += 1;
+        known.practices += u32::from(purpose(folder).as_deref() == Some(Purpose::Practice.word()));
+        if known.latest.as_ref().is_none_or(|(other, _)| *other <= started_unix_us) {
+            known.latest = Some((started_unix_us, folder.clone()));
+        }
     }
-    count.into_iter().map(|(name, (sessions, practices))| TraineeSummary { name, sessions, practices }).collect()
+    found.into_iter().map(|(name, known)| known.summary(name)).collect()
 }
 
 fn contents_summary(scenario: &Scenario) -> String {
@@ -106,6 +163,7 @@ fn contents_summary(scenario: &Scenario) -> String {
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
     let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
+    let advice = report::saved_advice(session);
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
     let page = session.join(REPORT);
@@ -121,7 +179,8 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         complete,
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
-        advice: report::saved_advice(session).iter().flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
+        next: advice.as_ref().and_then(next_job),
+        advice: advice.iter().flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
             Some(web) => format!("{web}/sessions/{id}/questions"),
@@ -175,8 +234,26 @@ mod tests {
             let session = serde_json::json!({ "trainee": trainee, "started_unix_us": 1, "purpose": purpose });
             std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
         }
-        let person = |name: &str, sessions, practices| TraineeSummary { name: name.into(), sessions, practices };
+        let person =
+            |name: &str, sessions, practices| TraineeSummary { name: name.into(), sessions, practices, last: None, next: None };
         assert_eq!(trainee_summaries(sessions.path()), [person("anna", 3, 1), person("bert", 1, 0)]);
+    }
+
+    #[test]
+    fn exact_better_pilots_see_less_of_the_path() {
+        let sessions = tempfile::tempdir().unwrap();
+        assert_eq!(path_aids(sessions.path(), "anna"), PathAids::Full);
+        for (k, (trainee, pct)) in [("anna", 60.0), ("bert", 100.0), ("anna", 96.0)].into_iter().enumerate() {
+            let folder = sessions.path().join(k.to_string());
+            std::fs::create_dir(&folder).unwrap();
+            std::fs::write(folder.join(TELEMETRY), "").unwrap();
+            let session = serde_json::json!({ "trainee": trainee, "started_unix_us": k, "purpose": "practice" });
+            std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
+            let assessment = serde_json::json!({ "scores": { "conformity": { "raw": 0.0, "pct": pct } } });
+            std::fs::write(folder.join(ASSESSMENT), assessment.to_string()).unwrap();
+        }
+        assert_eq!(path_aids(sessions.path(), "anna"), PathAids::Gates, "78 % on average");
+        assert_eq!(path_aids(sessions.path(), "bert"), PathAids::None);
     }
 
     #[test]

@@ -69,6 +69,8 @@ pub enum WindowAction {
     Swap,
     /// Toggles the map.
     Map,
+    /// Toggles the path in the pictures.
+    Path,
     /// Makes the inspector view follow the aircraft again.
     Follow,
     /// Turns the inspector view left.
@@ -91,9 +93,10 @@ pub enum WindowAction {
     Sound,
 }
 
-const WINDOW_BINDINGS: [(&str, WindowAction, &str); 12] = [
+const WINDOW_BINDINGS: [(&str, WindowAction, &str); 13] = [
     ("swap", WindowAction::Swap, "tab"),
     ("map", WindowAction::Map, "m"),
+    ("path", WindowAction::Path, "v"),
     ("follow", WindowAction::Follow, "f"),
     ("look_left", WindowAction::LookLeft, ","),
     ("look_right", WindowAction::LookRight, "."),

@@ -19,6 +19,7 @@ pub mod contact;
 pub mod continuity;
 pub mod cue;
 pub mod guidance;
+pub mod lesson;
 pub mod modes;
 pub mod named_values;
 pub mod sticks;

@@ -4,6 +4,7 @@
 use super::bridges::Bridge;
 use super::bridges::path::TaskKind;
 use super::certification::CertificationParams;
+use super::lesson::LessonStep;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
@@ -37,6 +38,8 @@ pub struct Scenario {
     pub form: Option<SelectedForm>,
     /// Difficulty levels and the selected one; `None` if the job has no levels.
     pub difficulty: Option<Difficulty>,
+    /// Steps of a lesson; empty if the job is not one.
+    pub lesson: Vec<LessonStep>,
     /// Number of vehicles and pedestrians, and vehicle speed.
     pub traffic: TrafficSpec,
     /// Wind model, mean wind and gusts.

@@ -6,6 +6,7 @@ mod certification;
 mod difficulty;
 mod forms;
 mod job;
+mod lesson;
 mod point;
 mod read;
 mod resolve;
@@ -22,5 +23,6 @@ pub use job::{
     PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec,
     WindEvent, WindModel, WindSpec,
 };
+pub use lesson::{LessonPlace, LessonStep};
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
 pub use resolve::{resolve, select_variant, variant_names, variant_with_crc};

@@ -82,6 +82,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let tasks = super::tasks::read(r, root, &bridges);
     let mut defects = defects(r, root);
     let form = super::forms::read(r, root, &mut defects);
+    let lesson = super::lesson::read(r, root, tasks.len(), defects.count > 0);
     let mut scenario = Scenario {
         name,
         title,
@@ -95,6 +96,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         defects,
         form,
         difficulty: None,
+        lesson,
         traffic: traffic(r, root),
         wind: super::weather::read(r, root),
         light: light(r, root),
@@ -108,7 +110,6 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     scenario
 }
 
-/// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.
 /// Reads the instructor's words for the briefing.
 fn read_briefing(r: &mut Reader, root: &mut Section) -> Vec<String> {
     let words = r.texts(root, "briefing");
@@ -119,6 +120,7 @@ fn read_briefing(r: &mut Reader, root: &mut Section) -> Vec<String> {
     words
 }
 
+/// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.
 fn read_name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let before = r.problems.len();
     let name = r.text(s, key, None);

@@ -17,6 +17,7 @@ mod lane_track;
 pub mod light;
 pub mod movers;
 mod nearest_points;
+pub mod outline;
 mod query_types;
 mod reference_camera;
 pub mod sun;

@@ -1,6 +1,7 @@
 //! Inputs to the feedback rules.
 
 use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::guidance::WayTo;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
@@ -23,6 +24,16 @@ impl HeadingOffset {
         let [east, north, up_m] = displacement_m.array();
         let (sin, cos) = math::sin_cos(heading_rad);
         Self { forward_m: east * sin + north * cos, right_m: east * cos - north * sin, up_m }
+    }
+
+    /// Returns the way to the place at this offset.
+    #[must_use]
+    pub fn way(&self) -> WayTo {
+        WayTo {
+            distance_m: math::hypot(self.forward_m, self.right_m),
+            bearing_rad: math::atan2(self.right_m, self.forward_m),
+            up_m: self.up_m,
+        }
     }
 
     /// Returns the length of the displacement, m.

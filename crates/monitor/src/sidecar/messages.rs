@@ -59,10 +59,16 @@ impl Monitor {
             return;
         }
         self.guidance_sent = Some(truth.time);
+        // A lesson leads the trainee itself, except along the path of a task.
+        if self.lesson.as_ref().is_some_and(|lesson| lesson.path_task().is_none()) {
+            return;
+        }
         self.holds.update(truth.time, self.live.current_task);
         let guidance = self.guidance(truth);
         self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
-        if let Some(words) = self.announcer.update(truth.time, &guidance) {
+        if self.lesson.is_none()
+            && let Some(words) = self.announcer.update(truth.time, &guidance)
+        {
             self.event("guidance", json!({ "words": words }));
             self.send_text(&words, MavSeverity::MAV_SEVERITY_INFO);
         }
@@ -196,11 +202,11 @@ impl Monitor {
         self.send_text(words, severity);
     }
 
-    fn send_text(&mut self, words: &str, severity: MavSeverity) {
+    pub(super) fn send_text(&mut self, words: &str, severity: MavSeverity) {
         self.send(&MavMessage::STATUSTEXT(STATUSTEXT_DATA { severity, text: words.into(), ..STATUSTEXT_DATA::default() }));
     }
 
-    fn send(&mut self, message: &MavMessage) {
+    pub(super) fn send(&mut self, message: &MavMessage) {
         if !self.replaying {
             let bytes = self.encoder.encode(message);
             self.outgoing.push_back(bytes);

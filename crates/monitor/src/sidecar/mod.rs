@@ -11,6 +11,7 @@ use crate::assessment::{AssessError, AssessedSession};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SessionInfo;
 use crate::guidance::{HoldTimer, StepAnnouncer};
+use crate::lesson::LessonCoach;
 use crate::measures::attention::SiteSurvey;
 use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
@@ -35,6 +36,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 mod messages;
+mod teaching;
 mod telemetry_intake;
 
 /// The monitor's component ID (MAV_COMP_ID_ONBOARD_COMPUTER).
@@ -112,6 +114,8 @@ struct LiveState {
     armed: Option<bool>,
     flown_by: Option<ControlSource>,
     on_ground: bool,
+    camera_pitch_rad: f64,
+    lamp: bool,
     lift_off: Option<SimTime>,
     current_task: Option<usize>,
     last_task: Option<usize>,
@@ -155,6 +159,9 @@ pub struct Monitor {
     announcer: StepAnnouncer,
     holds: HoldTimer,
     guidance_sent: Option<SimTime>,
+    /// The lesson, if the job is one.
+    lesson: Option<LessonCoach>,
+    lesson_sent: Option<SimTime>,
     /// Time that the job needs, s.
     needed_s: f64,
     live: LiveState,
@@ -188,6 +195,8 @@ impl Monitor {
             announcer: StepAnnouncer::default(),
             holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
+            lesson: LessonCoach::new(&scenario.lesson),
+            lesson_sent: None,
             needed_s: job_time::job_needed_s(scenario),
             live: LiveState::new(&config, &paths),
             survey: None,
@@ -407,6 +416,8 @@ impl LiveState {
             armed: None,
             flown_by: None,
             on_ground: false,
+            camera_pitch_rad: 0.0,
+            lamp: false,
             lift_off: None,
             current_task: None,
             last_task: None,

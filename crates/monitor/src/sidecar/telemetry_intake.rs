@@ -7,6 +7,7 @@ use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
 use crate::guidance::{HoldTimer, StepAnnouncer};
+use crate::lesson::LessonCoach;
 use crate::measures::attention;
 use crate::measures::crash::is_soft_pad_contact;
 use crate::session::{EndReason, EndRuleInput as EndInput, lift_off_height_m};
@@ -66,6 +67,7 @@ impl Monitor {
         self.announcer = StepAnnouncer::default();
         self.holds = HoldTimer::new(self.paths.len());
         self.guidance_sent = None;
+        self.lesson = LessonCoach::new(&self.config.scenario.lesson);
         self.last_heartbeat_sim_time = None;
         self.handle_sample(sample, None);
     }
@@ -80,11 +82,9 @@ impl Monitor {
 
     fn handle_value(&mut self, value: SampleValue) {
         match value {
-            SampleValue::Sticks(_)
-            | SampleValue::Hits(_)
-            | SampleValue::GimbalPitch(_)
-            | SampleValue::FieldOfView(_)
-            | SampleValue::Light(_) => {}
+            SampleValue::Sticks(_) | SampleValue::Hits(_) | SampleValue::FieldOfView(_) => {}
+            SampleValue::GimbalPitch(pitch_rad) => self.live.camera_pitch_rad = pitch_rad,
+            SampleValue::Light(on) => self.live.lamp = on,
             SampleValue::Battery(pct) => self.live.battery_pct = Some(pct),
             SampleValue::Contact(contact) => self.handle_contact(contact),
             SampleValue::Respawns(count) => self.handle_respawns(count),
@@ -103,7 +103,10 @@ impl Monitor {
                 }
             }
             SampleValue::OnGround(on_ground) => self.live.on_ground = on_ground,
-            SampleValue::Snapshot(index) => self.event("snapshot", json!({ "image": index })),
+            SampleValue::Snapshot(index) => {
+                self.event("snapshot", json!({ "image": index }));
+                self.teach_picture();
+            }
         }
     }
 
@@ -158,6 +161,7 @@ impl Monitor {
         }
         self.update_task(truth.motion.position_m);
         self.send_feedback();
+        self.send_lesson(&truth);
         self.send_guidance(&truth);
         self.check_end(&truth);
         let due = |last: Option<SimTime>| last.is_none_or(|last| truth.time - last >= HEARTBEAT_INTERVAL);

@@ -64,6 +64,24 @@ impl SessionAdvice {
     }
 }
 
+/// Scenario to fly after a lesson.
+const FIRST_DRILL: &str = "drill-hover";
+
+/// Returns the advice after a lesson: what counts is that every step was done, not the scores.
+#[must_use]
+pub fn lesson_advice(trainee: &str) -> SessionAdvice {
+    SessionAdvice {
+        points: Vec::new(),
+        note: Some(
+            "The scores of a lesson don't matter: what counts is that you did every step. Fly the first drill next.".into(),
+        ),
+        next: Some(NextFlight {
+            scenario: FIRST_DRILL.to_owned(),
+            command: format!("spandrel train --trainee {trainee} --scenario {FIRST_DRILL}"),
+        }),
+    }
+}
+
 /// A cause in the plan, with all tasks in which the same measure is above its limit.
 struct Cause<'a> {
     step: usize,

@@ -10,7 +10,7 @@ pub mod coverage;
 pub mod defects;
 pub mod feedback;
 pub mod formatting;
-pub mod outline;
+pub mod mesh;
 pub mod page;
 pub mod pictures;
 pub mod plots;
@@ -21,7 +21,7 @@ pub mod task_proximity;
 
 pub use context::ReviewContext;
 
-use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, session_advice};
+use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, lesson_advice, session_advice};
 use crate::plan::{self, DEFAULT_RULES, PlanRules, PlanStep, read_rules};
 use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
@@ -208,6 +208,9 @@ impl ScoredFlight<'_> {
     fn plan_and_advice(&self, defect_outcomes: &[defects::DefectOutcome]) -> (Vec<PlanStep>, SessionAdvice) {
         let Some(rules) = rules_for(self.scene.scenario) else { return Default::default() };
         let record = self.record(defect_outcomes);
+        if !self.scene.scenario.lesson.is_empty() {
+            return (Vec::new(), lesson_advice(&record.trainee));
+        }
         let missed: Vec<MissedDefect> = defect_outcomes.iter().filter_map(defects::DefectOutcome::missed).collect();
         let plan = plan::plan(std::slice::from_ref(&record), &rules, self.metadata.started_unix_us);
         let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);

@@ -59,6 +59,8 @@ pub enum MenuAction {
     End,
     /// Fly the same job again.
     FlyAgain,
+    /// Fly the recommended job.
+    FlyNext,
     /// Choose another job.
     ChooseOther,
     /// Open the report.

@@ -27,6 +27,7 @@ pub use tutorial::PICTURES;
 
 use crate::arrange::ViewLayout;
 use crate::hud::ScreenPoint;
+use crate::path_guide::PathAids;
 use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, Purpose, ToWindow};
 use std::collections::{BTreeSet, VecDeque};
 
@@ -49,6 +50,8 @@ pub struct WindowFlow {
     waiting_for: &'static str,
     /// Layout of the views.
     pub arrangement: ViewLayout,
+    /// Aspect ratio (width over height) of the flight's camera.
+    pub camera_aspect: f64,
     /// Whether the pause was requested for a restart.
     restart_requested: bool,
     sound: bool,
@@ -72,6 +75,7 @@ impl WindowFlow {
             names,
             waiting_for: "",
             arrangement: ViewLayout::default(),
+            camera_aspect: 4.0 / 3.0,
             restart_requested: false,
             sound,
             out: VecDeque::new(),
@@ -118,6 +122,22 @@ impl WindowFlow {
     #[must_use]
     pub fn shows_map(&self) -> bool {
         self.flying.as_ref().is_none_or(|flying| flying.choice.purpose == Purpose::Practice)
+    }
+
+    /// Returns how much of the path is drawn into the pictures: nothing in an assessment, and less for better pilots.
+    #[must_use]
+    pub fn path_aids(&self) -> PathAids {
+        match &self.flying {
+            Some(flying) if flying.choice.purpose == Purpose::Assessment => PathAids::None,
+            Some(flying) => flying.path_aids,
+            None => PathAids::Full,
+        }
+    }
+
+    /// Returns the display names of the keys.
+    #[must_use]
+    pub fn key_names(&self) -> &KeyNames {
+        &self.names
     }
 
     /// Returns the current notice for the user; the next key or click clears it.

@@ -4,6 +4,7 @@ use super::menu::{self, MenuRow};
 use super::pipe::Purpose;
 use super::sheet::{PageLayout, PageWriter, SMALL_TEXT_SIZE, TITLE_SIZE, text_width};
 use super::{KeyPress, WindowFlow};
+use crate::arrange::WindowShape;
 use crate::hud::{HudColor, TextAlign};
 
 /// Title and text of the pause page.
@@ -27,7 +28,7 @@ pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], fo
 /// Draws the button that pauses a practice session or ends an assessment.
 pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
     // The button is in the inspector's view, because the HUD covers the edges of the camera view.
-    let (across, down) = flow.arrangement.button();
+    let (across, down) = flow.arrangement.button(WindowShape { window: pen.width, camera: flow.camera_aspect });
     if let Some(flying) = &flow.flying {
         let words = match flying.choice.purpose {
             Purpose::Practice => flow.names.fill("Pause ({pause})"),

@@ -1,5 +1,6 @@
 //! Messages between `spandrel train` and its window: JSON lines over the window's standard input and output.
 
+use crate::path_guide::PathAids;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::net::SocketAddr;
@@ -35,6 +36,21 @@ pub struct TraineeSummary {
     pub sessions: u32,
     /// Number of practice sessions.
     pub practices: u32,
+    /// The most important sentence about the latest session.
+    #[serde(default)]
+    pub last: Option<String>,
+    /// Recommended next job.
+    #[serde(default)]
+    pub next: Option<NextJob>,
+}
+
+/// A job that is recommended next.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NextJob {
+    /// Name, or path of the file.
+    pub scenario: String,
+    /// Title shown to the user.
+    pub title: String,
 }
 
 /// An available job.
@@ -94,6 +110,9 @@ pub struct FlightOptions {
     pub choice: FlightChoice,
     /// Address of the web pages with this machine's sessions, if a server is running.
     pub web: Option<String>,
+    /// Lesson for trainees without sessions.
+    #[serde(default)]
+    pub lesson: Option<NextJob>,
 }
 
 /// A flight that has started.
@@ -109,6 +128,9 @@ pub struct FlightStarted {
     pub connect: SocketAddr,
     /// Address of its ground station port, if it has one.
     pub fly: Option<SocketAddr>,
+    /// How much of the path is drawn in a practice session.
+    #[serde(default)]
+    pub path_aids: PathAids,
 }
 
 /// One of the four scores.
@@ -138,6 +160,9 @@ pub struct FlightSummary {
     /// Sentences on what to do better, at most three.
     #[serde(default)]
     pub advice: Vec<String>,
+    /// Recommended next job.
+    #[serde(default)]
+    pub next: Option<NextJob>,
     /// Address of the report, if one was written.
     pub report: Option<String>,
     /// Address of the questionnaire if a server is running, otherwise the command that starts it.
@@ -222,8 +247,15 @@ mod tests {
     #[test]
     fn exact_messages_survive_serialization() {
         let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
+        let next = NextJob { scenario: "drill-gap".into(), title: "Drill: gap".into() };
         let offers = FlightOptions {
-            trainees: vec![TraineeSummary { name: "anna".into(), sessions: 3, practices: 2 }],
+            trainees: vec![TraineeSummary {
+                name: "anna".into(),
+                sessions: 3,
+                practices: 2,
+                last: Some("You hit the bridge.".into()),
+                next: Some(next.clone()),
+            }],
             scenarios: vec![JobOffer {
                 name: "drill-hover".into(),
                 title: "Drill: \"hover\"\n".into(),
@@ -232,6 +264,7 @@ mod tests {
             }],
             choice: choice(),
             web: None,
+            lesson: None,
         };
         let flying = FlightStarted {
             choice: choice(),
@@ -239,6 +272,7 @@ mod tests {
             seed: 7,
             connect: SocketAddr::from(([127, 0, 0, 1], 14280)),
             fly: None,
+            path_aids: PathAids::Gates,
         };
         let ended = FlightSummary {
             scores: [score, None, score, None],
@@ -248,6 +282,7 @@ mod tests {
             verdict: Some("Certified".into()),
             why: "landed".into(),
             advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
+            next: Some(next),
             report: Some("file:///a%20b".into()),
             questionnaire: "spandrel questionnaire x".into(),
         };

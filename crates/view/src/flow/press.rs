@@ -1,11 +1,12 @@
 //! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
-use super::pipe::{FlightOptions, FlightSummary, FromWindow, Purpose};
+use super::pipe::{FlightOptions, FlightSummary, FromWindow, NextJob, Purpose};
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
 /// Maximum length of a pseudonym.
 const MAX_NAME_LENGTH: usize = 32;
+const NO_TRAINEE: &str = "Enter a pseudonym first.";
 const STARTING_TEXT: &str = "Starting simulator ...";
 /// Step sizes of the dead band and expo.
 const DEAD_BAND_STEP: f64 = 0.01;
@@ -100,6 +101,7 @@ impl WindowFlow {
             | MenuAction::Restart
             | MenuAction::End
             | MenuAction::FlyAgain
+            | MenuAction::FlyNext
             | MenuAction::ChooseOther
             | MenuAction::Report
             | MenuAction::OpenQuestionnaire => {}
@@ -139,9 +141,7 @@ impl WindowFlow {
             | MenuAction::Expo => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
-            MenuAction::CheckController if self.choice.trainee.is_empty() => {
-                self.notice = Some("Enter a pseudonym first.".into())
-            }
+            MenuAction::CheckController if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
             MenuAction::CheckController => self.show_page(Page::Controls),
             MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
             MenuAction::Sound => self.toggle_sound(),
@@ -171,6 +171,7 @@ impl WindowFlow {
                 self.send_and_wait(STARTING_TEXT);
                 self.send(FromWindow::Again);
             }
+            MenuAction::FlyNext => self.fly_next(),
             MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
             MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
@@ -178,6 +179,33 @@ impl WindowFlow {
                 self.send(FromWindow::Quit);
                 self.out.push_back(WindowRequest::Close);
             }
+        }
+    }
+
+    /// Chooses the recommended job as a practice session, and continues to the controller check or, after a flight, to the
+    /// briefing.
+    fn fly_next(&mut self) {
+        let Some(next) = self.next_job().cloned() else { return };
+        if self.choice.trainee.is_empty() {
+            self.notice = Some(NO_TRAINEE.into());
+            return;
+        }
+        (self.choice.scenario, self.choice.purpose) = (next.scenario, Purpose::Practice);
+        if self.page == Page::Results {
+            self.brief();
+        } else {
+            self.show_page(Page::Controls);
+        }
+    }
+
+    /// Returns the recommended job: after a flight, the one that follows from it.
+    pub(super) fn next_job(&self) -> Option<&NextJob> {
+        if self.page == Page::Results {
+            return self.ended.as_ref()?.next.as_ref();
+        }
+        match self.trainee_summary() {
+            Some(person) if person.sessions > 0 => person.next.as_ref(),
+            _ => self.offers.as_ref()?.lesson.as_ref(),
         }
     }
 

@@ -36,7 +36,8 @@ impl WindowFlow {
 
     fn start_rows(&self) -> Vec<MenuRow> {
         let title = self.chosen_job().map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
-        vec![
+        let next = self.next_job().map(|next| MenuRow::button(MenuAction::FlyNext, format!("Recommended: {}", next.title)));
+        let rows = vec![
             MenuRow::text_field(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, "Job", title),
             MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
@@ -44,7 +45,10 @@ impl WindowFlow {
             MenuRow::button(MenuAction::OpenTutorial, "Read the tutorial"),
             MenuRow::button(MenuAction::Sound, if self.sound { "Sound: on" } else { "Sound: off" }),
             MenuRow::button(MenuAction::Quit, "Quit"),
-        ]
+        ];
+        // The trainee comes first, because the recommendation depends on it.
+        let (who, rest) = rows.split_at(1);
+        who.iter().cloned().chain(next).chain(rest.iter().cloned()).collect()
     }
 
     fn controls_rows(&self) -> Vec<MenuRow> {

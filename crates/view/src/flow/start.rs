@@ -1,6 +1,6 @@
 //! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
 
-use super::pipe::{JobOffer, Purpose};
+use super::pipe::{JobOffer, Purpose, TraineeSummary};
 use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, wrap_text};
 use super::{Page, WindowFlow, briefing, controls, menu, paused, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
@@ -49,13 +49,19 @@ impl WindowFlow {
         let half = 0.56 * pen.width;
         menu::draw(pen, (left, 0.17), half, rows, self.focus);
         let help = "Up/down select, left/right change, Enter confirm; or click.";
-        pen.text((left, 0.70), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, help);
+        let bottom = 0.17 + menu::ROW_SPACING * rows.len() as f64;
+        pen.text((left, bottom + 0.03), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, help);
         let (x, width) = (left + half + 0.06, pen.width - half - left - 0.08);
         let mut y = 0.19;
         for (head, words) in self.choice_explanation() {
             pen.text((x, y), TextAlign::Left, TEXT_SIZE, HudColor::Yellow, head);
             y = pen.lines((x, y + 0.052), width, SMALL_TEXT_SIZE, HudColor::White, &words) + 0.03;
         }
+    }
+
+    /// Returns what is known about the selected trainee.
+    pub(super) fn trainee_summary(&self) -> Option<&TraineeSummary> {
+        self.offers.as_ref()?.trainees.iter().find(|person| person.name == self.choice.trainee)
     }
 
     /// Returns the selected job, if it is one of the offered ones.
@@ -66,7 +72,8 @@ impl WindowFlow {
     /// Returns a heading and an explanation for each selected value.
     fn choice_explanation(&self) -> Vec<(&'static str, String)> {
         let offers = self.offers.as_ref();
-        let known = offers.and_then(|o| o.trainees.iter().find(|p| p.name == self.choice.trainee)).map_or(0, |p| p.sessions);
+        let person = self.trainee_summary();
+        let known = person.map_or(0, |person| person.sessions);
         let who = match known {
             _ if self.choice.trainee.is_empty() => "Enter a pseudonym, not a real name.".to_owned(),
             0 => "No sessions yet.".to_owned(),
@@ -75,6 +82,10 @@ impl WindowFlow {
         };
         let new = !self.choice.trainee.is_empty() && self.needs_tutorial();
         let who = if new { format!("{who} Your first practice starts with a tutorial.") } else { who };
+        let who = match person.and_then(|person| person.last.as_ref()) {
+            Some(last) => format!("{who} Last flight: {last}"),
+            None => who,
+        };
         let job = self.chosen_job();
         let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {

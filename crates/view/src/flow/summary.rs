@@ -24,6 +24,9 @@ pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
     if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
         rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, "Open questionnaire"));
     }
+    if let Some(next) = ended.and_then(|ended| ended.next.as_ref()) {
+        rows.push(MenuRow::button(MenuAction::FlyNext, format!("Fly next: {}", next.title)));
+    }
     rows.push(MenuRow::button(MenuAction::FlyAgain, "Fly again"));
     rows.push(MenuRow::button(MenuAction::ChooseOther, "Choose another job"));
     rows.push(MenuRow::button(MenuAction::Quit, "Quit"));

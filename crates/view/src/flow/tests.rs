@@ -1,11 +1,12 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobBriefing, JobOffer, Purpose, ToWindow,
-    TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobBriefing, JobOffer, NextJob, Purpose,
+    ToWindow, TraineeSummary,
 };
 use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
 use crate::hud::{DrawItem, ScreenPoint};
+use crate::path_guide::PathAids;
 use std::net::SocketAddr;
 
 fn offers() -> FlightOptions {
@@ -17,18 +18,20 @@ fn offers() -> FlightOptions {
     };
     FlightOptions {
         trainees: vec![
-            TraineeSummary { name: "anna".into(), sessions: 2, practices: 1 },
-            TraineeSummary { name: "bert".into(), sessions: 0, practices: 0 },
+            TraineeSummary { name: "anna".into(), sessions: 2, practices: 1, last: None, next: None },
+            TraineeSummary { name: "bert".into(), sessions: 0, practices: 0, last: None, next: None },
         ],
         scenarios: vec![job("drill-hover", "Drill: hover"), job("two-bridges", "Two bridges")],
         choice: FlightChoice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice },
         web: Some("http://127.0.0.1:8080".into()),
+        lesson: None,
     }
 }
 
 fn flying(choice: &FlightChoice) -> ToWindow {
     let here = SocketAddr::from(([127, 0, 0, 1], 14280));
     ToWindow::Flying(FlightStarted {
+        path_aids: PathAids::Full,
         choice: choice.clone(),
         vehicle: "phantom2".into(),
         seed: 7,
@@ -53,6 +56,7 @@ fn ended() -> FlightSummary {
         ]
         .map(str::to_owned)
         .to_vec(),
+        next: None,
         report: Some("file:///sessions/a/report.html".into()),
         questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),
     }
@@ -107,6 +111,30 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     assert!(matches!(&told[0], WindowRequest::Open(address) if address.starts_with("file:")), "{told:?}");
     assert!(matches!(&told[1], WindowRequest::Open(address) if address.ends_with("/questions")), "{told:?}");
     assert_eq!(told[2..], [WindowRequest::LeaveFlight, WindowRequest::Send(FromWindow::Again)]);
+}
+
+#[test]
+fn exact_the_recommended_job_is_one_key_away_before_and_after_a_flight() {
+    let job = |scenario: &str, title: &str| Some(NextJob { scenario: scenario.into(), title: title.into() });
+    let mut offers = offers();
+    offers.lesson = job("first-flight", "Lesson: first flight");
+    offers.trainees[0].next = job("drill-hover", "Drill: hover");
+    offers.trainees[0].last = Some("You hit the bridge twice.".into());
+    let mut flow = WindowFlow::new(true, names());
+    flow.handle_message(ToWindow::Offers(offers));
+    assert!(words(&flow).contains("Recommended: Drill: hover") && words(&flow).contains("Last flight:"));
+    press(&mut flow, &[KeyPress::Down, KeyPress::Enter]);
+    assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
+    press(&mut flow, &[KeyPress::Escape, KeyPress::Right]);
+    assert_eq!(flow.choice().trainee, "bert");
+    assert!(words(&flow).contains("Recommended: Lesson: first flight"), "a trainee without sessions starts with the lesson");
+    flow.handle_message(flying(&flow.choice().clone()));
+    flow.handle_message(ToWindow::Ended(FlightSummary { next: job("two-bridges", "Two bridges"), ..ended() }));
+    let at = flow.rows().iter().position(|row| row.action == MenuAction::FlyNext).unwrap();
+    pending_requests(&mut flow);
+    press(&mut flow, &[KeyPress::Row(at)]);
+    let wanted = FlightChoice { trainee: "bert".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice };
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted))]);
 }
 
 #[test]

@@ -39,8 +39,8 @@ const TUTORIAL_PAGES: [TutorialPage; PAGE_COUNT] = [
     (
         "two views",
         views,
-        "Left: your own view. Right: the drone camera's view.\n\nPress {swap} to enlarge one view. Drag with the mouse to look \
-         around, scroll to zoom. Press {follow} to make your view follow the drone again.",
+        "Your own view from the ground, and the drone camera's view, which is the larger one.\n\nPress {swap} to change the layout. \
+         Drag with the mouse to look around, scroll to zoom. Press {follow} to make your view follow the drone again.",
     ),
     (
         "the display",
@@ -251,8 +251,13 @@ fn example(cues: i32) -> Hud {
         time_s: if cues & cue::CRASH != 0 { 0.1 } else { 95.0 },
         position_m: Vec3::new(-60.0, 130.0, 12.0),
         heading_rad: 0.6,
+        roll_rad: 0.0,
+        pitch_rad: 0.0,
+        obstacles: None,
+        way_back: None,
         pad_m: Vec3::new(-120.0, 60.0, 5.0),
         guidance: None,
+        lesson: None,
         tracks: vec![line(1, [(-50.0, -5.0), (50.0, -5.0)]), line(4, [(-70.0, 150.0), (-64.0, 156.0)])],
     }
 }

@@ -1,6 +1,7 @@
 //! Layout of the HUD. Sizes and positions are in units of `Pane`: the picture's height, or less in a narrow picture.
 
 use super::battery::battery;
+use super::lesson_panel::lesson_panel;
 use super::map::map;
 use super::messages::messages;
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
@@ -11,6 +12,7 @@ use super::state::Hud;
 use super::status::status;
 use super::task_panel::task_panel;
 use super::{DrawItem, HudColor, TextAlign};
+use spandrel_model::math;
 
 /// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; the font size in a picture 360 px
 /// high is 9.7 px).
@@ -25,6 +27,7 @@ pub fn layout(hud: &Hud, aspect: f64) -> Vec<DrawItem> {
     let mut items = crosshair(hud, pane);
     items.extend(speed(hud, pane));
     items.extend(task_panel(hud, pane));
+    items.extend(lesson_panel(hud, pane));
     items.extend(battery(hud, pane));
     items.extend(status(hud, pane));
     items.extend(readouts(hud, pane));
@@ -58,7 +61,24 @@ fn crosshair(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (x, y, cross) = (0.5 * pane.width, 0.5 * pane.height, 0.018);
     items.push(pane.line(&[(x - cross, y), (x + cross, y)], 0.0025, HudColor::White));
     items.push(pane.line(&[(x, y - cross), (x, y + cross)], 0.0025, HudColor::White));
+    if let Some(way_back) = hud.way_back {
+        items.extend(way_back_arrow(pane, (x, y), way_back.direction_rad));
+    }
     items
+}
+
+/// Returns an arrow beside the crosshair that points back to the path.
+fn way_back_arrow(pane: Pane, (x, y): (f64, f64), direction_rad: f64) -> Vec<DrawItem> {
+    /// Distance of the tip from the crosshair, length of the arrow, and half the width of its head.
+    const TIP: f64 = 0.17;
+    const LENGTH: f64 = 0.09;
+    const HEAD: f64 = 0.03;
+    let (sin, cos) = math::sin_cos(direction_rad);
+    let at = |ahead: f64, right: f64| (x + ahead * sin + right * cos, y - ahead * cos + right * sin);
+    let shapes = [vec![at(TIP - LENGTH, 0.0), at(TIP, 0.0)], vec![at(TIP - HEAD, -HEAD), at(TIP, 0.0), at(TIP - HEAD, HEAD)]];
+    // The dark outline keeps the arrow visible against a bright sky.
+    let strokes = [(0.014, HudColor::Black), (0.008, HudColor::Blue)];
+    strokes.iter().flat_map(|(width, color)| shapes.iter().map(|shape| pane.line(shape, *width, *color))).collect()
 }
 
 /// Returns the values below the battery: height, distance from home, gimbal, time, lamp, pictures.

@@ -19,14 +19,19 @@ const MARGIN_FACTOR: f64 = 1.12;
 /// Minimum distance shown from the center, m.
 const MIN_RANGE_M: f64 = 20.0;
 
+/// Checks whether the map is shown. The panel of a lesson needs its place.
+fn is_shown(hud: &Hud) -> bool {
+    !hud.tracks.is_empty() && hud.lesson.is_none()
+}
+
 /// Returns the left edge of the map, or `None` if it is hidden.
 pub fn left(hud: &Hud, pane: Pane) -> Option<f64> {
-    (!hud.tracks.is_empty()).then_some(pane.width - CENTER_OFFSET - HALF_SIZE)
+    is_shown(hud).then_some(pane.width - CENTER_OFFSET - HALF_SIZE)
 }
 
 /// Returns the items of the map.
 pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    if hud.tracks.is_empty() {
+    if !is_shown(hud) {
         return Vec::new();
     }
     let (x, y) = (pane.width - CENTER_OFFSET, pane.height - CENTER_OFFSET);

@@ -4,7 +4,9 @@
 
 mod battery;
 mod icons;
+pub mod instruments;
 pub mod layout;
+pub mod lesson_panel;
 mod map;
 mod marker;
 mod messages;
@@ -21,9 +23,10 @@ mod task_panel;
 mod tests;
 mod text_metrics;
 
+pub use instruments::{SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
-pub use state::{GnssStatus, Hud, MapPath};
+pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, WayBack};
 pub use status::LINK_TIMEOUT_S;
 
 /// A position in the picture, as fractions of its width and height.
@@ -69,6 +72,18 @@ pub enum HudColor {
     InputField,
     /// Focused field.
     FocusedField,
+    /// Path in the picture; translucent.
+    Ribbon,
+    /// Path behind an object; translucent.
+    RibbonHidden,
+    /// Bridges on a map.
+    Structure,
+    /// Water on a map.
+    Water,
+    /// Sky in the artificial horizon.
+    Sky,
+    /// Ground in the artificial horizon and in a profile.
+    Earth,
 }
 
 impl HudColor {
@@ -88,6 +103,12 @@ impl HudColor {
             Self::PageBackground => [20, 24, 30, 255],
             Self::InputField => [42, 49, 60, 255],
             Self::FocusedField => [20, 92, 140, 255],
+            Self::Ribbon => [86, 180, 233, 110],
+            Self::RibbonHidden => [200, 204, 208, 45],
+            Self::Structure => [150, 150, 148, 255],
+            Self::Water => [44, 88, 122, 255],
+            Self::Sky => [74, 132, 182, 255],
+            Self::Earth => [112, 84, 56, 255],
         }
     }
 }

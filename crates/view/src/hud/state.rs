@@ -2,6 +2,7 @@
 
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
+use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::speed_unit::SpeedUnit;
 
@@ -34,6 +35,36 @@ pub struct MapPath {
     pub path_m: Vec<Vec3<Enu>>,
     /// Whether the path is closed.
     pub closed: bool,
+}
+
+/// Distances of obstacles around the aircraft.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacles {
+    /// Distance in each of equal sectors, clockwise, m. The middle of the first sector is at the nose. Infinite: nothing within
+    /// the range.
+    pub sectors_m: Vec<f64>,
+    /// Largest distance that can be measured, m.
+    pub range_m: f64,
+    /// Distance at which the too-close cue begins, m.
+    pub too_close_m: f64,
+}
+
+/// The current step of a lesson.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LessonDisplay {
+    /// The step.
+    pub status: LessonStatus,
+    /// How it is done.
+    pub how: String,
+    /// What went wrong.
+    pub remark: Option<String>,
+}
+
+/// Direction back to the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WayBack {
+    /// Direction in the picture, rad clockwise from the top.
+    pub direction_rad: f64,
 }
 
 /// Inputs of the HUD as plain data.
@@ -83,10 +114,20 @@ pub struct Hud {
     pub position_m: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub heading_rad: f64,
+    /// Roll, rad, right wing down positive.
+    pub roll_rad: f64,
+    /// Pitch, rad, nose up positive.
+    pub pitch_rad: f64,
+    /// Obstacles around the aircraft; `None` without range finders or without their telemetry.
+    pub obstacles: Option<Obstacles>,
+    /// Direction back to the path while the off-path cue is active.
+    pub way_back: Option<WayBack>,
     /// Position of the pad, ENU, m.
     pub pad_m: Vec3<Enu>,
     /// The next step of the job; `None` if the monitor does not guide the pilot.
     pub guidance: Option<Guidance>,
+    /// The current step of a lesson.
+    pub lesson: Option<LessonDisplay>,
     /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
 }

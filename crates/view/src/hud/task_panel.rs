@@ -10,18 +10,18 @@ use spandrel_model::math;
 use spandrel_model::numbers::format_limit;
 
 /// Top of the panel: just above the map, below the status text of the window.
-const TOP: f64 = 0.455;
+pub(super) const TOP: f64 = 0.455;
 /// Width of the panel, height of a line, and padding.
-const WIDTH: f64 = 0.42;
-const LINE_HEIGHT: f64 = 0.037;
-const PADDING: f64 = 0.012;
+pub(super) const WIDTH: f64 = 0.42;
+pub(super) const LINE_HEIGHT: f64 = 0.037;
+pub(super) const PADDING: f64 = 0.012;
 /// Width of the arrow's column, and the arrow's half length.
 const ARROW_COLUMN: f64 = 0.045;
 const ARROW_SIZE: f64 = 0.015;
 
 /// Returns the left edge of the panel, or `None` without guidance.
 pub(super) fn left(hud: &Hud, pane: Pane) -> Option<f64> {
-    hud.guidance.map(|_| pane.width - EDGE_MARGIN - WIDTH)
+    (hud.guidance.is_some() || hud.lesson.is_some()).then_some(pane.width - EDGE_MARGIN - WIDTH)
 }
 
 /// A line of the panel: a gray name at the left, and a value at the right.
@@ -33,7 +33,8 @@ struct PanelLine {
 
 /// Returns the panel; empty without guidance.
 pub(super) fn task_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let Some(guidance) = &hud.guidance else { return Vec::new() };
+    // A lesson has a panel of its own.
+    let Some(guidance) = hud.guidance.as_ref().filter(|_| hud.lesson.is_none()) else { return Vec::new() };
     let lines = details(guidance);
     let rows = 1 + usize::from(guidance.way.is_some()) + lines.len();
     let (left, right) = (pane.width - EDGE_MARGIN - WIDTH, pane.width - EDGE_MARGIN);
@@ -47,9 +48,8 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     }
     let mut row = 1;
     if let Some(way) = &guidance.way {
-        items.push(pane.fill(&arrow((from + 0.5 * ARROW_COLUMN, middle(row)), way.bearing_rad), HudColor::Yellow));
-        let place = (from + ARROW_COLUMN, middle(row));
-        items.push(pane.text(place, TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, direction_words(way)));
+        let words = WayTo { up_m: 0.0, ..*way };
+        items.extend(way_items(&words, pane, (from, middle(row))));
         row += 1;
     }
     for (k, PanelLine { name, color, value }) in lines.into_iter().enumerate() {
@@ -72,9 +72,13 @@ fn title(guidance: &Guidance) -> String {
     }
 }
 
-/// Returns the horizontal way in words. Unlike in a text message, there is a degree sign.
-fn direction_words(way: &WayTo) -> String {
-    WayTo { up_m: 0.0, ..*way }.words().replace(" deg", "°")
+/// Returns an arrow in the direction of a place, and the way in words. Unlike in a text message, there is a degree sign.
+pub(super) fn way_items(way: &WayTo, pane: Pane, (left, middle): (f64, f64)) -> [DrawItem; 2] {
+    let words = way.words().replace(" deg", "°");
+    [
+        pane.fill(&arrow((left + 0.5 * ARROW_COLUMN, middle), way.bearing_rad), HudColor::Yellow),
+        pane.text((left + ARROW_COLUMN, middle), TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, words),
+    ]
 }
 
 fn details(guidance: &Guidance) -> Vec<PanelLine> {
@@ -102,7 +106,7 @@ fn details(guidance: &Guidance) -> Vec<PanelLine> {
 }
 
 /// Returns the height of the next place in words.
-fn height_words(up_m: f64) -> String {
+pub(super) fn height_words(up_m: f64) -> String {
     let meters = up_m.abs().round();
     match up_m {
         _ if meters < 1.0 => "level".to_owned(),

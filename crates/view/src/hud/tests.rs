@@ -40,8 +40,13 @@ pub(super) fn hud() -> Hud {
         time_s: 100.0,
         position_m: Vec3::new(10.0, -4.0, 20.0),
         heading_rad: 1.2,
+        roll_rad: 0.0,
+        pitch_rad: 0.0,
+        obstacles: None,
+        way_back: None,
         pad_m: Vec3::new(-100.0, 60.0, 5.0),
         guidance: None,
+        lesson: None,
         tracks: vec![MapPath { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
     }
 }

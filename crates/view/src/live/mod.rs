@@ -48,6 +48,8 @@ const ESTIMATE_STREAMS: [(u32, f32); 3] = [(31, 50.0), (33, 50.0), (285, 25.0)];
 /// SERVO_OUTPUT_RAW and its requested rate, Hz, for the rotor sound (a delay of 0.1 s between picture and sound is
 /// noticeable).
 const ROTOR_STREAM: (u32, f32) = (36, 20.0);
+/// OBSTACLE_DISTANCE and its requested rate, Hz.
+const OBSTACLE_STREAM: (u32, f32) = (330, 10.0);
 /// FLIGHT_INFORMATION, which contains the takeoff time, for viewers that connect during a flight.
 const FLIGHT_INFORMATION_ID: u32 = 264;
 /// Pulse widths of idle and full outputs, µs (SERVO_OUTPUT_RAW).
@@ -72,6 +74,8 @@ pub struct LiveFlight {
     scenario_crc: Option<u32>,
     /// Wall time of the next request for rotor outputs; `None` if they are not needed.
     next_rotors: Option<SimTime>,
+    /// Wall time of the next request for distances of obstacles; `None` if they are not needed.
+    next_obstacles: Option<SimTime>,
     truth_requested: bool,
     estimate: EstimatedPose,
     time_reversals: usize,
@@ -129,6 +133,7 @@ impl LiveFlight {
             seed: None,
             scenario_crc: None,
             next_rotors: None,
+            next_obstacles: None,
             truth_requested: false,
             estimate: EstimatedPose::default(),
             time_reversals: 0,
@@ -204,6 +209,9 @@ impl LiveFlight {
             self.state.outputs = turn.then(|| {
                 pulses.map(|pulse| ((pulse - PULSE_RANGE_US.0) / (PULSE_RANGE_US.1 - PULSE_RANGE_US.0)).clamp(0.0, 1.0))
             });
+        }
+        if matches!(frame.message, Some(MavMessage::OBSTACLE_DISTANCE(_))) {
+            self.next_obstacles = self.next_obstacles.map(|_| wall + REQUEST_INTERVAL);
         }
         if let (Some(MavMessage::FLIGHT_INFORMATION(flight)), Some(_)) = (&frame.message, self.state.next_takeoff_request)
             && let Ok(took_off_us @ 1..) = i64::try_from(flight.takeoff_time_utc)
@@ -329,6 +337,12 @@ impl LiveFlight {
             self.next_rotors = Some(wall + REQUEST_INTERVAL);
             self.send(&message_interval_request(system, ROTOR_STREAM));
         }
+        if let (Some(system), Some(due)) = (self.system, self.next_obstacles)
+            && wall >= due
+        {
+            self.next_obstacles = Some(wall + REQUEST_INTERVAL);
+            self.send(&message_interval_request(system, OBSTACLE_STREAM));
+        }
         if let (Some(system), Some(due)) = (self.system, self.state.next_takeoff_request)
             && wall >= due
         {
@@ -348,6 +362,11 @@ impl LiveFlight {
     /// Requests rotor outputs, and repeats the request whenever they stop.
     pub fn request_rotor_outputs(&mut self) {
         self.next_rotors.get_or_insert(SimTime::ZERO);
+    }
+
+    /// Requests distances of obstacles, and repeats the request whenever they stop.
+    pub fn request_obstacles(&mut self) {
+        self.next_obstacles.get_or_insert(SimTime::ZERO);
     }
 
     /// Returns the rotor speeds, in rad/s, calculated from the autopilot's outputs; empty if the rotors are stopped or

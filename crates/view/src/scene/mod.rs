@@ -15,7 +15,9 @@ mod sparse;
 pub use defects::DefectPatch;
 pub use item::{Instance, SceneItem, VisibleRange};
 
+use super::hud::SiteOutline;
 use super::mesh::Mesh;
+use super::path_guide::PathGuide;
 use super::quality::Quality;
 use bake::LightBaker;
 use spandrel_model::frames::{Enu, Frd, Vec3};
@@ -68,6 +70,10 @@ pub struct Scene {
     pub patches: Vec<DefectPatch>,
     /// Meshes in the order of [`MoverModel::ALL`].
     pub models: Vec<Mesh>,
+    /// Paths of the tasks.
+    pub paths: PathGuide,
+    /// Outlines of the site for the instruments.
+    pub outline: SiteOutline,
     /// Bounding sphere of all structures, m.
     pub bounds_m: (Vec3<Enu>, f64),
     rotors: Vec<(Vec3<Frd>, f64)>,
@@ -120,6 +126,8 @@ impl Scene {
                 drone::propeller(vehicle),
                 drone::propeller_disk(vehicle),
             ],
+            paths: PathGuide::new(scenario),
+            outline: SiteOutline::new(scenario, site),
             bounds_m: bounds(site),
             rotors: vehicle.rotors.iter().map(|rotor| (rotor.position_m, rotor.spin)).collect(),
             water_m: scenario.terrain.water_level_m,

@@ -263,8 +263,13 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         time_s: 95.0,
         position_m,
         heading_rad: 0.0,
+        roll_rad: 0.0,
+        pitch_rad: 0.0,
+        obstacles: None,
+        way_back: None,
         pad_m: studio.scenario.ground_team.pad_m,
         guidance: None,
+        lesson: None,
         tracks: studio.scenario.tasks.iter().map(track).collect(),
     }
 }

@@ -7,13 +7,13 @@ use super::moment;
 use crate::report::Review;
 use crate::report::defects::DefectOutcome;
 use crate::report::formatting;
-use crate::report::outline::ParallelView;
 use crate::report::plots::map;
 use crate::report::sketch::{SketchExposure, Sketcher};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::scenario::Bridge;
+use spandrel_model::site::outline::ParallelView;
 
 /// Renders the "Defects" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {

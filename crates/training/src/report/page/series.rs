@@ -3,7 +3,7 @@
 
 use crate::report::Review;
 use crate::report::assets::base64;
-use crate::report::outline::{self, QuantizedMesh};
+use crate::report::mesh::{self, QuantizedMesh};
 use crate::report::plots::colors::CLEARANCE_LIMITS_M;
 use serde_json::{Value, json};
 use spandrel_mavlink::telemetry::Frame;
@@ -33,7 +33,7 @@ pub fn data(review: &Review) -> String {
         "crashes": review.crashes.iter().map(|crash| place(review.frames[crash.frame].position_m)).collect::<Vec<_>>(),
         "defects": review.defects.iter().map(|defect_outcome| json!({ "id": defect_outcome.defect.id, "at": place(defect_outcome.defect.position_m + defect_outcome.defect.normal * DEFECT_MARK_OFFSET_M),
             "found": defect_outcome.found_by.is_some() })).collect::<Vec<_>>(),
-        "mesh": mesh(&outline::mesh(review.site.members())),
+        "mesh": mesh(&mesh::mesh(review.site.members())),
         "ground": ground(review),
     });
     escape_json(&block.to_string())

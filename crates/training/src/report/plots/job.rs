@@ -4,11 +4,11 @@ use super::backdrop::{ground, lake};
 use super::map::{extent, near_bridge_data, north, pad, reference_paths, scale, structure, task_numbers};
 use super::plot_map::PlotMap;
 use super::svg_figure;
-use crate::report::outline::ParallelView;
 use maud::{Markup, html};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
+use spandrel_model::site::outline::ParallelView;
 
 /// Margin beyond each end of a bridge in its side view, m.
 const END_MARGIN_M: f64 = 25.0;

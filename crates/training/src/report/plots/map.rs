@@ -7,13 +7,13 @@ use super::plot_map::{PlotMap, TRACK_TOLERANCE};
 use super::{coord, line, simplify_polyline, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
-use crate::report::outline::{ParallelView, outlines};
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
+use spandrel_model::site::outline::{ParallelView, outlines};
 
 /// Minimum size of a shape, in drawing units; smaller shapes are omitted.
 const MIN_SHAPE_SIZE: f64 = 1.6;

@@ -9,10 +9,10 @@ use super::plot_map::PlotMap;
 use super::{coord, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
-use crate::report::outline::ParallelView;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
+use spandrel_model::site::outline::ParallelView;
 
 /// Draws the plan view with north up.
 #[must_use]

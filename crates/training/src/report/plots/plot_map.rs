@@ -1,7 +1,7 @@
 //! A site projection fitted to a drawing.
 
-use crate::report::outline::ParallelView;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::outline::ParallelView;
 
 /// Width of a drawing, in drawing units.
 const WIDTH: f64 = 900.0;

@@ -1,11 +1,15 @@
-//! Line drawings of the site: parallel projections, member silhouettes, and the 3D view's triangle mesh, all derived
-//! from the collision geometry. Details too small to see are skipped.
+//! Line drawings of the site, derived from the collision geometry: parallel projections, silhouettes of bridge members, the
+//! water and the ground. Details too small to see are skipped.
 
-use spandrel_model::elements::Element;
-use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::math;
-use spandrel_model::scenario::Bridge;
-use spandrel_model::scenario::bridges::Member;
+use super::Site;
+use crate::elements::Element;
+use crate::frames::{Enu, Vec3};
+use crate::math;
+use crate::scenario::bridges::Member;
+use crate::scenario::{Bridge, Scenario};
+
+/// Distance between samples of water and ground, m.
+pub const GROUND_SAMPLE_SPACING_M: f64 = 5.0;
 
 /// A parallel projection, defined by the right and up directions of the drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,46 +122,70 @@ fn extent(corners: &[(f64, f64)]) -> f64 {
     span(|c| c.0).max(span(|c| c.1))
 }
 
-/// A triangle mesh with vertices quantized to 16-bit integers, relative to a corner of the site.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct QuantizedMesh {
-    /// Position of the quantized vertex (0, 0, 0), m east, north, up.
-    pub origin_m: [f64; 3],
-    /// Quantization step, m.
-    pub step_m: f64,
-    /// Quantized vertices.
-    pub corners: Vec<[u16; 3]>,
-    /// Triangles as triples of vertex indices.
-    pub triangles: Vec<[u16; 3]>,
+/// A strip of water in plan view, from west to east, [`GROUND_SAMPLE_SPACING_M`] wide.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaterStrip {
+    /// West end, m east of the origin.
+    pub west_m: f64,
+    /// East end, m east of the origin.
+    pub east_m: f64,
+    /// Center line, m north of the origin.
+    pub north_m: f64,
 }
 
-/// Converts the members to a triangle mesh. If it exceeds 65,535 vertices, the smallest members are skipped.
+/// Returns the water in plan view as strips between the shores.
 #[must_use]
-pub fn mesh(members: &[Member]) -> QuantizedMesh {
-    let size = |member: &Member| {
-        let v = &member.solid.vertices_m;
-        v.iter().map(|a| (*a - v[0]).norm()).fold(0.0, f64::max)
-    };
-    let mut order: Vec<&Member> = members.iter().filter(|member| !member.solid.vertices_m.is_empty()).collect();
-    order.sort_by(|a, b| size(b).total_cmp(&size(a)));
-    let all = || order.iter().flat_map(|member| member.solid.vertices_m.iter());
-    let low = all().fold([f64::INFINITY; 3], |low, v| std::array::from_fn(|k| low[k].min(v.array()[k])));
-    let high = all().fold([f64::NEG_INFINITY; 3], |high, v| std::array::from_fn(|k| high[k].max(v.array()[k])));
-    let widest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
-    let mut mesh = QuantizedMesh { origin_m: low, step_m: (widest / f64::from(u16::MAX)).max(0.01), ..QuantizedMesh::default() };
-    for member in order {
-        let solid = &member.solid;
-        if mesh.corners.len() + solid.vertices_m.len() > usize::from(u16::MAX) {
-            break;
+pub fn water_strips(scenario: &Scenario, site: &Site) -> Vec<WaterStrip> {
+    let terrain = &scenario.terrain;
+    let half = 0.5 * terrain.size_m;
+    let count = (terrain.size_m / GROUND_SAMPLE_SPACING_M).floor().clamp(1.0, 400.0) as usize;
+    let coordinate = |k: usize| -half + (k as f64 + 0.5) * 2.0 * half / count as f64;
+    let mut strips = Vec::new();
+    for row in 0..count {
+        let north_m = coordinate(row);
+        let depth = |column: usize| terrain.water_level_m - site.ground_up_m(coordinate(column), north_m);
+        let mut wet: Option<f64> = None;
+        for column in 0..count {
+            let (now, e) = (depth(column), coordinate(column));
+            let shore = if column == 0 { e } else { crossing((coordinate(column - 1), depth(column - 1)), (e, now)) };
+            match wet {
+                None if now > 0.0 => wet = Some(shore),
+                Some(west_m) if now <= 0.0 => {
+                    strips.push(WaterStrip { west_m, east_m: shore, north_m });
+                    wet = None;
+                }
+                None | Some(_) => {}
+            }
         }
-        let first = mesh.corners.len();
-        let step = mesh.step_m;
-        let corner = |v: &Vec3<Enu>| std::array::from_fn(|k| ((v.array()[k] - low[k]) / step).round() as u16);
-        mesh.corners.extend(solid.vertices_m.iter().map(corner));
-        let index = |k: u32| u16::try_from(first + k as usize).unwrap_or(u16::MAX);
-        mesh.triangles.extend(solid.triangles().into_iter().map(|triangle| triangle.map(index)));
+        strips.extend(wet.map(|west_m| WaterStrip { west_m, east_m: half, north_m }));
     }
-    mesh
+    strips
+}
+
+/// Returns the zero crossing between two samples.
+fn crossing(a: (f64, f64), b: (f64, f64)) -> f64 {
+    if (a.1 > 0.0) == (b.1 > 0.0) { b.0 } else { a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1) }
+}
+
+/// Returns the ground below a horizontal line as a drawing of a side view: m right and up, from `from` to `to` to the right.
+/// `through_m` is a point of the line.
+#[must_use]
+pub fn ground_profile(
+    scenario: &Scenario,
+    site: &Site,
+    view: &ParallelView,
+    through_m: Vec3<Enu>,
+    (from, to): (f64, f64),
+) -> Vec<(f64, f64)> {
+    let middle = view.at(through_m).0;
+    let count = ((to - from) / GROUND_SAMPLE_SPACING_M).ceil().clamp(1.0, 400.0) as usize;
+    let half = 0.5 * scenario.terrain.size_m;
+    let sample = |k: usize| {
+        let along = from + (to - from) * k as f64 / count as f64;
+        let at = through_m + view.right * (along - middle);
+        (along, site.ground_up_m(at.east().clamp(-half, half), at.north().clamp(-half, half)))
+    };
+    (0..=count).map(sample).collect()
 }
 
 #[cfg(test)]
@@ -168,6 +196,11 @@ mod tests {
     fn exact_hull_omits_inner_and_edge_points() {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1.0, 1.0), (1.0, 0.0), (2.0, 1.0), (0.0, 0.0)];
         assert_eq!(hull(&points), [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);
+    }
+
+    #[test]
+    fn exact_shore_is_at_zero_depth() {
+        assert_eq!(crossing((0.0, 1.0), (10.0, -4.0)), 2.0);
     }
 
     #[test]

@@ -1,0 +1,137 @@
+//! Map of the site, north up: water, bridges, paths, landing pad, aircraft, and a scale.
+
+use super::super::pane::Pane;
+use super::super::state::Hud;
+use super::super::{DrawItem, HudColor, TextAlign};
+use super::Area;
+use super::clip::{clamp_point, clip_polygon};
+use super::site_outline::{Point, SiteOutline};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::site::outline::GROUND_SAMPLE_SPACING_M;
+
+/// Largest share of the map's width for the scale.
+const MAX_SCALE_SHARE: f64 = 0.35;
+/// Lengths of the scale, m.
+const SCALE_LENGTHS_M: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1_000.0, 2_000.0];
+
+/// Conversion from meters east and north to px.
+#[derive(Debug, Clone, Copy)]
+struct MapScale {
+    middle: Point,
+    origin_px: Point,
+    px_per_m: f64,
+}
+
+impl MapScale {
+    /// Fits the bounds of the map into the area.
+    fn fit(site: &SiteOutline, area: Area) -> Self {
+        let (low, high) = site.bounds;
+        let px_per_m = (area.width / (high.0 - low.0).max(1.0)).min(area.height / (high.1 - low.1).max(1.0));
+        Self { middle: (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1)), origin_px: area.middle(), px_per_m }
+    }
+
+    fn place(&self, (east, north): Point) -> Point {
+        (self.origin_px.0 + (east - self.middle.0) * self.px_per_m, self.origin_px.1 - (north - self.middle.1) * self.px_per_m)
+    }
+
+    fn of(&self, point_m: Vec3<Enu>) -> Point {
+        self.place((point_m.east(), point_m.north()))
+    }
+}
+
+pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+    let scale = MapScale::fit(site, area.inside(0.5 * font));
+    let mut items = vec![pane.panel((area.x, area.y), area.corner())];
+    items.extend(ground(site, pane, area, &scale));
+    items.extend(tasks(hud, pane, area, &scale, font));
+    let (pad, side) = (clamp_point(scale.of(hud.pad_m), area.inside(0.5 * font)), 0.35 * font);
+    let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
+    items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
+    let drone = clamp_point(scale.of(hud.position_m), area.inside(font));
+    items.push(pane.fill(&arrow(drone, hud.heading_rad, 1.15 * font), HudColor::Black));
+    items.push(pane.fill(&arrow(drone, hud.heading_rad, 0.85 * font), HudColor::Yellow));
+    items.extend(legend(pane, area, &scale, font));
+    items
+}
+
+fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &MapScale) -> Vec<DrawItem> {
+    // Strips overlap, so that no line shows between them.
+    let half_m = 0.5 * GROUND_SAMPLE_SPACING_M + 1.0 / scale.px_per_m;
+    let strip = |west: f64, east: f64, north: f64| {
+        [(west, north - half_m), (east, north - half_m), (east, north + half_m), (west, north + half_m)]
+    };
+    let water = site.water.iter().map(|water| strip(water.west_m, water.east_m, water.north_m).to_vec());
+    let shapes = water.map(|shape| (shape, HudColor::Water));
+    let shapes = shapes.chain(site.members.iter().map(|shape| (shape.clone(), HudColor::Structure)));
+    let drawn = shapes.filter_map(|(shape, color)| {
+        let px: Vec<Point> = shape.into_iter().map(|point| scale.place(point)).collect();
+        let cut = clip_polygon(&px, area);
+        (cut.len() >= 3).then(|| pane.fill(&cut, color))
+    });
+    drawn.collect()
+}
+
+fn tasks(hud: &Hud, pane: Pane, area: Area, scale: &MapScale, font: f64) -> Vec<DrawItem> {
+    let current = hud.guidance.and_then(|guidance| guidance.task);
+    let mut items = Vec::new();
+    for track in &hud.tracks {
+        let mut points: Vec<Point> = track.path_m.iter().step_by(3).map(|point_m| scale.of(*point_m)).collect();
+        points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|end_m| scale.of(*end_m)));
+        let color = if Some(track.id) == current { HudColor::Yellow } else { HudColor::Blue };
+        let width = if Some(track.id) == current { 0.28 } else { 0.16 };
+        items.push(pane.line(&points, width * font, color));
+    }
+    let mut taken: Vec<Point> = Vec::new();
+    for track in &hud.tracks {
+        let start = scale.of(track.path_m[0]);
+        let label = free_place((start.0, start.1 - 0.9 * font), &taken, area.inside(0.7 * font), font);
+        items.push(disc(pane, label, 0.62 * font, HudColor::Black));
+        items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
+        taken.push(label);
+    }
+    items
+}
+
+/// Returns the place for a task's number: the wanted one, or the next free one to the right and down.
+fn free_place(wanted: Point, taken: &[Point], area: Area, font: f64) -> Point {
+    let step = 1.3 * font;
+    let is_free = |here: &Point| {
+        taken.iter().all(|other| (here.0 - other.0).abs() >= 0.99 * step || (here.1 - other.1).abs() >= 0.99 * step)
+    };
+    let offsets =
+        [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0)];
+    let places = offsets.map(|(right, down)| clamp_point((wanted.0 + right * step, wanted.1 + down * step), area));
+    places.iter().copied().find(is_free).unwrap_or(places[0])
+}
+
+fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
+    let corner = |k: u32| {
+        let (sin, cos) = math::sin_cos(math::TAU * f64::from(k) / 16.0);
+        (x + radius * cos, y + radius * sin)
+    };
+    pane.fill(&(0..16).map(corner).collect::<Vec<_>>(), color)
+}
+
+/// Returns the north arrow and the scale.
+fn legend(pane: Pane, area: Area, scale: &MapScale, font: f64) -> Vec<DrawItem> {
+    let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
+    let length_m = SCALE_LENGTHS_M.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(SCALE_LENGTHS_M[0]);
+    let (left, bottom) = (area.x + 0.8 * font, area.y + area.height - 0.8 * font);
+    let right = left + length_m * scale.px_per_m;
+    let bar = [(left, bottom - 0.4 * font), (left, bottom), (right, bottom), (right, bottom - 0.4 * font)];
+    let north = (area.x + area.width - 1.1 * font, area.y + 1.2 * font);
+    vec![
+        pane.line(&bar, 0.14 * font, HudColor::White),
+        pane.text((left, bottom - 0.95 * font), TextAlign::Left, font, HudColor::White, format!("{length_m:.0} m")),
+        pane.fill(&arrow((north.0, north.1 - 0.2 * font), 0.0, 0.7 * font), HudColor::White),
+        pane.text((north.0, north.1 + 1.1 * font), TextAlign::Center, font, HudColor::White, "N"),
+    ]
+}
+
+/// Returns an arrowhead that points along the heading.
+fn arrow((x, y): Point, heading_rad: f64, size: f64) -> [Point; 3] {
+    let (sin, cos) = math::sin_cos(heading_rad);
+    [(0.0, 1.0), (0.65, -0.7), (-0.65, -0.7)]
+        .map(|(right, ahead): Point| (x + size * (right * cos + ahead * sin), y - size * (ahead * cos - right * sin)))
+}

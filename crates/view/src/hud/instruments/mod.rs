@@ -1,0 +1,87 @@
+//! Instruments beside the camera view: a navigation display, a map and a side profile of the site.
+
+mod clip;
+mod map;
+mod navigation;
+mod profile;
+mod site_outline;
+#[cfg(test)]
+mod tests;
+
+pub use site_outline::SiteOutline;
+
+use super::DrawItem;
+use super::pane::Pane;
+use super::state::Hud;
+
+/// Font size relative to the shorter side of the instruments' area.
+const FONT_RATIO: f64 = 0.045;
+/// Smallest font size, px at standard pixel density.
+const MIN_FONT_PX: f64 = 10.0;
+/// Gap between the instruments, px.
+const GAP_PX: f64 = 6.0;
+/// Areas that are higher than wide show the instruments one below the other, with these shares of the height for navigation,
+/// map and profile; other areas show them side by side.
+const HEIGHT_SHARES: [f64; 3] = [0.37, 0.40, 0.23];
+/// Largest share of the width for the navigation display, and the map's share of the rest.
+const MAX_NAVIGATION_SHARE: f64 = 0.35;
+const MAP_SHARE: f64 = 0.55;
+
+/// Rectangle of an instrument, px.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Area {
+    x: f64,
+    y: f64,
+    width: f64,
+    height: f64,
+}
+
+impl Area {
+    fn middle(self) -> (f64, f64) {
+        (self.x + 0.5 * self.width, self.y + 0.5 * self.height)
+    }
+
+    fn corner(self) -> (f64, f64) {
+        (self.x + self.width, self.y + self.height)
+    }
+
+    /// Returns the rectangle without a margin on each side.
+    fn inside(self, margin: f64) -> Self {
+        let (width, height) = ((self.width - 2.0 * margin).max(1.0), (self.height - 2.0 * margin).max(1.0));
+        Self { x: self.x + margin, y: self.y + margin, width, height }
+    }
+}
+
+/// Returns the instruments for an area of the given size, px at standard pixel density. Without reference paths, as in an
+/// assessment, there is only the navigation display.
+#[must_use]
+pub fn instruments(hud: &Hud, site: &SiteOutline, (width, height): (f64, f64)) -> Vec<DrawItem> {
+    let pane = Pane { width: width.max(1.0), height: height.max(1.0) };
+    let font = (FONT_RATIO * pane.width.min(pane.height)).max(MIN_FONT_PX);
+    let whole = Area { x: 0.0, y: 0.0, width: pane.width, height: pane.height };
+    if hud.tracks.is_empty() {
+        return navigation::navigation(hud, pane, whole.inside(GAP_PX), font);
+    }
+    let [first, second, third] = areas(whole);
+    let mut items = navigation::navigation(hud, pane, first, font);
+    items.extend(map::map(hud, site, pane, second, font));
+    items.extend(profile::profile(hud, site, pane, third, font));
+    items
+}
+
+fn areas(whole: Area) -> [Area; 3] {
+    let parts = if whole.height > whole.width {
+        let mut y = 0.0;
+        HEIGHT_SHARES.map(|share| {
+            let part = Area { y, height: share * whole.height, ..whole };
+            y += part.height;
+            part
+        })
+    } else {
+        let first = whole.height.min(MAX_NAVIGATION_SHARE * whole.width);
+        let second = MAP_SHARE * (whole.width - first);
+        let part = |x: f64, width: f64| Area { x, width, ..whole };
+        [part(0.0, first), part(first, second), part(first + second, whole.width - first - second)]
+    };
+    parts.map(|part| part.inside(0.5 * GAP_PX))
+}

@@ -1,0 +1,157 @@
+//! Tests of the instruments.
+
+use super::super::tests::hud;
+use super::super::text_metrics::text_width;
+use super::super::{HudColor, Obstacles, TextAlign};
+use super::*;
+use crate::arrange::{ViewKind, ViewLayout, WindowShape};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+use spandrel_model::frames::Vec3;
+use spandrel_model::scenario::{self, Scenario};
+use spandrel_model::shipped;
+use spandrel_model::site::Site;
+
+/// Tolerance for rounding errors, px.
+const TOLERANCE_PX: f64 = 1e-6;
+
+fn job() -> (Scenario, SiteOutline) {
+    let job = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
+    let site = SiteOutline::new(&job, &Site::without_defects(&job));
+    (job, site)
+}
+
+/// Returns the HUD over the job with every mark on the instruments.
+fn flying(job: &Scenario) -> Hud {
+    let guidance = Guidance {
+        step: GuidanceStep::FlyToTask,
+        task: Some(1),
+        way: Some(WayTo { distance_m: 40.0, bearing_rad: 0.7, up_m: 3.0 }),
+        progress: Some(0.0),
+        tasks_done: 0,
+        tasks: 4,
+        deviation: None,
+        stand_off: None,
+        flown_s: 10.0,
+        needed_s: 300.0,
+    };
+    let mut sectors_m = vec![f64::INFINITY; 8];
+    (sectors_m[0], sectors_m[1]) = (1.2, 7.5);
+    let track = |task: &spandrel_model::scenario::Task| super::super::MapPath {
+        id: task.id,
+        path_m: task.path_m.clone(),
+        closed: task.closed,
+    };
+    Hud {
+        guidance: Some(guidance),
+        obstacles: Some(Obstacles { sectors_m, range_m: 12.0, too_close_m: 1.5 }),
+        pad_m: job.ground_team.pad_m,
+        position_m: Vec3::new(20.0, -10.0, 30.0),
+        roll_rad: 0.3,
+        pitch_rad: -0.2,
+        tracks: job.tasks.iter().map(track).collect(),
+        ..hud()
+    }
+}
+
+/// Returns the texts with their rectangles, px.
+fn texts(items: &[DrawItem], (width, height): (f64, f64)) -> Vec<(String, [f64; 4])> {
+    let of = |item: &DrawItem| match item {
+        DrawItem::Text { place, side, height: size, words, .. } => {
+            let (wide, tall) = (text_width(words, size * height), size * height);
+            let left = place.x * width
+                - match side {
+                    TextAlign::Left => 0.0,
+                    TextAlign::Center => 0.5 * wide,
+                    TextAlign::Right => wide,
+                };
+            Some((words.clone(), [left, place.y * height - 0.5 * tall, left + wide, place.y * height + 0.5 * tall]))
+        }
+        DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+    };
+    items.iter().filter_map(of).collect()
+}
+
+#[test]
+fn prop_texts_do_not_overlap_and_everything_is_inside_in_any_window() {
+    let (job, site) = job();
+    let hud = flying(&job);
+    for window_px in [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0), (1600.0, 560.0), (800.0, 600.0)] {
+        let shape = WindowShape { window: window_px.0 / window_px.1, camera: 4.0 / 3.0 };
+        let places = ViewLayout::Camera.view_rects(shape);
+        let place = places.into_iter().find(|place| place.which == ViewKind::Instruments).unwrap();
+        let size_px = (place.width * window_px.0, place.height * window_px.1);
+        let items = instruments(&hud, &site, size_px);
+        let found = texts(&items, size_px);
+        for (k, (words, a)) in found.iter().enumerate() {
+            for (other, b) in &found[..k] {
+                let apart = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+                assert!(apart, "{window_px:?}: '{words}' overlaps '{other}'");
+            }
+            let inside = a[0] >= -TOLERANCE_PX && a[1] >= 0.0 && a[2] <= size_px.0 + TOLERANCE_PX && a[3] <= size_px.1;
+            assert!(inside, "{window_px:?}: '{words}' at {a:?} is outside {size_px:?}");
+        }
+        for item in &items {
+            let (DrawItem::Fill { points, .. } | DrawItem::Line { points, .. }) = item else { continue };
+            let inside =
+                |p: &super::super::ScreenPoint| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
+            assert!(points.iter().all(inside), "{window_px:?}: {item:?}");
+        }
+    }
+}
+
+fn has_color(items: &[DrawItem], wanted: HudColor) -> bool {
+    items.iter().any(|item| match item {
+        DrawItem::Panel { color, .. }
+        | DrawItem::Text { color, .. }
+        | DrawItem::Fill { color, .. }
+        | DrawItem::Line { color, .. } => *color == wanted,
+    })
+}
+
+#[test]
+fn exact_an_assessment_shows_neither_map_nor_profile() {
+    let (job, site) = job();
+    let size_px = (320.0, 480.0);
+    let practice = instruments(&flying(&job), &site, size_px);
+    assert!(has_color(&practice, HudColor::Structure) && has_color(&practice, HudColor::Water));
+    let assessment = instruments(&Hud { tracks: Vec::new(), guidance: None, ..flying(&job) }, &site, size_px);
+    assert!(!has_color(&assessment, HudColor::Structure) && has_color(&assessment, HudColor::Sky));
+    let words: Vec<String> = texts(&assessment, size_px).into_iter().map(|(words, _)| words).collect();
+    assert_eq!(words, ["N", "E", "S", "W", "069°", "obstacle 1.2 m"]);
+}
+
+#[test]
+fn exact_near_obstacles_are_red_and_missing_range_finders_are_not_free_space() {
+    let (job, site) = job();
+    let words = |hud: &Hud| {
+        // In a high area, both words stand below the display.
+        let size_px = (200.0, 600.0);
+        let items = instruments(hud, &site, size_px);
+        let found = texts(&items, size_px).into_iter().map(|(words, _)| words).find(|words| words.contains("obstacle"));
+        (found, has_color(&items, HudColor::Red))
+    };
+    assert_eq!(words(&flying(&job)), (Some("obstacle 1.2 m".to_owned()), true));
+    let free = Obstacles { sectors_m: vec![f64::INFINITY; 72], range_m: 12.0, too_close_m: 1.5 };
+    assert_eq!(words(&Hud { obstacles: Some(free), ..flying(&job) }), (Some("obstacle none near".to_owned()), false));
+    assert_eq!(words(&Hud { obstacles: None, ..flying(&job) }), (None, false));
+}
+
+#[test]
+fn exact_the_horizon_tilts_against_the_roll_and_sinks_when_the_nose_rises() {
+    let (job, site) = job();
+    // The ground is the polygon in the color of earth that is drawn first, in the navigation display.
+    let ground = |roll_rad: f64, pitch_rad: f64| {
+        let items = instruments(&Hud { roll_rad, pitch_rad, tracks: Vec::new(), ..flying(&job) }, &site, (400.0, 400.0));
+        items.into_iter().find_map(|item| match item {
+            DrawItem::Fill { points, color: HudColor::Earth } => Some(points),
+            DrawItem::Panel { .. } | DrawItem::Text { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        })
+    };
+    let top = |points: &[super::super::ScreenPoint]| points.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+    let level = top(&ground(0.0, 0.0).unwrap());
+    assert!((level - 0.5).abs() < 0.01, "{level}");
+    assert!(top(&ground(0.0, 0.3).unwrap()) > level + 0.05);
+    let highest = |points: Vec<super::super::ScreenPoint>| points.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
+    // Rolled right, the ground is higher on the right side of the display.
+    assert!(highest(ground(0.5, 0.0).unwrap()).x > 0.6);
+}
