@@ -7,7 +7,7 @@ use super::pilot::SkillArgs;
 use super::table;
 use crate::errors::{AUTOPILOT_EXIT_CODES, AppError};
 use crate::io::addresses;
-use crate::io::children::{Child, early_exit};
+use crate::io::children::{Child, early_exit, software_renderer_threads};
 use crate::io::clock::Stopwatch;
 use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
@@ -34,6 +34,7 @@ Examples:
   spandrel demo                                         at five times real time
   spandrel demo --skill novice --seed 7 --speed max     as fast as possible
   spandrel demo --autopilot px4 --px4 ~/PX4-Autopilot   fly through a real PX4
+  spandrel demo --view --skill expert                  watch an expert in a window
   spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
 
 {AUTOPILOT_EXIT_CODES}"))]
@@ -46,9 +47,12 @@ pub struct Args {
     /// synthetic-SKILL]
     #[arg(long, value_name = "ID")]
     trainee: Option<TraineeId>,
-    /// Simulation speed: a multiple of real time (0.1 to 100), or max
-    #[arg(long, value_name = "X|max", default_value = "30")]
-    speed: SimulationSpeed,
+    /// Simulation speed: a multiple of real time (0.1 to 100), or max [default: 30; with --view, 1]
+    #[arg(long, value_name = "X|max")]
+    speed: Option<SimulationSpeed>,
+    /// Watch the flight in a window
+    #[arg(long)]
+    view: bool,
     /// Protocol of the built-in autopilot; does not affect the flight dynamics
     #[arg(long, alias = "flavour", value_name = "NAME", default_value = "px4")]
     flavor: args::Flavor,
@@ -88,17 +92,42 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     let sim_args =
         [args::common_args(&job, quiet), args.flavor.to_args(), autopilot_args, sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
-    sim.read_announcement()?;
-    tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.name(), args.speed);
+    let ports = sim.read_announcement()?;
+    let mut window = if args.view { open_window(&job, &ports, quiet) } else { None };
+    tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.name(), args.chosen_speed());
     let lost = wait_for_end(&mut monitor, &mut pilot, &mut sim, &stop);
     monitor.finish();
     sim.finish();
     pilot.finish();
+    if let Some(window) = &mut window {
+        window.finish();
+    }
     let told = table::report_outcome(&session);
     match lost {
         Some(error) => Err(error),
         None => told,
     }
+}
+
+/// Speed without a window, as a multiple of real time: the paper's job then takes half a minute.
+const FAST_SPEED: f64 = 30.0;
+
+impl Args {
+    fn chosen_speed(&self) -> SimulationSpeed {
+        self.speed.unwrap_or(SimulationSpeed::Factor(if self.view { 1.0 } else { FAST_SPEED }))
+    }
+}
+
+/// Opens a window that shows the flight. Without one, the flight goes on.
+fn open_window(job: &JobArgs, ports: &serde_json::Value, log: tracing::Level) -> Option<Child> {
+    if !cfg!(feature = "view") {
+        tracing::warn!("no window: this build has no windows; use tools/run view, or build with --features view");
+        return None;
+    }
+    let payload = format!("127.0.0.1:{}", ports["payload_port"].as_u64()?);
+    let view_args = [args::common_args(job, log), vec!["--connect".to_owned(), payload]].concat();
+    let opened = Child::start_with_env("view", &view_args, &[software_renderer_threads()]);
+    opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()
 }
 
 fn monitor_args(args: &Args) -> Vec<String> {
@@ -108,7 +137,7 @@ fn monitor_args(args: &Args) -> Vec<String> {
 
 fn sim_args(args: &Args, monitor_port: u64, pilot_port: u64) -> Vec<String> {
     let (monitor, pilot) = (monitor_port.to_string(), format!("127.0.0.1:{pilot_port}"));
-    let speed = args.speed.to_string();
+    let speed = args.chosen_speed().to_string();
     let mut out =
         ["--ports", "ephemeral", "--speed", &speed, "--monitor-port", &monitor, "--gcs", &pilot].map(str::to_owned).to_vec();
     out.extend(["--after-crash", "scenario", "--instance"].map(str::to_owned));

@@ -149,6 +149,13 @@ impl Drop for Child {
     }
 }
 
+/// Returns the environment variable that limits Mesa's software renderer to half of the CPUs; the simulator and the
+/// monitor need the other half.
+pub fn software_renderer_threads() -> (&'static str, String) {
+    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    ("LP_NUM_THREADS", (all / 2).max(1).to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

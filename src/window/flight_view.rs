@@ -9,6 +9,7 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::ViewRect;
 use spandrel_view::live::LiveMoment;
 use spandrel_view::quality::Quality;
+use spandrel_view::scene::LoadingStep;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
@@ -17,10 +18,18 @@ use std::time::Duration;
 pub enum SceneLoading {
     /// Waiting for the session's seed.
     Waiting,
-    /// Building the site and its lighting.
-    Building(Receiver<RenderJob>),
+    /// Building the site and its lighting: the current step, and the thread's messages.
+    Building(LoadingStep, Receiver<LoadingMessage>),
     /// Ready to render.
     Ready(Box<ViewPanes>),
+}
+
+/// Message from the thread that builds the scene.
+pub enum LoadingMessage {
+    /// A step begins.
+    Step(LoadingStep),
+    /// The scene is ready.
+    Done(Box<RenderJob>),
 }
 
 /// Seed for the defects and traffic in the scene.
@@ -111,7 +120,7 @@ impl FlightView {
             ));
         }
         self.follow_seed(said);
-        match &self.scene {
+        match &mut self.scene {
             SceneLoading::Waiting => {
                 // The simulator's seed takes precedence over the scenario's seed. Real vehicles do not report a seed.
                 let seed = self.session.seed(said, real.then_some(self.job.0.seed.unwrap_or(0)));
@@ -120,14 +129,19 @@ impl FlightView {
                 tracing::info!("rendering with {}, {}, seed {seed}", screen.gpu.name, quality.name);
                 let (sender, receiver) = channel();
                 std::thread::spawn(move || {
-                    // Fails only if the window has since been closed.
-                    let _ = sender.send(RenderJob::build(scenario, vehicle, seed, &quality, at));
+                    // Sending fails only if the window has since been closed.
+                    let report = |step: LoadingStep| drop(sender.send(LoadingMessage::Step(step)));
+                    let job = RenderJob::build(scenario, vehicle, seed, (&quality, at), &report);
+                    let _ = sender.send(LoadingMessage::Done(Box::new(job)));
                 });
                 self.session.built_seed = Some(seed);
-                self.scene = SceneLoading::Building(receiver);
+                self.scene = SceneLoading::Building(LoadingStep::Site, receiver);
             }
-            SceneLoading::Building(receiver) => match receiver.try_recv() {
-                Ok(job) => self.scene = SceneLoading::Ready(Box::new(ViewPanes::new(screen, quality, job))),
+            SceneLoading::Building(current, receiver) => match receiver.try_recv() {
+                Ok(LoadingMessage::Step(step)) => *current = step,
+                Ok(LoadingMessage::Done(job)) => {
+                    self.scene = SceneLoading::Ready(Box::new(ViewPanes::new(screen, quality, *job)))
+                }
                 Err(TryRecvError::Empty) => {}
                 Err(TryRecvError::Disconnected) => {
                     return Err(AppError::failed("the scene could not be built (see the message in the terminal)"));
@@ -175,7 +189,7 @@ impl FlightView {
     pub fn panes(&self) -> Option<&ViewPanes> {
         match &self.scene {
             SceneLoading::Ready(panes) => Some(panes),
-            SceneLoading::Waiting | SceneLoading::Building(_) => None,
+            SceneLoading::Waiting | SceneLoading::Building(..) => None,
         }
     }
 

@@ -18,7 +18,7 @@ use spandrel_view::live::LiveMoment;
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
 use spandrel_view::quality::Quality;
-use spandrel_view::scene::Scene;
+use spandrel_view::scene::{LoadingStep, Scene};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::{self, Stage};
 use std::collections::BTreeMap;
@@ -39,10 +39,18 @@ pub struct RenderJob {
 }
 
 impl RenderJob {
-    /// Builds the site and the scene, which takes several seconds.
-    pub fn build(scenario: Scenario, vehicle: Vehicle, seed: u64, quality: &Quality, at: SimTime) -> Self {
+    /// Builds the site and the scene, which takes several seconds; reports each step before it begins.
+    pub fn build(
+        scenario: Scenario,
+        vehicle: Vehicle,
+        seed: u64,
+        (quality, at): (&Quality, SimTime),
+        report: &dyn Fn(LoadingStep),
+    ) -> Self {
+        report(LoadingStep::Site);
         let site = Site::build(&scenario, seed);
-        let scene = Arc::new(Scene::build(&scenario, &site, &vehicle, quality, at));
+        let scene = Arc::new(Scene::build_in_steps(&scenario, &site, &vehicle, (quality, at), report));
+        report(LoadingStep::Upload);
         Self { scenario, vehicle, site, scene }
     }
 

@@ -22,7 +22,10 @@ pub struct WindowText {
 pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) -> String {
     match scene {
         SceneLoading::Ready(_) => String::new(),
-        SceneLoading::Building(_) => "Loading scene ...".to_owned(),
+        SceneLoading::Building(step, _) => {
+            let (pct, what) = step.progress();
+            format!("Loading {what} ... {pct}%")
+        }
         SceneLoading::Waiting if heard => "Connected to the vehicle. Waiting for the session's seed ...".to_owned(),
         SceneLoading::Waiting => format!("Waiting for the vehicle at {} ...", listener.vehicle()),
     }

@@ -259,7 +259,7 @@ impl LessonCoach {
             | LessonStep::Land => None,
         };
         LessonStatus {
-            task: LessonTask::of(step),
+            task: task_of(step),
             step: self.current as u32 + 1,
             steps,
             progress: self.progress(step, input),
@@ -267,6 +267,23 @@ impl LessonCoach {
             radius_m,
             target,
         }
+    }
+}
+
+/// Returns the task of a step in a scenario file.
+fn task_of(step: &LessonStep) -> LessonTask {
+    match step {
+        LessonStep::Arm => LessonTask::Arm,
+        LessonStep::TakeOff { .. } => LessonTask::TakeOff,
+        LessonStep::Hover(_) => LessonTask::Hover,
+        LessonStep::Turn { .. } => LessonTask::Turn,
+        LessonStep::FlyPath { .. } => LessonTask::FlyPath,
+        LessonStep::StopAt(_) => LessonTask::StopAt,
+        LessonStep::TiltCamera { .. } => LessonTask::TiltCamera,
+        LessonStep::Lamp => LessonTask::Lamp,
+        LessonStep::Photograph => LessonTask::Photograph,
+        LessonStep::FlyHome => LessonTask::FlyHome,
+        LessonStep::Land => LessonTask::Land,
     }
 }
 

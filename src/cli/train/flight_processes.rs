@@ -12,7 +12,7 @@ use crate::io::files;
 use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
 use serde_json::Value;
-use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FromWindow, Purpose, ToWindow};
+use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FlownBy, FromWindow, Purpose, ToWindow};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
@@ -29,6 +29,8 @@ const MAX_MONITOR_RESTARTS: u32 = 10;
 pub struct FlightProcesses {
     monitor: Child,
     sim: Child,
+    /// The synthetic expert, if the trainee watches.
+    expert: Option<Child>,
     /// Ports and seed that the simulator announced, as JSON.
     pub ports: Value,
     /// Address that the simulator listens on.
@@ -61,6 +63,7 @@ impl FlightProcesses {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
         let common = common_args(&job, log);
+        let expert_args = expert_args(&common);
         let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
         let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
         let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
@@ -82,9 +85,20 @@ impl FlightProcesses {
         let ports = sim.read_announcement()?;
         let listen = args.ports.listen;
         let here = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
+        let vehicle = ports["gcs_port"].as_u64().map(|port| format!("{here}:{port}"));
+        let expert = match (choice.by, vehicle) {
+            (FlownBy::Trainee, _) => None,
+            (FlownBy::Expert, Some(vehicle)) => {
+                Some(Child::start("pilot", &[expert_args, vec!["--connect".to_owned(), vehicle]].concat())?)
+            }
+            (FlownBy::Expert, None) => {
+                return Err(AppError::invalid("the expert needs the ground station port, but --gcs-port is none"));
+            }
+        };
         Ok(Self {
             monitor,
             sim,
+            expert,
             ports,
             host: here,
             session,
@@ -114,7 +128,8 @@ impl FlightProcesses {
             vehicle: args.vehicle.clone(),
             seed: self.ports["seed"].as_u64().unwrap_or_default(),
             connect: self.port("payload_port")?,
-            fly: self.port("gcs_port"),
+            // A trainee who watches does not move the sticks.
+            fly: self.port("gcs_port").filter(|_| self.choice.by == FlownBy::Trainee),
             path_aids: offers::path_aids(&args.sessions, &self.choice.trainee),
         }))
     }
@@ -215,6 +230,9 @@ impl FlightProcesses {
     /// Stops both processes; the session is saved.
     pub fn finish(&mut self) {
         self.monitor.finish();
+        if let Some(expert) = &mut self.expert {
+            expert.finish();
+        }
         self.sim.finish();
     }
 }
@@ -224,12 +242,22 @@ fn exited_normally(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
 }
 
+/// Trainee ID of the sessions that the synthetic expert flies.
+const EXPERT_ID: &str = "synthetic-expert";
+
+fn expert_args(common: &[String]) -> Vec<String> {
+    [common, &["--skill", "expert"].map(str::to_owned)].concat()
+}
+
 fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
     [
         "--sessions",
         &args.sessions.display().to_string(),
         "--trainee",
-        &choice.trainee,
+        match choice.by {
+            FlownBy::Trainee => &choice.trainee,
+            FlownBy::Expert => EXPERT_ID,
+        },
         "--purpose",
         choice.purpose.word(),
         "--instance",

@@ -202,9 +202,10 @@ fn end_reason_text(end: &Value, session: &Path) -> String {
 mod tests {
     use super::*;
     use spandrel_monitor::folder::{SESSION, TELEMETRY};
+    use spandrel_view::flow::pipe::FlownBy;
 
     fn choice() -> FlightChoice {
-        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice }
+        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee }
     }
 
     #[test]

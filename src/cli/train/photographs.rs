@@ -1,6 +1,6 @@
 //! Renders a flight's photographs in the background, for its folder and its report.
 
-use super::window::software_renderer_threads;
+use crate::io::children::software_renderer_threads;
 use crate::io::stop::StopRequest;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};

@@ -15,7 +15,7 @@ use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
-use spandrel_view::flow::pipe::{FlightChoice, FromWindow, ToWindow};
+use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, ToWindow};
 use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
@@ -83,6 +83,7 @@ impl<'a> TrainRun<'a> {
             trainee: self.args.trainee.as_str().to_owned(),
             scenario: self.args.scenario_argument(),
             purpose: self.args.purpose.display_name(),
+            by: FlownBy::Trainee,
         };
         let mut next = if self.args.choose || self.args.scenario.is_none() {
             self.first_choice(&usual)
@@ -377,7 +378,12 @@ mod tests {
         let args = parse_args(&["--scenario", "drill-hover"]);
         let mut course = TrainRun::new(&args, tracing::Level::WARN, StopRequest::default());
         course.window = Some(WindowProcess::failing_process());
-        let choice = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
+        let choice = FlightChoice {
+            trainee: "anna".into(),
+            scenario: "drill-hover".into(),
+            purpose: Purpose::Practice,
+            by: FlownBy::Trainee,
+        };
         assert!(matches!(course.command_line_choice(&choice), NextFlight::Fly(flown) if flown == choice));
         assert!(course.window.is_none() && !course.has_display() && !course.closed);
         course.stop.request();

@@ -2,7 +2,7 @@
 
 use super::args::{Args, camera_file};
 use crate::io::addresses::PortChoice;
-use crate::io::children::Child;
+use crate::io::children::{Child, software_renderer_threads};
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
@@ -131,13 +131,6 @@ fn exit_message(closed: bool, is_flying: bool) -> &'static str {
         (true, true) => "the window was closed: the session continues without it",
         (false, _) => "the window failed (see its message in the terminal): the session continues without it",
     }
-}
-
-/// Returns the environment variable that limits Mesa's software renderer to half of the CPUs; the simulator and the
-/// monitor need the other half.
-pub fn software_renderer_threads() -> (&'static str, String) {
-    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    ("LP_NUM_THREADS", (all / 2).max(1).to_string())
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@
 
 use super::guidance::WayTo;
 use crate::dialect::{DEBUG_FLOAT_ARRAY_DATA, MavMessage};
-use spandrel_model::scenario::LessonStep;
 use spandrel_model::time::SimTime;
 
 /// Name in the message.
@@ -60,24 +59,6 @@ impl LessonTask {
         Self::Land,
         Self::Done,
     ];
-
-    /// Returns the task of a step in a scenario file.
-    #[must_use]
-    pub fn of(step: &LessonStep) -> Self {
-        match step {
-            LessonStep::Arm => Self::Arm,
-            LessonStep::TakeOff { .. } => Self::TakeOff,
-            LessonStep::Hover(_) => Self::Hover,
-            LessonStep::Turn { .. } => Self::Turn,
-            LessonStep::FlyPath { .. } => Self::FlyPath,
-            LessonStep::StopAt(_) => Self::StopAt,
-            LessonStep::TiltCamera { .. } => Self::TiltCamera,
-            LessonStep::Lamp => Self::Lamp,
-            LessonStep::Photograph => Self::Photograph,
-            LessonStep::FlyHome => Self::FlyHome,
-            LessonStep::Land => Self::Land,
-        }
-    }
 
     fn code(self) -> f32 {
         Self::ALL.iter().position(|task| *task == self).unwrap_or_default() as f32
@@ -152,6 +133,12 @@ impl LessonStatus {
         })
     }
 
+    /// Returns whether all steps are done.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.task == LessonTask::Done
+    }
+
     /// Returns what the trainee does in this step, such as "take off to 2 m".
     #[must_use]
     pub fn instruction(&self) -> String {
@@ -177,10 +164,8 @@ impl LessonStatus {
     /// "Lesson: 2/11 take off to 2 m".
     #[must_use]
     pub fn words(&self) -> String {
-        match self.task {
-            LessonTask::Done => format!("{TEXT_PREFIX}{}", self.instruction()),
-            _ => format!("{TEXT_PREFIX}{}/{} {}", self.step, self.steps, self.instruction()),
-        }
+        let number = if self.is_done() { String::new() } else { format!("{}/{} ", self.step, self.steps) };
+        format!("{TEXT_PREFIX}{number}{}", self.instruction())
     }
 }
 

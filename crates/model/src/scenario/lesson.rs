@@ -1,7 +1,6 @@
 //! A lesson: a list of steps that are done one after the other. Reads the steps from a scenario file.
 
 use super::point::point;
-use super::tasks::MAX_TASKS;
 use crate::frames::{Enu, Vec3};
 use crate::time::SimTime;
 use crate::toml::{Reader, Section};
@@ -90,8 +89,11 @@ const STEP_KINDS: [(&str, StepKind); 11] = [
     ("land", StepKind::Land),
 ];
 
-/// Reads the steps of a job with `tasks` tasks; empty if the job is not a lesson.
-pub(super) fn read(r: &mut Reader, root: &mut Section, tasks: usize, has_defects: bool) -> Vec<LessonStep> {
+/// Number of tasks of a job, and the largest number that a job may have.
+pub(super) type TaskCount = (usize, usize);
+
+/// Reads the steps of a job; empty if the job is not a lesson.
+pub(super) fn read(r: &mut Reader, root: &mut Section, tasks: TaskCount, has_defects: bool) -> Vec<LessonStep> {
     let mut steps = Vec::new();
     for mut s in r.sections(root, "lesson") {
         let kind = r.keyword(&mut s, "step", &STEP_KINDS, None);
@@ -107,14 +109,14 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, tasks: usize, has_defects
     steps
 }
 
-fn read_step(r: &mut Reader, s: &mut Section, kind: StepKind, tasks: usize) -> LessonStep {
+fn read_step(r: &mut Reader, s: &mut Section, kind: StepKind, (tasks, most): TaskCount) -> LessonStep {
     match kind {
         StepKind::Arm => LessonStep::Arm,
         StepKind::TakeOff => LessonStep::TakeOff { height_m: r.number(s, "height_m", (0.5, 100.0), Some(2.0)) },
         StepKind::Hover => LessonStep::Hover(read_place(r, s, 10.0)),
         StepKind::Turn => LessonStep::Turn { angle_rad: r.number(s, "angle_deg", (10.0, 180.0), Some(90.0)).to_radians() },
         StepKind::FlyPath => {
-            let task = r.integer(s, "task", (1, MAX_TASKS as i64), Some(1)) as u32;
+            let task = r.integer(s, "task", (1, i64::try_from(most).unwrap_or(i64::MAX)), Some(1)) as u32;
             if task as usize > tasks.max(1) {
                 r.add_problem(s, "task", &task.to_string(), &format!("at most {tasks}, the number of tasks"), "no such task");
             }

@@ -82,7 +82,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let tasks = super::tasks::read(r, root, &bridges);
     let mut defects = defects(r, root);
     let form = super::forms::read(r, root, &mut defects);
-    let lesson = super::lesson::read(r, root, tasks.len(), defects.count > 0);
+    let lesson = super::lesson::read(r, root, (tasks.len(), super::tasks::MAX_TASKS), defects.count > 0);
     let mut scenario = Scenario {
         name,
         title,

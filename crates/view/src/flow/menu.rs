@@ -59,6 +59,8 @@ pub enum MenuAction {
     End,
     /// Fly the same job again.
     FlyAgain,
+    /// Watch the synthetic expert fly the job.
+    WatchExpert,
     /// Fly the recommended job.
     FlyNext,
     /// Choose another job.

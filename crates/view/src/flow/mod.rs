@@ -28,7 +28,7 @@ pub use tutorial::PICTURES;
 use crate::arrange::ViewLayout;
 use crate::hud::ScreenPoint;
 use crate::path_guide::PathAids;
-use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, Purpose, ToWindow};
+use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, Purpose, ToWindow};
 use std::collections::{BTreeSet, VecDeque};
 
 /// State of the window.
@@ -66,7 +66,7 @@ impl WindowFlow {
             page: Page::Opening,
             focus: 0,
             offers: None,
-            choice: FlightChoice { trainee: String::new(), scenario: String::new(), purpose: Purpose::Practice },
+            choice: FlightChoice::default(),
             controls: ControllerStatus::default(),
             flying: None,
             ended: None,
@@ -227,7 +227,11 @@ impl WindowFlow {
             }
             ToWindow::Ended(ended) => {
                 self.ended = Some(ended);
-                if let Some(flown) = self.flying.take().filter(|flown| flown.choice.purpose == Purpose::Practice) {
+                if let Some(flown) = self
+                    .flying
+                    .take()
+                    .filter(|flown| flown.choice.purpose == Purpose::Practice && flown.choice.by == FlownBy::Trainee)
+                {
                     self.tutorial_done.insert(flown.choice.trainee);
                 }
                 self.out.push_back(WindowRequest::LeaveFlight);

@@ -88,8 +88,19 @@ impl JobBriefing {
     }
 }
 
+/// Who flies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FlownBy {
+    /// The trainee.
+    #[default]
+    Trainee,
+    /// The synthetic expert, while the trainee watches.
+    Expert,
+}
+
 /// Selection of trainee, job, and purpose.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct FlightChoice {
     /// The trainee's pseudonym.
     pub trainee: String,
@@ -97,6 +108,9 @@ pub struct FlightChoice {
     pub scenario: String,
     /// Purpose of the flight.
     pub purpose: Purpose,
+    /// Who flies.
+    #[serde(default)]
+    pub by: FlownBy,
 }
 
 /// Available choices and the current selection.
@@ -241,7 +255,12 @@ mod tests {
     use super::*;
 
     fn choice() -> FlightChoice {
-        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Assessment }
+        FlightChoice {
+            trainee: "anna".into(),
+            scenario: "drill-hover".into(),
+            purpose: Purpose::Assessment,
+            by: FlownBy::Trainee,
+        }
     }
 
     #[test]

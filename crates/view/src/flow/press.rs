@@ -1,7 +1,7 @@
 //! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
-use super::pipe::{FlightOptions, FlightSummary, FromWindow, NextJob, Purpose};
+use super::pipe::{FlightChoice, FlightOptions, FlightSummary, FlownBy, FromWindow, NextJob, Purpose};
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
 /// Maximum length of a pseudonym.
@@ -102,6 +102,7 @@ impl WindowFlow {
             | MenuAction::End
             | MenuAction::FlyAgain
             | MenuAction::FlyNext
+            | MenuAction::WatchExpert
             | MenuAction::ChooseOther
             | MenuAction::Report
             | MenuAction::OpenQuestionnaire => {}
@@ -142,7 +143,10 @@ impl WindowFlow {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
             MenuAction::CheckController if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
-            MenuAction::CheckController => self.show_page(Page::Controls),
+            MenuAction::CheckController => {
+                self.choice.by = FlownBy::Trainee;
+                self.show_page(Page::Controls);
+            }
             MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
             MenuAction::Sound => self.toggle_sound(),
             MenuAction::FindController => self.out.push_back(WindowRequest::FindController),
@@ -172,6 +176,11 @@ impl WindowFlow {
                 self.send(FromWindow::Again);
             }
             MenuAction::FlyNext => self.fly_next(),
+            MenuAction::WatchExpert if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
+            MenuAction::WatchExpert => {
+                (self.choice.purpose, self.choice.by) = (Purpose::Practice, FlownBy::Expert);
+                self.choose();
+            }
             MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
             MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
@@ -190,7 +199,12 @@ impl WindowFlow {
             self.notice = Some(NO_TRAINEE.into());
             return;
         }
-        (self.choice.scenario, self.choice.purpose) = (next.scenario, Purpose::Practice);
+        self.choice = FlightChoice {
+            scenario: next.scenario,
+            purpose: Purpose::Practice,
+            by: FlownBy::Trainee,
+            trainee: self.choice.trainee.clone(),
+        };
         if self.page == Page::Results {
             self.brief();
         } else {

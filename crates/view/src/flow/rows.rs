@@ -42,6 +42,7 @@ impl WindowFlow {
             MenuRow::choice(MenuAction::Scenario, "Job", title),
             MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
             MenuRow::button(MenuAction::CheckController, "Next: check controller"),
+            MenuRow::button(MenuAction::WatchExpert, "Watch an expert fly this job"),
             MenuRow::button(MenuAction::OpenTutorial, "Read the tutorial"),
             MenuRow::button(MenuAction::Sound, if self.sound { "Sound: on" } else { "Sound: off" }),
             MenuRow::button(MenuAction::Quit, "Quit"),

@@ -1,8 +1,8 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FromWindow, JobBriefing, JobOffer, NextJob, Purpose,
-    ToWindow, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, JobBriefing, JobOffer, NextJob,
+    Purpose, ToWindow, TraineeSummary,
 };
 use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
 use crate::hud::{DrawItem, ScreenPoint};
@@ -22,7 +22,12 @@ fn offers() -> FlightOptions {
             TraineeSummary { name: "bert".into(), sessions: 0, practices: 0, last: None, next: None },
         ],
         scenarios: vec![job("drill-hover", "Drill: hover"), job("two-bridges", "Two bridges")],
-        choice: FlightChoice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice },
+        choice: FlightChoice {
+            trainee: "anna".into(),
+            scenario: "two-bridges".into(),
+            purpose: Purpose::Practice,
+            by: FlownBy::Trainee,
+        },
         web: Some("http://127.0.0.1:8080".into()),
         lesson: None,
     }
@@ -99,7 +104,8 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
     press(&mut flow, &[KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "a returning trainee must not see the tutorial");
-    let wanted = FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice };
+    let wanted =
+        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
     assert_eq!(flow.page(), Page::Flight);
@@ -133,8 +139,29 @@ fn exact_the_recommended_job_is_one_key_away_before_and_after_a_flight() {
     let at = flow.rows().iter().position(|row| row.action == MenuAction::FlyNext).unwrap();
     pending_requests(&mut flow);
     press(&mut flow, &[KeyPress::Row(at)]);
-    let wanted = FlightChoice { trainee: "bert".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice };
+    let wanted =
+        FlightChoice { trainee: "bert".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice, by: FlownBy::Trainee };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted))]);
+}
+
+#[test]
+fn exact_watching_an_expert_does_not_count_as_practice() {
+    let mut flow = started();
+    press(&mut flow, &[KeyPress::Right]);
+    assert!(flow.choice().trainee == "bert" && flow.needs_tutorial());
+    let at = flow.rows().iter().position(|row| row.action == MenuAction::WatchExpert).unwrap();
+    press(&mut flow, &[KeyPress::Row(at)]);
+    let wanted = FlightChoice { by: FlownBy::Expert, ..flow.choice().clone() };
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
+    flow.handle_message(flying(&wanted));
+    flow.handle_message(ToWindow::Ended(ended()));
+    assert!(flow.needs_tutorial(), "bert has not flown");
+    // The next flight is the trainee's own.
+    let at = flow.rows().iter().position(|row| row.action == MenuAction::ChooseOther).unwrap();
+    press(&mut flow, &[KeyPress::Row(at)]);
+    let at = flow.rows().iter().position(|row| row.action == MenuAction::CheckController).unwrap();
+    press(&mut flow, &[KeyPress::Row(at)]);
+    assert_eq!(flow.choice().by, FlownBy::Trainee);
 }
 
 #[test]
@@ -154,7 +181,7 @@ fn exact_new_trainee_gets_the_tutorial_and_may_skip_it() {
     flow.handle_message(ToWindow::Refused { words: "the port is taken".into() });
     assert_eq!((flow.page(), flow.notice()), (Page::Start, Some("the port is taken")));
     // Reopens the tutorial from the start page and reads it to the end.
-    press(&mut flow, &[KeyPress::Row(4)]);
+    press(&mut flow, &[KeyPress::Row(5)]);
     (0..6).for_each(|_| flow.press(KeyPress::Enter));
     assert_eq!((flow.page(), pending_requests(&mut flow).len()), (Page::Start, 0));
 }
@@ -374,7 +401,7 @@ fn every_page() -> Vec<(String, WindowFlow)> {
     });
     all.push(("calibrating".into(), controls));
     let mut tutorial = started();
-    tutorial.press(KeyPress::Row(4));
+    tutorial.press(KeyPress::Row(5));
     for page in 1..=6 {
         all.push((format!("tutorial-{page}"), tutorial.clone()));
         tutorial.press(KeyPress::Enter);

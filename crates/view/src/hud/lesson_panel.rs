@@ -71,10 +71,7 @@ pub(super) fn lesson_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
 }
 
 fn title(status: &LessonStatus) -> String {
-    match status.task {
-        LessonTask::Done => "Lesson complete".to_owned(),
-        _ => format!("Step {} of {}", status.step, status.steps),
-    }
+    if status.is_done() { "Lesson complete".to_owned() } else { format!("Step {} of {}", status.step, status.steps) }
 }
 
 /// Returns the words as a sentence with a degree sign.

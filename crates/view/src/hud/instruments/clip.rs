@@ -1,6 +1,6 @@
 //! Clips drawings to the rectangle of an instrument.
 
-use super::Area;
+use super::area::Area;
 
 type Point = (f64, f64);
 

@@ -3,7 +3,7 @@
 use super::super::pane::Pane;
 use super::super::state::Hud;
 use super::super::{DrawItem, HudColor, TextAlign};
-use super::Area;
+use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
 use super::site_outline::{Point, SiteOutline};
 use spandrel_model::frames::{Enu, Vec3};

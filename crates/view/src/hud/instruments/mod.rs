@@ -1,5 +1,6 @@
 //! Instruments beside the camera view: a navigation display, a map and a side profile of the site.
 
+mod area;
 mod clip;
 mod map;
 mod navigation;
@@ -13,6 +14,7 @@ pub use site_outline::SiteOutline;
 use super::DrawItem;
 use super::pane::Pane;
 use super::state::Hud;
+use area::Area;
 
 /// Font size relative to the shorter side of the instruments' area.
 const FONT_RATIO: f64 = 0.045;
@@ -26,31 +28,6 @@ const HEIGHT_SHARES: [f64; 3] = [0.37, 0.40, 0.23];
 /// Largest share of the width for the navigation display, and the map's share of the rest.
 const MAX_NAVIGATION_SHARE: f64 = 0.35;
 const MAP_SHARE: f64 = 0.55;
-
-/// Rectangle of an instrument, px.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Area {
-    x: f64,
-    y: f64,
-    width: f64,
-    height: f64,
-}
-
-impl Area {
-    fn middle(self) -> (f64, f64) {
-        (self.x + 0.5 * self.width, self.y + 0.5 * self.height)
-    }
-
-    fn corner(self) -> (f64, f64) {
-        (self.x + self.width, self.y + self.height)
-    }
-
-    /// Returns the rectangle without a margin on each side.
-    fn inside(self, margin: f64) -> Self {
-        let (width, height) = ((self.width - 2.0 * margin).max(1.0), (self.height - 2.0 * margin).max(1.0));
-        Self { x: self.x + margin, y: self.y + margin, width, height }
-    }
-}
 
 /// Returns the instruments for an area of the given size, px at standard pixel density. Without reference paths, as in an
 /// assessment, there is only the navigation display.

@@ -4,7 +4,7 @@
 use super::super::pane::Pane;
 use super::super::state::Hud;
 use super::super::{DrawItem, HudColor, TextAlign};
-use super::Area;
+use super::area::Area;
 use super::clip::clip_at;
 use spandrel_model::math;
 

@@ -3,7 +3,7 @@
 use super::super::pane::Pane;
 use super::super::state::Hud;
 use super::super::{DrawItem, HudColor, TextAlign};
-use super::Area;
+use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
 use super::site_outline::{Point, SideView, SiteOutline};
 
@@ -60,8 +60,12 @@ fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale
     let ((left, low), (right, _)) = side.bounds;
     let water = vec![(left, low), (right, low), (right, water_level_m), (left, water_level_m)];
     let ground = side.ground.windows(2).filter(|pair| pair[0].1 > low || pair[1].1 > low);
-    let ground = ground
-        .map(|pair| vec![(pair[0].0, low), (pair[1].0, low), (pair[1].0, pair[1].1.max(low)), (pair[0].0, pair[0].1.max(low))]);
+    // Neighbors overlap, so that no line shows between them.
+    let overlap_m = 1.0 / scale.px_per_m;
+    let ground = ground.map(|pair| {
+        let (from, to) = (pair[0].0, pair[1].0 + overlap_m);
+        vec![(from, low), (to, low), (to, pair[1].1.max(low)), (from, pair[0].1.max(low))]
+    });
     let shapes = [(water, HudColor::Water)].into_iter().chain(ground.map(|shape| (shape, HudColor::Earth)));
     let shapes = shapes.chain(side.members.iter().map(|shape| (shape.clone(), HudColor::Structure)));
     let drawn = shapes.filter_map(|(shape, color)| {
