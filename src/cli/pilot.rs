@@ -154,7 +154,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             reported = true;
             println!(
                 "{}",
-                json!({ "reason": report.reason, "at_s": report.at.s(), "tasks_flown": report.tasks_flown, "pictures": report.pictures })
+                json!({ "reason": report.reason, "at_s": report.at.s(), "tasks_flown": report.tasks_flown, "pictures": report.pictures,
+                    "lost_s": report.lost.s() })
             );
             if !args.leash {
                 break;

@@ -65,7 +65,7 @@ fn exact_messages_page_matches_the_code() {
         .map(|f| f.name)
         .collect();
     let about = format!(
-        "The vehicle sends these streams without a request, at rates that depend on the type of link. With `--flavor {}`, ground stations and SDKs \
+        "The vehicle sends these streams at rates that depend on the type of link, most of them without a request. With `--flavor {}`, ground stations and SDKs \
          receive only heartbeats until they request streams; payload links receive all streams immediately. SET_MESSAGE_INTERVAL changes a \
          rate, and REQUEST_MESSAGE requests a single message. [Scoring data](wire.md#scoring-data) lists the named values used for scoring.",
         asks.join(" or ")

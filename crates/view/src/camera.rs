@@ -11,8 +11,6 @@ const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 pub const NEAR_PLANE_M: f64 = 0.05;
 /// The inspector's vertical field of view, rad (60 deg: close to a natural perspective on a screen; estimate).
 pub const INSPECTOR_FOV_RAD: f64 = 1.05;
-/// Eye height of the inspector above the ground, m (estimate).
-pub const EYE_HEIGHT_M: f64 = 1.65;
 
 /// A pinhole camera.
 #[derive(Debug, Clone, Copy, PartialEq)]

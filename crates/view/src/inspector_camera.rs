@@ -1,8 +1,9 @@
 //! The inspector's view direction and zoom. The view follows the aircraft or looks around freely.
 
-use super::camera::{EYE_HEIGHT_M, INSPECTOR_FOV_RAD, PinholeCamera};
+use super::camera::{INSPECTOR_FOV_RAD, PinholeCamera};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
+use spandrel_model::scenario::INSPECTOR_EYE_HEIGHT_M;
 
 /// Minimum distance at which the view zooms in on the aircraft automatically, as if through binoculars, m.
 const AUTO_ZOOM_START_M: f64 = 60.0;
@@ -41,7 +42,7 @@ impl InspectorCamera {
             self.zoom = zoom.clamp(*ZOOM_RANGE.start(), *ZOOM_RANGE.end());
             self.follows = false;
             self.bearing_rad = math::atan2(to.east(), to.north());
-            self.pitch_rad = math::atan2(to.up() - EYE_HEIGHT_M, to.horizontal_norm());
+            self.pitch_rad = math::atan2(to.up() - INSPECTOR_EYE_HEIGHT_M, to.horizontal_norm());
         }
         self.bearing_rad = math::wrap_pi(self.bearing_rad + right_rad);
         self.pitch_rad = (self.pitch_rad + up_rad).clamp(-MAX_PITCH_RAD, MAX_PITCH_RAD);
@@ -79,7 +80,7 @@ impl InspectorCamera {
             (true, true) => level.unit(),
             (true, false) => Vec3::new(0.0, 1.0, 0.0),
         };
-        let eye_m = inspector_m + ahead * EYE_OFFSET_M + Vec3::new(0.0, 0.0, EYE_HEIGHT_M);
+        let eye_m = inspector_m + ahead * EYE_OFFSET_M + Vec3::new(0.0, 0.0, INSPECTOR_EYE_HEIGHT_M);
         let (up, flat) = math::sin_cos(self.pitch_rad);
         let target = if self.follows { drone_m } else { eye_m + ahead * flat + Vec3::new(0.0, 0.0, up) };
         PinholeCamera::at(eye_m, target, self.vfov_rad((drone_m - eye_m).norm()), aspect)
@@ -95,7 +96,7 @@ mod tests {
     #[test]
     fn exact_view_follows_the_aircraft_until_the_user_turns_it() {
         let mut gaze = InspectorCamera::default();
-        let north = Vec3::new(0.0, 40.0, EYE_HEIGHT_M);
+        let north = Vec3::new(0.0, 40.0, INSPECTOR_EYE_HEIGHT_M);
         assert!((gaze.eye(INSPECTOR_M, north, 1.5).forward.north() - 1.0).abs() < 1e-9);
         gaze.turn(std::f64::consts::FRAC_PI_2, 0.0, north - INSPECTOR_M);
         let east = gaze.eye(INSPECTOR_M, north, 1.5).forward;
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn exact_drag_tracks_the_pointer_and_keeps_the_magnification() {
         let mut gaze = InspectorCamera::default();
-        let far = Vec3::new(0.0, 150.0, EYE_HEIGHT_M);
+        let far = Vec3::new(0.0, 150.0, INSPECTOR_EYE_HEIGHT_M);
         let before = gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad;
         // The camera is slightly closer to the aircraft than the inspector's position.
         let apart = 0.01;
@@ -123,7 +124,7 @@ mod tests {
     #[test]
     fn exact_zoom_divides_the_tangent_and_is_limited() {
         let mut gaze = InspectorCamera::default();
-        let far = Vec3::new(0.0, 30.0, EYE_HEIGHT_M);
+        let far = Vec3::new(0.0, 30.0, INSPECTOR_EYE_HEIGHT_M);
         let half = |gaze: &InspectorCamera| math::tan(0.5 * gaze.eye(INSPECTOR_M, far, 1.0).hfov_rad);
         let plain = half(&gaze);
         gaze.zoom(2.0);

@@ -66,6 +66,8 @@ pub struct PilotReport {
     pub tasks_flown: usize,
     /// Number of pictures taken.
     pub pictures: u32,
+    /// Time in which the pilot moved sticks the wrong way.
+    pub lost: SimTime,
 }
 
 /// Phase of the flight.
@@ -231,7 +233,10 @@ impl Pilot {
         let Some(belief) = self.perception.estimate(&skill, (surface, cued), dt_s) else { return };
         let axes = self.fly_phase(&belief);
         let axes = match self.phase {
-            PilotPhase::Fly => self.orientation.step(axes, &skill, self.faces_pilot(&motion), self.now, dt_s),
+            PilotPhase::Fly => {
+                self.orientation.look_at_panel(self.link.status.guided_distance_m, &skill, self.now);
+                self.orientation.step(axes, &skill, self.faces_pilot(&motion), self.now, dt_s)
+            }
             PilotPhase::Prepare | PilotPhase::Climb | PilotPhase::Descend | PilotPhase::Done => axes,
         };
         let axes = self.stick_response.step(axes, &skill, self.now, dt_s);
@@ -359,8 +364,13 @@ impl Pilot {
     }
 
     fn finish(&mut self, reason: &str) {
-        self.report =
-            Some(PilotReport { reason: reason.into(), at: self.now, tasks_flown: self.tasks_flown, pictures: self.pictures });
+        self.report = Some(PilotReport {
+            reason: reason.into(),
+            at: self.now,
+            tasks_flown: self.tasks_flown,
+            pictures: self.pictures,
+            lost: self.orientation.lost(),
+        });
         self.enter(PilotPhase::Done);
     }
 }

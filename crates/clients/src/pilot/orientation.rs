@@ -34,6 +34,10 @@ pub struct Orientation {
     reversed: ReversedAxes,
     wrong_until: SimTime,
     looking_until: SimTime,
+    /// Smallest distance on the task panel since the episode began, m.
+    nearest_m: f64,
+    /// Time spent in episodes.
+    lost: SimTime,
 }
 
 impl Orientation {
@@ -41,13 +45,36 @@ impl Orientation {
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let random = RandomStream::new(seed, "pilot orientation");
-        Self { random, reversed: ReversedAxes::Mirrored, wrong_until: SimTime::ZERO, looking_until: SimTime::ZERO }
+        Self {
+            random,
+            reversed: ReversedAxes::Mirrored,
+            wrong_until: SimTime::ZERO,
+            looking_until: SimTime::ZERO,
+            nearest_m: f64::INFINITY,
+            lost: SimTime::ZERO,
+        }
     }
 
     /// Checks whether an episode is in progress.
     #[must_use]
     pub fn is_lost(&self, now: SimTime) -> bool {
         now < self.wrong_until
+    }
+
+    /// Returns the time spent in episodes.
+    #[must_use]
+    pub fn lost(&self) -> SimTime {
+        self.lost
+    }
+
+    /// Ends an episode when the distance on the task panel grows. `distance_m` is that distance, if there is a panel.
+    pub fn look_at_panel(&mut self, distance_m: Option<f64>, skill: &Skill, now: SimTime) {
+        let Some(distance_m) = distance_m.filter(|_| self.is_lost(now) && skill.panel_growth_m > 0.0) else { return };
+        self.nearest_m = self.nearest_m.min(distance_m);
+        if distance_m >= self.nearest_m + skill.panel_growth_m {
+            self.wrong_until = now;
+            self.looking_until = now + SimTime::from_s(REORIENTATION_S);
+        }
     }
 
     /// Returns the axes that the pilot's hands aim for, given those that a pilot with full orientation would choose.
@@ -60,9 +87,11 @@ impl Orientation {
             self.reversed = choices[self.random.below(choices.len())];
             self.wrong_until = now + SimTime::from_s(wait_s.clamp(RECOVERY_RANGE_S.0, RECOVERY_RANGE_S.1));
             self.looking_until = self.wrong_until + SimTime::from_s(REORIENTATION_S);
+            self.nearest_m = f64::INFINITY;
         }
         let [forward, right, up, yaw] = axes;
         if self.is_lost(now) {
+            self.lost = self.lost + SimTime::from_s(dt_s);
             return match self.reversed {
                 ReversedAxes::Sideways => [forward, -right, up, -yaw],
                 ReversedAxes::Forward => [-forward, right, up, yaw],
@@ -107,6 +136,27 @@ mod tests {
         assert_eq!(axes[noticed], [0.0; 4], "releases the sticks");
         let resumed = axes[noticed..].iter().position(|a| *a != [0.0; 4]).expect("continues");
         assert_eq!(resumed, (REORIENTATION_S / STEP_S) as usize, "steps of {STEP_S} s without input");
+    }
+
+    #[test]
+    fn exact_a_growing_distance_on_the_panel_ends_an_episode() {
+        let skill = Skill { disorientations_per_min: 30.0, recovery_s: 6.0, panel_growth_m: 2.0, ..Skill::NOVICE };
+        let lost_s = |distance: &dyn Fn(f64) -> Option<f64>| {
+            let mut mind = Orientation::new(4);
+            let mut since_s = 0.0;
+            for k in 0..30_000 {
+                let now = SimTime::from_ms(20 * k);
+                mind.step(WISH, &skill, false, now, STEP_S);
+                // The distance grows at 2 m/s while the pilot flies the wrong way.
+                since_s = if mind.is_lost(now) { since_s + STEP_S } else { 0.0 };
+                mind.look_at_panel(distance(since_s), &skill, now);
+            }
+            mind.lost().s()
+        };
+        let [without, with, shrinking] =
+            [lost_s(&|_| None), lost_s(&|since_s| Some(40.0 + 2.0 * since_s)), lost_s(&|since_s| Some(40.0 - 2.0 * since_s))];
+        assert!(with < 0.5 * without, "{with} s with the panel, {without} s without");
+        assert!((shrinking - without).abs() < 1e-9, "a distance that shrinks is no sign: {shrinking} s, {without} s");
     }
 
     #[test]

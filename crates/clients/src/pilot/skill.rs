@@ -68,6 +68,8 @@ pub struct Skill {
     pub disorientations_per_min: f64,
     /// Mean time until the pilot notices the error, s.
     pub recovery_s: f64,
+    /// Growth of the distance on the task panel at which the pilot notices the error, m; 0 for a pilot who does not look at it.
+    pub panel_growth_m: f64,
     /// Perceived distance to a surface divided by the true distance.
     pub distance_ratio: f64,
     /// Drifting relative error of perceived distances (1 sigma).
@@ -181,7 +183,7 @@ macro_rules! field {
 
 /// All numbers, in the order of the reference page.
 #[rustfmt::skip]
-pub const FIELDS: [SkillField; 31] = [
+pub const FIELDS: [SkillField; 32] = [
     field!(delay_s, "s", 0.0 to 0.9, Delay, "delay from an event to the control response", "Pfeiffer and Scaramuzza: 220 ms; others estimate"),
     field!(gain, "", 0.1 to 2.0, Gain, "gain of the position and heading loops, relative to the trained pilot", "estimate"),
     field!(noise, "", 0.0 to 6.0, Noise, "noise of perceived speed and heading, and of the hands, relative to the trained pilot", "estimate; McRuer and Jex for the trained pilot's hands"),
@@ -210,6 +212,7 @@ pub const FIELDS: [SkillField; 31] = [
     field!(patience_s, "s", 2.0 to 120.0, Photo, "time after which the pilot gives up on photographing a defect", "estimate"),
     field!(disorientations_per_min, "1/min", 0.0 to 30.0, Orientation, "episodes in which the pilot moves sticks the wrong way; three times as many while the drone faces the pilot", "estimate"),
     field!(recovery_s, "s", 0.1 to 20.0, Orientation, "mean time until the pilot notices the wrong direction", "estimate"),
+    field!(panel_growth_m, "m", 0.0 to 20.0, Orientation, "growth of the distance to the next place on the task panel at which the pilot notices the wrong direction; 0: does not look at the panel", "estimate: the panel shows whole meters"),
     field!(distance_ratio, "", 0.3 to 1.5, Judgment, "perceived distance to a surface divided by the true distance", "Renner et al. 2013: 0.74 on average in virtual environments; with feedback near 1 (estimate)"),
     field!(distance_error, "", 0.0 to 1.0, Judgment, "drifting relative error of perceived distances (1 sigma)", "estimate"),
     field!(position_error_m, "m", 0.0 to 5.0, Judgment, "drifting error of the perceived position (1 sigma per axis)", "estimate"),
@@ -246,6 +249,7 @@ impl Skill {
         patience_s: 14.0,
         disorientations_per_min: 1.5,
         recovery_s: 3.0,
+        panel_growth_m: 0.0,
         distance_ratio: 0.8,
         distance_error: 0.25,
         position_error_m: 1.0,
@@ -280,6 +284,7 @@ impl Skill {
         patience_s: 18.0,
         disorientations_per_min: 0.08,
         recovery_s: 0.9,
+        panel_growth_m: 0.0,
         distance_ratio: 0.92,
         distance_error: 0.12,
         position_error_m: 0.4,
@@ -314,6 +319,7 @@ impl Skill {
         patience_s: 25.0,
         disorientations_per_min: 0.01,
         recovery_s: 0.6,
+        panel_growth_m: 0.0,
         distance_ratio: 1.0,
         distance_error: 0.06,
         position_error_m: 0.25,

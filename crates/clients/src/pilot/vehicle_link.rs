@@ -2,6 +2,7 @@
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::{self, Truth};
 use spandrel_mavlink::dialect::{
@@ -10,6 +11,7 @@ use spandrel_mavlink::dialect::{
 use spandrel_mavlink::station;
 use spandrel_model::frames::Rotation;
 use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::math;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
@@ -49,6 +51,8 @@ pub struct VehicleStatus {
     pub contact: ContactKind,
     /// Gimbal pitch, rad.
     pub gimbal_pitch_rad: f64,
+    /// Distance to the next place in the monitor's latest guidance, m; `None` without guidance or without a place.
+    pub guided_distance_m: Option<f64>,
 }
 
 /// Encoder, decoder, and outgoing datagrams.
@@ -119,6 +123,11 @@ impl VehicleLink {
             MavMessage::GIMBAL_DEVICE_ATTITUDE_STATUS(gimbal) => {
                 if let Some(attitude) = Rotation::from_wxyz(gimbal.q.map(f64::from)) {
                     self.status.gimbal_pitch_rad = attitude.euler().1;
+                }
+            }
+            MavMessage::DEBUG_FLOAT_ARRAY(_) => {
+                if let Some(guidance) = Guidance::of(message) {
+                    self.status.guided_distance_m = guidance.way.map(|way| math::hypot(way.distance_m, way.up_m));
                 }
             }
             MavMessage::NAMED_VALUE_INT(named) => match NamedValue::from_int(named) {

@@ -130,6 +130,17 @@ pub struct GroundTeam {
     pub home_radius_m: f64,
 }
 
+/// Eye height of the inspector above the ground, m (estimate).
+pub const INSPECTOR_EYE_HEIGHT_M: f64 = 1.65;
+
+impl GroundTeam {
+    /// Returns the position of the inspector's eyes, m.
+    #[must_use]
+    pub fn inspector_eye_m(&self) -> Vec3<Enu> {
+        self.inspector_m + Vec3::new(0.0, 0.0, INSPECTOR_EYE_HEIGHT_M)
+    }
+}
+
 /// An inspection task with its reference path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Task {

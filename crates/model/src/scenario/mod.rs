@@ -19,9 +19,9 @@ pub use certification::CertificationParams;
 pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
-    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION, LightSpec,
-    PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task, TerrainSource, TerrainSpec, TrafficSpec,
-    WindEvent, WindModel, WindSpec,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION,
+    INSPECTOR_EYE_HEIGHT_M, LightSpec, PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task,
+    TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
 pub use read::{FORMAT, SiblingLoader, read, read_with_keys};

@@ -1,5 +1,5 @@
-//! Streamed and requestable messages: one row per message, with its rates by kind of link (docs/src/reference/wire.md,
-//! "Streams"). The autopilot and payload interfaces build the messages.
+//! Streamed and requestable messages: one row per message, with its rates by kind of link
+//! (docs/src/reference/messages.md, which is generated from this table). The autopilot and payload interfaces build the messages.
 
 pub use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::StreamInputs;

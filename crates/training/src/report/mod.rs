@@ -10,6 +10,7 @@ pub mod coverage;
 pub mod defects;
 pub mod feedback;
 pub mod formatting;
+pub mod line_of_sight;
 pub mod mesh;
 pub mod page;
 pub mod pictures;
@@ -105,6 +106,8 @@ pub struct Review {
     pub next: Vec<PlanStep>,
     /// Things to do better, and the scenario to fly next.
     pub advice: SessionAdvice,
+    /// Time out of the inspector's sight.
+    pub out_of_sight: line_of_sight::OutOfSight,
     /// Statistics of the telemetry link.
     pub link: LinkCounts,
 }
@@ -142,6 +145,7 @@ impl Review {
             (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, assessment));
         let scored = ScoredFlight { scene, metadata: &metadata, assessed_session: &assessed_session };
         let (next, advice) = scored.plan_and_advice(&defects);
+        let out_of_sight = line_of_sight::OutOfSight::measure(scenario, &site, frames);
         let AssessedSession { assessment, frames, .. } = assessed_session;
         Ok(Self {
             crashes,
@@ -151,6 +155,7 @@ impl Review {
             coverage,
             next,
             advice,
+            out_of_sight,
             link,
             metadata,
             scenario: scenario.clone(),

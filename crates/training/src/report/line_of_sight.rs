@@ -1,0 +1,108 @@
+//! Time during which a bridge or the ground hid the drone from the inspector. In the U.S., the pilot or an observer must be able
+//! to see the drone throughout the flight (14 CFR 107.31).
+
+use super::formatting;
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::site::Site;
+
+/// Time between two checks, s.
+const CHECK_INTERVAL_S: f64 = 0.5;
+/// Objects this near in front of the drone do not count as hiding it, m (about its size).
+const DRONE_CLEARANCE_M: f64 = 0.5;
+/// Shortest time that is worth mentioning, s.
+const MIN_SHOWN_S: f64 = 1.0;
+
+/// Time out of the inspector's sight.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OutOfSight {
+    /// All of it, s.
+    pub total_s: f64,
+    /// Longest part without interruption, s.
+    pub longest_s: f64,
+    /// Beginning of the longest part, s since lift-off.
+    pub longest_from_s: f64,
+}
+
+impl OutOfSight {
+    /// Measures a flight.
+    #[must_use]
+    pub fn measure(scenario: &Scenario, site: &Site, frames: &[Frame]) -> Self {
+        let eye_m = scenario.ground_team.inspector_eye_m();
+        let Some(first) = frames.first() else { return Self::default() };
+        let mut checks: Vec<(f64, bool)> = Vec::new();
+        for frame in frames {
+            let t_s = (frame.time - first.time).s();
+            if checks.last().is_none_or(|(last_s, _)| t_s - last_s >= CHECK_INTERVAL_S) {
+                checks.push((t_s, is_hidden(site, eye_m, frame.position_m)));
+            }
+        }
+        Self::of_checks(&checks)
+    }
+
+    /// Sums checks: the time of each, s since lift-off, and whether the drone was hidden until the next one.
+    fn of_checks(checks: &[(f64, bool)]) -> Self {
+        let mut found = Self::default();
+        let mut since: Option<f64> = None;
+        for pair in checks.windows(2) {
+            let ((from_s, hidden), (until_s, _)) = (pair[0], pair[1]);
+            if !hidden {
+                since = None;
+                continue;
+            }
+            found.total_s += until_s - from_s;
+            let begun_s = *since.get_or_insert(from_s);
+            if until_s - begun_s > found.longest_s {
+                (found.longest_s, found.longest_from_s) = (until_s - begun_s, begun_s);
+            }
+        }
+        found
+    }
+
+    /// Returns the measurement as a sentence; `None` if the drone was always in sight.
+    #[must_use]
+    pub fn sentence(&self) -> Option<String> {
+        (self.total_s >= MIN_SHOWN_S).then(|| {
+            format!(
+                "Out of the inspector's sight for {}; longest for {}, from {}.",
+                formatting::duration(self.total_s),
+                formatting::duration(self.longest_s),
+                formatting::clock(self.longest_from_s)
+            )
+        })
+    }
+}
+
+fn is_hidden(site: &Site, eye_m: Vec3<Enu>, drone_m: Vec3<Enu>) -> bool {
+    let to = drone_m - eye_m;
+    let clear_m = to.norm() - DRONE_CLEARANCE_M;
+    clear_m > 0.0 && site.geometry().ray(eye_m, to.unit(), clear_m).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::{scenario, shipped};
+
+    #[test]
+    fn exact_hidden_times_are_summed_and_the_longest_is_found() {
+        let checks = [(0.0, false), (1.0, true), (2.0, true), (3.0, false), (4.0, true), (7.0, true), (9.0, false)];
+        let found = OutOfSight::of_checks(&checks);
+        assert_eq!(found, OutOfSight { total_s: 7.0, longest_s: 5.0, longest_from_s: 4.0 });
+        assert_eq!(found.sentence().as_deref(), Some("Out of the inspector's sight for 7 s; longest for 5 s, from 0:04."));
+        assert_eq!(OutOfSight::of_checks(&[(0.0, true)]).sentence(), None);
+    }
+
+    #[test]
+    fn exact_the_ground_hides_a_drone_behind_the_hillside_but_not_one_above_the_pad() {
+        let job = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
+        let site = Site::without_defects(&job);
+        let (eye_m, pad_m) = (job.ground_team.inspector_eye_m(), job.ground_team.pad_m);
+        assert!(!is_hidden(&site, eye_m, pad_m + Vec3::new(0.0, 0.0, 5.0)));
+        assert!(is_hidden(&site, eye_m, pad_m - Vec3::new(0.0, 0.0, 5.0)), "below the ground");
+        // The arch bridge is south-east of the inspector; under its deck, its own members are in between.
+        let deck_m = job.bridges[0].center_m;
+        assert!(is_hidden(&site, eye_m, deck_m - Vec3::new(0.0, 0.0, 1.5)), "inside the deck");
+    }
+}
