@@ -31,10 +31,10 @@ const MONITOR_GRACE_PERIOD: Duration = Duration::from_secs(15);
 #[derive(Debug, clap::Args)]
 #[command(after_help = AUTOPILOT_EXIT_CODES, after_long_help = format!("\
 Examples:
-  spandrel demo                                         at five times real time
+  spandrel demo                                         at 30 times real time
   spandrel demo --skill novice --seed 7 --speed max     as fast as possible
   spandrel demo --autopilot px4 --px4 ~/PX4-Autopilot   fly through a real PX4
-  spandrel demo --view --skill expert                  watch an expert in a window
+  spandrel demo --view --skill expert                   watch an expert in a window
   spandrel demo --speed 1 --gcs 127.0.0.1:14550         watch it in QGroundControl
 
 {AUTOPILOT_EXIT_CODES}"))]

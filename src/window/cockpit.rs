@@ -25,7 +25,7 @@ use std::time::Duration;
 use winit::application::ApplicationHandler;
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow};
-use winit::window::WindowId;
+use winit::window::{Fullscreen, WindowId};
 
 /// Maximum frame rates of the views, 1/s. With a graphics card: the refresh rate of fast displays. Without one: a rate
 /// that still looks smooth.
@@ -144,6 +144,10 @@ impl Cockpit {
         if self.held.pressed_elsewhere(event, is_synthetic) {
             return;
         }
+        if keys::is_full_screen_key(event) {
+            self.toggle_full_screen();
+            return;
+        }
         let change = self.held.handle(event);
         if !self.is_flying() {
             self.key_on_page(event, change);
@@ -158,6 +162,13 @@ impl Cockpit {
             }
             Some(KeyChange::Up(key)) => self.send_to_pilot(PilotCommand::Up(key)),
             None => {}
+        }
+    }
+
+    fn toggle_full_screen(&self) {
+        if let Some(screen) = &self.screen {
+            let is_full = screen.window.fullscreen().is_some();
+            screen.window.set_fullscreen((!is_full).then_some(Fullscreen::Borderless(None)));
         }
     }
 

@@ -10,7 +10,7 @@ use crate::io::files;
 use crate::io::png::png;
 use serde_json::json;
 use spandrel_view::arrange::ViewLayout;
-use spandrel_view::flow::pipe::FlightStarted;
+use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
 use spandrel_view::flow::{Page, PageLayout, WindowRequest};
 use spandrel_view::gpu::{PageTextures, paint_sheet};
 use spandrel_view::hud;
@@ -126,7 +126,8 @@ impl Cockpit {
         }
         self.threads.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.image_writer = self.plan.camera_file.clone().map(super::picture_writer::PictureWriter::start);
-        (self.map, self.inspector_camera) = (self.plan.map, spandrel_view::inspector_camera::InspectorCamera::default());
+        (self.map, self.path) = (self.plan.map, true);
+        self.inspector_camera = spandrel_view::inspector_camera::InspectorCamera::default();
         // Discard messages that arrived before the flight.
         while self.threads.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
         self.notices.clear();
@@ -195,6 +196,9 @@ impl Cockpit {
         if flight.first_frame_at.is_none() {
             flight.first_frame_at = Some(self.stopwatch.elapsed());
             self.announce();
+            if let Some(train_pipe) = &self.threads.train_pipe {
+                train_pipe.send(&FromWindow::Showing);
+            }
         }
         self.publish_frame()?;
         self.save_screenshot(&shown, &text)

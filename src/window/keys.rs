@@ -15,6 +15,11 @@ pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     (!event.repeat || !matches!(press, KeyPress::Enter | KeyPress::Escape)).then_some(press)
 }
 
+/// Checks whether a key press switches between a window and the full screen: F11, as in other programs.
+pub fn is_full_screen_key(event: &KeyEvent) -> bool {
+    event.state == ElementState::Pressed && !event.repeat && event.logical_key == Key::Named(NamedKey::F11)
+}
+
 fn key_name(event: &KeyEvent) -> Option<KeyPress> {
     Some(match &event.logical_key {
         Key::Named(NamedKey::ArrowUp) => KeyPress::Up,

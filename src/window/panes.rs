@@ -222,18 +222,21 @@ impl ViewPanes {
         let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PIXELS));
         let moment = &now.moment;
         let (stage, [eyes, film]) = (self.job.stage(), &mut self.exposure_meters);
+        // A lesson explains the ribbon and the gates.
+        let aids =
+            if display.lesson.is_some() && options.path_aids != PathAids::None { PathAids::Full } else { options.path_aids };
         match view_rect.which {
             ViewKind::Inspector | ViewKind::Instruments => {
                 let shot = stage.inspector_view(&options.inspector_camera, moment, size_px, eyes);
-                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), options.path_aids);
-                items.extend(stage.lesson_items(&shot, moment, display.lesson.as_ref()));
+                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
+                items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
                 items.extend(stage.drone_marker(&shot, moment));
                 (shot, items)
             }
             ViewKind::Camera => {
                 let shot = stage.camera_frame(moment, size_px, film);
-                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), options.path_aids);
-                items.extend(stage.lesson_items(&shot, moment, display.lesson.as_ref()));
+                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
+                items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
                 items.extend(hud::layout_px(display, logical_size_px(screen, view_rect)));
                 (shot, items)
             }

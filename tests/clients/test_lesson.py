@@ -1,4 +1,4 @@
-"""A ground station does the lesson `first-flight` with sticks and commands, following only the monitor's texts."""
+"""A ground station does the lesson `first-flight` with sticks and commands, step by step as the monitor announces them."""
 
 import json
 import math

@@ -13,6 +13,8 @@ const MIN_STEP_DURATION: SimTime = SimTime::from_ms(1_500);
 const REMARK_INTERVAL: SimTime = SimTime::from_ms(5_000);
 /// Speed below which the aircraft counts as stopped, m/s (estimate: a held position in light wind is slower).
 const STOPPED_M_S: f64 = 0.4;
+/// Difference from the wanted pitch that the gimbal's own error explains, rad.
+const TILT_TOLERANCE_RAD: f64 = 1.0 / 180.0 * math::PI;
 /// Time in a ring after which leaving it is worth a remark.
 const REMARK_HOLD: SimTime = SimTime::from_ms(1_000);
 
@@ -62,8 +64,9 @@ pub struct LessonCoach {
     current: usize,
     /// Time at which it began; `None` before the first input.
     begun: Option<SimTime>,
-    /// Heading at which it began.
-    first_heading_rad: f64,
+    /// Heading at the last input, and the angle turned since the step began, clockwise positive.
+    last_heading_rad: f64,
+    turned_rad: f64,
     /// Time since which the aircraft has been in the step's ring.
     held_since: Option<SimTime>,
     /// Whether a picture of the step shows a defect.
@@ -80,7 +83,8 @@ impl LessonCoach {
             steps: steps.to_vec(),
             current: 0,
             begun: None,
-            first_heading_rad: 0.0,
+            last_heading_rad: 0.0,
+            turned_rad: 0.0,
             held_since: None,
             pictured: false,
             announced: None,
@@ -106,9 +110,11 @@ impl LessonCoach {
     /// Updates the lesson and returns the texts to send to the pilot.
     pub fn update(&mut self, input: &LessonInput) -> Vec<String> {
         let begun = *self.begun.get_or_insert_with(|| {
-            self.first_heading_rad = input.heading_rad;
+            self.last_heading_rad = input.heading_rad;
             input.time
         });
+        self.turned_rad += math::wrap_pi(input.heading_rad - self.last_heading_rad);
+        self.last_heading_rad = input.heading_rad;
         let mut texts = Vec::new();
         if let Some(step) = self.steps.get(self.current).copied() {
             texts.extend(self.hold(&step, input));
@@ -141,18 +147,18 @@ impl LessonCoach {
     fn begin_next(&mut self, input: &LessonInput) {
         self.current += 1;
         self.begun = Some(input.time);
-        self.first_heading_rad = input.heading_rad;
+        self.turned_rad = 0.0;
         (self.held_since, self.pictured, self.remarked) = (None, false, None);
     }
 
     /// Measures how long the aircraft has been in the ring, and returns a remark when it leaves it too early.
     fn hold(&mut self, step: &LessonStep, input: &LessonInput) -> Option<String> {
+        if !input.armed && !matches!(step, LessonStep::Arm | LessonStep::Land) {
+            return self.remark(input.time, "the motors are off: arm them again");
+        }
         let (place, stop) = match step {
             LessonStep::Hover(place) => (place, false),
             LessonStep::StopAt(place) => (place, true),
-            LessonStep::FlyHome | LessonStep::TakeOff { .. } if !input.armed => {
-                return self.remark(input.time, "the motors are off: arm them again");
-            }
             LessonStep::Arm
             | LessonStep::TakeOff { .. }
             | LessonStep::Turn { .. }
@@ -196,7 +202,7 @@ impl LessonCoach {
             LessonStep::Arm => yes(input.armed),
             LessonStep::TakeOff { height_m } => (input.position_m.up() - input.pad_m.up()) / height_m,
             LessonStep::Hover(place) | LessonStep::StopAt(place) => self.held_share(place, input.time),
-            LessonStep::Turn { angle_rad } => math::wrap_pi(input.heading_rad - self.first_heading_rad).abs() / angle_rad,
+            LessonStep::Turn { angle_rad } => self.turned_rad.abs() / angle_rad,
             LessonStep::FlyPath { task } => match input.tasks.get(*task as usize - 1) {
                 Some((_, true)) => 1.0,
                 Some((share, false)) => share.min(0.99),
@@ -204,9 +210,9 @@ impl LessonCoach {
             },
             LessonStep::TiltCamera { pitch_rad } => {
                 if *pitch_rad < 0.0 {
-                    yes(input.camera_pitch_rad <= *pitch_rad)
+                    yes(input.camera_pitch_rad <= *pitch_rad + TILT_TOLERANCE_RAD)
                 } else {
-                    yes(input.camera_pitch_rad >= *pitch_rad)
+                    yes(input.camera_pitch_rad >= *pitch_rad - TILT_TOLERANCE_RAD)
                 }
             }
             LessonStep::Lamp => yes(input.lamp),
@@ -383,10 +389,15 @@ mod tests {
         let turn = LessonStep::Turn { angle_rad: 1.0 };
         assert!(!done(turn, LessonInput { heading_rad: 0.9, ..input(0) }));
         assert!(done(turn, LessonInput { heading_rad: -1.1, ..input(0) }), "either way");
+        let mut half = coach(&[LessonStep::Turn { angle_rad: math::PI }]);
+        for (k, heading_rad) in [0.0, 1.2, 2.4, -2.6, -1.4].into_iter().enumerate() {
+            half.update(&LessonInput { time: SimTime::from_ms(2_000 * k as i64), heading_rad, ..input(0) });
+        }
+        assert_eq!(half.done(), 1, "half a turn is done once the heading passes it");
         let tilt = LessonStep::TiltCamera { pitch_rad: 0.3 };
-        assert!(!done(tilt, input(0)) && done(tilt, LessonInput { camera_pitch_rad: 0.35, ..input(0) }));
+        assert!(!done(tilt, input(0)) && done(tilt, LessonInput { camera_pitch_rad: 0.299, ..input(0) }));
         let down = LessonStep::TiltCamera { pitch_rad: -0.3 };
-        assert!(!done(down, input(0)) && done(down, LessonInput { camera_pitch_rad: -0.35, ..input(0) }));
+        assert!(!done(down, input(0)) && done(down, LessonInput { camera_pitch_rad: -0.299, ..input(0) }));
         let path = LessonStep::FlyPath { task: 1 };
         assert!(!done(path, input(0)) && done(path, LessonInput { tasks: &[(0.85, true)], ..input(0) }));
         let home = LessonStep::FlyHome;

@@ -40,7 +40,7 @@ pub struct Feed {
 /// Distances of obstacles in sectors around the aircraft, from OBSTACLE_DISTANCE.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObstacleSectors {
-    /// Distance in each sector, clockwise from the nose, m; infinite if nothing is within the range.
+    /// Distance in each sector, clockwise from the nose, m; infinite if nothing is within the range, NaN if it is unknown.
     pub sectors_m: Vec<f64>,
     /// Largest distance that can be measured, m.
     pub range_m: f64,
@@ -184,21 +184,22 @@ impl Feed {
 }
 
 impl ObstacleSectors {
-    /// Decodes the sectors; `None` if they do not cover the full circle in the aircraft's frame.
+    /// Decodes the sectors; `None` if they do not cover the full circle in the aircraft's frame, or all are unknown.
     fn of(data: &OBSTACLE_DISTANCE_DATA) -> Option<Self> {
         let width_deg = if data.increment_f > 0.0 { f64::from(data.increment_f) } else { f64::from(data.increment) };
         if data.frame != MavFrame::MAV_FRAME_BODY_FRD || width_deg <= 0.0 {
             return None;
         }
         let count = (360.0 / width_deg).round() as usize;
-        let distances = data.distances.get(..count)?;
+        let distances = data.distances.get(..count).filter(|distances| distances.iter().any(|one| *one != u16::MAX))?;
         let first = (f64::from(data.angle_offset) / width_deg).round().rem_euclid(count as f64) as usize;
-        let mut sectors_m = vec![f64::INFINITY; count];
+        let mut sectors_m = vec![f64::NAN; count];
         for (k, distance) in distances.iter().enumerate() {
-            // Greater than the range: no obstacle; the maximum: unknown.
-            if *distance <= data.max_distance {
-                sectors_m[(first + k) % count] = f64::from(*distance) / 100.0;
-            }
+            sectors_m[(first + k) % count] = match *distance {
+                u16::MAX => f64::NAN,
+                beyond if beyond > data.max_distance => f64::INFINITY,
+                cm => f64::from(cm) / 100.0,
+            };
         }
         Some(Self { sectors_m, range_m: f64::from(data.max_distance) / 100.0 })
     }
@@ -238,6 +239,30 @@ mod tests {
         assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash: bridge member arch/rib-left/07"));
         feed.set_cues(cue::OFF_PATH, now);
         assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash"), "the text of an old crash is not shown again");
+    }
+
+    #[test]
+    fn exact_obstacles_are_free_unknown_or_at_a_distance() {
+        let data = |change: &dyn Fn(&mut OBSTACLE_DISTANCE_DATA)| {
+            let mut data = OBSTACLE_DISTANCE_DATA {
+                distances: [u16::MAX; 72],
+                increment: 45,
+                max_distance: 1_200,
+                frame: MavFrame::MAV_FRAME_BODY_FRD,
+                ..Default::default()
+            };
+            (data.distances[0], data.distances[1]) = (150, 1_201);
+            change(&mut data);
+            ObstacleSectors::of(&data)
+        };
+        let sectors = data(&|_| {}).unwrap();
+        assert_eq!((sectors.sectors_m.len(), sectors.sectors_m[0], sectors.sectors_m[1]), (8, 1.5, f64::INFINITY));
+        assert!(sectors.sectors_m[2..].iter().all(|distance_m| distance_m.is_nan()), "unknown is not free");
+        assert_eq!(data(&|data| data.angle_offset = 90.0).unwrap().sectors_m[2], 1.5);
+        assert_eq!(data(&|data| data.distances = [u16::MAX; 72]), None);
+        assert_eq!(data(&|data| data.increment_f = f32::INFINITY), None);
+        assert_eq!(data(&|data| data.increment = 0), None);
+        assert_eq!(data(&|data| data.frame = MavFrame::MAV_FRAME_GLOBAL), None);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::camera::PinholeCamera;
 use super::hud::{DrawItem, HudColor, ScreenPoint, at};
 use super::matrix::Matrix;
 use serde::{Deserialize, Serialize};
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
@@ -52,11 +52,12 @@ const SESSIONS: usize = 3;
 const LIMITS_PCT: [f64; 3] = [70.0, 85.0, 95.0];
 
 impl PathAids {
-    /// Returns the aids for a trainee, from the conformity of the scored sessions so far, in %, the latest last.
+    /// Returns the aids for a trainee, from the conformity of the complete sessions so far, in %, the latest last. Up to the
+    /// third session, nothing is left out.
     #[must_use]
     pub fn for_conformity(sessions_pct: &[f64]) -> Self {
         let latest = &sessions_pct[sessions_pct.len().saturating_sub(SESSIONS)..];
-        if latest.is_empty() {
+        if latest.len() < SESSIONS {
             return Self::Full;
         }
         let mean_pct = latest.iter().sum::<f64>() / latest.len() as f64;
@@ -138,7 +139,9 @@ impl PathGuide {
         let (here, target) = (task.nearest(view.drone_m), task.nearest(target_m));
         let canvas = Canvas { matrix: view.eye.view_projection(view.aspect), view };
         let order = if follows { task.stretch(here, target) } else { task.whole() };
-        let gates = task.gates_from(target, task.direction(here, target));
+        // On the way to a task, the path leads away from the end at which it is entered.
+        let forward = if follows { task.direction(here, target) } else { task.closed || target < task.points_m.len() / 2 };
+        let gates = task.gates_from(target, forward);
         let mut items = Vec::new();
         if view.aids == PathAids::Full {
             items.extend(canvas.ribbon(task, &order));
@@ -166,14 +169,10 @@ impl PathGuide {
 
 /// Returns the place that the guidance leads to.
 fn target_m(view: &GuidedView) -> Vec3<Enu> {
-    view.guidance.way.map_or(view.drone_m, |way| place_of_way_m(view.drone_m, view.heading_rad, &way))
-}
-
-/// Returns the place that a way leads to.
-#[must_use]
-pub fn place_of_way_m(drone_m: Vec3<Enu>, heading_rad: f64, way: &WayTo) -> Vec3<Enu> {
-    let (sin, cos) = math::sin_cos(heading_rad + way.bearing_rad);
-    drone_m + Vec3::new(way.distance_m * sin, way.distance_m * cos, way.up_m)
+    view.guidance.way.map_or(view.drone_m, |way| {
+        let (sin, cos) = math::sin_cos(view.heading_rad + way.bearing_rad);
+        view.drone_m + Vec3::new(way.distance_m * sin, way.distance_m * cos, way.up_m)
+    })
 }
 
 /// Returns a ring around a place, which faces the camera.
@@ -398,6 +397,7 @@ fn screen_point(clip: [f64; 4]) -> Option<ScreenPoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_mavlink::contract::guidance::WayTo;
     use spandrel_model::{scenario, shipped};
 
     fn job() -> Scenario {
@@ -453,7 +453,8 @@ mod tests {
         for (sessions, aids) in [
             (&[][..], PathAids::Full),
             (&[69.9], PathAids::Full),
-            (&[70.0], PathAids::Gates),
+            (&[99.0, 99.0], PathAids::Full),
+            (&[70.0; 3], PathAids::Gates),
             (&[20.0, 80.0, 90.0, 100.0], PathAids::NextGate),
             (&[94.0, 95.0, 96.0], PathAids::None),
         ] {
@@ -477,6 +478,29 @@ mod tests {
         let hidden = drawn(GuidanceStep::FollowPath, PathAids::Full, true);
         assert!(count(&hidden, HudColor::RibbonHidden) > 20 && count(&hidden, HudColor::Ribbon) == 0);
         assert_eq!(count(&hidden, HudColor::Yellow), 0, "a hidden gate is gray");
+    }
+
+    #[test]
+    fn exact_on_the_way_to_a_task_all_gates_are_drawn_from_beside_the_path() {
+        let job = job();
+        let path_m = &job.tasks[0].path_m;
+        let drone_m = path_m[path_m.len() / 2] + Vec3::new(0.0, -25.0, 10.0);
+        let to = path_m[0] - drone_m;
+        let way = WayTo { distance_m: to.horizontal_norm(), bearing_rad: math::atan2(to.east(), to.north()), up_m: to.up() };
+        let eye = PinholeCamera::at(drone_m, path_m[path_m.len() / 2], 1.0, 4.0);
+        let view = GuidedView {
+            eye: &eye,
+            aspect: 4.0,
+            drone_m,
+            heading_rad: 0.0,
+            guidance: &guidance(GuidanceStep::FlyToTask, way),
+            aids: PathAids::Gates,
+            is_hidden: &|_| false,
+            surface: &|_, _| None,
+        };
+        let items = PathGuide::new(&job).items(&view);
+        let gates = gates(path_m, false).len();
+        assert_eq!(count(&items, HudColor::Blue) + count(&items, HudColor::Yellow), 4 * gates, "{gates} gates");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::feed::{Feed, shutter};
 use super::hud::lesson_panel::how_to;
 use super::hud::{DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
-use super::path_guide::{GuidedView, PathAids, place_of_way_m, ring_items};
+use super::path_guide::{GuidedView, PathAids, ring_items};
 use super::scene::{DronePose, Scene};
 use super::shot::{LampBeam, SensorResponse, Shot, wind};
 use super::sky::Sky;
@@ -16,7 +16,7 @@ use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::frames::{Enu, Rotation, Vec3};
 use spandrel_model::math;
 use spandrel_model::pose::Pose;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{LessonStep, Scenario};
 use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
@@ -132,13 +132,12 @@ impl Stage<'_> {
 
     /// Returns the ring of a lesson's step, drawn below the rest of a shot's overlay.
     #[must_use]
-    pub fn lesson_items(&self, shot: &Shot, moment: &SceneMoment, lesson: Option<&LessonDisplay>) -> Vec<DrawItem> {
-        let Some((way, radius_m)) = lesson.and_then(|lesson| lesson.status.way.zip(lesson.status.radius_m)) else {
-            return Vec::new();
-        };
-        let (drone_m, heading_rad) = (moment.drone.pose.position_m, moment.drone.pose.ned_from_frd.yaw_rad());
+    pub fn lesson_items(&self, shot: &Shot, lesson: Option<&LessonDisplay>) -> Vec<DrawItem> {
+        // The message gives the way relative to an older heading, so that a ring placed by it would swing with the aircraft.
+        let step = lesson.and_then(|lesson| self.scenario.lesson.get(lesson.status.step.checked_sub(1)? as usize));
+        let Some(LessonStep::Hover(place) | LessonStep::StopAt(place)) = step else { return Vec::new() };
         let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
-        ring_items(&shot.eye, aspect, place_of_way_m(drone_m, heading_rad, &way), radius_m)
+        ring_items(&shot.eye, aspect, place.position_m, place.radius_m)
     }
 
     /// Returns the path of the next task, drawn below the rest of a shot's overlay.
@@ -146,11 +145,7 @@ impl Stage<'_> {
     pub fn path_items(&self, shot: &Shot, moment: &SceneMoment, guidance: Option<&Guidance>, aids: PathAids) -> Vec<DrawItem> {
         let Some(guidance) = guidance.filter(|_| aids != PathAids::None) else { return Vec::new() };
         let from = shot.eye.position_m;
-        let is_hidden = |point_m: Vec3<Enu>| {
-            let to = point_m - from;
-            let clear_m = to.norm() - PATH_CLEARANCE_M;
-            clear_m > 0.0 && self.site.geometry().ray(from, to.unit(), clear_m).is_some()
-        };
+        let is_hidden = |point_m: Vec3<Enu>| self.site.geometry().hides(from, point_m, PATH_CLEARANCE_M);
         let surface = |from_m: Vec3<Enu>, direction: Vec3<Enu>| {
             let hit = self.site.geometry().ray(from_m, direction, MAX_SURFACE_DISTANCE_M)?;
             Some((from_m + direction * hit.distance_m, hit.normal))

@@ -31,6 +31,8 @@ pub struct FlightProcesses {
     sim: Child,
     /// The synthetic expert, if the trainee watches.
     expert: Option<Child>,
+    /// Arguments for starting it once the window shows the flight.
+    expert_args: Option<Vec<String>>,
     /// Ports and seed that the simulator announced, as JSON.
     pub ports: Value,
     /// Address that the simulator listens on.
@@ -86,11 +88,9 @@ impl FlightProcesses {
         let listen = args.ports.listen;
         let here = if listen.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { listen };
         let vehicle = ports["gcs_port"].as_u64().map(|port| format!("{here}:{port}"));
-        let expert = match (choice.by, vehicle) {
+        let expert_args = match (choice.by, vehicle) {
             (FlownBy::Trainee, _) => None,
-            (FlownBy::Expert, Some(vehicle)) => {
-                Some(Child::start("pilot", &[expert_args, vec!["--connect".to_owned(), vehicle]].concat())?)
-            }
+            (FlownBy::Expert, Some(vehicle)) => Some([expert_args, vec!["--connect".to_owned(), vehicle]].concat()),
             (FlownBy::Expert, None) => {
                 return Err(AppError::invalid("the expert needs the ground station port, but --gcs-port is none"));
             }
@@ -98,7 +98,8 @@ impl FlightProcesses {
         Ok(Self {
             monitor,
             sim,
-            expert,
+            expert: None,
+            expert_args,
             ports,
             host: here,
             session,
@@ -142,6 +143,9 @@ impl FlightProcesses {
     /// Waits until the session ends, a stop is requested, or a process exits unexpectedly. Meanwhile, handles the
     /// window's requests.
     pub fn wait(&mut self, window: &mut Option<WindowProcess>, stop: &StopRequest) -> FlightOutcome {
+        if window.is_none() {
+            self.start_expert();
+        }
         loop {
             if let Some(window) = window {
                 let wishes: Vec<FromWindow> = std::iter::from_fn(|| window.receive()).collect();
@@ -157,6 +161,9 @@ impl FlightProcesses {
             }
             if stop.is_requested() {
                 return FlightOutcome::Over;
+            }
+            if let Some(status) = self.expert.as_mut().and_then(Child::exit_status).filter(|status| !status.success()) {
+                return FlightOutcome::Lost(early_exit("expert", status));
             }
             match self.monitor.exit_status() {
                 Some(status) if exited_normally(status) => return FlightOutcome::Over,
@@ -178,6 +185,7 @@ impl FlightProcesses {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
             FromWindow::Ready => {}
+            FromWindow::Showing => self.start_expert(),
             FromWindow::Pause | FromWindow::Resume if practice => {
                 self.set_paused(*wish == FromWindow::Pause);
                 window.send(&ToWindow::Paused { on: self.paused });
@@ -192,6 +200,15 @@ impl FlightProcesses {
             }
         }
         None
+    }
+
+    /// Starts the synthetic expert, if the trainee watches and it does not fly yet.
+    fn start_expert(&mut self) {
+        let Some(expert_args) = self.expert_args.take() else { return };
+        match Child::start("pilot", &expert_args) {
+            Ok(expert) => self.expert = Some(expert),
+            Err(error) => tracing::warn!("the expert cannot fly: {error}"),
+        }
     }
 
     fn set_paused(&mut self, still: bool) {
@@ -217,6 +234,9 @@ impl FlightProcesses {
     /// Stops the monitor, which then scores the session and completes its folder. The vehicle stays connected.
     pub fn end_session(&mut self) {
         self.monitor.finish();
+        if let Some(mut expert) = self.expert.take() {
+            expert.finish();
+        }
         if self.paused {
             self.set_paused(false);
         }
@@ -242,9 +262,6 @@ fn exited_normally(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
 }
 
-/// Trainee ID of the sessions that the synthetic expert flies.
-const EXPERT_ID: &str = "synthetic-expert";
-
 fn expert_args(common: &[String]) -> Vec<String> {
     [common, &["--skill", "expert"].map(str::to_owned)].concat()
 }
@@ -256,7 +273,7 @@ fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
         "--trainee",
         match choice.by {
             FlownBy::Trainee => &choice.trainee,
-            FlownBy::Expert => EXPERT_ID,
+            FlownBy::Expert => offers::EXPERT_ID,
         },
         "--purpose",
         choice.purpose.word(),

@@ -9,7 +9,7 @@ use serde_json::Value;
 use spandrel_model::scenario::{Scenario, form_names};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
-use spandrel_monitor::folder::{ASSESSMENT, REPORT};
+use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION};
 use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
@@ -19,6 +19,9 @@ use spandrel_view::flow::pipe::{
 use spandrel_view::path_guide::PathAids;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// Trainee ID of the sessions that the synthetic expert flies.
+pub const EXPERT_ID: &str = "synthetic-expert";
 
 /// Returns the choices that the start page offers.
 pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
@@ -87,7 +90,9 @@ pub fn path_aids(sessions: &Path, trainee: &str) -> PathAids {
             let (who, started) = trainee_and_start(folder).ok()?;
             let text = std::fs::read_to_string(folder.join(ASSESSMENT)).ok().filter(|_| who == trainee)?;
             let assessment: Value = serde_json::from_str(&text).ok()?;
-            Some((started, assessment["scores"]["conformity"]["pct"].as_f64()?))
+            // Lessons and incomplete sessions say little about how well somebody follows a path.
+            let counts = lesson_of(folder).is_none() && assessment["completion"]["complete"].as_bool() == Some(true);
+            Some((started, assessment["scores"]["conformity"]["pct"].as_f64().filter(|_| counts)?))
         })
         .collect();
     flown.sort_by_key(|(started, _)| *started);
@@ -105,15 +110,50 @@ struct KnownSessions {
 
 impl KnownSessions {
     fn summary(self, name: String) -> TraineeSummary {
-        let advice = self.latest.and_then(|(_, folder)| report::saved_advice(&folder));
+        let latest = self.latest.map(|(_, folder)| folder);
+        let advice = latest.as_deref().and_then(report::saved_advice);
+        let open_lesson = latest.as_deref().and_then(open_lesson);
         TraineeSummary {
             name,
             sessions: self.sessions,
             practices: self.practices,
-            last: advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
-            next: advice.as_ref().and_then(next_job),
+            last: match &open_lesson {
+                Some(lesson) => Some(format!("{} of {} steps of the lesson.", lesson.done, lesson.steps)),
+                None => advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
+            },
+            next: match open_lesson {
+                Some(lesson) => job_named(&lesson.scenario),
+                None => advice.as_ref().and_then(next_job),
+            },
         }
     }
+}
+
+/// A lesson of which not all steps are done.
+struct OpenLesson {
+    scenario: String,
+    done: u64,
+    steps: usize,
+}
+
+/// Returns the name and the number of steps of a session's lesson, if the session is one of an installed lesson.
+fn lesson_of(session: &Path) -> Option<(String, usize)> {
+    let text = std::fs::read_to_string(session.join(SESSION)).ok()?;
+    let name = serde_json::from_str::<Value>(&text).ok()?["scenario"].as_str()?.to_owned();
+    let steps = files::scenario(&name).ok()?.scenario.lesson.len();
+    (steps > 0).then_some((name, steps))
+}
+
+/// Returns the lesson of a session if not all of its steps were done.
+fn open_lesson(session: &Path) -> Option<OpenLesson> {
+    let (scenario, steps) = lesson_of(session)?;
+    let events = std::fs::read_to_string(session.join(EVENTS)).unwrap_or_default();
+    let steps_done = events.lines().filter_map(|line| {
+        let event: Value = serde_json::from_str(line).ok()?;
+        event["done"].as_u64().filter(|_| event["event"] == "lesson_step")
+    });
+    let done = steps_done.max().unwrap_or(0);
+    (done < steps as u64).then_some(OpenLesson { scenario, done, steps })
 }
 
 /// Returns a job with its title, if it is installed.
@@ -134,6 +174,9 @@ fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
     let mut found: BTreeMap<String, KnownSessions> = BTreeMap::new();
     for folder in &folders {
         let Ok((trainee, started_unix_us)) = trainee_and_start(folder) else { continue };
+        if trainee == EXPERT_ID {
+            continue;
+        }
         let known = found.entry(trainee).or_default();
         known.sessions += 1;
         known.practices += u32::from(purpose(folder).as_deref() == Some(Purpose::Practice.word()));
@@ -179,7 +222,11 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         complete,
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
-        next: advice.as_ref().and_then(next_job),
+        next: match open_lesson(session) {
+            Some(lesson) => job_named(&lesson.scenario),
+            None => advice.as_ref().and_then(next_job),
+        },
+        watched: false,
         advice: advice.iter().flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
@@ -187,6 +234,11 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
             None => format!("spandrel questionnaire {}", session.display()),
         },
     }
+}
+
+/// Returns the end page of a flight that the trainee only watched: the next flight is the trainee's own.
+pub fn watched(ended: FlightSummary, scenario: &str) -> FlightSummary {
+    FlightSummary { watched: true, advice: Vec::new(), questionnaire: String::new(), next: job_named(scenario), ..ended }
 }
 
 fn end_reason_text(end: &Value, session: &Path) -> String {
@@ -201,7 +253,7 @@ fn end_reason_text(end: &Value, session: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_monitor::folder::{SESSION, TELEMETRY};
+    use spandrel_monitor::folder::TELEMETRY;
     use spandrel_view::flow::pipe::FlownBy;
 
     fn choice() -> FlightChoice {
@@ -241,20 +293,42 @@ mod tests {
     }
 
     #[test]
+    fn exact_an_unfinished_lesson_is_recommended_again() {
+        let sessions = tempfile::tempdir().unwrap();
+        let folder = sessions.path().join("one");
+        std::fs::create_dir(&folder).unwrap();
+        std::fs::write(folder.join(TELEMETRY), "").unwrap();
+        let session = serde_json::json!({ "trainee": "anna", "started_unix_us": 1, "scenario": FIRST_LESSON });
+        std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
+        let step = |done: u32| serde_json::json!({ "t_s": 1.0, "event": "lesson_step", "done": done, "of": 11 }).to_string();
+        std::fs::write(folder.join(EVENTS), format!("{}\n{}\n", step(1), step(2))).unwrap();
+        let summary = trainee_summaries(sessions.path()).remove(0);
+        assert_eq!(summary.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
+        assert_eq!(summary.last.as_deref(), Some("2 of 11 steps of the lesson."));
+        std::fs::write(folder.join(EVENTS), step(11)).unwrap();
+        assert!(open_lesson(&folder).is_none());
+    }
+
+    #[test]
     fn exact_better_pilots_see_less_of_the_path() {
         let sessions = tempfile::tempdir().unwrap();
         assert_eq!(path_aids(sessions.path(), "anna"), PathAids::Full);
-        for (k, (trainee, pct)) in [("anna", 60.0), ("bert", 100.0), ("anna", 96.0)].into_iter().enumerate() {
+        for (k, (trainee, pct)) in
+            [("anna", 60.0), ("bert", 100.0), ("anna", 96.0), ("anna", 78.0), ("bert", 100.0), ("bert", 100.0)]
+                .into_iter()
+                .enumerate()
+        {
             let folder = sessions.path().join(k.to_string());
             std::fs::create_dir(&folder).unwrap();
             std::fs::write(folder.join(TELEMETRY), "").unwrap();
             let session = serde_json::json!({ "trainee": trainee, "started_unix_us": k, "purpose": "practice" });
             std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
-            let assessment = serde_json::json!({ "scores": { "conformity": { "raw": 0.0, "pct": pct } } });
+            let assessment = serde_json::json!({ "scores": { "conformity": { "raw": 0.0, "pct": pct } },
+                "completion": { "complete": true } });
             std::fs::write(folder.join(ASSESSMENT), assessment.to_string()).unwrap();
         }
         assert_eq!(path_aids(sessions.path(), "anna"), PathAids::Gates, "78 % on average");
-        assert_eq!(path_aids(sessions.path(), "bert"), PathAids::None);
+        assert_eq!(path_aids(sessions.path(), "bert"), PathAids::None, "three sessions with 100 %");
     }
 
     #[test]

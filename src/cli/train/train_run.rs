@@ -107,7 +107,8 @@ impl<'a> TrainRun<'a> {
                 }
             };
             result = flown;
-            last = Some(session);
+            // Nobody answers questions about an expert's flight.
+            last = (choice.by == FlownBy::Trainee).then_some(session).or(last);
             next = self.next_choice(&choice);
         }
         // A user who quits in the window has seen the results, and can still answer questions on the web pages.
@@ -207,7 +208,12 @@ impl<'a> TrainRun<'a> {
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
                     // Ignore late messages about a flight that has just ended.
-                    FromWindow::Ready | FromWindow::Pause | FromWindow::Resume | FromWindow::Restart | FromWindow::End => {}
+                    FromWindow::Ready
+                    | FromWindow::Showing
+                    | FromWindow::Pause
+                    | FromWindow::Resume
+                    | FromWindow::Restart
+                    | FromWindow::End => {}
                 }
             }
             self.check_vehicle();
@@ -311,7 +317,10 @@ impl<'a> TrainRun<'a> {
             self.offer(choice);
             let web = self.web.as_ref().map(|web| web.server.address());
             let trouble = result.as_ref().err().map(ToString::to_string);
-            let ended = offers::flight_summary(session, web, trouble);
+            let mut ended = offers::flight_summary(session, web, trouble);
+            if choice.by == FlownBy::Expert {
+                ended = offers::watched(ended, &choice.scenario);
+            }
             self.send_to_window(&ToWindow::Ended(ended));
         }
         result

@@ -65,7 +65,7 @@ const ACTION_BINDINGS: [(ControllerAction, &str); 13] = [
 /// Key action in the viewer window; not available in a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WindowAction {
-    /// Cycles the layout: both views side by side, camera large, inspector large.
+    /// Cycles the layout: camera large with the instruments, inspector large, both views side by side.
     Swap,
     /// Toggles the map.
     Map,

@@ -61,7 +61,20 @@ impl LessonTask {
     ];
 
     fn code(self) -> f32 {
-        Self::ALL.iter().position(|task| *task == self).unwrap_or_default() as f32
+        match self {
+            Self::Arm => 0.0,
+            Self::TakeOff => 1.0,
+            Self::Hover => 2.0,
+            Self::Turn => 3.0,
+            Self::FlyPath => 4.0,
+            Self::StopAt => 5.0,
+            Self::TiltCamera => 6.0,
+            Self::Lamp => 7.0,
+            Self::Photograph => 8.0,
+            Self::FlyHome => 9.0,
+            Self::Land => 10.0,
+            Self::Done => 11.0,
+        }
     }
 
     fn from_code(code: f32) -> Option<Self> {

@@ -103,6 +103,11 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, tasks: TaskCount, has_def
         }
         r.finish(&s);
     }
+    // A landing on the pad ends the session.
+    if let Some(early) = steps.iter().rev().skip(1).position(|step| *step == LessonStep::Land) {
+        let number = steps.len() - 1 - early;
+        r.add_problem(root, "lesson", &format!("step {number}: land"), "land as the last step only", "steps after the landing");
+    }
     if steps.len() > MAX_STEPS {
         r.add_problem(root, "lesson", &steps.len().to_string(), "at most 60 [[lesson]]", "too many");
     }

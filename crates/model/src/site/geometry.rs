@@ -217,6 +217,14 @@ impl Geometry {
         Some(RayHit { distance_m: found.distance_m, normal: found.result, surface: Surface::Bridge, object: ObjectId(leaf) })
     }
 
+    /// Returns whether something hides a point from another one. Objects within `margin_m` of the point do not count.
+    #[must_use]
+    pub fn hides(&self, from: Vec3<Enu>, point_m: Vec3<Enu>, margin_m: f64) -> bool {
+        let line = point_m - from;
+        let reach_m = line.norm() - margin_m;
+        reach_m > 0.0 && self.ray(from, line.unit(), reach_m).is_some()
+    }
+
     /// Appends the contacts of a probe with members, ground, landing pad and water.
     pub fn contacts(&self, probe: &HullProbe, margin_m: f64, out: &mut Vec<Contact>) {
         let (low, high) = probe_bounds(probe, margin_m);

@@ -115,6 +115,8 @@ struct LiveState {
     flown_by: Option<ControlSource>,
     on_ground: bool,
     camera_pitch_rad: f64,
+    /// Horizontal field of view, once received; `None` for a fixed lens.
+    camera_fov_rad: Option<f64>,
     lamp: bool,
     lift_off: Option<SimTime>,
     current_task: Option<usize>,
@@ -184,7 +186,7 @@ impl Monitor {
     pub fn new(config: MonitorConfig) -> Self {
         let scenario = &config.scenario;
         let paths = ReferencePaths::new(scenario);
-        Self {
+        let mut monitor = Self {
             decoder: Decoder::new(),
             encoder: Encoder::new(config.system_id, MONITOR_COMPONENT_ID),
             timeline: Timeline::new(LocalPlane::new(scenario.origin)),
@@ -195,7 +197,7 @@ impl Monitor {
             announcer: StepAnnouncer::default(),
             holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
-            lesson: LessonCoach::new(&scenario.lesson),
+            lesson: None,
             lesson_sent: None,
             needed_s: job_time::job_needed_s(scenario),
             live: LiveState::new(&config, &paths),
@@ -212,7 +214,9 @@ impl Monitor {
             rejection: None,
             outcome: None,
             config,
-        }
+        };
+        monitor.lesson = monitor.new_lesson();
+        monitor
     }
 
     /// Creates a monitor that resumes an interrupted session. `log` is the content of `telemetry.tlog`. Before appending to that
@@ -417,6 +421,7 @@ impl LiveState {
             flown_by: None,
             on_ground: false,
             camera_pitch_rad: 0.0,
+            camera_fov_rad: None,
             lamp: false,
             lift_off: None,
             current_task: None,

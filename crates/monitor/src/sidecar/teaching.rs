@@ -1,13 +1,19 @@
 //! The lesson of a job: its input from the telemetry, and its messages.
 
 use super::{GUIDANCE_INTERVAL, Monitor};
-use crate::lesson::{LessonInput, PictureVerdict};
+use crate::lesson::{LessonCoach, LessonInput, PictureVerdict};
 use serde_json::json;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::site::{CameraPose, DefectView};
+use spandrel_model::vehicle::Camera;
 
 impl Monitor {
+    /// Returns the lesson before its first step, if the job is one and the monitor guides the pilot.
+    pub(super) fn new_lesson(&self) -> Option<LessonCoach> {
+        LessonCoach::new(&self.config.scenario.lesson).filter(|_| self.guides)
+    }
+
     /// Updates the lesson and sends its current step and its texts.
     pub(super) fn send_lesson(&mut self, truth: &Truth) {
         let Some(mut lesson) = self.lesson.take() else { return };
@@ -58,7 +64,10 @@ impl Monitor {
     fn picture_verdict(&self, truth: &Truth) -> PictureVerdict {
         let (Some(survey), vehicle) = (&self.survey, &self.config.vehicle) else { return PictureVerdict::Nothing };
         let pose = CameraPose::on_aircraft(&vehicle.camera, truth.motion.pose(), self.live.camera_pitch_rad, self.live.lamp);
-        let views = survey.view_defects(&pose, &vehicle.camera, &vehicle.lamp, truth.time);
+        // The lens may be zoomed.
+        let hfov_rad = self.live.camera_fov_rad.unwrap_or(vehicle.camera.hfov_rad);
+        let camera = Camera { hfov_rad, ..vehicle.camera };
+        let views = survey.view_defects(&pose, &camera, &vehicle.lamp, truth.time);
         if views.iter().any(|view| view.hit) {
             return PictureVerdict::Shown;
         }

@@ -7,7 +7,6 @@ use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
 use crate::guidance::{HoldTimer, StepAnnouncer};
-use crate::lesson::LessonCoach;
 use crate::measures::attention;
 use crate::measures::crash::is_soft_pad_contact;
 use crate::session::{EndReason, EndRuleInput as EndInput, lift_off_height_m};
@@ -67,7 +66,8 @@ impl Monitor {
         self.announcer = StepAnnouncer::default();
         self.holds = HoldTimer::new(self.paths.len());
         self.guidance_sent = None;
-        self.lesson = LessonCoach::new(&self.config.scenario.lesson);
+        self.lesson = self.new_lesson();
+        self.lesson_sent = None;
         self.last_heartbeat_sim_time = None;
         self.handle_sample(sample, None);
     }
@@ -82,7 +82,8 @@ impl Monitor {
 
     fn handle_value(&mut self, value: SampleValue) {
         match value {
-            SampleValue::Sticks(_) | SampleValue::Hits(_) | SampleValue::FieldOfView(_) => {}
+            SampleValue::Sticks(_) | SampleValue::Hits(_) => {}
+            SampleValue::FieldOfView(rad) => self.live.camera_fov_rad = Some(rad),
             SampleValue::GimbalPitch(pitch_rad) => self.live.camera_pitch_rad = pitch_rad,
             SampleValue::Light(on) => self.live.lamp = on,
             SampleValue::Battery(pct) => self.live.battery_pct = Some(pct),

@@ -75,9 +75,7 @@ impl OutOfSight {
 }
 
 fn is_hidden(site: &Site, eye_m: Vec3<Enu>, drone_m: Vec3<Enu>) -> bool {
-    let to = drone_m - eye_m;
-    let clear_m = to.norm() - DRONE_CLEARANCE_M;
-    clear_m > 0.0 && site.geometry().ray(eye_m, to.unit(), clear_m).is_some()
+    site.geometry().hides(eye_m, drone_m, DRONE_CLEARANCE_M)
 }
 
 #[cfg(test)]
@@ -95,14 +93,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_ground_hides_a_drone_behind_the_hillside_but_not_one_above_the_pad() {
+    fn exact_ground_and_deck_hide_a_drone_but_nothing_is_above_the_pad() {
         let job = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
         let site = Site::without_defects(&job);
         let (eye_m, pad_m) = (job.ground_team.inspector_eye_m(), job.ground_team.pad_m);
         assert!(!is_hidden(&site, eye_m, pad_m + Vec3::new(0.0, 0.0, 5.0)));
         assert!(is_hidden(&site, eye_m, pad_m - Vec3::new(0.0, 0.0, 5.0)), "below the ground");
-        // The arch bridge is south-east of the inspector; under its deck, its own members are in between.
+        // The inspector looks at the arch bridge from below, so that its deck hides what is just above it.
         let deck_m = job.bridges[0].center_m;
-        assert!(is_hidden(&site, eye_m, deck_m - Vec3::new(0.0, 0.0, 1.5)), "inside the deck");
+        assert!(is_hidden(&site, eye_m, deck_m + Vec3::new(0.0, 0.0, 0.7)), "behind the deck");
     }
 }

@@ -129,7 +129,10 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
         pen.panel((x - 0.014, y), (0.008, ROW_HEIGHT), HudColor::White);
     }
     let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Gray };
-    pen.text((x + 0.02, middle), TextAlign::Left, TEXT_SIZE, label, row.label.clone());
+    // The title of a job may be longer than the row.
+    let room = if row.kind == RowKind::Button { width - 0.04 } else { VALUE_START * width };
+    let height = TEXT_SIZE.min(TEXT_SIZE * room / text_width(&row.label, TEXT_SIZE).max(1e-9));
+    pen.text((x + 0.02, middle), TextAlign::Left, height, label, row.label.clone());
     if row.kind == RowKind::Button {
         return;
     }

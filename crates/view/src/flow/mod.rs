@@ -205,7 +205,10 @@ impl WindowFlow {
                 }
             }
             ToWindow::Flying(flying) => {
-                self.choice = flying.choice.clone();
+                // After an expert's flight, the trainee's own choice is still selected.
+                if flying.choice.by == FlownBy::Trainee {
+                    self.choice = flying.choice.clone();
+                }
                 self.ended = None;
                 self.notice = None;
                 self.restart_requested = false;

@@ -177,6 +177,9 @@ pub struct FlightSummary {
     /// Recommended next job.
     #[serde(default)]
     pub next: Option<NextJob>,
+    /// Whether the trainee only watched the synthetic expert.
+    #[serde(default)]
+    pub watched: bool,
     /// Address of the report, if one was written.
     pub report: Option<String>,
     /// Address of the questionnaire if a server is running, otherwise the command that starts it.
@@ -214,6 +217,8 @@ pub enum ToWindow {
 pub enum FromWindow {
     /// The window is open.
     Ready,
+    /// The window shows the flight.
+    Showing,
     /// Start this flight.
     Chosen(FlightChoice),
     /// Pause the simulation.
@@ -302,6 +307,7 @@ mod tests {
             why: "landed".into(),
             advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
             next: Some(next),
+            watched: false,
             report: Some("file:///a%20b".into()),
             questionnaire: "spandrel questionnaire x".into(),
         };
@@ -316,7 +322,9 @@ mod tests {
             assert!(!line.contains('\n'), "{line}");
             assert_eq!(read::<ToWindow>(&line), Ok(message));
         }
-        for message in [FromWindow::Ready, FromWindow::Chosen(choice()), FromWindow::Restart, FromWindow::Quit] {
+        for message in
+            [FromWindow::Ready, FromWindow::Showing, FromWindow::Chosen(choice()), FromWindow::Restart, FromWindow::Quit]
+        {
             assert_eq!(read::<FromWindow>(&line(&message)), Ok(message));
         }
     }

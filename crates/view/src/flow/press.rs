@@ -143,10 +143,7 @@ impl WindowFlow {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
             MenuAction::CheckController if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
-            MenuAction::CheckController => {
-                self.choice.by = FlownBy::Trainee;
-                self.show_page(Page::Controls);
-            }
+            MenuAction::CheckController => self.show_page(Page::Controls),
             MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
             MenuAction::Sound => self.toggle_sound(),
             MenuAction::FindController => self.out.push_back(WindowRequest::FindController),
@@ -178,8 +175,9 @@ impl WindowFlow {
             MenuAction::FlyNext => self.fly_next(),
             MenuAction::WatchExpert if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
             MenuAction::WatchExpert => {
-                (self.choice.purpose, self.choice.by) = (Purpose::Practice, FlownBy::Expert);
-                self.choose();
+                let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
+                self.send(FromWindow::Chosen(choice));
+                self.wait(STARTING_TEXT);
             }
             MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
@@ -218,7 +216,7 @@ impl WindowFlow {
             return self.ended.as_ref()?.next.as_ref();
         }
         match self.trainee_summary() {
-            Some(person) if person.sessions > 0 => person.next.as_ref(),
+            Some(person) if person.next.is_some() => person.next.as_ref(),
             _ => self.offers.as_ref()?.lesson.as_ref(),
         }
     }

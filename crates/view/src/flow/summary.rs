@@ -25,9 +25,11 @@ pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
         rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, "Open questionnaire"));
     }
     if let Some(next) = ended.and_then(|ended| ended.next.as_ref()) {
-        rows.push(MenuRow::button(MenuAction::FlyNext, format!("Fly next: {}", next.title)));
+        let verb = if ended.is_some_and(|ended| ended.watched) { "Fly it yourself" } else { "Fly next" };
+        rows.push(MenuRow::button(MenuAction::FlyNext, format!("{verb}: {}", next.title)));
     }
-    rows.push(MenuRow::button(MenuAction::FlyAgain, "Fly again"));
+    let again = if ended.is_some_and(|ended| ended.watched) { "Watch again" } else { "Fly again" };
+    rows.push(MenuRow::button(MenuAction::FlyAgain, again));
     rows.push(MenuRow::button(MenuAction::ChooseOther, "Choose another job"));
     rows.push(MenuRow::button(MenuAction::Quit, "Quit"));
     rows
@@ -96,7 +98,7 @@ fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &Fli
 fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) {
     let mut y = y;
     let report = ended.report.is_none().then_some("not available");
-    let questionnaire = Some(ended.questionnaire.as_str()).filter(|address| !is_openable(address));
+    let questionnaire = Some(ended.questionnaire.as_str()).filter(|address| !address.is_empty() && !is_openable(address));
     for (name, words) in [("report", report), ("questionnaire", questionnaire)] {
         let Some(words) = words else { continue };
         pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);

@@ -62,6 +62,7 @@ fn ended() -> FlightSummary {
         .map(str::to_owned)
         .to_vec(),
         next: None,
+        watched: false,
         report: Some("file:///sessions/a/report.html".into()),
         questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),
     }
@@ -152,6 +153,7 @@ fn exact_watching_an_expert_does_not_count_as_practice() {
     let at = flow.rows().iter().position(|row| row.action == MenuAction::WatchExpert).unwrap();
     press(&mut flow, &[KeyPress::Row(at)]);
     let wanted = FlightChoice { by: FlownBy::Expert, ..flow.choice().clone() };
+    assert_eq!(flow.choice().by, FlownBy::Trainee, "the trainee's own choice stays");
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
     flow.handle_message(ToWindow::Ended(ended()));

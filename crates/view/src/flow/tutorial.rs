@@ -155,8 +155,8 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         frame.width,
         SMALL_TEXT_SIZE,
         HudColor::Gray,
-        "The bracket in your view marks the drone and shows its distance. On the map, the triangle is the drone, the square is the \
-         pad, and the lines are the tasks' paths.",
+        "The bracket in your view marks the drone and shows its distance. On the map beside the camera view, the triangle is the \
+         drone, the square is the pad, and the lines are the tasks' paths.",
     );
 }
 

@@ -41,7 +41,7 @@ pub struct MapPath {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacles {
     /// Distance in each of equal sectors, clockwise, m. The middle of the first sector is at the nose. Infinite: nothing within
-    /// the range.
+    /// the range; NaN: unknown.
     pub sectors_m: Vec<f64>,
     /// Largest distance that can be measured, m.
     pub range_m: f64,

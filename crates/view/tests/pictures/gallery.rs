@@ -2,6 +2,7 @@
 
 use super::compare::{Difference, check_picture, check_picture_at, side_by_side};
 use spandrel_mavlink::contract::cue::{self, CueTexts};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, StandOffReading, WayTo};
 use spandrel_model::defect_codes;
 use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
@@ -12,7 +13,8 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
-use spandrel_view::hud::{self, GnssStatus, Hud, MapPath};
+use spandrel_view::hud::{self, GnssStatus, Hud, MapPath, Obstacles, WayBack};
+use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::patch;
 use std::path::Path;
@@ -322,6 +324,58 @@ fn regress_both_views_in_every_hud_state() {
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));
         let views = [studio.draw_with(&inspector, &marked), studio.draw_with(&camera, &shown)];
         wall.check(&format!("views-{name}"), &side_by_side(&views));
+    }
+    wall.assert_no_errors();
+}
+
+/// Draws the path of a task into the camera view, and the instruments, on the way along the path and beside it.
+#[test]
+fn regress_practice_with_path_and_instruments() {
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
+    let mut wall = Gallery::default();
+    let path_m = studio.scenario.tasks[0].path_m.clone();
+    let (from, ahead) = (path_m[8], path_m[40]);
+    for (name, position_m, aids) in
+        [("on-path", from, PathAids::Full), ("off-path", from + Vec3::new(0.0, -4.0, -2.0), PathAids::Gates)]
+    {
+        let moment = studio.moment(position_m, ahead + Vec3::new(0.0, 4.0, 0.0), false, Vec3::new(0.5, 0.0, 0.0));
+        let (roll_rad, pitch_rad, heading_rad) = moment.drone.pose.ned_from_frd.euler();
+        let to = path_m[16] - position_m;
+        let bearing_rad = math::wrap_pi(math::atan2(to.east(), to.north()) - heading_rad);
+        let way = WayTo { distance_m: to.horizontal_norm(), bearing_rad, up_m: to.up() };
+        let guidance = Guidance {
+            step: GuidanceStep::FollowPath,
+            task: Some(1),
+            way: Some(way),
+            progress: Some(0.1),
+            tasks_done: 0,
+            tasks: 4,
+            deviation: None,
+            stand_off: Some(StandOffReading { actual_m: 6.5, recommended_m: 4.5, tolerance_m: 1.5 }),
+            flown_s: 70.0,
+            needed_s: 557.0,
+        };
+        let mut sectors_m = vec![f64::INFINITY; 8];
+        (sectors_m[1], sectors_m[6], sectors_m[7]) = (1.9, 4.4, 8.0);
+        let display = Hud {
+            guidance: Some(guidance),
+            heading_rad,
+            roll_rad,
+            pitch_rad,
+            obstacles: Some(Obstacles { sectors_m, range_m: 12.0, too_close_m: 2.5 }),
+            way_back: (aids == PathAids::Gates).then_some(WayBack { direction_rad: 5.6 }),
+            ..calm(&studio, position_m)
+        };
+        let seen = largest_even_size_px(VIEW_PX, moment.lens.aspect());
+        let camera = studio.stage().camera(&moment, seen);
+        let mut items = studio.stage().path_items(&camera, &moment, Some(&guidance), aids);
+        let without_map = Hud { tracks: Vec::new(), ..display.clone() };
+        items.extend(hud::layout(&without_map, f64::from(seen.0) / f64::from(seen.1)));
+        let size_px = (240, 360);
+        let beside = studio.stage().camera(&moment, size_px);
+        let instruments = hud::instruments(&display, &studio.scene.outline, (f64::from(size_px.0), f64::from(size_px.1)));
+        let views = [studio.draw_with(&beside, &instruments), studio.draw_with(&camera, &items)];
+        wall.check(&format!("practice-{name}"), &side_by_side(&views));
     }
     wall.assert_no_errors();
 }

@@ -19,7 +19,5 @@ pub fn reach_m(camera: &Camera) -> f64 {
 }
 
 pub(super) fn is_clear(from: Vec3<Enu>, to: Vec3<Enu>, scene: &ReviewContext<'_>) -> bool {
-    let line = to - from;
-    let reach = line.norm() - SIGHT_LINE_MARGIN_M;
-    reach <= 0.0 || scene.site.geometry().ray(from, line.unit(), reach).is_none()
+    !scene.site.geometry().hides(from, to, SIGHT_LINE_MARGIN_M)
 }

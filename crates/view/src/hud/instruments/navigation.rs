@@ -122,7 +122,8 @@ impl Disc {
             let square = [(-side, -side), (side, -side), (side, side), (-side, side)].map(|(x, y)| (place.0 + x, place.1 + y));
             items.push(self.pane.fill(&square, HudColor::White));
         }
-        if let Some(way) = hud.guidance.and_then(|guidance| guidance.way) {
+        let lesson = hud.lesson.as_ref().and_then(|lesson| lesson.status.way);
+        if let Some(way) = lesson.or(hud.guidance.and_then(|guidance| guidance.way)) {
             let (tip, spread) = (OBSTACLE_RADII.0 - 0.01, 0.07);
             let angle = way.bearing_rad;
             let corners = [self.at(angle, tip), self.at(angle + spread, TICK_RADII.0), self.at(angle - spread, TICK_RADII.0)];

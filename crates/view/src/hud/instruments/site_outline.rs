@@ -11,7 +11,7 @@ const LEAST_M: f64 = 0.8;
 const MARGIN: f64 = 0.06;
 /// Smallest size of a drawing, m.
 const MIN_SIZE_M: f64 = 40.0;
-/// Height above the highest part of a profile, m.
+/// Height above the highest part of a profile and below its lowest, m.
 const HEADROOM_M: f64 = 4.0;
 
 /// A point of a drawing, m right and up.
@@ -87,8 +87,10 @@ fn side_view(scenario: &Scenario, site: &Site, bridge: Option<usize>) -> SideVie
     let shown = paths.chain(members.iter().flatten().copied());
     let ((left, low), (right, high)) = bounds(shown);
     let through_m: Vec3<Enu> = bridge.map_or(scenario.ground_team.pad_m, |bridge| scenario.bridges[bridge].center_m);
-    let bounds = ((left, low.min(water - HEADROOM_M)), (right, high + HEADROOM_M));
-    SideView { members, ground: ground_profile(scenario, site, &view, through_m, (left, right)), bounds, view }
+    let ground = ground_profile(scenario, site, &view, through_m, (left, right));
+    let is_wet = ground.iter().any(|(_, up_m)| *up_m < water);
+    let low = if is_wet { low.min(water) } else { low };
+    SideView { members, ground, bounds: ((left, low - HEADROOM_M), (right, high + HEADROOM_M)), view }
 }
 
 /// Returns the bounds of points with a margin.
