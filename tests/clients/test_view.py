@@ -72,7 +72,8 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
         speed = right[: height // 6, : width // 6]
         assert len(display.pixels_of(speed, WHITE)) > 20, "the speed must be visible"
         assert len(display.pixels_of(left[: height // 6, : width // 6], WHITE)) == 0
-        assert len(display.pixels_of(right[height // 2 :], YELLOW)) > 10, "the map must show the drone"
+        # The instruments are below the inspector's view: navigation, map and side profile from left to right.
+        assert len(display.pixels_of(profile_of(photograph), YELLOW)) > 10, "the side profile must show the drone"
         assert os.getpriority(os.PRIO_PROCESS, window.pid) > os.getpriority(os.PRIO_PROCESS, sim.pid), "the simulator must have a higher priority"
 
         screen.focus()
@@ -81,11 +82,11 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
 
         def hidden():
             again.if_due()
-            return len(display.pixels_of(screen.photograph(), YELLOW)) == 0
+            return len(display.pixels_of(profile_of(screen.photograph()), YELLOW)) == 0
 
-        spandrel.wait_for("the map is hidden", hidden, DRAW_LIMIT_S)
+        spandrel.wait_for("map and profile are hidden", hidden, DRAW_LIMIT_S)
         screen.tap("Tab")
-        spandrel.wait_for("the camera view fills the window", lambda: camera_view_is_centered(screen), DRAW_LIMIT_S)
+        spandrel.wait_for("the camera view is the inset", lambda: camera_view_is_inset(screen), DRAW_LIMIT_S)
 
         link = asking.connect(watcher)
         spandrel.wait_for("the vehicle is ready to arm", lambda: is_armable(link), DRAW_LIMIT_S)
@@ -114,12 +115,19 @@ def screenshot_with_hud(screen):
     return [photograph] if len(display.pixels_of(photograph, GREEN)) > 0 else []
 
 
-def camera_view_is_centered(screen):
-    """Returns whether the camera view is in the middle of the window with its sensor's aspect ratio, which leaves an
-    empty bar above the inset view."""
-    photograph = screen.photograph()
-    green, bar = display.pixels_of(photograph, GREEN), screen.size[0] // 4
-    return len(green) > 0 and 0.6 < green[:, 1].max() / screen.size[0] < 0.75 and brightness_deviation(photograph[: screen.size[1] // 5, : bar - 4]) < 1.0
+def profile_of(photograph):
+    """Returns the part of the window with the side profile."""
+    height, width, _ = photograph.shape
+    return photograph[2 * height // 3 :, 3 * width // 8 : width // 2 - 2]
+
+
+def camera_view_is_inset(screen):
+    """Returns whether the camera view, and with it the battery, is in the middle of the window's lower edge."""
+    green = display.pixels_of(screen.photograph(), GREEN)
+    if len(green) == 0:
+        return False
+    rows, columns = green.T
+    return rows.min() > 0.65 * screen.size[1] and 0.35 * screen.size[0] < columns.min() and columns.max() < 0.65 * screen.size[0]
 
 
 def is_armable(link):

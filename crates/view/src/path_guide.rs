@@ -86,6 +86,9 @@ struct GuidedTask {
 #[derive(Debug, Clone)]
 pub struct PathGuide(Vec<GuidedTask>);
 
+/// Returns the position and normal of the surface in a direction from a point.
+pub type SurfaceQuery<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)>;
+
 /// What the picture shows: the camera, the aircraft and the next step.
 pub struct GuidedView<'a> {
     /// The picture's camera.
@@ -102,8 +105,8 @@ pub struct GuidedView<'a> {
     pub aids: PathAids,
     /// Checks whether an object hides a point from the camera.
     pub is_hidden: &'a dyn Fn(Vec3<Enu>) -> bool,
-    /// Returns the position and normal of the surface in a direction from a point.
-    pub surface: &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)>,
+    /// Finds the inspected surface.
+    pub surface: SurfaceQuery<'a>,
 }
 
 impl PathGuide {

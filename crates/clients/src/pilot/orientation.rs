@@ -91,7 +91,7 @@ impl Orientation {
         }
         let [forward, right, up, yaw] = axes;
         if self.is_lost(now) {
-            self.lost = self.lost + SimTime::from_s(dt_s);
+            self.lost += SimTime::from_s(dt_s);
             return match self.reversed {
                 ReversedAxes::Sideways => [forward, -right, up, -yaw],
                 ReversedAxes::Forward => [-forward, right, up, yaw],
