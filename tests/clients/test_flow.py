@@ -232,6 +232,36 @@ def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_pa
     assert len(folders(training)) == 1
 
 
+@pytest.mark.timeout(1200)
+def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
+    """The expert starts once the window shows the flight, lands, and leaves the trainee's own choice selected."""
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", "--no-sound", "--speed", "4")
+    try:
+        start = training.wait_for_screenshot("start", is_page)
+        moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
+        # Below the recommendation: job, purpose, controller check, expert.
+        for _ in range(4):
+            screen.tap(DOWN)
+        spandrel.wait_for("the focus on the expert", lambda: focus(screen.photograph())[1] > focus(moved)[1] + 0.2, LIMIT_S)
+        training.wait_for_screenshot("expert-flies", in_flight, ENTER)
+        training.wait_for_screenshot("expert-over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200)
+        (session,) = folders(training)
+        told = json.loads((session / "session.json").read_text(encoding="utf-8"))
+        assert (told["trainee"], told["purpose"]) == ("synthetic-expert", "practice"), told
+        ended = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
+        assert ended["end"]["reason"] == "landed" and ended["tasks"][0]["attempted"], ended["end"]
+        # The first row is the report; the next one flies the job oneself.
+        screen.tap(DOWN)
+        training.wait_for_screenshot("own-flight", in_flight_or_briefing, ENTER)
+    finally:
+        training.close()
+
+
+def in_flight_or_briefing(photograph):
+    """Returns whether the briefing of the trainee's own flight or the flight is displayed."""
+    return is_page(photograph) and count(photograph, BLUE) == 0 or in_flight(photograph)
+
+
 def window_of(training):
     """Returns the process of the window that `train` has started."""
     with open(f"/proc/{training.process.pid}/task/{training.process.pid}/children", encoding="utf-8") as listed:

@@ -66,7 +66,8 @@ fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale
         let (from, to) = (pair[0].0, pair[1].0 + overlap_m);
         vec![(from, low), (to, low), (to, pair[1].1.max(low)), (from, pair[0].1.max(low))]
     });
-    let shapes = [(water, HudColor::Water)].into_iter().chain(ground.map(|shape| (shape, HudColor::Earth)));
+    let water = (water_level_m > low).then_some((water, HudColor::Water));
+    let shapes = water.into_iter().chain(ground.map(|shape| (shape, HudColor::Earth)));
     let shapes = shapes.chain(side.members.iter().map(|shape| (shape.clone(), HudColor::Structure)));
     let drawn = shapes.filter_map(|(shape, color)| {
         let px: Vec<Point> = shape.into_iter().map(|point| scale.place(point)).collect();

@@ -84,7 +84,8 @@ fn side_view(scenario: &Scenario, site: &Site, bridge: Option<usize>) -> SideVie
     let tasks = scenario.tasks.iter().filter(|task| bridge.is_none_or(|_| task.bridge == bridge));
     let paths = tasks.flat_map(|task| task.path_m.iter()).map(|point_m| view.at(*point_m));
     let water = scenario.terrain.water_level_m;
-    let shown = paths.chain(members.iter().flatten().copied());
+    let pad = bridge.is_none().then(|| view.at(scenario.ground_team.pad_m));
+    let shown = paths.chain(members.iter().flatten().copied()).chain(pad);
     let ((left, low), (right, high)) = bounds(shown);
     let through_m: Vec3<Enu> = bridge.map_or(scenario.ground_team.pad_m, |bridge| scenario.bridges[bridge].center_m);
     let ground = ground_profile(scenario, site, &view, through_m, (left, right));

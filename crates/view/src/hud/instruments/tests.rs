@@ -137,6 +137,18 @@ fn exact_near_obstacles_are_red_and_missing_range_finders_are_not_free_space() {
 }
 
 #[test]
+fn exact_the_profile_of_a_dry_site_shows_its_ground_and_no_water() {
+    let job = scenario::read("job.toml", shipped::DRILL_HOVER, &|file| Err(file.to_owned())).unwrap();
+    let site = SiteOutline::new(&job, &Site::without_defects(&job));
+    let side = site.side(None).unwrap();
+    let ((_, low), (_, high)) = side.bounds;
+    let ground_up_m = side.ground[0].1;
+    assert!(low < ground_up_m && ground_up_m < high && high - low < 20.0, "{low} m, {ground_up_m} m, {high} m");
+    let items = instruments(&flying(&job), &site, (320.0, 480.0));
+    assert!(!has_color(&items, HudColor::Water) && has_color(&items, HudColor::Earth));
+}
+
+#[test]
 fn exact_the_horizon_tilts_against_the_roll_and_sinks_when_the_nose_rises() {
     let (job, site) = job();
     // The ground is the polygon in the color of earth that is drawn first, in the navigation display.
