@@ -5,6 +5,7 @@ use super::super::state::Hud;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
+use super::scale::DrawingScale;
 use super::site_outline::{Point, SiteOutline};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -15,47 +16,26 @@ const MAX_SCALE_SHARE: f64 = 0.35;
 /// Lengths of the scale, m.
 const SCALE_LENGTHS_M: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1_000.0, 2_000.0];
 
-/// Conversion from meters east and north to px.
-#[derive(Debug, Clone, Copy)]
-struct MapScale {
-    middle: Point,
-    origin_px: Point,
-    px_per_m: f64,
-}
-
-impl MapScale {
-    /// Fits the bounds of the map into the area.
-    fn fit(site: &SiteOutline, area: Area) -> Self {
-        let (low, high) = site.bounds;
-        let px_per_m = (area.width / (high.0 - low.0).max(1.0)).min(area.height / (high.1 - low.1).max(1.0));
-        Self { middle: (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1)), origin_px: area.middle(), px_per_m }
-    }
-
-    fn place(&self, (east, north): Point) -> Point {
-        (self.origin_px.0 + (east - self.middle.0) * self.px_per_m, self.origin_px.1 - (north - self.middle.1) * self.px_per_m)
-    }
-
-    fn of(&self, point_m: Vec3<Enu>) -> Point {
-        self.place((point_m.east(), point_m.north()))
-    }
+fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
+    scale.place((point_m.east(), point_m.north()))
 }
 
 pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
-    let scale = MapScale::fit(site, area.inside(0.5 * font));
+    let scale = DrawingScale::fit(site.bounds, area.inside(0.5 * font));
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
     items.extend(ground(site, pane, area, &scale));
     items.extend(tasks(hud, pane, area, &scale, font));
-    let (pad, side) = (clamp_point(scale.of(hud.pad_m), area.inside(0.5 * font)), 0.35 * font);
+    let (pad, side) = (clamp_point(place(&scale, hud.pad_m), area.inside(0.5 * font)), 0.35 * font);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
     items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
-    let drone = clamp_point(scale.of(hud.position_m), area.inside(font));
+    let drone = clamp_point(place(&scale, hud.position_m), area.inside(font));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 1.15 * font), HudColor::Black));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 0.85 * font), HudColor::Yellow));
     items.extend(legend(pane, area, &scale, font));
     items
 }
 
-fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &MapScale) -> Vec<DrawItem> {
+fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
     // Strips overlap, so that no line shows between them.
     let half_m = 0.5 * GROUND_SAMPLE_SPACING_M + 1.0 / scale.px_per_m;
     let strip = |west: f64, east: f64, north: f64| {
@@ -72,19 +52,19 @@ fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &MapScale) -> Vec<D
     drawn.collect()
 }
 
-fn tasks(hud: &Hud, pane: Pane, area: Area, scale: &MapScale, font: f64) -> Vec<DrawItem> {
+fn tasks(hud: &Hud, pane: Pane, area: Area, scale: &DrawingScale, font: f64) -> Vec<DrawItem> {
     let current = hud.guidance.and_then(|guidance| guidance.task);
     let mut items = Vec::new();
     for track in &hud.tracks {
-        let mut points: Vec<Point> = track.path_m.iter().step_by(3).map(|point_m| scale.of(*point_m)).collect();
-        points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|end_m| scale.of(*end_m)));
+        let mut points: Vec<Point> = track.path_m.iter().step_by(3).map(|point_m| place(scale, *point_m)).collect();
+        points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|end_m| place(scale, *end_m)));
         let color = if Some(track.id) == current { HudColor::Yellow } else { HudColor::Blue };
         let width = if Some(track.id) == current { 0.28 } else { 0.16 };
         items.push(pane.line(&points, width * font, color));
     }
     let mut taken: Vec<Point> = Vec::new();
     for track in &hud.tracks {
-        let start = scale.of(track.path_m[0]);
+        let start = place(scale, track.path_m[0]);
         let label = free_place((start.0, start.1 - 0.9 * font), &taken, area.inside(0.7 * font), font);
         items.push(disc(pane, label, 0.62 * font, HudColor::Black));
         items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
@@ -114,7 +94,7 @@ fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
 }
 
 /// Returns the north arrow and the scale.
-fn legend(pane: Pane, area: Area, scale: &MapScale, font: f64) -> Vec<DrawItem> {
+fn legend(pane: Pane, area: Area, scale: &DrawingScale, font: f64) -> Vec<DrawItem> {
     let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
     let length_m = SCALE_LENGTHS_M.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(SCALE_LENGTHS_M[0]);
     let (left, bottom) = (area.x + 0.8 * font, area.y + area.height - 0.8 * font);

@@ -5,6 +5,7 @@ mod clip;
 mod map;
 mod navigation;
 mod profile;
+mod scale;
 mod site_outline;
 #[cfg(test)]
 mod tests;

@@ -5,36 +5,14 @@ use super::super::state::Hud;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
+use super::scale::DrawingScale;
 use super::site_outline::{Point, SideView, SiteOutline};
-
-/// Conversion from meters right and up to px.
-struct ProfileScale {
-    low: Point,
-    corner_px: Point,
-    px_per_m: f64,
-}
-
-impl ProfileScale {
-    /// Fits the side view into the area, at its bottom and in its middle.
-    fn fit(side: &SideView, area: Area) -> Self {
-        let (low, high) = side.bounds;
-        let (wide, tall) = ((high.0 - low.0).max(1.0), (high.1 - low.1).max(1.0));
-        let px_per_m = (area.width / wide).min(area.height / tall);
-        let left = area.x + 0.5 * (area.width - wide * px_per_m);
-        let bottom = area.y + 0.5 * (area.height + tall * px_per_m);
-        Self { low, corner_px: (left, bottom), px_per_m }
-    }
-
-    fn place(&self, (right, up): Point) -> Point {
-        (self.corner_px.0 + (right - self.low.0) * self.px_per_m, self.corner_px.1 - (up - self.low.1) * self.px_per_m)
-    }
-}
 
 pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
     let current = hud.guidance.and_then(|guidance| guidance.task);
     let Some(side) = site.side(current) else { return items };
-    let scale = ProfileScale::fit(side, area.inside(0.4 * font));
+    let scale = DrawingScale::fit(side.bounds, area.inside(0.4 * font));
     items.extend(background(side, site.water_level_m, pane, area, &scale));
     for track in &hud.tracks {
         let color = if Some(track.id) == current { HudColor::Yellow } else { HudColor::Blue };
@@ -56,7 +34,7 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
     items
 }
 
-fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale: &ProfileScale) -> Vec<DrawItem> {
+fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
     let ((left, low), (right, _)) = side.bounds;
     let water = vec![(left, low), (right, low), (right, water_level_m), (left, water_level_m)];
     let ground = side.ground.windows(2).filter(|pair| pair[0].1 > low || pair[1].1 > low);
@@ -81,7 +59,7 @@ fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale
 fn path(
     path_m: &[spandrel_model::frames::Vec3<spandrel_model::frames::Enu>],
     closed: bool,
-    (side, scale): (&SideView, &ProfileScale),
+    (side, scale): (&SideView, &DrawingScale),
     pane: Pane,
     area: Area,
     (width, color): (f64, HudColor),
