@@ -167,12 +167,6 @@ impl Cockpit {
         self.listen(started);
         let text = self.text(now.is_some(), started);
         let map = self.map && self.plan.map && self.flow.shows_map();
-        let options = ViewOptions {
-            inspector_camera: self.inspector_camera,
-            map,
-            path_aids: self.path_aids(),
-            key_names: self.flow.key_names().clone(),
-        };
         if let Some(flight) = &self.threads.flight {
             self.flow.camera_aspect = flight.job.1.camera.aspect();
             if self.flow.arrangement == ViewLayout::Camera {
@@ -180,6 +174,12 @@ impl Cockpit {
             }
         }
         let shape = self.shape();
+        let options = ViewOptions {
+            inspector_camera: self.inspector_camera,
+            map,
+            path_aids: self.path_aids(),
+            key_names: self.flow.key_names(),
+        };
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };
         let shown = flight.draw(screen, &self.flow.arrangement.view_rects(shape), now.as_ref(), &options)?;
         let size = screen.window.inner_size();

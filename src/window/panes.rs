@@ -80,9 +80,9 @@ pub struct ViewPanes {
     exposure_meters: [ExposureMeter; 2],
 }
 
-/// What the user chose to see.
-#[derive(Debug, Clone)]
-pub struct ViewOptions {
+/// The user's view settings.
+#[derive(Debug, Clone, Copy)]
+pub struct ViewOptions<'a> {
     /// Direction and zoom of the inspector's view.
     pub inspector_camera: InspectorCamera,
     /// Whether the reference paths may be shown on a map.
@@ -90,7 +90,7 @@ pub struct ViewOptions {
     /// How much of the path is drawn into the pictures.
     pub path_aids: PathAids,
     /// Names of the keys.
-    pub key_names: KeyNames,
+    pub key_names: &'a KeyNames,
 }
 
 /// A view to show.
@@ -140,25 +140,23 @@ impl ViewPanes {
         if self.job.site.traffic().closures() != &now.closures {
             self.job.site = self.job.site.with_closures(now.closures.clone());
         }
+        let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
+        if let Some(lesson) = &mut display.lesson {
+            lesson.how = options.key_names.fill(&lesson.how);
+        }
+        let mut shown = Vec::new();
+        if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Instruments) {
+            let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(screen, view_rect));
+            shown.push(PaneContent { view_rect: *view_rect, picture: None, items });
+            // The instruments include a map.
+            display.tracks = Vec::new();
+        }
         // Start the camera's view first, because the second device renders it while this device renders the other view.
-        let mut order: Vec<&ViewRect> = places.iter().collect();
+        let mut order: Vec<&ViewRect> = places.iter().filter(|view_rect| view_rect.which != ViewKind::Instruments).collect();
         order.sort_by_key(|view_rect| view_rect.which != ViewKind::Camera);
-        let (mut shown, mut begun) = (Vec::new(), false);
+        let mut begun = false;
         for view_rect in order {
             let view_rect = self.fit_view(screen, *view_rect);
-            let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
-            if let Some(lesson) = &mut display.lesson {
-                lesson.how = options.key_names.fill(&lesson.how);
-            }
-            if view_rect.which == ViewKind::Instruments {
-                let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(screen, &view_rect));
-                shown.push(PaneContent { view_rect, picture: None, items });
-                continue;
-            }
-            // The instruments include a map.
-            let tracks =
-                if places.iter().any(|place| place.which == ViewKind::Instruments) { Vec::new() } else { display.tracks };
-            let display = Hud { tracks, ..display };
             let (shot, items) = self.render(screen, &view_rect, now, &display, options);
             let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
             shown.push(PaneContent { view_rect, picture: Some(pane.id), items });

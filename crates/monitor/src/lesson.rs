@@ -45,7 +45,7 @@ pub struct LessonInput<'a> {
     pub tasks: &'a [(f64, bool)],
 }
 
-/// What a picture shows.
+/// Result of evaluating a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PictureVerdict {
     /// At least one defect that counts.
@@ -156,19 +156,8 @@ impl LessonCoach {
         if !input.armed && !matches!(step, LessonStep::Arm | LessonStep::Land) {
             return self.remark(input.time, "the motors are off: arm them again");
         }
-        let (place, stop) = match step {
-            LessonStep::Hover(place) => (place, false),
-            LessonStep::StopAt(place) => (place, true),
-            LessonStep::Arm
-            | LessonStep::TakeOff { .. }
-            | LessonStep::Turn { .. }
-            | LessonStep::FlyPath { .. }
-            | LessonStep::TiltCamera { .. }
-            | LessonStep::Lamp
-            | LessonStep::Photograph
-            | LessonStep::FlyHome
-            | LessonStep::Land => return None,
-        };
+        let place = step.place()?;
+        let stop = matches!(step, LessonStep::StopAt(_));
         let inside = (input.position_m - place.position_m).norm() <= place.radius_m;
         if inside && stop && input.speed_m_s > STOPPED_M_S {
             self.held_since = None;
@@ -240,18 +229,8 @@ impl LessonCoach {
             let done = LessonTask::Done;
             return LessonStatus { task: done, step: steps + 1, steps, progress: 1.0, way: None, radius_m: None, target: None };
         };
-        let (place_m, radius_m) = match step {
-            LessonStep::Hover(place) | LessonStep::StopAt(place) => (Some(place.position_m), Some(place.radius_m)),
-            LessonStep::FlyHome => (Some(input.pad_m), Some(input.home_radius_m)),
-            LessonStep::Arm
-            | LessonStep::TakeOff { .. }
-            | LessonStep::Turn { .. }
-            | LessonStep::FlyPath { .. }
-            | LessonStep::TiltCamera { .. }
-            | LessonStep::Lamp
-            | LessonStep::Photograph
-            | LessonStep::Land => (None, None),
-        };
+        let home = (*step == LessonStep::FlyHome).then_some((input.pad_m, input.home_radius_m));
+        let ring = step.place().map(|place| (place.position_m, place.radius_m)).or(home);
         let target = match step {
             LessonStep::TakeOff { height_m } => Some(*height_m),
             LessonStep::Hover(place) | LessonStep::StopAt(place) => Some(place.duration.s()),
@@ -269,8 +248,8 @@ impl LessonCoach {
             step: self.current as u32 + 1,
             steps,
             progress: self.progress(step, input),
-            way: place_m.map(|place_m| HeadingOffset::new(place_m - input.position_m, input.heading_rad).way()),
-            radius_m,
+            way: ring.map(|(place_m, _)| HeadingOffset::new(place_m - input.position_m, input.heading_rad).way()),
+            radius_m: ring.map(|(_, radius_m)| radius_m),
             target,
         }
     }

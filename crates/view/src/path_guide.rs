@@ -45,19 +45,20 @@ pub enum PathAids {
     Full,
 }
 
-/// Number of sessions whose mean conformity determines the aids.
-const SESSIONS: usize = 3;
 /// Mean conformity, %, from which there is less help: gates without the ribbon, the next gate only, nothing (estimates: the
 /// paper's trainees have 78 % on average).
 const LIMITS_PCT: [f64; 3] = [70.0, 85.0, 95.0];
 
 impl PathAids {
+    /// Number of sessions whose mean conformity determines the aids.
+    pub const SESSIONS: usize = 3;
+
     /// Returns the aids for a trainee, from the conformity of the complete sessions so far, in %, the latest last. Up to the
     /// third session, nothing is left out.
     #[must_use]
     pub fn for_conformity(sessions_pct: &[f64]) -> Self {
-        let latest = &sessions_pct[sessions_pct.len().saturating_sub(SESSIONS)..];
-        if latest.len() < SESSIONS {
+        let latest = &sessions_pct[sessions_pct.len().saturating_sub(Self::SESSIONS)..];
+        if latest.len() < Self::SESSIONS {
             return Self::Full;
         }
         let mean_pct = latest.iter().sum::<f64>() / latest.len() as f64;
@@ -89,7 +90,7 @@ pub struct PathGuide(Vec<GuidedTask>);
 /// Returns the position and normal of the surface in a direction from a point.
 pub type SurfaceQuery<'a> = &'a dyn Fn(Vec3<Enu>, Vec3<Enu>) -> Option<(Vec3<Enu>, Vec3<Enu>)>;
 
-/// What the picture shows: the camera, the aircraft and the next step.
+/// Inputs for drawing the path into a picture.
 pub struct GuidedView<'a> {
     /// The picture's camera.
     pub eye: &'a PinholeCamera,

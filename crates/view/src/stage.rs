@@ -135,7 +135,7 @@ impl Stage<'_> {
     pub fn lesson_items(&self, shot: &Shot, lesson: Option<&LessonDisplay>) -> Vec<DrawItem> {
         // The message gives the way relative to an older heading, so that a ring placed by it would swing with the aircraft.
         let step = lesson.and_then(|lesson| self.scenario.lesson.get(lesson.status.step.checked_sub(1)? as usize));
-        let Some(LessonStep::Hover(place) | LessonStep::StopAt(place)) = step else { return Vec::new() };
+        let Some(place) = step.and_then(LessonStep::place) else { return Vec::new() };
         let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
         ring_items(&shot.eye, aspect, place.position_m, place.radius_m)
     }
@@ -317,7 +317,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
             remark: remark.map(str::to_owned),
             status,
         }),
-        tracks: if map { tracks(scenario) } else { Vec::new() },
+        tracks: if map { MapPath::all(scenario) } else { Vec::new() },
     }
 }
 
@@ -335,11 +335,6 @@ fn way_back(stage: &Stage, moment: &SceneMoment, feed: &Feed, held: bool) -> Opt
 
 /// Height above the pad at which the flight time starts, m (docs/src/reference/assessment.md, "Frames").
 pub const LIFTOFF_HEIGHT_M: f64 = 0.3;
-
-fn tracks(scenario: &Scenario) -> Vec<MapPath> {
-    let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
-    scenario.tasks.iter().filter(|task| !task.path_m.is_empty()).map(track).collect()
-}
 
 /// Returns the pose of a camera without roll that looks from one point at another.
 #[must_use]

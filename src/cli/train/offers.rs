@@ -84,19 +84,25 @@ fn scenarios_by_form(name: &str) -> Vec<String> {
 /// Returns how much of the path a trainee sees in practice, from the conformity of the earlier sessions.
 pub fn path_aids(sessions: &Path, trainee: &str) -> PathAids {
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
-    let mut flown: Vec<(u64, f64)> = folders
+    let mut own: Vec<(u64, &PathBuf)> = folders
         .iter()
         .filter_map(|folder| {
-            let (who, started) = trainee_and_start(folder).ok()?;
-            let text = std::fs::read_to_string(folder.join(ASSESSMENT)).ok().filter(|_| who == trainee)?;
-            let assessment: Value = serde_json::from_str(&text).ok()?;
-            // Lessons and incomplete sessions say little about how well somebody follows a path.
-            let counts = lesson_of(folder).is_none() && assessment["completion"]["complete"].as_bool() == Some(true);
-            Some((started, assessment["scores"]["conformity"]["pct"].as_f64().filter(|_| counts)?))
+            trainee_and_start(folder).ok().filter(|(who, _)| who == trainee).map(|(_, started)| (started, folder))
         })
         .collect();
-    flown.sort_by_key(|(started, _)| *started);
-    PathAids::for_conformity(&flown.into_iter().map(|(_, pct)| pct).collect::<Vec<_>>())
+    own.sort_by_key(|(started, _)| std::cmp::Reverse(*started));
+    // The latest sessions are enough; reading all of them would delay the flight.
+    let latest: Vec<f64> = own.iter().filter_map(|(_, folder)| conformity_pct(folder)).take(PathAids::SESSIONS).collect();
+    PathAids::for_conformity(&latest)
+}
+
+/// Returns the conformity of a complete session, %. Lessons and incomplete sessions say little about how well somebody follows a
+/// path.
+fn conformity_pct(session: &Path) -> Option<f64> {
+    let text = std::fs::read_to_string(session.join(ASSESSMENT)).ok()?;
+    let assessment: Value = serde_json::from_str(&text).ok()?;
+    let counts = assessment["completion"]["complete"].as_bool() == Some(true) && lesson_of(session).is_none();
+    assessment["scores"]["conformity"]["pct"].as_f64().filter(|_| counts)
 }
 
 /// A trainee's sessions.

@@ -3,7 +3,8 @@
 //! DEBUG_FLOAT_ARRAY with the name `guidance`. NaN stands for a value that does not exist in this step. The layout only
 //! grows at its end.
 
-use crate::dialect::{DEBUG_FLOAT_ARRAY_DATA, MavMessage};
+use super::float_array::{self, FloatArray, optional};
+use crate::dialect::MavMessage;
 use spandrel_model::time::SimTime;
 
 /// Name in the message.
@@ -113,63 +114,49 @@ impl Guidance {
     /// Encodes the message. `time_us` is the simulation time, µs.
     #[must_use]
     pub fn message(&self, time_us: u64) -> MavMessage {
-        let mut data = [0.0; 58];
-        for (value, number) in data.iter_mut().zip(self.values()) {
-            *value = number;
-        }
-        let name = NAME.into();
-        MavMessage::DEBUG_FLOAT_ARRAY(DEBUG_FLOAT_ARRAY_DATA { time_usec: time_us, name, array_id: 0, data })
+        float_array::message(NAME, time_us, self.values())
     }
 
     fn values(&self) -> [f32; LENGTH] {
-        let real = |value: Option<f64>| value.map_or(f32::NAN, |value| value as f32);
         let count = |value: u32| value as f32;
         [
             self.step.code(),
             count(self.task.unwrap_or(0)),
-            real(self.way.map(|way| way.distance_m)),
-            real(self.way.map(|way| way.bearing_rad)),
-            real(self.way.map(|way| way.up_m)),
-            real(self.progress),
+            optional(self.way.map(|way| way.distance_m)),
+            optional(self.way.map(|way| way.bearing_rad)),
+            optional(self.way.map(|way| way.up_m)),
+            optional(self.progress),
             count(self.tasks_done),
             count(self.tasks),
-            real(self.deviation.map(|deviation| deviation.distance_m)),
-            real(self.deviation.map(|deviation| deviation.above_m)),
-            real(self.stand_off.map(|reading| reading.actual_m)),
-            real(self.stand_off.map(|reading| reading.recommended_m)),
-            real(self.stand_off.map(|reading| reading.tolerance_m)),
-            real(Some(self.flown_s)),
-            real(Some(self.needed_s)),
+            optional(self.deviation.map(|deviation| deviation.distance_m)),
+            optional(self.deviation.map(|deviation| deviation.above_m)),
+            optional(self.stand_off.map(|reading| reading.actual_m)),
+            optional(self.stand_off.map(|reading| reading.recommended_m)),
+            optional(self.stand_off.map(|reading| reading.tolerance_m)),
+            optional(Some(self.flown_s)),
+            optional(Some(self.needed_s)),
         ]
     }
 
     /// Decodes a message; `None` for other messages and for values that are out of range.
     #[must_use]
     pub fn of(message: &MavMessage) -> Option<Self> {
-        let MavMessage::DEBUG_FLOAT_ARRAY(array) = message else { return None };
-        if array.name.to_str() != Ok(NAME) {
-            return None;
-        }
-        let finite = |k: usize| Some(f64::from(array.data[k])).filter(|value| value.is_finite());
-        let whole = |k: usize| finite(k).filter(|value| (0.0..1e6).contains(value)).map(|value| value as u32);
+        let array = FloatArray::named(NAME, message)?;
         Some(Self {
-            step: GuidanceStep::from_code(array.data[0])?,
-            task: whole(1).filter(|task| *task > 0),
-            way: finite(2).zip(finite(3)).zip(finite(4)).map(|((distance_m, bearing_rad), up_m)| WayTo {
-                distance_m,
-                bearing_rad,
-                up_m,
+            step: GuidanceStep::from_code(array.raw(0))?,
+            task: array.count(1).filter(|task| *task > 0),
+            way: array.triple(2).map(WayTo::from_values),
+            progress: array.finite(5),
+            tasks_done: array.count(6)?,
+            tasks: array.count(7)?,
+            deviation: array.finite(8).zip(array.finite(9)).map(|(distance_m, above_m)| PathDeviation { distance_m, above_m }),
+            stand_off: array.triple(10).map(|[actual_m, recommended_m, tolerance_m]| StandOffReading {
+                actual_m,
+                recommended_m,
+                tolerance_m,
             }),
-            progress: finite(5),
-            tasks_done: whole(6)?,
-            tasks: whole(7)?,
-            deviation: finite(8).zip(finite(9)).map(|(distance_m, above_m)| PathDeviation { distance_m, above_m }),
-            stand_off: finite(10)
-                .zip(finite(11))
-                .zip(finite(12))
-                .map(|((actual_m, recommended_m), tolerance_m)| StandOffReading { actual_m, recommended_m, tolerance_m }),
-            flown_s: finite(13)?,
-            needed_s: finite(14)?,
+            flown_s: array.finite(13)?,
+            needed_s: array.finite(14)?,
         })
     }
 
@@ -202,6 +189,11 @@ const MIN_TURN_DEG: f64 = 5.0;
 const MIN_HEIGHT_M: f64 = 1.0;
 
 impl WayTo {
+    /// Returns the way from its distance, bearing and height.
+    pub(super) fn from_values([distance_m, bearing_rad, up_m]: [f64; 3]) -> Self {
+        Self { distance_m, bearing_rad, up_m }
+    }
+
     /// Returns the way in words, such as "140 m, 30 deg left, 12 m up".
     #[must_use]
     pub fn words(&self) -> String {
@@ -222,6 +214,7 @@ impl WayTo {
 mod tests {
     use super::*;
     use crate::codec::{Decoder, Encoder};
+    use crate::dialect::DEBUG_FLOAT_ARRAY_DATA;
 
     fn guidance() -> Guidance {
         Guidance {

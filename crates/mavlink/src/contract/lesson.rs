@@ -3,8 +3,9 @@
 //! DEBUG_FLOAT_ARRAY with the name `lesson`. NaN stands for a value that does not exist in this step. The layout only grows at
 //! its end.
 
+use super::float_array::{self, FloatArray, optional};
 use super::guidance::WayTo;
-use crate::dialect::{DEBUG_FLOAT_ARRAY_DATA, MavMessage};
+use crate::dialect::MavMessage;
 use spandrel_model::time::SimTime;
 
 /// Name in the message.
@@ -14,7 +15,7 @@ pub const TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Words at the start of each text about a lesson.
 pub const TEXT_PREFIX: &str = "Lesson: ";
 
-/// What the trainee does in a step.
+/// The action that a step of a lesson requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LessonTask {
     /// Arm the motors.
@@ -85,7 +86,7 @@ impl LessonTask {
 /// The current step of a lesson.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LessonStatus {
-    /// What the trainee does.
+    /// Required action.
     pub task: LessonTask,
     /// Number of the step, from 1; greater than the number of steps once all are done.
     pub step: u32,
@@ -97,7 +98,7 @@ pub struct LessonStatus {
     pub way: Option<WayTo>,
     /// Distance from the place at which the aircraft counts as being there, m.
     pub radius_m: Option<f64>,
-    /// What the step asks for: height, m; duration, s; angle, rad.
+    /// Target value: height, m; duration, s; angle, rad.
     pub target: Option<f64>,
 }
 
@@ -105,44 +106,32 @@ impl LessonStatus {
     /// Encodes the message. `time_us` is the simulation time, µs.
     #[must_use]
     pub fn message(&self, time_us: u64) -> MavMessage {
-        let real = |value: Option<f64>| value.map_or(f32::NAN, |value| value as f32);
         let values = [
             self.task.code(),
             self.step as f32,
             self.steps as f32,
             self.progress as f32,
-            real(self.way.map(|way| way.distance_m)),
-            real(self.way.map(|way| way.bearing_rad)),
-            real(self.way.map(|way| way.up_m)),
-            real(self.radius_m),
-            real(self.target),
+            optional(self.way.map(|way| way.distance_m)),
+            optional(self.way.map(|way| way.bearing_rad)),
+            optional(self.way.map(|way| way.up_m)),
+            optional(self.radius_m),
+            optional(self.target),
         ];
-        let mut data = [0.0; 58];
-        data[..values.len()].copy_from_slice(&values);
-        MavMessage::DEBUG_FLOAT_ARRAY(DEBUG_FLOAT_ARRAY_DATA { time_usec: time_us, name: NAME.into(), array_id: 0, data })
+        float_array::message(NAME, time_us, values)
     }
 
     /// Decodes a message; `None` for other messages and for values that are out of range.
     #[must_use]
     pub fn from_message(message: &MavMessage) -> Option<Self> {
-        let MavMessage::DEBUG_FLOAT_ARRAY(array) = message else { return None };
-        if array.name.to_str() != Ok(NAME) {
-            return None;
-        }
-        let finite = |k: usize| Some(f64::from(array.data[k])).filter(|value| value.is_finite());
-        let whole = |k: usize| finite(k).filter(|value| (0.0..1e6).contains(value)).map(|value| value as u32);
+        let array = FloatArray::named(NAME, message)?;
         Some(Self {
-            task: LessonTask::from_code(array.data[0])?,
-            step: whole(1)?,
-            steps: whole(2)?,
-            progress: finite(3)?.clamp(0.0, 1.0),
-            way: finite(4).zip(finite(5)).zip(finite(6)).map(|((distance_m, bearing_rad), up_m)| WayTo {
-                distance_m,
-                bearing_rad,
-                up_m,
-            }),
-            radius_m: finite(7),
-            target: finite(8),
+            task: LessonTask::from_code(array.raw(0))?,
+            step: array.count(1)?,
+            steps: array.count(2)?,
+            progress: array.finite(3)?.clamp(0.0, 1.0),
+            way: array.triple(4).map(WayTo::from_values),
+            radius_m: array.finite(7),
+            target: array.finite(8),
         })
     }
 

@@ -18,6 +18,7 @@
 pub mod contact;
 pub mod continuity;
 pub mod cue;
+mod float_array;
 pub mod guidance;
 pub mod lesson;
 pub mod modes;

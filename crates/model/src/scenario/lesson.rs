@@ -10,7 +10,7 @@ const MAX_STEPS: usize = 60;
 /// Default distance from a place at which the aircraft counts as being there, m (estimate: a beginner's position error).
 const DEFAULT_RADIUS_M: f64 = 2.0;
 
-/// What a trainee does in a step of a lesson.
+/// A step of a lesson.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LessonStep {
     /// Arm the motors.
@@ -34,7 +34,7 @@ pub enum LessonStep {
     },
     /// Fly to a place and stop there.
     StopAt(LessonPlace),
-    /// Tilt the camera up.
+    /// Tilt the camera.
     TiltCamera {
         /// Pitch of the camera, rad, up positive.
         pitch_rad: f64,
@@ -60,47 +60,57 @@ pub struct LessonPlace {
     pub duration: SimTime,
 }
 
-#[derive(Clone, Copy)]
-enum StepKind {
-    Arm,
-    TakeOff,
-    Hover,
-    Turn,
-    FlyPath,
-    StopAt,
-    TiltCamera,
-    Lamp,
-    Photograph,
-    FlyHome,
-    Land,
+impl LessonStep {
+    /// Returns the place of the step, if it has one.
+    #[must_use]
+    pub fn place(&self) -> Option<&LessonPlace> {
+        match self {
+            Self::Hover(place) | Self::StopAt(place) => Some(place),
+            Self::Arm
+            | Self::TakeOff { .. }
+            | Self::Turn { .. }
+            | Self::FlyPath { .. }
+            | Self::TiltCamera { .. }
+            | Self::Lamp
+            | Self::Photograph
+            | Self::FlyHome
+            | Self::Land => None,
+        }
+    }
 }
-
-const STEP_KINDS: [(&str, StepKind); 11] = [
-    ("arm", StepKind::Arm),
-    ("take_off", StepKind::TakeOff),
-    ("hover", StepKind::Hover),
-    ("turn", StepKind::Turn),
-    ("fly_path", StepKind::FlyPath),
-    ("stop_at", StepKind::StopAt),
-    ("tilt_camera", StepKind::TiltCamera),
-    ("lamp", StepKind::Lamp),
-    ("photograph", StepKind::Photograph),
-    ("fly_home", StepKind::FlyHome),
-    ("land", StepKind::Land),
-];
 
 /// Number of tasks of a job, and the largest number that a job may have.
 pub(super) type TaskCount = (usize, usize);
+
+/// Reads the other keys of a step.
+type StepReader = fn(&mut Reader, &mut Section, TaskCount) -> LessonStep;
+
+const STEP_KINDS: [(&str, StepReader); 11] = [
+    ("arm", |_, _, _| LessonStep::Arm),
+    ("take_off", |r, s, _| LessonStep::TakeOff { height_m: r.number(s, "height_m", (0.5, 100.0), Some(2.0)) }),
+    ("hover", |r, s, _| LessonStep::Hover(read_place(r, s, 10.0))),
+    ("turn", |r, s, _| LessonStep::Turn { angle_rad: r.number(s, "angle_deg", (10.0, 180.0), Some(90.0)).to_radians() }),
+    ("fly_path", read_path),
+    ("stop_at", |r, s, _| LessonStep::StopAt(read_place(r, s, 3.0))),
+    ("tilt_camera", |r, s, _| LessonStep::TiltCamera {
+        pitch_rad: r.number(s, "pitch_deg", (-80.0, 80.0), Some(20.0)).to_radians(),
+    }),
+    ("lamp", |_, _, _| LessonStep::Lamp),
+    ("photograph", |_, _, _| LessonStep::Photograph),
+    ("fly_home", |_, _, _| LessonStep::FlyHome),
+    ("land", |_, _, _| LessonStep::Land),
+];
 
 /// Reads the steps of a job; empty if the job is not a lesson.
 pub(super) fn read(r: &mut Reader, root: &mut Section, tasks: TaskCount, has_defects: bool) -> Vec<LessonStep> {
     let mut steps = Vec::new();
     for mut s in r.sections(root, "lesson") {
-        let kind = r.keyword(&mut s, "step", &STEP_KINDS, None);
-        steps.push(read_step(r, &mut s, kind, tasks));
-        if matches!(kind, StepKind::Photograph) && !has_defects {
+        let read = r.keyword(&mut s, "step", &STEP_KINDS, None);
+        let step = read(r, &mut s, tasks);
+        if step == LessonStep::Photograph && !has_defects {
             r.add_problem(&s, "step", "photograph", "a job with defects", "nothing to photograph");
         }
+        steps.push(step);
         r.finish(&s);
     }
     // A landing on the pad ends the session.
@@ -114,28 +124,12 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, tasks: TaskCount, has_def
     steps
 }
 
-fn read_step(r: &mut Reader, s: &mut Section, kind: StepKind, (tasks, most): TaskCount) -> LessonStep {
-    match kind {
-        StepKind::Arm => LessonStep::Arm,
-        StepKind::TakeOff => LessonStep::TakeOff { height_m: r.number(s, "height_m", (0.5, 100.0), Some(2.0)) },
-        StepKind::Hover => LessonStep::Hover(read_place(r, s, 10.0)),
-        StepKind::Turn => LessonStep::Turn { angle_rad: r.number(s, "angle_deg", (10.0, 180.0), Some(90.0)).to_radians() },
-        StepKind::FlyPath => {
-            let task = r.integer(s, "task", (1, i64::try_from(most).unwrap_or(i64::MAX)), Some(1)) as u32;
-            if task as usize > tasks.max(1) {
-                r.add_problem(s, "task", &task.to_string(), &format!("at most {tasks}, the number of tasks"), "no such task");
-            }
-            LessonStep::FlyPath { task }
-        }
-        StepKind::StopAt => LessonStep::StopAt(read_place(r, s, 3.0)),
-        StepKind::TiltCamera => {
-            LessonStep::TiltCamera { pitch_rad: r.number(s, "pitch_deg", (-80.0, 80.0), Some(20.0)).to_radians() }
-        }
-        StepKind::Lamp => LessonStep::Lamp,
-        StepKind::Photograph => LessonStep::Photograph,
-        StepKind::FlyHome => LessonStep::FlyHome,
-        StepKind::Land => LessonStep::Land,
+fn read_path(r: &mut Reader, s: &mut Section, (tasks, most): TaskCount) -> LessonStep {
+    let task = r.integer(s, "task", (1, i64::try_from(most).unwrap_or(i64::MAX)), Some(1)) as u32;
+    if task as usize > tasks.max(1) {
+        r.add_problem(s, "task", &task.to_string(), &format!("at most {tasks}, the number of tasks"), "no such task");
     }
+    LessonStep::FlyPath { task }
 }
 
 fn read_place(r: &mut Reader, s: &mut Section, duration_s: f64) -> LessonPlace {

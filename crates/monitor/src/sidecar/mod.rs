@@ -145,6 +145,11 @@ fn guides(policy: GuidancePolicy, purpose: Option<&str>) -> bool {
     }
 }
 
+/// Returns the lesson before its first step, if the job is one and the monitor guides the pilot.
+fn new_lesson(scenario: &Scenario, guides: bool) -> Option<LessonCoach> {
+    LessonCoach::new(&scenario.lesson).filter(|_| guides)
+}
+
 /// Live monitor of one session.
 #[derive(Debug, Clone)]
 pub struct Monitor {
@@ -186,18 +191,19 @@ impl Monitor {
     pub fn new(config: MonitorConfig) -> Self {
         let scenario = &config.scenario;
         let paths = ReferencePaths::new(scenario);
-        let mut monitor = Self {
+        let guides = guides(scenario.feedback.guidance, config.purpose.as_deref());
+        Self {
             decoder: Decoder::new(),
             encoder: Encoder::new(config.system_id, MONITOR_COMPONENT_ID),
             timeline: Timeline::new(LocalPlane::new(scenario.origin)),
             zero_unix_us: None,
             feedback: FeedbackRules::new(scenario),
             texts: TextQueue::default(),
-            guides: guides(scenario.feedback.guidance, config.purpose.as_deref()),
+            guides,
             announcer: StepAnnouncer::default(),
             holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
-            lesson: None,
+            lesson: new_lesson(scenario, guides),
             lesson_sent: None,
             needed_s: job_time::job_needed_s(scenario),
             live: LiveState::new(&config, &paths),
@@ -214,9 +220,7 @@ impl Monitor {
             rejection: None,
             outcome: None,
             config,
-        };
-        monitor.lesson = monitor.new_lesson();
-        monitor
+        }
     }
 
     /// Creates a monitor that resumes an interrupted session. `log` is the content of `telemetry.tlog`. Before appending to that

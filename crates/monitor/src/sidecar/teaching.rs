@@ -1,7 +1,7 @@
 //! The lesson of a job: its input from the telemetry, and its messages.
 
 use super::{GUIDANCE_INTERVAL, Monitor};
-use crate::lesson::{LessonCoach, LessonInput, PictureVerdict};
+use crate::lesson::{LessonInput, PictureVerdict};
 use serde_json::json;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::MavSeverity;
@@ -9,11 +9,6 @@ use spandrel_model::site::{CameraPose, DefectView};
 use spandrel_model::vehicle::Camera;
 
 impl Monitor {
-    /// Returns the lesson before its first step, if the job is one and the monitor guides the pilot.
-    pub(super) fn new_lesson(&self) -> Option<LessonCoach> {
-        LessonCoach::new(&self.config.scenario.lesson).filter(|_| self.guides)
-    }
-
     /// Updates the lesson and sends its current step and its texts.
     pub(super) fn send_lesson(&mut self, truth: &Truth) {
         let Some(mut lesson) = self.lesson.take() else { return };
@@ -35,17 +30,17 @@ impl Monitor {
         };
         let before = lesson.done();
         let texts = lesson.update(&input);
-        let status = lesson.status(&input);
-        if lesson.done() != before {
-            self.event("lesson_step", json!({ "done": lesson.done(), "of": status.steps }));
+        let is_news = lesson.done() != before;
+        if is_news {
+            self.event("lesson_step", json!({ "done": lesson.done(), "of": self.config.scenario.lesson.len() }));
         }
         for words in texts {
             self.send_text(&words, MavSeverity::MAV_SEVERITY_INFO);
         }
         let is_due = self.lesson_sent.is_none_or(|sent| truth.time - sent >= GUIDANCE_INTERVAL);
-        if is_due || lesson.done() != before {
+        if is_due || is_news {
             self.lesson_sent = Some(truth.time);
-            self.send(&status.message(u64::try_from(truth.time.us()).unwrap_or(0)));
+            self.send(&lesson.status(&input).message(u64::try_from(truth.time.us()).unwrap_or(0)));
         }
         self.lesson = Some(lesson);
     }

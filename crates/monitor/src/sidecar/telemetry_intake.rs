@@ -2,6 +2,7 @@
 
 use super::{
     CONTACT_SEARCH_RADIUS_M, END_RETRY_DELAY, HEARTBEAT_INTERVAL, LiveState, MONITOR_COMPONENT_ID, Monitor, SCORING_DELAY,
+    new_lesson,
 };
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::feedback::{FeedbackRules, texts::TextQueue};
@@ -66,7 +67,7 @@ impl Monitor {
         self.announcer = StepAnnouncer::default();
         self.holds = HoldTimer::new(self.paths.len());
         self.guidance_sent = None;
-        self.lesson = self.new_lesson();
+        self.lesson = new_lesson(&self.config.scenario, self.guides);
         self.lesson_sent = None;
         self.last_heartbeat_sim_time = None;
         self.handle_sample(sample, None);

@@ -88,7 +88,7 @@ impl JobBriefing {
     }
 }
 
-/// Who flies.
+/// Pilot of a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FlownBy {
@@ -108,7 +108,7 @@ pub struct FlightChoice {
     pub scenario: String,
     /// Purpose of the flight.
     pub purpose: Purpose,
-    /// Who flies.
+    /// Pilot of the flight.
     #[serde(default)]
     pub by: FlownBy,
 }

@@ -6,7 +6,6 @@ use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowR
 
 /// Maximum length of a pseudonym.
 const MAX_NAME_LENGTH: usize = 32;
-const NO_TRAINEE: &str = "Enter a pseudonym first.";
 const STARTING_TEXT: &str = "Starting simulator ...";
 /// Step sizes of the dead band and expo.
 const DEAD_BAND_STEP: f64 = 0.01;
@@ -142,7 +141,9 @@ impl WindowFlow {
             | MenuAction::Expo => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
-            MenuAction::CheckController if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
+            MenuAction::CheckController | MenuAction::FlyNext | MenuAction::WatchExpert if self.choice.trainee.is_empty() => {
+                self.notice = Some("Enter a pseudonym first.".into());
+            }
             MenuAction::CheckController => self.show_page(Page::Controls),
             MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
             MenuAction::Sound => self.toggle_sound(),
@@ -173,7 +174,6 @@ impl WindowFlow {
                 self.send(FromWindow::Again);
             }
             MenuAction::FlyNext => self.fly_next(),
-            MenuAction::WatchExpert if self.choice.trainee.is_empty() => self.notice = Some(NO_TRAINEE.into()),
             MenuAction::WatchExpert => {
                 let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
                 self.send(FromWindow::Chosen(choice));
@@ -193,10 +193,6 @@ impl WindowFlow {
     /// briefing.
     fn fly_next(&mut self) {
         let Some(next) = self.next_job().cloned() else { return };
-        if self.choice.trainee.is_empty() {
-            self.notice = Some(NO_TRAINEE.into());
-            return;
-        }
         self.choice = FlightChoice {
             scenario: next.scenario,
             purpose: Purpose::Practice,

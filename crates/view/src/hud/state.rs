@@ -4,6 +4,7 @@ use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{Scenario, Task};
 use spandrel_model::speed_unit::SpeedUnit;
 
 /// GNSS fix and satellite count.
@@ -56,7 +57,7 @@ pub struct LessonDisplay {
     pub status: LessonStatus,
     /// How it is done.
     pub how: String,
-    /// What went wrong.
+    /// Remark about a mistake.
     pub remark: Option<String>,
 }
 
@@ -65,6 +66,15 @@ pub struct LessonDisplay {
 pub struct WayBack {
     /// Direction in the picture, rad clockwise from the top.
     pub direction_rad: f64,
+}
+
+impl MapPath {
+    /// Returns the paths of a job's tasks.
+    #[must_use]
+    pub fn all(scenario: &Scenario) -> Vec<Self> {
+        let path = |task: &Task| Self { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
+        scenario.tasks.iter().filter(|task| !task.path_m.is_empty()).map(path).collect()
+    }
 }
 
 /// Inputs of the HUD as plain data.

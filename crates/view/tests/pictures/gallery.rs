@@ -241,7 +241,6 @@ fn regress_tutorial_shows_defects_at_true_scale() {
 
 /// Returns the HUD during a normal flight.
 fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
-    let track = |task: &spandrel_model::scenario::Task| MapPath { id: task.id, path_m: task.path_m.clone(), closed: task.closed };
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,
@@ -272,7 +271,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         pad_m: studio.scenario.ground_team.pad_m,
         guidance: None,
         lesson: None,
-        tracks: studio.scenario.tasks.iter().map(track).collect(),
+        tracks: MapPath::all(&studio.scenario),
     }
 }
 

@@ -36,11 +36,6 @@ fn flying(job: &Scenario) -> Hud {
     };
     let mut sectors_m = vec![f64::INFINITY; 8];
     (sectors_m[0], sectors_m[1]) = (1.2, 7.5);
-    let track = |task: &spandrel_model::scenario::Task| super::super::MapPath {
-        id: task.id,
-        path_m: task.path_m.clone(),
-        closed: task.closed,
-    };
     Hud {
         guidance: Some(guidance),
         obstacles: Some(Obstacles { sectors_m, range_m: 12.0, too_close_m: 1.5 }),
@@ -48,7 +43,7 @@ fn flying(job: &Scenario) -> Hud {
         position_m: Vec3::new(20.0, -10.0, 30.0),
         roll_rad: 0.3,
         pitch_rad: -0.2,
-        tracks: job.tasks.iter().map(track).collect(),
+        tracks: super::super::MapPath::all(job),
         ..hud()
     }
 }
