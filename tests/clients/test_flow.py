@@ -137,10 +137,10 @@ def test_wire_keyboard_controls_a_complete_session(screen, tmp_path):
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
     try:
         start = training.wait_for_screenshot("start", is_page)
-        # Moves the focus down to "Next", which opens the controller check.
+        # Moves the focus down past the recommendation, the job and the purpose to "Next", which opens the controller check.
         moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
         assert focus(moved)[1] < 0.5
-        for _ in range(2):
+        for _ in range(3):
             screen.tap(DOWN)
         controls = training.wait_for_screenshot("controls", other_page(moved), ENTER)
         screen.key("w", True)
