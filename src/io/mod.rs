@@ -30,6 +30,7 @@ pub mod png;
 pub mod progress;
 pub mod replace;
 pub mod report;
+pub mod school_record;
 pub mod scoring;
 pub mod serial;
 pub mod session_folder;

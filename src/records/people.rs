@@ -4,11 +4,16 @@ use super::database::Database;
 use super::location::RecordsLocation;
 use super::{erasure, import};
 use crate::errors::AppError;
+use crate::io::school_record;
 use crate::io::session_folder::trainee_and_start;
 use serde::Serialize;
 use spandrel_training::record::SessionRecord;
+use spandrel_training::school::SchoolRecord;
 use spandrel_training::trainee::Trainee;
 use std::path::{Path, PathBuf};
+
+/// Microseconds in a second.
+const US_PER_S: u64 = 1_000_000;
 
 /// All of one trainee's data.
 #[derive(Debug, Serialize)]
@@ -16,6 +21,8 @@ pub struct TraineeData {
     trainee: Trainee,
     sessions: Vec<SessionRecord>,
     folders: Vec<String>,
+    /// Progress in the defect school, for each sessions folder that has any.
+    school: Vec<SchoolRecord>,
 }
 
 impl TraineeData {
@@ -44,11 +51,13 @@ pub fn trainee_data(
     let sessions = database.records(Some(trainee))?;
     let folders = folders_of_trainee(records_location, trainee)?;
     let known = find(database, trainee)?;
-    if known.is_none() && sessions.is_empty() && folders.is_empty() {
+    let stored = records_location.sessions.iter().map(|folder| school_record::find(folder, trainee));
+    let school: Vec<SchoolRecord> = stored.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+    if known.is_none() && sessions.is_empty() && folders.is_empty() && school.is_empty() {
         return Ok(None);
     }
     let folders = folders.iter().map(|path| path.display().to_string()).collect();
-    Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
+    Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders, school }))
 }
 
 /// Erases a trainee. Returns true if any data existed, and the number of sessions in the database.
@@ -70,12 +79,15 @@ pub fn find(database: &Database, trainee: &str) -> Result<Option<Trainee>, AppEr
     Ok(database.account(trainee)?.map(|account| account.person))
 }
 
-/// Returns a trainee's session folders.
+/// Returns a trainee's session folders, and the folder with the trainee's progress in the defect school.
 ///
 /// # Errors
 /// Returns an error if the sessions folder cannot be read.
 pub fn folders_of_trainee(records_location: &RecordsLocation, trainee: &str) -> Result<Vec<PathBuf>, AppError> {
-    matching_folders(&records_location.sessions, |owner, _| owner == trainee)
+    let mut folders = matching_folders(&records_location.sessions, |owner, _| owner == trainee)?;
+    let school = records_location.sessions.iter().map(|sessions| school_record::folder(sessions, trainee));
+    folders.extend(school.filter(|folder| folder.is_dir()));
+    Ok(folders)
 }
 
 /// Returns the session folders whose trainee and start time (µs since the Unix epoch) satisfy the predicate. Logs
@@ -113,10 +125,14 @@ pub fn erase_older_than(
     Ok((deleted, folders.len()))
 }
 
-/// Returns the session folders that started before this time (µs since the Unix epoch).
+/// Returns the session folders that started before this time (µs since the Unix epoch), and the folders of the defect school without
+/// a later answer.
 ///
 /// # Errors
 /// Returns an error if the sessions folder cannot be read.
 pub fn folders_older_than(records_location: &RecordsLocation, limit_us: u64) -> Result<Vec<PathBuf>, AppError> {
-    matching_folders(&records_location.sessions, |_, started_unix_us| started_unix_us < limit_us)
+    let mut folders = matching_folders(&records_location.sessions, |_, started_unix_us| started_unix_us < limit_us)?;
+    let limit_s = limit_us / US_PER_S;
+    folders.extend(records_location.sessions.iter().flat_map(|sessions| school_record::folders_older_than(sessions, limit_s)));
+    Ok(folders)
 }

@@ -97,7 +97,7 @@ impl Cockpit {
             speaker,
             stop,
             screen: None,
-            pictures: PageTextures::default(),
+            pictures: PageTextures::new(crate::io::png::read_picture),
             inspector_camera: InspectorCamera::default(),
             held: HeldKeys::default(),
             was_paused: false,

@@ -56,7 +56,8 @@ impl Cockpit {
             | Page::Tutorial(..)
             | Page::Briefing
             | Page::Waiting
-            | Page::Results => {
+            | Page::Results
+            | Page::School => {
                 self.speaker.silence();
                 self.page()
             }

@@ -10,7 +10,7 @@ mod masks;
 #[cfg(feature = "view")]
 mod recorded;
 #[cfg(feature = "view")]
-mod scene_drawing;
+pub mod scene_drawing;
 #[cfg(feature = "view")]
 mod snapshots;
 #[cfg(feature = "view")]

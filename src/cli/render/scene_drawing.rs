@@ -70,6 +70,11 @@ impl SceneDrawing {
         }
     }
 
+    /// Returns the site.
+    pub fn site(&self) -> &Site {
+        &self.site
+    }
+
     /// Returns the site's defects.
     pub fn defects(&self) -> &[PlacedDefect] {
         self.site.defects()

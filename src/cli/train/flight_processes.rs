@@ -195,7 +195,7 @@ impl FlightProcesses {
             FromWindow::Pause | FromWindow::Resume | FromWindow::Restart => {
                 window.send(&ToWindow::Refused { words: "Not available in an assessment.".into() });
             }
-            FromWindow::Chosen(_) | FromWindow::Again | FromWindow::Quit => {
+            FromWindow::Chosen(_) | FromWindow::Again | FromWindow::Quit | FromWindow::School(_) => {
                 window.send(&ToWindow::Refused { words: "A flight is in progress: end it first.".into() });
             }
         }

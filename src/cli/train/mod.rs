@@ -8,6 +8,7 @@ mod offers;
 mod photographs;
 mod prompt;
 mod questionnaire_state;
+mod school;
 mod train_run;
 mod window;
 

@@ -6,6 +6,7 @@ use super::offers;
 use super::photographs::PhotographJobs;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
+use super::school::SchoolRoom;
 use super::window::WindowProcess;
 use crate::cli::table::report_outcome;
 use crate::errors::AppError;
@@ -45,6 +46,7 @@ pub struct TrainRun<'a> {
     /// stations can download its logs.
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
+    school: SchoolRoom,
 }
 
 /// What to do after a flight.
@@ -70,6 +72,7 @@ impl<'a> TrainRun<'a> {
             photographs: PhotographJobs::default(),
             vehicle: None,
             prompt: TerminalPrompt::default(),
+            school: SchoolRoom::new(&args.sessions),
         }
     }
 
@@ -203,6 +206,7 @@ impl<'a> TrainRun<'a> {
                 match said {
                     FromWindow::Again => return NextFlight::Fly(last.clone()),
                     FromWindow::Quit => return NextFlight::Leave,
+                    FromWindow::School(request) => self.school.handle(request),
                     FromWindow::Chosen(choice) => match validate_choice(&choice) {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
@@ -215,6 +219,9 @@ impl<'a> TrainRun<'a> {
                     | FromWindow::Restart
                     | FromWindow::End => {}
                 }
+            }
+            while let Some(message) = self.school.poll() {
+                self.send_to_window(&message);
             }
             self.check_vehicle();
             if self.stop.is_requested() {

@@ -5,6 +5,7 @@
 pub mod boxes;
 pub mod bridge_closures;
 mod camera_pose;
+pub mod close_up;
 pub mod convex;
 pub mod defects;
 pub mod detection;

@@ -58,7 +58,7 @@ pub(super) fn candidate_poses(position_m: Vec3<Enu>, task: &Task, share: f64) ->
 }
 
 /// Returns the pose of a roll-free camera that is aimed at a point, with the lamp on.
-fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
+pub(super) fn camera_aimed_at(position_m: Vec3<Enu>, at_m: Vec3<Enu>) -> CameraPose {
     let forward = (at_m - position_m).unit();
     let level = forward.cross(Vec3::new(0.0, 0.0, 1.0));
     let right = if level.norm() > 1e-9 { level.unit() } else { Vec3::new(1.0, 0.0, 0.0) };

@@ -21,6 +21,14 @@ pub enum MenuAction {
     CheckController,
     /// Open the tutorial.
     OpenTutorial,
+    /// Start a round of the defect school.
+    School,
+    /// Give the answer with this number in the defect school.
+    Answer(usize),
+    /// Continue in the defect school.
+    ContinueSchool,
+    /// Leave the defect school.
+    LeaveSchool,
     /// Turn sound on or off.
     Sound,
     /// Quit the program.

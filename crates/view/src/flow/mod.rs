@@ -11,6 +11,7 @@ mod paused;
 pub mod pipe;
 mod press;
 mod rows;
+mod school;
 pub mod sheet;
 mod start;
 mod summary;
@@ -28,7 +29,7 @@ pub use tutorial::PICTURES;
 use crate::arrange::ViewLayout;
 use crate::hud::ScreenPoint;
 use crate::path_guide::PathAids;
-use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, Purpose, ToWindow};
+use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, Purpose, SchoolPage, ToWindow};
 use std::collections::{BTreeSet, VecDeque};
 
 /// State of the window.
@@ -42,6 +43,8 @@ pub struct WindowFlow {
     pub controls: ControllerStatus,
     flying: Option<FlightStarted>,
     ended: Option<FlightSummary>,
+    /// Page of the defect school, while it is open.
+    school: Option<SchoolPage>,
     notice: Option<String>,
     /// Trainees who have read the tutorial or flown a practice session in this window.
     tutorial_done: BTreeSet<String>,
@@ -70,6 +73,7 @@ impl WindowFlow {
             controls: ControllerStatus::default(),
             flying: None,
             ended: None,
+            school: None,
             notice: None,
             tutorial_done: BTreeSet::new(),
             names,
@@ -186,7 +190,8 @@ impl WindowFlow {
             | Page::Flight
             | Page::Paused
             | Page::ConfirmEnd
-            | Page::Results => {}
+            | Page::Results
+            | Page::School => {}
         }
         // Disconnecting a device removes rows from the page.
         self.focus = self.focus.min(self.rows().len().saturating_sub(1));
@@ -240,6 +245,12 @@ impl WindowFlow {
                 self.out.push_back(WindowRequest::LeaveFlight);
                 self.show_page(Page::Results);
             }
+            // A page that arrives after the user has left the school is dropped.
+            ToWindow::School(shown) if matches!(self.page, Page::Waiting | Page::School) => {
+                self.school = Some(shown);
+                self.show_page(Page::School);
+            }
+            ToWindow::School(_) => {}
         }
     }
 

@@ -63,6 +63,8 @@ pub enum Page {
     ConfirmEnd,
     /// The scores after the flight.
     Results,
+    /// The defect school.
+    School,
 }
 
 /// A request to the program that hosts the window.

@@ -186,6 +186,37 @@ pub struct FlightSummary {
     pub questionnaire: String,
 }
 
+/// What the defect school shows.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct SchoolPage {
+    /// Path of the picture (PNG), if there is one.
+    pub picture: Option<String>,
+    /// Title, such as the number of the question.
+    pub title: String,
+    /// The question, the verdict, or the result.
+    pub lines: Vec<String>,
+    /// Possible answers; empty after the answer.
+    pub answers: Vec<String>,
+    /// Whether the answer was right; `None` before the answer and at the end.
+    pub right: Option<bool>,
+    /// Whether the round is over.
+    pub over: bool,
+}
+
+/// A request to the defect school.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SchoolRequest {
+    /// Start a round for this trainee.
+    Begin(String),
+    /// Give the answer with this number, from 0.
+    Answer(usize),
+    /// Continue with the next question.
+    Continue,
+    /// Leave the school.
+    Leave,
+}
+
 /// Names of the four scores, in order.
 pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
@@ -209,6 +240,8 @@ pub enum ToWindow {
     },
     /// The flight has ended.
     Ended(FlightSummary),
+    /// The defect school's page.
+    School(SchoolPage),
 }
 
 /// Messages from the window to `spandrel train`.
@@ -231,6 +264,8 @@ pub enum FromWindow {
     End,
     /// Fly the same job again.
     Again,
+    /// A request to the defect school.
+    School(SchoolRequest),
     /// Quit the program.
     Quit,
 }

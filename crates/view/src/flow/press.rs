@@ -1,7 +1,7 @@
 //! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
-use super::pipe::{FlightChoice, FlightOptions, FlightSummary, FlownBy, FromWindow, NextJob, Purpose};
+use super::pipe::{FlightChoice, FlightOptions, FlightSummary, FlownBy, FromWindow, NextJob, Purpose, SchoolRequest};
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
 /// Maximum length of a pseudonym.
@@ -84,6 +84,10 @@ impl WindowFlow {
             }
             MenuAction::CheckController
             | MenuAction::OpenTutorial
+            | MenuAction::School
+            | MenuAction::Answer(_)
+            | MenuAction::ContinueSchool
+            | MenuAction::LeaveSchool
             | MenuAction::Sound
             | MenuAction::Quit
             | MenuAction::FindController
@@ -141,11 +145,17 @@ impl WindowFlow {
             | MenuAction::Expo => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
-            MenuAction::CheckController | MenuAction::FlyNext | MenuAction::WatchExpert if self.choice.trainee.is_empty() => {
+            MenuAction::CheckController | MenuAction::FlyNext | MenuAction::WatchExpert | MenuAction::School
+                if self.choice.trainee.is_empty() =>
+            {
                 self.notice = Some("Enter a pseudonym first.".into());
             }
             MenuAction::CheckController => self.show_page(Page::Controls),
             MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
+            MenuAction::School => self.begin_school(),
+            MenuAction::Answer(number) => self.send(FromWindow::School(SchoolRequest::Answer(number))),
+            MenuAction::ContinueSchool => self.send(FromWindow::School(SchoolRequest::Continue)),
+            MenuAction::LeaveSchool => self.leave_school(),
             MenuAction::Sound => self.toggle_sound(),
             MenuAction::FindController => self.out.push_back(WindowRequest::FindController),
             MenuAction::Calibrate => self.out.push_back(WindowRequest::Calibrate),
@@ -204,6 +214,17 @@ impl WindowFlow {
         } else {
             self.show_page(Page::Controls);
         }
+    }
+
+    fn begin_school(&mut self) {
+        self.send(FromWindow::School(SchoolRequest::Begin(self.choice.trainee.clone())));
+        self.wait("Preparing pictures ...");
+    }
+
+    fn leave_school(&mut self) {
+        self.school = None;
+        self.send(FromWindow::School(SchoolRequest::Leave));
+        self.show_page(Page::Start);
     }
 
     /// Returns the recommended job: after a flight, the one that follows from it.
@@ -266,7 +287,8 @@ impl WindowFlow {
             | Page::Flight
             | Page::Paused
             | Page::ConfirmEnd
-            | Page::Results => self.show_page(Page::Start),
+            | Page::Results
+            | Page::School => self.show_page(Page::Start),
         }
     }
 
@@ -284,6 +306,7 @@ impl WindowFlow {
             Page::Calibrating => self.out.push_back(WindowRequest::Cancel),
             Page::Paused => self.send(FromWindow::Resume),
             Page::ConfirmEnd => self.show_page(Page::Flight),
+            Page::School => self.leave_school(),
             Page::Opening | Page::Start | Page::Waiting | Page::Flight | Page::Results => {}
         }
     }

@@ -1,7 +1,7 @@
 //! Menu rows of each page.
 
 use super::menu::{MenuAction, MenuRow};
-use super::{Page, WindowFlow, briefing, summary, tutorial};
+use super::{Page, WindowFlow, briefing, school, summary, tutorial};
 
 impl WindowFlow {
     /// Returns the menu rows of the current page.
@@ -31,6 +31,7 @@ impl WindowFlow {
                 ]
             }
             Page::Results => summary::rows(self.ended.as_ref()),
+            Page::School => self.school.as_ref().map(school::rows).unwrap_or_default(),
         }
     }
 
@@ -44,6 +45,7 @@ impl WindowFlow {
             MenuRow::button(MenuAction::CheckController, "Next: check controller"),
             MenuRow::button(MenuAction::WatchExpert, "Watch an expert fly this job"),
             MenuRow::button(MenuAction::OpenTutorial, "Read the tutorial"),
+            MenuRow::button(MenuAction::School, "Defect school: recognize defects in pictures"),
             MenuRow::button(MenuAction::Sound, if self.sound { "Sound: on" } else { "Sound: off" }),
             MenuRow::button(MenuAction::Quit, "Quit"),
         ];

@@ -38,11 +38,20 @@ impl ClickArea {
     }
 }
 
+/// Where a picture comes from.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PictureSource {
+    /// An embedded picture with this name.
+    Embedded(&'static str),
+    /// A PNG file at this path. The program that hosts the window loads it.
+    File(String),
+}
+
 /// A picture at its position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedPicture {
-    /// Name of the picture.
-    pub name: &'static str,
+    /// Source of the picture.
+    pub source: PictureSource,
     /// Upper left corner.
     pub from: ScreenPoint,
     /// Lower right corner.
@@ -140,10 +149,15 @@ impl PageWriter {
         self.fill(&[to, wing(1.0), wing(-1.0)], color);
     }
 
+    /// Adds an embedded picture.
+    pub fn picture(&mut self, name: &'static str, place: (f64, f64), size: (f64, f64)) {
+        self.picture_from(PictureSource::Embedded(name), place, size);
+    }
+
     /// Adds a picture.
-    pub fn picture(&mut self, name: &'static str, (x, y): (f64, f64), (width, height): (f64, f64)) {
+    pub fn picture_from(&mut self, source: PictureSource, (x, y): (f64, f64), (width, height): (f64, f64)) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
-        self.sheet.pictures.push(PlacedPicture { name, from, to });
+        self.sheet.pictures.push(PlacedPicture { source, from, to });
     }
 
     /// Adds a clickable area.

@@ -2,7 +2,7 @@
 
 use super::pipe::{JobOffer, Purpose, TraineeSummary};
 use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, wrap_text};
-use super::{Page, WindowFlow, briefing, controls, menu, paused, summary, tutorial};
+use super::{Page, WindowFlow, briefing, controls, menu, paused, school, summary, tutorial};
 use crate::hud::{HudColor, TextAlign};
 
 impl WindowFlow {
@@ -23,7 +23,8 @@ impl WindowFlow {
             | Page::Tutorial(..)
             | Page::Briefing
             | Page::Waiting
-            | Page::Results => pen.ground(HudColor::PageBackground),
+            | Page::Results
+            | Page::School => pen.ground(HudColor::PageBackground),
         }
         match self.page {
             Page::Start => self.start(&mut pen, &rows),
@@ -34,6 +35,11 @@ impl WindowFlow {
                 None => waiting(&mut pen, self.waiting_for),
             },
             Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
+            Page::School => {
+                if let Some(shown) = &self.school {
+                    school::page(&mut pen, shown, &rows, self.focus);
+                }
+            }
             Page::Waiting => waiting(&mut pen, self.waiting_for),
             Page::Opening | Page::Flight | Page::Paused | Page::ConfirmEnd => waiting(&mut pen, "Spandrel"),
         }

@@ -2,8 +2,9 @@
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, JobBriefing, JobOffer, NextJob,
-    Purpose, ToWindow, TraineeSummary,
+    Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
+use super::sheet::PictureSource;
 use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
 use crate::hud::{DrawItem, ScreenPoint};
 use crate::path_guide::PathAids;
@@ -417,7 +418,67 @@ fn every_page() -> Vec<(String, WindowFlow)> {
     all.push(("leaving".into(), leaving));
     paused.handle_message(ToWindow::Ended(ended()));
     all.push(("over".into(), paused));
+    all.extend(school_pages());
     all
+}
+
+/// Path of the picture in the tests of the defect school.
+const SCHOOL_PICTURE: &str = "/tmp/1.png";
+
+/// Returns a question of the defect school.
+fn school_question() -> SchoolPage {
+    SchoolPage {
+        picture: Some(SCHOOL_PICTURE.into()),
+        title: "Defect school: picture 3 of 10".into(),
+        lines: vec![
+            "Arch, reinforced concrete, element 144. The middle of a photograph at full resolution, taken from 3 m with the lamp on.".into(),
+            "What is at the middle?".into(),
+        ],
+        answers: ["Delamination or spall", "Exposed rebar", "Efflorescence or rust staining", "Cracking", "Abrasion", "No defect can be seen from here"]
+            .map(str::to_owned)
+            .to_vec(),
+        ..SchoolPage::default()
+    }
+}
+
+/// Returns the pages of the defect school.
+fn school_pages() -> Vec<(String, WindowFlow)> {
+    let question = school_question();
+    let lines = vec![
+        "Wrong: this is not abrasion.".into(),
+        "Spall: a hollow with a sharp edge. The concrete in it is lighter and rougher.".into(),
+    ];
+    let verdict = SchoolPage { lines, answers: Vec::new(), right: Some(false), ..question.clone() };
+    let over = SchoolPage { picture: None, over: true, answers: Vec::new(), ..question.clone() };
+    let shown = |name: &str, page: SchoolPage| {
+        let mut flow = started();
+        flow.press(KeyPress::Row(SCHOOL_ROW));
+        flow.handle_message(ToWindow::School(page));
+        (name.to_owned(), flow)
+    };
+    vec![shown("school-question", question), shown("school-verdict", verdict), shown("school-over", over)]
+}
+
+/// Row of the defect school on the start page.
+const SCHOOL_ROW: usize = 6;
+
+#[test]
+fn exact_school_asks_until_the_trainee_leaves() {
+    let mut flow = started();
+    flow.press(KeyPress::Row(SCHOOL_ROW));
+    let school = |request| vec![WindowRequest::Send(FromWindow::School(request))];
+    assert_eq!(pending_requests(&mut flow), school(SchoolRequest::Begin(flow.choice().trainee.clone())));
+    assert_eq!(flow.page(), Page::Waiting);
+    flow.handle_message(ToWindow::School(school_question()));
+    press(&mut flow, &[KeyPress::Down, KeyPress::Enter]);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::School, school(SchoolRequest::Answer(1))));
+    flow.handle_message(ToWindow::School(SchoolPage { answers: Vec::new(), right: Some(true), ..school_question() }));
+    flow.press(KeyPress::Enter);
+    assert_eq!(pending_requests(&mut flow), school(SchoolRequest::Continue));
+    flow.press(KeyPress::Escape);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Start, school(SchoolRequest::Leave)));
+    flow.handle_message(ToWindow::School(school_question()));
+    assert_eq!(flow.page(), Page::Start, "a late page must not return");
 }
 
 #[test]
@@ -435,7 +496,11 @@ fn prop_pages_fit_windows_of_any_aspect_ratio() {
                 assert!(points.iter().all(inside), "{name} at {aspect}: {item:?}");
             }
             assert!(sheet.click_areas.iter().all(|spot| inside(&spot.from) && inside(&spot.to)), "{name} at {aspect}");
-            assert!(sheet.pictures.iter().all(|picture| PICTURES.iter().any(|known| known.0 == picture.name)), "{name}");
+            let is_known = |source: &PictureSource| match source {
+                PictureSource::Embedded(name) => PICTURES.iter().any(|known| known.0 == *name),
+                PictureSource::File(path) => path == SCHOOL_PICTURE,
+            };
+            assert!(sheet.pictures.iter().all(|picture| is_known(&picture.source)), "{name}");
             assert!(
                 flow.rows().is_empty() || sheet.click_areas.len() >= flow.rows().len(),
                 "{name}: every row must be clickable"

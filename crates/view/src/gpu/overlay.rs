@@ -2,8 +2,10 @@
 
 use super::device::Gpu;
 use super::pipelines::COLOR_FORMAT;
+use crate::flow::sheet::PictureSource;
 use crate::flow::{PICTURES, PageLayout};
 use crate::hud::{DrawItem, ScreenPoint, TextAlign};
+use crate::picture::Picture;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
 use std::collections::BTreeMap;
 
@@ -71,18 +73,42 @@ impl Overlay {
 }
 
 /// Pictures of the pages, as textures of one egui context.
-#[derive(Default)]
-pub struct PageTextures(BTreeMap<&'static str, egui::TextureHandle>);
+pub struct PageTextures {
+    textures: BTreeMap<PictureSource, egui::TextureHandle>,
+    load: fn(&str) -> Option<Picture>,
+}
 
 impl PageTextures {
-    /// Returns a picture by name, decoding it on first use; returns `None` if it cannot be decoded.
-    fn of(&mut self, context: &egui::Context, name: &'static str) -> Option<egui::TextureId> {
-        if !self.0.contains_key(name) {
-            let (_, bytes) = PICTURES.iter().find(|known| known.0 == name)?;
-            let texture = context.load_texture(name, decode_jpeg(bytes)?, egui::TextureOptions::LINEAR);
-            self.0.insert(name, texture);
+    /// Creates an empty set. `load` reads the picture file at a path; `None` if that is impossible.
+    #[must_use]
+    pub fn new(load: fn(&str) -> Option<Picture>) -> Self {
+        Self { textures: BTreeMap::new(), load }
+    }
+
+    /// Returns a picture, loading it on first use; `None` if it cannot be loaded.
+    fn of(&mut self, context: &egui::Context, source: &PictureSource) -> Option<egui::TextureId> {
+        if !self.textures.contains_key(source) {
+            let (name, image) = match source {
+                PictureSource::Embedded(name) => {
+                    let (_, bytes) = PICTURES.iter().find(|known| known.0 == *name)?;
+                    (*name, decode_jpeg(bytes)?)
+                }
+                PictureSource::File(path) => {
+                    let picture = (self.load)(path)?;
+                    let size = [picture.width as usize, picture.height as usize];
+                    (path.as_str(), egui::ColorImage::from_rgba_unmultiplied(size, &picture.rgba))
+                }
+            };
+            let texture = context.load_texture(name, image, egui::TextureOptions::LINEAR);
+            self.textures.insert(source.clone(), texture);
         }
-        self.0.get(name).map(egui::TextureHandle::id)
+        self.textures.get(source).map(egui::TextureHandle::id)
+    }
+
+    /// Frees the pictures from files that a page does not show.
+    fn keep_files_of(&mut self, sheet: &PageLayout) {
+        let is_shown = |source: &PictureSource| sheet.pictures.iter().any(|picture| picture.source == *source);
+        self.textures.retain(|source, _| matches!(source, PictureSource::Embedded(_)) || is_shown(source));
     }
 }
 
@@ -103,8 +129,9 @@ pub fn paint_sheet(painter: &egui::Painter, sheet: &PageLayout, rect: Rect, pict
     let size = rect.size();
     let px = |p: &ScreenPoint| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
     let whole = Rect::from_min_max(Pos2::ZERO, egui::pos2(1.0, 1.0));
+    pictures.keep_files_of(sheet);
     for picture in &sheet.pictures {
-        if let Some(texture) = pictures.of(painter.ctx(), picture.name) {
+        if let Some(texture) = pictures.of(painter.ctx(), &picture.source) {
             painter.image(texture, Rect::from_min_max(px(&picture.from), px(&picture.to)), whole, Color32::WHITE);
         }
     }

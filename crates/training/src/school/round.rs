@@ -1,0 +1,255 @@
+//! A round of questions.
+
+use super::card::{Card, Subject};
+use super::gallery::SchoolPicture;
+use super::record::SchoolRecord;
+use spandrel_model::defect_codes;
+use spandrel_model::random::RandomStream;
+use spandrel_model::scenario::PlacedDefect;
+use std::collections::VecDeque;
+
+/// Number of cards in a round (estimate: about five minutes).
+pub const CARDS_PER_ROUND: usize = 10;
+/// Number of other questions before a missed card is asked again in the same round.
+const REPEAT_AFTER: usize = 3;
+/// Millimeters in a meter.
+const MM_PER_M: f64 = 1000.0;
+/// Sound surfaces are this fraction of the cards at most, so that they don't displace defects: one in this many.
+const OTHERS_PER_SOUND: usize = 3;
+
+/// A question: one picture and the possible answers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// The picture.
+    pub picture: SchoolPicture,
+    /// Possible answers.
+    pub answers: Vec<Answer>,
+    /// Whether the card was missed earlier in this round.
+    pub repeated: bool,
+}
+
+/// A possible answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// A defect with this AASHTO MBEI code.
+    Defect(u32),
+    /// No defect can be seen from this distance.
+    Nothing,
+}
+
+/// What the school says to an answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Verdict {
+    /// Whether the answer was right.
+    pub right: bool,
+    /// The right answer, and how to recognize it.
+    pub words: Vec<String>,
+}
+
+/// Result of a round.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RoundSummary {
+    /// Number of cards that were answered.
+    pub asked: usize,
+    /// Number of cards whose first answer was right.
+    pub right: usize,
+    /// Cards whose first answer was wrong, as text.
+    pub missed: Vec<String>,
+}
+
+/// A round in progress.
+#[derive(Debug, Clone)]
+pub struct Round {
+    /// Cards to ask, and whether each is a repetition.
+    waiting: VecDeque<(Card, bool)>,
+    pictures: Vec<SchoolPicture>,
+    stream: RandomStream,
+    current: Option<Question>,
+    first_answers: Vec<(Card, bool)>,
+    total: usize,
+}
+
+impl Answer {
+    /// Returns the words for a list of answers.
+    #[must_use]
+    pub fn words(self) -> String {
+        match self {
+            Self::Defect(code) => capitalized(defect_codes::defect_name(code)),
+            Self::Nothing => "No defect can be seen from here".to_owned(),
+        }
+    }
+}
+
+impl Question {
+    fn new(picture: SchoolPicture, repeated: bool) -> Self {
+        let defects = picture.element.permitted_defects().iter().map(|code| Answer::Defect(*code));
+        Self { answers: defects.chain([Answer::Nothing]).collect(), picture, repeated }
+    }
+
+    /// Returns the right answer.
+    #[must_use]
+    pub fn right_answer(&self) -> Answer {
+        match self.picture.card.subject {
+            Subject::Defect(code) if self.picture.visible => Answer::Defect(code),
+            Subject::Defect(_) | Subject::Sound => Answer::Nothing,
+        }
+    }
+
+    /// Returns the question as text.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let Self { picture: SchoolPicture { element, card, .. }, .. } = self;
+        format!(
+            "{}, element {}. The middle of a photograph at full resolution, taken from {} m with the lamp on.",
+            capitalized(element.name()),
+            element.number(),
+            card.distance.m()
+        )
+    }
+
+    fn verdict(&self, given: Answer) -> Verdict {
+        let right_answer = self.right_answer();
+        let right = given == right_answer;
+        let first = match (right, given) {
+            (true, _) => "Right.".to_owned(),
+            (false, Answer::Defect(code)) => format!("Wrong: this is not {}.", defect_codes::defect_name(code)),
+            (false, Answer::Nothing) => "Wrong: there is a defect.".to_owned(),
+        };
+        let rest = match (&self.picture.defect, right_answer) {
+            (Some(defect), Answer::Defect(code)) => vec![appearance(code).to_owned(), size_words(defect)],
+            (Some(defect), Answer::Nothing) => vec![self.hidden_words(defect)],
+            (None, _) => vec![
+                "The surface is sound. Stains, form lines, sealed cracks, spider webs and spray paint aren't defects.".to_owned(),
+            ],
+        };
+        Verdict { right, words: std::iter::once(first).chain(rest).collect() }
+    }
+
+    /// Explains why a defect cannot be seen.
+    fn hidden_words(&self, defect: &PlacedDefect) -> String {
+        format!(
+            "Here is {}, but nobody can see it from {} m: a pixel covers {:.1} mm. {} Fly closer.",
+            with_article(defect.kind),
+            self.picture.card.distance.m(),
+            MM_PER_M * self.picture.pixel_m,
+            size_words(defect)
+        )
+    }
+}
+
+impl Round {
+    /// Starts a round with the cards that the record says to ask. `seed` selects the pictures.
+    #[must_use]
+    pub fn new(record: &SchoolRecord, pictures: Vec<SchoolPicture>, seed: u64, now_unix_s: u64) -> Self {
+        let is_sound = |card: &Card| card.subject == Subject::Sound;
+        let cards: Vec<Card> = pictures.iter().map(|picture| picture.card).collect();
+        let (sound, defects): (Vec<Card>, Vec<Card>) = cards.into_iter().partition(is_sound);
+        let sound_count = CARDS_PER_ROUND / (OTHERS_PER_SOUND + 1);
+        let mut chosen = record.choose(&defects, CARDS_PER_ROUND - sound_count, now_unix_s);
+        chosen.extend(record.choose(&sound, sound_count, now_unix_s));
+        let mut stream = RandomStream::new(seed, "school.round");
+        let mut waiting = VecDeque::new();
+        while !chosen.is_empty() {
+            waiting.push_back((chosen.swap_remove(stream.below(chosen.len())), false));
+        }
+        let total = waiting.len();
+        let mut round = Self { waiting, pictures, stream, current: None, first_answers: Vec::new(), total };
+        round.advance();
+        round
+    }
+
+    /// Returns the current question; `None` at the end of the round.
+    #[must_use]
+    pub fn question(&self) -> Option<&Question> {
+        self.current.as_ref()
+    }
+
+    /// Returns the number of the current card and the number of cards, such as (3, 10). A repetition keeps the number.
+    #[must_use]
+    pub fn position(&self) -> (usize, usize) {
+        let current = self.current.as_ref().is_some_and(|question| !question.repeated);
+        (self.first_answers.len() + usize::from(current), self.total)
+    }
+
+    /// Answers the current question with one of its answers, and records it. `None` if there is no question or no such answer.
+    pub fn answer(&mut self, number: usize, record: &mut SchoolRecord, now_unix_s: u64) -> Option<Verdict> {
+        let question = self.current.take()?;
+        let Some(given) = question.answers.get(number) else {
+            self.current = Some(question);
+            return None;
+        };
+        let verdict = question.verdict(*given);
+        let card = question.picture.card;
+        // A repetition in the same round says little about tomorrow.
+        if !question.repeated {
+            record.answer(card, verdict.right, now_unix_s);
+            self.first_answers.push((card, verdict.right));
+        }
+        if !verdict.right {
+            self.waiting.insert(REPEAT_AFTER.min(self.waiting.len()), (card, true));
+        }
+        Some(verdict)
+    }
+
+    /// Continues with the next question.
+    pub fn advance(&mut self) {
+        self.current = self.waiting.pop_front().and_then(|(card, repeated)| {
+            let same: Vec<&SchoolPicture> = self.pictures.iter().filter(|picture| picture.card == card).collect();
+            let picture = *same.get(self.stream.below(same.len().max(1)))?;
+            Some(Question::new(picture.clone(), repeated))
+        });
+    }
+
+    /// Returns the result so far.
+    #[must_use]
+    pub fn summary(&self) -> RoundSummary {
+        let missed = self.first_answers.iter().filter(|(_, right)| !right).map(|(card, _)| card_words(*card)).collect();
+        let right = self.first_answers.iter().filter(|(_, right)| *right).count();
+        RoundSummary { asked: self.first_answers.len(), right, missed }
+    }
+}
+
+/// Returns a card as text, such as "cracking from 3 m".
+fn card_words(card: Card) -> String {
+    let subject = match card.subject {
+        Subject::Sound => "sound surface",
+        Subject::Defect(code) => defect_codes::defect_name(code),
+    };
+    format!("{subject} from {} m", card.distance.m())
+}
+
+/// Returns how to recognize a defect in a picture (docs/src/reference/domain.md, "Defects").
+fn appearance(code: u32) -> &'static str {
+    match code {
+        defect_codes::CORROSION => "Corrosion: rough, red-brown patches on steel.",
+        defect_codes::FATIGUE => "Fatigue cracking: a very thin line in steel, often with rust along it.",
+        defect_codes::CONNECTION => "Connection: a bolt or rivet is missing or loose.",
+        defect_codes::SPALL => "Spall: a hollow with a sharp edge. The concrete in it is lighter and rougher.",
+        defect_codes::REBAR => "Exposed rebar: orange-brown bars in a hollow in the concrete.",
+        defect_codes::EFFLORESCENCE => "Efflorescence or rust staining: white or brown streaks that run down the surface.",
+        defect_codes::ABRASION => "Abrasion: a worn patch in which the aggregate shows.",
+        defect_codes::CRACK | defect_codes::PSC_CRACK => "Cracking: a thin, dark, irregular line.",
+        _ => "A defect.",
+    }
+}
+
+/// Returns the size of a defect as a sentence.
+fn size_words(defect: &PlacedDefect) -> String {
+    let (length_mm, width_mm) = (MM_PER_M * defect.length_m, MM_PER_M * defect.width_m);
+    if defect.line {
+        format!("It is {width_mm:.2} mm wide and {length_mm:.0} mm long.")
+    } else {
+        format!("It measures {length_mm:.0} mm by {width_mm:.0} mm.")
+    }
+}
+
+/// Returns the name of a defect as an object of a sentence.
+fn with_article(code: u32) -> String {
+    let name = defect_codes::defect_name(code);
+    if defect_codes::is_line(code) { format!("a crack ({name})") } else { name.to_owned() }
+}
+
+fn capitalized(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

@@ -1,0 +1,85 @@
+//! The defect school: renders its pictures, asks its questions and stores the answers, in a thread of its own.
+
+#[cfg(feature = "view")]
+mod classroom;
+
+use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest, ToWindow};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+
+/// The school as `train` sees it: a thread while a round is open.
+pub struct SchoolRoom {
+    sessions: PathBuf,
+    round: Option<RoundThread>,
+}
+
+/// Channels to the thread.
+struct RoundThread {
+    requests: Sender<SchoolRequest>,
+    pages: Receiver<Result<SchoolPage, String>>,
+}
+
+impl SchoolRoom {
+    /// Creates a school that stores its records in the sessions folder. It starts nothing.
+    pub fn new(sessions: &Path) -> Self {
+        Self { sessions: sessions.to_path_buf(), round: None }
+    }
+
+    /// Handles a request from the window.
+    pub fn handle(&mut self, request: SchoolRequest) {
+        match request {
+            SchoolRequest::Begin(trainee) => self.round = Some(RoundThread::start(self.sessions.clone(), trainee)),
+            // Dropping the channels ends the thread.
+            SchoolRequest::Leave => self.round = None,
+            SchoolRequest::Answer(_) | SchoolRequest::Continue => {
+                if let Some(round) = &self.round {
+                    // The thread has just ended; its last message explains why.
+                    let _ = round.requests.send(request);
+                }
+            }
+        }
+    }
+
+    /// Returns the next message for the window.
+    pub fn poll(&mut self) -> Option<ToWindow> {
+        let message = match self.round.as_ref()?.pages.try_recv() {
+            Ok(Ok(page)) => return Some(ToWindow::School(page)),
+            Err(TryRecvError::Empty) => return None,
+            Ok(Err(words)) => words,
+            Err(TryRecvError::Disconnected) => "the defect school has failed (see the message in the terminal)".to_owned(),
+        };
+        self.round = None;
+        Some(ToWindow::Refused { words: message })
+    }
+}
+
+impl RoundThread {
+    fn start(sessions: PathBuf, trainee: String) -> Self {
+        let (request_sender, requests) = channel();
+        let (page_sender, pages) = channel();
+        std::thread::spawn(move || {
+            if let Err(error) = teach(&sessions, &trainee, &requests, &page_sender) {
+                tracing::warn!("defect school: {error}");
+                // The user may have left the school.
+                let _ = page_sender.send(Err(error));
+            }
+        });
+        Self { requests: request_sender, pages }
+    }
+}
+
+/// Runs a round until it is over or the user leaves.
+fn teach(
+    sessions: &Path,
+    trainee: &str,
+    requests: &Receiver<SchoolRequest>,
+    pages: &Sender<Result<SchoolPage, String>>,
+) -> Result<(), String> {
+    #[cfg(feature = "view")]
+    return classroom::run(sessions, trainee, requests, pages).map_err(|error| error.to_string());
+    #[cfg(not(feature = "view"))]
+    {
+        let _ = (sessions, trainee, requests, pages);
+        Err("this program was built without the window".to_owned())
+    }
+}

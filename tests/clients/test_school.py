@@ -1,0 +1,77 @@
+"""The defect school in the window: a round with right and wrong answers, its record, and its erasure."""
+
+import json
+
+import numpy
+import pytest
+
+import spandrel
+from test_flow import DOWN, ENTER, ESCAPE, FOCUS, LIMIT_S, NIGHT, Training, count, is_page, screen  # noqa: F401  (the fixture)
+
+# Color of the verdict on a right and on a wrong answer (crates/view/src/hud/mod.rs).
+RIGHT, WRONG = (0, 190, 130), (240, 228, 66)
+# Row of the defect school on the start page of a trainee without sessions, from the row of the pseudonym.
+ROWS_DOWN = 7
+# Number of cards in a round.
+CARDS = 10
+
+
+def colors(photograph):
+    """Returns the number of different colors: a photograph has many, and a page has few."""
+    return len(numpy.unique(photograph.reshape(-1, 3), axis=0))
+
+
+def is_question(photograph):
+    """Returns whether a picture of the school is shown beside its answers."""
+    return count(photograph, FOCUS) > 500 and count(photograph, NIGHT) > 10_000 and colors(photograph) > 3000
+
+
+def has_verdict(photograph):
+    """Returns whether the school has answered."""
+    return count(photograph, RIGHT) + count(photograph, WRONG) > 40
+
+
+def progress(training):
+    """Returns the trainee's record; none before the first answer."""
+    path = training.sessions / "school-nina" / "progress.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+
+@pytest.mark.timeout(1800)
+def test_wire_school_asks_a_round_and_keeps_the_record(screen, tmp_path):  # noqa: F811
+    """Answers every picture with the first answer; what was missed is asked again; the record counts first answers only."""
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--no-sound")
+    try:
+        training.wait_for_screenshot("start", is_page)
+        screen.focus()
+        for _ in range(ROWS_DOWN):
+            screen.tap(DOWN)
+        training.wait_for_screenshot("school-question-1", is_question, ENTER)
+        pictures = list(training.sessions.glob(".school-*/1.png"))
+        assert len(pictures) == 1, "the picture is in a hidden folder"
+        answered, right = 0, 0
+        # Missed pictures come again, so the round takes more questions than cards. The test stops after the last new card.
+        while answered < CARDS:
+            # The window has the focus, and a repeated key would answer the next question.
+            screen.tap(ENTER)
+            verdict = training.wait_for_screenshot("school-verdict", has_verdict)
+            cards = progress(training)["cards"].values()
+            if sum(card["asked"] for card in cards) > answered:
+                answered += 1
+                right += count(verdict, RIGHT) > count(verdict, WRONG)
+            assert (sum(card["asked"] for card in cards), sum(card["right"] for card in cards)) == (answered, right), "a repetition does not count"
+            if answered < CARDS:
+                screen.tap(ENTER)
+                training.wait_for_screenshot("school-question", lambda photograph: is_question(photograph) and not has_verdict(photograph))
+        kept = progress(training)
+        assert kept["format"] == 1 and kept["rounds"] == 1 and sum(card["asked"] for card in kept["cards"].values()) == CARDS
+        assert all(card["box"] == (2 if card["right"] else 1) for card in kept["cards"].values()), kept
+        training.wait_for_screenshot("start-again", lambda photograph: is_page(photograph) and colors(photograph) < 3000, ESCAPE)
+        spandrel.wait_for("the pictures are deleted", lambda: not list(training.sessions.glob(".school-*")), LIMIT_S)
+    finally:
+        training.close()
+    sessions = str(training.sessions)
+    exported = json.loads(spandrel.run("records", "export", "--trainee", "nina", "--sessions", sessions))
+    assert exported["school"] == [kept]
+    spandrel.run("records", "erase", "--trainee", "nina", "--yes", "--sessions", sessions)
+    assert not (training.sessions / "school-nina").exists()
