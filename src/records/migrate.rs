@@ -10,6 +10,7 @@ const MIGRATIONS: &[&str] = &[
     include_str!("migrations/0002_passwords.sql"),
     include_str!("migrations/0003_newest_and_erased.sql"),
     include_str!("migrations/0004_purpose.sql"),
+    include_str!("migrations/0005_classes.sql"),
 ];
 
 impl Database {

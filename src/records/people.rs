@@ -6,6 +6,7 @@ use super::{erasure, import};
 use crate::errors::AppError;
 use crate::io::session_folder::trainee_and_start;
 use serde::Serialize;
+use spandrel_training::assignment::Assignment;
 use spandrel_training::record::SessionRecord;
 use spandrel_training::trainee::Trainee;
 use std::path::{Path, PathBuf};
@@ -14,6 +15,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Serialize)]
 pub struct TraineeData {
     trainee: Trainee,
+    classes: Vec<String>,
+    assignments: Vec<Assignment>,
     sessions: Vec<SessionRecord>,
     folders: Vec<String>,
 }
@@ -31,7 +34,7 @@ impl TraineeData {
     }
 }
 
-/// Returns all of a trainee's data: details, sessions and answers from the database, and folder names. Returns `None`
+/// Returns all of a trainee's data: details, classes, assignments, sessions and answers from the database, and folder names. Returns `None`
 /// if there is no data.
 ///
 /// # Errors
@@ -48,7 +51,13 @@ pub fn trainee_data(
         return Ok(None);
     }
     let folders = folders.iter().map(|path| path.display().to_string()).collect();
-    Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders }))
+    Ok(Some(TraineeData {
+        trainee: known.unwrap_or_else(|| Trainee::new(trainee)),
+        classes: database.classes_of(trainee)?,
+        assignments: database.assignments_of_trainee(trainee)?,
+        sessions,
+        folders,
+    }))
 }
 
 /// Erases a trainee. Returns true if any data existed, and the number of sessions in the database.

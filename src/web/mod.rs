@@ -2,8 +2,10 @@
 //! rules. `spandrel_training::web` renders the pages and does no I/O.
 
 mod assets;
+mod assignments;
 mod auth;
 mod body;
+mod classes;
 mod figures;
 mod hashing;
 mod listening;

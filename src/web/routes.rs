@@ -3,7 +3,9 @@
 use super::request::WebRequest;
 use super::response::HandlerResult;
 use super::state::ServerState;
-use super::{assets, live, map_tiles, plan_rules, questions, scenarios, sessions, settings, trainees, uploads};
+use super::{
+    assets, assignments, classes, live, map_tiles, plan_rules, questions, scenarios, sessions, settings, trainees, uploads,
+};
 use spandrel_training::web::access::AccessLevel;
 
 /// Function that handles a request.
@@ -94,6 +96,15 @@ pub const ROUTES: &[Route] = &[
     show("/trainees/{name}/export.json", AccessLevel::Login, trainees::export),
     change("/trainees/{name}/details", AccessLevel::Login, trainees::details),
     change("/trainees/{name}/erase", AccessLevel::Administrator, trainees::erase),
+    show("/classes", AccessLevel::Instructor, classes::class_list),
+    change("/classes", AccessLevel::Instructor, classes::create),
+    compute("/classes/{name}", AccessLevel::Instructor, classes::class_page),
+    change("/classes/{name}/members", AccessLevel::Instructor, classes::add_members),
+    change("/classes/{name}/members/remove", AccessLevel::Instructor, classes::remove_member),
+    change("/classes/{name}/remove", AccessLevel::Instructor, classes::remove),
+    show("/assign", AccessLevel::Instructor, assignments::page),
+    change("/assign", AccessLevel::Instructor, assignments::assign),
+    change("/assignments/{id}/remove", AccessLevel::Instructor, assignments::remove),
     compute("/cohort", AccessLevel::Instructor, trainees::cohort_page),
     compute("/cohort/report.html", AccessLevel::Instructor, trainees::cohort_report),
     compute("/cohort/tables/{name}", AccessLevel::Instructor, trainees::cohort_table),

@@ -1,5 +1,6 @@
 //! Pages for trainees and cohorts.
 
+use super::assignments::jobs_of;
 use super::plan_rules::rules_in_use;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -40,7 +41,8 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
     let incomplete = incomplete_policy(request);
     let (rules, problem) = rules_in_use(state)?;
-    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, clock::unix_us());
+    let now = clock::unix_us();
+    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, now);
     if let Some((plan, problem)) = plan.as_mut().zip(problem) {
         plan.note = Some(plan.note.take().map_or_else(|| problem.clone(), |note| format!("{note} {problem}")));
     }
@@ -49,6 +51,8 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
         person: &person,
         records: &records,
         listed: &listed,
+        jobs: &jobs_of(state, &person.pseudonym, &records, now)?,
+        classes: &state.database.classes_of(&person.pseudonym)?,
         plan: plan.as_ref(),
         incomplete,
         reliability: &reliability,

@@ -13,6 +13,7 @@
 //! ```
 
 pub mod advice;
+pub mod assignment;
 pub mod briefing;
 pub mod cohort;
 pub mod plan;
@@ -22,6 +23,7 @@ pub mod report;
 pub mod statistics;
 mod time_text;
 pub mod trainee;
+pub mod training_class;
 pub mod web;
 pub mod xapi;
 

@@ -7,11 +7,12 @@ use maud::{DOCTYPE, Markup, html};
 /// URL of the trainee's own flight page; instructors use the live page.
 const OWN_FLIGHT_URL: &str = "/flight";
 /// Navigation entries: URL, label, required access.
-const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 8] = [
+const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 9] = [
     ("/sessions", "Sessions", AccessLevel::Login),
     (OWN_FLIGHT_URL, "My flight", AccessLevel::Login),
     ("/live", "Live", AccessLevel::Instructor),
     ("/trainees", "Trainees", AccessLevel::Instructor),
+    ("/classes", "Classes", AccessLevel::Instructor),
     ("/cohort", "Cohort", AccessLevel::Instructor),
     ("/scenarios", "Scenarios", AccessLevel::Login),
     ("/settings", "Settings", AccessLevel::Administrator),
@@ -114,6 +115,12 @@ pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
             }
         }
     }
+}
+
+/// Returns a number with its noun, such as "1 class" or "2 classes".
+#[must_use]
+pub fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// Renders page navigation for a list; page numbers start at 1.

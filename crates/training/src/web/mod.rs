@@ -4,7 +4,9 @@
 
 pub mod access;
 pub mod assets;
+pub mod assignments;
 pub mod browser_sessions;
+pub mod classes;
 pub mod cohort_page;
 pub mod known_browsers;
 pub mod layout;

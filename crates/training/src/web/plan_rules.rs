@@ -57,7 +57,7 @@ fn editor(visitor: &Visitor, text: &str) -> Markup {
         form.stacked method="post" action="/plan-rules" {
             (token(visitor))
             // A browser drops the first line break in the field.
-            label { "Rules (TOML)" textarea name="rules" rows="30" spellcheck="false" required { "\n" (text) } }
+            label { "Rules (TOML)" textarea.code name="rules" rows="30" spellcheck="false" required { "\n" (text) } }
             button type="submit" { "Validate and save" }
         }
     }
