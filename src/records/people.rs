@@ -8,6 +8,7 @@ use crate::io::session_folder::trainee_and_start;
 use serde::Serialize;
 use spandrel_training::assignment::Assignment;
 use spandrel_training::record::SessionRecord;
+use spandrel_training::rubric::SignOffEvent;
 use spandrel_training::trainee::Trainee;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +18,7 @@ pub struct TraineeData {
     trainee: Trainee,
     classes: Vec<String>,
     assignments: Vec<Assignment>,
+    sign_offs: Vec<SignOffEvent>,
     sessions: Vec<SessionRecord>,
     folders: Vec<String>,
 }
@@ -34,7 +36,7 @@ impl TraineeData {
     }
 }
 
-/// Returns all of a trainee's data: details, classes, assignments, sessions and answers from the database, and folder names. Returns `None`
+/// Returns all of a trainee's data: details, classes, assignments, sign-offs, sessions and answers from the database, and folder names. Returns `None`
 /// if there is no data.
 ///
 /// # Errors
@@ -55,6 +57,7 @@ pub fn trainee_data(
         trainee: known.unwrap_or_else(|| Trainee::new(trainee)),
         classes: database.classes_of(trainee)?,
         assignments: database.assignments_of_trainee(trainee)?,
+        sign_offs: database.sign_offs(trainee)?,
         sessions,
         folders,
     }))

@@ -32,12 +32,14 @@ const LIST_ALL_QUERY: &str = "SELECT id, trainee, started_unix_us, scenario, ove
 const LIST_TRAINEE_QUERY: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 
-/// Statements that remove a person's entries in all tables that refer to people. Assignments by an erased instructor remain,
-/// without the name.
-const ERASE_PERSON_QUERIES: [&str; 4] = [
+/// Statements that remove a person's entries in all tables that refer to people. Assignments and sign-offs by an erased
+/// instructor remain, without the name.
+const ERASE_PERSON_QUERIES: [&str; 6] = [
     "DELETE FROM passwords WHERE pseudonym = $1",
     "DELETE FROM class_members WHERE trainee = $1",
     "DELETE FROM assignments WHERE trainee = $1",
+    "DELETE FROM sign_offs WHERE trainee = $1",
+    "UPDATE sign_offs SET signed_by = '' WHERE signed_by = $1",
     "UPDATE assignments SET assigned_by = '' WHERE assigned_by = $1",
 ];
 

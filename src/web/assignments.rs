@@ -1,6 +1,5 @@
 //! Assigns jobs to trainees and classes.
 
-use super::classes::class_url;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenario_library::{self, StoredScenario};
@@ -132,6 +131,11 @@ fn target_url(target: &AssignmentTarget) -> String {
         AssignmentTarget::Trainee(name) => format!("/trainees/{name}"),
         AssignmentTarget::Class(name) => class_url(name),
     }
+}
+
+/// Returns the URL of a class's page.
+pub fn class_url(name: &str) -> String {
+    format!("/classes/{name}")
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Class pages.
 
-use super::assignments::jobs_of;
+use super::assignments::{class_url, jobs_of};
 use super::plan_rules::rules_in_use;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
@@ -100,9 +100,4 @@ pub fn remove(state: &ServerState, request: &WebRequest) -> HandlerResult {
     } else {
         Err(WebError::NotFound)
     }
-}
-
-/// Returns the URL of a class's page.
-pub fn class_url(name: &str) -> String {
-    format!("/classes/{name}")
 }

@@ -1,9 +1,11 @@
 //! Pages for trainees and cohorts.
 
 use super::assignments::jobs_of;
+use super::person::person;
 use super::plan_rules::rules_in_use;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::rubric::rubric_in_use;
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::trainee_id::TraineeId;
@@ -13,7 +15,8 @@ use spandrel_training::cohort::{JobReliability, Selection, TABLES, table};
 use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::{assets, page::cohort as report};
-use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role, Trainee};
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role};
+use spandrel_training::web::rubric::count_words;
 use spandrel_training::web::{cohort_page, trainees as pages};
 use std::collections::BTreeMap;
 
@@ -25,13 +28,6 @@ const DEFAULT_REPETITIONS: usize = 3;
 /// Responds with the list of all trainees.
 pub fn trainee_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::page(pages::trainee_list(&request.visitor, &state.database.trainees()?)))
-}
-
-/// Returns the person named in the path, if the visitor may see them.
-fn person(state: &ServerState, request: &WebRequest) -> Result<Trainee, WebError> {
-    let name = request.path_param("name");
-    request.check_access(name)?;
-    state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
 }
 
 /// Responds with a trainee's sessions, progress and training plan.
@@ -53,6 +49,7 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
         listed: &listed,
         jobs: &jobs_of(state, &person.pseudonym, &records, now)?,
         classes: &state.database.classes_of(&person.pseudonym)?,
+        rubric: &count_words(&rubric_in_use(state)?.0, &state.database.sign_offs(&person.pseudonym)?),
         plan: plan.as_ref(),
         incomplete,
         reliability: &reliability,

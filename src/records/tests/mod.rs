@@ -3,6 +3,7 @@
 mod changes;
 mod classes;
 mod server;
+mod sign_offs;
 mod tls;
 
 use super::database::Database;
@@ -38,6 +39,7 @@ fn run_all_tests(target: &str) {
     sessions_are_counted_and_found(target);
     rebuild_is_atomic(target);
     classes::run_all(target);
+    sign_offs::run_all(target);
     changes::run_all(target);
     opposite_import_orders_do_not_deadlock(target);
     concurrent_imports_lose_nothing(target);

@@ -97,6 +97,26 @@ pub fn message(kind: &str, text: &str) -> Markup {
     html! { p class={ "message " (kind) } role="status" { (text) } }
 }
 
+/// Renders a message box with one paragraph per line; `kind` is its CSS class.
+#[must_use]
+pub fn message_lines(kind: &str, text: &str) -> Markup {
+    html! { div class={ "message " (kind) } role="status" { @for line in text.lines() { p { (line) } } } }
+}
+
+/// Renders the form that edits a TOML file; `action` receives the text in a field with the given label and name.
+#[must_use]
+pub fn toml_editor(visitor: &Visitor, action: &str, (label, name): (&str, &str), text: &str) -> Markup {
+    html! {
+        p { "The file is validated before it is saved, and all errors are listed with line and key. The comments at its beginning explain the format." }
+        form.stacked method="post" action=(action) {
+            (token(visitor))
+            // A browser drops the first line break in the field.
+            label { (label) textarea.code name=(name) rows="30" spellcheck="false" required { "\n" (text) } }
+            button type="submit" { "Validate and save" }
+        }
+    }
+}
+
 /// Renders a section with its heading.
 #[must_use]
 pub fn section(id: &str, heading: &str, body: &Markup) -> Markup {

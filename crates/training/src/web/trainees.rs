@@ -37,7 +37,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
         section {
             @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
             @else { (table(&format!("{} users", people.len()), &heads, &rows)) }
-            p { a href="/plan-rules" { "Training plan rules" } }
+            ul.actions { li { a href="/plan-rules" { "Training plan rules" } } li { a href="/rubric" { "Rubric" } } }
         }
     };
     page(visitor, "/trainees", "Trainees", &body)
@@ -56,6 +56,8 @@ pub struct TraineeProfile<'a> {
     pub jobs: &'a [AssignedJob],
     /// Names of the trainee's classes.
     pub classes: &'a [String],
+    /// Number of rubric criteria that are signed off, as text.
+    pub rubric: &'a str,
     /// Training plan; `None` without sessions.
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count toward progress and plan.
@@ -77,6 +79,7 @@ pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
             @if profile.listed.is_empty() { p.calm { "No sessions yet." } }
             @else { (lines(visitor, &format!("{} sessions, newest first", profile.listed.len()), profile.listed)) }
         }))
+        (section("rubric", "Rubric", &html! { p { a href={ "/trainees/" (name) "/rubric" } { (profile.rubric) } } }))
         (section("details", "Details", &details(visitor, profile.person)))
         (section("data", "Data", &html! {
             p { a href={ "/trainees/" (name) "/export.json" } { "Download all data for " (name) } }
@@ -211,6 +214,7 @@ mod tests {
             listed: &[],
             jobs: &[],
             classes: &[HOSTILE_NAME.to_owned()],
+            rubric: HOSTILE_NAME,
             plan: plan.as_ref(),
             incomplete: IncompletePolicy::Exclude,
             reliability: &JobReliability::new(),
@@ -261,6 +265,7 @@ mod tests {
                 listed: &[],
                 jobs: &[],
                 classes: &[],
+                rubric: "",
                 plan: plan.as_ref(),
                 incomplete: IncompletePolicy::Exclude,
                 reliability,
