@@ -38,9 +38,9 @@ fn run_all_tests(target: &str) {
     logins_are_stored_and_erased(target);
     sessions_are_counted_and_found(target);
     rebuild_is_atomic(target);
+    changes::run_all(target);
     classes::run_all(target);
     sign_offs::run_all(target);
-    changes::run_all(target);
     opposite_import_orders_do_not_deadlock(target);
     concurrent_imports_lose_nothing(target);
 }

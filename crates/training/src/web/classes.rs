@@ -114,7 +114,7 @@ fn members(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
                 th scope="row" { a href={ "/trainees/" (member.trainee) } { (member.trainee) } }
                 @match &member.last {
                     Some(last) => {
-                        td { a href={ "/sessions/" (last.id) } { (minute(last.started_unix_us)) } br; (last.scenario) }
+                        td.when { a href={ "/sessions/" (last.id) } { (minute(last.started_unix_us)) } br; (last.scenario) }
                         td { (last.verdict()) }
                     }
                     None => { td { "not flown yet" } td { "–" } }

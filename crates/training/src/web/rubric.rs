@@ -1,7 +1,7 @@
 //! A trainee's rubric: criteria with their sign-offs, and the history. Also the page that edits the criteria.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{message_lines, page, section, table, token, toml_editor};
+use super::layout::{counted, message_lines, page, section, table, token, toml_editor};
 use crate::rubric::{Rubric, RubricCriterion, SignOffAction, SignOffEvent, current_sign_off};
 use maud::{Markup, html};
 use spandrel_model::calendar::{day, minute};
@@ -103,7 +103,7 @@ fn history(events: &[SignOffEvent]) -> Markup {
             }
         }
     };
-    table(&format!("{} entries, newest first", events.len()), &heads, &rows)
+    table(&format!("{}, newest first", counted(events.len(), "entry", "entries")), &heads, &rows)
 }
 
 /// Contents of the page that edits the criteria.
