@@ -34,7 +34,7 @@ impl Database {
                 AssignmentTarget::Class(name) => sqlx::query("SELECT name FROM classes WHERE name = $1").bind(name.clone()),
             };
             if exists.fetch_optional(&mut *change).await?.is_none() {
-                return Ok(false);
+                return change.rollback().await.map(|()| false);
             }
             let query = sqlx::query(ADD_QUERY).bind(assignment.id.clone()).bind(trainee).bind(class);
             let query = query.bind(assignment.scenario.clone()).bind(assignment.variant.clone());

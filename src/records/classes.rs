@@ -82,7 +82,7 @@ impl Database {
             let mut change = self.begin().await?;
             let found = sqlx::query("SELECT name FROM classes WHERE name = $1").bind(class.to_owned());
             if found.fetch_optional(&mut *change).await?.is_none() {
-                return Ok(false);
+                return change.rollback().await.map(|()| false);
             }
             for trainee in trainees {
                 let person = sqlx::query(ADD_TRAINEE_QUERY).bind(trainee.clone()).bind(Role::Trainee.word().to_owned());

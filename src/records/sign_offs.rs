@@ -37,7 +37,7 @@ impl Database {
                 SignOffAction::Withdrawn => signed_off,
             };
             if !changes {
-                return Ok(false);
+                return change.rollback().await.map(|()| false);
             }
             let query = sqlx::query(ADD_QUERY).bind(trainee.to_owned()).bind(event.criterion.clone());
             let query = query.bind(signed(event.unix_us)).bind(event.title.clone()).bind(event.action.word().to_owned());
