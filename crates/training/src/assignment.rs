@@ -182,7 +182,7 @@ mod tests {
         let state = |records: &[SessionRecord], now| one.state(records, now);
         assert_eq!(state(&[], one.due_unix_us), AssignmentState::Open);
         assert_eq!(state(&[], one.due_unix_us + 1), AssignmentState::Overdue);
-        assert_eq!(state(&[before.clone()], one.due_unix_us), AssignmentState::Open, "flown before the assignment");
+        assert_eq!(state(std::slice::from_ref(&before), one.due_unix_us), AssignmentState::Open, "flown before the assignment");
         assert_eq!(state(&[aborted_record("anna", 3)], one.due_unix_us), AssignmentState::Open, "incomplete");
         let other = SessionRecord { scenario: "drill-gap".into(), ..on_time.clone() };
         assert_eq!(state(&[other], one.due_unix_us), AssignmentState::Open, "another job");
