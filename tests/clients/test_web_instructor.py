@@ -360,6 +360,9 @@ def test_two_live_flights_have_a_tile_each(browser, tmp_path):
         page.wait_for_selector(".live-page.live")
         page.click("text=All flights")
         page.wait_for_url("**/live/all")
+        tiles.nth(0).locator("h2 a").click()
+        page.wait_for_url("**/live?vehicle=1")
+        page.wait_for_function("() => document.querySelector('[data-camera] img')?.naturalWidth > 0")
         assert person.wrong == []
     finally:
         ended.set()
