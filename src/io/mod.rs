@@ -19,6 +19,7 @@ pub mod log_check;
 pub mod log_file;
 pub mod logging;
 pub mod map_tiles;
+pub mod marks;
 pub mod mcap;
 pub mod net;
 pub mod pacing;

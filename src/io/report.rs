@@ -1,6 +1,7 @@
 //! Builds a session's report from the contents of its folder.
 
 use super::clock;
+use super::marks::valid_marks;
 use super::replace::replace;
 use super::session_folder::StoredSession;
 use crate::errors::AppError;
@@ -128,6 +129,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
         vehicle_sha256: sha256_hex(stored.vehicle.text.as_bytes()),
         telemetry_sha256: stored.log.sha256()?,
         pictures: Vec::new(),
+        marks: valid_marks(session),
     })
 }
 

@@ -13,17 +13,22 @@ impl TraineeId {
     }
 }
 
+/// Allowed form of an ID, for error messages.
+pub const ALLOWED_IDS: &str = "1 to 32 letters, digits, '-' or '_', starting with a letter or digit";
+
+/// Returns true for an ID that needs no escaping in paths and URLs, as described by [`ALLOWED_IDS`].
+pub fn is_plain_id(text: &str) -> bool {
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    text.starts_with(|c: char| c.is_ascii_alphanumeric()) && text.len() <= 32 && text.chars().all(fits)
+}
+
 impl FromStr for TraineeId {
     type Err = String;
     fn from_str(text: &str) -> Result<Self, String> {
-        let fits = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        let starts = text.starts_with(|c: char| c.is_ascii_alphanumeric());
-        if starts && text.len() <= 32 && text.chars().all(fits) {
+        if is_plain_id(text) {
             return Ok(Self(text.to_owned()));
         }
-        Err(format!(
-            "'{text}' is not a trainee ID (allowed: 1 to 32 letters, digits, '-' or '_', starting with a letter or digit)"
-        ))
+        Err(format!("'{text}' is not a trainee ID (allowed: {ALLOWED_IDS})"))
     }
 }
 

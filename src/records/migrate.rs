@@ -10,6 +10,8 @@ const MIGRATIONS: &[&str] = &[
     include_str!("migrations/0002_passwords.sql"),
     include_str!("migrations/0003_newest_and_erased.sql"),
     include_str!("migrations/0004_purpose.sql"),
+    include_str!("migrations/0005_classes.sql"),
+    include_str!("migrations/0006_sign_offs.sql"),
 ];
 
 impl Database {

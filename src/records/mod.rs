@@ -1,9 +1,11 @@
 //! Database of sessions, trainees and answers. The session folders are the source of truth; the database can be rebuilt
-//! from them at any time, except for trainee details that were entered by hand.
+//! from them at any time, except for data that people entered: trainee details, classes, assignments, sign-offs and logins.
 
 mod accounts;
 mod address;
+mod assignments;
 mod batch_import;
+mod classes;
 mod database;
 mod erasure;
 mod erasure_marks;
@@ -14,6 +16,7 @@ mod migrate;
 mod people;
 pub mod push;
 mod sessions;
+mod sign_offs;
 #[cfg(test)]
 mod tests;
 mod trainees;

@@ -7,7 +7,9 @@ use crate::errors::AppError;
 use crate::io::school_record;
 use crate::io::session_folder::trainee_and_start;
 use serde::Serialize;
+use spandrel_training::assignment::Assignment;
 use spandrel_training::record::SessionRecord;
+use spandrel_training::rubric::SignOffEvent;
 use spandrel_training::school::SchoolRecord;
 use spandrel_training::trainee::Trainee;
 use std::path::{Path, PathBuf};
@@ -19,6 +21,9 @@ const US_PER_S: u64 = 1_000_000;
 #[derive(Debug, Serialize)]
 pub struct TraineeData {
     trainee: Trainee,
+    classes: Vec<String>,
+    assignments: Vec<Assignment>,
+    sign_offs: Vec<SignOffEvent>,
     sessions: Vec<SessionRecord>,
     folders: Vec<String>,
     /// Progress in the defect school, for each sessions folder that has any.
@@ -38,7 +43,7 @@ impl TraineeData {
     }
 }
 
-/// Returns all of a trainee's data: details, sessions and answers from the database, and folder names. Returns `None`
+/// Returns all of a trainee's data: details, classes, assignments, sign-offs, sessions and answers from the database, and folder names. Returns `None`
 /// if there is no data.
 ///
 /// # Errors
@@ -57,7 +62,15 @@ pub fn trainee_data(
         return Ok(None);
     }
     let folders = folders.iter().map(|path| path.display().to_string()).collect();
-    Ok(Some(TraineeData { trainee: known.unwrap_or_else(|| Trainee::new(trainee)), sessions, folders, school }))
+    Ok(Some(TraineeData {
+        trainee: known.unwrap_or_else(|| Trainee::new(trainee)),
+        classes: database.classes_of(trainee)?,
+        assignments: database.assignments_of_trainee(trainee)?,
+        sign_offs: database.sign_offs(trainee)?,
+        sessions,
+        folders,
+        school,
+    }))
 }
 
 /// Erases a trainee. Returns true if any data existed, and the number of sessions in the database.

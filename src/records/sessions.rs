@@ -24,12 +24,24 @@ const UPSERT_SESSION_QUERY: &str = "INSERT INTO sessions (id, trainee, started_u
     accuracy = excluded.accuracy, overall = excluded.overall, overall_max = excluded.overall_max, \
     fingerprint = excluded.fingerprint, record = excluded.record, purpose = excluded.purpose \
     WHERE sessions.fingerprint <> excluded.fingerprint";
-const ADD_TRAINEE_QUERY: &str = "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
+pub(super) const ADD_TRAINEE_QUERY: &str =
+    "INSERT INTO trainees (pseudonym, role) VALUES ($1, $2) ON CONFLICT (pseudonym) DO NOTHING";
 // The subquery uses only an index, so complete rows are read only for the sessions to show.
 const LIST_ALL_QUERY: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
 const LIST_TRAINEE_QUERY: &str = "SELECT id, trainee, started_unix_us, scenario, overall, overall_max, end_reason, purpose, record FROM sessions WHERE id IN \
     (SELECT id FROM sessions WHERE trainee = $3 ORDER BY started_unix_us DESC, id LIMIT $1 OFFSET $2) ORDER BY started_unix_us DESC, id";
+
+/// Statements that remove a person's entries in all tables that refer to people. Assignments and sign-offs by an erased
+/// instructor remain, without the name.
+const ERASE_PERSON_QUERIES: [&str; 6] = [
+    "DELETE FROM passwords WHERE pseudonym = $1",
+    "DELETE FROM class_members WHERE trainee = $1",
+    "DELETE FROM assignments WHERE trainee = $1",
+    "DELETE FROM sign_offs WHERE trainee = $1",
+    "UPDATE sign_offs SET signed_by = '' WHERE signed_by = $1",
+    "UPDATE assignments SET assigned_by = '' WHERE assigned_by = $1",
+];
 
 impl Database {
     /// Adds records and their trainees. Does not touch unchanged sessions or add erased sessions again. Returns the
@@ -192,7 +204,9 @@ impl Database {
             sqlx::query(answers).bind(trainee.to_owned()).execute(&mut *change).await?;
             let by = |query: &'static str| sqlx::query(query).bind(trainee.to_owned());
             let sessions = by("DELETE FROM sessions WHERE trainee = $1").execute(&mut *change).await?.rows_affected();
-            by("DELETE FROM passwords WHERE pseudonym = $1").execute(&mut *change).await?;
+            for query in ERASE_PERSON_QUERIES {
+                by(query).execute(&mut *change).await?;
+            }
             let known = by("DELETE FROM trainees WHERE pseudonym = $1").execute(&mut *change).await?.rows_affected() > 0;
             change.commit().await?;
             self.truncate_journal().await.map(|()| (known, sessions))

@@ -10,6 +10,7 @@ mod page;
 mod picture;
 mod stream;
 mod telemetry_listener;
+mod tiles;
 mod vehicle;
 mod vehicle_choice;
 
@@ -18,5 +19,6 @@ pub use instructor_actions::run_action;
 pub use own_flight::{camera as own_camera, current as own_now, page as own_page};
 pub use page::page;
 pub use stream::stream;
+pub use tiles::{current as all_now, page as all_page};
 pub use vehicle::{LiveVehicle, WatchedVehicle};
 pub use vehicle_choice::select_vehicle;

@@ -2,21 +2,27 @@
 //! rules. `spandrel_training::web` renders the pages and does no I/O.
 
 mod assets;
+mod assignments;
 mod auth;
 mod body;
+mod classes;
 mod figures;
 mod hashing;
 mod listening;
 mod live;
 mod lock;
 mod map_tiles;
+mod marks;
+mod own_file;
 pub mod passwords;
+mod person;
 mod plan_rules;
 mod questions;
 mod request;
 mod request_pipeline;
 mod response;
 mod routes;
+mod rubric;
 mod safe_names;
 mod scenario_library;
 mod scenarios;

@@ -1,31 +1,21 @@
 //! The rules of the training plans: shipped, or the server's own.
 
+use super::own_file::OwnFile;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenario_library::all;
 use super::state::ServerState;
 use crate::errors::AppError;
-use crate::io::replace::replace;
-use crate::io::{files, plan_rules};
+use crate::io::plan_rules;
 use axum::http::StatusCode;
 use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
 use spandrel_training::web::plan_rules::{PlanRulesPage, plan_rules_page};
-use std::path::PathBuf;
 
 /// Path of the page.
 const PAGE: &str = "/plan-rules";
 
-/// Returns the file with the server's own rules. It is in a folder of its own, because the scenario folder lists its files
-/// as scenarios.
-fn own_file(state: &ServerState) -> PathBuf {
-    state.scenarios.join("plan-rules").join("rules.toml")
-}
-
-/// Returns the server's own rules as text; `None` if it uses the shipped ones.
-fn own_text(state: &ServerState) -> Result<Option<String>, AppError> {
-    let path = own_file(state);
-    if path.is_file() { files::read(&path).map(Some) } else { Ok(None) }
-}
+/// The server's own rules.
+const OWN: OwnFile = OwnFile { folder: "plan-rules", name: "rules.toml" };
 
 /// Returns the rules in use with the difficulty levels of the drills, which may be uploaded scenarios, and a note if the server's own rules can't be used.
 ///
@@ -44,10 +34,10 @@ pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), 
 
 fn valid_rules(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
     let shipped = || plan_rules::rules(None);
-    if !own_file(state).is_file() {
+    if !OWN.exists(state) {
         return Ok((shipped()?, None));
     }
-    match plan_rules::rules(Some(&own_file(state))) {
+    match plan_rules::rules(Some(&OWN.path(state))) {
         Ok(rules) => Ok((rules, None)),
         Err(AppError::Wrong(_) | AppError::Failed(_) | AppError::Autopilot(..)) => {
             let note = "This server's own rules are invalid, so the shipped rules apply. Instructors can correct them.";
@@ -58,7 +48,7 @@ fn valid_rules(state: &ServerState) -> Result<(PlanRules, Option<String>), AppEr
 
 /// Responds with the page.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let own = own_text(state)?;
+    let own = OWN.text(state)?;
     let text = own.as_deref().unwrap_or(DEFAULT_RULES);
     let rules = read_rules("rules.toml", text);
     let problems = rules.as_ref().err().map(ToString::to_string);
@@ -89,18 +79,13 @@ fn save_text(state: &ServerState, request: &WebRequest, shown: &str, text: &str)
         Ok(rules) => rules,
         Err(problems) => {
             let words = format!("Not saved.\n{problems}");
-            let own = own_file(state).is_file();
+            let own = OWN.exists(state);
             let about = PlanRulesPage { text, own, rules: None, notice: Some(("bad", &words)) };
             let shown = WebResponse::page(plan_rules_page(&request.visitor, &about));
             return Ok(shown.with_status(StatusCode::UNPROCESSABLE_ENTITY));
         }
     };
-    let target = own_file(state);
-    if let Some(folder) = target.parent() {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| WebError::Failed(format!("{}: cannot create the folder: {error}", folder.display())))?;
-    }
-    replace(&target, text.as_bytes())?;
+    OWN.save(state, text)?;
     let notice = Some(("good", "The rules were saved and apply from now on."));
     let about = PlanRulesPage { text, own: true, rules: Some(&rules), notice };
     Ok(WebResponse::page(plan_rules_page(&request.visitor, &about)))
@@ -108,9 +93,6 @@ fn save_text(state: &ServerState, request: &WebRequest, shown: &str, text: &str)
 
 /// Deletes the server's own rules.
 pub fn reset(state: &ServerState, _: &WebRequest) -> HandlerResult {
-    let path = own_file(state);
-    if path.is_file() {
-        std::fs::remove_file(&path).map_err(|error| WebError::Failed(format!("{}: cannot remove: {error}", path.display())))?;
-    }
+    OWN.delete(state)?;
     Ok(WebResponse::redirect(PAGE))
 }

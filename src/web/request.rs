@@ -70,6 +70,20 @@ impl WebRequest {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
     }
 
+    /// Returns a form field that is one line of text, without spaces at both ends; a missing field is empty. `min` and `max` are its
+    /// length in characters.
+    ///
+    /// # Errors
+    /// Returns an error if the text is too short or too long, or has control characters.
+    pub fn line_field(&self, name: &str, (min, max): (usize, usize)) -> Result<&str, WebError> {
+        let text = self.form_field(name).unwrap_or_default().trim();
+        let count = text.chars().count();
+        if (min..=max).contains(&count) && !text.chars().any(char::is_control) {
+            return Ok(text);
+        }
+        Err(WebError::BadRequest(format!("{name}: {count} characters (allowed: {min} to {max}, on one line)")))
+    }
+
     /// Checks that the visitor may see this trainee's data. Only the trainee, instructors and administrators may; for
     /// everyone else, the data appears not to exist.
     ///

@@ -3,7 +3,10 @@
 use super::request::WebRequest;
 use super::response::HandlerResult;
 use super::state::ServerState;
-use super::{assets, live, map_tiles, plan_rules, questions, scenarios, sessions, settings, trainees, uploads};
+use super::{
+    assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenarios, sessions, settings, trainees,
+    uploads,
+};
 use spandrel_training::web::access::AccessLevel;
 
 /// Function that handles a request.
@@ -88,12 +91,25 @@ pub const ROUTES: &[Route] = &[
     show("/sessions/{id}/telemetry.tlog", AccessLevel::Login, sessions::telemetry),
     show("/sessions/{id}/questions", AccessLevel::Login, questions::page),
     change("/sessions/{id}/questions", AccessLevel::Login, questions::save),
+    change("/sessions/{id}/marks", AccessLevel::Instructor, marks::add),
+    change("/sessions/{id}/marks/remove", AccessLevel::Instructor, marks::remove),
     show("/compare", AccessLevel::Login, sessions::compare),
     show("/trainees", AccessLevel::Instructor, trainees::trainee_list),
     show("/trainees/{name}", AccessLevel::Login, trainees::trainee_page),
     show("/trainees/{name}/export.json", AccessLevel::Login, trainees::export),
     change("/trainees/{name}/details", AccessLevel::Login, trainees::details),
+    show("/trainees/{name}/rubric", AccessLevel::Login, rubric::page),
+    change("/trainees/{name}/rubric", AccessLevel::Instructor, rubric::sign),
     change("/trainees/{name}/erase", AccessLevel::Administrator, trainees::erase),
+    show("/classes", AccessLevel::Instructor, classes::class_list),
+    change("/classes", AccessLevel::Instructor, classes::create),
+    compute("/classes/{name}", AccessLevel::Instructor, classes::class_page),
+    change("/classes/{name}/members", AccessLevel::Instructor, classes::add_members),
+    change("/classes/{name}/members/remove", AccessLevel::Instructor, classes::remove_member),
+    change("/classes/{name}/remove", AccessLevel::Instructor, classes::remove),
+    show("/assign", AccessLevel::Instructor, assignments::page),
+    change("/assign", AccessLevel::Instructor, assignments::assign),
+    change("/assignments/{id}/remove", AccessLevel::Instructor, assignments::remove),
     compute("/cohort", AccessLevel::Instructor, trainees::cohort_page),
     compute("/cohort/report.html", AccessLevel::Instructor, trainees::cohort_report),
     compute("/cohort/tables/{name}", AccessLevel::Instructor, trainees::cohort_table),
@@ -107,9 +123,14 @@ pub const ROUTES: &[Route] = &[
     change("/plan-rules", AccessLevel::Instructor, plan_rules::save),
     upload("/plan-rules/upload", MAX_PLAN_RULES_BYTES, AccessLevel::Instructor, plan_rules::upload),
     change("/plan-rules/reset", AccessLevel::Instructor, plan_rules::reset),
+    show("/rubric", AccessLevel::Instructor, rubric::editor),
+    change("/rubric", AccessLevel::Instructor, rubric::save),
+    change("/rubric/reset", AccessLevel::Instructor, rubric::reset),
     show("/upload", AccessLevel::Instructor, uploads::page),
     upload("/upload", MAX_RECORDING_BYTES, AccessLevel::Instructor, uploads::recording),
     show("/live", AccessLevel::Instructor, live::page),
+    show("/live/all", AccessLevel::Instructor, live::all_page),
+    show("/live/all.json", AccessLevel::Instructor, live::all_now),
     show("/live/camera.jpg", AccessLevel::Instructor, live::camera),
     change("/live/act", AccessLevel::Instructor, live::run_action),
     show("/flight", AccessLevel::Login, live::own_page),

@@ -3,14 +3,17 @@
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
+use crate::io::marks::valid_marks;
 use crate::io::report;
 use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
 use crate::io::trainee_id::TraineeId;
 use spandrel_monitor::export;
 use spandrel_monitor::folder::{REPORT, TELEMETRY};
+use spandrel_training::marks::marks_key;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
+use spandrel_training::report::page::MARKS_META_NAME;
 use spandrel_training::web::sessions as pages;
 use spandrel_training::web::standing::standing;
 use std::path::{Path, PathBuf};
@@ -66,17 +69,20 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let folder = state.folder(&record.id);
     let advice = folder.as_deref().and_then(report::saved_advice);
     let standing = standing(&record, &state.database.records(Some(&record.trainee))?);
-    let about = pages::SessionPageData { folder: folder.is_some(), others: &others, advice: advice.as_ref(), standing };
+    let marks = folder.as_deref().map(valid_marks).unwrap_or_default();
+    let about =
+        pages::SessionPageData { folder: folder.is_some(), others: &others, advice: advice.as_ref(), standing, marks: &marks };
     Ok(WebResponse::page(pages::session(&request.visitor, &record, &about)))
 }
 
-/// Responds with a session's report under the report's own policy. Creates the report again if it is missing or another
-/// version wrote it.
+/// Responds with a session's report under the report's own policy. Creates the report again if it is missing, another version
+/// wrote it, or the instructor's marks have changed.
 pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = folder(state, request, request.path_param("id"))?;
     let policy = assets::page_policy();
     let path = folder.join(REPORT);
-    let found = std::fs::read(&path).ok().filter(|page| has_current_policy(page, &policy));
+    let marks = marks_key(&valid_marks(&folder));
+    let found = std::fs::read(&path).ok().filter(|page| is_current(page, &policy, marks.as_deref()));
     let page = match found {
         Some(page) => page,
         None => {
@@ -87,11 +93,15 @@ pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::sandboxed_page(page, &policy))
 }
 
-/// Returns true if the page's `head` element contains this version's policy.
-fn has_current_policy(page: &[u8], policy: &str) -> bool {
-    let head = &page[..page.len().min(2_000)];
+/// Returns true if the page's `head` element contains this version's policy and the key of these marks.
+fn is_current(page: &[u8], policy: &str, marks: Option<&str>) -> bool {
+    let head = String::from_utf8_lossy(&page[..page.len().min(2_000)]);
     let escaped = maud::html! { (policy) }.into_string();
-    String::from_utf8_lossy(head).contains(&escaped)
+    let has_marks = match marks {
+        Some(key) => head.contains(&format!("name=\"{MARKS_META_NAME}\" content=\"{key}\"")),
+        None => !head.contains(MARKS_META_NAME),
+    };
+    head.contains(&escaped) && has_marks
 }
 
 /// Responds with a comparison of two sessions.
@@ -130,10 +140,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_reports_of_other_versions_have_another_policy() {
+    fn exact_reports_of_other_versions_or_marks_are_outdated() {
         let policy = "script-src 'sha256-abc'";
-        assert!(has_current_policy(b"<meta content=\"script-src 'sha256-abc'\">", policy));
-        assert!(!has_current_policy(b"<meta content=\"script-src 'sha256-xyz'\">", policy));
-        assert!(!has_current_policy(b"", policy));
+        let bare: &[u8] = b"<meta content=\"script-src 'sha256-abc'\">";
+        let marked: &[u8] = b"<meta content=\"script-src 'sha256-abc'\"><meta name=\"spandrel-marks\" content=\"12ab\">";
+        assert!(is_current(bare, policy, None) && is_current(marked, policy, Some("12ab")));
+        assert!(!is_current(b"<meta content=\"script-src 'sha256-xyz'\">", policy, None));
+        assert!(!is_current(b"", policy, None));
+        assert!(!is_current(bare, policy, Some("12ab")) && !is_current(marked, policy, Some("12cd")));
+        assert!(!is_current(marked, policy, None), "all marks were removed");
     }
 }

@@ -48,6 +48,8 @@ pub struct ServerState {
     pub importer: SessionImporter,
     /// Locked while an answer file is read, modified and written.
     pub answers: Mutex<()>,
+    /// Locked while a file with marks is read, modified and written.
+    pub marks: Mutex<()>,
     /// Map tiles of the job that was requested last.
     pub map_tiles: Mutex<Option<LatestMap>>,
     /// Locked while a map tile is drawn.
@@ -75,7 +77,7 @@ impl ServerState {
         let start = |watched: &WatchedVehicle| LiveVehicle::start(watched, &records_location.sessions, &scenarios);
         let live = watched.iter().map(start).collect::<Result<Vec<_>, _>>()?;
         let taking_in = SessionImporter::start(&records_location)?;
-        let (answers, scoring) = (Mutex::new(()), Mutex::new(()));
+        let (answers, marks, scoring) = (Mutex::new(()), Mutex::new(()), Mutex::new(()));
         Ok(Self {
             database,
             figures,
@@ -86,6 +88,7 @@ impl ServerState {
             live,
             importer: taking_in,
             answers,
+            marks,
             map_tiles: Mutex::default(),
             tile_drawing: Mutex::default(),
             scoring,

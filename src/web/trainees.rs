@@ -1,8 +1,11 @@
 //! Pages for trainees and cohorts.
 
+use super::assignments::jobs_of;
+use super::person::person;
 use super::plan_rules::rules_in_use;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::rubric::rubric_in_use;
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::trainee_id::TraineeId;
@@ -12,7 +15,8 @@ use spandrel_training::cohort::{JobReliability, Selection, TABLES, table};
 use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::{assets, page::cohort as report};
-use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role, Trainee};
+use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role};
+use spandrel_training::web::rubric::count_words;
 use spandrel_training::web::{cohort_page, trainees as pages};
 use std::collections::BTreeMap;
 
@@ -26,13 +30,6 @@ pub fn trainee_list(state: &ServerState, request: &WebRequest) -> HandlerResult 
     Ok(WebResponse::page(pages::trainee_list(&request.visitor, &state.database.trainees()?)))
 }
 
-/// Returns the person named in the path, if the visitor may see them.
-fn person(state: &ServerState, request: &WebRequest) -> Result<Trainee, WebError> {
-    let name = request.path_param("name");
-    request.check_access(name)?;
-    state.database.account(name)?.map(|account| account.person).ok_or(WebError::NotFound)
-}
-
 /// Responds with a trainee's sessions, progress and training plan.
 pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let person = person(state, request)?;
@@ -40,7 +37,8 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
     let incomplete = incomplete_policy(request);
     let (rules, problem) = rules_in_use(state)?;
-    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, clock::unix_us());
+    let now = clock::unix_us();
+    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, now);
     if let Some((plan, problem)) = plan.as_mut().zip(problem) {
         plan.note = Some(plan.note.take().map_or_else(|| problem.clone(), |note| format!("{note} {problem}")));
     }
@@ -49,6 +47,9 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
         person: &person,
         records: &records,
         listed: &listed,
+        jobs: &jobs_of(state, &person.pseudonym, &records, now)?,
+        classes: &state.database.classes_of(&person.pseudonym)?,
+        rubric: &count_words(&rubric_in_use(state)?.0, &state.database.sign_offs(&person.pseudonym)?),
         plan: plan.as_ref(),
         incomplete,
         reliability: &reliability,

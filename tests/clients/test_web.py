@@ -339,7 +339,7 @@ def test_trainees_cannot_read_data_of_others(browser, server, sessions):
                  f"/sessions/{ben}/telemetry.tlog", f"/compare?first={session_ids(sessions, 'anna')[0]}&second={ben}", "/trainees/ben",
                  "/trainees/ben/export.json"]:
         assert person.go(path).status == 404, path
-    for path in ["/trainees", "/cohort", "/live", "/upload", "/settings", "/live/stream", "/live/camera.jpg"]:
+    for path in ["/trainees", "/cohort", "/live", "/live/all", "/live/all.json", "/upload", "/settings", "/live/stream", "/live/camera.jpg"]:
         assert person.go(path).status == 403, path
     assert person.go("/trainees/anna").status == 200
 

@@ -58,6 +58,17 @@ def forms(sessions):
         f"/sessions/{anna}/questions": (f"/sessions/{anna}/questions", {"frustration": "3"}),
         "/trainees/anna/details": ("/trainees/anna", {"age_band": "25-34"}),
         "/trainees/nobody/erase": ("/trainees", {"again": "nobody"}),
+        f"/sessions/{anna}/marks": (f"/sessions/{anna}", {"time": "0:01", "text": "x"}),
+        f"/sessions/{anna}/marks/remove": (f"/sessions/{anna}", {"mark": "1"}),
+        "/trainees/anna/rubric": ("/trainees/anna", {"criterion": "path", "action": "signed_off"}),
+        "/rubric": ("/rubric", {"rubric": "format = 1"}),
+        "/rubric/reset": ("/rubric", {}),
+        "/classes": ("/classes", {"name": "x"}),
+        "/classes/none/members": ("/classes", {"trainees": "anna"}),
+        "/classes/none/members/remove": ("/classes", {"trainee": "anna"}),
+        "/classes/none/remove": ("/classes", {}),
+        "/assign": ("/assign?trainee=anna", {"trainee": "anna", "scenario": "drill-hover", "due": "2099-01-01"}),
+        "/assignments/none/remove": ("/classes", {}),
         "/scenarios/none/remove": ("/scenarios", {}),
         "/plan-rules": ("/plan-rules", {"rules": "format = 1"}),
         "/plan-rules/reset": ("/plan-rules", {}),
@@ -96,7 +107,7 @@ def test_attack_tests_cover_every_form(sessions):
     """Compares the server's table of routes with the list above."""
     source = (spandrel.ROOT / "src" / "web" / "routes.rs").read_text(encoding="utf-8")
     changes = set(re.findall(r'change\(\s*"([^"]+)"', source)) - {"/login"}
-    listed = {re.sub(r"/(sessions|trainees|scenarios)/[^/]+/", r"/\1/{}/", path) for path in forms(sessions)}
+    listed = {re.sub(r"/(sessions|trainees|scenarios|classes|assignments)/[^/]+/", r"/\1/{}/", path) for path in forms(sessions)}
     assert {re.sub(r"\{\w+\}", "{}", path) for path in changes} == listed
 
 
@@ -113,15 +124,30 @@ def test_script_in_any_field_is_escaped(server, sessions):
         ("/trainees", f"/trainees/{urllib.parse.quote(EVIL)}/erase", {"again": EVIL}),
         ("/account", "/account", {"present": EVIL, "new": EVIL}),
         ("/sessions", "/live/act", {"act": EVIL, "text": EVIL}),
+        (f"/sessions/{anna}", f"/sessions/{anna}/marks", {"time": EVIL, "text": EVIL}),
+        (f"/sessions/{anna}", f"/sessions/{anna}/marks", {"time": "0:01", "text": EVIL}),
+        (f"/sessions/{anna}", f"/sessions/{anna}/marks/remove", {"mark": EVIL}),
+        ("/trainees/anna", "/trainees/anna/rubric", {"criterion": EVIL, "action": EVIL, "note": EVIL}),
+        ("/trainees/anna", "/trainees/anna/rubric", {"criterion": "path", "action": "signed_off", "note": EVIL}),
+        ("/rubric", "/rubric", {"rubric": EVIL}),
+        ("/classes", "/classes", {"name": EVIL}),
+        ("/classes", "/classes/none/members", {"trainees": EVIL}),
+        ("/classes", "/assign", {"trainee": EVIL, "scenario": EVIL, "variant": EVIL, "due": EVIL}),
+        ("/classes", "/assign", {"trainee": "anna", "scenario": "drill-hover", "variant": EVIL, "due": EVIL}),
     ]
     for page, path, fields in tries:
         status, headers, text = ada.post(page, path, fields)
         assert status != 500 and "<script>" not in text, (path, status)
         assert "script-src 'self'" in headers["Content-Security-Policy"]
     for path in [f"/sessions?trainee={urllib.parse.quote(EVIL)}", f"/cohort?scenario={urllib.parse.quote(EVIL)}", f"/trainees/{urllib.parse.quote(EVIL)}",
-                 f"/scenarios/{urllib.parse.quote(EVIL)}", f"/compare?first={urllib.parse.quote(EVIL)}", f"/{urllib.parse.quote(EVIL)}"]:
+                 f"/scenarios/{urllib.parse.quote(EVIL)}", f"/compare?first={urllib.parse.quote(EVIL)}", f"/classes/{urllib.parse.quote(EVIL)}",
+                 f"/assign?trainee=anna&scenario={urllib.parse.quote(EVIL)}&variant={urllib.parse.quote(EVIL)}", f"/{urllib.parse.quote(EVIL)}"]:
         status, _, text = ada.ask(path)
         assert status != 500 and "<script>" not in text, (path, status)
+    # The stored note and mark are shown as text.
+    for path in ("/trainees/anna/rubric", f"/sessions/{anna}", f"/sessions/{anna}/report"):
+        status, _, text = ada.ask(path)
+        assert status == 200 and "alert(1)" in text and EVIL not in text, path
     # Names in files and the database may come from other sources: a scenario, a session, a login log.
     evil = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
     evil = re.sub(r'^title = .*$', f'title = "{EVIL}"', evil, count=1, flags=re.MULTILINE).replace('name = "drill-hover"', 'name = "evil-title"')

@@ -13,16 +13,20 @@
 //! ```
 
 pub mod advice;
+pub mod assignment;
 pub mod briefing;
 pub mod cohort;
+pub mod marks;
 pub mod plan;
 pub mod questionnaire;
 pub mod record;
 pub mod report;
+pub mod rubric;
 pub mod school;
 pub mod statistics;
 mod time_text;
 pub mod trainee;
+pub mod training_class;
 pub mod web;
 pub mod xapi;
 

@@ -19,6 +19,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
         scorer_version: 1,
         scenario: "two-bridges".into(),
         level: None,
+        form: None,
         scenario_sha256: "s".into(),
         vehicle: "phantom2".into(),
         vehicle_sha256: "v".into(),

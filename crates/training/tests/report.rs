@@ -11,6 +11,7 @@ use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_training::cohort::{Selection, cohort};
+use spandrel_training::marks::{TimelineMark, marks_key};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::feedback::KINDS;
@@ -61,6 +62,22 @@ fn exact_instructor_note_is_reported_separately_from_messages() {
     assert_eq!(review.feedback.texts, plain.feedback.texts, "the note is not among the messages");
     let page = page::session(&review);
     assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
+}
+
+#[test]
+fn exact_marks_are_on_the_timeline_and_change_nothing_else() {
+    let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
+    let mark = TimelineMark { t_s: 61.5, text: "turn the camera earlier".into(), by: "ida".into(), added_unix_us: 1 };
+    let marks = vec![mark];
+    let marked =
+        Review::of(&tape.log(0), &job, &phantom(), SessionMetadata { marks: marks.clone(), ..metadata() }).expect("a session");
+    let plain = review(&tape, &job);
+    assert_eq!((&marked.assessment, &marked.advice), (&plain.assessment, &plain.advice));
+    let (page, plain) = (page::session(&marked), page::session(&plain));
+    assert!(page.contains("class=\"mark-dot\"") && page.contains("<title>mark: turn the camera earlier</title>"));
+    assert!(page.contains("data-t=\"61.50\">1:02</a> turn the camera earlier"), "the list links to the moment");
+    let key = format!("name=\"{}\" content=\"{}\"", page::MARKS_META_NAME, marks_key(&marks).unwrap());
+    assert!(page.contains(&key) && !plain.contains(page::MARKS_META_NAME) && !plain.contains("Instructor's marks"));
 }
 
 /// Returns the values of all attributes that cause a browser to load a resource.
@@ -139,6 +156,7 @@ fn exact_user_text_is_escaped_everywhere() {
         purpose: Some(HOSTILE_TEXT.into()),
         started_utc: HOSTILE_TEXT.into(),
         folder: HOSTILE_TEXT.into(),
+        marks: vec![TimelineMark { t_s: 1.0, text: HOSTILE_TEXT.into(), by: HOSTILE_TEXT.into(), added_unix_us: 1 }],
         ..SessionMetadata::default()
     };
     let mut vehicle = phantom();

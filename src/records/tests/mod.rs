@@ -1,7 +1,9 @@
 //! Database tests, which run on SQLite and on a real PostgreSQL server.
 
 mod changes;
+mod classes;
 mod server;
+mod sign_offs;
 mod tls;
 
 use super::database::Database;
@@ -37,6 +39,8 @@ fn run_all_tests(target: &str) {
     sessions_are_counted_and_found(target);
     rebuild_is_atomic(target);
     changes::run_all(target);
+    classes::run_all(target);
+    sign_offs::run_all(target);
     opposite_import_orders_do_not_deadlock(target);
     concurrent_imports_lose_nothing(target);
 }
@@ -227,6 +231,8 @@ fn exact_erased_names_are_removed_from_the_file() {
     let file = folder.path().join("records.sqlite");
     let database = Database::open(&file.display().to_string()).unwrap();
     database.put(&[record("somebody-special", 1), record("other", 1)]).unwrap();
+    database.add_class("spring").unwrap();
+    database.add_members("spring", &["somebody-special".to_owned()]).unwrap();
     database.erase("somebody-special", &[]).unwrap();
     let traces = |path: PathBuf| std::fs::read(path).unwrap().windows(16).any(|bytes| bytes == b"somebody-special");
     let found: Vec<PathBuf> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();

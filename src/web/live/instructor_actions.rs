@@ -20,14 +20,7 @@ pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
 fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
     match request.required_field("act")? {
         "note" => {
-            let text = request.required_field("text")?;
-            let count = text.chars().count();
-            if count > pages::MAX_NOTE_LEN || text.chars().any(char::is_control) {
-                return Err(WebError::BadRequest(format!(
-                    "text: {count} characters (allowed: 1 to {}, on one line)",
-                    pages::MAX_NOTE_LEN
-                )));
-            }
+            let text = request.line_field("text", (1, pages::MAX_NOTE_LEN))?;
             Ok(InstructorCommand::Note(text.to_owned()))
         }
         "wind" => {

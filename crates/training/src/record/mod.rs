@@ -49,6 +49,9 @@ pub struct SessionRecord {
     /// Difficulty level; absent if the scenario had no levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<SessionLevel>,
+    /// Selected form of the scenario; absent if it has no forms, and in records before format 5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub form: Option<String>,
     /// SHA-256 of the flown `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
     /// Vehicle ID, such as `phantom2`.
@@ -213,6 +216,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         scorer_version: SCORER_VERSION,
         scenario: source.scenario.name.clone(),
         level: source.scenario.difficulty.as_ref().map(SessionLevel::of),
+        form: source.scenario.form.as_ref().map(|form| form.name.clone()),
         scenario_sha256: source.hashes.scenario.clone(),
         vehicle: source.vehicle.to_owned(),
         vehicle_sha256: source.hashes.vehicle.clone(),

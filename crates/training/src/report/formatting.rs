@@ -1,6 +1,6 @@
 //! Display names and number formats. No other code rounds values.
 
-pub use crate::time_text::{clock, duration};
+pub use crate::time_text::{clock, duration, parse_clock};
 
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;

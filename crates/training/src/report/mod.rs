@@ -23,6 +23,7 @@ pub mod task_proximity;
 pub use context::ReviewContext;
 
 use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, lesson_advice, session_advice};
+use crate::marks::TimelineMark;
 use crate::plan::{self, DEFAULT_RULES, PlanRules, PlanStep, read_rules};
 use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
@@ -40,7 +41,7 @@ use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
 
 /// Session metadata, from the session folder.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct SessionMetadata {
     /// Trainee's pseudonym.
     pub trainee: String,
@@ -60,6 +61,8 @@ pub struct SessionMetadata {
     pub telemetry_sha256: String,
     /// Pictures by sequence number, downsized for embedding.
     pub pictures: Vec<(u32, Jpeg)>,
+    /// The instructor's marks on the timeline, by moment.
+    pub marks: Vec<TimelineMark>,
 }
 
 /// A JPEG picture.

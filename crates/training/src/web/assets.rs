@@ -10,12 +10,17 @@ pub const STYLE_NAME: &str = "style.css";
 pub const FORM_NAME: &str = "form.js";
 /// File name of the live page's script.
 pub const LIVE_NAME: &str = "live.js";
+/// File name of the script for the page with all live flights.
+pub const TILES_NAME: &str = "tiles.js";
 
 /// File name of the script for the trainee's own flight page.
 pub const FLIGHT_NAME: &str = "flight.js";
 
 const STYLE_SHEET: &str = include_str!("assets/web.css");
 const FORM_SCRIPT: &str = include_str!("assets/form.js");
+/// Functions at the beginning of the live pages' scripts.
+const LIVE_COMMON_SCRIPT: &str = include_str!("assets/live_common.js");
+const TILES_SCRIPT: &str = include_str!("assets/tiles.js");
 const LIVE_SCRIPT: &str = include_str!("assets/live.js");
 const FLIGHT_SCRIPT: &str = include_str!("assets/flight.js");
 
@@ -26,8 +31,9 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
     match name {
         STYLE_NAME => Some((format!("{}{STYLE_SHEET}", report::STYLE), "text/css; charset=utf-8")),
         FORM_NAME => Some((FORM_SCRIPT.to_owned(), script)),
-        LIVE_NAME => Some((LIVE_SCRIPT.to_owned(), script)),
-        FLIGHT_NAME => Some((FLIGHT_SCRIPT.to_owned(), script)),
+        LIVE_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{LIVE_SCRIPT}"), script)),
+        TILES_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{TILES_SCRIPT}"), script)),
+        FLIGHT_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{FLIGHT_SCRIPT}"), script)),
         _ => None,
     }
 }
@@ -45,7 +51,7 @@ mod tests {
 
     #[test]
     fn exact_asset_urls_contain_content_hash() {
-        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, FLIGHT_NAME] {
+        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, TILES_NAME, FLIGHT_NAME] {
             let (text, _) = file(name).unwrap();
             assert_eq!(asset_url(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));
         }

@@ -7,11 +7,12 @@ use maud::{DOCTYPE, Markup, html};
 /// URL of the trainee's own flight page; instructors use the live page.
 const OWN_FLIGHT_URL: &str = "/flight";
 /// Navigation entries: URL, label, required access.
-const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 8] = [
+const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 9] = [
     ("/sessions", "Sessions", AccessLevel::Login),
     (OWN_FLIGHT_URL, "My flight", AccessLevel::Login),
     ("/live", "Live", AccessLevel::Instructor),
     ("/trainees", "Trainees", AccessLevel::Instructor),
+    ("/classes", "Classes", AccessLevel::Instructor),
     ("/cohort", "Cohort", AccessLevel::Instructor),
     ("/scenarios", "Scenarios", AccessLevel::Login),
     ("/settings", "Settings", AccessLevel::Administrator),
@@ -96,6 +97,26 @@ pub fn message(kind: &str, text: &str) -> Markup {
     html! { p class={ "message " (kind) } role="status" { (text) } }
 }
 
+/// Renders a message box with one paragraph per line; `kind` is its CSS class.
+#[must_use]
+pub fn message_lines(kind: &str, text: &str) -> Markup {
+    html! { div class={ "message " (kind) } role="status" { @for line in text.lines() { p { (line) } } } }
+}
+
+/// Renders the form that edits a TOML file; `action` receives the text in a field with the given label and name.
+#[must_use]
+pub fn toml_editor(visitor: &Visitor, action: &str, (label, name): (&str, &str), text: &str) -> Markup {
+    html! {
+        p { "The file is validated before it is saved, and all errors are listed with line and key. The comments at its beginning explain the format." }
+        form.stacked method="post" action=(action) {
+            (token(visitor))
+            // A browser drops the first line break in the field.
+            label { (label) textarea.code name=(name) rows="30" spellcheck="false" required { "\n" (text) } }
+            button type="submit" { "Validate and save" }
+        }
+    }
+}
+
 /// Renders a section with its heading.
 #[must_use]
 pub fn section(id: &str, heading: &str, body: &Markup) -> Markup {
@@ -114,6 +135,12 @@ pub fn table(caption: &str, heads: &[(&str, bool)], rows: &Markup) -> Markup {
             }
         }
     }
+}
+
+/// Returns a number with its noun, such as "1 class" or "2 classes".
+#[must_use]
+pub fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// Renders page navigation for a list; page numbers start at 1.

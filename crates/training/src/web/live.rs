@@ -112,6 +112,7 @@ fn others(choice: &VehicleSelection) -> Markup {
     html! {
         @if choice.vehicles.len() > 1 {
             nav.pages aria-label="Vehicles" {
+                a href="/live/all" { "All flights" }
                 @for (number, address) in (1..).zip(&choice.vehicles) {
                     a href={ "/live?vehicle=" (number) } aria-current=[(number == choice.number).then_some("page")] { "Vehicle " (number) " · " (address) }
                 }

@@ -58,6 +58,8 @@ pub struct LiveFlightState {
     gates: BridgeClosures,
     cues: i32,
     cue_texts: CueTexts,
+    /// Simulation time, s, and text of the latest displayed cue, which may have ended.
+    last_cue: Option<(f64, String)>,
     /// The next step, and the simulation time when it was received.
     guidance: Option<(SimTime, Guidance)>,
     messages: VecDeque<(u64, f64, &'static str, String)>,
@@ -91,6 +93,7 @@ impl LiveFlightState {
             gates: BridgeClosures::default(),
             cues: 0,
             cue_texts: CueTexts::default(),
+            last_cue: None,
             guidance: None,
             messages: VecDeque::new(),
             message_count: 0,
@@ -128,6 +131,7 @@ impl LiveFlightState {
                 let words: String = text.text.to_str().unwrap_or_default().chars().filter(|c| !c.is_control()).collect();
                 if frame.component_id != AUTOPILOT_COMPONENT_ID {
                     self.cue_texts.add(&words);
+                    self.remember_cue();
                 }
                 self.push_message(kind, words);
             }
@@ -135,6 +139,7 @@ impl LiveFlightState {
                 if let Some(NamedValue::Cues(cues)) = NamedValue::of(message) {
                     self.cues = cues;
                     self.cue_texts.retain_active(cues);
+                    self.remember_cue();
                 }
                 let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
                 self.guidance = Guidance::of(message).map(|guidance| (now, guidance)).or(self.guidance);
@@ -190,10 +195,23 @@ impl LiveFlightState {
         // If the clock jumps backward, a new flight has started. Earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
-            (self.cue_texts, self.guidance) = (CueTexts::default(), None);
+            (self.cue_texts, self.last_cue, self.guidance) = (CueTexts::default(), None, None);
         }
         self.current_task = job.paths.task_on_path(truth.motion.position_m, self.current_task).map(|(task, _)| task);
         self.truth = Some(truth);
+    }
+
+    /// Returns the texts of the displayed cues, the most important one first.
+    fn displayed_cues(&self) -> Vec<&str> {
+        let shown = cue::displayed(self.cues);
+        cue::ALL.iter().filter(|(bit, _)| shown & bit != 0).filter_map(|(bit, _)| self.cue_texts.text(*bit)).collect()
+    }
+
+    /// Keeps the most important displayed cue, so that it remains known after it ends.
+    fn remember_cue(&mut self) {
+        if let Some(text) = self.displayed_cues().first().map(|text| (*text).to_owned()) {
+            self.last_cue = Some((self.truth.map_or(0.0, |truth| truth.time.s()), text));
+        }
     }
 
     /// Adds a line to the message log.
@@ -215,9 +233,6 @@ impl LiveFlightState {
             json!([e, n, u])
         });
         let task = self.current_task.and_then(|on| self.job.as_ref()?.tasks.get(on)).map(|(id, name)| format!("{id} · {name}"));
-        let shown = cue::displayed(self.cues);
-        let cues: Vec<&str> =
-            cue::ALL.iter().filter(|(bit, _)| shown & bit != 0).filter_map(|(bit, _)| self.cue_texts.text(*bit)).collect();
         let words: Vec<Value> = self
             .messages
             .iter()
@@ -241,7 +256,8 @@ impl LiveFlightState {
             "task": task,
             "step": guidance.map(|guidance| guidance.words()),
             "progress": guidance.and_then(|guidance| guidance.progress),
-            "cues": cues,
+            "cues": self.displayed_cues(),
+            "last_cue": self.last_cue.as_ref().map(|(t_s, words)| json!({ "t_s": t_s, "words": words })),
             "words": words,
         })
     }
@@ -304,7 +320,10 @@ mod tests {
         let bytes = Encoder::new(1, 191).encode(&MavMessage::STATUSTEXT(text));
         Decoder::new().datagram(&bytes).iter().for_each(|frame| live_state.handle_frame(frame));
         assert_eq!(live_state.to_json(true)["cues"], json!(["Too close: 2.1 m, limit 2.5 m", "Too fast"]));
-        assert_eq!(live_state.to_json(true)["step"], Value::Null);
+        number(&mut live_state, "cues", 0);
+        let ended = live_state.to_json(true);
+        assert_eq!((&ended["cues"], &ended["last_cue"]["words"]), (&json!([]), &json!("Too close: 2.1 m, limit 2.5 m")));
+        assert_eq!((&ended["last_cue"]["t_s"], &ended["step"]), (&json!(2.0), &Value::Null));
         let guidance = Guidance {
             step: GuidanceStep::FollowPath,
             task: Some(3),

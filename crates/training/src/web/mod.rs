@@ -4,7 +4,9 @@
 
 pub mod access;
 pub mod assets;
+pub mod assignments;
 pub mod browser_sessions;
+pub mod classes;
 pub mod cohort_page;
 pub mod known_browsers;
 pub mod layout;
@@ -14,8 +16,10 @@ pub mod login;
 pub mod login_throttle;
 pub mod plan_rules;
 pub mod questionnaire_form;
+pub mod rubric;
 pub mod scenarios;
 pub mod sessions;
 pub mod settings;
 pub mod standing;
+pub mod tiles;
 pub mod trainees;

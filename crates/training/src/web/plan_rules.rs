@@ -1,7 +1,7 @@
 //! Page for the rules of the training plans.
 
 use super::access::Visitor;
-use super::layout::{page, section, token};
+use super::layout::{message_lines, page, section, token, toml_editor};
 use crate::plan::PlanRules;
 use maud::{Markup, html};
 
@@ -35,32 +35,18 @@ fn staircase_words(rules: &PlanRules) -> String {
 #[must_use]
 pub fn plan_rules_page(visitor: &Visitor, about: &PlanRulesPage<'_>) -> Markup {
     let body = html! {
-        @if let Some((kind, words)) = about.notice {
-            div class={ "message " (kind) } role="status" { @for line in words.lines() { p { (line) } } }
-        }
+        @if let Some((kind, words)) = about.notice { (message_lines(kind, words)) }
         p { "The rules determine which scenarios the training plans on this server recommend. " @if about.own { "This server uses its own rules." } @else { "This server uses the shipped rules." } }
         @if let Some(rules) = about.rules {
             p.note { (rules.rules.len()) " rules, criteria for " (rules.drills.len()) " drills. A drill is done after " (rules.mastery_needed) " of " (rules.mastery_of) " sessions at its criterion. " (staircase_words(rules)) }
         }
-        (section("edit", "Edit", &editor(visitor, about.text)))
+        (section("edit", "Edit", &toml_editor(visitor, "/plan-rules", ("Rules (TOML)", "rules"), about.text)))
         (section("upload", "Upload", &upload(visitor)))
         @if about.own { (section("reset", "Shipped rules", &html! {
             form method="post" action="/plan-rules/reset" { (token(visitor)) button.danger type="submit" { "Delete own rules" } }
         })) }
     };
     page(visitor, "/trainees", "Training plan rules", &body)
-}
-
-fn editor(visitor: &Visitor, text: &str) -> Markup {
-    html! {
-        p { "The file is validated before it is saved, and all errors are listed with line and key. The comments at its beginning explain the format." }
-        form.stacked method="post" action="/plan-rules" {
-            (token(visitor))
-            // A browser drops the first line break in the field.
-            label { "Rules (TOML)" textarea name="rules" rows="30" spellcheck="false" required { "\n" (text) } }
-            button type="submit" { "Validate and save" }
-        }
-    }
 }
 
 fn upload(visitor: &Visitor) -> Markup {

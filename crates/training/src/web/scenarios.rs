@@ -1,7 +1,7 @@
 //! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{message, page, section, table, token};
+use super::layout::{message, message_lines, page, section, table, token};
 use crate::briefing::Briefing;
 use crate::report::formatting;
 use crate::report::page::briefing_contents;
@@ -39,11 +39,6 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<(&str, &s
         @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
     };
     page(visitor, "/scenarios", "Scenarios", &body)
-}
-
-/// Renders a message box with one paragraph per line.
-fn message_lines(kind: &str, words: &str) -> Markup {
-    html! { div class={ "message " (kind) } role="status" { @for line in words.lines() { p { (line) } } } }
 }
 
 fn upload(visitor: &Visitor) -> Markup {

@@ -1,9 +1,11 @@
 //! Session lists and session pages.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{page, page_navigation, section, table};
+use super::layout::{page, page_navigation, section, table, token};
+use super::rubric::MAX_NAME_LEN;
 use super::standing::SessionStanding;
 use crate::advice::SessionAdvice;
+use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
@@ -107,6 +109,8 @@ pub struct SessionPageData<'a> {
     pub advice: Option<&'a SessionAdvice>,
     /// Comparison with the trainee's other sessions on this job.
     pub standing: Option<SessionStanding>,
+    /// The instructor's marks, by moment.
+    pub marks: &'a [TimelineMark],
 }
 
 /// Renders a session's page.
@@ -120,6 +124,9 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
         }
         (section("better", "Do better", &to_do_better(record, page_data)))
         (actions(record, page_data))
+        @if page_data.folder && (!page_data.marks.is_empty() || visitor.satisfies(AccessLevel::Instructor)) {
+            (section("marks", "Marks", &timeline_marks(visitor, record, page_data.marks)))
+        }
         (section("scores", "Scores", &scores(record)))
         @if let Some(certification) = &record.certification { (section("certification", "Certification", &requirements(certification))) }
         @if !record.tasks.is_empty() { (section("tasks", "Tasks", &tasks(record))) }
@@ -139,7 +146,7 @@ fn to_do_better(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Mark
             ol.advice {
                 @for point in &advice.points {
                     li { (point.words) " "
-                        @if page_data.folder { a href={ "/sessions/" (record.id) "/report#t=" (formatting::number(point.t_s, 2)) } { "Show " (formatting::clock(point.t_s)) } } }
+                        @if page_data.folder { (moment_link(record, point.t_s, &format!("Show {}", formatting::clock(point.t_s)))) } }
                 }
             }
             @if let Some(next) = &advice.next {
@@ -148,6 +155,41 @@ fn to_do_better(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Mark
             }
         }
     }
+}
+
+/// Renders the instructor's marks with links to their moments in the report, and the form that adds one.
+fn timeline_marks(visitor: &Visitor, record: &SessionRecord, marks: &[TimelineMark]) -> Markup {
+    let instructor = visitor.satisfies(AccessLevel::Instructor);
+    html! {
+        @if marks.is_empty() { p.calm { "No marks yet. Marks appear on the timeline of the report; they do not change scores." } }
+        ol.marks {
+            @for mark in marks {
+                li { (moment_link(record, mark.t_s, &formatting::clock(mark.t_s))) " " (mark.text) span.note { " (" (mark.by) ")" }
+                    @if instructor {
+                        form.inline method="post" action={ "/sessions/" (record.id) "/marks/remove" } {
+                            (token(visitor))
+                            input type="hidden" name="mark" value=(mark.added_unix_us);
+                            button type="submit" aria-label={ "Remove the mark at " (formatting::clock(mark.t_s)) } { "Remove" }
+                        }
+                    }
+                }
+            }
+        }
+        @if instructor {
+            form.stacked method="post" action={ "/sessions/" (record.id) "/marks" } {
+                (token(visitor))
+                label { "Time on the report's slider (minutes:seconds)" input name="time" required pattern="[0-9]+(:[0-5][0-9])?" maxlength="10" autocomplete="off" placeholder="1:25"; }
+                label { "Text" input name="text" required maxlength=(MAX_TEXT_LEN) autocomplete="off"; }
+                @if visitor.name.is_none() { label { "Your name" input name="by" required maxlength=(MAX_NAME_LEN) autocomplete="name"; } }
+                button type="submit" { "Add mark" }
+            }
+        }
+    }
+}
+
+/// Renders a link to a moment of the report, s since lift-off.
+fn moment_link(record: &SessionRecord, t_s: f64, label: &str) -> Markup {
+    html! { a href={ "/sessions/" (record.id) "/report#t=" (formatting::number(t_s, 2)) } { (label) } }
 }
 
 /// Describes how a session compares with the trainee's other sessions on the job.
@@ -322,9 +364,10 @@ mod tests {
     use super::*;
     use crate::advice::{AdvicePoint, NextFlight};
     use crate::testing::{aborted_record, perfect_record};
+    use crate::trainee::Role;
 
     fn page_data(folder: bool, others: &[SessionListEntry]) -> SessionPageData<'_> {
-        SessionPageData { folder, others, advice: None, standing: None }
+        SessionPageData { folder, others, advice: None, standing: None, marks: &[] }
     }
 
     #[test]
@@ -347,6 +390,33 @@ mod tests {
         assert!(text.contains("Personal best on this job: 350 of 400. Change since last time: 30 points down."), "{text}");
         let bare = session(&administrator(), &record, &SessionPageData { folder: false, ..data }).into_string();
         assert!(!bare.contains("#t="), "there is no report to link to");
+    }
+
+    #[test]
+    fn exact_marks_are_escaped_and_only_instructors_change_them() {
+        let (record, mark) = (perfect_record("anna", 1), |t_s| TimelineMark {
+            t_s,
+            text: HOSTILE_NAME.into(),
+            by: HOSTILE_NAME.into(),
+            added_unix_us: 7,
+        });
+        let marks = [mark(5.0), mark(85.25)];
+        let data = SessionPageData { marks: &marks, ..page_data(true, &[]) };
+        let text = session(&administrator(), &record, &data).into_string();
+        check(&text);
+        assert!(text.contains("/report#t=85.25\">1:25</a>") && text.contains("Add mark"), "{text}");
+        assert_eq!((text.matches("/marks/remove").count(), text.matches("name=\"by\"").count()), (2, 0));
+        let local = Visitor { name: None, open: true, ..administrator() };
+        assert!(session(&local, &record, &data).into_string().contains("name=\"by\""));
+        let trainee = Visitor { role: Role::Trainee, ..administrator() };
+        let text = session(&trainee, &record, &data).into_string();
+        check(&text);
+        assert!(text.contains("#t=85.25") && !text.contains("/marks"), "{text}");
+        let without = |data: &SessionPageData<'_>| session(&trainee, &record, data).into_string();
+        assert!(
+            !without(&page_data(true, &[])).contains("id=\"marks\"")
+                && !without(&SessionPageData { folder: false, ..data }).contains("id=\"marks\"")
+        );
     }
 
     #[test]

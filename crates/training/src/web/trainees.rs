@@ -1,8 +1,10 @@
 //! Trainee list and trainee page: progress, plan, details, export and erasure.
 
 use super::access::{AccessLevel, Visitor};
+use super::assignments::trainee_assignments;
 use super::layout::{page, section, table, token};
 use super::sessions::lines;
+use crate::assignment::AssignedJob;
 use crate::cohort::{JobReliability, MeasureReliability, by_job, reliability_of};
 use crate::plan::{MeasureChange, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
@@ -35,7 +37,7 @@ pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
         section {
             @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
             @else { (table(&format!("{} users", people.len()), &heads, &rows)) }
-            p { a href="/plan-rules" { "Training plan rules" } }
+            ul.actions { li { a href="/plan-rules" { "Training plan rules" } } li { a href="/rubric" { "Rubric" } } }
         }
     };
     page(visitor, "/trainees", "Trainees", &body)
@@ -50,6 +52,12 @@ pub struct TraineeProfile<'a> {
     pub records: &'a [SessionRecord],
     /// The same sessions as list entries, newest first.
     pub listed: &'a [SessionListEntry],
+    /// Assignments with their states.
+    pub jobs: &'a [AssignedJob],
+    /// Names of the trainee's classes.
+    pub classes: &'a [String],
+    /// Number of rubric criteria that are signed off, as text.
+    pub rubric: &'a str,
     /// Training plan; `None` without sessions.
     pub plan: Option<&'a TrainingPlan>,
     /// Whether incomplete sessions count toward progress and plan.
@@ -63,12 +71,15 @@ pub struct TraineeProfile<'a> {
 pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
     let name = &profile.person.pseudonym;
     let body = html! {
+        @if !profile.classes.is_empty() { p.lead { (class_names(visitor, profile.classes)) } }
+        (section("assignments", "Assignments", &trainee_assignments(visitor, name, profile.jobs)))
         @if let Some(plan) = profile.plan { (section("plan", "Next flights", &next(plan, profile))) }
         @if !profile.records.is_empty() { (section("progress", "Progress", &progress(name, profile))) }
         (section("sessions", "Sessions", &html! {
             @if profile.listed.is_empty() { p.calm { "No sessions yet." } }
             @else { (lines(visitor, &format!("{} sessions, newest first", profile.listed.len()), profile.listed)) }
         }))
+        (section("rubric", "Rubric", &html! { p { a href={ "/trainees/" (name) "/rubric" } { (profile.rubric) } } }))
         (section("details", "Details", &details(visitor, profile.person)))
         (section("data", "Data", &html! {
             p { a href={ "/trainees/" (name) "/export.json" } { "Download all data for " (name) } }
@@ -76,6 +87,16 @@ pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
         }))
     };
     page(visitor, "/trainees", &format!("Trainee {name}"), &body)
+}
+
+fn class_names(visitor: &Visitor, classes: &[String]) -> Markup {
+    html! {
+        (if classes.len() == 1 { "Class: " } else { "Classes: " })
+        @for (k, name) in classes.iter().enumerate() {
+            @if k > 0 { ", " }
+            @if visitor.satisfies(AccessLevel::Instructor) { a href={ "/classes/" (name) } { (name) } } @else { (name) }
+        }
+    }
 }
 
 fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
@@ -191,6 +212,9 @@ mod tests {
             person: &person,
             records: &records,
             listed: &[],
+            jobs: &[],
+            classes: &[HOSTILE_NAME.to_owned()],
+            rubric: HOSTILE_NAME,
             plan: plan.as_ref(),
             incomplete: IncompletePolicy::Exclude,
             reliability: &JobReliability::new(),
@@ -239,6 +263,9 @@ mod tests {
                 person: &person,
                 records: &everyone[..2],
                 listed: &[],
+                jobs: &[],
+                classes: &[],
+                rubric: "",
                 plan: plan.as_ref(),
                 incomplete: IncompletePolicy::Exclude,
                 reliability,

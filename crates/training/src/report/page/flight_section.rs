@@ -1,6 +1,8 @@
 //! The flight on the site, its timeline and charts, linked by a slider.
 
 use super::figure::{figure, legend, scrolling};
+use super::moment;
+use crate::marks::TimelineMark;
 use crate::report::feedback::KINDS;
 use crate::report::plots::timeline::{TimelineRow, strips};
 use crate::report::plots::{colors, map};
@@ -27,6 +29,7 @@ pub fn section(review: &Review) -> Markup {
             (legend(&timeline_legend()))
             (scrolling("Timeline", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
         }))
+        (instructor_marks(review))
         div.charts {
             @for (id, title, columns) in CHARTS {
                 figure {
@@ -44,6 +47,17 @@ pub fn section(review: &Review) -> Markup {
 
 fn end_s(review: &Review) -> f64 {
     review.t_s(review.frames.len().saturating_sub(1))
+}
+
+/// Renders the instructor's marks as a list with links to their moments; empty without marks.
+fn instructor_marks(review: &Review) -> Markup {
+    let marks = &review.metadata.marks;
+    html! {
+        @if !marks.is_empty() {
+            h3 { "Instructor's marks" }
+            ol.marks { @for mark in marks { li { (moment::link(mark.t_s)) " " (mark.text) span.note { " (" (mark.by) ")" } } } }
+        }
+    }
 }
 
 /// Renders the play button, the slider and its readout.
@@ -169,6 +183,14 @@ fn rows(review: &Review) -> Vec<TimelineRow> {
             name: "notes".into(),
             intervals: Vec::new(),
             marks: review.feedback.notes.iter().map(note).collect(),
+        });
+    }
+    if !review.metadata.marks.is_empty() {
+        let mark = |mark: &TimelineMark| ("mark-dot".to_owned(), mark.t_s, format!("mark: {}", mark.text));
+        rows.push(TimelineRow {
+            name: "marks".into(),
+            intervals: Vec::new(),
+            marks: review.metadata.marks.iter().map(mark).collect(),
         });
     }
     rows.push(gaps(review));

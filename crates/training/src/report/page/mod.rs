@@ -27,7 +27,11 @@ pub use compare::comparison;
 
 use super::Review;
 use super::assets;
+use crate::marks::marks_key;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// Name of the element that contains the key of the instructor's marks, [`marks_key`].
+pub const MARKS_META_NAME: &str = "spandrel-marks";
 
 /// Renders a session's report page.
 #[must_use]
@@ -50,7 +54,7 @@ pub fn session(review: &Review) -> String {
     let data = series::data(review);
     document(
         &title,
-        &PageScripts::Session(data),
+        &PageScripts::Session { data, marks: marks_key(&review.metadata.marks) },
         &html! {
             (summary::header(review))
             nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
@@ -68,7 +72,12 @@ enum PageScripts {
     /// The page is static.
     None,
     /// Slider, charts and 3D view of a session.
-    Session(String),
+    Session {
+        /// Embedded data.
+        data: String,
+        /// Key of the instructor's marks; `None` without marks.
+        marks: Option<String>,
+    },
     /// Slider and charts of two sessions.
     Comparison(String),
 }
@@ -82,6 +91,7 @@ fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
             head {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy" content=(assets::page_policy());
+                @if let PageScripts::Session { marks: Some(marks), .. } = moves { meta name=(MARKS_META_NAME) content=(marks); }
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("spandrel ", env!("CARGO_PKG_VERSION")));
@@ -94,7 +104,7 @@ fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
                 (body)
                 @match moves {
                     PageScripts::None => {}
-                    PageScripts::Session(data) => {
+                    PageScripts::Session { data, .. } => {
                         script type="application/json" id="flight-data" { (PreEscaped(data)) }
                         script type="text/plain" id="three-core" { (PreEscaped(assets::THREE_CORE_SCRIPT)) }
                         script type="text/plain" id="three-module" data-core=(assets::THREE_CORE_NAME) { (PreEscaped(assets::THREE_SCRIPT)) }

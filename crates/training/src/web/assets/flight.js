@@ -1,19 +1,14 @@
 // Shows trainees the camera image of their own flight. Polls about once per second and loads each image once.
-"use strict";
 const root = document.querySelector("[data-flight]");
 const state = root.querySelector("[data-state]");
 const camera = root.querySelector("[data-camera]");
-const image = camera.querySelector("img");
 const EVERY_MS = 1000;
 
 function show({ flying, picture }) {
   if (!flying) state.textContent = "No flight in progress. This page updates when your flight starts.";
   else if (picture === null) state.textContent = "Flight in progress. The camera image is available only in the simulator window.";
   else state.textContent = "Flight in progress.";
-  camera.hidden = picture === null;
-  if (picture === null || image.dataset.picture === String(picture)) return;
-  image.dataset.picture = String(picture);
-  image.src = `/flight/camera.jpg?v=${picture}`;
+  showPicture(camera, picture, "/flight/camera.jpg?");
 }
 
 async function look() {

@@ -1,5 +1,4 @@
 // Follows a flight: server-sent events update the drawings and readouts. Received text is inserted as text, never as markup.
-"use strict";
 const root = document.querySelector(".live-page");
 const state = root.querySelector("[data-state]");
 const job = root.dataset.job;
@@ -12,13 +11,6 @@ const put = (key, value) => {
   const at = cell(key);
   if (at && at.textContent !== value) at.textContent = value;
 };
-const number = (value, digits, unit) => (value === null ? "–" : `${value.toFixed(digits)}${unit === "%" ? "" : " "}${unit}`);
-
-function onSheet(matrix, [e, n, u]) {
-  const m = matrix.split(" ").map(Number);
-  return [m[0] * e + m[1] * n + m[2] * u + m[3], m[4] * e + m[5] * n + m[6] * u + m[7]];
-}
-
 // The side view of a bridge shows only points near it: center, axis, and limits along and across the bridge, m.
 function isNear(node, [e, n]) {
   if (!node.dataset.near) return true;
@@ -44,8 +36,7 @@ function move(place) {
   if (far) trail.push(place);
   if (trail.length > TRAIL_MOST) trail.splice(0, trail.length - TRAIL_MOST);
   for (const drone of root.querySelectorAll(".drone")) {
-    const [x, y] = onSheet(drone.dataset.matrix, place);
-    drone.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+    moveDrone(drone, place);
     drone.classList.toggle("away", !isNear(drone, place));
   }
   if (!far) return;
@@ -62,9 +53,7 @@ function tell(words) {
     newest = one.id;
     const item = document.createElement("li");
     item.className = one.kind;
-    const minutes = Math.floor(one.t_s / 60);
-    const seconds = String(Math.floor(one.t_s % 60)).padStart(2, "0");
-    item.textContent = `${minutes}:${seconds} ${one.words}`;
+    item.textContent = `${clock(one.t_s)} ${one.words}`;
     list.prepend(item);
   }
   while (list.children.length > 60) list.lastChild.remove();
@@ -86,7 +75,7 @@ function show(now) {
     location.reload();
     return;
   }
-  state.textContent = now.heard ? (now.armed ? "live, motors armed" : "live, motors disarmed") : "no telemetry";
+  state.textContent = flightState(now);
   state.classList.toggle("on", now.heard);
   if (!job) return;
   if (now.place) {
@@ -96,27 +85,16 @@ function show(now) {
   put("task", now.task ?? "off path");
   put("step", now.step ?? "–");
   put("progress", now.progress === null ? "–" : `${Math.floor(100 * now.progress)}%`);
-  put("time", now.t_s === null ? "–" : `${Math.floor(now.t_s / 60)}:${String(Math.floor(now.t_s % 60)).padStart(2, "0")}`);
+  put("time", clock(now.t_s));
   put("speed", number(now.speed_m_s, 1, "m/s"));
   put("height", number(now.height_m, 1, "m"));
   put("clearance", number(now.clearance_m, 1, "m"));
   put("battery", number(now.battery_pct, 0, "%"));
   put("traffic", now.traffic);
   put("contact", now.contact);
-  picture(now.picture);
+  showPicture(root.querySelector("[data-camera]"), now.picture, `/live/camera.jpg?vehicle=${root.dataset.vehicle}&`);
   cues(now.cues);
   tell(now.words);
-}
-
-// Each image has a unique URL and is requested once; the previous image stays until the new one has loaded.
-function picture(version) {
-  const camera = root.querySelector("[data-camera]");
-  if (!camera) return;
-  camera.hidden = version === null;
-  const image = camera.querySelector("img");
-  if (version === null || image.dataset.picture === String(version)) return;
-  image.dataset.picture = String(version);
-  image.src = `/live/camera.jpg?vehicle=${root.dataset.vehicle}&v=${version}`;
 }
 
 // Without a vehicle, there are no events.

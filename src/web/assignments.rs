@@ -1,0 +1,162 @@
+//! Assigns jobs to trainees and classes.
+
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
+use super::scenario_library::{self, StoredScenario};
+use super::state::ServerState;
+use crate::io::clock;
+use spandrel_model::calendar::{day, end_of_day_unix_us};
+use spandrel_model::scenario::variant_names;
+use spandrel_monitor::folder::sha256_hex;
+use spandrel_training::assignment::{AssignedJob, Assignment, AssignmentTarget, assigned_jobs};
+use spandrel_training::record::SessionRecord;
+use spandrel_training::web::assignments::{self as pages, AssignPage, JobChoice};
+
+/// Length of a day, µs.
+const DAY_US: u64 = 86_400_000_000;
+/// Days until the due date that the page suggests (estimate: a weekly course).
+const SUGGESTED_DAYS: u64 = 7;
+/// Latest due date, days from now: ten years.
+const MAX_DAYS: u64 = 3_652;
+/// Length of an assignment's ID, hexadecimal digits.
+const ID_DIGITS: usize = 16;
+
+/// Returns a trainee's assignments with their states, from the trainee's records in chronological order.
+///
+/// # Errors
+/// Returns an error if the database fails.
+pub fn jobs_of(
+    state: &ServerState,
+    trainee: &str,
+    records: &[SessionRecord],
+    now_unix_us: u64,
+) -> Result<Vec<AssignedJob>, WebError> {
+    Ok(assigned_jobs(state.database.assignments_of_trainee(trainee)?, records, now_unix_us))
+}
+
+/// Responds with the page that assigns a job.
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let target = target(request.query_param("trainee"), request.query_param("class")).map_err(|_| WebError::NotFound)?;
+    if !exists(state, &target)? {
+        return Err(WebError::NotFound);
+    }
+    let choice = |job: StoredScenario| JobChoice { variants: variant_names(&job.text), name: job.named.name };
+    let jobs: Vec<JobChoice> = scenario_library::all(&state.scenarios).into_iter().map(choice).collect();
+    let now = clock::unix_us();
+    let about = AssignPage {
+        target: &target,
+        jobs: &jobs,
+        scenario: request.query_param("scenario"),
+        variant: request.query_param("variant"),
+        due: (&day(now + SUGGESTED_DAYS * DAY_US), &day(now)),
+    };
+    Ok(WebResponse::page(pages::assign_page(&request.visitor, &about)))
+}
+
+/// Returns the trainee or class in a request, which must name exactly one.
+fn target(trainee: Option<&str>, class: Option<&str>) -> Result<AssignmentTarget, WebError> {
+    match (trainee, class) {
+        (Some(name), None) => Ok(AssignmentTarget::Trainee(name.to_owned())),
+        (None, Some(name)) => Ok(AssignmentTarget::Class(name.to_owned())),
+        (Some(_), Some(_)) | (None, None) => Err(WebError::BadRequest("either trainee or class is required".into())),
+    }
+}
+
+fn exists(state: &ServerState, target: &AssignmentTarget) -> Result<bool, WebError> {
+    Ok(match target {
+        AssignmentTarget::Trainee(name) => state.database.account(name)?.is_some(),
+        AssignmentTarget::Class(name) => state.database.classes()?.iter().any(|class| &class.name == name),
+    })
+}
+
+/// Assigns a job.
+pub fn assign(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let target = target(request.form_field("trainee"), request.form_field("class"))?;
+    let now = clock::unix_us();
+    let scenario = request.required_field("scenario")?;
+    let variant = variant(state, scenario, request.form_field("variant").unwrap_or_default().trim())?;
+    let due_unix_us = due(request.required_field("due")?, now)?;
+    let key = format!("{target:?} {scenario} {variant:?} {now}");
+    let assignment = Assignment {
+        id: sha256_hex(key.as_bytes()).chars().take(ID_DIGITS).collect(),
+        target,
+        scenario: scenario.to_owned(),
+        variant,
+        assigned_unix_us: now,
+        due_unix_us,
+        assigned_by: request.visitor.name.clone().unwrap_or_default(),
+    };
+    if !state.database.assign(&assignment)? {
+        return Err(WebError::NotFound);
+    }
+    Ok(WebResponse::redirect(&target_url(&assignment.target)))
+}
+
+/// Checks the form or level of a scenario; empty for none.
+fn variant(state: &ServerState, scenario: &str, given: &str) -> Result<Option<String>, WebError> {
+    let unknown = || WebError::BadRequest("scenario: unknown name".into());
+    let job = scenario_library::find(&state.scenarios, scenario).ok_or_else(unknown)?;
+    if given.is_empty() {
+        return Ok(None);
+    }
+    let names = variant_names(&job.text);
+    if names.iter().any(|name| name == given) {
+        return Ok(Some(given.to_owned()));
+    }
+    let short: String = given.chars().take(60).collect();
+    let allowed = if names.is_empty() { "none: the job has no levels or forms".to_owned() } else { names.join(", ") };
+    Err(WebError::BadRequest(format!("variant = {short}: unknown level or form of {scenario} (allowed: {allowed})")))
+}
+
+/// Returns the end of the due date, which is today or later.
+fn due(given: &str, now_unix_us: u64) -> Result<u64, WebError> {
+    let latest = now_unix_us + MAX_DAYS * DAY_US;
+    end_of_day_unix_us(given).filter(|end| (now_unix_us..=latest).contains(end)).ok_or_else(|| {
+        let short: String = given.chars().take(60).collect();
+        let (first, last) = (day(now_unix_us), day(latest));
+        WebError::BadRequest(format!("due = {short}: invalid date (allowed: {first} to {last})"))
+    })
+}
+
+/// Removes an assignment.
+pub fn remove(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let id = request.path_param("id");
+    let assignment = state.database.assignment(id)?.ok_or(WebError::NotFound)?;
+    state.database.remove_assignment(id)?;
+    Ok(WebResponse::redirect(&target_url(&assignment.target)))
+}
+
+fn target_url(target: &AssignmentTarget) -> String {
+    match target {
+        AssignmentTarget::Trainee(name) => format!("/trainees/{name}"),
+        AssignmentTarget::Class(name) => class_url(name),
+    }
+}
+
+/// Returns the URL of a class's page.
+pub fn class_url(name: &str) -> String {
+    format!("/classes/{name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_due_dates_are_from_today_to_ten_years() {
+        let now = 1_700_000_000_000_000; // 2023-11-14 22:13 UTC
+        assert_eq!(due("2023-11-14", now), Ok(1_700_006_399_999_999));
+        for wrong in ["2023-11-13", "2033-12-01", "soon", ""] {
+            let told = due(wrong, now).unwrap_err();
+            let expected = format!("due = {wrong}: invalid date (allowed: 2023-11-14 to 2033-11-13)");
+            assert_eq!(told, WebError::BadRequest(expected));
+        }
+    }
+
+    #[test]
+    fn exact_assignment_is_for_one_trainee_or_one_class() {
+        assert_eq!(target(Some("anna"), None), Ok(AssignmentTarget::Trainee("anna".into())));
+        assert_eq!(target(None, Some("spring")), Ok(AssignmentTarget::Class("spring".into())));
+        assert!(target(None, None).is_err() && target(Some("anna"), Some("spring")).is_err());
+    }
+}

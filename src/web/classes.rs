@@ -1,0 +1,103 @@
+//! Class pages.
+
+use super::assignments::{class_url, jobs_of};
+use super::plan_rules::rules_in_use;
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
+use super::state::ServerState;
+use crate::io::clock;
+use crate::io::trainee_id::{ALLOWED_IDS, TraineeId, is_plain_id};
+use spandrel_training::assignment::{Assignment, AssignmentCounts};
+use spandrel_training::plan::{PlanRules, plan_for_policy};
+use spandrel_training::record::IncompletePolicy;
+use spandrel_training::training_class::TrainingClass;
+use spandrel_training::web::classes::{self as pages, ClassMember, ClassPage, MAX_NEW_MEMBERS};
+
+/// Responds with the list of classes.
+pub fn class_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    Ok(WebResponse::page(pages::class_list(&request.visitor, &state.database.classes()?)))
+}
+
+/// Creates a class.
+pub fn create(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.required_field("name")?;
+    if !is_plain_id(name) {
+        let short: String = name.chars().take(60).collect();
+        return Err(WebError::BadRequest(format!("name = {short}: invalid class name (allowed: {ALLOWED_IDS})")));
+    }
+    if !state.database.add_class(name)? {
+        return Err(WebError::BadRequest(format!("name = {name}: there is already a class with this name")));
+    }
+    Ok(WebResponse::redirect(&class_url(name)))
+}
+
+/// Responds with a class's page.
+pub fn class_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let class = class(state, request)?;
+    let (rules, _) = rules_in_use(state)?;
+    let now = clock::unix_us();
+    let members = class.members.iter().map(|trainee| member(state, trainee, &rules, now)).collect::<Result<Vec<_>, _>>()?;
+    let assignments: Vec<(Assignment, AssignmentCounts)> =
+        state.database.assignments_of_class(&class.name)?.into_iter().map(|one| counted(one, &members)).collect();
+    let about = ClassPage { name: &class.name, members: &members, assignments: &assignments };
+    Ok(WebResponse::page(pages::class_page(&request.visitor, &about)))
+}
+
+/// Returns the class named in the path.
+fn class(state: &ServerState, request: &WebRequest) -> Result<TrainingClass, WebError> {
+    let name = request.path_param("name");
+    state.database.classes()?.into_iter().find(|class| class.name == name).ok_or(WebError::NotFound)
+}
+
+fn member(state: &ServerState, trainee: &str, rules: &PlanRules, now_unix_us: u64) -> Result<ClassMember, WebError> {
+    let records = state.database.records(Some(trainee))?;
+    let jobs = jobs_of(state, trainee, &records, now_unix_us)?;
+    let last = state.database.list(Some(trainee), 1, 0)?.pop();
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, rules, now_unix_us);
+    Ok(ClassMember { trainee: trainee.to_owned(), last, next: plan.and_then(|plan| plan.steps.into_iter().next()), jobs })
+}
+
+/// Counts the members by the state of an assignment.
+fn counted(assignment: Assignment, members: &[ClassMember]) -> (Assignment, AssignmentCounts) {
+    let mut counts = AssignmentCounts::default();
+    let jobs = members.iter().flat_map(|member| &member.jobs);
+    jobs.filter(|job| job.assignment.id == assignment.id).for_each(|job| counts.add(&job.state));
+    (assignment, counts)
+}
+
+/// Adds trainees to a class.
+pub fn add_members(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.path_param("name");
+    let given = request.required_field("trainees")?;
+    let separated = given.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
+    let trainees = separated.map(|word| word.parse::<TraineeId>().map(|id| id.as_str().to_owned()));
+    let trainees: Vec<String> =
+        trainees.collect::<Result<_, _>>().map_err(|wrong| WebError::BadRequest(format!("trainees: {wrong}")))?;
+    if !(1..=MAX_NEW_MEMBERS).contains(&trainees.len()) {
+        let count = trainees.len();
+        return Err(WebError::BadRequest(format!("trainees: {count} pseudonyms (allowed: 1 to {MAX_NEW_MEMBERS} at once)")));
+    }
+    if state.database.add_members(name, &trainees)? {
+        Ok(WebResponse::redirect(&class_url(name)))
+    } else {
+        Err(WebError::NotFound)
+    }
+}
+
+/// Removes a trainee from a class.
+pub fn remove_member(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.path_param("name");
+    if !state.database.remove_member(name, request.required_field("trainee")?)? {
+        return Err(WebError::NotFound);
+    }
+    Ok(WebResponse::redirect(&class_url(name)))
+}
+
+/// Deletes a class.
+pub fn remove(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    if state.database.remove_class(request.path_param("name"))? {
+        Ok(WebResponse::redirect("/classes"))
+    } else {
+        Err(WebError::NotFound)
+    }
+}
