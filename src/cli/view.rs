@@ -6,9 +6,11 @@ use super::picture_args::{parse_quality_or_auto, parse_size};
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
 #[cfg(feature = "view")]
+use crate::io::user_settings::SettingsFile;
+#[cfg(feature = "view")]
 use crate::io::{controller, files};
 #[cfg(feature = "view")]
-use crate::window::{self, CaptureRequest, WindowConfig, WindowSetup};
+use crate::window::{self, CaptureRequest, SettingsOverrides, WindowConfig, WindowSettings, WindowSetup};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
@@ -48,7 +50,7 @@ pub struct Args {
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, group = "pilot")]
     fly: Option<SocketAddr>,
     /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window], [sound]); the same file as for `spandrel rc
-    /// --keyboard`
+    /// --keyboard` [default: the keys in the window's settings]
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
     /// Controller ID or part of the controller name [default: the only connected controller]
@@ -57,9 +59,10 @@ pub struct Args {
     /// Folder for calibration profiles [default: spandrel/controllers in the user's configuration folder]
     #[arg(long, value_name = "DIR", requires = "pilot")]
     profiles: Option<PathBuf>,
-    /// Rendering quality: low, medium, high, ultra, or auto (high with a graphics card, low without)
-    #[arg(long, value_name = "PRESET", default_value = "auto")]
-    quality: String,
+    /// Rendering quality: low, medium, high, ultra, or auto (high with a graphics card, low without) [default: as in the
+    /// window's settings]
+    #[arg(long, value_name = "PRESET")]
+    quality: Option<String>,
     /// Window size in px
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     size: String,
@@ -105,10 +108,8 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = args.job.load_scenario()?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
-    let keys = controller::keys(args.keys.as_deref())?;
     let config = WindowConfig {
         listen: args.listen,
-        quality: parse_quality_or_auto(&args.quality)?,
         size_px: parse_size(&args.size)?,
         map: !args.no_map,
         picture: picture(args)?,
@@ -121,15 +122,25 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         scenario,
         vehicle,
         seed: args.job.seed,
-        keys,
+        settings: WindowSettings::load(SettingsFile::of_user(), overrides(args)?),
         connect: args.connect,
         fly: args.fly,
         device: args.device.clone(),
         profiles: args.profiles.clone(),
         stream: args.stream,
-        sound: !args.no_sound,
         led: args.led,
         leash: args.leash,
+    })
+}
+
+#[cfg(feature = "view")]
+fn overrides(args: &Args) -> Result<SettingsOverrides, AppError> {
+    let keys = |path: &PathBuf| Ok::<_, AppError>((path.display().to_string(), controller::keys(Some(path))?));
+    let quality = args.quality.as_deref().map(parse_quality_or_auto).transpose()?;
+    Ok(SettingsOverrides {
+        keys: args.keys.as_ref().map(keys).transpose()?,
+        quality: quality.map(|preset| preset.map(|preset| preset.name)),
+        no_sound: args.no_sound,
     })
 }
 

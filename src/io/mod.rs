@@ -41,4 +41,7 @@ pub mod simulator_socket;
 pub mod stop;
 pub mod store;
 pub mod trainee_id;
+pub mod user_folder;
+#[cfg(feature = "view")]
+pub mod user_settings;
 pub mod vehicle_ports;

@@ -2,6 +2,7 @@
 
 use super::display;
 use super::flight_view::FlightView;
+use super::job_pictures::JobPictures;
 use super::keys::{self, HeldKeys, KeyChange};
 use super::picture_writer::PictureWriter;
 use super::pilot::{PilotCommand, PilotThread};
@@ -10,6 +11,7 @@ use super::sound::AudioOutput;
 use super::stream::StreamSender;
 use super::train_pipe::TrainPipe;
 use super::window_config::WindowConfig;
+use super::window_settings::WindowSettings;
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
@@ -36,6 +38,9 @@ const PAGE_FRAME_RATE_HZ: f64 = 20.0;
 const IDLE_TIME_FRACTION: f64 = 0.25;
 /// Zoom factor per mouse wheel notch.
 const ZOOM_FACTOR_PER_NOTCH: f64 = 1.15;
+/// Scroll distance per mouse wheel notch and per press of Page up or Page down, as fractions of the window's height.
+const NOTCH_SCROLL: f64 = 0.1;
+const PAGE_SCROLL: f64 = 0.8;
 
 /// The window's threads and connections.
 pub struct WindowThreads {
@@ -52,7 +57,7 @@ pub struct WindowThreads {
 /// The window and its state.
 pub struct Cockpit {
     pub(super) plan: WindowConfig,
-    pub(super) keys: KeyBindings,
+    pub(super) settings: WindowSettings,
     pub(super) flow: WindowFlow,
     pub(super) threads: WindowThreads,
     pub(super) image_writer: Option<PictureWriter>,
@@ -60,6 +65,7 @@ pub struct Cockpit {
     pub(super) stop: StopRequest,
     pub(super) screen: Option<WindowSurface>,
     pub(super) pictures: PageTextures,
+    pub(super) job_pictures: JobPictures,
     pub(super) inspector_camera: InspectorCamera,
     pub(super) map: bool,
     /// Whether the path is drawn into the pictures.
@@ -80,7 +86,7 @@ impl Cockpit {
     /// Creates the state. The window opens later.
     pub fn new(
         plan: WindowConfig,
-        keys: KeyBindings,
+        settings: WindowSettings,
         flow: WindowFlow,
         threads: WindowThreads,
         speaker: AudioOutput,
@@ -91,13 +97,14 @@ impl Cockpit {
             path: true,
             image_writer: threads.flight.as_ref().and(plan.camera_file.clone()).map(PictureWriter::start),
             plan,
-            keys,
+            settings,
             flow,
             threads,
             speaker,
             stop,
             screen: None,
             pictures: PageTextures::new(crate::io::png::read_picture),
+            job_pictures: JobPictures::default(),
             inspector_camera: InspectorCamera::default(),
             held: HeldKeys::default(),
             was_paused: false,
@@ -121,7 +128,12 @@ impl Cockpit {
 
     pub(super) fn quality(&self, screen: &WindowSurface) -> Quality {
         let usual = if screen.gpu.software { "low" } else { "high" };
-        self.plan.quality.or_else(|| Quality::by_name(usual)).unwrap_or(PRESETS[0])
+        self.settings.current().quality_preset().or_else(|| Quality::by_name(usual)).unwrap_or(PRESETS[0])
+    }
+
+    /// Returns the key bindings.
+    pub(super) fn keys(&self) -> &KeyBindings {
+        &self.settings.current().keys
     }
 
     /// Stops showing the current flight.
@@ -149,6 +161,10 @@ impl Cockpit {
             return;
         }
         let change = self.held.handle(event);
+        if self.flow.is_awaiting_key() {
+            self.bind_key(event, change.as_ref());
+            return;
+        }
         if !self.is_flying() {
             self.key_on_page(event, change);
             return;
@@ -165,6 +181,16 @@ impl Cockpit {
         }
     }
 
+    /// Binds the pressed key to the function that awaits one.
+    fn bind_key(&mut self, event: &KeyEvent, change: Option<&KeyChange>) {
+        match change {
+            Some(KeyChange::Down(key)) => self.flow.bind_key(Some(key)),
+            Some(KeyChange::Up(_)) => {}
+            None if event.state == ElementState::Pressed && !event.repeat => self.flow.bind_key(None),
+            None => {}
+        }
+    }
+
     fn toggle_full_screen(&self) {
         if let Some(screen) = &self.screen {
             let is_full = screen.window.fullscreen().is_some();
@@ -176,7 +202,7 @@ impl Cockpit {
         let trying = self.flow.page() == Page::Controls;
         match change {
             Some(KeyChange::Down(key))
-                if self.flow.is_dialog_open() && self.keys.window_action(&key) == Some(WindowAction::Pause) =>
+                if self.flow.is_dialog_open() && self.keys().window_action(&key) == Some(WindowAction::Pause) =>
             {
                 self.flow.pause();
                 return;
@@ -187,14 +213,25 @@ impl Cockpit {
             _ => {}
         }
         // Keys that the user tests there have no other effect.
-        let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys.is_stick(&key));
-        if let Some(press) = keys::press(event).filter(|_| !tried) {
+        let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys().is_stick(&key));
+        if tried {
+            return;
+        }
+        if let Some(pages) = keys::scrolled_pages(event) {
+            self.scroll(PAGE_SCROLL * pages);
+        } else if let Some(press) = keys::press(event) {
             self.flow.press(press);
         }
     }
 
+    /// Scrolls the page by a fraction of the window's height.
+    fn scroll(&mut self, by: f64) {
+        let window = self.shape().window;
+        self.flow.scroll(by, window);
+    }
+
     fn handle_action(&mut self, key: &str) {
-        match self.keys.window_action(key) {
+        match self.keys().window_action(key) {
             Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
             Some(WindowAction::Map) => self.map = !self.map,
             Some(WindowAction::Path) => self.path = !self.path,
@@ -312,7 +349,11 @@ impl ApplicationHandler for Cockpit {
                     // A mouse wheel notch is typically about 50 px (estimate).
                     MouseScrollDelta::PixelDelta(px) => px.y / 50.0,
                 };
-                self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_FACTOR_PER_NOTCH, notches.clamp(-10.0, 10.0)));
+                if self.is_flying() {
+                    self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_FACTOR_PER_NOTCH, notches.clamp(-10.0, 10.0)));
+                } else {
+                    self.scroll(-NOTCH_SCROLL * notches);
+                }
             }
             _ => {}
         }

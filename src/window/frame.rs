@@ -11,9 +11,9 @@ use crate::io::png::png;
 use serde_json::json;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
-use spandrel_view::flow::{Page, PageLayout, WindowRequest};
+use spandrel_view::flow::{Page, PageLayout, PictureSource, SettingChange, WindowRequest};
 use spandrel_view::gpu::{PageTextures, paint_sheet};
-use spandrel_view::hud;
+use spandrel_view::hud::{self, TextScale};
 use spandrel_view::live::LiveMoment;
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::sound::SoundInputs;
@@ -54,6 +54,8 @@ impl Cockpit {
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Settings { .. }
+            | Page::Keys { .. }
             | Page::Briefing
             | Page::Waiting
             | Page::Results
@@ -109,12 +111,23 @@ impl Cockpit {
                 }
             }
             WindowRequest::Sound(on) => {
+                let failed = self.settings.set_sound(on);
                 self.speaker.set_on(on);
-                self.flow.show_notice(if on { "Sound on." } else { "Sound off." }.to_owned());
+                self.flow.show_notice(failed.unwrap_or_else(|| if on { "Sound on." } else { "Sound off." }.to_owned()));
             }
+            WindowRequest::ChangeSetting(change) => self.change_setting(&change),
             WindowRequest::Close => self.stop.request(),
         }
         Ok(())
+    }
+
+    /// Applies a change to the settings everywhere.
+    fn change_setting(&mut self, change: &SettingChange) {
+        let told = self.settings.apply(change);
+        self.flow.update_settings(self.settings.status());
+        self.speaker.set_preferences(self.keys().sounds);
+        self.send_to_pilot(PilotCommand::SetKeys(self.keys().clone()));
+        told.into_iter().for_each(|words| self.flow.show_notice(words));
     }
 
     /// Shows a flight that has started.
@@ -140,10 +153,17 @@ impl Cockpit {
     }
 
     fn page(&mut self) -> Result<(), AppError> {
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        let size = screen.window.inner_size();
-        let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
-        let pictures = &mut self.pictures;
+        let sheet = self.flow.sheet(self.shape().window);
+        for placed in &sheet.pictures {
+            match &placed.source {
+                PictureSource::Job(job) => self.job_pictures.request(job),
+                PictureSource::Embedded(_) | PictureSource::File(_) => {}
+            }
+        }
+        while let Some((job, picture)) = self.job_pictures.poll() {
+            self.pictures.add_job(job, picture);
+        }
+        let (Some(screen), pictures) = (&mut self.screen, &mut self.pictures) else { return Ok(()) };
         screen.show(|ui| paint_page(ui, &sheet, pictures))
     }
 
@@ -180,14 +200,16 @@ impl Cockpit {
             map,
             path_aids: self.path_aids(),
             key_names: self.flow.key_names(),
+            style: self.flow.style(),
         };
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };
         let shown = flight.draw(screen, &self.flow.arrangement.view_rects(shape), now.as_ref(), &options)?;
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
-        let (pictures, anchor) = (&mut self.pictures, self.flow.arrangement.words(shape));
+        let text_scale = self.flow.style().text_scale;
+        let (pictures, anchor) = (&mut self.pictures, self.flow.arrangement.words(shape, text_scale));
         screen.show(|ui| {
-            paint_flight(ui, &shown, &text, anchor);
+            paint_flight(ui, &shown, &text, (anchor, text_scale));
             paint_page(ui, &sheet, pictures);
         })?;
         if shown.is_empty() {
@@ -241,12 +263,18 @@ impl Cockpit {
 
     fn text(&self, heard: bool, now: std::time::Duration) -> WindowText {
         let Some(flight) = &self.threads.flight else { return WindowText::default() };
+        let style = self.flow.style();
+        // Larger text has room for only one message.
+        let most = if style.text_scale == TextScale::Normal { self.notices.len() } else { 1 };
+        let latest = self.notices.iter().skip(self.notices.len().saturating_sub(most));
+        let lines: Vec<String> = latest.map(|(words, _)| style.units.words(words)).collect();
+        let shows_help = style.text_scale == TextScale::Normal || lines.is_empty();
         WindowText {
             waiting: waiting(&flight.scene, heard, &flight.listener),
-            lines: self.notices.iter().map(|(words, _)| words.clone()).collect(),
+            lines,
             help: match flight.first_frame_at {
-                Some(first) if now.saturating_sub(first).as_secs_f64() < KEY_HELP_DURATION_S => {
-                    help(&self.keys, self.threads.pilot.is_some())
+                Some(first) if shows_help && now.saturating_sub(first).as_secs_f64() < KEY_HELP_DURATION_S => {
+                    help(self.flow.key_names(), self.threads.pilot.is_some(), style.text_scale)
                 }
                 _ => String::new(),
             },
@@ -256,7 +284,8 @@ impl Cockpit {
     /// Turns and zooms the inspector's view while keys are held.
     fn turn_inspector_view(&mut self, now: Option<&LiveMoment>, step_s: f64) {
         let (Some(panes), Some(now)) = (self.threads.flight.as_ref().and_then(FlightView::panes), now) else { return };
-        let held = |wish: &str| self.keys.of(wish).is_some_and(|key| self.held.is_down(key));
+        let (keys, held) = (&self.settings.current().keys, &self.held);
+        let held = |wish: &str| keys.of(wish).is_some_and(|key| held.is_down(key));
         let way = |plus: &str, minus: &str| f64::from(i8::from(held(plus)) - i8::from(held(minus)));
         let (right, up) = (way("look_right", "look_left"), way("look_up", "look_down"));
         if right != 0.0 || up != 0.0 {
@@ -283,14 +312,15 @@ impl Cockpit {
 
     fn save_screenshot(&mut self, shown: &[PaneContent], text: &WindowText) -> Result<(), AppError> {
         let first = self.threads.flight.as_ref().and_then(|flight| flight.first_frame_at);
-        let anchor = self.flow.arrangement.words(self.shape());
+        let text_scale = self.flow.style().text_scale;
+        let anchor = self.flow.arrangement.words(self.shape(), text_scale);
         let (Some(plan), Some(first), Some(screen)) = (&self.plan.picture, first, &mut self.screen) else {
             return Ok(());
         };
         if self.stopwatch.elapsed().saturating_sub(first) < plan.after {
             return Ok(());
         }
-        let picture = screen.picture(|ui| paint_flight(ui, shown, text, anchor))?;
+        let picture = screen.picture(|ui| paint_flight(ui, shown, text, (anchor, text_scale)))?;
         files::write(&plan.path.display().to_string(), &png(&picture)?)?;
         self.stop.request();
         Ok(())

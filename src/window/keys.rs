@@ -15,6 +15,15 @@ pub fn press(event: &KeyEvent) -> Option<KeyPress> {
     (!event.repeat || !matches!(press, KeyPress::Enter | KeyPress::Escape)).then_some(press)
 }
 
+/// Returns by how many pages a key press scrolls down; negative: up.
+pub fn scrolled_pages(event: &KeyEvent) -> Option<f64> {
+    match (&event.logical_key, event.state) {
+        (Key::Named(NamedKey::PageDown), ElementState::Pressed) => Some(1.0),
+        (Key::Named(NamedKey::PageUp), ElementState::Pressed) => Some(-1.0),
+        _ => None,
+    }
+}
+
 /// Checks whether a key press switches between a window and the full screen: F11, as in other programs.
 pub fn is_full_screen_key(event: &KeyEvent) -> bool {
     event.state == ElementState::Pressed && !event.repeat && event.logical_key == Key::Named(NamedKey::F11)

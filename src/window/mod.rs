@@ -6,6 +6,7 @@ mod controller_slot;
 mod display;
 mod flight_view;
 mod frame;
+mod job_pictures;
 mod keys;
 mod listener;
 mod panes;
@@ -18,6 +19,7 @@ mod sound;
 mod stream;
 mod train_pipe;
 mod window_config;
+mod window_settings;
 mod window_text;
 
 use crate::errors::AppError;
@@ -27,28 +29,32 @@ use cockpit::{Cockpit, WindowThreads};
 use flight_view::FlightView;
 use pilot::{PilotCommand, PilotThread};
 use sound::AudioOutput;
-use spandrel_view::flow::{KeyNames, WindowFlow};
+use spandrel_view::flow::WindowFlow;
 use stream::StreamSender;
 use train_pipe::TrainPipe;
 
 pub use window_config::{CaptureRequest, WindowConfig, WindowSetup};
+pub use window_settings::{SettingsOverrides, WindowSettings};
 
 /// Opens the window and runs it until it is closed.
 pub fn run(setup: WindowSetup) -> Result<(), AppError> {
-    let WindowSetup { config, keys, sound, led, .. } = setup;
+    let WindowSetup { config, settings, led, .. } = setup;
     let stop = StopRequest::install(setup.leash && !led)?;
     let mut crew = WindowThreads { pilot: None, train_pipe: None, flight: None, stream: None };
     if led || setup.fly.is_some() {
-        crew.pilot = Some(PilotThread::start(config.listen, setup.device, setup.profiles, keys.clone())?);
+        crew.pilot = Some(PilotThread::start(config.listen, setup.device, setup.profiles, settings.current().keys.clone())?);
     }
-    let names = KeyNames::new(keys.labels());
-    let flow = if led {
+    let mut flow = if led {
         crew.train_pipe = Some(TrainPipe::listen(&stop));
-        WindowFlow::new(sound, names)
+        WindowFlow::new()
     } else {
         crew.flight = Some(FlightView::begin(config.listen, setup.connect, (setup.scenario, setup.vehicle), setup.seed)?);
-        WindowFlow::watch_only(sound, names)
+        WindowFlow::watch_only()
     };
+    flow.update_settings(settings.status());
+    if let Some(words) = settings.file_notice() {
+        flow.show_notice(words);
+    }
     if let (Some(pilot), Some(vehicle)) = (&crew.pilot, setup.fly) {
         pilot.send_command(PilotCommand::Fly(vehicle));
     }
@@ -63,6 +69,6 @@ pub fn run(setup: WindowSetup) -> Result<(), AppError> {
         }
         opened => opened?,
     };
-    let speaker = AudioOutput::new(keys.sounds, sound);
-    Cockpit::new(config, keys, flow, crew, speaker, stop).run()
+    let speaker = AudioOutput::new(settings.current().keys.sounds);
+    Cockpit::new(config, settings, flow, crew, speaker, stop).run()
 }

@@ -12,7 +12,7 @@ use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
 use spandrel_view::flow::KeyNames;
 use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
-use spandrel_view::hud::{self, DrawItem, Hud};
+use spandrel_view::hud::{self, DisplayStyle, DrawItem, Hud};
 use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::live::LiveMoment;
 use spandrel_view::path_guide::PathAids;
@@ -91,6 +91,8 @@ pub struct ViewOptions<'a> {
     pub path_aids: PathAids,
     /// Names of the keys.
     pub key_names: &'a KeyNames,
+    /// Units and text size.
+    pub style: DisplayStyle,
 }
 
 /// A view to show.
@@ -141,6 +143,7 @@ impl ViewPanes {
             self.job.site = self.job.site.with_closures(now.closures.clone());
         }
         let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
+        display.style = options.style;
         if let Some(lesson) = &mut display.lesson {
             lesson.how = options.key_names.fill(&lesson.how);
         }
@@ -228,7 +231,7 @@ impl ViewPanes {
                 let shot = stage.inspector_view(&options.inspector_camera, moment, size_px, eyes);
                 let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
                 items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
-                items.extend(stage.drone_marker(&shot, moment));
+                items.extend(stage.drone_marker(&shot, moment, options.style));
                 (shot, items)
             }
             ViewKind::Camera => {

@@ -47,6 +47,8 @@ pub enum PilotCommand {
     Cancel,
     /// Change the controller's profile and save it.
     ChangeProfile(ProfileChange),
+    /// Use these keys.
+    SetKeys(KeyBindings),
 }
 
 /// The window's handle to the pilot thread.
@@ -222,6 +224,11 @@ impl PilotLoop {
             PilotCommand::Confirm => self.controller.confirm(now),
             PilotCommand::Cancel => self.controller.cancel(),
             PilotCommand::ChangeProfile(tune) => self.controller.adjust_profile(tune),
+            PilotCommand::SetKeys(keys) => {
+                self.status_text = keys.help_text();
+                self.link.set_arm_key(&keys.label("arm"));
+                self.keyboard = KeyboardState::new(keys);
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! Plays sound samples with one system program and speaks warnings with another. Building with a sound library would
 //! require system headers.
 
+use super::window_settings::sound_settings;
 use crate::io::clock::Stopwatch;
 use spandrel_clients::rc::keyboard::SoundPreferences;
 use spandrel_view::sound::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, spoken};
@@ -23,20 +24,28 @@ const PLAYBACK_LEAD_TIME: Duration = Duration::from_millis(80);
 /// Interval at which the thread checks whether the player needs another chunk.
 const CHUNK_INTERVAL: Duration = Duration::from_millis(5);
 
+/// What the sound thread plays.
+type Inputs = (SoundInputs, SoundSettings);
+
 /// The window's sound output. Its thread starts with the first sound.
 pub struct AudioOutput {
-    settings: SoundSettings,
     on: bool,
     started: bool,
-    inputs: Arc<Mutex<SoundInputs>>,
+    inputs: Arc<Mutex<Inputs>>,
 }
 
 impl AudioOutput {
-    /// Creates the output; `on` is false if sound is initially disabled.
-    pub fn new(sounds: SoundPreferences, on: bool) -> Self {
-        let SoundPreferences { propellers, warnings, speech, volume } = sounds;
-        let heard = Arc::new(Mutex::new(SoundInputs { silent: true, ..SoundInputs::default() }));
-        Self { settings: SoundSettings { propellers, warnings, speech, volume }, on, started: false, inputs: heard }
+    /// Creates the output.
+    pub fn new(sounds: SoundPreferences) -> Self {
+        let silent = SoundInputs { silent: true, ..SoundInputs::default() };
+        let inputs = Arc::new(Mutex::new((silent, sound_settings(sounds))));
+        Self { on: sounds.on, started: false, inputs }
+    }
+
+    /// Changes the settings, and turns sound on or off.
+    pub fn set_preferences(&mut self, sounds: SoundPreferences) {
+        lock_inputs(&self.inputs).1 = sound_settings(sounds);
+        self.set_on(sounds.on);
     }
 
     /// Returns true if sound is on.
@@ -54,7 +63,7 @@ impl AudioOutput {
 
     /// Mutes the output until the inputs are updated again.
     pub fn silence(&self) {
-        lock_inputs(&self.inputs).silent = true;
+        lock_inputs(&self.inputs).0.silent = true;
     }
 
     /// Updates the inputs for sound synthesis.
@@ -62,24 +71,24 @@ impl AudioOutput {
         if !self.on {
             return;
         }
-        *lock_inputs(&self.inputs) = heard;
+        lock_inputs(&self.inputs).0 = heard;
         if !self.started {
             self.started = true;
-            let (heard, settings) = (self.inputs.clone(), self.settings);
-            std::thread::spawn(move || play(&heard, settings));
+            let heard = self.inputs.clone();
+            std::thread::spawn(move || play(&heard));
         }
     }
 }
 
-fn lock_inputs(heard: &Mutex<SoundInputs>) -> MutexGuard<'_, SoundInputs> {
+fn lock_inputs(heard: &Mutex<Inputs>) -> MutexGuard<'_, Inputs> {
     heard.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Plays sound until the window is closed, using the first player that works.
-fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
+fn play(heard: &Arc<Mutex<Inputs>>) {
     let mut tried = Vec::new();
     for (name, args) in PLAYERS {
-        match play_with(name, args, heard, settings) {
+        match play_with(name, args, heard) {
             Ok(()) => return,
             Err(why) => tried.push(format!("{name}: {why}")),
         }
@@ -88,13 +97,13 @@ fn play(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
         "no sound ({}); on Debian and Ubuntu, install pulseaudio-utils or alsa-utils; everything else works",
         tried.join("; ")
     );
-    speak(heard, settings);
+    speak(heard);
 }
 
 /// Speaks warnings until the window is closed. Speech does not need a player.
-fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
-    let mut voice = SpeechVoice::new(settings.speech);
-    while Arc::strong_count(heard) > 1 && voice.on {
+fn speak(heard: &Arc<Mutex<Inputs>>) {
+    let mut voice = SpeechVoice::default();
+    while Arc::strong_count(heard) > 1 {
         voice.update_inputs(&lock_inputs(heard).clone());
         std::thread::sleep(CHUNK_INTERVAL);
     }
@@ -104,16 +113,17 @@ fn speak(heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) {
 ///
 /// # Errors
 /// Returns an error if this player does not work.
-fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<SoundInputs>>, settings: SoundSettings) -> std::io::Result<()> {
+fn play_with(name: &str, args: &[&str], heard: &Arc<Mutex<Inputs>>) -> std::io::Result<()> {
     let mut command = Command::new(name);
     let mut player = command.args(args).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn()?;
     let Some(mut stdin) = player.stdin.take() else { return Err(std::io::ErrorKind::BrokenPipe.into()) };
-    let (mut sound, mut voice) = (FlightSound::new(settings), SpeechVoice::new(settings.speech));
+    let (mut sound, mut voice) = (FlightSound::default(), SpeechVoice::default());
     let (watch, mut made) = (Stopwatch::start(), Duration::ZERO);
     while Arc::strong_count(heard) > 1 {
         let now = lock_inputs(heard).clone();
         voice.update_inputs(&now);
-        sound.set(now);
+        sound.set_settings(now.1);
+        sound.set(now.0);
         // If the computer has stalled, skip the missed sound instead of catching up.
         made = made.max(watch.elapsed());
         while made < watch.elapsed() + PLAYBACK_LEAD_TIME {
@@ -136,28 +146,26 @@ fn next_chunk(sound: &mut FlightSound) -> Vec<u8> {
 }
 
 /// Speaks new warnings, one at a time.
+#[derive(Default)]
 struct SpeechVoice {
-    on: bool,
+    /// True once no program for speech was found.
+    is_missing: bool,
     cues: i32,
     speaking: Option<Child>,
 }
 
 impl SpeechVoice {
-    fn new(on: bool) -> Self {
-        Self { on, cues: 0, speaking: None }
-    }
-
-    fn update_inputs(&mut self, now: &SoundInputs) {
+    fn update_inputs(&mut self, (now, settings): &Inputs) {
         let cues = if now.silent { 0 } else { now.cues };
         let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
-        let (Some(words), true, false) = (words, self.on, busy) else { return };
+        let (Some(words), true, false) = (words, settings.speech && !self.is_missing, busy) else { return };
         let started = SPEECH_PROGRAMS.iter().find_map(|name| {
             let mut command = Command::new(name);
             command.arg(&words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
         });
         if started.is_none() {
-            self.on = false;
+            self.is_missing = true;
             tracing::warn!(
                 "no spoken warnings: none of {} is installed (on Debian and Ubuntu, run apt-get install espeak-ng)",
                 SPEECH_PROGRAMS.join(", ")

@@ -1,9 +1,8 @@
 //! Window settings from the command line.
 
-use spandrel_clients::rc::keyboard::KeyBindings;
+use super::window_settings::WindowSettings;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_view::quality::Quality;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,8 +12,6 @@ use std::time::Duration;
 pub struct WindowConfig {
     /// Local address to bind.
     pub listen: IpAddr,
-    /// Quality preset; `None` to choose a preset that suits the device.
-    pub quality: Option<Quality>,
     /// Window width and height, px.
     pub size_px: (u32, u32),
     /// True if the map may be shown.
@@ -47,8 +44,8 @@ pub struct WindowSetup {
     pub vehicle: Vehicle,
     /// Seed to use until the vehicle reports one.
     pub seed: Option<u64>,
-    /// Key bindings.
-    pub keys: KeyBindings,
+    /// Settings of the user and of the command line.
+    pub settings: WindowSettings,
     /// Payload port of the vehicle to watch.
     pub connect: SocketAddr,
     /// Ground station port of the vehicle to fly.
@@ -59,8 +56,6 @@ pub struct WindowSetup {
     pub profiles: Option<PathBuf>,
     /// Address to stream the camera's view to, as H.264 over RTP.
     pub stream: Option<SocketAddr>,
-    /// True if sound is on.
-    pub sound: bool,
     /// True if a parent process sends pages and flights over standard input.
     pub led: bool,
     /// True if the window closes when standard input closes.

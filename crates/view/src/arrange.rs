@@ -1,5 +1,7 @@
 //! Layout of the views in the window.
 
+use super::hud::TextScale;
+
 /// A view of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ViewKind {
@@ -56,6 +58,8 @@ pub struct TextAnchor {
     pub edge: f64,
     /// Maximum text width.
     pub width: f64,
+    /// Maximum text height.
+    pub height: f64,
     /// Whether the text extends down from the top edge instead of up from the bottom edge.
     pub extends_down: bool,
 }
@@ -73,6 +77,8 @@ const MAX_INSPECTOR_SHARE: f64 = 0.55;
 /// speed readout and left of the other readouts.
 const STATUS_TEXT_TOP: f64 = 0.145;
 const STATUS_TEXT_WIDTH: f64 = 0.6;
+/// Largest share of the inspector's view for larger status text, below the button.
+const LARGE_TEXT_HEIGHT: f64 = 0.7;
 /// Height of the button in the inspector's view above its middle, relative to the window.
 const BUTTON_DOWN: f64 = 0.0325;
 
@@ -149,22 +155,36 @@ impl ViewLayout {
         }
     }
 
-    /// Returns the position of the status text in the window, which never overlaps the HUD warnings.
+    /// Returns the position of the status text in the window, which never overlaps the HUD warnings. With larger text, it is in
+    /// the inspector's view, because the HUD then fills the camera view.
     #[must_use]
-    pub fn words(self, shape: WindowShape) -> TextAnchor {
+    pub fn words(self, shape: WindowShape, text_scale: TextScale) -> TextAnchor {
         match self {
+            Self::Camera if text_scale != TextScale::Normal => {
+                let [_, inspector, _] = shape.with_instruments();
+                TextAnchor {
+                    left_edge: inspector.left,
+                    edge: inspector.top + inspector.height,
+                    width: inspector.width,
+                    height: LARGE_TEXT_HEIGHT * inspector.height,
+                    extends_down: false,
+                }
+            }
             Self::Camera => {
                 let [camera, ..] = shape.with_instruments();
                 TextAnchor {
                     left_edge: camera.left,
                     edge: camera.top + STATUS_TEXT_TOP * camera.height,
                     width: STATUS_TEXT_WIDTH * camera.width,
+                    height: 1.0 - camera.top - STATUS_TEXT_TOP * camera.height,
                     extends_down: true,
                 }
             }
             // Left of the inset view.
-            Self::Inspector => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5 - 0.5 * INSET_SIZE, extends_down: false },
-            Self::SideBySide => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5, extends_down: false },
+            Self::Inspector => {
+                TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5 - 0.5 * INSET_SIZE, height: 0.9, extends_down: false }
+            }
+            Self::SideBySide => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5, height: 0.9, extends_down: false },
         }
     }
 

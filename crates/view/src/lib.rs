@@ -25,6 +25,7 @@ pub mod flow;
 pub mod gpu;
 pub mod hud;
 pub mod inspector_camera;
+pub mod job_picture;
 pub mod live;
 pub mod masks;
 pub mod material_groups;

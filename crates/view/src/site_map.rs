@@ -102,7 +102,7 @@ impl<'a> SiteMap<'a> {
     /// Draws a tile. Outside the terrain, it has one color.
     #[must_use]
     pub fn tile(&self, address: TileAddress) -> Picture {
-        let mut canvas = Canvas::new();
+        let mut canvas = Canvas::new((TILE_PX, TILE_PX));
         for y in 0..TILE_PX {
             for x in 0..TILE_PX {
                 let here_m =
@@ -121,7 +121,7 @@ impl<'a> SiteMap<'a> {
             }
         }
         canvas.pad(place(self.scenario.ground_team.pad_m));
-        canvas.picture
+        canvas.into_picture()
     }
 
     fn color_at(&self, here_m: Vec3<Enu>) -> [u8; 3] {
@@ -133,10 +133,15 @@ impl<'a> SiteMap<'a> {
         let down = Vec3::new(0.0, 0.0, -1.0);
         let Some(hit) = self.site.ray(eye_m, down, RAY_LENGTH_M, SimTime::ZERO) else { return OUTSIDE_COLOR };
         let up_m = EYE_UP_M - hit.distance_m;
-        let facing = hit.normal.array().iter().zip(LIGHT).map(|(a, b)| a * b).sum::<f64>().max(0.0);
-        let light = AMBIENT + (1.0 - AMBIENT) * facing / LIGHT[2];
-        base_color(hit.surface, up_m - self.scenario.terrain.water_level_m).map(|value| (value * light).clamp(0.0, 255.0) as u8)
+        surface_color(hit.surface, hit.normal, up_m - self.scenario.terrain.water_level_m)
     }
+}
+
+/// Returns the color of a surface with this unit normal, at a height above the water in m.
+pub(crate) fn surface_color(surface: Surface, normal: Vec3<Enu>, above_water_m: f64) -> [u8; 3] {
+    let facing = normal.array().iter().zip(LIGHT).map(|(a, b)| a * b).sum::<f64>().max(0.0);
+    let light = AMBIENT + (1.0 - AMBIENT) * facing / LIGHT[2];
+    base_color(surface, above_water_m).map(|value| (value * light).clamp(0.0, 255.0) as u8)
 }
 
 /// Returns the color of a surface in the light. Traffic and people look like the deck, because they move.
@@ -155,8 +160,8 @@ fn base_color(surface: Surface, above_water_m: f64) -> [f64; 3] {
     }
 }
 
-/// A tile that is being drawn.
-struct Canvas {
+/// A picture that is being drawn.
+pub(crate) struct Canvas {
     picture: Picture,
 }
 
@@ -177,19 +182,26 @@ const DIGITS: [u16; 10] = [
 const DIGIT_SCALE: i32 = 2;
 
 impl Canvas {
-    fn new() -> Self {
-        let size = TILE_PX as usize * TILE_PX as usize;
-        Self { picture: Picture { width: TILE_PX, height: TILE_PX, rgba: vec![255; 4 * size] } }
+    /// Creates a white picture of this width and height, px.
+    pub(crate) fn new((width, height): (u32, u32)) -> Self {
+        Self { picture: Picture { width, height, rgba: vec![255; 4 * width as usize * height as usize] } }
     }
 
-    fn set(&mut self, x: u32, y: u32, color: [u8; 3]) {
-        let k = 4 * (y as usize * TILE_PX as usize + x as usize);
-        if let Some(pixel) = self.picture.rgba.get_mut(k..k + 3).filter(|_| x < TILE_PX) {
+    /// Returns the finished picture.
+    pub(crate) fn into_picture(self) -> Picture {
+        self.picture
+    }
+
+    /// Sets a pixel; outside the picture, does nothing.
+    pub(crate) fn set(&mut self, x: u32, y: u32, color: [u8; 3]) {
+        let width = self.picture.width;
+        let k = 4 * (y as usize * width as usize + x as usize);
+        if let Some(pixel) = self.picture.rgba.get_mut(k..k + 3).filter(|_| x < width) {
             pixel.copy_from_slice(&color);
         }
     }
 
-    /// Sets a pixel if it is on the tile.
+    /// Sets a pixel if it is in the picture.
     fn dot(&mut self, x: i32, y: i32, color: [u8; 3]) {
         if let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) {
             self.set(x, y, color);
@@ -197,8 +209,8 @@ impl Canvas {
     }
 
     fn disc(&mut self, (x, y): (f64, f64), radius: f64, color: [u8; 3]) {
-        let far = |value: f64| !(-radius..f64::from(TILE_PX) + radius).contains(&value);
-        if far(x) || far(y) {
+        let far = |value: f64, size: u32| !(-radius..f64::from(size) + radius).contains(&value);
+        if far(x, self.picture.width) || far(y, self.picture.height) {
             return;
         }
         let reach = radius.ceil() as i32;
@@ -212,10 +224,11 @@ impl Canvas {
         }
     }
 
-    fn line(&mut self, points: &[(f64, f64)]) {
+    /// Draws a path.
+    pub(crate) fn line(&mut self, points: &[(f64, f64)]) {
         for pair in points.windows(2) {
             let (from, to) = (pair[0], pair[1]);
-            // Below one step per pixel, the discs still overlap. Long segments far outside the tile are skipped by `disc`.
+            // Below one step per pixel, the discs still overlap. Long segments far outside the picture are skipped by `disc`.
             let steps = math::hypot(to.0 - from.0, to.1 - from.1).ceil().clamp(1.0, 4_096.0);
             for k in 0..=steps as u32 {
                 let share = f64::from(k) / steps;
@@ -244,7 +257,7 @@ impl Canvas {
     }
 
     /// Draws the mark of the landing pad: a white square with a black edge.
-    fn pad(&mut self, (x, y): (f64, f64)) {
+    pub(crate) fn pad(&mut self, (x, y): (f64, f64)) {
         let reach = PAD_PX as i32;
         for (right, down) in (-reach..=reach).flat_map(|down| (-reach..=reach).map(move |right| (right, down))) {
             let edge = right.abs().max(down.abs()) >= reach - 1;

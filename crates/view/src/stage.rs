@@ -4,7 +4,7 @@ use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::hud::lesson_panel::how_to;
-use super::hud::{DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
+use super::hud::{DisplayStyle, DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};
 use super::scene::{DronePose, Scene};
@@ -122,12 +122,12 @@ impl Stage<'_> {
 
     /// Returns the bracket around the aircraft, drawn over the inspector's view.
     #[must_use]
-    pub fn drone_marker(&self, shot: &Shot, moment: &SceneMoment) -> Vec<DrawItem> {
+    pub fn drone_marker(&self, shot: &Shot, moment: &SceneMoment, style: DisplayStyle) -> Vec<DrawItem> {
         let (from, to) = (shot.eye.position_m, moment.drone.pose.position_m - shot.eye.position_m);
         let clear_m = (to.norm() - DRONE_CLEARANCE_M).max(0.0);
         let hidden = clear_m > 0.0 && self.site.ray(from, to.unit(), clear_m, moment.at).is_some();
         let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
-        marker(&shot.eye, aspect, moment.drone.pose.position_m, hidden)
+        marker((&shot.eye, aspect), moment.drone.pose.position_m, hidden, style)
     }
 
     /// Returns the ring of a lesson's step, drawn below the rest of a shot's overlay.
@@ -318,6 +318,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
             status,
         }),
         tracks: if map { MapPath::all(scenario) } else { Vec::new() },
+        style: DisplayStyle::default(),
     }
 }
 

@@ -12,7 +12,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::vehicle::Camera;
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
-use spandrel_view::hud;
+use spandrel_view::hud::{self, DisplayStyle};
 use spandrel_view::picture::Picture;
 use spandrel_view::quality::Quality;
 use spandrel_view::shot::Shot;
@@ -110,7 +110,7 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
     let mut views = Vec::new();
     if args.view != "camera" {
         let shot = stage.inspector(&moment, size);
-        let mark = stage.drone_marker(&shot, &moment);
+        let mark = stage.drone_marker(&shot, &moment, DisplayStyle::default());
         views.push((shot, if args.no_hud { Vec::new() } else { mark }));
     }
     if args.view != "inspector" {

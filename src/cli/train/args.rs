@@ -82,10 +82,10 @@ pub struct Args {
     /// Disable sound in the window
     #[arg(long)]
     pub no_sound: bool,
-    /// Graphics quality of the window: low, medium, high, ultra, or auto
-    #[arg(long, value_name = "PRESET", default_value = "auto")]
-    pub quality: String,
-    /// Key bindings for the window (same format as `spandrel view --keys`)
+    /// Graphics quality of the window: low, medium, high, ultra, or auto [default: as in the window's settings]
+    #[arg(long, value_name = "PRESET")]
+    pub quality: Option<String>,
+    /// Key bindings for the window (same format as `spandrel view --keys`) [default: the keys in the window's settings]
     #[arg(long, value_name = "FILE")]
     pub keys: Option<PathBuf>,
     /// Controller for flying in the window: its ID or part of its name [default: the only connected controller]

@@ -34,7 +34,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     files::scenario(&args.scenario_argument())?;
     files::vehicle(&args.vehicle)?;
     controller::keys(args.keys.as_deref())?;
-    check_quality(&args.quality)?;
+    args.quality.as_deref().map_or(Ok(()), check_quality)?;
     TrainRun::new(args, log, StopRequest::install(false)?).run()
 }
 

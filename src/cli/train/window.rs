@@ -108,9 +108,10 @@ impl WindowProcess {
 
 /// Returns the command-line arguments for the window process.
 fn window_args(args: &Args, log: tracing::Level) -> Vec<String> {
-    let mut words = ["--led", "--log", &log.to_string().to_lowercase(), "--quality", &args.quality].map(str::to_owned).to_vec();
+    let mut words = ["--led", "--log", &log.to_string().to_lowercase()].map(str::to_owned).to_vec();
     let given = [
         ("--keys", args.keys.as_ref().map(|file| file.display().to_string())),
+        ("--quality", args.quality.clone()),
         ("--device", args.device.clone()),
         ("--profiles", args.profiles.as_ref().map(|folder| folder.display().to_string())),
         ("--stream", args.stream.map(|to| to.to_string())),

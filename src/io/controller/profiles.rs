@@ -3,8 +3,8 @@
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::replace::replace;
+use crate::io::user_folder;
 use spandrel_clients::rc::{ControllerProfile, Device};
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 const NO_HOME_FOLDER_MESSAGE: &str = "no home folder found: specify a profile folder with --profiles";
@@ -17,7 +17,7 @@ pub struct ProfileFolder(Option<PathBuf>);
 impl ProfileFolder {
     /// Uses this folder, or the user's default folder (`spandrel/controllers` in `$XDG_CONFIG_HOME` or `~/.config`).
     pub fn at(folder: Option<PathBuf>) -> Self {
-        Self(folder.or_else(|| default_folder(std::env::var_os("XDG_CONFIG_HOME"), std::env::var_os("HOME"))))
+        Self(folder.or_else(|| user_folder::config().map(|folder| folder.join("controllers"))))
     }
 
     /// Returns the profile folder.
@@ -57,13 +57,6 @@ impl ProfileFolder {
         replace(&path, profile.write().as_bytes())?;
         Ok(path)
     }
-}
-
-/// Returns the user's default profile folder, based on these two environment variables.
-fn default_folder(config: Option<OsString>, home: Option<OsString>) -> Option<PathBuf> {
-    let known = |place: Option<OsString>| place.filter(|place| !place.is_empty()).map(PathBuf::from);
-    let config = known(config).or_else(|| known(home).map(|home| home.join(".config")));
-    config.map(|config| config.join("spandrel").join("controllers"))
 }
 
 fn profile_path(device: &Device) -> String {
@@ -116,13 +109,5 @@ mod tests {
         for told in [nowhere.save(&profile(&device)).unwrap_err().to_string(), nowhere.missing_reason(&device)] {
             assert_eq!(told, "no home folder found: specify a profile folder with --profiles");
         }
-    }
-
-    #[test]
-    fn exact_default_folder_is_in_user_configuration() {
-        let place = |config: &str, home: &str| default_folder(Some(config.into()), Some(home.into()));
-        assert_eq!(place("/c", "/home/a"), Some("/c/spandrel/controllers".into()));
-        assert_eq!(place("", "/home/a"), Some("/home/a/.config/spandrel/controllers".into()));
-        assert_eq!((place("", ""), default_folder(None, None)), (None, None), "empty variables are ignored");
     }
 }

@@ -55,6 +55,22 @@ impl ControllerAction {
         ALL.iter().find(|(_, action)| *action == self).map_or("", |(name, _)| name)
     }
 
+    /// Returns what the action does, for display.
+    #[must_use]
+    pub fn title(self) -> String {
+        match self {
+            Self::Snapshot => "photograph".to_owned(),
+            Self::Return => "fly home and land".to_owned(),
+            Self::Hold => "hold the position".to_owned(),
+            Self::Position => "position mode".to_owned(),
+            Self::GimbalUp => "tilt the camera up".to_owned(),
+            Self::GimbalDown => "tilt the camera down".to_owned(),
+            Self::CameraZoomIn => "zoom the camera in".to_owned(),
+            Self::CameraZoomOut => "zoom the camera out".to_owned(),
+            Self::Lamp | Self::Arm | Self::Disarm | Self::TakeOff | Self::Land => self.name().replace('_', " "),
+        }
+    }
+
     /// Checks whether the action is a single step that users usually repeat.
     #[must_use]
     pub fn is_repeatable(self) -> bool {

@@ -4,6 +4,7 @@ use super::{ControllerAction, Sticks, key};
 use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 /// Stick deflection when a key is held (estimate: half, to keep beginners from flying at full speed).
 pub const DEFAULT_DEFLECTION: f64 = 0.5;
@@ -33,6 +34,22 @@ pub enum StickDirection {
     TurnLeft,
     /// Turn right.
     TurnRight,
+}
+
+impl StickDirection {
+    /// Returns what the direction does, for display.
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Forward => "fly forward",
+            Self::Back => "fly back",
+            Self::Left => "fly left",
+            Self::Right => "fly right",
+            Self::Up => "climb",
+            Self::Down => "descend",
+            Self::TurnLeft => "turn left",
+            Self::TurnRight => "turn right",
+        }
+    }
 }
 
 const STICK_BINDINGS: [(&str, StickDirection, &str); 8] = [
@@ -93,6 +110,27 @@ pub enum WindowAction {
     Sound,
 }
 
+impl WindowAction {
+    /// Returns what the action does, for display.
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Swap => "change the layout",
+            Self::Map => "map on or off",
+            Self::Path => "path on or off",
+            Self::Follow => "follow the drone",
+            Self::LookLeft => "look left",
+            Self::LookRight => "look right",
+            Self::LookUp => "look up",
+            Self::LookDown => "look down",
+            Self::ZoomIn => "zoom your view in",
+            Self::ZoomOut => "zoom your view out",
+            Self::Pause => "pause",
+            Self::Restart => "restart",
+            Self::Sound => "sound on or off",
+        }
+    }
+}
+
 const WINDOW_BINDINGS: [(&str, WindowAction, &str); 13] = [
     ("swap", WindowAction::Swap, "tab"),
     ("map", WindowAction::Map, "m"),
@@ -112,6 +150,8 @@ const WINDOW_BINDINGS: [(&str, WindowAction, &str); 13] = [
 /// Sound settings of the viewer window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SoundPreferences {
+    /// Whether there is sound at all.
+    pub on: bool,
     /// Whether propeller sound is on.
     pub propellers: bool,
     /// Whether warning tones are on.
@@ -124,8 +164,19 @@ pub struct SoundPreferences {
 
 impl Default for SoundPreferences {
     fn default() -> Self {
-        Self { propellers: true, warnings: true, speech: false, volume: 0.7 }
+        Self { on: true, propellers: true, warnings: true, speech: false, volume: 0.7 }
     }
+}
+
+/// Outcome of a change to a key binding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rebinding {
+    /// The binding has the key, which was free or its own.
+    Done,
+    /// The key belonged to this binding, given by its name in configuration files. The two have exchanged their keys.
+    Exchanged(&'static str),
+    /// Nothing has changed: there is no such binding or key.
+    Refused,
 }
 
 /// Key bindings, by the key names of [`key`].
@@ -161,30 +212,7 @@ impl KeyBindings {
         let keys = r.parse().map(|document| {
             let mut root = r.root(&document);
             r.integer(&mut root, "format", (1, 1), None);
-            let mut keys = Self {
-                push: r.number(&mut root, "push", (0.05, 1.0), Some(DEFAULT_DEFLECTION)),
-                stick_keys: BTreeMap::new(),
-                actions: BTreeMap::new(),
-                window_actions: BTreeMap::new(),
-                sounds: SoundPreferences::default(),
-            };
-            let mut taken = BTreeMap::new();
-            let mut s = r.section(&mut root, "sticks");
-            for (name, push, usual) in STICK_BINDINGS {
-                keys.stick_keys.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), push);
-            }
-            r.finish(&s);
-            let mut s = r.section(&mut root, "actions");
-            for (action, usual) in ACTION_BINDINGS {
-                keys.actions.insert(read_binding(&mut r, &mut s, (action.name(), usual), &mut taken), action);
-            }
-            r.finish(&s);
-            let mut s = r.section(&mut root, "window");
-            for (name, wish, usual) in WINDOW_BINDINGS {
-                keys.window_actions.insert(read_binding(&mut r, &mut s, (name, usual), &mut taken), wish);
-            }
-            r.finish(&s);
-            keys.sounds = sounds(&mut r, &mut root);
+            let keys = Self::read_tables(&mut r, &mut root);
             r.finish(&root);
             keys
         });
@@ -192,6 +220,83 @@ impl KeyBindings {
             Some(keys) if r.problems.is_empty() => Ok(keys),
             _ => Err(Problems(r.problems)),
         }
+    }
+
+    /// Reads the key `push` and the tables of a key file, which may be part of another file. The reader collects the problems.
+    pub fn read_tables(r: &mut Reader, root: &mut Section) -> Self {
+        let mut keys = Self {
+            push: r.number(root, "push", (0.05, 1.0), Some(DEFAULT_DEFLECTION)),
+            stick_keys: BTreeMap::new(),
+            actions: BTreeMap::new(),
+            window_actions: BTreeMap::new(),
+            sounds: SoundPreferences::default(),
+        };
+        let mut taken = BTreeMap::new();
+        let mut s = r.section(root, "sticks");
+        for (name, push, usual) in STICK_BINDINGS {
+            keys.stick_keys.insert(read_binding(r, &mut s, (name, usual), &mut taken), push);
+        }
+        r.finish(&s);
+        let mut s = r.section(root, "actions");
+        for (action, usual) in ACTION_BINDINGS {
+            keys.actions.insert(read_binding(r, &mut s, (action.name(), usual), &mut taken), action);
+        }
+        r.finish(&s);
+        let mut s = r.section(root, "window");
+        for (name, wish, usual) in WINDOW_BINDINGS {
+            keys.window_actions.insert(read_binding(r, &mut s, (name, usual), &mut taken), wish);
+        }
+        r.finish(&s);
+        keys.sounds = sounds(r, root);
+        keys
+    }
+
+    /// Returns the key `push` and the tables as TOML, as [`Self::read_tables`] reads them.
+    #[must_use]
+    pub fn write_tables(&self) -> String {
+        let mut text = format!("push = {:?}\n", self.push);
+        let sticks = STICK_BINDINGS.map(|(name, ..)| name);
+        let actions = ACTION_BINDINGS.map(|(action, _)| action.name());
+        let wishes = WINDOW_BINDINGS.map(|(name, ..)| name);
+        for (table, names) in [("sticks", sticks.as_slice()), ("actions", &actions), ("window", &wishes)] {
+            let _ = writeln!(text, "\n[{table}]");
+            for name in names {
+                let _ = writeln!(text, "{name} = {}", serde_json::Value::from(self.of(name).unwrap_or_default()));
+            }
+        }
+        let SoundPreferences { on, propellers, warnings, speech, volume } = self.sounds;
+        let _ = writeln!(
+            text,
+            "\n[sound]\non = {on}\npropellers = {propellers}\nwarnings = {warnings}\nspeech = {speech}\nvolume = {volume:?}"
+        );
+        text
+    }
+
+    /// Binds a key. If it belongs to another binding, the two exchange their keys, so that each binding always has one key.
+    pub fn rebind(&mut self, name: &str, key: &str) -> Rebinding {
+        let key = key.to_lowercase();
+        let Some(own) = self.of(name).map(str::to_owned).filter(|_| key::is_valid_key(&key)) else { return Rebinding::Refused };
+        if own == key {
+            return Rebinding::Done;
+        }
+        let before = every_name().find(|other| self.of(other) == Some(key.as_str()));
+        exchange(&mut self.stick_keys, &own, &key);
+        exchange(&mut self.actions, &own, &key);
+        exchange(&mut self.window_actions, &own, &key);
+        before.map_or(Rebinding::Done, Rebinding::Exchanged)
+    }
+
+    /// Restores the default key of every binding; the other settings stay.
+    pub fn restore_keys(&mut self) {
+        *self = Self { push: self.push, sounds: self.sounds, ..Self::default() };
+    }
+
+    /// Returns every binding in the order of display: its name in configuration files, and what it does.
+    pub fn functions() -> impl Iterator<Item = (&'static str, String)> {
+        let sticks = STICK_BINDINGS.into_iter().map(|(name, push, _)| (name, push.title().to_owned()));
+        let actions = ACTION_BINDINGS.into_iter().map(|(action, _)| (action.name(), action.title()));
+        let wishes = WINDOW_BINDINGS.into_iter().map(|(name, wish, _)| (name, wish.title().to_owned()));
+        sticks.chain(actions).chain(wishes)
     }
 
     /// Returns the window action of a key, if any.
@@ -223,10 +328,7 @@ impl KeyBindings {
     /// Returns the display name of every bound key, by the binding's name in configuration files.
     #[must_use]
     pub fn labels(&self) -> BTreeMap<&'static str, String> {
-        let sticks = STICK_BINDINGS.into_iter().map(|(name, ..)| name);
-        let actions = ACTION_BINDINGS.into_iter().map(|(action, _)| action.name());
-        let wishes = WINDOW_BINDINGS.into_iter().map(|(name, ..)| name);
-        sticks.chain(actions).chain(wishes).map(|name| (name, self.label(name))).collect()
+        every_name().map(|name| (name, self.label(name))).collect()
     }
 
     /// Returns the key for a stick direction, vehicle action, or window action, given by its name in configuration
@@ -253,10 +355,23 @@ impl KeyBindings {
     }
 }
 
+/// Returns the name of every binding in configuration files.
+fn every_name() -> impl Iterator<Item = &'static str> {
+    KeyBindings::functions().map(|(name, _)| name)
+}
+
+/// Exchanges what two keys do.
+fn exchange<T>(bindings: &mut BTreeMap<String, T>, one: &str, other: &str) {
+    let (first, second) = (bindings.remove(one), bindings.remove(other));
+    bindings.extend(first.map(|action| (other.to_owned(), action)));
+    bindings.extend(second.map(|action| (one.to_owned(), action)));
+}
+
 fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     let usual = SoundPreferences::default();
     let mut s = r.section(root, "sound");
     let sounds = SoundPreferences {
+        on: r.boolean(&mut s, "on", usual.on),
         propellers: r.boolean(&mut s, "propellers", usual.propellers),
         warnings: r.boolean(&mut s, "warnings", usual.warnings),
         speech: r.boolean(&mut s, "speech", usual.speech),
@@ -439,5 +554,48 @@ mod tests {
         assert_eq!([label("pause"), label("forward"), label("lamp"), label("camera_zoom_in")], ["Esc", "Up", "B", "]"]);
         assert_eq!(label("fly"), "");
         assert!(usual.is_stick("W") && usual.is_stick("up") && !usual.is_stick("b") && !usual.is_stick("tab"));
+    }
+
+    #[test]
+    fn exact_a_bound_key_is_exchanged_and_an_unknown_one_refused() {
+        let mut keys = KeyBindings::default();
+        assert_eq!(keys.rebind("lamp", "x"), Rebinding::Done);
+        assert_eq!((keys.of("lamp"), keys.binding_name("x"), keys.binding_name("b")), (Some("x"), Some("lamp"), None));
+        assert_eq!(keys.rebind("lamp", "X"), Rebinding::Done, "its own key");
+        assert_eq!(keys.rebind("lamp", "w"), Rebinding::Exchanged("up"));
+        assert_eq!((keys.of("lamp"), keys.of("up")), (Some("w"), Some("x")));
+        assert_eq!(keys.rebind("pause", "w"), Rebinding::Exchanged("lamp"), "a window key and a vehicle action");
+        assert_eq!((keys.of("lamp"), keys.window_action("w")), (Some("escape"), Some(WindowAction::Pause)));
+        let before = keys.clone();
+        for (name, key) in [("lamp", "f5"), ("lamp", ""), ("fly", "y")] {
+            assert_eq!(keys.rebind(name, key), Rebinding::Refused, "{name}, {key}");
+        }
+        assert_eq!(keys, before, "a refused key changes nothing");
+        keys.sounds.volume = 0.25;
+        keys.restore_keys();
+        let usual = KeyBindings { sounds: keys.sounds, ..KeyBindings::default() };
+        assert_eq!((keys.sounds.volume, keys), (0.25, usual));
+    }
+
+    #[test]
+    fn prop_bindings_survive_writing_and_reading_after_any_change() {
+        let names: Vec<&str> = every_name().collect();
+        let keys = ["w", "\"", "\\", "ü", "'", "space", "escape", "7", "#", "["];
+        let mut bound = KeyBindings::default();
+        for step in 0..200 {
+            bound.rebind(names[step * 7 % names.len()], keys[step * 3 % keys.len()]);
+            bound.sounds = SoundPreferences { on: step % 2 == 0, volume: (step % 11) as f64 / 10.0, ..bound.sounds };
+            let text = format!("format = 1\n{}", bound.write_tables());
+            assert_eq!(KeyBindings::read("keys.toml", &text).as_ref(), Ok(&bound), "step {step}:\n{text}");
+            let used: std::collections::BTreeSet<&str> = names.iter().filter_map(|name| bound.of(name)).collect();
+            assert_eq!(used.len(), names.len(), "step {step}: each binding must have its own key");
+        }
+    }
+
+    #[test]
+    fn exact_every_function_has_a_title_of_its_own() {
+        let titles: std::collections::BTreeSet<String> = KeyBindings::functions().map(|(_, title)| title).collect();
+        assert_eq!(titles.len(), every_name().count());
+        assert!(titles.iter().all(|title| !title.is_empty() && !title.contains('_')), "{titles:?}");
     }
 }

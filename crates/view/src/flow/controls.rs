@@ -2,7 +2,7 @@
 //! calibration wizard.
 
 use super::menu::{self, MenuRow};
-use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE};
+use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, fitted};
 use crate::hud::{HudColor, TextAlign};
 
 /// Current state of the controller.
@@ -80,26 +80,21 @@ fn stick_functions(mode: i64) -> [(&'static str, &'static str); 2] {
 }
 
 pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow], focus: usize) {
-    let left = 0.04;
-    let half = 0.42 * pen.width;
-    pen.text((left, 0.08), TextAlign::Left, TITLE_SIZE, HudColor::White, "Check the controller");
+    let (left, narrow) = (0.04, pen.is_narrow());
+    let half = if narrow { pen.width - 2.0 * left } else { 0.42 * pen.width };
+    pen.title((left, 0.08), pen.width - 2.0 * left, "Check the controller");
     let mut y = pen.lines((left, 0.165), half, TEXT_SIZE, HudColor::Yellow, &controls.status_line());
     if let Some(prompt) = &controls.wizard {
         y = pen.lines((left, y + 0.02), half, 1.1 * TEXT_SIZE, HudColor::White, prompt) + 0.02;
     }
     let y = menu::draw(pen, (left, y + 0.01), half, rows, focus);
     let y = pen.lines((left, y + 0.035), half, SMALL_TEXT_SIZE, HudColor::Gray, &controls.note);
-    let x = left + half + 0.08;
-    let room = pen.width - x - 0.02;
-    let size = (0.5 * (room - 0.1)).min(0.36);
-    for (k, (up, across)) in stick_functions(controls.mode).into_iter().enumerate() {
-        let name = if k == 0 { "left stick" } else { "right stick" };
-        let (right, way) = (controls.sticks[2 * k + 1], controls.sticks[2 * k]);
-        stick(pen, (x + (size + 0.1) * k as f64, 0.22), size, (right, way), [name, up, across]);
-    }
-    let below = 0.22 + size + 0.16;
-    if !controls.is_connected() && controls.wizard.is_none() {
-        columns(pen, (left, y + 0.02), half, &controls.keys);
+    let shows_keys = !controls.is_connected() && controls.wizard.is_none();
+    let y = if shows_keys { columns(pen, (left, y + 0.02), half, &controls.keys) } else { y };
+    let (x, top) = if narrow { (left, y + 0.1) } else { (left + half + 0.08, 0.22) };
+    let room = pen.width - x - if narrow { left } else { 0.02 };
+    let below = sticks(pen, (x, top), room, controls);
+    if shows_keys {
         pen.lines(
             (x, below),
             room,
@@ -113,6 +108,26 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
         let words = "Move the sticks; the dots should follow, return to the center, and reach all edges.";
         pen.lines((x, below), room, SMALL_TEXT_SIZE, HudColor::White, words);
     }
+}
+
+/// Width by which a stick's labels may exceed the stick.
+const LABEL_OVERHANG: f64 = 0.03;
+/// Smallest size of two sticks side by side.
+const MIN_STICK_SIZE: f64 = 0.3;
+
+/// Draws both sticks, side by side if there is room, and returns the y position below them.
+fn sticks(pen: &mut PageWriter, (x, y): (f64, f64), room: f64, controls: &ControllerStatus) -> f64 {
+    let side_by_side = 0.5 * (room - 0.1);
+    let is_wide = side_by_side >= MIN_STICK_SIZE || !pen.is_narrow();
+    let size = if is_wide { side_by_side } else { room }.min(0.36);
+    let step = if is_wide { (size + 0.1, 0.0) } else { (0.0, size + 0.2) };
+    for (k, (up, across)) in stick_functions(controls.mode).into_iter().enumerate() {
+        let name = if k == 0 { "left stick" } else { "right stick" };
+        let (right, way) = (controls.sticks[2 * k + 1], controls.sticks[2 * k]);
+        let place = (x + step.0 * k as f64, y + step.1 * k as f64);
+        stick(pen, place, size, (right, way), [name, up, across]);
+    }
+    y + step.1 + size + 0.16
 }
 
 /// Draws a square with a dot that follows the stick.
@@ -132,8 +147,10 @@ fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64,
         .collect();
     pen.fill(&dot, HudColor::Yellow);
     pen.text((mx, y - 0.035), TextAlign::Center, TEXT_SIZE, HudColor::White, name);
-    pen.text((mx, y + size + 0.03), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Gray, format!("vertical: {vertical}"));
-    pen.text((mx, y + size + 0.07), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Gray, format!("horizontal: {across}"));
+    for (words, down) in [(format!("vertical: {vertical}"), 0.03), (format!("horizontal: {across}"), 0.07)] {
+        let height = fitted(&words, SMALL_TEXT_SIZE, size + LABEL_OVERHANG);
+        pen.text((mx, y + size + down), TextAlign::Center, height, HudColor::Gray, words);
+    }
 }
 
 /// Draws each raw axis as a bar with its range and value.
@@ -158,18 +175,25 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     }
 }
 
-/// Draws the key bindings in two columns, each with the key and its function. Shrinks the text to fit.
-fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) {
-    const COLUMN_COUNT: usize = 2;
+/// Smallest font size of the key bindings.
+const MIN_KEY_TEXT_SIZE: f64 = 0.02;
+
+/// Draws the key bindings in columns, each with the key and its function, and returns the y position below them. In a wide
+/// window, shrinks the text to fit.
+fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) -> f64 {
     const KEY_COLUMN_WIDTH: f64 = 0.17;
+    const MIN_WIDTH_OF_TWO: f64 = 0.7;
+    let column_count = if pen.is_narrow() && width < MIN_WIDTH_OF_TWO { 1 } else { 2 };
     let lines: Vec<&str> = text.lines().collect();
-    let rows = lines.len().div_ceil(COLUMN_COUNT).max(1);
-    let step = (1.3 * SMALL_TEXT_SIZE).min((0.985 - y) / rows as f64);
-    let height = (step / 1.3).max(0.0);
+    let rows = lines.len().div_ceil(column_count).max(1);
+    let most = if pen.is_narrow() { f64::INFINITY } else { (pen.height - 0.015 - y) / rows as f64 };
+    let step = (1.3 * SMALL_TEXT_SIZE).min(most.max(MIN_KEY_TEXT_SIZE * 1.3));
+    let height = step / 1.3;
     for (k, line) in lines.iter().enumerate() {
-        let place = (x + 0.5 * width * (k / rows) as f64, y + step * ((k % rows) as f64 + 0.5));
+        let place = (x + width / column_count as f64 * (k / rows) as f64, y + step * ((k % rows) as f64 + 0.5));
         let (key, duty) = line.split_once(' ').unwrap_or((line, ""));
         pen.text(place, TextAlign::Left, height, HudColor::Yellow, key);
         pen.text((place.0 + KEY_COLUMN_WIDTH, place.1), TextAlign::Left, height, HudColor::White, duty.trim().replace('_', " "));
     }
+    y + step * rows as f64
 }

@@ -1,7 +1,8 @@
 //! Menu rows: buttons, choices, and text fields, operated with keys or clicks.
 
 use super::KeyPress;
-use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, text_width};
+use super::settings::Setting;
+use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, fitted, text_width, wrap_text};
 use crate::hud::{HudColor, TextAlign};
 
 /// Row height and row spacing.
@@ -29,8 +30,18 @@ pub enum MenuAction {
     ContinueSchool,
     /// Leave the defect school.
     LeaveSchool,
-    /// Turn sound on or off.
-    Sound,
+    /// Open the settings.
+    Settings,
+    /// Select the value of a setting.
+    Setting(Setting),
+    /// Open the list of keys.
+    Keys,
+    /// Bind a key to the function with this index.
+    Key(usize),
+    /// Restore the default keys.
+    RestoreKeys,
+    /// Restore all default settings.
+    RestoreSettings,
     /// Quit the program.
     Quit,
     /// Search for a controller.
@@ -88,6 +99,8 @@ pub enum RowKind {
     Choice,
     /// Typing changes the value; the left and right keys select a known value.
     TextField,
+    /// Activated with Enter or a click; the value is the name of a key.
+    KeyBinding,
 }
 
 /// A menu row.
@@ -122,41 +135,109 @@ impl MenuRow {
 
 /// Draws the rows from top to bottom and returns the y position below the last one.
 pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
-    for (k, row) in rows.iter().enumerate() {
-        draw_row(pen, (x, y + ROW_SPACING * k as f64), width, row, (k, k == focus));
-    }
-    y + ROW_SPACING * rows.len() as f64
+    draw_part(pen, (x, y), width, rows, (0, focus))
 }
 
-fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, lit): (usize, bool)) {
-    let middle = y + 0.5 * ROW_HEIGHT;
-    pen.panel((x, y), (width, ROW_HEIGHT), if lit { HudColor::FocusedField } else { HudColor::InputField });
-    pen.click_area((x, y), (width, ROW_HEIGHT), KeyPress::Row(k));
-    if lit {
+/// Draws the rows in columns, each from top to bottom, and returns the y position below the longest one.
+pub fn draw_columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
+    let count = ((width + COLUMN_GAP) / (MIN_COLUMN_WIDTH + COLUMN_GAP)).floor().max(1.0);
+    let column = (width + COLUMN_GAP) / count - COLUMN_GAP;
+    let length = rows.len().div_ceil(count as usize).max(1);
+    let mut bottom = y;
+    for (k, part) in rows.chunks(length).enumerate() {
+        let left = x + (column + COLUMN_GAP) * k as f64;
+        bottom = draw_part(pen, (left, y), column, part, (k * length, focus)).max(bottom);
+    }
+    bottom
+}
+
+/// Draws rows, of which the first has the number `first`.
+fn draw_part(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], (first, focus): (usize, usize)) -> f64 {
+    let mut y = y;
+    for (k, row) in (first..).zip(rows) {
+        let shape = RowShape::of(row, width, k == focus);
+        draw_row(pen, (x, y), width, row, (k, &shape));
+        y += shape.height + ROW_SPACING - ROW_HEIGHT;
+    }
+    y
+}
+
+/// How a row is laid out in its width.
+struct RowShape {
+    is_focused: bool,
+    height: f64,
+    label: Vec<String>,
+    label_size: f64,
+    value: String,
+    /// Whether the value stands below the label.
+    is_stacked: bool,
+}
+
+impl RowShape {
+    fn of(row: &MenuRow, width: f64, is_focused: bool) -> Self {
+        let value = if row.kind == RowKind::TextField && is_focused { format!("{}_", row.value) } else { row.value.clone() };
+        let label_width = text_width(&row.label, TEXT_SIZE).max(1e-9);
+        let whole = width - 2.0 * PADDING;
+        let (room, can_stack) = match row.kind {
+            RowKind::Button => (whole, false),
+            RowKind::Choice | RowKind::TextField => (VALUE_START * width - PADDING, true),
+            RowKind::KeyBinding => (whole - PADDING - text_width(&value, TEXT_SIZE), true),
+        };
+        let is_stacked = can_stack && MIN_SHRINK * label_width > room;
+        let room = if is_stacked { whole } else { room };
+        let label =
+            if MIN_SHRINK * label_width <= room { vec![row.label.clone()] } else { wrap_text(&row.label, whole, TEXT_SIZE) };
+        let label_size = if label.len() > 1 { TEXT_SIZE } else { TEXT_SIZE.min(TEXT_SIZE * room / label_width) };
+        let lines = label.len() + usize::from(is_stacked);
+        let height = ROW_HEIGHT + LINE_SPACING * TEXT_SIZE * (lines - 1) as f64;
+        Self { is_focused, height, label, label_size, value, is_stacked }
+    }
+}
+
+fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, shape): (usize, &RowShape)) {
+    let ground = if shape.is_focused { HudColor::FocusedField } else { HudColor::InputField };
+    pen.panel((x, y), (width, shape.height), ground);
+    pen.click_area((x, y), (width, shape.height), KeyPress::Row(k));
+    if shape.is_focused {
         // A bar at the edge marks the focus in addition to the color.
-        pen.panel((x - 0.014, y), (0.008, ROW_HEIGHT), HudColor::White);
+        pen.panel((x - 0.014, y), (0.008, shape.height), HudColor::White);
     }
-    let label = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Gray };
-    // The title of a job may be longer than the row.
-    let room = if row.kind == RowKind::Button { width - 0.04 } else { VALUE_START * width };
-    let height = TEXT_SIZE.min(TEXT_SIZE * room / text_width(&row.label, TEXT_SIZE).max(1e-9));
-    pen.text((x + 0.02, middle), TextAlign::Left, height, label, row.label.clone());
-    if row.kind == RowKind::Button {
-        return;
+    let color = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Gray };
+    let line = |k: usize| y + 0.5 * ROW_HEIGHT + LINE_SPACING * TEXT_SIZE * k as f64;
+    for (k, words) in shape.label.iter().enumerate() {
+        pen.text((x + PADDING, line(k)), TextAlign::Left, shape.label_size, color, words.clone());
     }
-    let (from, to) = (x + VALUE_START * width, x + width);
-    let words = if row.kind == RowKind::TextField && lit { format!("{}_", row.value) } else { row.value.clone() };
-    let room = to - from - 2.0 * ARROW_WIDTH;
-    let height = TEXT_SIZE.min(TEXT_SIZE * room / text_width(&words, TEXT_SIZE).max(1e-9)).max(0.6 * SMALL_TEXT_SIZE);
+    let middle = if shape.is_stacked { line(shape.label.len()) } else { line(0) };
+    let from = if shape.is_stacked { x } else { x + VALUE_START * width };
+    match row.kind {
+        RowKind::Button => {}
+        RowKind::KeyBinding => {
+            let height = fitted(&shape.value, TEXT_SIZE, width - 2.0 * PADDING);
+            pen.text((x + width - PADDING, middle), TextAlign::Right, height, HudColor::White, shape.value.clone());
+        }
+        RowKind::Choice | RowKind::TextField => draw_value(pen, (from, x + width), middle, &shape.value, k),
+    }
+}
+
+/// Draws a value between its arrows.
+fn draw_value(pen: &mut PageWriter, (from, to): (f64, f64), middle: f64, words: &str, k: usize) {
+    let height = fitted(words, TEXT_SIZE, to - from - 2.0 * ARROW_WIDTH).max(0.6 * SMALL_TEXT_SIZE);
     pen.text((0.5 * (from + to), middle), TextAlign::Center, height, HudColor::White, words);
     for (edge, way, on) in [(from, -1.0, false), (to - ARROW_WIDTH, 1.0, true)] {
         let tip = edge + 0.5 * ARROW_WIDTH + way * 0.011;
         let base = edge + 0.5 * ARROW_WIDTH - way * 0.011;
         pen.fill(&[(tip, middle), (base, middle - 0.014), (base, middle + 0.014)], HudColor::White);
-        pen.click_area((edge, y), (ARROW_WIDTH, ROW_HEIGHT), KeyPress::Step(k, on));
+        pen.click_area((edge, middle - 0.5 * ROW_HEIGHT), (ARROW_WIDTH, ROW_HEIGHT), KeyPress::Step(k, on));
     }
 }
 
 /// Horizontal position of the value, as a fraction of the row's width, and the width of its arrows.
 const VALUE_START: f64 = 0.3;
 const ARROW_WIDTH: f64 = 0.06;
+/// Horizontal padding of a row.
+const PADDING: f64 = 0.02;
+/// Smallest size of a label relative to normal text; longer labels have several lines.
+const MIN_SHRINK: f64 = 0.7;
+/// Smallest width of a column of rows, and gap between columns.
+const MIN_COLUMN_WIDTH: f64 = 0.48;
+const COLUMN_GAP: f64 = 0.03;

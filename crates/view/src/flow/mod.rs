@@ -12,6 +12,9 @@ pub mod pipe;
 mod press;
 mod rows;
 mod school;
+mod scroll;
+mod settings;
+mod settings_page;
 pub mod sheet;
 mod start;
 mod summary;
@@ -23,7 +26,8 @@ pub use controls::ControllerStatus;
 pub use menu::{MenuAction, MenuRow, RowKind};
 pub use names::KeyNames;
 pub use page::{KeyPress, Page, ProfileChange, WindowRequest};
-pub use sheet::PageLayout;
+pub use settings::{KeyFunction, Setting, SettingChange, SettingsStatus};
+pub use sheet::{PageLayout, PictureSource};
 pub use tutorial::PICTURES;
 
 use crate::arrange::ViewLayout;
@@ -58,13 +62,26 @@ pub struct WindowFlow {
     /// Whether the pause was requested for a restart.
     restart_requested: bool,
     sound: bool,
+    settings: SettingsStatus,
+    /// Index of the function whose key the user is about to press.
+    awaited_key: Option<usize>,
+    /// Distance by which the user has scrolled the page, beyond what the focus needs, as a fraction of the window's height.
+    scrolled: f64,
+    /// Whether the page is scrolled to the focused row: not before the user has moved the focus.
+    follows_focus: bool,
     out: VecDeque<WindowRequest>,
 }
 
+impl Default for WindowFlow {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl WindowFlow {
-    /// Creates the initial state. `sound`: whether sound is on; `names`: display names of the keys.
+    /// Creates the initial state, with default settings.
     #[must_use]
-    pub fn new(sound: bool, names: KeyNames) -> Self {
+    pub fn new() -> Self {
         Self {
             page: Page::Opening,
             focus: 0,
@@ -76,20 +93,24 @@ impl WindowFlow {
             school: None,
             notice: None,
             tutorial_done: BTreeSet::new(),
-            names,
+            names: KeyNames::default(),
             waiting_for: "",
             arrangement: ViewLayout::default(),
             camera_aspect: 4.0 / 3.0,
             restart_requested: false,
-            sound,
+            sound: true,
+            settings: SettingsStatus::default(),
+            awaited_key: None,
+            scrolled: 0.0,
+            follows_focus: false,
             out: VecDeque::new(),
         }
     }
 
     /// Creates the state for watching a flight without controlling it; it shows only the flight page.
     #[must_use]
-    pub fn watch_only(sound: bool, names: KeyNames) -> Self {
-        Self { page: Page::Flight, ..Self::new(sound, names) }
+    pub fn watch_only() -> Self {
+        Self { page: Page::Flight, ..Self::new() }
     }
 
     /// Returns the current page.
@@ -119,7 +140,7 @@ impl WindowFlow {
     /// Checks whether the simulation is paused.
     #[must_use]
     pub fn is_paused(&self) -> bool {
-        self.page == Page::Paused
+        self.page == Page::Paused || self.settings_origin() == Some(true)
     }
 
     /// Checks whether the reference paths may be shown.
@@ -167,6 +188,7 @@ impl WindowFlow {
 
     fn show_page(&mut self, page: Page) {
         (self.page, self.focus) = (page, 0);
+        (self.scrolled, self.follows_focus, self.awaited_key) = (0.0, false, None);
     }
 
     fn send(&mut self, message: FromWindow) {
@@ -185,6 +207,8 @@ impl WindowFlow {
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Settings { .. }
+            | Page::Keys { .. }
             | Page::Briefing
             | Page::Waiting
             | Page::Flight
@@ -225,7 +249,7 @@ impl WindowFlow {
                 self.show_page(Page::Paused);
                 self.focus = usize::from(std::mem::take(&mut self.restart_requested));
             }
-            ToWindow::Paused { on: false } if self.page == Page::Paused => self.show_page(Page::Flight),
+            ToWindow::Paused { on: false } if self.is_paused() => self.show_page(Page::Flight),
             ToWindow::Paused { .. } => {}
             ToWindow::Refused { words } => {
                 self.notice = Some(words);

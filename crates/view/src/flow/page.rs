@@ -1,6 +1,7 @@
 //! Input events, pages, and requests of the window.
 
 use super::pipe::{FlightStarted, FromWindow};
+use super::settings::SettingChange;
 
 /// A change to a setting of a controller profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +52,16 @@ pub enum Page {
     Calibrating,
     /// Tutorial: current page number, and whether a flight follows.
     Tutorial(usize, bool),
+    /// Settings.
+    Settings {
+        /// Whether a flight is paused behind it.
+        in_flight: bool,
+    },
+    /// List of keys.
+    Keys {
+        /// Whether a flight is paused behind it.
+        in_flight: bool,
+    },
     /// Tasks, hazards and site check before the flight.
     Briefing,
     /// The simulator is starting.
@@ -90,6 +101,8 @@ pub enum WindowRequest {
     Open(String),
     /// Turn sound on or off.
     Sound(bool),
+    /// Apply and save this change to the settings.
+    ChangeSetting(SettingChange),
     /// Close the window.
     Close,
 }

@@ -2,6 +2,7 @@
 
 use super::menu::{MenuAction, MenuRow, RowKind};
 use super::pipe::{FlightChoice, FlightOptions, FlightSummary, FlownBy, FromWindow, NextJob, Purpose, SchoolRequest};
+use super::settings::SettingChange;
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
 
 /// Maximum length of a pseudonym.
@@ -15,6 +16,12 @@ impl WindowFlow {
     /// Handles a key press or click.
     pub fn press(&mut self, press: KeyPress) {
         self.notice = None;
+        if self.is_awaiting_key() {
+            // A click, because the host passes keys to `bind_key`.
+            self.bind_key(Some("escape"));
+            return;
+        }
+        (self.follows_focus, self.scrolled) = (true, 0.0);
         let rows = self.rows();
         let last = rows.len().saturating_sub(1);
         let kind = rows.get(self.focus).map(|row| row.kind);
@@ -22,7 +29,7 @@ impl WindowFlow {
             KeyPress::Up => self.focus = if self.focus == 0 { last } else { self.focus - 1 },
             KeyPress::Down => self.focus = if self.focus >= last { 0 } else { self.focus + 1 },
             // Left and right never press buttons, because a page may appear while a flight key is still pressed.
-            KeyPress::Left | KeyPress::Right if kind == Some(RowKind::Button) => {}
+            KeyPress::Left | KeyPress::Right if matches!(kind, Some(RowKind::Button | RowKind::KeyBinding)) => {}
             KeyPress::Left => self.step(&rows, false),
             KeyPress::Right => self.step(&rows, true),
             KeyPress::Enter => self.activate(&rows),
@@ -34,7 +41,7 @@ impl WindowFlow {
             KeyPress::Backspace | KeyPress::Char(_) => {}
             KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
-                if rows[row].kind == RowKind::Button {
+                if matches!(rows[row].kind, RowKind::Button | RowKind::KeyBinding) {
                     self.activate(&rows);
                 }
             }
@@ -82,13 +89,18 @@ impl WindowFlow {
                 let expo = (expo + EXPO_STEP * way).clamp(0.0, 1.0);
                 self.out.push_back(WindowRequest::ChangeProfile(ProfileChange::Expo(expo)));
             }
+            MenuAction::Setting(setting) => self.step_setting(setting, on),
             MenuAction::CheckController
             | MenuAction::OpenTutorial
             | MenuAction::School
             | MenuAction::Answer(_)
             | MenuAction::ContinueSchool
             | MenuAction::LeaveSchool
-            | MenuAction::Sound
+            | MenuAction::Settings
+            | MenuAction::Keys
+            | MenuAction::Key(_)
+            | MenuAction::RestoreKeys
+            | MenuAction::RestoreSettings
             | MenuAction::Quit
             | MenuAction::FindController
             | MenuAction::Calibrate
@@ -142,7 +154,8 @@ impl WindowFlow {
             | MenuAction::Purpose
             | MenuAction::Mode
             | MenuAction::DeadBand
-            | MenuAction::Expo => {
+            | MenuAction::Expo
+            | MenuAction::Setting(_) => {
                 self.focus = (self.focus + 1).min(rows.len().saturating_sub(1));
             }
             MenuAction::CheckController | MenuAction::FlyNext | MenuAction::WatchExpert | MenuAction::School
@@ -156,7 +169,11 @@ impl WindowFlow {
             MenuAction::Answer(number) => self.send(FromWindow::School(SchoolRequest::Answer(number))),
             MenuAction::ContinueSchool => self.send(FromWindow::School(SchoolRequest::Continue)),
             MenuAction::LeaveSchool => self.leave_school(),
-            MenuAction::Sound => self.toggle_sound(),
+            MenuAction::Settings => self.show_page(Page::Settings { in_flight: self.page == Page::Paused }),
+            MenuAction::Keys => self.show_page(Page::Keys { in_flight: self.is_paused() }),
+            MenuAction::Key(index) => self.await_key(index),
+            MenuAction::RestoreKeys => self.restore_keys(),
+            MenuAction::RestoreSettings => self.change(SettingChange::RestoreAll),
             MenuAction::FindController => self.out.push_back(WindowRequest::FindController),
             MenuAction::Calibrate => self.out.push_back(WindowRequest::Calibrate),
             MenuAction::Fly if self.choice.purpose == Purpose::Practice && self.needs_tutorial() => {
@@ -282,6 +299,8 @@ impl WindowFlow {
             | Page::Controls
             | Page::Calibrating
             | Page::Tutorial(..)
+            | Page::Settings { .. }
+            | Page::Keys { .. }
             | Page::Briefing
             | Page::Waiting
             | Page::Flight
@@ -301,6 +320,9 @@ impl WindowFlow {
     fn back(&mut self) {
         match self.page {
             Page::Controls | Page::Tutorial(0, false) => self.show_page(Page::Start),
+            Page::Keys { in_flight } => self.show_page(Page::Settings { in_flight }),
+            Page::Settings { in_flight: true } => self.show_page(Page::Paused),
+            Page::Settings { in_flight: false } => self.show_page(Page::Start),
             Page::Tutorial(0, true) | Page::Briefing => self.show_page(Page::Controls),
             Page::Tutorial(page, flight) => self.show_page(Page::Tutorial(page - 1, flight)),
             Page::Calibrating => self.out.push_back(WindowRequest::Cancel),

@@ -18,10 +18,13 @@ impl WindowFlow {
                 ]
             }
             Page::Tutorial(page, flight) => tutorial_rows(page, flight),
+            Page::Settings { .. } => self.settings_rows(),
+            Page::Keys { .. } => self.key_rows(),
             Page::Briefing => briefing::rows(),
             Page::Paused => vec![
                 MenuRow::button(MenuAction::Resume, "Resume (Esc)"),
                 MenuRow::button(MenuAction::Restart, "Restart"),
+                MenuRow::button(MenuAction::Settings, "Settings and keys"),
                 MenuRow::button(MenuAction::End, "End session"),
             ],
             Page::ConfirmEnd => {
@@ -46,7 +49,7 @@ impl WindowFlow {
             MenuRow::button(MenuAction::WatchExpert, "Watch an expert fly this job"),
             MenuRow::button(MenuAction::OpenTutorial, "Read the tutorial"),
             MenuRow::button(MenuAction::School, "Defect school: recognize defects in pictures"),
-            MenuRow::button(MenuAction::Sound, if self.sound { "Sound: on" } else { "Sound: off" }),
+            MenuRow::button(MenuAction::Settings, "Settings: keys, units, text size, sound"),
             MenuRow::button(MenuAction::Quit, "Quit"),
         ];
         // The trainee comes first, because the recommendation depends on it.

@@ -2,8 +2,8 @@
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::SchoolPage;
-use super::sheet::{PageWriter, PictureSource, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, text_width};
-use crate::hud::{HudColor, TextAlign};
+use super::sheet::{PageWriter, PictureSource, SMALL_TEXT_SIZE, TEXT_SIZE};
+use crate::hud::HudColor;
 
 /// Left margin.
 const LEFT: f64 = 0.04;
@@ -33,16 +33,19 @@ pub fn rows(shown: &SchoolPage) -> Vec<MenuRow> {
 
 /// Draws the page.
 pub fn page(pen: &mut PageWriter, shown: &SchoolPage, rows: &[MenuRow], focus: usize) {
-    let height = TITLE_SIZE.min((pen.width - 2.0 * LEFT) / text_width(&shown.title, 1.0));
-    pen.text((LEFT, 0.08), TextAlign::Left, height, HudColor::White, shown.title.clone());
-    let mut x = LEFT;
+    let whole = pen.width - 2.0 * LEFT;
+    pen.title((LEFT, 0.08), whole, &shown.title);
+    let (mut x, mut y) = (LEFT, TOP + 0.02);
     if let Some(picture) = &shown.picture {
-        let width = (PICTURE_SHARE * pen.width).min(PICTURE_ASPECT * (1.0 - TOP - BOTTOM));
-        pen.picture_from(PictureSource::File(picture.clone()), (LEFT, TOP), (width, width / PICTURE_ASPECT));
-        x += width + LEFT;
+        // In a narrow window, the text stands below the picture.
+        let narrow = pen.is_narrow();
+        let share = if narrow { whole } else { PICTURE_SHARE * pen.width };
+        let width = share.min(PICTURE_ASPECT * (1.0 - TOP - BOTTOM));
+        let height = width / PICTURE_ASPECT;
+        pen.picture_from(PictureSource::File(picture.clone()), (LEFT, TOP), (width, height));
+        (x, y) = if narrow { (LEFT, TOP + height + 0.04) } else { (x + width + LEFT, y) };
     }
     let width = pen.width - x - LEFT;
-    let mut y = TOP + 0.02;
     for (k, words) in shown.lines.iter().enumerate() {
         // The verdict stands out.
         let (size, color) = match (k, shown.right) {

@@ -1,35 +1,66 @@
 //! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
 
 use super::pipe::{JobOffer, Purpose, TraineeSummary};
-use super::sheet::{LINE_SPACING, PageLayout, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, wrap_text};
+use super::scroll::ScrollRange;
+use super::sheet::{
+    LINE_SPACING, PageLayout, PageWriter, PictureSource, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, fitted, wrap_text,
+};
 use super::{Page, WindowFlow, briefing, controls, menu, paused, school, summary, tutorial};
-use crate::hud::{HudColor, TextAlign};
+use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
+use crate::job_picture;
 
 impl WindowFlow {
     /// Returns the page for a window with the given aspect ratio (width over height). During a flight, it contains only
     /// the button.
     #[must_use]
     pub fn sheet(&self, aspect: f64) -> PageLayout {
+        if self.page == Page::Flight {
+            return paused::button(self, PageWriter::new(aspect, self.style()));
+        }
+        let mut content = self.content(aspect);
+        let range = self.scroll_range(&content, aspect);
+        content.move_up(range.distance(self.scrolled));
+        let mut page = PageLayout::default();
+        if !self.is_dialog_open() {
+            page.items.push(DrawItem::Fill { points: WHOLE_WINDOW.to_vec(), color: HudColor::PageBackground });
+        }
+        page.append(content);
+        page.items.extend(range.bar(self.scrolled));
+        page.append(self.notice_layout(aspect));
+        page
+    }
+
+    /// Returns the notice; nothing without one, or over a flight.
+    fn notice_layout(&self, aspect: f64) -> PageLayout {
+        let mut pen = PageWriter::new(aspect, self.style());
+        if let Some(words) = self.notice.as_ref().filter(|_| !self.is_dialog_open()) {
+            draw_notice(&mut pen, words);
+        }
+        pen.done()
+    }
+
+    /// Scrolls the page by a fraction of the window's height.
+    pub fn scroll(&mut self, by: f64, aspect: f64) {
+        let range = self.scroll_range(&self.content(aspect), aspect);
+        self.scrolled = range.distance(self.scrolled + by) - range.focused;
+    }
+
+    fn scroll_range(&self, content: &PageLayout, aspect: f64) -> ScrollRange {
+        ScrollRange::of(content, self.follows_focus.then_some(self.focus), self.notice_layout(aspect).top().unwrap_or(1.0))
+    }
+
+    /// Returns the contents of the page, which may be higher than the window.
+    fn content(&self, aspect: f64) -> PageLayout {
         let rows = self.rows();
-        let mut pen = PageWriter::new(aspect);
+        let mut pen = PageWriter::new(aspect, self.style());
         match self.page {
-            Page::Flight => return paused::button(self, pen),
             Page::Paused => return paused::page(pen, &paused::PAUSE_TEXT, &rows, self.focus),
             Page::ConfirmEnd => return paused::page(pen, &paused::END_TEXT, &rows, self.focus),
-            Page::Opening
-            | Page::Start
-            | Page::Controls
-            | Page::Calibrating
-            | Page::Tutorial(..)
-            | Page::Briefing
-            | Page::Waiting
-            | Page::Results
-            | Page::School => pen.ground(HudColor::PageBackground),
-        }
-        match self.page {
             Page::Start => self.start(&mut pen, &rows),
             Page::Controls | Page::Calibrating => controls::page(&mut pen, &self.controls, &rows, self.focus),
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
+            Page::Settings { .. } => self.draw_settings(&mut pen, &rows),
+            Page::Keys { .. } => self.draw_keys(&mut pen, &rows),
             Page::Briefing => match self.chosen_job() {
                 Some(job) => briefing::page(&mut pen, job, &rows, self.focus),
                 None => waiting(&mut pen, self.waiting_for),
@@ -41,27 +72,41 @@ impl WindowFlow {
                 }
             }
             Page::Waiting => waiting(&mut pen, self.waiting_for),
-            Page::Opening | Page::Flight | Page::Paused | Page::ConfirmEnd => waiting(&mut pen, "Spandrel"),
-        }
-        if let Some(words) = &self.notice {
-            draw_notice(&mut pen, words);
+            Page::Opening | Page::Flight => waiting(&mut pen, "Spandrel"),
         }
         pen.done()
     }
 
     fn start(&self, pen: &mut PageWriter, rows: &[menu::MenuRow]) {
-        let left = 0.04;
-        pen.text((left, 0.08), TextAlign::Left, TITLE_SIZE, HudColor::White, "Spandrel: inspect a bridge with a drone");
-        let half = 0.56 * pen.width;
-        menu::draw(pen, (left, 0.17), half, rows, self.focus);
+        let (left, narrow) = (0.04, pen.is_narrow());
+        let whole = pen.width - 2.0 * left;
+        pen.title((left, 0.08), whole, "Spandrel: inspect a bridge with a drone");
+        let half = if narrow { whole } else { 0.56 * pen.width };
+        let bottom = menu::draw(pen, (left, 0.17), half, rows, self.focus);
         let help = "Up/down select, left/right change, Enter confirm; or click.";
-        let bottom = 0.17 + menu::ROW_SPACING * rows.len() as f64;
-        pen.text((left, bottom + 0.03), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, help);
-        let (x, width) = (left + half + 0.06, pen.width - half - left - 0.08);
-        let mut y = 0.19;
-        for (head, words) in self.choice_explanation() {
-            pen.text((x, y), TextAlign::Left, TEXT_SIZE, HudColor::Yellow, head);
-            y = pen.lines((x, y + 0.052), width, SMALL_TEXT_SIZE, HudColor::White, &words) + 0.03;
+        let bottom = pen.lines((left, bottom + 0.03), half, SMALL_TEXT_SIZE, HudColor::Gray, help);
+        let (x, top) = if narrow { (left, bottom + 0.04) } else { (left + half + 0.06, 0.19) };
+        let width = if narrow { whole } else { pen.width - half - left - 0.08 };
+        self.explain_choice(pen, (x, top), width);
+    }
+
+    /// Draws what the selected values mean, and the picture of the job.
+    fn explain_choice(&self, pen: &mut PageWriter, (x, top): (f64, f64), width: f64) {
+        let told = self.choice_explanation();
+        let text_height = |words: &str| LINE_SPACING * SMALL_TEXT_SIZE * wrap_text(words, width, SMALL_TEXT_SIZE).len() as f64;
+        let texts: f64 = told.iter().map(|(_, words)| HEADING_HEIGHT + text_height(words) + BLOCK_GAP).sum();
+        // The picture takes the space that the texts leave.
+        let room = pen.height - 0.03 - top - texts - BLOCK_GAP;
+        let height = room.clamp(PICTURE_HEIGHTS.0, PICTURE_HEIGHTS.1).min(width / job_picture::ASPECT);
+        let mut y = top;
+        for (head, words) in told {
+            pen.text((x, y), TextAlign::Left, fitted(head, TEXT_SIZE, width), HudColor::Yellow, head);
+            y = pen.lines((x, y + HEADING_HEIGHT), width, SMALL_TEXT_SIZE, HudColor::White, &words) + BLOCK_GAP;
+            if head == JOB_HEADING {
+                let place = (x, y - BLOCK_GAP - 0.3 * SMALL_TEXT_SIZE);
+                pen.picture_from(PictureSource::Job(self.choice.scenario.clone()), place, (height * job_picture::ASPECT, height));
+                y += height + BLOCK_GAP;
+            }
         }
     }
 
@@ -98,7 +143,7 @@ impl WindowFlow {
             Purpose::Practice => "You can pause and restart; the map shows the paths.",
             Purpose::Assessment => "One attempt: no pause, restart, or map.",
         };
-        let mut told = vec![("Trainee", who), ("Job", job), ("Purpose", purpose.to_owned())];
+        let mut told = vec![("Trainee", who), (JOB_HEADING, job), ("Purpose", purpose.to_owned())];
         if let Some(web) = offers.and_then(|o| o.web.as_ref()) {
             told.push(("View sessions in browser", web.clone()));
         }
@@ -106,22 +151,33 @@ impl WindowFlow {
     }
 }
 
+/// Heading of the job's description.
+const JOB_HEADING: &str = "Job";
+/// Height of a heading with its gap, and gap between two blocks.
+const HEADING_HEIGHT: f64 = 0.052;
+const BLOCK_GAP: f64 = 0.03;
+/// Smallest and largest height of the job's picture.
+const PICTURE_HEIGHTS: (f64, f64) = (0.15, 0.34);
+/// Corners of the window.
+const WHOLE_WINDOW: [ScreenPoint; 4] = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+
 /// Draws a notice along the bottom of the page, over its content.
 fn draw_notice(pen: &mut PageWriter, words: &str) {
-    let (width, margin) = (pen.width, 0.04);
-    let lines = wrap_text(words, width - 2.0 * margin, TEXT_SIZE);
+    const MARGIN: f64 = 0.04;
+    let (width, end) = (pen.width, pen.height - 0.015);
+    let lines = wrap_text(words, width - 2.0 * MARGIN, TEXT_SIZE);
     let high = LINE_SPACING * TEXT_SIZE * lines.len() as f64 + 0.025;
-    let top = (0.985 - high).max(0.0);
-    pen.panel((0.0, top), (width, high), HudColor::InputField);
+    let top = (end - high).max(0.0);
+    pen.panel((0.0, top), (width, (end - top).max(0.0)), HudColor::InputField);
     for (k, line) in lines.into_iter().enumerate() {
         let y = top + 0.0125 + LINE_SPACING * TEXT_SIZE * (k as f64 + 0.5);
-        if y < 0.985 {
+        if y < end {
             pen.text((0.5 * width, y), TextAlign::Center, TEXT_SIZE, HudColor::Yellow, line);
         }
     }
 }
 
 fn waiting(pen: &mut PageWriter, words: &str) {
-    let middle = 0.5 * pen.width;
-    pen.text((middle, 0.45), TextAlign::Center, TITLE_SIZE, HudColor::White, words);
+    let size = fitted(words, TITLE_SIZE, pen.width - 0.08);
+    pen.text((0.5 * pen.width, 0.45 * pen.height), TextAlign::Center, size, HudColor::White, words);
 }

@@ -2,13 +2,16 @@
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{FlightSummary, SCORE_NAMES};
-use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, TITLE_SIZE, text_width};
+use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE};
 use crate::hud::{HudColor, TextAlign};
 
 /// Left margin.
 const LEFT: f64 = 0.04;
 /// Vertical distance between the bars of two scores.
 const BAR_SPACING: f64 = 0.055;
+/// Smallest width for a score's name and bar on one line, and height of the name above the bar otherwise.
+const MIN_BAR_LINE_WIDTH: f64 = 0.66;
+const NAME_HEIGHT: f64 = 0.05;
 
 /// Checks whether a browser can open the address.
 fn is_openable(address: &str) -> bool {
@@ -36,13 +39,18 @@ pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
 }
 
 pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow], focus: usize) {
-    let half = 0.52 * pen.width;
     let Some(ended) = ended else { return };
+    let whole = pen.width - 2.0 * LEFT;
+    let half = if pen.is_narrow() { whole } else { 0.52 * pen.width };
     let top = headline(pen, ended);
     let top = to_do_better(pen, &ended.advice, top) + 0.03;
     let bottom = scores(pen, (LEFT, top), half, ended);
-    locations(pen, bottom + 0.02, half, ended);
-    menu::draw(pen, (LEFT + half + 0.08, top), pen.width - half - 2.0 * LEFT - 0.08, rows, focus);
+    let bottom = locations(pen, bottom + 0.02, half, ended);
+    if pen.is_narrow() {
+        menu::draw(pen, (LEFT, bottom + 0.02), whole, rows, focus);
+    } else {
+        menu::draw(pen, (LEFT + half + 0.08, top), whole - half - 0.08, rows, focus);
+    }
 }
 
 /// Draws how much of the job was done and why the flight ended, and returns the y position below.
@@ -51,9 +59,8 @@ fn headline(pen: &mut PageWriter, ended: &FlightSummary) -> f64 {
         Some(words) if !ended.complete => (words.as_str(), format!("{}. The scores cover the part you flew.", ended.why)),
         _ => ("Flight ended", ended.why.clone()),
     };
-    // Shrinks the headline to fit on one line; its length depends on the job.
-    let height = TITLE_SIZE.min((pen.width - 2.0 * LEFT) / text_width(title, 1.0));
-    pen.text((LEFT, 0.08), TextAlign::Left, height, HudColor::White, title);
+    // The headline's length depends on the job.
+    pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, title);
     pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &note)
 }
 
@@ -76,10 +83,11 @@ fn to_do_better(pen: &mut PageWriter, advice: &[String], top: f64) -> f64 {
 
 /// Draws the four scores, their sum and the verdict, and returns the y position below.
 fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &FlightSummary) -> f64 {
+    let spacing = if width < MIN_BAR_LINE_WIDTH { BAR_SPACING + NAME_HEIGHT } else { BAR_SPACING };
     for (k, (name, score)) in SCORE_NAMES.iter().zip(&ended.scores).enumerate() {
-        bar(pen, (left, top + BAR_SPACING * k as f64), width, name, score.map(|score| score.pct));
+        bar(pen, (left, top + spacing * k as f64), width, name, score.map(|score| score.pct));
     }
-    let mut y = top + BAR_SPACING * SCORE_NAMES.len() as f64 + 0.02;
+    let mut y = top + spacing * SCORE_NAMES.len() as f64 + 0.02;
     let overall = match ended.overall {
         Some((sum, most)) => Some(format!("overall  {sum:.1} of {most:.0}")),
         None => ended.scores.iter().all(Option::is_none).then(|| "no scores".to_owned()),
@@ -94,23 +102,28 @@ fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &Fli
     }
 }
 
-/// Draws what no button opens.
-fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) {
+/// Draws what no button opens, and returns the y position below.
+fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) -> f64 {
     let mut y = y;
     let report = ended.report.is_none().then_some("not available");
     let questionnaire = Some(ended.questionnaire.as_str()).filter(|address| !address.is_empty() && !is_openable(address));
     for (name, words) in [("report", report), ("questionnaire", questionnaire)] {
         let Some(words) = words else { continue };
         pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);
-        y = pen.lines((LEFT + 0.24, y), width - 0.24, SMALL_TEXT_SIZE, HudColor::White, words);
+        let (indent, down) = if width < MIN_BAR_LINE_WIDTH { (0.0, LINE_SPACING * SMALL_TEXT_SIZE) } else { (0.24, 0.0) };
+        y = pen.lines((LEFT + indent, y + down), width - indent, SMALL_TEXT_SIZE, HudColor::White, words);
     }
+    y
 }
 
 /// Draws a score as a bar from 0 to 100 with its value.
 fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Option<f64>) {
     const BAR_HEIGHT: f64 = 0.042;
-    let (from, full) = (x + 0.28, width - 0.44);
     pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, TEXT_SIZE, HudColor::White, name);
+    // In a narrow window, the bar stands below its name.
+    let is_narrow = width < MIN_BAR_LINE_WIDTH;
+    let y = if is_narrow { y + NAME_HEIGHT } else { y };
+    let (from, full) = if is_narrow { (x, width - 0.16) } else { (x + 0.28, width - 0.44) };
     pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
     let Some(pct) = pct else {
         pen.text((from + 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, "not applicable");

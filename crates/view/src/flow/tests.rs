@@ -4,9 +4,13 @@ use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, JobBriefing, JobOffer, NextJob,
     Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
-use super::sheet::PictureSource;
-use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
-use crate::hud::{DrawItem, ScreenPoint};
+use super::sheet::{PageLayout, PictureSource};
+use super::{
+    ControllerStatus, KeyFunction, KeyPress, MenuAction, PICTURES, Page, ProfileChange, Setting, SettingChange, SettingsStatus,
+    WindowFlow, WindowRequest,
+};
+use crate::hud::text_metrics::text_width;
+use crate::hud::{DisplayStyle, DisplayUnits, DrawItem, ScreenPoint, TextAlign, TextScale};
 use crate::path_guide::PathAids;
 use std::net::SocketAddr;
 
@@ -69,16 +73,24 @@ fn ended() -> FlightSummary {
     }
 }
 
-/// Returns key names that do not occur elsewhere on a page.
-fn names() -> KeyNames {
+/// Returns settings with key names that do not occur elsewhere on a page.
+fn settings() -> SettingsStatus {
     let sticks = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right"];
     let rest =
         ["swap", "follow", "pause", "arm", "take_off", "land", "lamp", "snapshot", "gimbal_up", "gimbal_down", "camera_zoom_in"];
-    KeyNames::new(sticks.into_iter().chain(rest).map(|duty| (duty, format!("<{duty}>"))).collect())
+    let function = |binding: &'static str| KeyFunction { binding, title: binding.replace('_', " "), key: format!("<{binding}>") };
+    let keys = sticks.into_iter().chain(rest).map(function).collect();
+    SettingsStatus { is_sound_on: true, keys, ..SettingsStatus::default() }
+}
+
+fn opened() -> WindowFlow {
+    let mut flow = WindowFlow::new();
+    flow.update_settings(settings());
+    flow
 }
 
 fn started() -> WindowFlow {
-    let mut flow = WindowFlow::new(true, names());
+    let mut flow = opened();
     flow.handle_message(ToWindow::Offers(offers()));
     flow
 }
@@ -128,7 +140,7 @@ fn exact_the_recommended_job_is_one_key_away_before_and_after_a_flight() {
     offers.lesson = job("first-flight", "Lesson: first flight");
     offers.trainees[0].next = job("drill-hover", "Drill: hover");
     offers.trainees[0].last = Some("You hit the bridge twice.".into());
-    let mut flow = WindowFlow::new(true, names());
+    let mut flow = opened();
     flow.handle_message(ToWindow::Offers(offers));
     assert!(words(&flow).contains("Recommended: Drill: hover") && words(&flow).contains("Last flight:"));
     press(&mut flow, &[KeyPress::Down, KeyPress::Enter]);
@@ -280,7 +292,7 @@ fn exact_pages_show_bound_keys_and_the_pending_operation() {
     }
     assert!(["<swap>", "<follow>", "<lamp>", "<pause>"].into_iter().all(|key| seen.contains(key)), "{seen}");
     flight.handle_message(ToWindow::Paused { on: true });
-    press(&mut flight, &[KeyPress::Row(2)]);
+    press(&mut flight, &[KeyPress::Row(3)]);
     assert!(words(&flight).contains("Scoring"), "{}", words(&flight));
     flight.handle_message(ToWindow::Refused { words: "a word ".repeat(80) });
     let lines = words(&flight).lines().filter(|line| line.contains("a word")).count();
@@ -380,7 +392,7 @@ fn exact_profile_changes_in_steps_within_its_range() {
 
 /// Returns every page.
 fn every_page() -> Vec<(String, WindowFlow)> {
-    let mut all = vec![("opening".to_owned(), WindowFlow::new(true, names())), ("start".to_owned(), started())];
+    let mut all = vec![("opening".to_owned(), opened()), ("start".to_owned(), started())];
     let mut controls = started();
     controls.press(KeyPress::Row(3));
     controls.controls.keys = "w up\ns down\n1 arm".into();
@@ -418,6 +430,18 @@ fn every_page() -> Vec<(String, WindowFlow)> {
     all.push(("leaving".into(), leaving));
     paused.handle_message(ToWindow::Ended(ended()));
     all.push(("over".into(), paused));
+    let mut settings = started();
+    open(&mut settings, MenuAction::Settings);
+    all.push(("settings".into(), settings.clone()));
+    open(&mut settings, MenuAction::Keys);
+    all.push(("keys".into(), settings.clone()));
+    open(&mut settings, MenuAction::Key(3));
+    all.push(("keys-awaiting".into(), settings));
+    let mut briefed = started();
+    briefed.handle_message(ToWindow::Offers(briefed_offers()));
+    open(&mut briefed, MenuAction::CheckController);
+    open(&mut briefed, MenuAction::Fly);
+    all.push(("briefing".into(), briefed));
     all.extend(school_pages());
     all
 }
@@ -481,6 +505,220 @@ fn exact_school_asks_until_the_trainee_leaves() {
     assert_eq!(flow.page(), Page::Start, "a late page must not return");
 }
 
+/// Clicks the row with this action.
+fn open(flow: &mut WindowFlow, action: MenuAction) {
+    let row = flow.rows().iter().position(|row| row.action == action).unwrap();
+    flow.press(KeyPress::Row(row));
+}
+
+/// Returns the offers with a long briefing.
+fn briefed_offers() -> FlightOptions {
+    let mut offers = offers();
+    offers.scenarios[1].briefing = long_briefing();
+    offers
+}
+
+/// Returns the same page with these units and this text size.
+fn styled(flow: &WindowFlow, style: DisplayStyle) -> WindowFlow {
+    let mut flow = flow.clone();
+    flow.update_settings(SettingsStatus { style, ..settings() });
+    flow
+}
+
+/// Returns the texts of a page with their rectangles: left, top, right, bottom, in units of the window's height.
+fn text_places(page: &PageLayout, aspect: f64) -> Vec<([f64; 4], String)> {
+    let of = |item: &DrawItem| match item {
+        DrawItem::Text { place, side, height, words, .. } => {
+            let wide = text_width(words, *height);
+            let left = place.x * aspect
+                - match side {
+                    TextAlign::Left => 0.0,
+                    TextAlign::Center => 0.5 * wide,
+                    TextAlign::Right => wide,
+                };
+            Some(([left, place.y - 0.5 * height, left + wide, place.y + 0.5 * height], words.clone()))
+        }
+        DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+    };
+    page.items.iter().filter_map(of).collect()
+}
+
+/// Window shapes: 1280x720, 1920x1080 and 3840x2160 px, 1000x1000 px, and some more.
+const ASPECTS: [f64; 5] = [1.0, 4.0 / 3.0, 16.0 / 9.0, 1600.0 / 560.0, 1280.0 / 360.0];
+
+#[test]
+fn prop_words_stay_apart_and_in_the_window_at_any_text_size() {
+    let mut problems = Vec::new();
+    for (name, flow) in every_page() {
+        // Labels on the tutorial's pictures and the numbers of the display in them may cover each other.
+        if name.starts_with("tutorial") {
+            continue;
+        }
+        for (text_scale, units, aspect) in TextScale::ALL
+            .into_iter()
+            .flat_map(|scale| DisplayUnits::ALL.into_iter().flat_map(move |units| ASPECTS.map(|aspect| (scale, units, aspect))))
+        {
+            let flow = styled(&flow, DisplayStyle { units, text_scale });
+            let texts = text_places(&flow.sheet(aspect), aspect);
+            let what = format!("{name}, {}%, {}, aspect {aspect:.2}", text_scale.pct(), units.word());
+            for (k, (place, words)) in texts.iter().enumerate() {
+                if place[0] < -0.005 || place[2] > aspect + 0.005 {
+                    problems.push(format!("{what}: '{words}' at {place:?} leaves the window"));
+                }
+                for (other, over) in &texts[..k] {
+                    let gaps = [place[0] - other[2], other[0] - place[2], place[1] - other[3], other[1] - place[3]];
+                    if gaps.iter().all(|gap| *gap < -1e-3) {
+                        problems.push(format!("{what}: '{words}' overlaps '{over}'"));
+                    }
+                }
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+#[test]
+fn prop_the_focused_row_is_visible_and_everything_can_be_scrolled_to_at_any_text_size() {
+    for (name, flow) in every_page() {
+        for (text_scale, aspect) in TextScale::ALL.into_iter().flat_map(|scale| ASPECTS.map(|aspect| (scale, aspect))) {
+            let mut flow = styled(&flow, DisplayStyle { text_scale, ..DisplayStyle::default() });
+            let what = format!("{name}, {}%, aspect {aspect:.2}", text_scale.pct());
+            if !flow.is_awaiting_key() {
+                for _ in 0..flow.rows().len() {
+                    flow.press(KeyPress::Down);
+                    let page = flow.sheet(aspect);
+                    let row = page.click_areas.iter().find(|area| area.press == KeyPress::Row(flow.focus)).unwrap();
+                    assert!(row.from.y >= 0.0 && row.to.y <= 1.0, "{what}: row {} at {row:?}", flow.focus);
+                }
+            }
+            flow.scroll(100.0, aspect);
+            let bottom = flow.sheet(aspect).bottom();
+            assert!(bottom <= 1.0 + 1e-9, "{what}: the page ends at {bottom}");
+            flow.scroll(-100.0, aspect);
+            let top = text_places(&flow.sheet(aspect), aspect).iter().map(|(place, _)| place[1]).fold(f64::INFINITY, f64::min);
+            assert!(flow.page() == Page::Flight || top >= 0.0, "{what}: the page begins at {top}");
+        }
+    }
+}
+
+#[test]
+fn exact_a_notice_does_not_cover_the_focused_row() {
+    for text_scale in TextScale::ALL {
+        let mut flow = styled(&started(), DisplayStyle { text_scale, ..DisplayStyle::default() });
+        open(&mut flow, MenuAction::Settings);
+        open(&mut flow, MenuAction::Keys);
+        for _ in 0..11 {
+            flow.press(KeyPress::Down);
+        }
+        flow.show_notice("L: take off. The key was taken: land now has T.".to_owned());
+        for aspect in ASPECTS {
+            let page = flow.sheet(aspect);
+            let row = page.click_areas.iter().find(|area| area.press == KeyPress::Row(11)).unwrap();
+            let notice = text_places(&page, aspect).into_iter().find(|(_, words)| words.starts_with("L: take")).unwrap();
+            assert!(row.from.y >= 0.0 && row.to.y <= notice.0[1], "{text_scale:?}, {aspect}: {row:?}, {notice:?}");
+        }
+    }
+}
+
+#[test]
+fn exact_a_key_is_bound_after_enter_and_escape_cancels() {
+    let mut flow = started();
+    open(&mut flow, MenuAction::Settings);
+    open(&mut flow, MenuAction::Keys);
+    assert_eq!((flow.page(), flow.is_awaiting_key()), (Page::Keys { in_flight: false }, false));
+    flow.bind_key(Some("x"));
+    press(&mut flow, &[KeyPress::Down, KeyPress::Enter]);
+    assert!(flow.is_awaiting_key() && words(&flow).contains("press a key"), "{}", words(&flow));
+    flow.bind_key(None);
+    assert!(flow.is_awaiting_key() && flow.notice().is_some_and(|words| words.contains("cannot be used")));
+    flow.bind_key(Some("escape"));
+    assert!(!flow.is_awaiting_key() && pending_requests(&mut flow).is_empty(), "nothing has changed yet");
+    press(&mut flow, &[KeyPress::Enter]);
+    flow.bind_key(Some("x"));
+    assert!(!flow.is_awaiting_key());
+    let wanted = WindowRequest::ChangeSetting(SettingChange::Key(1, "x".into()));
+    assert_eq!(pending_requests(&mut flow), [wanted]);
+    // A click elsewhere also cancels.
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Row(0)]);
+    assert!(!flow.is_awaiting_key() && pending_requests(&mut flow).is_empty());
+    open(&mut flow, MenuAction::RestoreKeys);
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::ChangeSetting(SettingChange::RestoreKeys)]);
+    press(&mut flow, &[KeyPress::Escape, KeyPress::Escape]);
+    assert_eq!(flow.page(), Page::Start);
+}
+
+#[test]
+fn exact_pages_name_the_new_key_after_a_change() {
+    let mut changed = settings();
+    let lamp = changed.keys.iter_mut().find(|function| function.binding == "lamp").unwrap();
+    lamp.key = "<new lamp key>".into();
+    let mut seen = String::new();
+    for (_, mut flow) in every_page() {
+        flow.update_settings(changed.clone());
+        seen.push_str(&words(&flow));
+    }
+    assert!(seen.contains("<new lamp key>") && !seen.contains("<lamp>"), "{seen}");
+}
+
+#[test]
+fn exact_keys_of_a_file_on_the_command_line_are_shown_but_not_changed() {
+    let mut flow = started();
+    flow.update_settings(SettingsStatus { fixed_keys: Some("mine.toml".into()), ..settings() });
+    open(&mut flow, MenuAction::Settings);
+    open(&mut flow, MenuAction::Keys);
+    for action in [MenuAction::Key(0), MenuAction::RestoreKeys] {
+        open(&mut flow, action);
+        assert!(!flow.is_awaiting_key() && pending_requests(&mut flow).is_empty(), "{action:?}");
+        assert!(flow.notice().is_some_and(|words| words.contains("mine.toml")), "{action:?}");
+    }
+}
+
+#[test]
+fn exact_settings_change_in_steps_and_stop_at_the_ends() {
+    let mut flow = started();
+    open(&mut flow, MenuAction::Settings);
+    let step = |flow: &mut WindowFlow, setting: Setting, on: bool| {
+        let row = flow.rows().iter().position(|row| row.action == MenuAction::Setting(setting)).unwrap();
+        flow.press(KeyPress::Step(row, on));
+        let requests = pending_requests(flow);
+        for request in &requests {
+            if let WindowRequest::ChangeSetting(SettingChange::Style(style)) = request {
+                flow.update_settings(SettingsStatus { style: *style, ..flow.settings.clone() });
+            }
+            if let WindowRequest::ChangeSetting(SettingChange::Sounds(sounds)) = request {
+                flow.update_settings(SettingsStatus { sounds: *sounds, ..flow.settings.clone() });
+            }
+        }
+        requests
+    };
+    for wanted in [125, 150, 200, 200] {
+        step(&mut flow, Setting::TextScale, true);
+        assert_eq!(flow.style().text_scale.pct(), wanted);
+    }
+    step(&mut flow, Setting::Units, true);
+    assert_eq!(flow.style().units, DisplayUnits::UsCustomary);
+    for wanted in [0.8, 0.9, 1.0, 1.0] {
+        step(&mut flow, Setting::Volume, true);
+        assert_eq!(flow.settings.sounds.volume, wanted);
+    }
+    let quality = |quality| vec![WindowRequest::ChangeSetting(SettingChange::Quality(quality))];
+    assert_eq!(step(&mut flow, Setting::Quality, true), quality(Some("low")));
+    assert_eq!(step(&mut flow, Setting::Quality, false), quality(None));
+    assert_eq!(step(&mut flow, Setting::Sound, true), [WindowRequest::Sound(false)]);
+}
+
+#[test]
+fn exact_settings_behind_a_pause_keep_the_flight_paused() {
+    let mut flow = in_flight(Purpose::Practice);
+    flow.handle_message(ToWindow::Paused { on: true });
+    open(&mut flow, MenuAction::Settings);
+    assert!(flow.page() == Page::Settings { in_flight: true } && flow.is_paused());
+    open(&mut flow, MenuAction::Keys);
+    assert!(flow.page() == Page::Keys { in_flight: true } && flow.is_paused());
+    press(&mut flow, &[KeyPress::Escape, KeyPress::Escape]);
+    assert!(flow.page() == Page::Paused && flow.is_paused() && pending_requests(&mut flow).is_empty());
+}
+
 #[test]
 fn prop_pages_fit_windows_of_any_aspect_ratio() {
     for aspect in [4.0 / 3.0, 16.0 / 9.0, 1600.0 / 560.0, 1280.0 / 360.0] {
@@ -499,6 +737,7 @@ fn prop_pages_fit_windows_of_any_aspect_ratio() {
             let is_known = |source: &PictureSource| match source {
                 PictureSource::Embedded(name) => PICTURES.iter().any(|known| known.0 == *name),
                 PictureSource::File(path) => path == SCHOOL_PICTURE,
+                PictureSource::Job(job) => offers().scenarios.iter().any(|known| known.name == *job),
             };
             assert!(sheet.pictures.iter().all(|picture| is_known(&picture.source)), "{name}");
             assert!(
@@ -544,9 +783,7 @@ fn long_briefing() -> JobBriefing {
 #[test]
 fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
     let mut flow = started();
-    let mut offers = offers();
-    offers.scenarios[1].briefing = long_briefing();
-    flow.handle_message(ToWindow::Offers(offers));
+    flow.handle_message(ToWindow::Offers(briefed_offers()));
     press(&mut flow, &[KeyPress::Down, KeyPress::Down, KeyPress::Down, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Controls);
     press(&mut flow, &[KeyPress::Enter]);
@@ -561,9 +798,7 @@ fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
 #[test]
 fn prop_briefing_is_complete_and_does_not_overlap_at_any_aspect_ratio() {
     let mut flow = started();
-    let mut offers = offers();
-    offers.scenarios[1].briefing = long_briefing();
-    flow.handle_message(ToWindow::Offers(offers));
+    flow.handle_message(ToWindow::Offers(briefed_offers()));
     press(&mut flow, &[KeyPress::Down, KeyPress::Down, KeyPress::Down, KeyPress::Enter, KeyPress::Enter]);
     for aspect in [1.0, 4.0 / 3.0, 16.0 / 9.0, 21.0 / 9.0] {
         let sheet = flow.sheet(aspect);

@@ -3,8 +3,10 @@
 
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
-use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TITLE_SIZE, text_width};
-use crate::hud::{DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, layout};
+use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, text_width, wrap_text};
+use crate::hud::{
+    DisplayStyle, DisplayUnits, DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, TextScale, layout,
+};
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
 use spandrel_model::speed_unit::SpeedUnit;
@@ -58,7 +60,7 @@ const TUTORIAL_PAGES: [TutorialPage; PAGE_COUNT] = [
     (
         "defects",
         defects,
-        "The same defects at 1, 3, and 8 m with the same lens. A photo counts if the defect is inside the corner marks, lit, not \
+        "The same defects at 1 m, 3 m, 8 m with one lens. A photo counts if the defect is inside the corner marks, lit, not \
          seen edge-on, and, for a crack, at least half a pixel wide. Fly closer, or zoom ({camera_zoom_in}) if the camera can.\n\n\
          Stains, form lines, sealed cracks, spider webs, and spray paint are not defects. Every photo without a new defect lowers \
          your accuracy.",
@@ -75,14 +77,20 @@ const TUTORIAL_PAGES: [TutorialPage; PAGE_COUNT] = [
 /// Number of pages.
 pub const PAGE_COUNT: usize = 6;
 
-/// Position of a picture, in units of the window's height.
+/// Position of a picture and font size of its labels, in units of the page.
 #[derive(Debug, Clone, Copy)]
 struct PictureFrame {
     x: f64,
     y: f64,
     width: f64,
     height: f64,
+    font: f64,
 }
+
+/// Font sizes of the text beside the picture relative to secondary text.
+const TEXT_RATIOS: [f64; 4] = [1.0, 0.92, 0.88, 0.84];
+/// Largest font size of a label relative to the width of the page's picture.
+const MAX_FONT_RATIO: f64 = 0.04;
 
 impl PictureFrame {
     fn at(self, across: f64, down: f64) -> (f64, f64) {
@@ -91,44 +99,42 @@ impl PictureFrame {
 
     fn part(self, (across, down): (f64, f64), (width, height): (f64, f64)) -> Self {
         let (x, y) = self.at(across, down);
-        Self { x, y, width: width * self.width, height: height * self.height }
+        Self { x, y, width: width * self.width, height: height * self.height, font: self.font }
     }
 }
 
 pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, names: &KeyNames) {
     let Some((title, picture, words)) = TUTORIAL_PAGES.get(page) else { return };
-    let left = 0.04;
-    pen.text(
-        (left, 0.07),
-        TextAlign::Left,
-        TITLE_SIZE,
-        HudColor::White,
-        format!("Tutorial {} of {PAGE_COUNT}: {title}", page + 1),
-    );
-    let width = (0.60 * pen.width).min(0.70 * PICTURE_ASPECT);
-    picture(pen, PictureFrame { x: left, y: 0.15, width, height: width / PICTURE_ASPECT }, names);
-    let x = left + width + 0.06;
-    let room = pen.width - x - 0.03;
-    pen.lines(
-        (x, 0.17),
-        room,
-        if room < 0.6 { 0.92 * SMALL_TEXT_SIZE } else { SMALL_TEXT_SIZE },
-        HudColor::White,
-        &names.fill(words),
-    );
-    menu::draw(pen, (x, 0.97 - ROW_SPACING * rows.len() as f64), room, rows, focus);
+    let (left, narrow) = (0.04, pen.is_narrow());
+    pen.title((left, 0.07), pen.width - 2.0 * left, &format!("Tutorial {} of {PAGE_COUNT}: {title}", page + 1));
+    let room = if narrow { pen.width - 2.0 * left } else { 0.60 * pen.width };
+    let width = room.min(0.70 * PICTURE_ASPECT);
+    let font = SMALL_TEXT_SIZE.min(MAX_FONT_RATIO * width);
+    let frame = PictureFrame { x: left, y: 0.15, width, height: width / PICTURE_ASPECT, font };
+    picture(pen, frame, names);
+    let (x, top) = if narrow { (left, pen.bottom().max(frame.y + frame.height) + 0.05) } else { (left + width + 0.06, 0.17) };
+    let room = pen.width - x - if narrow { left } else { 0.03 };
+    let words = names.fill(words);
+    let menu_top = pen.height - 0.03 - ROW_SPACING * rows.len() as f64;
+    // Text beside the picture shrinks a little before the page is scrolled.
+    let height = |size: f64| LINE_SPACING * size * wrap_text(&words, room, size).len() as f64;
+    let sizes = TEXT_RATIOS.map(|ratio| ratio * SMALL_TEXT_SIZE);
+    let fitting = sizes.into_iter().find(|size| !narrow && top + height(*size) <= menu_top);
+    let bottom = pen.lines((x, top), room, fitting.unwrap_or(SMALL_TEXT_SIZE), HudColor::White, &words);
+    menu::draw(pen, (x, if narrow || menu_top < bottom { bottom + 0.02 } else { menu_top }), room, rows, focus);
 }
 
 /// Draws a label with an arrow; both positions are fractions of the frame.
 fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64), to: (f64, f64)) {
-    let half = 0.5 * text_width(words, SMALL_TEXT_SIZE) + 0.012;
+    let unit = frame.font / SMALL_TEXT_SIZE;
+    let half = 0.5 * text_width(words, frame.font) + 0.012 * unit;
     let (x, y) = frame.at(from.0, from.1);
     let (tx, ty) = frame.at(to.0, to.1);
     // The arrow starts on the side of the label that faces its target.
-    let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * (ty - y).signum()) };
+    let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * unit * (ty - y).signum()) };
     pen.arrow(foot, (tx, ty), HudColor::Yellow);
-    pen.panel((x - half, y - 0.025), (2.0 * half, 0.05), HudColor::PageBackground);
-    pen.text((x, y), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Yellow, words);
+    pen.panel((x - half, y - 0.025 * unit), (2.0 * half, 0.05 * unit), HudColor::PageBackground);
+    pen.text((x, y), TextAlign::Center, frame.font, HudColor::Yellow, words);
 }
 
 fn job(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
@@ -144,7 +150,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     let other = frame.part((0.5, 0.0), (0.5, 0.5));
     pen.picture("inspector", half.at(0.0, 0.0), (half.width, half.height));
     pen.picture("camera", other.at(0.0, 0.0), (other.width, other.height));
-    inset(pen, &layout(&example(0), PICTURE_ASPECT), other);
+    inset(pen, &layout(&example(0, pen.style().units), PICTURE_ASPECT), other);
     pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, HudColor::Black);
     label(pen, half, "drone position", (0.42, 1.15), (0.50, 0.56));
     label(pen, other, "the camera's view", (0.40, 1.15), (0.5, 0.75));
@@ -153,7 +159,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.lines(
         (x, y),
         frame.width,
-        SMALL_TEXT_SIZE,
+        frame.font,
         HudColor::Gray,
         "The bracket in your view marks the drone and shows its distance. On the map beside the camera view, the triangle is the \
          drone, the square is the pad, and the lines are the tasks' paths.",
@@ -162,7 +168,7 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
 
 fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
-    inset(pen, &layout(&example(0), PICTURE_ASPECT), frame);
+    inset(pen, &layout(&example(0, pen.style().units), PICTURE_ASPECT), frame);
     for (words, from, to) in [
         ("speed and its limit", (0.20, 0.30), (0.08, 0.135)),
         ("mode, satellites, link", (0.50, 0.20), (0.50, 0.075)),
@@ -179,7 +185,12 @@ fn warnings(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
     let texts = ["Crash: pier", "Too close: 1.2 m, limit 2.5 m", "Too fast: 12 mph, limit 10 mph", "Off path 3.4 m: left and up"];
     let cues = cue::CRASH | cue::TOO_CLOSE | cue::SPEEDING | cue::OFF_PATH;
-    let display = Hud { cue_texts: texts.into_iter().collect(), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(cues) };
+    let display = Hud {
+        cue_texts: texts.into_iter().collect(),
+        battery_pct: Some(24.0),
+        speed_m_s: 5.3,
+        ..example(cues, pen.style().units)
+    };
     inset(pen, &layout(&display, PICTURE_ASPECT), frame);
     label(pen, frame, "warnings", (0.62, 0.68), (0.36, 0.80));
     label(pen, frame, "low battery", (0.62, 0.22), (0.86, 0.085));
@@ -196,12 +207,12 @@ fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         let width = (4.0 * strip.height).min(strip.width);
         pen.picture(name, strip.at(0.0, 0.0), (width, 0.25 * width));
         let end = strip.x + width;
-        pen.text((end + 0.02, strip.y + 0.5 * strip.height), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, words);
+        pen.text((end + 0.02, strip.y + 0.5 * strip.height), TextAlign::Left, frame.font, HudColor::Yellow, words);
     }
     for (k, words) in ["1 m", "3 m", "8 m"].into_iter().enumerate() {
         let width = (4.0 * 0.24 * frame.height).min(frame.width);
         let x = frame.x + width * (k as f64 + 0.5) / 3.0;
-        pen.text((x, frame.y + 1.06 * frame.height), TextAlign::Center, SMALL_TEXT_SIZE, HudColor::Yellow, words);
+        pen.text((x, frame.y + 1.06 * frame.height), TextAlign::Center, frame.font, HudColor::Yellow, words);
     }
 }
 
@@ -217,11 +228,11 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     let words = "Release the sticks to hover. Keys: {arm} arm, {take_off} take off, {up} {down} up and down, {turn_left} \
                  {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} tilt \
                  the camera, {land} land, {pause} pause.";
-    pen.lines((x, y), frame.width, SMALL_TEXT_SIZE, HudColor::Gray, &names.fill(words));
+    pen.lines((x, y), frame.width, frame.font, HudColor::Gray, &names.fill(words));
 }
 
 /// Returns an example HUD in flight.
-fn example(cues: i32) -> Hud {
+fn example(cues: i32, units: DisplayUnits) -> Hud {
     let line = |id, path_m: [(f64, f64); 2]| MapPath {
         id,
         path_m: path_m.map(|(east, north)| Vec3::new(east, north, 20.0)).to_vec(),
@@ -259,6 +270,7 @@ fn example(cues: i32) -> Hud {
         guidance: None,
         lesson: None,
         tracks: vec![line(1, [(-50.0, -5.0), (50.0, -5.0)]), line(4, [(-70.0, 150.0), (-64.0, 156.0)])],
+        style: DisplayStyle { units, text_scale: TextScale::Normal },
     }
 }
 

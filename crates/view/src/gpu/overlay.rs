@@ -75,6 +75,8 @@ impl Overlay {
 /// Pictures of the pages, as textures of one egui context.
 pub struct PageTextures {
     textures: BTreeMap<PictureSource, egui::TextureHandle>,
+    /// Pictures of jobs that are not textures yet.
+    jobs: BTreeMap<String, Picture>,
     load: fn(&str) -> Option<Picture>,
 }
 
@@ -82,10 +84,15 @@ impl PageTextures {
     /// Creates an empty set. `load` reads the picture file at a path; `None` if that is impossible.
     #[must_use]
     pub fn new(load: fn(&str) -> Option<Picture>) -> Self {
-        Self { textures: BTreeMap::new(), load }
+        Self { textures: BTreeMap::new(), jobs: BTreeMap::new(), load }
     }
 
-    /// Returns a picture, loading it on first use; `None` if it cannot be loaded.
+    /// Adds the picture of a job, by the job's name or path.
+    pub fn add_job(&mut self, name: String, picture: Picture) {
+        self.jobs.insert(name, picture);
+    }
+
+    /// Returns a picture, loading it on first use; `None` if it cannot be loaded or does not exist yet.
     fn of(&mut self, context: &egui::Context, source: &PictureSource) -> Option<egui::TextureId> {
         if !self.textures.contains_key(source) {
             let (name, image) = match source {
@@ -93,11 +100,8 @@ impl PageTextures {
                     let (_, bytes) = PICTURES.iter().find(|known| known.0 == *name)?;
                     (*name, decode_jpeg(bytes)?)
                 }
-                PictureSource::File(path) => {
-                    let picture = (self.load)(path)?;
-                    let size = [picture.width as usize, picture.height as usize];
-                    (path.as_str(), egui::ColorImage::from_rgba_unmultiplied(size, &picture.rgba))
-                }
+                PictureSource::File(path) => (path.as_str(), color_image(&(self.load)(path)?)),
+                PictureSource::Job(name) => (name.as_str(), color_image(&self.jobs.remove(name)?)),
             };
             let texture = context.load_texture(name, image, egui::TextureOptions::LINEAR);
             self.textures.insert(source.clone(), texture);
@@ -108,8 +112,13 @@ impl PageTextures {
     /// Frees the pictures from files that a page does not show.
     fn keep_files_of(&mut self, sheet: &PageLayout) {
         let is_shown = |source: &PictureSource| sheet.pictures.iter().any(|picture| picture.source == *source);
-        self.textures.retain(|source, _| matches!(source, PictureSource::Embedded(_)) || is_shown(source));
+        self.textures.retain(|source, _| !matches!(source, PictureSource::File(_)) || is_shown(source));
     }
+}
+
+/// Converts a picture to an egui image.
+fn color_image(picture: &Picture) -> egui::ColorImage {
+    egui::ColorImage::from_rgba_unmultiplied([picture.width as usize, picture.height as usize], &picture.rgba)
 }
 
 /// Decodes a JPEG into an egui image.

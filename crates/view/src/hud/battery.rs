@@ -8,7 +8,7 @@ use super::{DrawItem, HudColor, TextAlign};
 
 /// Width and height of the panel.
 pub const PANEL_WIDTH: f64 = 0.27;
-const PANEL_HEIGHT: f64 = 0.075;
+pub const PANEL_HEIGHT: f64 = 0.075;
 /// Blink rate, Hz (noticeable, but well below rates that can trigger seizures).
 const BLINK_RATE_HZ: f64 = 2.0;
 

@@ -3,14 +3,15 @@
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::{Hud, LessonDisplay};
-use super::task_panel::{LINE_HEIGHT, PADDING, TOP, WIDTH, height_words, way_items};
+use super::task_panel::{LINE_HEIGHT, PADDING, PanelDetail, WIDTH, height_words, way_items};
 use super::text_metrics::{text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::guidance::WayTo;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 
-/// Largest number of lines for what to do, how, and what went wrong.
+/// Largest number of lines for what to do, how, and what went wrong; in the full and in the brief panel.
 const MAX_LINES: [usize; 3] = [1, 2, 2];
+const BRIEF_MAX_LINES: [usize; 3] = [2, 0, 1];
 /// Height of the progress bar.
 const BAR_HEIGHT: f64 = 0.012;
 
@@ -33,34 +34,40 @@ pub fn how_to(task: LessonTask) -> &'static str {
     }
 }
 
-/// Returns the panel; empty without a lesson.
-pub(super) fn lesson_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
+/// Returns the panel with its upper edge at `top`; empty without a lesson.
+pub(super) fn lesson_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64)) -> Vec<DrawItem> {
     let Some(LessonDisplay { status, how, remark }) = &hud.lesson else { return Vec::new() };
+    let units = hud.style.units;
+    let most = match detail {
+        PanelDetail::Full => MAX_LINES,
+        PanelDetail::Brief => BRIEF_MAX_LINES,
+        PanelDetail::None => return Vec::new(),
+    };
     let (left, right) = (pane.width - EDGE_MARGIN - WIDTH, pane.width - EDGE_MARGIN);
     let (from, to) = (left + PADDING, right - PADDING);
     let fits = |line: &str| text_width(line, SMALL_FONT_SIZE) <= to - from;
     let texts = [
         (title(status), HudColor::Gray, 1),
-        (capitalized(&status.instruction()), HudColor::White, MAX_LINES[0]),
-        (how.clone(), HudColor::Gray, MAX_LINES[1]),
-        (remark.clone().unwrap_or_default(), HudColor::Yellow, MAX_LINES[2]),
+        (capitalized(&units.words(&status.instruction())), HudColor::White, most[0]),
+        (how.clone(), HudColor::Gray, most[1]),
+        (units.words(remark.as_deref().unwrap_or_default()), HudColor::Yellow, most[2]),
     ];
-    let texts = texts.into_iter().filter(|(words, ..)| !words.is_empty());
+    let texts = texts.into_iter().filter(|(words, _, most)| !words.is_empty() && *most > 0);
     let lines: Vec<(String, HudColor)> =
         texts.flat_map(|(words, color, most)| wrap_text(&words, most, fits).into_iter().map(move |line| (line, color))).collect();
     // The way and the height.
     let rows = lines.len() + if status.way.is_some() { 2 } else { 0 };
-    let bar = TOP + PADDING + LINE_HEIGHT * rows as f64 + 0.006;
-    let mut items = vec![pane.panel((left, TOP), (right, bar + BAR_HEIGHT + PADDING))];
-    let middle = |row: usize| TOP + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
+    let bar = top + PADDING + LINE_HEIGHT * rows as f64 + 0.006;
+    let mut items = vec![pane.panel((left, top), (right, bar + BAR_HEIGHT + PADDING))];
+    let middle = |row: usize| top + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
     for (row, (words, color)) in lines.iter().enumerate() {
         items.push(pane.text((from, middle(row)), TextAlign::Left, SMALL_FONT_SIZE, *color, words.clone()));
     }
     if let Some(way) = &status.way {
-        items.extend(way_items(&WayTo { up_m: 0.0, ..*way }, pane, (from, middle(lines.len()))));
+        items.extend(way_items(&WayTo { up_m: 0.0, ..*way }, units, pane, (from, middle(lines.len()))));
         let y = middle(lines.len() + 1);
         items.push(pane.text((from, y), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, "height"));
-        items.push(pane.text((to, y), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, height_words(way.up_m)));
+        items.push(pane.text((to, y), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, height_words(way.up_m, units)));
     }
     items.push(pane.fill(&rectangle((from, bar), (to - from, BAR_HEIGHT)), HudColor::InputField));
     if status.progress > 0.0 {

@@ -1,6 +1,7 @@
 //! Marker for the drone's position in the inspector's view.
 
 use super::super::camera::PinholeCamera;
+use super::style::DisplayStyle;
 use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use spandrel_model::frames::{Enu, Vec3};
@@ -8,7 +9,7 @@ use spandrel_model::math;
 
 /// Minimum half-width of the bracket, as a fraction of the picture's height.
 const MIN_HALF_SIZE: f64 = 0.022;
-/// Font size, as a fraction of the picture's height.
+/// Normal font size, as a fraction of the picture's height.
 const FONT_SIZE: f64 = 0.026;
 /// Half-width of the bracket around the drone's center, m.
 const BRACKET_HALF_SIZE_M: f64 = 0.6;
@@ -16,7 +17,7 @@ const BRACKET_HALF_SIZE_M: f64 = 0.6;
 /// Returns a bracket around the drone with its distance: gray and dashed if an object hides the drone, and nothing if
 /// the drone is outside the picture.
 #[must_use]
-pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool) -> Vec<DrawItem> {
+pub fn marker((eye, aspect): (&PinholeCamera, f64), drone_m: Vec3<Enu>, hidden: bool, style: DisplayStyle) -> Vec<DrawItem> {
     let clip = eye.view_projection(aspect).apply(drone_m);
     let (x, y) = (clip[0] / clip[3], clip[1] / clip[3]);
     if clip[3] <= 0.0 || x.abs() > 0.95 || y.abs() > 0.95 {
@@ -44,13 +45,20 @@ pub fn marker(eye: &PinholeCamera, aspect: f64, drone_m: Vec3<Enu>, hidden: bool
         .flat_map(|(right, down)| corner(right, down))
         .map(|points| DrawItem::Line { points, width: 0.003, color })
         .collect();
-    let words = format!("{distance_m:.0} m{}", if hidden { ", hidden" } else { "" });
-    let place = at(middle.x, (middle.y + half + 0.022).min(0.98));
+    let words = style.units.length(distance_m, 0) + if hidden { ", hidden" } else { "" };
+    let scale = style.text_scale.factor();
+    let font = FONT_SIZE * scale;
+    // Below the bracket, and inside the picture.
+    let width = 0.5 * (text_width(&words, font) + 0.4 * font) / aspect;
+    let place = at(
+        middle.x.clamp(width.min(0.5), (1.0 - width).max(0.5)),
+        (middle.y + half + 0.009 + 0.5 * font).min(1.0 - 0.02 * scale),
+    );
     // The background keeps the text legible against a bright sky.
-    let ground = (0.5 * (text_width(&words, FONT_SIZE) + 0.4 * FONT_SIZE) / aspect, 0.6 * FONT_SIZE);
+    let ground = (width, 0.6 * font);
     let side = |sign: f64| at(place.x + sign * ground.0, place.y + sign * ground.1);
     items.push(DrawItem::Panel { from: side(-1.0), to: side(1.0), color: HudColor::TextBackground });
-    items.push(DrawItem::Text { place, side: TextAlign::Center, height: FONT_SIZE, color, words });
+    items.push(DrawItem::Text { place, side: TextAlign::Center, height: font, color, words });
     items
 }
 
@@ -61,15 +69,15 @@ mod tests {
     #[test]
     fn exact_bracket_surrounds_the_drone_only_in_front_of_the_camera() {
         let eye = PinholeCamera::at(Vec3::zero(), Vec3::new(0.0, 100.0, 0.0), 1.0, 1.5);
-        let items = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), false);
+        let items = marker((&eye, 1.5), Vec3::new(0.0, 80.0, 0.0), false, DisplayStyle::default());
         let words = items.iter().find_map(|item| match item {
             DrawItem::Text { words, place, .. } => Some((words.clone(), place.x)),
             DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
         });
         assert_eq!(words, Some(("80 m".to_owned(), 0.5)));
         assert_eq!(items.len(), 6);
-        assert!(marker(&eye, 1.5, Vec3::new(0.0, -80.0, 0.0), false).is_empty());
-        let hidden = marker(&eye, 1.5, Vec3::new(0.0, 80.0, 0.0), true);
+        assert!(marker((&eye, 1.5), Vec3::new(0.0, -80.0, 0.0), false, DisplayStyle::default()).is_empty());
+        let hidden = marker((&eye, 1.5), Vec3::new(0.0, 80.0, 0.0), true, DisplayStyle::default());
         let told =
             |item: &DrawItem| matches!(item, DrawItem::Text { words, color: HudColor::Gray, .. } if words == "80 m, hidden");
         assert!(hidden.len() > items.len() && hidden.iter().any(told), "the marker must be dashed and labeled");

@@ -5,7 +5,7 @@ use super::metrics::{BLOCK_GAP, EDGE_MARGIN, MEDIUM_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{text_width, wrap_text};
-use super::{DrawItem, HudColor, TextAlign, map, task_panel};
+use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::cue;
 
 /// Mean width of a capital letter.
@@ -45,7 +45,7 @@ pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
     let on = all.into_iter().filter(|(bit, ..)| cue::displayed(hud.cues) & bit != 0);
     let active = |(bit, shape, color)| {
         let (bits, detail) = cue::of_text(hud.cue_texts.text(bit)?)?;
-        Some(ActiveCue { shape, color, name: cue::label(bits)?.to_uppercase(), detail: detail.to_owned() })
+        Some(ActiveCue { shape, color, name: cue::label(bits)?.to_uppercase(), detail: hud.style.units.words(detail) })
     };
     on.filter_map(active).collect()
 }
@@ -54,10 +54,13 @@ fn width(words: &str) -> f64 {
     (CAPITAL_WIDTH * words.chars().count() as f64).max(text_width(words, MEDIUM_FONT_SIZE))
 }
 
-pub fn messages(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let neighbors = [map::left(hud, pane), task_panel::left(hud, pane)];
-    let right = neighbors.into_iter().flatten().map(|left| left - BLOCK_GAP).fold(pane.width - EDGE_MARGIN, f64::min);
-    let room = right - EDGE_MARGIN - ICON_INDENT - TEXT_MARGIN;
+/// Smallest right edge of the messages that leaves room for the name of every cue.
+pub const MIN_RIGHT_EDGE: f64 = 0.36;
+
+/// Returns the messages. Their right edge is at most at `limit`, the left edge of the blocks beside them.
+pub fn messages(hud: &Hud, pane: Pane, limit: Option<f64>) -> Vec<DrawItem> {
+    let right = limit.map_or(pane.width - EDGE_MARGIN, |left| left - BLOCK_GAP);
+    let room = (right - EDGE_MARGIN - ICON_INDENT - TEXT_MARGIN).max(0.0);
     let mut bottom = pane.height - EDGE_MARGIN;
     let mut items = Vec::new();
     for ActiveCue { shape, color, name, detail } in warnings(hud) {

@@ -18,16 +18,18 @@ mod small_view;
 mod speed;
 pub mod state;
 mod status;
+mod style;
 mod task_panel;
 #[cfg(test)]
 mod tests;
-mod text_metrics;
+pub(crate) mod text_metrics;
 
 pub use instruments::{SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, WayBack};
 pub use status::LINK_TIMEOUT_S;
+pub use style::{DisplayStyle, DisplayUnits, TextScale};
 
 /// A position in the picture, as fractions of its width and height.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -214,6 +214,60 @@ fn prop_items_do_not_overlap_at_any_size() {
 }
 
 #[test]
+fn prop_items_do_not_overlap_at_any_text_size_and_in_any_units() {
+    let styles = TextScale::ALL
+        .into_iter()
+        .flat_map(|text_scale| DisplayUnits::ALL.into_iter().map(move |units| DisplayStyle { units, text_scale }));
+    for style in styles {
+        // The camera view in windows of 1280x720, 1920x1080, 3840x2160 and 1000x1000 px.
+        for window_px in [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0)] {
+            for camera in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+                for layout in [ViewLayout::Camera, ViewLayout::Inspector, ViewLayout::SideBySide] {
+                    let places = layout.view_rects(WindowShape { window: window_px.0 / window_px.1, camera });
+                    let place = places.into_iter().find(|place| place.which == ViewKind::Camera).unwrap();
+                    let place = place.fit_aspect(camera, window_px.0 / window_px.1);
+                    let size_px = (place.width * window_px.0, place.height * window_px.1);
+                    for (name, state) in states() {
+                        let items = layout_px(&Hud { style, ..state }, size_px);
+                        check(items, size_px.0 / size_px.1, &format!("{name}, {style:?}, {size_px:?} px"));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_larger_text_is_larger_and_keeps_speed_battery_and_warnings() {
+    let state = Hud { guidance: Some(longest_guidance()), cues: ALL_CUES, cue_texts: crash("bridge"), ..hud() };
+    let words = |text_scale| {
+        let style = DisplayStyle { text_scale, ..DisplayStyle::default() };
+        let of = |item| match item {
+            DrawItem::Text { height, words, .. } => Some((words, height)),
+            DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        };
+        layout(&Hud { style, ..state.clone() }, 4.0 / 3.0).into_iter().filter_map(of).collect::<Vec<_>>()
+    };
+    let size = |words: &[(String, f64)], part: &str| words.iter().find(|(words, _)| words.contains(part)).map(|(_, size)| *size);
+    let normal = words(TextScale::Normal);
+    for text_scale in TextScale::ALL {
+        let large = words(text_scale);
+        for part in ["3.2 m/s", "76%", "CRASH", "TOO CLOSE", "TOO FAST", "OFF PATH"] {
+            let (found, usual) = (size(&large, part).unwrap(), size(&normal, part).unwrap());
+            // The display for small pictures has one font size, which is smaller than the usual one of the speed.
+            assert!(found >= text_scale.factor() * usual.min(0.05) - TOLERANCE, "{text_scale:?}, {part}: {found}, {usual}");
+        }
+    }
+    let calm = Hud { cues: 0, ..state.clone() };
+    for text_scale in TextScale::ALL {
+        let style = DisplayStyle { text_scale, ..DisplayStyle::default() };
+        let items = layout(&Hud { style, ..calm.clone() }, 4.0 / 3.0);
+        let shows = |part: &str| items.iter().any(|item| matches!(item, DrawItem::Text { words, .. } if words.contains(part)));
+        assert!(shows("Fly to task 12") && shows("down"), "{text_scale:?}: the next step stays without warnings");
+    }
+}
+
+#[test]
 fn prop_status_text_does_not_cover_the_hud() {
     // Height of six lines in the window's font with their background, relative to the window. They end above the center of the
     // picture, which the pilot uses for aiming.
@@ -221,7 +275,7 @@ fn prop_status_text_does_not_cover_the_hud() {
     for (name, state) in states() {
         for window in [1.0, 4.0 / 3.0, 16.0 / 10.0, 16.0 / 9.0, 21.0 / 9.0] {
             for lens in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
-                let words = ViewLayout::Camera.words(WindowShape { window, camera: lens });
+                let words = ViewLayout::Camera.words(WindowShape { window, camera: lens }, TextScale::Normal);
                 assert!(words.extends_down && words.edge + STATUS_TEXT_HEIGHT < 0.48, "{words:?}");
                 let room = [words.left_edge, words.edge, words.left_edge + words.width, words.edge + STATUS_TEXT_HEIGHT];
                 // In a small camera view, mode and link may be covered briefly, but warnings stay visible.

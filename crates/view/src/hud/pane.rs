@@ -1,6 +1,7 @@
 //! Coordinate system of the HUD: the origin is the upper left corner, and both axes use the same unit.
 
 use super::icons::{self, IconShape};
+use super::style::TextScale;
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// Minimum aspect ratio (width over height) for all blocks to fit at full size; in narrower pictures, everything scales
@@ -17,13 +18,14 @@ pub struct Pane {
 }
 
 impl Pane {
-    /// Creates the pane for an aspect ratio. The unit is the picture's height, or less if the picture is narrow.
-    pub fn of(aspect: f64) -> Self {
-        let unit = (aspect / MIN_FULL_SIZE_ASPECT).min(1.0);
+    /// Creates the pane for an aspect ratio. The unit is the picture's height, or less if the picture is narrow. With larger
+    /// text, the unit is larger.
+    pub fn of(aspect: f64, text_scale: TextScale) -> Self {
+        let unit = (aspect / MIN_FULL_SIZE_ASPECT).min(1.0) * text_scale.factor();
         Self { width: aspect / unit, height: 1.0 / unit }
     }
 
-    /// Returns the unit of [`Self::of`] for a picture size, in the units of that size.
+    /// Returns the unit of [`Self::of`] with normal text for a picture size, in the units of that size.
     pub fn unit((width, height): (f64, f64)) -> f64 {
         height.min(width / MIN_FULL_SIZE_ASPECT)
     }

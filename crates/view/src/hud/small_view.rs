@@ -29,7 +29,7 @@ const ICON_HEIGHT: f64 = 0.8;
 
 /// Returns the HUD items for a picture of the given size in pixels.
 pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<DrawItem> {
-    let wanted_px = (FONT_FRACTION * Pane::unit((width_px, height_px))).max(LEGIBLE_FONT_SIZE_PX);
+    let wanted_px = (FONT_FRACTION * Pane::unit((width_px, height_px))).max(LEGIBLE_FONT_SIZE_PX) * hud.style.text_scale.factor();
     let type_px = wanted_px.min(width_px / MIN_WIDTH).min(height_px / MIN_HEIGHT);
     let pane = Pane { width: width_px / type_px, height: height_px / type_px };
     let (color, words) = speed_text(hud);

@@ -3,33 +3,42 @@
 use super::metrics::{EDGE_MARGIN, LARGE_FONT_SIZE, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
+use super::style::DisplayUnits;
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::cue;
 use spandrel_model::numbers::format_limit;
 use spandrel_model::speed_unit::SpeedUnit;
 
+/// Width and height of the panel.
+const PANEL_WIDTH: f64 = 0.25;
+pub(super) const PANEL_HEIGHT: f64 = 0.105;
+
 /// Returns the speed as text, and its color.
 pub(super) fn speed_text(hud: &Hud) -> (HudColor, String) {
     let fast = hud.cues & cue::SPEEDING != 0;
-    (if fast { HudColor::Yellow } else { HudColor::White }, format!("{:.1} m/s", hud.speed_m_s))
+    (if fast { HudColor::Yellow } else { HudColor::White }, hud.style.units.speed(hud.speed_m_s))
 }
 
 /// Returns the speed block in the upper left corner.
 pub(super) fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let inner = EDGE_MARGIN + 0.016;
-    let limit = match hud.limit_unit {
-        SpeedUnit::MilesPerHour => {
+    let limit = match (hud.style.units, hud.limit_unit) {
+        // The speed above is in the same unit.
+        (DisplayUnits::UsCustomary, _) => format!("limit {}", hud.style.units.speed(hud.limit_m_s)),
+        (DisplayUnits::Metric, SpeedUnit::MilesPerHour) => {
             let over = hud.speed_m_s > hud.limit_m_s;
             let speed_mph = SpeedUnit::MilesPerHour.from_m_s(hud.speed_m_s);
             let shown =
                 if over { SpeedUnit::MilesPerHour.format_speed(hud.speed_m_s, hud.limit_m_s) } else { format!("{speed_mph:.0}") };
             format!("{shown} mph, limit {}", format_limit(SpeedUnit::MilesPerHour.from_m_s(hud.limit_m_s)))
         }
-        SpeedUnit::MetersPerSecond => format!("limit {}", SpeedUnit::MetersPerSecond.format_limit(hud.limit_m_s)),
+        (DisplayUnits::Metric, SpeedUnit::MetersPerSecond) => {
+            format!("limit {}", SpeedUnit::MetersPerSecond.format_limit(hud.limit_m_s))
+        }
     };
     let (color, words) = speed_text(hud);
     vec![
-        pane.panel((EDGE_MARGIN, EDGE_MARGIN), (EDGE_MARGIN + 0.25, EDGE_MARGIN + 0.105)),
+        pane.panel((EDGE_MARGIN, EDGE_MARGIN), (EDGE_MARGIN + PANEL_WIDTH, EDGE_MARGIN + PANEL_HEIGHT)),
         pane.text((inner, EDGE_MARGIN + 0.037), TextAlign::Left, LARGE_FONT_SIZE, color, words),
         pane.text((inner, EDGE_MARGIN + 0.081), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, limit),
     ]

@@ -1,5 +1,6 @@
 //! Inputs of the head-up display.
 
+use super::style::DisplayStyle;
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::lesson::LessonStatus;
@@ -140,4 +141,6 @@ pub struct Hud {
     pub lesson: Option<LessonDisplay>,
     /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
+    /// Units and text size.
+    pub style: DisplayStyle,
 }

@@ -3,7 +3,7 @@
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::{GnssStatus, Hud};
-use super::{DrawItem, HudColor, TextAlign, battery};
+use super::{DrawItem, HudColor, TextAlign, battery, speed};
 
 /// Minimum telemetry age for the link to count as lost, s.
 pub const LINK_TIMEOUT_S: f64 = 1.5;
@@ -34,6 +34,23 @@ fn link(hud: &Hud) -> String {
 /// is reported.
 pub fn alarm(hud: &Hud) -> Option<String> {
     if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.has_fix).map(satellites) }
+}
+
+/// Returns the alarm, if there is one, below the speed. It replaces the status where that has no room.
+pub fn alarm_line(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
+    let Some(words) = alarm(hud) else { return Vec::new() };
+    let top = EDGE_MARGIN + speed::PANEL_HEIGHT + BLOCK_GAP;
+    let width = CHAR_WIDTH * words.chars().count() as f64;
+    vec![
+        pane.panel((EDGE_MARGIN, top), (EDGE_MARGIN + width, top + PANEL_HEIGHT)),
+        pane.text(
+            (EDGE_MARGIN + 0.5 * width, top + 0.5 * PANEL_HEIGHT),
+            TextAlign::Center,
+            SMALL_FONT_SIZE,
+            HudColor::Orange,
+            words,
+        ),
+    ]
 }
 
 pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {

@@ -4,12 +4,13 @@
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
+use super::style::DisplayUnits;
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::math;
 use spandrel_model::numbers::format_limit;
 
-/// Top of the panel: just above the map, below the status text of the window.
+/// Top of the panel with normal text: just above the map, below the status text of the window.
 pub(super) const TOP: f64 = 0.455;
 /// Width of the panel, height of a line, and padding.
 pub(super) const WIDTH: f64 = 0.42;
@@ -18,6 +19,17 @@ pub(super) const PADDING: f64 = 0.012;
 /// Width of the arrow's column, and the arrow's half length.
 const ARROW_COLUMN: f64 = 0.045;
 const ARROW_SIZE: f64 = 0.015;
+
+/// How much of the panel is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PanelDetail {
+    /// Everything.
+    Full,
+    /// The step and the way.
+    Brief,
+    /// Nothing.
+    None,
+}
 
 /// Returns the left edge of the panel, or `None` without guidance.
 pub(super) fn left(hud: &Hud, pane: Pane) -> Option<f64> {
@@ -31,15 +43,19 @@ struct PanelLine {
     value: String,
 }
 
-/// Returns the panel; empty without guidance.
-pub(super) fn task_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
+/// Returns the panel with its upper edge at `top`; empty without guidance.
+pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64)) -> Vec<DrawItem> {
     // A lesson has a panel of its own.
     let Some(guidance) = hud.guidance.as_ref().filter(|_| hud.lesson.is_none()) else { return Vec::new() };
-    let lines = details(guidance);
+    let lines = match detail {
+        PanelDetail::Full => details(guidance, hud.style.units),
+        PanelDetail::Brief => details(guidance, hud.style.units).into_iter().take(usize::from(guidance.way.is_some())).collect(),
+        PanelDetail::None => return Vec::new(),
+    };
     let rows = 1 + usize::from(guidance.way.is_some()) + lines.len();
     let (left, right) = (pane.width - EDGE_MARGIN - WIDTH, pane.width - EDGE_MARGIN);
-    let middle = |row: usize| TOP + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
-    let mut items = vec![pane.panel((left, TOP), (right, TOP + 2.0 * PADDING + LINE_HEIGHT * rows as f64))];
+    let middle = |row: usize| top + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
+    let mut items = vec![pane.panel((left, top), (right, top + 2.0 * PADDING + LINE_HEIGHT * rows as f64))];
     let (from, to) = (left + PADDING, right - PADDING);
     items.push(pane.text((from, middle(0)), TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, title(guidance)));
     if let Some(progress) = guidance.progress {
@@ -49,7 +65,7 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let mut row = 1;
     if let Some(way) = &guidance.way {
         let words = WayTo { up_m: 0.0, ..*way };
-        items.extend(way_items(&words, pane, (from, middle(row))));
+        items.extend(way_items(&words, hud.style.units, pane, (from, middle(row))));
         row += 1;
     }
     for (k, PanelLine { name, color, value }) in lines.into_iter().enumerate() {
@@ -73,27 +89,27 @@ fn title(guidance: &Guidance) -> String {
 }
 
 /// Returns an arrow in the direction of a place, and the way in words. Unlike in a text message, there is a degree sign.
-pub(super) fn way_items(way: &WayTo, pane: Pane, (left, middle): (f64, f64)) -> [DrawItem; 2] {
-    let words = way.words().replace(" deg", "°");
+pub(super) fn way_items(way: &WayTo, units: DisplayUnits, pane: Pane, (left, middle): (f64, f64)) -> [DrawItem; 2] {
+    let words = units.words(&way.words()).replace(" deg", "°");
     [
         pane.fill(&arrow((left + 0.5 * ARROW_COLUMN, middle), way.bearing_rad), HudColor::Yellow),
         pane.text((left + ARROW_COLUMN, middle), TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, words),
     ]
 }
 
-fn details(guidance: &Guidance) -> Vec<PanelLine> {
+fn details(guidance: &Guidance, units: DisplayUnits) -> Vec<PanelLine> {
     let white = |name: &str, value: String| PanelLine { name: name.to_owned(), color: HudColor::White, value };
     let mut lines = Vec::new();
     if let Some(way) = &guidance.way {
-        lines.push(white("height", height_words(way.up_m)));
+        lines.push(white("height", height_words(way.up_m, units)));
     }
     if let Some(deviation) = &guidance.deviation {
-        lines.push(white("path", deviation_words(deviation)));
+        lines.push(white("path", deviation_words(deviation, units)));
     }
     if let Some(reading) = &guidance.stand_off {
         let off = (reading.actual_m - reading.recommended_m).abs() > reading.tolerance_m;
         let color = if off { HudColor::Yellow } else { HudColor::White };
-        lines.push(PanelLine { name: "stand-off".to_owned(), color, value: stand_off_words(reading) });
+        lines.push(PanelLine { name: "stand-off".to_owned(), color, value: stand_off_words(reading, units) });
     }
     let minutes = |seconds: f64| {
         let whole = seconds.max(0.0).round();
@@ -106,23 +122,27 @@ fn details(guidance: &Guidance) -> Vec<PanelLine> {
 }
 
 /// Returns the height of the next place in words.
-pub(super) fn height_words(up_m: f64) -> String {
+pub(super) fn height_words(up_m: f64, units: DisplayUnits) -> String {
     let meters = up_m.abs().round();
     match up_m {
         _ if meters < 1.0 => "level".to_owned(),
-        down if down < 0.0 => format!("{meters:.0} m down"),
-        _ => format!("{meters:.0} m up"),
+        down if down < 0.0 => format!("{} down", units.length(meters, 0)),
+        _ => format!("{} up", units.length(meters, 0)),
     }
 }
 
-fn deviation_words(deviation: &PathDeviation) -> String {
+fn deviation_words(deviation: &PathDeviation, units: DisplayUnits) -> String {
     let side = if deviation.above_m < 0.0 { "below" } else { "above" };
-    format!("{:.1} m, {:.1} m {side}", deviation.distance_m, deviation.above_m.abs())
+    format!("{}, {} {side}", units.length(deviation.distance_m, 1), units.length(deviation.above_m.abs(), 1))
 }
 
-fn stand_off_words(reading: &StandOffReading) -> String {
-    let (recommended, tolerance) = (format_limit(reading.recommended_m), format_limit(reading.tolerance_m));
-    format!("{:.1} m ({recommended} ± {tolerance})", reading.actual_m.max(0.0))
+fn stand_off_words(reading: &StandOffReading, units: DisplayUnits) -> String {
+    let limit = |length_m: f64| match units {
+        DisplayUnits::Metric => format_limit(length_m),
+        DisplayUnits::UsCustomary => units.length_number(length_m, 1),
+    };
+    let (recommended, tolerance) = (limit(reading.recommended_m), limit(reading.tolerance_m));
+    format!("{} ({recommended} ± {tolerance})", units.length(reading.actual_m.max(0.0), 1))
 }
 
 /// Returns an arrowhead that points up for straight ahead.

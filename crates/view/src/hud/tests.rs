@@ -48,6 +48,7 @@ pub(super) fn hud() -> Hud {
         guidance: None,
         lesson: None,
         tracks: vec![MapPath { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
+        style: DisplayStyle::default(),
     }
 }
 

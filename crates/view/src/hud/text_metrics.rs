@@ -15,7 +15,8 @@ fn glyph_width(sign: char) -> f64 {
     }
 }
 
-/// Returns the width of a line of text, in the same unit as the font size.
+/// Returns the approximate width of a line of text, in the same unit as the font size.
+#[must_use]
 pub fn text_width(words: &str, height: f64) -> f64 {
     height * words.chars().map(glyph_width).sum::<f64>()
 }

@@ -74,7 +74,7 @@ fn exact_bridge_water_pad_and_paths_are_where_the_site_has_them() {
 
 #[test]
 fn exact_digits_are_legible_bit_by_bit() {
-    let mut canvas = Canvas::new();
+    let mut canvas = Canvas::new((TILE_PX, TILE_PX));
     canvas.disc((20.0, 20.0), MARK_RADIUS_PX, PATH_COLOR);
     canvas.number((20.0, 20.0), 1);
     let row = |y: u32| (17..23).step_by(2).map(|x| canvas.picture.at(x, y) == WHITE).collect::<Vec<_>>();

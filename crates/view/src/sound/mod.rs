@@ -68,6 +68,11 @@ impl FlightSound {
         Self { settings, ..Self::default() }
     }
 
+    /// Changes the settings.
+    pub fn set_settings(&mut self, settings: SoundSettings) {
+        self.settings = settings;
+    }
+
     /// Sets the current inputs.
     pub fn set(&mut self, heard: SoundInputs) {
         self.inputs = heard;

@@ -13,7 +13,7 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
-use spandrel_view::hud::{self, GnssStatus, Hud, MapPath, Obstacles, WayBack};
+use spandrel_view::hud::{self, DisplayStyle, GnssStatus, Hud, MapPath, Obstacles, WayBack};
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::patch;
@@ -272,6 +272,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         guidance: None,
         lesson: None,
         tracks: MapPath::all(&studio.scenario),
+        style: DisplayStyle::default(),
     }
 }
 
@@ -317,7 +318,7 @@ fn regress_both_views_in_every_hud_state() {
         let mut moment = studio.moment(from, look, display.lamp, Vec3::new(0.5, 0.0, 0.0));
         moment.lens.hfov_rad = 2.0 * math::atan(math::tan(0.5 * moment.lens.hfov_rad) / display.zoom);
         let inspector = studio.stage().inspector(&moment, VIEW_PX);
-        let marked = studio.stage().drone_marker(&inspector, &moment);
+        let marked = studio.stage().drone_marker(&inspector, &moment, DisplayStyle::default());
         let seen = largest_even_size_px(VIEW_PX, moment.lens.aspect());
         let camera = studio.stage().camera(&moment, seen);
         let shown = hud::layout(&display, f64::from(seen.0) / f64::from(seen.1));

@@ -2,6 +2,7 @@
 
 use super::super::pane::Pane;
 use super::super::state::Hud;
+use super::super::style::DisplayUnits;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
@@ -13,8 +14,8 @@ use spandrel_model::site::outline::GROUND_SAMPLE_SPACING_M;
 
 /// Largest share of the map's width for the scale.
 const MAX_SCALE_SHARE: f64 = 0.35;
-/// Lengths of the scale, m.
-const SCALE_LENGTHS_M: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1_000.0, 2_000.0];
+/// Lengths of the scale, in units of length.
+const SCALE_LENGTHS: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1_000.0, 2_000.0];
 
 fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
     scale.place((point_m.east(), point_m.north()))
@@ -31,7 +32,7 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     let drone = clamp_point(place(&scale, hud.position_m), area.inside(font));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 1.15 * font), HudColor::Black));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 0.85 * font), HudColor::Yellow));
-    items.extend(legend(pane, area, &scale, font));
+    items.extend(legend(hud.style.units, pane, area, (&scale, font)));
     items
 }
 
@@ -94,16 +95,17 @@ fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
 }
 
 /// Returns the north arrow and the scale.
-fn legend(pane: Pane, area: Area, scale: &DrawingScale, font: f64) -> Vec<DrawItem> {
+fn legend(units: DisplayUnits, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
     let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
-    let length_m = SCALE_LENGTHS_M.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(SCALE_LENGTHS_M[0]);
+    let lengths_m = SCALE_LENGTHS.map(|length| length * units.length_unit_m());
+    let length_m = lengths_m.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(lengths_m[0]);
     let (left, bottom) = (area.x + 0.8 * font, area.y + area.height - 0.8 * font);
     let right = left + length_m * scale.px_per_m;
     let bar = [(left, bottom - 0.4 * font), (left, bottom), (right, bottom), (right, bottom - 0.4 * font)];
     let north = (area.x + area.width - 1.1 * font, area.y + 1.2 * font);
     vec![
         pane.line(&bar, 0.14 * font, HudColor::White),
-        pane.text((left, bottom - 0.95 * font), TextAlign::Left, font, HudColor::White, format!("{length_m:.0} m")),
+        pane.text((left, bottom - 0.95 * font), TextAlign::Left, font, HudColor::White, units.length(length_m, 0)),
         pane.fill(&arrow((north.0, north.1 - 0.2 * font), 0.0, 0.7 * font), HudColor::White),
         pane.text((north.0, north.1 + 1.1 * font), TextAlign::Center, font, HudColor::White, "N"),
     ]

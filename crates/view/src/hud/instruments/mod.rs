@@ -17,9 +17,9 @@ use super::pane::Pane;
 use super::state::Hud;
 use area::Area;
 
-/// Font size relative to the shorter side of the instruments' area.
+/// Normal font size relative to the shorter side of the instruments' area.
 const FONT_RATIO: f64 = 0.045;
-/// Smallest font size, px at standard pixel density.
+/// Smallest normal font size, px at standard pixel density.
 const MIN_FONT_PX: f64 = 10.0;
 /// Gap between the instruments, px.
 const GAP_PX: f64 = 6.0;
@@ -35,7 +35,7 @@ const MAP_SHARE: f64 = 0.55;
 #[must_use]
 pub fn instruments(hud: &Hud, site: &SiteOutline, (width, height): (f64, f64)) -> Vec<DrawItem> {
     let pane = Pane { width: width.max(1.0), height: height.max(1.0) };
-    let font = (FONT_RATIO * pane.width.min(pane.height)).max(MIN_FONT_PX);
+    let font = (FONT_RATIO * pane.width.min(pane.height)).max(MIN_FONT_PX) * hud.style.text_scale.factor();
     let whole = Area { x: 0.0, y: 0.0, width: pane.width, height: pane.height };
     if hud.tracks.is_empty() {
         return navigation::navigation(hud, pane, whole.inside(GAP_PX), font);

@@ -3,6 +3,8 @@
 
 use super::super::pane::Pane;
 use super::super::state::Hud;
+use super::super::style::TextScale;
+use super::super::text_metrics::text_width;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::clip_at;
@@ -19,6 +21,8 @@ const OBSTACLE_RADII: (f64, f64) = (0.86, 0.98);
 const PITCH_RANGE_RAD: f64 = 45.0 / 180.0 * math::PI;
 /// Smallest ratio of width to height for texts beside the disc.
 const MIN_WIDE_RATIO: f64 = 1.6;
+/// Largest size of the letters relative to the disc's radius.
+const MAX_LETTER_RATIO: f64 = 0.28;
 /// Corners of the disc.
 const CORNERS: u32 = 48;
 /// Angle between two points of an obstacle arc, rad.
@@ -36,7 +40,8 @@ struct Disc {
 
 pub(super) fn navigation(hud: &Hud, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     // In a wide area, the texts stand at the left of the disc, otherwise above and below it.
-    let wide = area.width >= MIN_WIDE_RATIO * area.height;
+    let beside = text_width("obstacle", font) + font <= 0.5 * (area.width - area.height);
+    let wide = area.width >= MIN_WIDE_RATIO * area.height && (beside || hud.style.text_scale == TextScale::Normal);
     let height = if wide { area.height - 0.6 * font } else { area.height - 2.6 * font };
     let radius = 0.5 * area.width.min(height).max(1.0);
     let disc = Disc { pane, middle: area.middle(), radius, font };
@@ -58,7 +63,9 @@ pub(super) fn navigation(hud: &Hud, pane: Pane, area: Area, font: f64) -> Vec<Dr
             items.push(pane.text((below.0, below.1 - 1.1 * font), side, font, HudColor::White, name));
             items.push(pane.text(below, side, font, HudColor::White, distance));
         } else {
-            items.push(pane.text(below, side, font, HudColor::White, format!("{name} {distance}")));
+            let words = format!("{name} {distance}");
+            let font = font.min(area.width / text_width(&words, 1.0));
+            items.push(pane.text(below, side, font, HudColor::White, words));
         }
     }
     items
@@ -68,7 +75,7 @@ pub(super) fn navigation(hud: &Hud, pane: Pane, area: Area, font: f64) -> Vec<Dr
 fn obstacle_words(hud: &Hud) -> Option<[String; 2]> {
     let obstacles = hud.obstacles.as_ref()?;
     let nearest_m = obstacles.sectors_m.iter().copied().fold(f64::INFINITY, f64::min);
-    let words = if nearest_m.is_finite() { format!("{nearest_m:.1} m") } else { "none near".to_owned() };
+    let words = if nearest_m.is_finite() { hud.style.units.length(nearest_m, 1) } else { "none near".to_owned() };
     Some(["obstacle".to_owned(), words])
 }
 
@@ -113,7 +120,8 @@ impl Disc {
         }
         for (letter, quarter) in [("N", 0.0), ("E", 1.0), ("S", 2.0), ("W", 3.0)] {
             let place = self.at(0.25 * math::TAU * quarter - hud.heading_rad, LETTER_RADIUS);
-            items.push(self.pane.text(place, TextAlign::Center, self.font, HudColor::White, letter));
+            let font = self.font.min(MAX_LETTER_RATIO * self.radius);
+            items.push(self.pane.text(place, TextAlign::Center, font, HudColor::White, letter));
         }
         let home = hud.pad_m - hud.position_m;
         if home.horizontal_norm() > 1.0 {

@@ -30,7 +30,7 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
     let (x, side) =
         if left { (area.x + 0.4 * font, TextAlign::Left) } else { (area.x + area.width - 0.4 * font, TextAlign::Right) };
     let y = if drone.1 - area.y > 1.5 * font { drone.1 - 0.65 * font } else { drone.1 + 0.65 * font };
-    items.push(pane.text((x, y), side, font, HudColor::White, format!("{:.0} m", hud.height_m)));
+    items.push(pane.text((x, y), side, font, HudColor::White, hud.style.units.length(hud.height_m, 0)));
     items
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::tests::hud;
 use super::super::text_metrics::text_width;
-use super::super::{HudColor, Obstacles, TextAlign};
+use super::super::{DisplayStyle, DisplayUnits, HudColor, Obstacles, TextAlign, TextScale};
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout, WindowShape};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
@@ -70,26 +70,29 @@ fn texts(items: &[DrawItem], (width, height): (f64, f64)) -> Vec<(String, [f64; 
 fn prop_texts_do_not_overlap_and_everything_is_inside_in_any_window() {
     let (job, site) = job();
     let hud = flying(&job);
-    for window_px in [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0), (1600.0, 560.0), (800.0, 600.0)] {
+    let windows = [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0), (1600.0, 560.0), (800.0, 600.0)];
+    let styles =
+        TextScale::ALL.into_iter().flat_map(|text_scale| DisplayUnits::ALL.map(|units| DisplayStyle { units, text_scale }));
+    for (window_px, style) in styles.flat_map(|style| windows.map(|window_px| (window_px, style))) {
         let shape = WindowShape { window: window_px.0 / window_px.1, camera: 4.0 / 3.0 };
         let places = ViewLayout::Camera.view_rects(shape);
         let place = places.into_iter().find(|place| place.which == ViewKind::Instruments).unwrap();
         let size_px = (place.width * window_px.0, place.height * window_px.1);
-        let items = instruments(&hud, &site, size_px);
+        let items = instruments(&Hud { style, ..hud.clone() }, &site, size_px);
         let found = texts(&items, size_px);
         for (k, (words, a)) in found.iter().enumerate() {
             for (other, b) in &found[..k] {
                 let apart = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
-                assert!(apart, "{window_px:?}: '{words}' overlaps '{other}'");
+                assert!(apart, "{window_px:?}, {style:?}: '{words}' overlaps '{other}'");
             }
             let inside = a[0] >= -TOLERANCE_PX && a[1] >= 0.0 && a[2] <= size_px.0 + TOLERANCE_PX && a[3] <= size_px.1;
-            assert!(inside, "{window_px:?}: '{words}' at {a:?} is outside {size_px:?}");
+            assert!(inside, "{window_px:?}, {style:?}: '{words}' at {a:?} is outside {size_px:?}");
         }
         for item in &items {
             let (DrawItem::Fill { points, .. } | DrawItem::Line { points, .. }) = item else { continue };
             let inside =
                 |p: &super::super::ScreenPoint| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
-            assert!(points.iter().all(inside), "{window_px:?}: {item:?}");
+            assert!(points.iter().all(inside), "{window_px:?}, {style:?}: {item:?}");
         }
     }
 }

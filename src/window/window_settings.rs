@@ -1,0 +1,227 @@
+//! The window's settings: those of the user and of the command line. Applies changes and saves them.
+
+use crate::io::user_settings::{SettingsFile, UserSettings};
+use spandrel_clients::rc::key;
+use spandrel_clients::rc::keyboard::{KeyBindings, Rebinding, SoundPreferences};
+use spandrel_view::flow::{KeyFunction, SettingChange, SettingsStatus};
+use spandrel_view::sound::SoundSettings;
+
+/// Options on the command line that override the user's settings.
+#[derive(Debug, Clone, Default)]
+pub struct SettingsOverrides {
+    /// Key bindings file and its contents.
+    pub keys: Option<(String, KeyBindings)>,
+    /// Name of the quality preset; `Some(None)` for auto.
+    pub quality: Option<Option<&'static str>>,
+    /// True if sound is off.
+    pub no_sound: bool,
+}
+
+/// The window's settings.
+#[derive(Debug, Clone)]
+pub struct WindowSettings {
+    file: SettingsFile,
+    /// Settings in effect.
+    current: UserSettings,
+    /// Settings in the file, without the options on the command line.
+    stored: UserSettings,
+    /// Why the file cannot be used. It is kept until the user restores all defaults.
+    invalid: Option<String>,
+    keys_file: Option<String>,
+}
+
+impl WindowSettings {
+    /// Reads the user's settings. If they are invalid, logs the problems and uses the defaults.
+    pub fn load(file: SettingsFile, overrides: SettingsOverrides) -> Self {
+        let (stored, invalid) = match file.load() {
+            Ok(settings) => (settings, None),
+            Err(error) => {
+                tracing::warn!("{error}; using the default settings");
+                (UserSettings::default(), Some(error.to_string()))
+            }
+        };
+        let mut current = stored.clone();
+        let mut keys_file = None;
+        if let Some((path, keys)) = overrides.keys {
+            (current.keys, keys_file) = (keys, Some(path));
+        }
+        current.quality = overrides.quality.unwrap_or(current.quality);
+        current.keys.sounds.on &= !overrides.no_sound;
+        Self { file, current, stored, invalid, keys_file }
+    }
+
+    /// Returns the settings in effect.
+    pub fn current(&self) -> &UserSettings {
+        &self.current
+    }
+
+    /// Returns a message for the user about an invalid file.
+    pub fn file_notice(&self) -> Option<String> {
+        self.invalid.as_ref().map(|why| format!("The default settings are used, because the settings file is invalid: {why}"))
+    }
+
+    /// Returns the settings for the pages.
+    pub fn status(&self) -> SettingsStatus {
+        let keys = &self.current.keys;
+        let function = |(binding, title)| KeyFunction { binding, title, key: keys.label(binding) };
+        SettingsStatus {
+            style: self.current.style,
+            quality: self.current.quality,
+            is_sound_on: keys.sounds.on,
+            sounds: sound_settings(keys.sounds),
+            keys: KeyBindings::functions().map(function).collect(),
+            fixed_keys: self.keys_file.clone(),
+        }
+    }
+
+    /// Applies a change and saves it. Returns a message for the user, if there is something to say.
+    pub fn apply(&mut self, change: &SettingChange) -> Option<String> {
+        // The keys of a file on the command line stay.
+        let keys = self.keys_file.as_ref().map(|_| self.current.keys.clone());
+        change_settings(&mut self.stored, change);
+        let words = change_settings(&mut self.current, change);
+        if let Some(keys) = keys {
+            let sounds = std::mem::replace(&mut self.current.keys, keys).sounds;
+            self.current.keys.sounds = sounds;
+        }
+        if *change == SettingChange::RestoreAll {
+            self.invalid = None;
+        }
+        self.save().or(words)
+    }
+
+    /// Turns sound on or off and saves it. Returns a message for the user if that fails.
+    pub fn set_sound(&mut self, on: bool) -> Option<String> {
+        (self.stored.keys.sounds.on, self.current.keys.sounds.on) = (on, on);
+        self.save()
+    }
+
+    /// Saves the settings. Returns a message for the user if that fails.
+    fn save(&self) -> Option<String> {
+        if let Some(why) = &self.invalid {
+            return Some(format!("Not saved, because the settings file is invalid: {why}. Correct it, or restore all defaults."));
+        }
+        self.file.save(&self.stored).err().map(|error| format!("Not saved: {error}."))
+    }
+}
+
+/// Returns the sound settings without the switch.
+pub fn sound_settings(sounds: SoundPreferences) -> SoundSettings {
+    let SoundPreferences { on: _, propellers, warnings, speech, volume } = sounds;
+    SoundSettings { propellers, warnings, speech, volume }
+}
+
+/// Changes settings. Returns a message for the user, if there is something to say.
+fn change_settings(settings: &mut UserSettings, change: &SettingChange) -> Option<String> {
+    match change {
+        SettingChange::Style(style) => settings.style = *style,
+        SettingChange::Quality(quality) => settings.quality = *quality,
+        SettingChange::Sounds(SoundSettings { propellers, warnings, speech, volume }) => {
+            settings.keys.sounds = SoundPreferences {
+                on: settings.keys.sounds.on,
+                propellers: *propellers,
+                warnings: *warnings,
+                speech: *speech,
+                volume: *volume,
+            };
+        }
+        SettingChange::Key(index, key) => return rebind(&mut settings.keys, *index, key),
+        SettingChange::RestoreKeys => {
+            settings.keys.restore_keys();
+            return Some("All keys have their defaults.".to_owned());
+        }
+        SettingChange::RestoreAll => {
+            *settings = UserSettings::default();
+            return Some("All settings have their defaults.".to_owned());
+        }
+    }
+    None
+}
+
+fn rebind(keys: &mut KeyBindings, index: usize, key: &str) -> Option<String> {
+    let (name, title) = KeyBindings::functions().nth(index)?;
+    let label = key::label(&key.to_lowercase());
+    Some(match keys.rebind(name, key) {
+        Rebinding::Done => format!("{label}: {title}."),
+        Rebinding::Exchanged(other) => {
+            let other_title =
+                KeyBindings::functions().find(|(binding, _)| *binding == other).map_or(String::new(), |found| found.1);
+            format!("{label}: {title}. The key was taken: {other_title} now has {}.", keys.label(other))
+        }
+        Rebinding::Refused => format!("'{key}' cannot be used (allowed: {}).", key::allowed()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_view::hud::{DisplayStyle, DisplayUnits, TextScale};
+
+    fn index(name: &str) -> usize {
+        KeyBindings::functions().position(|(binding, _)| binding == name).unwrap()
+    }
+
+    fn file(folder: &tempfile::TempDir) -> SettingsFile {
+        SettingsFile::at(folder.path().join("settings.toml"))
+    }
+
+    #[test]
+    fn exact_changes_are_applied_saved_and_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut settings = WindowSettings::load(file(&folder), SettingsOverrides::default());
+        let told = settings.apply(&SettingChange::Key(index("lamp"), "x".into()));
+        assert_eq!(told.as_deref(), Some("X: lamp."));
+        let told = settings.apply(&SettingChange::Key(index("lamp"), "l".into()));
+        assert_eq!(told.as_deref(), Some("L: lamp. The key was taken: land now has X."));
+        let told = settings.apply(&SettingChange::Key(index("lamp"), "f5".into()));
+        assert!(told.is_some_and(|words| words.contains("'f5' cannot be used (allowed: one character")));
+        let style = DisplayStyle { units: DisplayUnits::UsCustomary, text_scale: TextScale::Double };
+        assert_eq!(settings.apply(&SettingChange::Style(style)), None);
+        assert_eq!(settings.set_sound(false), None);
+        let again = WindowSettings::load(file(&folder), SettingsOverrides::default());
+        assert_eq!(again.current(), settings.current());
+        assert_eq!(
+            (again.current().keys.of("lamp"), again.current().style, again.status().is_sound_on),
+            (Some("l"), style, false)
+        );
+        settings.apply(&SettingChange::RestoreKeys);
+        assert_eq!((settings.current().keys.of("lamp"), settings.current().style), (Some("b"), style), "only the keys");
+        settings.apply(&SettingChange::RestoreAll);
+        assert_eq!(file(&folder).load().unwrap(), UserSettings::default());
+    }
+
+    #[test]
+    fn exact_options_on_the_command_line_override_the_settings_without_being_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut keys = KeyBindings::default();
+        keys.rebind("lamp", "x");
+        let overrides =
+            SettingsOverrides { keys: Some(("keys.toml".into(), keys)), quality: Some(Some("ultra")), no_sound: true };
+        let mut settings = WindowSettings::load(file(&folder), overrides);
+        let shown = settings.status();
+        assert_eq!((shown.quality, shown.is_sound_on, shown.fixed_keys.as_deref()), (Some("ultra"), false, Some("keys.toml")));
+        settings.apply(&SettingChange::RestoreAll);
+        assert_eq!(settings.current().keys.of("lamp"), Some("x"), "the file on the command line decides");
+        let style = DisplayStyle { text_scale: TextScale::Large, ..DisplayStyle::default() };
+        let overrides = SettingsOverrides { quality: Some(Some("ultra")), ..SettingsOverrides::default() };
+        let mut settings = WindowSettings::load(file(&folder), overrides);
+        settings.apply(&SettingChange::Style(style));
+        assert_eq!(file(&folder).load().unwrap(), UserSettings { style, ..UserSettings::default() });
+    }
+
+    #[test]
+    fn exact_an_invalid_file_is_kept_until_all_defaults_are_restored() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("settings.toml");
+        std::fs::write(&path, "format = 1\n[display]\nunits = \"feet\"\n").unwrap();
+        let mut settings = WindowSettings::load(file(&folder), SettingsOverrides::default());
+        let why = "settings.toml:3: display.units = \"feet\": unknown keyword (allowed: metric, us)";
+        assert!(settings.file_notice().is_some_and(|words| words.contains(why)));
+        let told = settings.apply(&SettingChange::Quality(Some("low"))).unwrap();
+        assert!(told.starts_with("Not saved") && told.contains(why), "{told}");
+        assert_eq!(settings.current().quality, Some("low"), "it still takes effect");
+        assert!(std::fs::read_to_string(&path).unwrap().contains("feet"));
+        assert_eq!(settings.apply(&SettingChange::RestoreAll).as_deref(), Some("All settings have their defaults."));
+        assert_eq!((settings.file_notice(), file(&folder).load().unwrap()), (None, UserSettings::default()));
+    }
+}
