@@ -1,0 +1,103 @@
+"""The settings page of the window: a key is changed, stored, and flown with; an invalid file is reported and kept."""
+
+import json
+import subprocess
+import tomllib
+
+import pytest
+
+import asking
+import display
+import spandrel
+from test_flow import AGAIN_S, DOWN, ENTER, ESCAPE, LIMIT_S, NIGHT, UP, Training, count, in_flight, is_page, other_page
+
+# Number of rows above "take off" in the list of keys: eight stick directions and four actions.
+ROWS_ABOVE_TAKE_OFF = 12
+
+
+@pytest.fixture
+def screen(tmp_path):
+    """A virtual display that is large enough for legible text."""
+    opened = display.Display(tmp_path, width=1280, height=560)
+    yield opened
+    opened.close()
+
+
+def settings_of(training):
+    """Returns the stored settings, or nothing if there are none yet."""
+    path = training.folder / "config" / "spandrel" / "settings.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+
+@pytest.mark.timeout(1800)
+def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):
+    """Changes the key for takeoff from T to Y on the settings page, and takes off with it."""
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", "--no-sound")
+    try:
+        start = training.wait_for_screenshot("start", is_page)
+        # The settings are above "Quit", the last row.
+        moved = training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and abs(photograph - start).mean() > 0.1, UP)
+        screen.tap(UP)
+        settings = training.wait_for_screenshot("settings", other_page(moved), ENTER)
+        keys = training.wait_for_screenshot("keys", other_page(settings), ENTER)
+        for _ in range(ROWS_ABOVE_TAKE_OFF):
+            screen.tap(DOWN)
+        training.wait_for_screenshot("awaits-a-key", lambda photograph: is_page(photograph) and abs(photograph - keys).mean() > 0.1, ENTER)
+        screen.tap("y")
+        spandrel.wait_for("the stored key", lambda: (settings_of(training) or {}).get("actions", {}).get("take_off") == "y", LIMIT_S)
+        stored = settings_of(training)
+        assert stored["format"] == 1 and stored["actions"]["arm"] == "1", stored
+        assert stored["sound"]["on"], "--no-sound applies to this run only"
+        # Back to the start page; "Next" is four rows down: recommendation, job, purpose, next.
+        page = training.wait_for_screenshot("settings-again", other_page(screen.photograph()), ESCAPE)
+        page = training.wait_for_screenshot("start-again", other_page(page), ESCAPE)
+        for _ in range(4):
+            screen.tap(DOWN)
+        page = training.wait_for_screenshot("controls", other_page(page), ENTER)
+        page = training.wait_for_screenshot("tutorial", other_page(page), ENTER)
+        # The last row skips the tutorial.
+        screen.tap(UP)
+        training.wait_for_screenshot("briefing", other_page(page), ENTER)
+        training.wait_for_screenshot("flight", in_flight, ENTER)
+        screen.focus()
+        again = asking.Repeater(lambda: (screen.tap("1"), screen.tap("y")), again_s=AGAIN_S)
+
+        def flies():
+            again.if_due()
+            return "lift-off" in training.output()
+
+        spandrel.wait_for("lift-off with the new key", flies, LIMIT_S)
+    finally:
+        training.close()
+
+
+@pytest.mark.timeout(900)
+def test_wire_an_invalid_settings_file_is_reported_and_kept(screen, tmp_path):
+    """The window opens with the defaults, and the file stays as it is."""
+    path = tmp_path / "spandrel" / "settings.toml"
+    path.parent.mkdir()
+    text = 'format = 1\n[display]\ntext_scale_pct = 130\n'
+    path.write_text(text, encoding="utf-8")
+    log = open(tmp_path / "view.txt", "w", encoding="utf-8")
+    window = subprocess.Popen(
+        [spandrel.COCKPIT, "view", "--led", "--leash"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log,
+        env=screen.environment() | {"XDG_CONFIG_HOME": str(tmp_path)},
+    )
+    try:
+        assert json.loads(window.stdout.readline()) == {"is": "ready"}
+        offers = {
+            "is": "offers", "trainees": [], "web": None, "scenarios": [{"name": "drill-hover", "title": "Drill", "kind": "1 task"}],
+            "choice": {"trainee": "nina", "scenario": "drill-hover", "purpose": "practice"},
+        }
+        window.stdin.write(json.dumps(offers).encode() + b"\n")
+        window.stdin.flush()
+        # A message covers the lower edge of the page.
+        spandrel.wait_for("the start page", lambda: count(screen.photograph()[:200], NIGHT) > 100_000, LIMIT_S)
+        window.stdin.close()
+        assert window.wait(timeout=LIMIT_S) == 0
+    finally:
+        spandrel.end(window)
+        log.close()
+    output = (tmp_path / "view.txt").read_text(encoding="utf-8")
+    assert f"{path}:3: display.text_scale_pct = 130: unknown size (allowed: 100, 125, 150, 200)" in output, output
+    assert path.read_text(encoding="utf-8") == text
