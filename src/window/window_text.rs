@@ -45,7 +45,7 @@ pub fn help(keys: &KeyBindings, flies: bool) -> String {
     );
     if flies {
         words.push_str(&format!(
-            "\n{} arm    {} take off    {} {} up and down    {} {} turn    {} {} {} {} fly    {} lamp    {} picture    {} land",
+            "\n{} arm    {} take off    {} {} up and down    {} {} turn    {} {} {} {} fly    {} lamp    {} picture    {} land\n{} freeze    {} rewind 10 s",
             key("arm"),
             key("take_off"),
             key("up"),
@@ -58,10 +58,21 @@ pub fn help(keys: &KeyBindings, flies: bool) -> String {
             key("right"),
             key("lamp"),
             key("snapshot"),
-            key("land")
+            key("land"),
+            key("freeze"),
+            key("rewind")
         ));
     }
     words
+}
+
+/// Returns the text for a frozen flight: how to continue, if the window can fly the vehicle.
+pub fn frozen(keys: &KeyBindings, flies: bool) -> String {
+    if flies {
+        format!("Frozen. {}: continue    {}: rewind 10 s", keys.label("freeze"), keys.label("rewind"))
+    } else {
+        "Frozen.".to_owned()
+    }
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.

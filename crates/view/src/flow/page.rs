@@ -1,6 +1,7 @@
 //! Input events, pages, and requests of the window.
 
 use super::pipe::{FlightStarted, FromWindow};
+use std::path::PathBuf;
 
 /// A change to a setting of a controller profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,6 +75,8 @@ pub enum WindowRequest {
     Send(FromWindow),
     /// Connect to this flight and show it.
     ShowFlight(Box<FlightStarted>),
+    /// Read this telemetry log for the ghost.
+    LoadGhost(PathBuf),
     /// Disconnect from the flight.
     LeaveFlight,
     /// Search for a controller.
