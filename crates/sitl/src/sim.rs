@@ -9,6 +9,7 @@ mod host_api;
 pub mod inbox;
 mod instructor;
 mod practice;
+mod practice_controls;
 mod radio;
 mod tick;
 
@@ -28,7 +29,7 @@ use super::sensors::{Readings, Sensors};
 use controller::{BuiltinController, Controller};
 use file_jobs::FileJobScheduler;
 use inbox::Inbox;
-use practice::PracticeControls;
+use practice_controls::PracticeControls;
 use radio::RadioLink;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::dialect::MavSeverity;

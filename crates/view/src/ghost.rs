@@ -3,7 +3,7 @@
 
 use super::camera::PinholeCamera;
 use super::hud::{DrawItem, HudColor};
-use super::path_guide::{polygon, segment};
+use super::path_guide::{circle, polygon, segment};
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::telemetry::Flight;
 use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
@@ -28,14 +28,18 @@ const FOUND_M: f64 = 4.0;
 /// Largest speed of the ghost along its path, m/s, and distance from which it jumps, m (estimates).
 const MAX_SPEED_M_S: f64 = 12.0;
 const JUMP_M: f64 = 40.0;
-/// Minimum size in the picture, as a fraction of its height (estimate: recognizable as an aircraft).
-const MIN_SIZE: f64 = 0.035;
+/// Minimum distance of the rotors from the center in the picture, as a fraction of its height (estimate: recognizable as an
+/// aircraft).
+const MIN_SIZE: f64 = 0.03;
 /// Corners of a rotor disk.
 const DISK_CORNERS: u32 = 12;
 /// Half the width of the body as a fraction of the rotors' distance from the center, and length of the line that shows the
 /// heading, as a multiple of it.
 const BODY_SHARE: f64 = 0.35;
 const HEADING_SHARE: f64 = 1.8;
+/// Radius of the ring around the ghost, as a multiple of the rotors' distance from the center. Seen from the side, an aircraft is a
+/// thin line.
+const RING_SHARE: f64 = 1.9;
 /// Width of the lines, as a fraction of the picture's height.
 const LINE_WIDTH: f64 = 0.004;
 
@@ -145,7 +149,7 @@ pub struct GhostView<'a> {
 }
 
 impl GhostView<'_> {
-    /// Returns the items that draw a ghost at a pose: rotor disks, body, and a line that shows its heading.
+    /// Returns the items that draw a ghost at a pose: rotor disks, body, a line that shows its heading, and a ring around it.
     #[must_use]
     pub fn items(&self, pose: Pose<Enu>) -> Vec<DrawItem> {
         let depth_m = (pose.position_m - self.eye.position_m).dot(self.eye.forward);
@@ -155,7 +159,7 @@ impl GhostView<'_> {
         let arm_m = self.vehicle.rotors.iter().map(|rotor| rotor.position_m.norm()).fold(0.0, f64::max).max(0.05);
         let (_, half_height) = self.eye.half_extents(self.aspect);
         // A distant ghost is drawn larger than it is.
-        let scale = (MIN_SIZE * half_height * depth_m / arm_m).max(1.0);
+        let scale = (MIN_SIZE * 2.0 * half_height * depth_m / arm_m).max(1.0);
         let matrix = self.eye.view_projection(self.aspect);
         let color = if self.is_hidden { HudColor::GhostHidden } else { HudColor::Ghost };
         let at = |body_m: Vec3<Frd>| body_point(pose, body_m * scale);
@@ -173,7 +177,9 @@ impl GhostView<'_> {
         let shapes =
             disks.chain([body]).filter_map(|corners| Some(DrawItem::Fill { points: polygon(&matrix, &corners)?, color }));
         let nose = segment(&matrix, at(Vec3::zero()), at(Vec3::new(HEADING_SHARE * arm_m, 0.0, 0.0)), LINE_WIDTH, color);
-        shapes.chain(nose).collect()
+        let to = (pose.position_m - self.eye.position_m).unit();
+        let ring = circle(&matrix, (pose.position_m, to), RING_SHARE * arm_m * scale, (LINE_WIDTH, color));
+        shapes.chain(nose).chain(ring).collect()
     }
 }
 
@@ -208,7 +214,7 @@ mod tests {
         };
         for pair in corners.windows(2) {
             let ((e0, n0), (e1, n1)) = (pair[0], pair[1]);
-            let steps = ((e1 - e0).hypot(n1 - n0) / 0.04).ceil() as usize;
+            let steps = (Vec3::<Enu>::new(e1 - e0, n1 - n0, 0.0).norm() / 0.04).ceil() as usize;
             (0..steps).map(|k| k as f64 / steps as f64).for_each(|t| push(e0 + t * (e1 - e0), n0 + t * (n1 - n0)));
             (0..500).for_each(|_| push(e1, n1));
         }
@@ -278,7 +284,8 @@ mod tests {
         let items =
             |north: f64, is_hidden: bool| GhostView { eye: &eye, aspect: 1.5, vehicle: &vehicle, is_hidden }.items(pose(north));
         assert!(items(-5.0, false).is_empty());
-        assert_eq!(items(5.0, false).len(), vehicle.rotors.len() + 2, "rotor disks, body and heading");
+        let fills = items(5.0, false).iter().filter(|item| matches!(item, DrawItem::Fill { .. })).count();
+        assert_eq!(fills, vehicle.rotors.len() + 1, "rotor disks and body");
         let is = |color: HudColor| move |item: &DrawItem| matches!(item, DrawItem::Fill { color: own, .. } | DrawItem::Line { color: own, .. } if *own == color);
         assert!(items(5.0, false).iter().all(is(HudColor::Ghost)) && items(5.0, true).iter().all(is(HudColor::GhostHidden)));
         let width = |north: f64| {

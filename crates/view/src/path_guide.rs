@@ -190,7 +190,8 @@ pub fn ring_items(eye: &PinholeCamera, aspect: f64, middle_m: Vec3<Enu>, radius_
     circle(&eye.view_projection(aspect), (middle_m, to.unit()), radius_m, (NEXT_GATE_WIDTH, HudColor::Yellow))
 }
 
-fn circle(
+/// Returns a circle around a point, across a direction.
+pub(super) fn circle(
     matrix: &Matrix,
     (middle_m, normal): (Vec3<Enu>, Vec3<Enu>),
     radius_m: f64,

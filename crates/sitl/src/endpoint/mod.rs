@@ -14,6 +14,7 @@ pub mod payload;
 mod practice;
 mod publish;
 mod receive;
+mod refused_request;
 pub mod relay;
 mod simulated_aircraft;
 pub mod streams;

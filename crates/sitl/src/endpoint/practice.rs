@@ -1,8 +1,8 @@
 //! Requests that are allowed in practice only: to freeze, resume and rewind the flight. The endpoint decides whether a
 //! request is accepted; the simulation carries it out.
 
+use super::refused_request::RefusedRequest;
 use super::vehicle_command::VehicleCommand;
-use super::vehicle_link::RefusedRequest;
 use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavResult;
 

@@ -3,73 +3,21 @@
 //! No client therefore sees a clock that runs backward.
 
 use super::controller::Controller;
+use super::practice_controls::{Freeze, KEPT_STATE_INTERVAL};
 use super::{Sim, SimEvent};
 use crate::autopilot::Sticks;
 use crate::backend::Phase;
 use crate::endpoint::PracticeState;
-use crate::physics::PhysicsState;
 use spandrel_mavlink::contract::contact::ContactKind;
-use spandrel_mavlink::contract::practice::{MAX_REWIND, PracticeRequest};
+use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavSeverity;
-use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
-use std::collections::VecDeque;
 
-/// Interval between the states that are kept for a rewind.
-const KEPT_STATE_INTERVAL: SimTime = SimTime::from_ms(1_000);
-/// Number of kept states: enough for the longest rewind, with one more because a request rarely falls on the interval.
-const MAX_KEPT_STATES: usize = (MAX_REWIND.ns() / KEPT_STATE_INTERVAL.ns()) as usize + 1;
 /// Time for which the simulation runs on after a rewind before it freezes, so that clients receive the new position. It
 /// exceeds the 60 ms by which the window's picture lags behind the telemetry, by two samples of ground truth (estimate).
 const RUN_ON_TIME: SimTime = SimTime::from_ms(100);
 /// Stick deflection that counts as moved, of full deflection (the same as for a sender that takes control of the sticks).
 const MOVED_STICK: f64 = 0.1;
-
-/// State of the aircraft at an earlier time.
-#[derive(Debug, Clone)]
-struct EarlierState {
-    /// Time of the flight, without what was undone by rewinds.
-    at: SimTime,
-    physics: PhysicsState,
-    safe_hover: (Vec3<Ned>, f64),
-}
-
-/// Whether simulation time stands still.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Freeze {
-    #[default]
-    Off,
-    /// After a rewind; simulation time stops at `at`.
-    Due { at: SimTime },
-    /// Until it is resumed by a request.
-    On,
-    /// Until it is resumed by a request, or a stick moves away from its center.
-    UntilStick {
-        /// Whether all sticks have been centered since the rewind.
-        is_centered: bool,
-    },
-}
-
-/// Freezes, rewinds, and the earlier states of the aircraft.
-#[derive(Debug, Clone, Default)]
-pub(super) struct PracticeControls {
-    is_forbidden: bool,
-    freeze: Freeze,
-    /// Oldest first.
-    kept: VecDeque<EarlierState>,
-    /// Flight time that rewinds have undone.
-    undone: SimTime,
-}
-
-impl PracticeControls {
-    /// Removes and returns the newest state that is not younger than `at` or, without one, the oldest state. Forgets all
-    /// newer states.
-    fn take(&mut self, at: SimTime) -> Option<EarlierState> {
-        let older = self.kept.partition_point(|state| state.at <= at);
-        self.kept.truncate(older.max(1));
-        self.kept.pop_back()
-    }
-}
 
 impl Sim {
     /// Refuses all requests to freeze or rewind the flight, as an assessment requires.
@@ -95,7 +43,7 @@ impl Sim {
             can_freeze: external
                 .is_none_or(|autopilot| autopilot.phase() == Phase::Running && !autopilot.interface.runs_in_real_time()),
             can_rewind: external.is_none(),
-            has_flown: !self.practice.kept.is_empty(),
+            has_flown: self.practice.has_states(),
             has_ended: self.end_reason.is_some(),
         }
     }
@@ -142,10 +90,7 @@ impl Sim {
     /// Puts the aircraft back into an earlier state. The present keeps what does not belong to the aircraft: time, wind, traffic,
     /// failures, pictures, counters.
     fn rewind(&mut self, by: SimTime) {
-        let flown = self.now - self.practice.undone;
-        let Some(earlier) = self.practice.take(flown - by) else { return };
-        let undone = flown - earlier.at;
-        self.practice.undone += undone;
+        let Some((earlier, undone)) = self.practice.take(self.now, by) else { return };
         self.state.restore(&earlier.physics);
         self.last_safe_hover = earlier.safe_hover;
         (self.crashed_since, self.hard_contact) = (None, false);
@@ -156,7 +101,6 @@ impl Sim {
         if let Controller::Builtin(own) = &mut self.controller {
             own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
         }
-        self.practice.kept.push_back(earlier);
         self.practice.freeze = Freeze::Due { at: now + RUN_ON_TIME };
         self.events.push_back(SimEvent::Rewind { undone });
         self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Rewound {:.0} s", undone.s()));
@@ -191,12 +135,7 @@ impl Sim {
         if !is_due || !is_intact || !self.controller.is_flying() {
             return;
         }
-        let practice = &mut self.practice;
-        if practice.kept.len() == MAX_KEPT_STATES {
-            practice.kept.pop_front();
-        }
-        let at = self.now - practice.undone;
-        practice.kept.push_back(EarlierState { at, physics: self.state.clone(), safe_hover: self.last_safe_hover });
+        self.practice.keep(self.now, &self.state, self.last_safe_hover);
     }
 }
 

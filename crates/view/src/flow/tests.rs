@@ -1,7 +1,7 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, JobBriefing, JobOffer, NextJob,
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing, JobOffer, NextJob,
     Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
 use super::sheet::PictureSource;

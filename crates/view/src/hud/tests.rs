@@ -161,7 +161,7 @@ fn exact_texts_are_correct_in_every_abnormal_state() {
     let said = |text: &str, cues| Hud { cue_texts: [text].into_iter().collect(), ..warned(cues) };
     let member = crash("bridge member arch/rib-left/07");
     let hit = "Red: CRASH: bridge member arch/rib-left/07";
-    let states: [(Hud, &[&str]); 22] = [
+    let states: [(Hud, &[&str]); 24] = [
         (hud(), &[]),
         (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52%"]),
         (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17%"]),

@@ -4,9 +4,10 @@ use super::RelayEndpoint;
 use crate::endpoint::component_ids::{AUTOPILOT, CAMERA, LAMP};
 use crate::endpoint::link::LinkId;
 use crate::endpoint::payload::commands as payload_commands;
+use crate::endpoint::refused_request::RefusedRequest;
 use crate::endpoint::simulated_aircraft::SimulatedAircraft;
 use crate::endpoint::vehicle_command::VehicleCommand;
-use crate::endpoint::vehicle_link::{FailureInjection, RefusedRequest};
+use crate::endpoint::vehicle_link::FailureInjection;
 use spandrel_mavlink::dialect::{MavCmd, MavResult, MavSeverity};
 use std::collections::VecDeque;
 

@@ -1,5 +1,6 @@
 //! Client requests that the simulation or the host executes.
 
+use crate::endpoint::refused_request::RefusedRequest;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use crate::faults::{FailureType, FailureUnit, Faults};
 use spandrel_mavlink::dialect::MavResult;
@@ -14,15 +15,6 @@ pub struct FailureInjection {
     pub kind: Option<FailureType>,
     /// Instance, 0 for all.
     pub instance: usize,
-}
-
-/// Reason why a request to the simulation is refused.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RefusedRequest {
-    /// Result for the acknowledgment.
-    pub result: MavResult,
-    /// Text for the operator, if the result alone does not explain the reason.
-    pub text: Option<String>,
 }
 
 impl FailureInjection {
