@@ -94,7 +94,7 @@ pub struct SessionRecord {
     /// Unmet certification requirements, as text.
     #[serde(default)]
     pub unmet: Vec<String>,
-    /// Freezes and rewinds; zero in records before format 5.
+    /// Freezes and rewinds; zero in records before format 6.
     #[serde(default)]
     pub practice_aids: PracticeAids,
     /// Certification scores and requirements; absent in records before format 3.

@@ -1,8 +1,8 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing, JobOffer, NextJob,
-    Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing,
+    JobOffer, NextJob, Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
 use super::sheet::PictureSource;
 use super::{ControllerStatus, KeyNames, KeyPress, MenuAction, PICTURES, Page, ProfileChange, WindowFlow, WindowRequest};
