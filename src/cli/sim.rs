@@ -74,6 +74,10 @@ pub struct Args {
     /// setting in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: AnnouncedComponents,
+    /// Requests by MAVLink command to freeze, resume and rewind the flight (docs/src/reference/contract.md). Turn them
+    /// off for an assessment, as train does
+    #[arg(long, value_name = "on|off", default_value = "on")]
+    practice_controls: PracticeControls,
     /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do
     #[arg(long, value_name = "RULE", default_value = "continue")]
     after_crash: AfterCrashArg,
@@ -142,6 +146,15 @@ enum AnnouncedComponents {
     /// Send heartbeats
     On,
     /// Send no heartbeats
+    Off,
+}
+
+/// Whether the flight can be frozen and rewound.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum PracticeControls {
+    /// Accept the requests
+    On,
+    /// Refuse the requests
     Off,
 }
 
@@ -293,6 +306,9 @@ impl FlightParts<'_> {
         }
         if args.camera == AnnouncedComponents::Off {
             shell.core.mute_camera_heartbeat();
+        }
+        if args.practice_controls == PracticeControls::Off {
+            shell.core.forbid_freeze_and_rewind();
         }
         Ok(shell)
     }

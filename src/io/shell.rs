@@ -30,7 +30,7 @@ const CONNECTION_CHECK_INTERVAL: Duration = Duration::from_millis(10);
 const START_STEP: Duration = Duration::from_millis(4);
 /// Delay beyond which an external autopilot that starts in real time does not catch up.
 const MAX_START_DELAY: Duration = Duration::from_millis(20);
-/// Wall-clock interval between heartbeats while the simulation is paused. Clients consider a vehicle lost after about 3
+/// Wall-clock interval between heartbeats while the simulation is paused or frozen. Clients consider a vehicle lost after about 3
 /// to 5 s without one.
 const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
@@ -68,7 +68,10 @@ pub struct VehicleShell {
     params: Option<ParamFile>,
     signing_store: Option<SigningStore>,
     pause: PauseSwitch,
+    /// Wall time of the latest heartbeats in the current pause.
     paused_for: Option<Duration>,
+    /// Wall time of the latest heartbeats in the current freeze.
+    frozen_for: Option<Duration>,
     /// The external autopilot, if one flies.
     autopilot: Option<AutopilotShell>,
 }
@@ -129,6 +132,7 @@ impl VehicleShell {
             signing_store: heard,
             pause: PauseSwitch::default(),
             paused_for: None,
+            frozen_for: None,
             autopilot: None,
         })
     }
@@ -177,6 +181,21 @@ impl VehicleShell {
             self.core.pause(self.paused_for.is_none());
             self.paused_for = Some(wall);
         }
+        self.wait_without_time(wall);
+    }
+
+    /// Sends heartbeats while the flight is frozen. Incoming data has been handled before.
+    fn run_frozen(&mut self, wall: Duration) {
+        let last = *self.frozen_for.get_or_insert(wall);
+        if wall.saturating_sub(last) >= HEARTBEAT_INTERVAL {
+            self.core.pause(false);
+            self.frozen_for = Some(wall);
+        }
+        self.wait_without_time(wall);
+    }
+
+    /// Sends outgoing data and waits for incoming data while simulation time stands still.
+    fn wait_without_time(&mut self, wall: Duration) {
         self.send_outgoing();
         self.pacer.resync(wall, self.core.now());
         if let Some(autopilot) = &mut self.autopilot {
@@ -221,6 +240,11 @@ impl VehicleShell {
         self.save_signing_state(false);
         self.send_outgoing();
         self.handle_events()?;
+        if self.core.is_frozen() {
+            self.run_frozen(wall);
+            return Ok(());
+        }
+        self.frozen_for = None;
         self.wait_for_next_tick()
     }
 
@@ -464,6 +488,8 @@ impl VehicleShell {
                 took.s()
             ),
             SimEvent::AutopilotProblem { problem } => tracing::warn!("{now}: autopilot: {problem}"),
+            SimEvent::Freeze => tracing::info!("{now}: frozen"),
+            SimEvent::Rewind { undone } => tracing::info!("{now}: rewound by {:.0} s", undone.s()),
             SimEvent::BatteryEmpty => tracing::info!("{now}: battery empty"),
             SimEvent::Ended { reason } => tracing::info!("{now}: flight ended: {reason}"),
         }

@@ -70,6 +70,8 @@ pub struct Cockpit {
     pub(super) map: bool,
     /// Whether the path is drawn into the pictures.
     pub(super) path: bool,
+    /// Whether the ghost of an earlier flight is shown.
+    pub(super) ghost: bool,
     pub(super) held: HeldKeys,
     /// Last pause state sent to the pilot thread.
     pub(super) was_paused: bool,
@@ -95,6 +97,7 @@ impl Cockpit {
         Self {
             map: plan.map,
             path: true,
+            ghost: false,
             image_writer: threads.flight.as_ref().and(plan.camera_file.clone()).map(PictureWriter::start),
             plan,
             settings,
@@ -235,6 +238,7 @@ impl Cockpit {
             Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
             Some(WindowAction::Map) => self.map = !self.map,
             Some(WindowAction::Path) => self.path = !self.path,
+            Some(WindowAction::Ghost) => self.toggle_ghost(),
             Some(WindowAction::Follow) => self.inspector_camera = InspectorCamera::default(),
             Some(WindowAction::Pause) => self.flow.pause(),
             Some(WindowAction::Restart) => self.flow.restart(),
@@ -249,6 +253,14 @@ impl Cockpit {
             )
             | None => {}
         }
+    }
+
+    /// Shows or hides the ghost of an earlier flight.
+    fn toggle_ghost(&mut self) {
+        let Some(ghost) = self.flow.ghost() else { return self.flow.explain_missing_ghost() };
+        let words = format!("Ghost: {}.", ghost.words);
+        self.ghost = !self.ghost;
+        self.flow.show_notice(if self.ghost { words } else { "Ghost hidden.".to_owned() });
     }
 
     pub(super) fn send_to_pilot(&self, ask: PilotCommand) {

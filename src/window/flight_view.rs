@@ -4,13 +4,19 @@ use super::listener::TelemetryListener;
 use super::panes::{PaneContent, RenderJob, ViewOptions, ViewPanes};
 use super::screen::WindowSurface;
 use crate::errors::AppError;
+use crate::io::log_file::LogFile;
+use spandrel_mavlink::telemetry::Timeline;
+use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::ViewRect;
+use spandrel_view::ghost::{Ghost, GhostPath};
 use spandrel_view::live::LiveMoment;
 use spandrel_view::quality::Quality;
 use spandrel_view::scene::LoadingStep;
+use spandrel_view::stage::LIFTOFF_HEIGHT_M;
 use std::net::{IpAddr, SocketAddr};
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
 
@@ -78,6 +84,18 @@ pub struct FlightView {
     pub first_frame_at: Option<Duration>,
     /// Number of rendered frames.
     pub frame_count: u32,
+    /// Ghost of an earlier flight.
+    ghost: GhostLoading,
+}
+
+/// State of the ghost.
+enum GhostLoading {
+    /// No earlier flight, or it could not be read.
+    None,
+    /// A thread reads the earlier flight.
+    Reading(Receiver<GhostPath>),
+    /// Ready to fly.
+    Ready(Box<Ghost>),
 }
 
 impl FlightView {
@@ -96,7 +114,36 @@ impl FlightView {
             previous_panes: None,
             first_frame_at: None,
             frame_count: 0,
+            ghost: GhostLoading::None,
         })
+    }
+
+    /// Reads an earlier flight for the ghost in another thread. If it cannot be read, there is no ghost.
+    pub fn load_ghost(&mut self, telemetry: PathBuf) {
+        let (sender, receiver) = channel();
+        let scenario = self.job.0.clone();
+        std::thread::spawn(move || match ghost_path(&telemetry, &scenario) {
+            // Sending fails only if the flight has since ended.
+            Ok(Some(path)) => drop(sender.send(path)),
+            Ok(None) => tracing::warn!("no ghost: {} contains no flight", telemetry.display()),
+            Err(error) => tracing::warn!("no ghost: {error}"),
+        });
+        self.ghost = GhostLoading::Reading(receiver);
+    }
+
+    /// Returns the ghost once it is ready.
+    pub fn ghost(&mut self) -> Option<&mut Ghost> {
+        if let GhostLoading::Reading(receiver) = &self.ghost {
+            match receiver.try_recv() {
+                Ok(path) => self.ghost = GhostLoading::Ready(Box::new(Ghost::new(path))),
+                Err(TryRecvError::Empty) => {}
+                Err(TryRecvError::Disconnected) => self.ghost = GhostLoading::None,
+            }
+        }
+        match &mut self.ghost {
+            GhostLoading::Ready(ghost) => Some(ghost),
+            GhostLoading::None | GhostLoading::Reading(_) => None,
+        }
     }
 
     /// Returns the current state to render.
@@ -211,6 +258,16 @@ impl FlightView {
             previous_panes.close(screen);
         }
     }
+}
+
+/// Reads the path of an earlier flight of a job; `None` if it contains no flight.
+fn ghost_path(telemetry: &Path, scenario: &Scenario) -> Result<Option<GhostPath>, AppError> {
+    let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
+    let log = LogFile::open(telemetry)?;
+    timeline.push_log(&log).map_err(|error| AppError::failed(format!("{}: {error}", telemetry.display())))?;
+    let pad_height_m = scenario.ground_team.pad_m.up();
+    let mut flights = (0..timeline.epoch_count()).map(|epoch| timeline.flight(epoch));
+    Ok(flights.find_map(|flight| GhostPath::of(&flight, pad_height_m, LIFTOFF_HEIGHT_M)))
 }
 
 #[cfg(test)]

@@ -4,11 +4,13 @@ use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
 use super::panes::{PaneContent, ViewOptions};
 use super::pilot::{PilotCommand, PilotThread};
-use super::window_text::{WindowText, help, paint_flight, waiting};
+use super::window_text::{WindowText, frozen, help, paint_flight, waiting};
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::png::png;
 use serde_json::json;
+use spandrel_model::frames::Enu;
+use spandrel_model::pose::Pose;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
 use spandrel_view::flow::{Page, PageLayout, PictureSource, SettingChange, WindowRequest};
@@ -69,7 +71,8 @@ impl Cockpit {
     /// Passes rotor speeds, the distance and warnings to the sound output.
     fn sound(&mut self, now: Option<&LiveMoment>) {
         // Without recent telemetry, the rotor speeds are unknown, so no sound is played.
-        let now = now.filter(|now| now.hud.telemetry_age_s <= hud::LINK_TIMEOUT_S && !self.flow.is_paused());
+        let moves = |now: &&LiveMoment| now.hud.telemetry_age_s <= hud::LINK_TIMEOUT_S && !now.hud.is_frozen;
+        let now = now.filter(moves).filter(|_| !self.flow.is_paused());
         let (Some(flight), Some(now)) = (&self.threads.flight, now) else {
             self.speaker.silence();
             return;
@@ -96,6 +99,11 @@ impl Cockpit {
                 }
             }
             WindowRequest::ShowFlight(flying) => self.show(&flying)?,
+            WindowRequest::LoadGhost(telemetry) => {
+                if let Some(flight) = &mut self.threads.flight {
+                    flight.load_ghost(telemetry);
+                }
+            }
             WindowRequest::LeaveFlight => {
                 self.end_flight();
                 self.send_to_pilot(PilotCommand::Disconnect);
@@ -140,7 +148,10 @@ impl Cockpit {
         }
         self.threads.flight = Some(FlightView::begin(self.plan.listen, flying.connect, (scenario, vehicle), Some(flying.seed))?);
         self.image_writer = self.plan.camera_file.clone().map(super::picture_writer::PictureWriter::start);
-        (self.map, self.path) = (self.plan.map, true);
+        if let (Some(flight), Some(ghost)) = (&mut self.threads.flight, self.flow.ghost()) {
+            flight.load_ghost(ghost.telemetry.clone());
+        }
+        (self.map, self.path, self.ghost) = (self.plan.map, true, false);
         self.inspector_camera = spandrel_view::inspector_camera::InspectorCamera::default();
         // Discard messages that arrived before the flight.
         while self.threads.pilot.as_ref().and_then(PilotThread::poll_message).is_some() {}
@@ -186,7 +197,7 @@ impl Cockpit {
         self.turn_inspector_view(now.as_ref(), step_s);
         self.sound(now.as_ref());
         self.listen(started);
-        let text = self.text(now.is_some(), started);
+        let text = self.text(now.as_ref(), started);
         let map = self.map && self.plan.map && self.flow.shows_map();
         if let Some(flight) = &self.threads.flight {
             self.flow.camera_aspect = flight.job.1.camera.aspect();
@@ -194,11 +205,13 @@ impl Cockpit {
                 flight.listener.live().request_obstacles();
             }
         }
+        let ghost = self.ghost_pose(now.as_ref(), step_s);
         let shape = self.shape();
         let options = ViewOptions {
             inspector_camera: self.inspector_camera,
             map,
             path_aids: self.path_aids(),
+            ghost,
             key_names: self.flow.key_names(),
             style: self.flow.style(),
         };
@@ -261,16 +274,18 @@ impl Cockpit {
         self.notices.retain(|(_, since)| now.saturating_sub(*since).as_secs_f64() < MESSAGE_DURATION_S);
     }
 
-    fn text(&self, heard: bool, now: std::time::Duration) -> WindowText {
+    fn text(&self, moment: Option<&LiveMoment>, now: std::time::Duration) -> WindowText {
         let Some(flight) = &self.threads.flight else { return WindowText::default() };
         let style = self.flow.style();
         // Larger text has room for only one message.
         let most = if style.text_scale == TextScale::Normal { self.notices.len() } else { 1 };
         let latest = self.notices.iter().skip(self.notices.len().saturating_sub(most));
-        let lines: Vec<String> = latest.map(|(words, _)| style.units.words(words)).collect();
+        let is_frozen = moment.is_some_and(|moment| moment.hud.is_frozen);
+        let frozen = is_frozen.then(|| frozen(self.flow.key_names(), self.threads.pilot.is_some()));
+        let lines: Vec<String> = frozen.into_iter().chain(latest.map(|(words, _)| style.units.words(words))).collect();
         let shows_help = style.text_scale == TextScale::Normal || lines.is_empty();
         WindowText {
-            waiting: waiting(&flight.scene, heard, &flight.listener),
+            waiting: waiting(&flight.scene, moment.is_some(), &flight.listener),
             lines,
             help: match flight.first_frame_at {
                 Some(first) if shows_help && now.saturating_sub(first).as_secs_f64() < KEY_HELP_DURATION_S => {
@@ -296,6 +311,13 @@ impl Cockpit {
             );
         }
         self.inspector_camera.zoom(spandrel_model::math::pow(ZOOM_FACTOR_PER_S, step_s * way("zoom_in", "zoom_out")));
+    }
+
+    /// Moves the ghost and returns its pose; `None` if it is hidden, not loaded yet, or not allowed.
+    fn ghost_pose(&mut self, now: Option<&LiveMoment>, step_s: f64) -> Option<Pose<Enu>> {
+        let is_shown = self.ghost && self.flow.ghost().is_some();
+        let (flight, now) = (self.threads.flight.as_mut().filter(|_| is_shown)?, now?);
+        flight.ghost()?.advance(now.moment.drone.pose.position_m, step_s)
     }
 
     /// Returns how much of the path is drawn: nothing in an assessment, and less for better pilots.

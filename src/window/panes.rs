@@ -3,6 +3,8 @@
 use super::screen::WindowSurface;
 use crate::errors::AppError;
 use crate::window::secondary_renderer::SecondaryRenderer;
+use spandrel_model::frames::Enu;
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
@@ -89,6 +91,8 @@ pub struct ViewOptions<'a> {
     pub map: bool,
     /// How much of the path is drawn into the pictures.
     pub path_aids: PathAids,
+    /// Ghost of an earlier flight.
+    pub ghost: Option<Pose<Enu>>,
     /// Names of the keys.
     pub key_names: &'a KeyNames,
     /// Units and text size.
@@ -144,6 +148,7 @@ impl ViewPanes {
         }
         let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
         display.style = options.style;
+        display.ghost = options.ghost;
         if let Some(lesson) = &mut display.lesson {
             lesson.how = options.key_names.fill(&lesson.how);
         }
@@ -231,6 +236,7 @@ impl ViewPanes {
                 let shot = stage.inspector_view(&options.inspector_camera, moment, size_px, eyes);
                 let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
                 items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
+                items.extend(stage.ghost_items(&shot, options.ghost));
                 items.extend(stage.drone_marker(&shot, moment, options.style));
                 (shot, items)
             }
@@ -238,6 +244,7 @@ impl ViewPanes {
                 let shot = stage.camera_frame(moment, size_px, film);
                 let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
                 items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
+                items.extend(stage.ghost_items(&shot, options.ghost));
                 items.extend(hud::layout_px(display, logical_size_px(screen, view_rect)));
                 (shot, items)
             }

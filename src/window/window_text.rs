@@ -36,7 +36,7 @@ pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) 
 const VIEW_HELP: &str = "{swap} views    {map} map    {path} path    drag or {look_left} {look_right} look around    wheel zoom    \
                          {follow} follow the drone";
 const FLIGHT_HELP: &str = "{arm} arm    {take_off} take off    {up} {down} up and down    {turn_left} {turn_right} turn    {forward} \
-                           {back} {left} {right} fly    {lamp} lamp    {snapshot} picture    {land} land";
+                           {back} {left} {right} fly    {lamp} lamp    {snapshot} picture    {land} land\n{freeze} freeze    {rewind} rewind 10 s";
 /// Help where larger text leaves no room for all keys.
 const SHORT_HELP: &str = "{arm} arm    {take_off} take off    {pause} pause; see the keys there";
 const SHORT_VIEW_HELP: &str = "{swap} views    {map} map    {follow} follow the drone";
@@ -50,6 +50,11 @@ pub fn help(names: &KeyNames, flies: bool, text_scale: TextScale) -> String {
         (TextScale::Larger | TextScale::Large | TextScale::Double, true) => SHORT_HELP.to_owned(),
     };
     names.fill(&words)
+}
+
+/// Returns the text for a frozen flight: how to continue, if the window can fly the vehicle.
+pub fn frozen(names: &KeyNames, flies: bool) -> String {
+    if flies { names.fill("Frozen. {freeze}: continue    {rewind}: rewind 10 s") } else { "Frozen.".to_owned() }
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.

@@ -283,7 +283,7 @@ def certify(rows, scenario, camera, assessment):
         complete, not traffic, frames[-1]["battery"] >= limits["min_battery_pct"], len(merged) <= limits["max_contacts"],
         all(v <= limits["max_contact_speed_m_s"] for _, v in merged), conformity is not None and conformity >= limits["min_conformity"],
         exact is not None and exact >= limits["min_precision"], safety >= limits["min_safety"],
-        accurate is None or accurate >= limits["min_accuracy"],
+        accurate is None or accurate >= limits["min_accuracy"], not any(assessment["practice_aids"].values()),
     ])
     scores = {"conformity": conformity, "precision": exact, "safety": safety, "accuracy": accurate, "efficiency": efficiency}
     scores["sum"] = sum(value for value in scores.values() if value is not None)

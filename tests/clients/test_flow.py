@@ -16,6 +16,8 @@ import spandrel
 
 # Colors of pages (crates/view/src/hud/mod.rs): background, focused row, score bar.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
+# Color of the status in the HUD while the flight is frozen.
+ORANGE = (240, 150, 20)
 # Color of the battery in the HUD, which shows that a flight is being rendered.
 GREEN = (0, 190, 130)
 # Time limit for a software driver on a busy machine to compile its shaders and render, or for a session to be written,
@@ -127,8 +129,9 @@ def paused(photograph):
 
 def folders(training):
     """Returns the session folders so far, excluding the camera view's file, which is in the same folder while a window
-    is open."""
-    return sorted(folder for folder in training.sessions.iterdir() if folder.is_dir()) if training.sessions.is_dir() else []
+    is open, and the hidden folder with the ghost's flight."""
+    entries = training.sessions.iterdir() if training.sessions.is_dir() else []
+    return sorted(folder for folder in entries if folder.is_dir() and not folder.name.startswith("."))
 
 
 @pytest.mark.timeout(2400)
@@ -255,6 +258,62 @@ def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
         training.wait_for_screenshot("own-flight", in_flight_or_briefing, ENTER)
     finally:
         training.close()
+
+
+@pytest.mark.timeout(1800)
+def test_wire_practice_freezes_rewinds_and_shows_a_ghost(screen, tmp_path):
+    """The keys for freeze, rewind and ghost: the window shows the freeze and the ghost, and the session records the aids."""
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--seed", "7", "--no-sound")
+
+    def press_until(what, key, done):
+        again = asking.Repeater(lambda: screen.tap(key), again_s=AGAIN_S)
+
+        def step():
+            again.if_due()
+            return done()
+
+        spandrel.wait_for(what, step, LIMIT_S)
+
+    def events(kind):
+        lines = (folders(training)[-1] / "events.jsonl").read_text(encoding="utf-8").splitlines()
+        return [event["count"] for event in map(json.loads, lines) if event["event"] == kind]
+
+    try:
+        training.wait_for_screenshot("practice", in_flight)
+        screen.focus()
+        press_until("rewind is refused on the ground", "z", lambda: "No rewind: not flown yet" in training.output())
+        fly = asking.Repeater(lambda: (screen.tap("1"), screen.tap("t")))
+        spandrel.wait_for("lift-off", lambda: fly.if_due() or "lift-off" in training.output(), LIMIT_S)
+        # An expert flies the drill in the background, once.
+        press_until("the ghost is shown", "g", lambda: "Ghost: the expert's flight." in training.output())
+        training.wait_for_screenshot("ghost", lambda photograph: len(ghost_pixels(photograph)) > 20)
+        press_until("frozen", "x", lambda: events("freeze") == [1])
+        frozen = training.wait_for_screenshot("frozen", lambda photograph: count(photograph, ORANGE) > 20)
+        assert in_flight(frozen), "the pictures must stay visible"
+        screen.tap("x")
+        training.wait_for_screenshot("continued", lambda photograph: count(photograph, ORANGE) == 0)
+        press_until("rewound", "z", lambda: events("rewind"))
+        training.wait_for_screenshot("rewound", lambda photograph: count(photograph, ORANGE) > 20)
+        # A stick continues the flight.
+        screen.key("w", True)
+        training.wait_for_screenshot("flies-on-after-rewind", lambda photograph: count(photograph, ORANGE) == 0)
+        screen.key("w", False)
+        training.wait_for_screenshot("practice-paused", paused, ESCAPE)
+        screen.tap(UP)
+        training.wait_for_screenshot("practice-over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
+    finally:
+        training.close()
+    (session,) = folders(training)
+    assessment = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
+    assert assessment["practice_aids"]["freezes"] == 1 and assessment["practice_aids"]["rewinds"] >= 1, assessment["practice_aids"]
+    assert "so it was practice" in assessment["certification"]["unmet"][0]
+    assert [path.suffix for path in (training.sessions / ".ghosts").iterdir()] == [".tlog"]
+
+
+def ghost_pixels(photograph):
+    """Returns the pixels with the ghost's hue, which blends with the background."""
+    red, green, blue = (photograph[:, :, k] for k in range(3))
+    return numpy.argwhere((red - green > 45) & (blue - green > 20) & (red > blue))
 
 
 def in_flight_or_briefing(photograph):

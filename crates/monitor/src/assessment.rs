@@ -5,6 +5,7 @@ use super::measures::coverage::{self, PathCoverage};
 use super::measures::crash::{self, Crash};
 use super::measures::on_path::{OnPath, ReferencePaths};
 use super::measures::on_speed;
+use super::measures::practice_aids::PracticeAids;
 use super::score::accuracy::DetectionTally;
 use super::score::certification::inputs::CertificationInputs;
 use super::score::certification::{self, Certification};
@@ -106,6 +107,8 @@ pub struct Assessment {
     pub telemetry: TelemetryCoverage,
     /// Control source over time. Does not affect any score.
     pub flown_by: Vec<ControlInterval>,
+    /// Freezes and rewinds, with which the session is not certified.
+    pub practice_aids: PracticeAids,
     /// Result of the certification profile.
     pub certification: Certification,
 }
@@ -258,6 +261,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     let states: Vec<TaskState> =
         attempted.zip(&covered).map(|(attempted, covered)| TaskState::of(attempted, covered.share, done_share)).collect();
     let completion = Completion::of(&states, &covered, session.reason == EndReason::Landed, done_share);
+    let practice_aids = PracticeAids::measure(flight, &session.frames);
     let evidence = CertificationInputs {
         scenario,
         vehicle: job.vehicle,
@@ -271,6 +275,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
         crashes: &crashes,
         pictures: &pictures,
         defects: job.survey.defects(),
+        practice_aids,
     };
     let certification = certification::grade(&evidence);
     let end = end(scenario, &session);
@@ -286,6 +291,7 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
         end,
         telemetry: telemetry_coverage(&session.frames),
         flown_by: control_intervals(flight, &session.frames),
+        practice_aids,
         certification,
     };
     Ok((assessment, session.frames))

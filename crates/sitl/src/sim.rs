@@ -8,6 +8,8 @@ mod file_jobs;
 mod host_api;
 pub mod inbox;
 mod instructor;
+mod practice;
+mod practice_controls;
 mod radio;
 mod tick;
 
@@ -27,6 +29,7 @@ use super::sensors::{Readings, Sensors};
 use controller::{BuiltinController, Controller};
 use file_jobs::FileJobScheduler;
 use inbox::Inbox;
+use practice_controls::PracticeControls;
 use radio::RadioLink;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::dialect::MavSeverity;
@@ -101,6 +104,13 @@ pub enum SimEvent {
         /// Description of the problem.
         problem: String,
     },
+    /// The flight was frozen.
+    Freeze,
+    /// The flight was rewound.
+    Rewind {
+        /// Time of flight that was undone.
+        undone: SimTime,
+    },
     /// The battery is empty.
     BatteryEmpty,
     /// The flight has ended.
@@ -149,6 +159,7 @@ pub struct Sim {
     instructor_settings: InstructorSettings,
     /// Times at which traffic stopped and resumed.
     closures: BridgeClosures,
+    practice: PracticeControls,
     /// Number of parameter changes already applied to the environment.
     applied_changes: u64,
     events: VecDeque<SimEvent>,
@@ -215,6 +226,7 @@ impl Sim {
             applied_changes: 0,
             instructor_settings: InstructorSettings { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
             closures: BridgeClosures::default(),
+            practice: PracticeControls::default(),
             events: VecDeque::new(),
             digest: Sha256::new(),
             recorder: FlightRecorder::default(),
@@ -297,7 +309,7 @@ impl Sim {
     /// Receives a datagram. It is processed at the next tick, or later if its link exceeds the per-tick limits of [`inbox`]. In
     /// lockstep, datagrams are processed in link order once all responses have arrived.
     pub fn handle_datagram(&mut self, link: LinkId, bytes: &[u8]) {
-        if self.is_over_radio(link) {
+        if self.is_over_radio(link) && !self.is_frozen() {
             self.radio.receive(link, bytes, self.now);
             return;
         }
@@ -366,7 +378,8 @@ impl Sim {
     /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         while let Some(transmit) = self.controller.links_mut().poll() {
-            if !self.is_over_radio(transmit.link) {
+            // While simulation time stands still, nothing that the radio link delays would arrive.
+            if !self.is_over_radio(transmit.link) || self.is_frozen() {
                 return Some(transmit);
             }
             self.radio.send(transmit, self.now);
@@ -387,7 +400,7 @@ impl Sim {
 
     /// Runs the ticks due up to `until`. Stops early for a lockstep request to peers or a client's file request
     /// ([`Sim::poll_file_job`]), which must be completed before the next tick so that its response arrives at a defined
-    /// simulation time.
+    /// simulation time. While the flight is frozen, runs no tick, but answers clients.
     pub fn handle_timeout(&mut self, until: SimTime) {
         if self.waiting() {
             return;
@@ -396,11 +409,12 @@ impl Sim {
         if self.run_autopilot_start() {
             return;
         }
-        while self.now + STEP <= until && !self.has_file_job() {
+        while self.now + STEP <= until && !self.has_file_job() && !self.is_frozen() {
             if !self.exchange_with_autopilot() {
                 return;
             }
             self.tick();
+            self.freeze_after_rewind();
             if self.now.ns() % LOCKSTEP.ns() == 0 && self.send_lockstep_requests() {
                 return;
             }
@@ -421,9 +435,15 @@ impl Sim {
             self.inbox.push(link, ReceivedDatagram::new(&bytes));
         }
         let link_now = self.controller.link_clock(self.now);
+        if self.is_frozen() {
+            // No tick follows that would renew the limits.
+            self.inbox.renew_limits();
+        }
         for (link, datagram) in self.inbox.take(link_now) {
             self.process_datagram(link, datagram, link_now);
+            self.apply_practice_requests();
         }
+        self.resume_by_stick();
     }
 
     fn process_datagram(&mut self, link: LinkId, datagram: ReceivedDatagram, link_now: SimTime) {
@@ -462,6 +482,7 @@ impl Sim {
 
     /// Borrows the state from which messages are built, and the parts that handle messages.
     fn interface(&mut self) -> Interface<'_> {
+        let practice = self.practice_state();
         let aircraft = SimulatedAircraft {
             clock: VehicleClock {
                 now: self.now,
@@ -478,6 +499,7 @@ impl Sim {
             actuators: &self.actuators,
             wind_m_s: self.air.velocity_m_s,
             scoring: &self.scoring,
+            practice,
         };
         Interface { aircraft, controller: &mut self.controller, recorder: &mut self.recorder }
     }
@@ -491,7 +513,7 @@ impl Sim {
         let Interface { aircraft, controller, .. } = self.interface();
         match controller {
             Controller::Builtin(own) => own.endpoint.send_heartbeats(&aircraft, &own.autopilot),
-            Controller::External(other) => other.endpoint.send_heartbeats(),
+            Controller::External(other) => other.endpoint.send_heartbeats(&aircraft),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::questionnaire::{Answers, QuestionnaireItem};
 use super::record::{Crashes, DefectRecord, FORMAT_VERSION, Scores, SessionRecord, SessionTechnique, TaskRecord, TaskTechnique};
+use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
 /// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".
@@ -57,6 +58,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
         covered: 1.0,
         certified: true,
         unmet: Vec::new(),
+        practice_aids: PracticeAids::default(),
         certification: None,
         technique: Some(SessionTechnique::default()),
         answers: Some(answers),

@@ -190,7 +190,8 @@ pub fn ring_items(eye: &PinholeCamera, aspect: f64, middle_m: Vec3<Enu>, radius_
     circle(&eye.view_projection(aspect), (middle_m, to.unit()), radius_m, (NEXT_GATE_WIDTH, HudColor::Yellow))
 }
 
-fn circle(
+/// Returns a circle around a point, across a direction.
+pub(super) fn circle(
     matrix: &Matrix,
     (middle_m, normal): (Vec3<Enu>, Vec3<Enu>),
     radius_m: f64,
@@ -207,7 +208,7 @@ fn circle(
 }
 
 /// Returns a line between two points, if a part of it is in front of the camera and near the picture.
-fn segment(matrix: &Matrix, a: Vec3<Enu>, b: Vec3<Enu>, width: f64, color: HudColor) -> Option<DrawItem> {
+pub(super) fn segment(matrix: &Matrix, a: Vec3<Enu>, b: Vec3<Enu>, width: f64, color: HudColor) -> Option<DrawItem> {
     let (a, b) = cut_segment(matrix.apply(a), matrix.apply(b))?;
     let points = vec![screen_point(a)?, screen_point(b)?];
     Some(DrawItem::Line { points, width, color })
@@ -329,7 +330,7 @@ impl Canvas<'_> {
             // Consecutive points may have opposite sides where a path turns vertical; such a quad would cross itself.
             let crossed = (pair[0].1 - pair[0].0).dot(pair[1].1 - pair[1].0) < 0.0;
             let (far_left, far_right) = if crossed { (pair[1].1, pair[1].0) } else { pair[1] };
-            let points = self.polygon(&[pair[0].0, far_left, far_right, pair[0].1])?;
+            let points = polygon(&self.matrix, &[pair[0].0, far_left, far_right, pair[0].1])?;
             let color = if (self.view.is_hidden)(task.points_m[*k]) { HudColor::RibbonHidden } else { HudColor::Ribbon };
             Some(DrawItem::Fill { points, color })
         });
@@ -371,12 +372,12 @@ impl Canvas<'_> {
         items.extend(ring(radius_m, color));
         items
     }
+}
 
-    /// Returns a convex polygon, if all of it is in front of the camera and near the picture.
-    fn polygon(&self, corners: &[Vec3<Enu>]) -> Option<Vec<ScreenPoint>> {
-        let clip = |corner: &Vec3<Enu>| Some(self.matrix.apply(*corner)).filter(|clip| clip[3] >= NEAR_M);
-        corners.iter().map(|corner| screen_point(clip(corner)?)).collect()
-    }
+/// Returns a convex polygon, if all of it is in front of the camera and near the picture.
+pub(super) fn polygon(matrix: &Matrix, corners: &[Vec3<Enu>]) -> Option<Vec<ScreenPoint>> {
+    let clip = |corner: &Vec3<Enu>| Some(matrix.apply(*corner)).filter(|clip| clip[3] >= NEAR_M);
+    corners.iter().map(|corner| screen_point(clip(corner)?)).collect()
 }
 
 /// Returns the part of a line in clip space that is at least [`NEAR_M`] in front of the camera.

@@ -3,6 +3,7 @@
 use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
+use super::ghost::GhostView;
 use super::hud::lesson_panel::how_to;
 use super::hud::{DisplayStyle, DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
@@ -140,6 +141,15 @@ impl Stage<'_> {
         ring_items(&shot.eye, aspect, place.position_m, place.radius_m)
     }
 
+    /// Returns the ghost of an earlier flight, drawn below the rest of a shot's overlay.
+    #[must_use]
+    pub fn ghost_items(&self, shot: &Shot, ghost: Option<Pose<Enu>>) -> Vec<DrawItem> {
+        let Some(pose) = ghost else { return Vec::new() };
+        let aspect = f64::from(shot.size_px.0) / f64::from(shot.size_px.1.max(1));
+        let is_hidden = self.site.geometry().hides(shot.eye.position_m, pose.position_m, PATH_CLEARANCE_M);
+        GhostView { eye: &shot.eye, aspect, vehicle: self.vehicle, is_hidden }.items(pose)
+    }
+
     /// Returns the path of the next task, drawn below the rest of a shot's overlay.
     #[must_use]
     pub fn path_items(&self, shot: &Shot, moment: &SceneMoment, guidance: Option<&Guidance>, aids: PathAids) -> Vec<DrawItem> {
@@ -244,6 +254,8 @@ pub struct HudInputs {
     /// Time base of blinking elements, s: wall-clock time in a live flight, because simulation time may be paused or
     /// accelerated; video time otherwise.
     pub blink_time_s: f64,
+    /// Whether the flight is frozen.
+    pub is_frozen: bool,
 }
 
 impl HudInputs {
@@ -259,6 +271,7 @@ impl HudInputs {
             pictures: taken.clone().count(),
             last_picture: taken.map(|shot| shot.0).max(),
             blink_time_s: at.s(),
+            is_frozen: false,
         }
     }
 }
@@ -293,6 +306,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         mode: feed.mode().to_owned(),
         gnss: feed.gnss(),
         telemetry_age_s: inputs.telemetry_age_s,
+        is_frozen: inputs.is_frozen,
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),
         zoom: wide / math::tan(0.5 * moment.lens.hfov_rad),
         lamp: moment.camera.lamp_on,
@@ -317,6 +331,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
             remark: remark.map(str::to_owned),
             status,
         }),
+        ghost: None,
         tracks: if map { MapPath::all(scenario) } else { Vec::new() },
         style: DisplayStyle::default(),
     }

@@ -5,6 +5,8 @@ use crate::cli::args::Flavor;
 use crate::io::pacing::LOCKSTEP_STEP;
 use crate::io::stop::StopRequest;
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
+use spandrel_mavlink::telemetry::sample::truth_time;
+use spandrel_mavlink::telemetry::tlog::{self, TlogReader};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
@@ -16,6 +18,7 @@ use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::{Sim, SimConfig};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Links of the vehicle, in the same order as in `spandrel demo`.
 const PILOT: LinkId = LinkId(1);
@@ -23,6 +26,10 @@ const MONITOR: LinkId = LinkId(2);
 /// Simulation time beyond the scenario's time limit after which a flight counts as stuck, s: start, landing and the end of
 /// the session take less than a minute (estimate).
 const EXTRA_TIME_S: f64 = 300.0;
+
+/// Rest of a recorded flight after each step of 20 ms, because it is flown beside a trainee's flight. A step takes about as long
+/// (estimate), so half of a core stays free.
+const BACKGROUND_REST: Duration = Duration::from_millis(1);
 
 /// Inputs of a flight.
 #[derive(Debug, Clone)]
@@ -59,7 +66,28 @@ pub struct FlownFlight {
 /// # Errors
 /// Returns an error if the flight failed or the study was stopped.
 pub fn fly(inputs: &FlightInputs, stop: &StopRequest) -> Result<FlownFlight, FlightError> {
-    catch_unwind(AssertUnwindSafe(|| LockstepFlight::new(inputs).run(stop))).unwrap_or_else(|panic| {
+    guarded(|| LockstepFlight::new(inputs).run(stop))
+}
+
+/// Flies one flight and returns a telemetry log that contains only its ground truth.
+///
+/// # Errors
+/// Returns an error if the flight failed or was stopped.
+pub fn record_motion(inputs: &FlightInputs, stop: &StopRequest) -> Result<Vec<u8>, FlightError> {
+    guarded(|| {
+        let mut flight = LockstepFlight::new(inputs);
+        flight.motion = Some(Vec::new());
+        let flown = flight.run(stop)?;
+        if !flown.assessment.completion.complete {
+            return Err(FlightError::Failed(flown.assessment.completion.headline()));
+        }
+        Ok(flight.motion.unwrap_or_default())
+    })
+}
+
+/// Runs a flight. A panic counts as a failure of this flight.
+fn guarded<T>(flight: impl FnOnce() -> Result<T, FlightError>) -> Result<T, FlightError> {
+    catch_unwind(AssertUnwindSafe(flight)).unwrap_or_else(|panic| {
         let words = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
         Err(FlightError::Failed(format!("the program panicked: {}", words.unwrap_or("no message"))))
     })
@@ -72,6 +100,8 @@ struct LockstepFlight {
     cue_log: CueLog,
     scenario: Arc<Scenario>,
     time_limit: SimTime,
+    /// Telemetry log of the ground truth, if it is recorded.
+    motion: Option<Vec<u8>>,
 }
 
 impl LockstepFlight {
@@ -100,11 +130,14 @@ impl LockstepFlight {
         });
         let pilot = Pilot::new(PilotConfig { scenario: scenario.clone(), vehicle: vehicle.clone(), skill: *skill, seed: *seed });
         let time_limit = SimTime::from_s(scenario.scoring.time_max_s + EXTRA_TIME_S);
-        Self { sim, pilot, monitor, cue_log: CueLog::default(), scenario: scenario.clone(), time_limit }
+        Self { sim, pilot, monitor, cue_log: CueLog::default(), scenario: scenario.clone(), time_limit, motion: None }
     }
 
-    fn run(mut self, stop: &StopRequest) -> Result<FlownFlight, FlightError> {
+    fn run(&mut self, stop: &StopRequest) -> Result<FlownFlight, FlightError> {
         while self.monitor.finished().is_none() {
+            if self.motion.is_some() {
+                std::thread::sleep(BACKGROUND_REST);
+            }
             if stop.is_requested() {
                 return Err(FlightError::Stopped);
             }
@@ -159,14 +192,29 @@ impl LockstepFlight {
             self.sim.handle_datagram(MONITOR, &bytes);
         }
         while let Some(record) = self.monitor.poll_record() {
-            if let SessionOutput::Event(line) = record
-                && let Ok(event) = serde_json::from_str(&line)
-            {
-                self.cue_log.add_event(&event);
+            match record {
+                SessionOutput::Event(line) => {
+                    if let Ok(event) = serde_json::from_str(&line) {
+                        self.cue_log.add_event(&event);
+                    }
+                }
+                SessionOutput::Telemetry(bytes) => self.record_motion(&bytes),
             }
         }
         while self.sim.poll_event().is_some() {}
         any
+    }
+}
+
+impl LockstepFlight {
+    /// Keeps a record of the ground truth, if it is recorded.
+    fn record_motion(&mut self, bytes: &[u8]) {
+        let Some(motion) = &mut self.motion else { return };
+        for record in TlogReader::new(bytes) {
+            if truth_time(record.frame).is_some() {
+                motion.extend(tlog::record(record.timestamp_us, record.frame));
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! `spandrel study`: flies many synthetic pilots without windows, and summarizes how skill affects scores.
 
-mod flight;
+pub mod flight;
 mod journal;
 mod plan;
 mod row;

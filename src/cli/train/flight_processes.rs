@@ -2,6 +2,7 @@
 
 use super::args::Args;
 use super::connection_info::connection_instructions;
+use super::expert_ghost::{ExpertFlight, GhostJob};
 use super::offers;
 use super::window::WindowProcess;
 use crate::cli::args::common_args;
@@ -12,7 +13,7 @@ use crate::io::files;
 use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
 use serde_json::Value;
-use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FlownBy, FromWindow, Purpose, ToWindow};
+use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FlownBy, FromWindow, GhostFlight, Purpose, ToWindow};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
@@ -41,6 +42,12 @@ pub struct FlightProcesses {
     choice: FlightChoice,
     title: String,
     paused: bool,
+    /// Flight that a ghost repeats.
+    ghost: Option<GhostFlight>,
+    /// Job that the expert flies for a ghost, if there is no flight yet.
+    ghost_job: Option<GhostJob>,
+    /// The expert's flight for the ghost, while it is flown.
+    expert_flight: Option<ExpertFlight>,
     /// Arguments for restarting the monitor with the same session and port.
     monitor_restart_args: Vec<String>,
     monitor_restarts: u32,
@@ -64,6 +71,7 @@ impl FlightProcesses {
     pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
+        let (ghost, ghost_job) = ghost(args, choice);
         let common = common_args(&job, log);
         let expert_args = expert_args(&common);
         let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
@@ -82,6 +90,7 @@ impl FlightProcesses {
             args.autopilot.to_args(&session.join(AUTOPILOT_FOLDER)),
             vec!["--speed".into(), args.speed.to_string(), "--monitor-port".into(), monitor_port],
             vec!["--files".into(), files, "--after-crash".into(), "scenario".into()],
+            vec!["--practice-controls".into(), practice_controls(choice).into()],
         ];
         let mut sim = Child::start("sim", &sim_args.concat())?;
         let ports = sim.read_announcement()?;
@@ -106,6 +115,9 @@ impl FlightProcesses {
             choice: choice.clone(),
             title,
             paused: false,
+            ghost,
+            ghost_job,
+            expert_flight: None,
             monitor_restart_args,
             monitor_restarts: 0,
         })
@@ -132,6 +144,7 @@ impl FlightProcesses {
             // A trainee who watches does not move the sticks.
             fly: self.port("gcs_port").filter(|_| self.choice.by == FlownBy::Trainee),
             path_aids: offers::path_aids(&args.sessions, &self.choice.trainee),
+            ghost: self.ghost.clone(),
         }))
     }
 
@@ -153,6 +166,9 @@ impl FlightProcesses {
                     if let Some(outcome) = self.handle_window_message(&wish, window) {
                         return outcome;
                     }
+                }
+                if let Some(ghost) = self.expert_flight.as_ref().and_then(ExpertFlight::poll) {
+                    window.send(&ToWindow::Ghost(ghost));
                 }
                 if !window.is_open() && self.paused {
                     // Without the window, the user would be unable to resume.
@@ -185,7 +201,10 @@ impl FlightProcesses {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
             FromWindow::Ready => {}
-            FromWindow::Showing => self.start_expert(),
+            FromWindow::Showing => {
+                self.start_expert();
+                self.expert_flight = self.ghost_job.take().map(ExpertFlight::start);
+            }
             FromWindow::Pause | FromWindow::Resume if practice => {
                 self.set_paused(*wish == FromWindow::Pause);
                 window.send(&ToWindow::Paused { on: self.paused });
@@ -260,6 +279,28 @@ impl FlightProcesses {
 /// Returns true if a monitor exited on its own, false if it was killed or crashed.
 fn exited_normally(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
+}
+
+/// Returns the flight that a ghost repeats in a practice or, if there is none, the job that the expert flies for it.
+fn ghost(args: &Args, choice: &FlightChoice) -> (Option<GhostFlight>, Option<GhostJob>) {
+    let practices = choice.purpose == Purpose::Practice && choice.by == FlownBy::Trainee;
+    let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&args.vehicle).ok());
+    let Some((scenario, vehicle)) = job else { return (None, None) };
+    if let Some(ghost) = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario.scenario) {
+        return (Some(ghost), None);
+    }
+    let job = GhostJob::new(&args.sessions, scenario.scenario, vehicle.vehicle);
+    let flown = job.as_ref().and_then(GhostJob::flown);
+    let open = job.filter(|_| flown.is_none());
+    (flown, open)
+}
+
+/// Returns whether the flight can be frozen and rewound.
+fn practice_controls(choice: &FlightChoice) -> &'static str {
+    match choice.purpose {
+        Purpose::Practice => "on",
+        Purpose::Assessment => "off",
+    }
 }
 
 fn expert_args(common: &[String]) -> Vec<String> {

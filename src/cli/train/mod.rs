@@ -3,6 +3,7 @@
 
 mod args;
 mod connection_info;
+mod expert_ghost;
 mod flight_processes;
 mod offers;
 mod photographs;

@@ -9,12 +9,14 @@ use serde_json::Value;
 use spandrel_model::scenario::{Scenario, form_names};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
-use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION};
+use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
+use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightSummary, JobBriefing, JobOffer, NextJob, Purpose, SCORE_NAMES, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, NextJob, Purpose, SCORE_NAMES,
+    TraineeSummary,
 };
 use spandrel_view::path_guide::PathAids;
 use std::collections::BTreeMap;
@@ -94,6 +96,38 @@ pub fn path_aids(sessions: &Path, trainee: &str) -> PathAids {
     // The latest sessions are enough; reading all of them would delay the flight.
     let latest: Vec<f64> = own.iter().filter_map(|(_, folder)| conformity_pct(folder)).take(PathAids::SESSIONS).collect();
     PathAids::for_conformity(&latest)
+}
+
+/// Returns the flight that a ghost repeats: the trainee's complete session of this job with the highest score or, without one, the
+/// synthetic expert's latest one. A form or another seed only moves the defects, so the paths are the same.
+pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario) -> Option<GhostFlight> {
+    let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
+    let level = scenario.difficulty.as_ref().map(|difficulty| difficulty.level);
+    let flown = |who: &str| {
+        let of = folders.iter().filter(|folder| trainee_and_start(folder).is_ok_and(|(name, _)| name == who));
+        let scored = of.filter_map(|folder| Some((folder, complete_score(folder, &scenario.name, level)?)));
+        scored.max_by(|a, b| a.1.0.total_cmp(&b.1.0))
+    };
+    let flight = |folder: &Path, words: String| GhostFlight { telemetry: folder.join(TELEMETRY), words };
+    if let Some((folder, (overall, most))) = flown(trainee) {
+        return Some(flight(folder, format!("your best flight, {overall:.0} of {most:.0}")));
+    }
+    flown(EXPERT_ID).map(|(folder, _)| flight(folder, "the expert's flight".to_owned()))
+}
+
+/// Returns the score of a session and the highest possible one, if it is a complete session of this job.
+fn complete_score(session: &Path, scenario: &str, level: Option<u8>) -> Option<(f64, f64)> {
+    let read = |name: &str| serde_json::from_str::<Value>(&std::fs::read_to_string(session.join(name)).ok()?).ok();
+    let info = read(SESSION)?;
+    if info["scenario"] != scenario || info["level"].as_u64() != level.map(u64::from) {
+        return None;
+    }
+    let assessment = read(ASSESSMENT)?;
+    let scores = &assessment["scores"];
+    // A rewound flight jumps, and is not compared with others.
+    let is_unaided = PracticeAids::deserialize(&assessment["practice_aids"]).unwrap_or_default().count() == 0;
+    let is_complete = assessment["completion"]["complete"].as_bool() == Some(true) && is_unaided;
+    scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| is_complete)
 }
 
 /// Returns the conformity of a complete session, %. Lessons and incomplete sessions say little about how well somebody follows a
@@ -259,7 +293,6 @@ fn end_reason_text(end: &Value, session: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_monitor::folder::TELEMETRY;
     use spandrel_view::flow::pipe::FlownBy;
 
     fn choice() -> FlightChoice {
@@ -313,6 +346,44 @@ mod tests {
         assert_eq!(summary.last.as_deref(), Some("2 of 11 steps of the lesson."));
         std::fs::write(folder.join(EVENTS), step(11)).unwrap();
         assert!(open_lesson(&folder).is_none());
+    }
+
+    #[test]
+    fn exact_ghost_is_the_best_complete_flight_of_the_same_job_and_level() {
+        let sessions = tempfile::tempdir().unwrap();
+        let job = files::scenario("drill-hover").unwrap().scenario;
+        let save = |k: usize, trainee: &str, scenario: &str, level: u8, (complete, overall): (bool, f64)| {
+            let folder = sessions.path().join(k.to_string());
+            std::fs::create_dir(&folder).unwrap();
+            std::fs::write(folder.join(TELEMETRY), "").unwrap();
+            let session = serde_json::json!({ "trainee": trainee, "started_unix_us": k, "scenario": scenario, "level": level });
+            std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
+            let scores = serde_json::json!({ "overall": overall, "overall_max": 300.0 });
+            let assessment = serde_json::json!({ "completion": { "complete": complete }, "scores": scores });
+            std::fs::write(folder.join(ASSESSMENT), assessment.to_string()).unwrap();
+        };
+        let found = || recorded_ghost(sessions.path(), "anna", &job).map(|ghost| (ghost.telemetry, ghost.words));
+        let at = |k: usize| sessions.path().join(k.to_string()).join(TELEMETRY);
+        let level = job.difficulty.as_ref().unwrap().level;
+        for (k, trainee, scenario, of_level, result) in [
+            (0, "bert", "drill-hover", level, (true, 300.0)),
+            (1, "anna", "drill-gap", level, (true, 300.0)),
+            (2, "anna", "drill-hover", level + 1, (true, 300.0)),
+            (3, "anna", "drill-hover", level, (false, 300.0)),
+        ] {
+            save(k, trainee, scenario, of_level, result);
+        }
+        assert_eq!(found(), None);
+        save(4, EXPERT_ID, "drill-hover", level, (true, 280.0));
+        assert_eq!(found(), Some((at(4), "the expert's flight".to_owned())));
+        save(5, "anna", "drill-hover", level, (true, 211.6));
+        save(6, "anna", "drill-hover", level, (true, 190.0));
+        save(7, "anna", "drill-hover", level, (true, 250.0));
+        let path = sessions.path().join("7").join(ASSESSMENT);
+        let mut rewound: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        rewound["practice_aids"] = serde_json::json!({ "freezes": 0, "rewinds": 1 });
+        std::fs::write(path, rewound.to_string()).unwrap();
+        assert_eq!(found(), Some((at(5), "your best flight, 212 of 300".to_owned())));
     }
 
     #[test]

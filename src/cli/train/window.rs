@@ -65,7 +65,11 @@ impl WindowProcess {
         match message {
             ToWindow::Flying(_) => self.is_flying = true,
             ToWindow::Ended(_) => self.is_flying = false,
-            ToWindow::Offers(_) | ToWindow::Paused { .. } | ToWindow::Refused { .. } | ToWindow::School(_) => {}
+            ToWindow::Offers(_)
+            | ToWindow::Paused { .. }
+            | ToWindow::Refused { .. }
+            | ToWindow::School(_)
+            | ToWindow::Ghost(_) => {}
         }
         self.child.send_line(&pipe::line(message));
     }

@@ -2,6 +2,7 @@
 //! responds; a step without a response is reported.
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
+use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
 use spandrel_mavlink::{instructor_note, station};
 use spandrel_monitor::sidecar::MONITOR_COMPONENT_ID as MONITOR;
@@ -37,6 +38,8 @@ pub enum InstructorCommand {
         /// True to open the bridges.
         open: bool,
     },
+    /// Freezes, resumes or rewinds a practice flight.
+    Practice(PracticeRequest),
     /// Injects or clears a failure.
     Failure {
         /// The component's FAILURE_UNIT.
@@ -53,6 +56,7 @@ pub enum InstructorCommand {
 enum CommandStep {
     Parameter(&'static str, ParamNumber),
     Inject { unit: f32, kind: f32 },
+    Practice(PracticeRequest),
     Note(String),
 }
 
@@ -110,6 +114,14 @@ impl CommandQueue {
             InstructorCommand::Traffic { open } => {
                 let words = format!("instructor: the bridges are {} to traffic", if open { "open" } else { "closed" });
                 (vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Integer(i32::from(open)))], words)
+            }
+            InstructorCommand::Practice(request) => {
+                let words = match request {
+                    PracticeRequest::Freeze => "freeze".to_owned(),
+                    PracticeRequest::Resume => "continue".to_owned(),
+                    PracticeRequest::Rewind { by } => format!("rewind {:.0} s", by.s()),
+                };
+                (vec![CommandStep::Practice(request)], format!("instructor: {words}"))
             }
             InstructorCommand::Failure { unit, words, fails } => {
                 let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "restored" });
@@ -184,6 +196,11 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
         {
             result(ack.result)
         }
+        (CommandStep::Practice(request), MavMessage::COMMAND_ACK(ack))
+            if ack.command == request.command().0 && ours(ack.target_system, ack.target_component) =>
+        {
+            result(ack.result)
+        }
         _ => None,
     }
 }
@@ -228,6 +245,10 @@ fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> V
             let command: COMMAND_LONG_DATA = station::command(system, 1, MavCmd::MAV_CMD_INJECT_FAILURE, params);
             encoder.encode(&MavMessage::COMMAND_LONG(command))
         }
+        CommandStep::Practice(request) => {
+            let (command, params) = request.command();
+            encoder.encode(&MavMessage::COMMAND_LONG(station::command(system, 1, command, params)))
+        }
         CommandStep::Note(text) => instructor_note::encode(encoder, system, MONITOR, text),
     }
 }
@@ -237,6 +258,7 @@ mod tests {
     use super::*;
     use spandrel_mavlink::codec::Decoder;
     use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, PARAM_ERROR_DATA, PARAM_VALUE_DATA};
+    use spandrel_model::time::SimTime;
 
     fn received_frame(message: &MavMessage) -> ReceivedFrame {
         Decoder::new().datagram(&Encoder::new(1, 1).encode(message)).remove(0)
@@ -369,6 +391,27 @@ mod tests {
         assert_eq!((set.param_id.to_str().unwrap(), set.param_value.to_bits()), ("SIM_TRAFFIC", 0));
         commands.handle_frame(&value("SIM_TRAFFIC", f32::from_bits(0)));
         assert_eq!(sent(&mut commands, 1).1, ["instructor: the bridges are closed to traffic"]);
+    }
+
+    #[test]
+    fn wire_rewind_in_an_assessment_is_reported_as_denied() {
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Practice(PracticeRequest::Freeze));
+        let acknowledged = |command, result| {
+            let (target_system, target_component) = (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
+            let ack = COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::default() };
+            received_frame(&MavMessage::COMMAND_ACK(ack))
+        };
+        let (frames, _) = sent(&mut commands, 0);
+        let Some(MavMessage::COMMAND_LONG(command)) = &frames[0].message else { panic!("{frames:?}") };
+        assert_eq!((command.command, command.param1), (MavCmd::MAV_CMD_USER_1, 1.0));
+        assert_eq!(commands.handle_frame(&acknowledged(MavCmd::MAV_CMD_USER_2, MavResult::MAV_RESULT_ACCEPTED)), None);
+        assert_eq!(commands.handle_frame(&acknowledged(MavCmd::MAV_CMD_USER_1, MavResult::MAV_RESULT_ACCEPTED)), None);
+        assert_eq!(sent(&mut commands, 1).1, ["instructor: freeze"]);
+        commands.push(InstructorCommand::Practice(PracticeRequest::Rewind { by: SimTime::from_ms(10_000) }));
+        sent(&mut commands, 2);
+        let refused = commands.handle_frame(&acknowledged(MavCmd::MAV_CMD_USER_2, MavResult::MAV_RESULT_DENIED));
+        assert_eq!(refused.as_deref(), Some("instructor: rewind 10 s: rejected, the vehicle denied this command"));
     }
 
     #[test]

@@ -6,6 +6,7 @@ use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::json;
+use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest};
 use spandrel_training::web::live::{self as pages, INJECTABLE_FAILURES};
 
 /// Starts an instructor's action. The result appears later in the stream.
@@ -32,12 +33,18 @@ fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
             Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::MAX_WIND_M_S)?, from_deg: number("from", 360.0)? })
         }
         "traffic" => Ok(InstructorCommand::Traffic { open: request.required_field("open")? == "yes" }),
+        "practice" => Ok(InstructorCommand::Practice(match request.required_field("do")? {
+            "freeze" => PracticeRequest::Freeze,
+            "resume" => PracticeRequest::Resume,
+            "rewind" => PracticeRequest::Rewind { by: DEFAULT_REWIND },
+            _ => return Err(WebError::BadRequest("do: unknown (allowed: freeze, resume, rewind)".into())),
+        })),
         "failure" => {
             let key = request.required_field("unit")?;
             let unit = INJECTABLE_FAILURES.iter().find(|(name, ..)| *name == key);
             let (_, words, unit) = unit.ok_or_else(|| WebError::BadRequest("unit: unknown".into()))?;
             Ok(InstructorCommand::Failure { unit: *unit, words, fails: request.required_field("fails")? == "yes" })
         }
-        _ => Err(WebError::BadRequest("act: unknown (allowed: note, wind, traffic, failure)".into())),
+        _ => Err(WebError::BadRequest("act: unknown (allowed: note, wind, traffic, practice, failure)".into())),
     }
 }

@@ -29,10 +29,14 @@ pub enum ControllerAction {
     CameraZoomIn,
     /// Zooms the camera out by one step.
     CameraZoomOut,
+    /// Freezes the flight, or continues it. In practice only.
+    Freeze,
+    /// Rewinds the flight by 10 s. In practice only.
+    Rewind,
 }
 
 /// All actions and their names in configuration files.
-pub const ALL: [(&str, ControllerAction); 13] = [
+pub const ALL: [(&str, ControllerAction); 15] = [
     ("lamp", ControllerAction::Lamp),
     ("snapshot", ControllerAction::Snapshot),
     ("arm", ControllerAction::Arm),
@@ -46,6 +50,8 @@ pub const ALL: [(&str, ControllerAction); 13] = [
     ("gimbal_down", ControllerAction::GimbalDown),
     ("camera_zoom_in", ControllerAction::CameraZoomIn),
     ("camera_zoom_out", ControllerAction::CameraZoomOut),
+    ("freeze", ControllerAction::Freeze),
+    ("rewind", ControllerAction::Rewind),
 ];
 
 impl ControllerAction {

@@ -5,6 +5,8 @@
 
 use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::contract::named_values::NamedValue;
+use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest};
 use spandrel_mavlink::dialect::{
     COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
 };
@@ -55,6 +57,8 @@ pub struct LastReported {
     pub lamp: bool,
     /// Gimbal pitch above the horizon, degrees.
     pub gimbal_deg: Option<f32>,
+    /// Whether the flight is frozen.
+    pub frozen: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -149,6 +153,11 @@ impl ControllerLink {
                             status.q.map(f64::from),
                         );
                     self.vehicle.gimbal_deg = attitude.map(|q| q.euler().1.to_degrees() as f32);
+                }
+                Some(message @ MavMessage::NAMED_VALUE_INT(_)) => {
+                    if let Some(NamedValue::Frozen(on)) = NamedValue::of(&message) {
+                        self.vehicle.frozen = on;
+                    }
                 }
                 Some(MavMessage::COMMAND_ACK(ack)) if ack.target_system == SYSTEM_ID || ack.target_system == 0 => {
                     self.handle_ack(ack.command, ack.result)
@@ -253,6 +262,9 @@ impl ControllerLink {
             ControllerAction::CameraZoomOut => {
                 (CAMERA_COMPONENT, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
             }
+            ControllerAction::Freeze if self.vehicle.frozen => practice(PracticeRequest::Resume),
+            ControllerAction::Freeze => practice(PracticeRequest::Freeze),
+            ControllerAction::Rewind => practice(PracticeRequest::Rewind { by: DEFAULT_REWIND }),
         }
     }
 
@@ -345,6 +357,12 @@ impl ControllerLink {
     pub fn poll_message(&mut self) -> Option<String> {
         self.messages.pop_front()
     }
+}
+
+/// Returns a request that is allowed in practice only.
+fn practice(request: PracticeRequest) -> (u8, MavCmd, [f32; 7]) {
+    let (command, params) = request.command();
+    (AUTOPILOT_COMPONENT, command, params)
 }
 
 fn rejection_text(command: MavCmd, result: MavResult) -> &'static str {
@@ -547,6 +565,25 @@ mod tests {
             -50.0,
             "a rejected command must not change the target"
         );
+    }
+
+    #[test]
+    fn exact_freeze_action_continues_a_frozen_flight() {
+        let mut link = known();
+        let asked = |link: &mut ControllerLink, action: ControllerAction, s: f64| {
+            link.request_action(action, at(s));
+            let messages = sent(link, s, s + 0.1);
+            let command = |m: &MavMessage| if let MavMessage::COMMAND_LONG(c) = m { Some((c.command, c.param1)) } else { None };
+            messages.iter().filter_map(command).find(|(command, _)| *command != MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL)
+        };
+        let frozen = |on| Encoder::new(1, 1).encode(&NamedValue::Frozen(on).message(0));
+        assert_eq!(asked(&mut link, ControllerAction::Freeze, 0.0), Some((MavCmd::MAV_CMD_USER_1, 1.0)));
+        link.receive(&frozen(true));
+        assert_eq!(asked(&mut link, ControllerAction::Freeze, 1.0), Some((MavCmd::MAV_CMD_USER_1, 0.0)));
+        link.receive(&frozen(false));
+        assert_eq!(asked(&mut link, ControllerAction::Freeze, 2.0), Some((MavCmd::MAV_CMD_USER_1, 1.0)));
+        answer(&mut link, MavCmd::MAV_CMD_USER_1, MavResult::MAV_RESULT_ACCEPTED);
+        assert_eq!(asked(&mut link, ControllerAction::Rewind, 3.0), Some((MavCmd::MAV_CMD_USER_2, 10.0)));
     }
 
     #[test]

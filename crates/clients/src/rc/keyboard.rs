@@ -63,7 +63,7 @@ const STICK_BINDINGS: [(&str, StickDirection, &str); 8] = [
     ("turn_right", StickDirection::TurnRight, "d"),
 ];
 
-const ACTION_BINDINGS: [(ControllerAction, &str); 13] = [
+const ACTION_BINDINGS: [(ControllerAction, &str); 15] = [
     (ControllerAction::Lamp, "b"),
     (ControllerAction::Snapshot, "p"),
     (ControllerAction::Arm, "1"),
@@ -77,6 +77,8 @@ const ACTION_BINDINGS: [(ControllerAction, &str); 13] = [
     (ControllerAction::GimbalDown, "pagedown"),
     (ControllerAction::CameraZoomIn, "]"),
     (ControllerAction::CameraZoomOut, "["),
+    (ControllerAction::Freeze, "x"),
+    (ControllerAction::Rewind, "z"),
 ];
 
 /// Key action in the viewer window; not available in a terminal.
@@ -88,6 +90,8 @@ pub enum WindowAction {
     Map,
     /// Toggles the path in the pictures.
     Path,
+    /// Toggles the ghost of an earlier flight.
+    Ghost,
     /// Makes the inspector view follow the aircraft again.
     Follow,
     /// Turns the inspector view left.
@@ -117,6 +121,7 @@ impl WindowAction {
             Self::Swap => "change the layout",
             Self::Map => "map on or off",
             Self::Path => "path on or off",
+            Self::Ghost => "ghost on or off",
             Self::Follow => "follow the drone",
             Self::LookLeft => "look left",
             Self::LookRight => "look right",
@@ -131,10 +136,11 @@ impl WindowAction {
     }
 }
 
-const WINDOW_BINDINGS: [(&str, WindowAction, &str); 13] = [
+const WINDOW_BINDINGS: [(&str, WindowAction, &str); 14] = [
     ("swap", WindowAction::Swap, "tab"),
     ("map", WindowAction::Map, "m"),
     ("path", WindowAction::Path, "v"),
+    ("ghost", WindowAction::Ghost, "g"),
     ("follow", WindowAction::Follow, "f"),
     ("look_left", WindowAction::LookLeft, ","),
     ("look_right", WindowAction::LookRight, "."),

@@ -11,6 +11,7 @@
 //! | [`contact`] | contact codes and their order of severity |
 //! | [`cue`] | bit flags of the monitor's cues |
 //! | [`guidance`] | the next step of the job and the way to it |
+//! | [`practice`] | requests that are allowed in practice only: freeze, resume, rewind |
 //! | [`modes`] | flight modes of PX4 and ArduCopter: name and control source |
 //! | [`sticks`] | conversion of stick positions |
 //! | [`continuity`] | detection of restarts and respawns |
@@ -23,6 +24,7 @@ pub mod guidance;
 pub mod lesson;
 pub mod modes;
 pub mod named_values;
+pub mod practice;
 pub mod sticks;
 pub mod truth;
 

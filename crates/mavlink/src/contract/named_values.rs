@@ -15,6 +15,14 @@ pub enum NamedValue {
     Hits(i32),
     /// `respawns`: number of respawns since simulation start. Sent on change and every 5 s.
     Respawns(i32),
+    /// `freezes`: number of freezes since simulation start, without those after a rewind. Sent on change, and every 5 s
+    /// after the first one.
+    Freezes(i32),
+    /// `rewinds`: number of rewinds since simulation start. Sent on change, and every 5 s after the first one.
+    Rewinds(i32),
+    /// `frozen`: whether the flight is frozen. Sent on change, every second while it is frozen, and every 5 s after the
+    /// first freeze.
+    Frozen(bool),
     /// `traffic`: time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     /// Sent on change, and every 5 s after the first closing.
     Traffic(i32),
@@ -41,6 +49,9 @@ impl NamedValue {
             Self::Contact(_) => "contact",
             Self::Hits(_) => "hits",
             Self::Respawns(_) => "respawns",
+            Self::Freezes(_) => "freezes",
+            Self::Rewinds(_) => "rewinds",
+            Self::Frozen(_) => "frozen",
             Self::Traffic(_) => "traffic",
             Self::Seed(_) => "seed",
             Self::ScenarioCrc(_) => "scn_crc",
@@ -51,15 +62,25 @@ impl NamedValue {
         }
     }
 
+    /// Returns whether the value reports a freeze or a rewind. Every client receives it, because everyone can request one.
+    #[must_use]
+    pub fn is_practice_value(self) -> bool {
+        matches!(self, Self::Freezes(_) | Self::Rewinds(_) | Self::Frozen(_))
+    }
+
     /// Encodes the message. `time_boot_ms` is the simulation time in ms, modulo 2^32.
     #[must_use]
     pub fn message(self, time_boot_ms: u32) -> MavMessage {
         let name = self.name();
         match self {
             Self::Contact(contact) => int(time_boot_ms, name, contact.code()),
-            Self::Hits(value) | Self::Respawns(value) | Self::Traffic(value) | Self::Cues(value) => {
-                int(time_boot_ms, name, value)
-            }
+            Self::Hits(value)
+            | Self::Respawns(value)
+            | Self::Freezes(value)
+            | Self::Rewinds(value)
+            | Self::Traffic(value)
+            | Self::Cues(value) => int(time_boot_ms, name, value),
+            Self::Frozen(on) => int(time_boot_ms, name, i32::from(on)),
             Self::Seed(value) | Self::ScenarioCrc(value) => int(time_boot_ms, name, value.cast_signed()),
             Self::ClearanceM(value) | Self::Lux(value) | Self::Pace(value) => float(time_boot_ms, name, value),
         }
@@ -83,6 +104,9 @@ impl NamedValue {
             "contact" => Self::Contact(ContactKind::from_code(value)),
             "hits" => Self::Hits(value),
             "respawns" => Self::Respawns(value),
+            "freezes" => Self::Freezes(value),
+            "rewinds" => Self::Rewinds(value),
+            "frozen" => Self::Frozen(value != 0),
             "traffic" => Self::Traffic(value),
             "seed" => Self::Seed(value.cast_unsigned()),
             "scn_crc" => Self::ScenarioCrc(value.cast_unsigned()),
@@ -125,6 +149,9 @@ mod tests {
             NamedValue::Contact(ContactKind::Person),
             NamedValue::Hits(3),
             NamedValue::Respawns(-1),
+            NamedValue::Freezes(1),
+            NamedValue::Rewinds(2),
+            NamedValue::Frozen(true),
             NamedValue::Traffic(-95_000),
             NamedValue::Seed(u32::MAX),
             NamedValue::ScenarioCrc(0xC0FF_EE00),

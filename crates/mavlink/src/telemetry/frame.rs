@@ -96,7 +96,7 @@ impl Flight {
         if span > MAX_INTERPOLATED_GAP {
             return Some(held(true));
         }
-        if self.respawned_between(before, next) {
+        if self.was_moved_between(before, next) {
             return Some(held(false));
         }
         let t = (time - before.time).ns() as f64 / span.ns() as f64;
@@ -107,12 +107,21 @@ impl Flight {
         })
     }
 
-    fn respawned_between(&self, before: &Truth, next: &Truth) -> bool {
+    /// Returns whether the simulator moved the aircraft between two messages: by a respawn or a rewind.
+    fn was_moved_between(&self, before: &Truth, next: &Truth) -> bool {
         // The respawn message may have been lost.
         if before.jumps_to(next) {
             return true;
         }
-        self.respawns.at(before.time) != self.respawns.at(next.time) && self.respawns.at(before.time).is_some()
+        let has_respawned = self.respawns.at(before.time) != self.respawns.at(next.time);
+        has_respawned && self.respawns.at(before.time).is_some() || self.was_rewound_between(before.time, next.time)
+    }
+
+    /// Returns whether the flight was rewound between two times.
+    #[must_use]
+    pub fn was_rewound_between(&self, from: SimTime, to: SimTime) -> bool {
+        // The vehicle does not send the number before the first rewind.
+        self.rewinds.at(from).unwrap_or(0) < self.rewinds.at(to).unwrap_or(0)
     }
 
     /// Returns the frame at `time` with the events since `since`; `None` if there are no truth messages.

@@ -27,7 +27,7 @@ pub struct Navigation {
 
 impl Navigation {
     /// Returns the estimated position at `time`, m, interpolated between two reports at most 1 s apart. `None` if there are no
-    /// such reports or if the aircraft was respawned between them.
+    /// such reports or if the aircraft was respawned or the flight was rewound between them.
     #[must_use]
     pub fn estimate_m(&self, flight: &Flight, time: SimTime) -> Option<Vec3<Enu>> {
         let reports = self.estimate_m.all();
@@ -38,7 +38,8 @@ impl Navigation {
         }
         let (to, _, after_m) = reports.get(after)?;
         let span = *to - *from;
-        if span > MAX_INTERPOLATED_GAP || flight.respawns.at(*from) != flight.respawns.at(*to) {
+        let is_moved = flight.respawns.at(*from) != flight.respawns.at(*to) || flight.was_rewound_between(*from, *to);
+        if span > MAX_INTERPOLATED_GAP || is_moved {
             return None;
         }
         Some(before_m.lerp(*after_m, (time - *from).ns() as f64 / span.ns() as f64))

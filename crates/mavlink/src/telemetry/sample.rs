@@ -42,6 +42,12 @@ pub enum SampleValue {
     Hits(i32),
     /// Number of respawns since simulation start.
     Respawns(i32),
+    /// Number of freezes since simulation start, without those after a rewind.
+    Freezes(i32),
+    /// Number of rewinds since simulation start.
+    Rewinds(i32),
+    /// Whether the flight is frozen.
+    Frozen(bool),
     /// Time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     Traffic(i32),
     /// Session seed.
@@ -271,6 +277,9 @@ fn stored_value(named: NamedValue) -> Option<SampleValue> {
         NamedValue::Contact(contact) => SampleValue::Contact(contact),
         NamedValue::Hits(count) => SampleValue::Hits(count),
         NamedValue::Respawns(count) => SampleValue::Respawns(count),
+        NamedValue::Freezes(count) => SampleValue::Freezes(count),
+        NamedValue::Rewinds(count) => SampleValue::Rewinds(count),
+        NamedValue::Frozen(on) => SampleValue::Frozen(on),
         NamedValue::Traffic(code) => SampleValue::Traffic(code),
         NamedValue::Seed(seed) => SampleValue::Seed(u64::from(seed)),
         NamedValue::ScenarioCrc(crc) => SampleValue::ScenarioCrc(crc),

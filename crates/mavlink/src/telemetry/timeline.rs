@@ -365,6 +365,10 @@ pub struct Flight {
     pub hits: Signal<i32>,
     /// Number of respawns since simulation start.
     pub respawns: Signal<i32>,
+    /// Number of freezes since simulation start, without those after a rewind.
+    pub freezes: Signal<i32>,
+    /// Number of rewinds since simulation start.
+    pub rewinds: Signal<i32>,
     /// Times at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     pub traffic: Signal<i32>,
     /// Distance to the nearest surface, m.
@@ -399,6 +403,10 @@ impl Flight {
             SampleValue::Contact(v) => self.contact.push(time, order, v),
             SampleValue::Hits(v) => self.hits.push(time, order, v),
             SampleValue::Respawns(v) => self.respawns.push(time, order, v),
+            SampleValue::Freezes(v) => self.freezes.push(time, order, v),
+            SampleValue::Rewinds(v) => self.rewinds.push(time, order, v),
+            // While the flight is frozen, no time passes that a flight could contain.
+            SampleValue::Frozen(_) => {}
             SampleValue::Traffic(v) => self.traffic.push(time, order, v),
             SampleValue::Seed(v) => self.seeds.push(time, order, v),
             SampleValue::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
@@ -429,6 +437,8 @@ impl Flight {
         self.contact.sort();
         self.hits.sort();
         self.respawns.sort();
+        self.freezes.sort();
+        self.rewinds.sort();
         self.traffic.sort();
         self.clearance.sort();
         self.gimbal.sort();

@@ -7,3 +7,4 @@ pub mod cue_validity;
 pub mod image_quality;
 pub mod on_path;
 pub mod on_speed;
+pub mod practice_aids;

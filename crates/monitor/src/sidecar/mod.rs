@@ -31,7 +31,7 @@ use spandrel_model::site::Site;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -133,6 +133,8 @@ struct LiveState {
     cues: i32,
     cues_sent: Option<SimTime>,
     respawns: Option<i32>,
+    /// Latest number of freezes and of rewinds, by event name.
+    practice_aids: BTreeMap<&'static str, i32>,
     closures: BridgeClosures,
 }
 
@@ -439,6 +441,7 @@ impl LiveState {
             cues: 0,
             cues_sent: None,
             respawns: None,
+            practice_aids: BTreeMap::new(),
             closures: BridgeClosures::default(),
         }
     }

@@ -83,7 +83,9 @@ impl Monitor {
 
     fn handle_value(&mut self, value: SampleValue) {
         match value {
-            SampleValue::Sticks(_) | SampleValue::Hits(_) => {}
+            SampleValue::Sticks(_) | SampleValue::Hits(_) | SampleValue::Frozen(_) => {}
+            SampleValue::Freezes(count) => self.handle_practice_aid("freeze", count),
+            SampleValue::Rewinds(count) => self.handle_practice_aid("rewind", count),
             SampleValue::FieldOfView(rad) => self.live.camera_fov_rad = Some(rad),
             SampleValue::GimbalPitch(pitch_rad) => self.live.camera_pitch_rad = pitch_rad,
             SampleValue::Light(on) => self.live.lamp = on,
@@ -150,6 +152,14 @@ impl Monitor {
             self.event("respawn", json!({ "count": count }));
         }
         self.live.respawns = Some(count);
+    }
+
+    /// Logs a freeze or a rewind. The vehicle sends no number before the first one.
+    fn handle_practice_aid(&mut self, event: &'static str, count: i32) {
+        let known = self.live.practice_aids.insert(event, count).unwrap_or(0);
+        if count > known {
+            self.event(event, json!({ "count": count }));
+        }
     }
 
     fn handle_truth(&mut self, truth: Truth, before: Option<SimTime>) {

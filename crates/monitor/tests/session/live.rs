@@ -74,6 +74,40 @@ fn exact_replay_matches_live_session() {
     }
 }
 
+/// Time stands still during a freeze and goes on after a rewind, so the session is one flight, and its events name both.
+#[test]
+fn exact_freezes_and_rewinds_are_events_of_one_session() {
+    let mut monitor = new_monitor(one_task());
+    let mut tape = Tape::new();
+    tape.hold(1.0);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    for (name, value) in [("freezes", 1), ("rewinds", 0), ("frozen", 1), ("frozen", 1), ("freezes", 1), ("frozen", 0)] {
+        tape.int(name, value);
+    }
+    tape.fly((60.0, 0.0, 10.0), 4.0);
+    let back = spandrel_model::frames::Vec3::new(30.0, 0.0, 10.0);
+    for count in 1..=2 {
+        tape.at_m = back;
+        tape.int("rewinds", count);
+        tape.int("rewinds", count);
+        tape.fly((60.0, 0.0, 10.0), 4.0);
+    }
+    tape.land();
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let assessed_session = monitor.finished().expect("landed").clone().expect("scored");
+    let (_, events) = session_output(&mut monitor);
+    let events: Vec<serde_json::Value> = events.iter().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let counts = |kind: &str| -> Vec<i64> {
+        events.iter().filter(|event| event["event"] == kind).filter_map(|event| event["count"].as_i64()).collect()
+    };
+    assert_eq!((counts("freeze"), counts("rewind")), (vec![1], vec![1, 2]));
+    let assessment = assessed_session.assessment;
+    assert_eq!((assessment.practice_aids.freezes, assessment.practice_aids.rewinds), (1, 2));
+    assert!(!assessment.certification.passed);
+    assert_eq!(assessment.certification.unmet[0], "rewound twice and frozen once, so it was practice");
+    assert!(events.iter().all(|event| event["event"] != "simulator_restarted"), "{events:?}");
+}
+
 #[test]
 fn exact_timestamps_are_session_start_plus_simulation_time() {
     let mut monitor = new_monitor(one_task());

@@ -21,7 +21,19 @@ fn exact_assessment_json_keys_are_stable() {
     let value = serde_json::to_value(&score_tape(&tape, &one_task()).assessment).unwrap();
     assert_eq!(
         keys(&value),
-        ["profile", "scores", "completion", "tasks", "crashes", "snapshots", "end", "telemetry", "flown_by", "certification"]
+        [
+            "profile",
+            "scores",
+            "completion",
+            "tasks",
+            "crashes",
+            "snapshots",
+            "end",
+            "telemetry",
+            "flown_by",
+            "practice_aids",
+            "certification"
+        ]
     );
     assert_eq!(value["profile"], "paper");
     check_keys(&value["scores"], &["conformity", "efficiency", "safety", "accuracy", "overall"]);

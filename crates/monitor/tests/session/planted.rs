@@ -38,6 +38,8 @@ struct Inspection {
     contact_speed_m_s: f64,
     battery_pct: i8,
     lands: bool,
+    /// Rewinds that the vehicle reports on the way.
+    rewinds: i32,
 }
 
 const CLEAN: Inspection = Inspection {
@@ -51,6 +53,7 @@ const CLEAN: Inspection = Inspection {
     contact_speed_m_s: 0.0,
     battery_pct: 60,
     lands: true,
+    rewinds: 0,
 };
 
 impl Inspection {
@@ -73,6 +76,7 @@ impl Inspection {
             }
         }
         tape.yaw_rad = 0.0;
+        (1..=self.rewinds).for_each(|count| tape.int("rewinds", count));
         self.collide(&mut tape);
         tape.battery(self.battery_pct);
         if self.lands {
@@ -199,6 +203,13 @@ fn regress_low_battery_and_missing_landing_are_not_certified() {
     assert_eq!(certification.unmet, ["15% battery at landing, 20% needed"]);
     let certification = assert_fails(&Inspection { lands: false, ..CLEAN }, &["landed_at_home", "battery"]);
     assert_eq!(certification.unmet, ["not landed at home"]);
+}
+
+#[test]
+fn exact_rewound_flight_is_practice() {
+    let certification = assert_fails(&Inspection { rewinds: 2, ..CLEAN }, &["practice_aids"]);
+    assert_eq!(certification.unmet, ["rewound twice, so it was practice"]);
+    assert_eq!(certification.scores, CLEAN.fly().scores, "the scores stay those of the flight");
 }
 
 #[test]

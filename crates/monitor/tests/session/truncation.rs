@@ -96,6 +96,29 @@ fn exact_frames_are_not_interpolated_across_respawn() {
     }
 }
 
+/// A rewind by less than a jump is no movement either: the number of rewinds alone shows it.
+#[test]
+fn exact_frames_are_not_interpolated_across_a_short_rewind() {
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((30.0, 0.0, 10.0), 4.0);
+    let flown = tape.at_m;
+    tape.hold_unrecorded(60);
+    tape.int("rewinds", 1);
+    tape.at_m = flown + spandrel_model::frames::Vec3::new(-1.0, 0.0, 0.0);
+    let put_back = tape.at_m;
+    tape.hold(1.0);
+    let assessed_session = score_tape(&tape, &one_task());
+    let near = |p: spandrel_model::frames::Vec3<spandrel_model::frames::Enu>, q| (p - q).norm() < 0.02;
+    let frames: Vec<_> = assessed_session.frames.iter().filter(|f| f.time.ms() > i64::from(tape.now_ms) - 1_060).collect();
+    assert!(
+        frames.iter().any(|frame| near(frame.position_m, flown)) && frames.iter().any(|frame| near(frame.position_m, put_back))
+    );
+    for frame in frames {
+        assert!(near(frame.position_m, flown) || near(frame.position_m, put_back), "{frame:?}");
+    }
+}
+
 #[test]
 fn exact_empty_battery_ends_session_before_respawn() {
     let mut tape = Tape::new();

@@ -334,6 +334,12 @@ impl Autopilot {
     /// Continues after a respawn in the air: resets the estimator and controllers to this state, armed. Keeps a manual
     /// mode; otherwise switches to Hold.
     pub fn respawn(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
+        self.continue_from(position_m, velocity_m_s, attitude, now);
+        self.events.push(Severity::Warning, "Respawned at last safe hover");
+    }
+
+    /// The same as [`Self::respawn`] without a text, for a rewind.
+    pub fn continue_from(&mut self, position_m: Vec3<Ned>, velocity_m_s: Vec3<Ned>, attitude: Rotation<Frd, Ned>, now: SimTime) {
         self.estimator.reset_to_pose(position_m, velocity_m_s, attitude, now);
         self.estimate = self.estimator.estimate();
         self.armed = true;
@@ -341,7 +347,6 @@ impl Autopilot {
         self.control.reset();
         self.control.landing.continue_in_air(now);
         self.navigate(Tick::between_steps(now), Navigator::continue_in_air);
-        self.events.push(Severity::Warning, "Respawned at last safe hover");
         self.update_status();
     }
 

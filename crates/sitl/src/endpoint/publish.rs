@@ -54,7 +54,7 @@ impl Endpoint {
         self.vehicle.retry_plan_request(&inputs.vehicle, &mut self.links);
     }
 
-    /// Sends only heartbeats and texts while simulation time is paused. The camera's heartbeat is sent only on links
+    /// Sends only heartbeats, texts and the values that report a freeze, while simulation time is stopped. The camera's heartbeat is sent only on links
     /// that use the camera.
     pub fn send_heartbeats(&mut self, aircraft: &SimulatedAircraft, autopilot: &Autopilot) {
         let input = payload_input(&self.vehicle, aircraft, autopilot);
@@ -69,6 +69,7 @@ impl Endpoint {
             }
         }
         self.vehicle.send_texts(&inputs.vehicle, &mut self.links);
+        self.payload.send_frozen_values(&input, &mut self.links);
     }
 
     /// Broadcasts equipment and autopilot changes once.

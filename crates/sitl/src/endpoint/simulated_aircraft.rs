@@ -2,6 +2,7 @@
 
 use super::clock::VehicleClock;
 use super::payload::ScoringTruth;
+use super::practice::PracticeState;
 use crate::physics::{Actuators, BatteryState, RigidState};
 use crate::sensors::Readings;
 use spandrel_model::frames::{Frd, Ned, Vec3};
@@ -31,4 +32,6 @@ pub struct SimulatedAircraft<'a> {
     pub wind_m_s: Vec3<Ned>,
     /// Counters and ground truth for scoring.
     pub scoring: &'a ScoringTruth,
+    /// Whether the flight can be frozen and rewound.
+    pub practice: PracticeState,
 }

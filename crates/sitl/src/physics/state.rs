@@ -197,6 +197,14 @@ impl PhysicsState {
         }
     }
 
+    /// Puts the aircraft and its battery back into an earlier state. Failed battery cells stay failed.
+    pub fn restore(&mut self, earlier: &Self) {
+        let fresh = Self::at_rest(earlier.rigid.position_m, 0.0);
+        let battery = BatteryState { failed_cells: self.battery.failed_cells, ..earlier.battery };
+        // What the earlier state knows about obstacles may be out of date.
+        *self = Self { battery, effect_due: fresh.effect_due, clear_sphere: fresh.clear_sphere, ..earlier.clone() };
+    }
+
     /// Moves the aircraft to a position, level and at rest. The rotor speeds do not change.
     pub fn place(&mut self, position_m: Vec3<Ned>, yaw_rad: f64) {
         let fresh = Self::at_rest(position_m, yaw_rad);

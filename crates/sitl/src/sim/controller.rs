@@ -4,6 +4,7 @@ use crate::autopilot::{Autopilot, LandedState};
 use crate::backend::ExternalAutopilot;
 use crate::endpoint::params::InstructorSettings;
 use crate::endpoint::{Endpoint, FailureInjection, LinkId, Links, PayloadLink, RelayEndpoint, VehicleLink};
+use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
 
@@ -148,6 +149,14 @@ impl Controller {
         match self {
             Self::Builtin(own) => own.endpoint.vehicle.next_injection(),
             Self::External(other) => other.endpoint.next_injection(),
+        }
+    }
+
+    /// Removes and returns the next request to freeze, resume or rewind the flight.
+    pub fn next_practice_request(&mut self) -> Option<PracticeRequest> {
+        match self {
+            Self::Builtin(own) => own.endpoint.vehicle.next_practice_request(),
+            Self::External(other) => other.endpoint.next_practice_request(),
         }
     }
 

@@ -76,7 +76,7 @@ impl Inbox {
         }
         if self.tick != now {
             self.tick = now;
-            self.links.values_mut().for_each(|queue| queue.processed_this_tick = (0, 0));
+            self.renew_limits();
         }
         let mut out = Vec::new();
         for (link, queue) in &mut self.links {
@@ -84,6 +84,11 @@ impl Inbox {
         }
         self.waiting -= out.len();
         out
+    }
+
+    /// Starts the limits anew, as for a new tick.
+    pub fn renew_limits(&mut self) {
+        self.links.values_mut().for_each(|queue| queue.processed_this_tick = (0, 0));
     }
 
     /// Number of dropped datagrams.

@@ -27,6 +27,7 @@ impl Sim {
         self.now += STEP;
         self.handle_crash_and_respawn();
         self.update_clearance_and_light();
+        self.keep_state();
         self.publish();
         self.update_digest();
     }

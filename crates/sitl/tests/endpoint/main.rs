@@ -27,6 +27,7 @@ mod offboard;
 mod parameters;
 mod payload;
 mod plans;
+mod practice;
 mod px4_events;
 mod px4_setup;
 mod ranges;

@@ -63,6 +63,25 @@ fn wire_commands_reach_the_component_that_executes_them() {
     }
 }
 
+/// Simulation time can stop, because the autopilot runs in lockstep, but its estimator cannot be put back.
+#[test]
+fn wire_flight_freezes_but_does_not_rewind() {
+    let mut rig = Rig::ready(AfterCrash::Continue);
+    rig.take_off(3.0);
+    rig.command(1, MavCmd::MAV_CMD_USER_2, &[5.0]);
+    rig.run_s(0.1);
+    assert_eq!(rig.last_ack(MavCmd::MAV_CMD_USER_2), Some((1, MavResult::MAV_RESULT_DENIED)));
+    rig.command(1, MavCmd::MAV_CMD_USER_1, &[1.0]);
+    rig.exchange_until(|rig| rig.sim.is_frozen());
+    let (at, before) = (rig.sim.now(), rig.sim.truth().clone());
+    (0..100).for_each(|_| rig.exchange());
+    assert_eq!((rig.sim.now(), rig.sim.truth()), (at, &before));
+    rig.command(1, MavCmd::MAV_CMD_USER_1, &[0.0]);
+    rig.run_s(1.0);
+    assert!(!rig.sim.is_frozen() && rig.sim.armed());
+    assert!(!rig.px4.commands().contains(&MavCmd::MAV_CMD_USER_1), "the autopilot must not execute the request as well");
+}
+
 #[test]
 fn wire_injected_failures_change_the_readings_of_the_autopilot() {
     let mut rig = Rig::ready(AfterCrash::Continue);

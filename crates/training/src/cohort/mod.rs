@@ -83,13 +83,23 @@ pub struct Cohort {
     pub warnings: Vec<String>,
 }
 
+/// Returns a note with the number of sessions that were frozen or rewound; `None` if it is 0.
+fn aided_note(count: usize) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some("1 session was frozen or rewound, and is not compared".to_owned()),
+        many => Some(format!("{many} sessions were frozen or rewound, and are not compared")),
+    }
+}
+
 /// Analyzes the selected sessions of a cohort.
 #[must_use]
 pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let scenarios = scenarios(records, selection);
     let on_job = records.iter().filter(|record| scenarios.contains(&record.scenario_with_level()));
+    let (on_job, aided): (Vec<&SessionRecord>, Vec<&SessionRecord>) = on_job.partition(|record| record.is_unaided());
     let (counted, left_out): (Vec<&SessionRecord>, Vec<&SessionRecord>) =
-        on_job.partition(|record| selection.incomplete.counts(record));
+        on_job.into_iter().partition(|record| selection.incomplete.counts(record));
     let mut runs = SessionsByTrainee::new();
     for record in counted {
         runs.entry(&record.trainee).or_default().push(record);
@@ -101,7 +111,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let repetitions = selection.repetitions.max(1);
     let group: SessionsByTrainee<'_> =
         runs.iter().filter(|(_, sessions)| sessions.len() >= repetitions).map(|(k, v)| (*k, v.clone())).collect();
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = aided_note(aided.len()).into_iter().collect();
     let causal = causal::causal(&first_sessions, &mut warnings);
     if repetitions > 1 && group.len() < RECOMMENDED_PAIRS {
         warnings.push(format!(

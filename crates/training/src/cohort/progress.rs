@@ -98,7 +98,7 @@ impl Repetition {
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliability: &JobReliability) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<String, Vec<&SessionRecord>> = BTreeMap::new();
-    for record in records {
+    for record in records.iter().filter(|record| record.is_unaided()) {
         jobs.entry(record.scenario_with_level()).or_default().push(record);
     }
     let on_job = |(scenario, mut sessions): (String, Vec<&SessionRecord>)| {

@@ -152,6 +152,21 @@ fn exact_group_curve_fits_means_of_eligible_trainees() {
 }
 
 #[test]
+fn exact_rewound_sessions_are_not_compared() {
+    let mut records = pilot_study_records();
+    let all = analyzed(&records);
+    records[0].practice_aids.rewinds = 2;
+    let without = analyzed(&records);
+    assert_eq!((without.sessions, without.left_out), (all.sessions - 1, all.left_out));
+    let words = "1 session was frozen or rewound, and is not compared";
+    assert!(without.warnings.iter().any(|warning| warning == words), "{:?}", without.warnings);
+    let repetitions = |records: &[SessionRecord]| {
+        by_job(records, IncompletePolicy::Exclude, &JobReliability::new())[0].progress.repetitions.len()
+    };
+    assert_eq!(repetitions(&records), records.len() - 1);
+}
+
+#[test]
 fn exact_progress_is_separate_per_job() {
     let mut records: Vec<SessionRecord> = (1..=9).map(|k| perfect_record("anna", k)).collect();
     for record in records.iter_mut().step_by(2) {

@@ -28,10 +28,12 @@ pub struct MeasureChange {
     pub better: Option<bool>,
 }
 
-/// Compares the latest record with the previous one for the same scenario and level; `None` if there is none.
+/// Compares the latest record with the previous one for the same scenario and level; `None` if there is none. A session that was
+/// frozen or rewound is not compared.
 pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
-    let (last, earlier) = records.split_last()?;
-    let before = earlier.iter().rev().find(|record| record.scenario_with_level() == last.scenario_with_level())?;
+    let (last, earlier) = records.split_last().filter(|(last, _)| last.is_unaided())?;
+    let mut comparable = earlier.iter().rev().filter(|record| record.is_unaided());
+    let before = comparable.find(|record| record.scenario_with_level() == last.scenario_with_level())?;
     let mut changes = Vec::new();
     let mut add = |what: String, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
         if let (Some(before), Some(now)) = (before, now) {

@@ -65,7 +65,7 @@ pub fn meets_criterion(record: &SessionRecord, drill: &DrillCriterion) -> bool {
 }
 
 /// Returns the progress on every drill of the rules, from all of a trainee's sessions in chronological order. Incomplete
-/// sessions do not meet the criterion.
+/// sessions do not meet the criterion, and sessions that were frozen or rewound do not count.
 #[must_use]
 pub fn progress(records: &[SessionRecord], rules: &PlanRules) -> Vec<DrillProgress> {
     rules.drills.iter().map(|drill| progress_on(records, drill, rules)).collect()
@@ -73,7 +73,8 @@ pub fn progress(records: &[SessionRecord], rules: &PlanRules) -> Vec<DrillProgre
 
 fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRules) -> DrillProgress {
     let flown: Vec<&SessionRecord> = records.iter().filter(|record| record.scenario == drill.scenario).collect();
-    let results: Vec<bool> = flown.iter().filter_map(|record| result_at_standard_level(record, drill)).collect();
+    let unaided: Vec<&SessionRecord> = flown.iter().copied().filter(|record| record.is_unaided()).collect();
+    let results: Vec<bool> = unaided.iter().filter_map(|record| result_at_standard_level(record, drill)).collect();
     let latest = &results[results.len().saturating_sub(rules.mastery_of)..];
     let met = latest.iter().filter(|met| **met).count();
     let standard = drill.difficulty.as_ref().map(|difficulty| format!("level {} or harder", difficulty.standard));
@@ -88,7 +89,7 @@ fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRu
         done: met >= rules.mastery_needed,
         last_unix_us: flown.last().map(|record| record.started_unix_us),
         criterion: format!("complete, {}", limits.join(", ")),
-        next_level: next_level(&flown, drill, rules),
+        next_level: next_level(&unaided, drill, rules),
     }
 }
 

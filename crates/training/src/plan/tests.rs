@@ -432,6 +432,22 @@ fn exact_mastery_counts_sessions_that_decide_about_the_standard_level() {
 }
 
 #[test]
+fn exact_rewound_sessions_neither_master_a_drill_nor_change_its_level() {
+    let rules = rules().with_shipped_levels();
+    let mut records = vec![gap_drill_at(1, 5, true), gap_drill_at(2, 6, true)];
+    let done = |records: &[SessionRecord]| plan(records, &rules, NOW).unwrap().drills[0].clone();
+    assert!(done(&records).done);
+    let level = |records: &[SessionRecord]| done(records).next_level.unwrap().level;
+    assert_eq!(level(&records), 7);
+    records[1].practice_aids.rewinds = 1;
+    let drill = done(&records);
+    assert_eq!((drill.sessions, drill.met, drill.counted, drill.done), (2, 1, 1, false));
+    assert_eq!(level(&records), 6, "the level follows the first session");
+    records[0].practice_aids.freezes = 1;
+    assert_eq!(done(&records).counted, 0);
+}
+
+#[test]
 fn exact_levels_can_be_switched_off_and_changed() {
     let read = |from: &str, to: &str| {
         assert!(DEFAULT_RULES.contains(from), "{from}");

@@ -19,6 +19,7 @@ pub use technique::{SessionTechnique, TaskTechnique};
 
 use super::questionnaire::{Answers, ScaleScores, scales};
 use serde::{Deserialize, Serialize};
+use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::certification::CertificationScores;
 use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::Completion;
@@ -93,6 +94,9 @@ pub struct SessionRecord {
     /// Unmet certification requirements, as text.
     #[serde(default)]
     pub unmet: Vec<String>,
+    /// Freezes and rewinds; zero in records before format 6.
+    #[serde(default)]
+    pub practice_aids: PracticeAids,
     /// Certification scores and requirements; absent in records before format 3.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certification: Option<CertificationRecord>,
@@ -244,6 +248,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         covered: assessment.telemetry.covered,
         certified: assessment.certification.passed,
         unmet: assessment.certification.unmet.clone(),
+        practice_aids: assessment.practice_aids,
         certification: Some(CertificationRecord {
             scores: assessment.certification.scores,
             requirements: assessment.certification.requirements.clone(),
@@ -268,6 +273,12 @@ impl SessionRecord {
     pub fn scenario_with_level(&self) -> String {
         let other = self.level.filter(|level| level.level != level.standard);
         other.map_or_else(|| self.scenario.clone(), |level| format!("{}@{}", self.scenario, level.level))
+    }
+
+    /// Returns whether the session can be compared with others and counts toward mastery: it was neither frozen nor rewound.
+    #[must_use]
+    pub fn is_unaided(&self) -> bool {
+        self.practice_aids.count() == 0
     }
 
     /// Returns the task numbers in scenario order.

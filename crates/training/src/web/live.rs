@@ -144,6 +144,15 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
             }
         }
         form.stacked method="post" action="/live/act" data-act {
+            (hidden("practice"))
+            p.note { "In practice only. A flight that was frozen or rewound is neither certified nor compared with others." }
+            div.row {
+                button type="submit" name="do" value="freeze" { "Freeze" }
+                button type="submit" name="do" value="resume" { "Continue" }
+                button type="submit" name="do" value="rewind" { "Rewind 10 s" }
+            }
+        }
+        form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
             label { "Component" select name="unit" { @for (key, words, _) in INJECTABLE_FAILURES { option value=(key) { (words) } } } }
             div.row {
@@ -185,8 +194,8 @@ mod tests {
         };
         let text = live(&administrator(), Some(&drawn), &choice).into_string();
         check(&text);
-        assert_eq!(text.matches("action=\"/live/act\"").count(), 4);
-        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 4);
+        assert_eq!(text.matches("action=\"/live/act\"").count(), 5);
+        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 5);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &VehicleSelection::default()).into_string();
         assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "no vehicle to connect to: {text}");

@@ -55,6 +55,7 @@ pub struct LiveFlightState {
     clearance_m: Option<f64>,
     contact: ContactKind,
     armed: bool,
+    is_frozen: bool,
     gates: BridgeClosures,
     cues: i32,
     cue_texts: CueTexts,
@@ -90,6 +91,7 @@ impl LiveFlightState {
             clearance_m: None,
             contact: ContactKind::None,
             armed: false,
+            is_frozen: false,
             gates: BridgeClosures::default(),
             cues: 0,
             cue_texts: CueTexts::default(),
@@ -179,11 +181,14 @@ impl LiveFlightState {
             SampleValue::Traffic(code) => self.gates.apply_code(code),
             SampleValue::Seed(seed) => self.seed = Some(seed),
             SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
+            SampleValue::Frozen(on) => self.is_frozen = on,
             SampleValue::Snapshot(index) => self.push_message("info", format!("picture {index}")),
             SampleValue::Sticks(_)
             | SampleValue::Light(_)
             | SampleValue::Hits(_)
             | SampleValue::Respawns(_)
+            | SampleValue::Freezes(_)
+            | SampleValue::Rewinds(_)
             | SampleValue::GimbalPitch(_)
             | SampleValue::FieldOfView(_)
             | SampleValue::OnGround(_) => {}
@@ -253,6 +258,7 @@ impl LiveFlightState {
             "clearance_m": self.clearance_m.filter(|meters| meters.is_finite()),
             "contact": self.contact.label(),
             "armed": self.armed,
+            "frozen": self.is_frozen,
             "task": task,
             "step": guidance.map(|guidance| guidance.words()),
             "progress": guidance.and_then(|guidance| guidance.progress),
@@ -308,6 +314,10 @@ mod tests {
         );
         number(&mut live_state, "cues", cue::TOO_CLOSE | cue::SPEEDING);
         assert_eq!(live_state.to_json(true)["traffic"], json!("open"));
+        number(&mut live_state, "frozen", 1);
+        assert_eq!(live_state.to_json(true)["frozen"], json!(true));
+        number(&mut live_state, "frozen", 0);
+        assert_eq!(live_state.to_json(true)["frozen"], json!(false));
         number(&mut live_state, "traffic", -1_500);
         let moment = live_state.to_json(true);
         assert_eq!(moment["traffic"], json!("closed"));

@@ -13,17 +13,18 @@ pub struct SessionStanding {
     pub change: Option<f64>,
 }
 
-/// Compares a session with the trainee's other records; `None` if it is incomplete or there is no other comparable session.
+/// Compares a session with the trainee's other records; `None` if it is incomplete, was frozen or rewound, or there is no other comparable session.
 #[must_use]
 pub fn standing(record: &SessionRecord, records: &[SessionRecord]) -> Option<SessionStanding> {
     let is_comparable = |other: &&SessionRecord| {
         other.is_complete()
+            && other.is_unaided()
             && (&other.trainee, other.scenario_with_level()) == (&record.trainee, record.scenario_with_level())
             && other.scores.overall_max == record.scores.overall_max
             && other.id != record.id
     };
     let others: Vec<&SessionRecord> = records.iter().filter(is_comparable).collect();
-    if !record.is_complete() || others.is_empty() {
+    if !record.is_complete() || !record.is_unaided() || others.is_empty() {
         return None;
     }
     let own = record.scores.overall;
@@ -57,6 +58,9 @@ mod tests {
         assert_eq!(standing(&all[2], &all), Some(SessionStanding { best: 320.0, is_best: true, change: Some(20.0) }));
         all[0] = aborted_record("anna", 1);
         assert_eq!(standing(&all[2], &all), None, "nothing to compare with");
+        let mut rewound = records(&[300.0, 400.0]);
+        rewound[1].practice_aids.rewinds = 1;
+        assert_eq!([0, 1].map(|k| standing(&rewound[k], &rewound)), [None, None], "a rewound session is not compared");
         assert_eq!(standing(&aborted_record("anna", 4), &records(&[300.0])), None, "an incomplete session is not compared");
     }
 }

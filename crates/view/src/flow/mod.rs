@@ -33,7 +33,9 @@ pub use tutorial::PICTURES;
 use crate::arrange::ViewLayout;
 use crate::hud::ScreenPoint;
 use crate::path_guide::PathAids;
-use pipe::{FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, Purpose, SchoolPage, ToWindow};
+use pipe::{
+    FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, Purpose, SchoolPage, ToWindow,
+};
 use std::collections::{BTreeSet, VecDeque};
 
 /// State of the window.
@@ -159,6 +161,23 @@ impl WindowFlow {
         }
     }
 
+    /// Returns the earlier flight that a ghost may repeat; `None` in an assessment.
+    #[must_use]
+    pub fn ghost(&self) -> Option<&GhostFlight> {
+        self.flying.as_ref().filter(|flying| flying.choice.purpose == Purpose::Practice)?.ghost.as_ref()
+    }
+
+    /// Explains why there is no ghost.
+    pub fn explain_missing_ghost(&mut self) {
+        let words = match &self.flying {
+            Some(flying) if flying.choice.purpose == Purpose::Assessment => "No ghost in an assessment.",
+            Some(flying) if flying.choice.by == FlownBy::Expert => "No ghost while you watch the expert.",
+            Some(_) => "The ghost is not ready yet: an expert flies this job in the background. Try again in a minute.",
+            None => "No ghost without a session: start the flight with spandrel train.",
+        };
+        self.show_notice(words.to_owned());
+    }
+
     /// Returns the display names of the keys.
     #[must_use]
     pub fn key_names(&self) -> &KeyNames {
@@ -255,6 +274,12 @@ impl WindowFlow {
                 self.notice = Some(words);
                 if self.page == Page::Waiting {
                     self.show_page(Page::Start);
+                }
+            }
+            ToWindow::Ghost(ghost) => {
+                if let Some(flying) = &mut self.flying {
+                    self.out.push_back(WindowRequest::LoadGhost(ghost.telemetry.clone()));
+                    flying.ghost = Some(ghost);
                 }
             }
             ToWindow::Ended(ended) => {

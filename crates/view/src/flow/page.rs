@@ -2,6 +2,7 @@
 
 use super::pipe::{FlightStarted, FromWindow};
 use super::settings::SettingChange;
+use std::path::PathBuf;
 
 /// A change to a setting of a controller profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,6 +86,8 @@ pub enum WindowRequest {
     Send(FromWindow),
     /// Connect to this flight and show it.
     ShowFlight(Box<FlightStarted>),
+    /// Read this telemetry log for the ghost.
+    LoadGhost(PathBuf),
     /// Disconnect from the flight.
     LeaveFlight,
     /// Search for a controller.

@@ -4,6 +4,7 @@ use crate::path_guide::PathAids;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::net::SocketAddr;
+use std::path::PathBuf;
 
 /// Purpose of a flight. Determines whether it may be interrupted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -145,6 +146,18 @@ pub struct FlightStarted {
     /// How much of the path is drawn in a practice session.
     #[serde(default)]
     pub path_aids: PathAids,
+    /// Flight that a ghost repeats in a practice session, if there is one.
+    #[serde(default)]
+    pub ghost: Option<GhostFlight>,
+}
+
+/// An earlier flight of the same job that a ghost repeats.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GhostFlight {
+    /// Telemetry log of the flight.
+    pub telemetry: PathBuf,
+    /// Whose flight it is, such as "your best flight, 342 of 400".
+    pub words: String,
 }
 
 /// One of the four scores.
@@ -238,6 +251,8 @@ pub enum ToWindow {
         /// Reason, shown to the user.
         words: String,
     },
+    /// The expert's flight for the ghost is ready.
+    Ghost(GhostFlight),
     /// The flight has ended.
     Ended(FlightSummary),
     /// The defect school's page.
@@ -332,6 +347,7 @@ mod tests {
             connect: SocketAddr::from(([127, 0, 0, 1], 14280)),
             fly: None,
             path_aids: PathAids::Gates,
+            ghost: Some(GhostFlight { telemetry: "sessions/a b/telemetry.tlog".into(), words: "your best flight".into() }),
         };
         let ended = FlightSummary {
             scores: [score, None, score, None],
@@ -351,6 +367,7 @@ mod tests {
             ToWindow::Flying(flying),
             ToWindow::Paused { on: true },
             ToWindow::Refused { words: "no".into() },
+            ToWindow::Ghost(GhostFlight { telemetry: "a.tlog".into(), words: "the expert's flight".into() }),
             ToWindow::Ended(ended),
         ] {
             let line = line(&message);

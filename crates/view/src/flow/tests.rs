@@ -1,8 +1,8 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, JobBriefing, JobOffer, NextJob,
-    Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing,
+    JobOffer, NextJob, Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
 use super::sheet::{PageLayout, PictureSource};
 use super::{
@@ -42,6 +42,7 @@ fn flying(choice: &FlightChoice) -> ToWindow {
     let here = SocketAddr::from(([127, 0, 0, 1], 14280));
     ToWindow::Flying(FlightStarted {
         path_aids: PathAids::Full,
+        ghost: None,
         choice: choice.clone(),
         vehicle: "phantom2".into(),
         seed: 7,
@@ -821,4 +822,22 @@ fn prop_briefing_is_complete_and_does_not_overlap_at_any_aspect_ratio() {
             assert!(!texts[..k].iter().any(|one| near(&one)), "aspect {aspect}: '{words}' overlaps another line");
         }
     }
+}
+
+#[test]
+fn exact_ghost_is_for_practice_only() {
+    let ghost = GhostFlight { telemetry: "a.tlog".into(), words: "the expert's flight".into() };
+    let mut flow = in_flight(Purpose::Practice);
+    pending_requests(&mut flow);
+    assert_eq!(flow.ghost(), None);
+    flow.explain_missing_ghost();
+    assert!(flow.take_notice().is_some_and(|words| words.contains("not ready yet")));
+    flow.handle_message(ToWindow::Ghost(ghost.clone()));
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::LoadGhost("a.tlog".into())]);
+    assert_eq!(flow.ghost(), Some(&ghost));
+    let mut flow = in_flight(Purpose::Assessment);
+    flow.handle_message(ToWindow::Ghost(ghost));
+    assert_eq!(flow.ghost(), None);
+    flow.explain_missing_ghost();
+    assert_eq!(flow.take_notice().as_deref(), Some("No ghost in an assessment."));
 }

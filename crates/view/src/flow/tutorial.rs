@@ -252,6 +252,8 @@ fn example(cues: i32, units: DisplayUnits) -> Hud {
         mode: "Position".into(),
         gnss: Some(GnssStatus { has_fix: true, satellites: 17 }),
         telemetry_age_s: 0.0,
+        is_frozen: false,
+        ghost: None,
         gimbal_rad: 0.1,
         zoom: 1.0,
         lamp: false,

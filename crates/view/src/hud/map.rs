@@ -50,6 +50,9 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (pad, side) = (place(hud.pad_m), 0.007);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
     items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
+    if let Some(ghost) = hud.ghost {
+        items.push(pane.fill(&arrow(place(ghost.position_m), ghost.ned_from_frd.yaw_rad()), HudColor::Ghost));
+    }
     items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), HudColor::Yellow));
     items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Center, FONT_SIZE, HudColor::Gray, "N"));
     items
@@ -57,7 +60,12 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
 
 /// Returns the projection from world to map coordinates that fits all content.
 fn scale(hud: &Hud, (x, y): (f64, f64)) -> impl Fn(Vec3<Enu>) -> (f64, f64) {
-    let shown = hud.tracks.iter().flat_map(|t| t.path_m.iter().copied()).chain([hud.pad_m, hud.position_m]);
+    let shown = hud
+        .tracks
+        .iter()
+        .flat_map(|t| t.path_m.iter().copied())
+        .chain([hud.pad_m, hud.position_m])
+        .chain(hud.ghost.map(|ghost| ghost.position_m));
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for p in shown {
         for (k, meters) in [p.east(), p.north()].into_iter().enumerate() {

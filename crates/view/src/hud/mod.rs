@@ -78,6 +78,10 @@ pub enum HudColor {
     Ribbon,
     /// Path behind an object; translucent.
     RibbonHidden,
+    /// Ghost of an earlier flight; translucent.
+    Ghost,
+    /// Ghost behind an object; translucent.
+    GhostHidden,
     /// Bridges on a map.
     Structure,
     /// Water on a map.
@@ -107,6 +111,8 @@ impl HudColor {
             Self::FocusedField => [20, 92, 140, 255],
             Self::Ribbon => [86, 180, 233, 110],
             Self::RibbonHidden => [200, 204, 208, 45],
+            Self::Ghost => [204, 121, 167, 170],
+            Self::GhostHidden => [204, 121, 167, 70],
             Self::Structure => [150, 150, 148, 255],
             Self::Water => [44, 88, 122, 255],
             Self::Sky => [74, 132, 182, 255],

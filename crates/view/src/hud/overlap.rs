@@ -6,7 +6,8 @@ use super::*;
 use crate::arrange::{ViewKind, ViewLayout, WindowShape};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
-use spandrel_model::frames::Vec3;
+use spandrel_model::frames::{Rotation, Vec3};
+use spandrel_model::pose::Pose;
 
 /// A rectangle: left, top, right, bottom, in units of the picture's height.
 type PictureRect = [f64; 4];
@@ -164,12 +165,14 @@ fn states() -> Vec<(&'static str, Hud)> {
         lamp: true,
         pictures: 999,
         guidance: Some(longest_guidance()),
+        ghost: Some(Pose { position_m: Vec3::new(400.0, -300.0, 30.0), ned_from_frd: Rotation::identity() }),
         tracks: [1, 2, 3, 4].map(|id| track(id, 150.0)).to_vec(),
         ..hit("bridge member suspension/hanger-left/upper/07")
     };
     let shown = [
         ("calm", hud()),
         ("link lost", Hud { telemetry_age_s: 12.0, ..hud() }),
+        ("frozen", Hud { is_frozen: true, ..hud() }),
         ("GNSS lost", Hud { gnss: dark(14), ..hud() }),
         ("GNSS unknown", Hud { gnss: None, ..hud() }),
         ("link and GNSS lost", Hud { telemetry_age_s: 12.0, gnss: dark(4), mode: "Stabilized".into(), ..hud() }),

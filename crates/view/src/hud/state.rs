@@ -5,6 +5,7 @@ use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::pose::Pose;
 use spandrel_model::scenario::{Scenario, Task};
 use spandrel_model::speed_unit::SpeedUnit;
 
@@ -107,6 +108,8 @@ pub struct Hud {
     pub gnss: Option<GnssStatus>,
     /// Age of the latest telemetry, s.
     pub telemetry_age_s: f64,
+    /// Whether the flight is frozen.
+    pub is_frozen: bool,
     /// Gimbal pitch, rad, up positive.
     pub gimbal_rad: f64,
     /// Zoom factor, 1 at the wide end.
@@ -139,6 +142,8 @@ pub struct Hud {
     pub guidance: Option<Guidance>,
     /// The current step of a lesson.
     pub lesson: Option<LessonDisplay>,
+    /// Ghost of an earlier flight, on the maps.
+    pub ghost: Option<Pose<Enu>>,
     /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
     /// Units and text size.

@@ -27,13 +27,17 @@ fn is_lost(hud: &Hud) -> bool {
 }
 
 fn link(hud: &Hud) -> String {
-    if is_lost(hud) { format!("LINK LOST {:.0} s", hud.telemetry_age_s) } else { "link ok".into() }
+    match (is_lost(hud), hud.is_frozen) {
+        (true, _) => format!("LINK LOST {:.0} s", hud.telemetry_age_s),
+        (false, true) => "FROZEN".into(),
+        (false, false) => "link ok".into(),
+    }
 }
 
-/// Returns the active alarm as a short line. While the link is lost, the satellite status is unknown, so only the link
+/// Returns the active alarm, or a freeze, as a short line. While the link is lost, the satellite status is unknown, so only the link
 /// is reported.
 pub fn alarm(hud: &Hud) -> Option<String> {
-    if is_lost(hud) { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.has_fix).map(satellites) }
+    if is_lost(hud) || hud.is_frozen { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.has_fix).map(satellites) }
 }
 
 /// Returns the alarm, if there is one, below the speed. It replaces the status where that has no room.

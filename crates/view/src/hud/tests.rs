@@ -31,6 +31,8 @@ pub(super) fn hud() -> Hud {
         mode: "Position".into(),
         gnss: Some(GnssStatus { has_fix: true, satellites: 14 }),
         telemetry_age_s: 0.02,
+        is_frozen: false,
+        ghost: None,
         gimbal_rad: 0.35,
         zoom: 1.0,
         lamp: false,
@@ -160,7 +162,7 @@ fn exact_texts_are_correct_in_every_abnormal_state() {
     let said = |text: &str, cues| Hud { cue_texts: [text].into_iter().collect(), ..warned(cues) };
     let member = crash("bridge member arch/rib-left/07");
     let hit = "Red: CRASH: bridge member arch/rib-left/07";
-    let states: [(Hud, &[&str]); 22] = [
+    let states: [(Hud, &[&str]); 24] = [
         (hud(), &[]),
         (Hud { battery_pct: Some(52.4), ..hud() }, &["Yellow: 52%"]),
         (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17%"]),
@@ -183,6 +185,8 @@ fn exact_texts_are_correct_in_every_abnormal_state() {
         (gnss(false, 4), &["Orange: Position   GNSS lost (4)   link ok"]),
         (gnss(false, 255), &["Orange: Position   GNSS lost   link ok"]),
         (Hud { gnss: None, ..hud() }, &["White: Position   GNSS ?   link ok"]),
+        (Hud { is_frozen: true, ..hud() }, &["Orange: Position   GNSS 14   FROZEN"]),
+        (Hud { telemetry_age_s: 12.3, is_frozen: true, ..hud() }, &["Orange: Position   GNSS 14   LINK LOST 12 s"]),
         (Hud { telemetry_age_s: 12.3, ..hud() }, &["Orange: Position   GNSS 14   LINK LOST 12 s"]),
         (Hud { telemetry_age_s: 12.3, ..gnss(false, 4) }, &["Orange: Position   GNSS lost (4)   LINK LOST 12 s"]),
         (Hud { zoom: 2.0, lamp: true, ..hud() }, &["Yellow: on", "Gray: zoom", "White: 2.0 x"]),

@@ -93,6 +93,7 @@ struct SimulatorRun {
     trace: MotionHistory,
     lamp: bool,
     armed: bool,
+    is_frozen: bool,
     /// Rotor outputs, 0 to 1; `None` while disarmed.
     outputs: Option<[f64; 4]>,
     battery_pct: Option<f64>,
@@ -239,7 +240,13 @@ impl LiveFlight {
                 }
                 self.handle_truth(truth, wall);
             }
-            SampleContent::Value(value) => self.handle_value(value, sample.message_time),
+            SampleContent::Value(value) => {
+                if value == SampleValue::Frozen(true) {
+                    // While time stands still, there is no ground truth, but the link is not lost.
+                    self.last_sample_at = self.last_sample_at.map(|_| wall);
+                }
+                self.handle_value(value, sample.message_time);
+            }
         }
     }
 
@@ -258,6 +265,7 @@ impl LiveFlight {
                     state.last_picture = Some(message_time.unwrap_or(now));
                 }
             }
+            SampleValue::Frozen(on) => state.is_frozen = on,
             SampleValue::Traffic(code) => state.closures.apply_code(code),
             SampleValue::Seed(seed) => self.handle_seed(seed),
             SampleValue::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
@@ -265,6 +273,8 @@ impl LiveFlight {
             | SampleValue::Contact(_)
             | SampleValue::Hits(_)
             | SampleValue::Respawns(_)
+            | SampleValue::Freezes(_)
+            | SampleValue::Rewinds(_)
             | SampleValue::Clearance(_)
             | SampleValue::OnGround(_) => {}
         }
@@ -410,6 +420,7 @@ impl LiveFlight {
             pictures: state.pictures.len(),
             last_picture: state.last_picture,
             blink_time_s: wall.s(),
+            is_frozen: state.is_frozen,
         };
         Some(LiveMoment { moment, hud: told, closures: state.closures.clone() })
     }

@@ -255,6 +255,8 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         mode: "Position".into(),
         gnss: Some(GnssStatus { has_fix: true, satellites: 17 }),
         telemetry_age_s: 0.02,
+        is_frozen: false,
+        ghost: None,
         gimbal_rad: 0.1,
         zoom: 1.0,
         lamp: false,

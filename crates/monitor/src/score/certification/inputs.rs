@@ -4,6 +4,7 @@ use crate::measures::attention::Snapshot;
 use crate::measures::coverage::PathCoverage;
 use crate::measures::crash::Crash;
 use crate::measures::on_path::{OnPath, ReferencePaths};
+use crate::measures::practice_aids::PracticeAids;
 use crate::score::completion::{Completion, TaskState};
 use crate::session::Session;
 use spandrel_mavlink::telemetry::{Flight, Frame};
@@ -37,6 +38,8 @@ pub struct CertificationInputs<'a> {
     pub pictures: &'a [Snapshot],
     /// Defects placed in the session.
     pub defects: &'a [PlacedDefect],
+    /// Freezes and rewinds.
+    pub practice_aids: PracticeAids,
 }
 
 impl CertificationInputs<'_> {

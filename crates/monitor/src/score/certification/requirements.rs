@@ -11,6 +11,8 @@ use spandrel_model::scenario::Scenario;
 
 /// Name of the requirement to land near the ground team.
 const LANDED_AT_HOME: &str = "landed_at_home";
+/// Name of the requirement to fly without freezes and rewinds.
+const PRACTICE_AIDS: &str = "practice_aids";
 
 /// Side of the limit on which a value meets the requirement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -179,6 +181,8 @@ pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> 
     ];
     let applies = reached.accuracy.is_some();
     all.push(Requirement { applies, met: accuracy.met || !applies, ..accuracy });
+    let aids = f64::from(inputs.practice_aids.count());
+    all.push(Requirement::new(PRACTICE_AIDS, "freezes and rewinds", "", most, 0.0, Some(aids)));
     all
 }
 
@@ -187,6 +191,8 @@ pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> 
 pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> Vec<String> {
     let open = |id: &str| requirements.iter().find(|requirement| requirement.id == id && !requirement.met);
     let mut unmet = Vec::new();
+    // Nothing else matters for a flight that was practice.
+    unmet.extend(inputs.practice_aids.words().map(|aids| format!("{aids}, so it was practice")));
     if open("person_or_vehicle_hits").is_some() {
         unmet.push("a person or vehicle was hit".to_owned());
     }
@@ -224,6 +230,7 @@ pub fn describe(scenario: &Scenario) -> Vec<String> {
     vec![
         format!("every task flown over at least {}% of its path", limit(100.0 * scenario.scoring.task_completion_fraction)),
         format!("landed at home with at least {}% battery, no person or vehicle hit", limit(params.min_battery_pct)),
+        "no freezes and no rewinds, which are aids of practice".to_owned(),
         format!("at most {} contacts, none faster than {} m/s", params.max_contacts, limit(params.max_contact_speed_m_s)),
         format!(
             "conformity at least {}, precision {}, safety {}, accuracy {}",

@@ -7,6 +7,7 @@ use super::streams::camera::{capture_record, field_of_view};
 use crate::endpoint::component_ids::CAMERA;
 use crate::endpoint::files;
 use crate::endpoint::link::{LinkId, LinkKind, Links, PeerLink};
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{MavMessage, MavResult};
 
 impl PayloadLink {
@@ -30,12 +31,29 @@ impl PayloadLink {
 
     /// Sends the named scoring values that are due.
     pub(crate) fn send_scoring(&mut self, input: &PayloadInput, links: &mut Links) {
-        let clock = input.clock;
-        let due = self.scoring.take_due(input.scoring, self.speed_factor, clock.now);
-        let messages: Vec<MavMessage> = due.into_iter().map(|value| value.message(clock.sim_time_ms())).collect();
-        let listens = |link: &PeerLink| link.kind != LinkKind::Autopilot && !link.is_limited() && link.receives_truth();
-        for link in links.listeners().filter(|link| listens(link)) {
-            messages.iter().for_each(|message| link.send(self.components.scoring, message));
+        let due = self.scoring.take_due(input.scoring, self.speed_factor, input.clock.now);
+        self.send_values(due, input, links);
+    }
+
+    /// Sends the named values that report a freeze. Call while simulation time is stopped; does nothing unless the flight is
+    /// frozen.
+    pub(crate) fn send_frozen_values(&mut self, input: &PayloadInput, links: &mut Links) {
+        if input.scoring.is_frozen {
+            let values = self.scoring.frozen_values(input.scoring);
+            self.send_values(values, input, links);
+        }
+    }
+
+    fn send_values(&self, values: Vec<NamedValue>, input: &PayloadInput, links: &mut Links) {
+        let time_ms = input.clock.sim_time_ms();
+        let messages: Vec<(bool, MavMessage)> =
+            values.into_iter().map(|value| (value.is_practice_value(), value.message(time_ms))).collect();
+        let has_room = |link: &PeerLink| link.kind != LinkKind::Autopilot && !link.is_limited();
+        for link in links.listeners().filter(|link| has_room(link)) {
+            let is_scorer = link.receives_truth();
+            for (_, message) in messages.iter().filter(|(is_for_all, _)| is_scorer || *is_for_all) {
+                link.send(self.components.scoring, message);
+            }
         }
     }
 

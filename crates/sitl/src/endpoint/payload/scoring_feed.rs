@@ -23,8 +23,8 @@ impl ScoringFeed {
         Self { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2), last: ScoringTruth::default() }
     }
 
-    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns and traffic on change and with
-    /// the slow values.
+    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns, practice values and traffic on
+    /// change and with the slow values.
     pub fn take_due(&mut self, truth: &ScoringTruth, speed_factor: f64, now: SimTime) -> Vec<NamedValue> {
         let mut out = Vec::new();
         if self.contact.fire(now) | (truth.contact != self.last.contact) {
@@ -36,6 +36,10 @@ impl ScoringFeed {
         }
         if slow || truth.respawns != self.last.respawns {
             out.push(NamedValue::Respawns(truth.respawns));
+        }
+        let has_changed = practice_state(truth) != practice_state(&self.last);
+        if slow || has_changed {
+            out.extend(practice_values(truth));
         }
         // Traffic that has never been stopped is omitted.
         if slow || truth.traffic != self.last.traffic {
@@ -57,6 +61,25 @@ impl ScoringFeed {
         self.last = *truth;
         out
     }
+
+    /// Returns the values that are sent while the flight is frozen.
+    pub fn frozen_values(&mut self, truth: &ScoringTruth) -> Vec<NamedValue> {
+        (self.last.freezes, self.last.rewinds, self.last.is_frozen) = practice_state(truth);
+        practice_values(truth)
+    }
+}
+
+fn practice_state(truth: &ScoringTruth) -> (i32, i32, bool) {
+    (truth.freezes, truth.rewinds, truth.is_frozen)
+}
+
+/// Returns the freezes and rewinds; nothing before the first one.
+fn practice_values(truth: &ScoringTruth) -> Vec<NamedValue> {
+    let (freezes, rewinds, is_frozen) = practice_state(truth);
+    if freezes == 0 && rewinds == 0 {
+        return Vec::new();
+    }
+    vec![NamedValue::Freezes(freezes), NamedValue::Rewinds(rewinds), NamedValue::Frozen(is_frozen)]
 }
 
 impl Default for ScoringFeed {

@@ -11,6 +11,12 @@ pub struct ScoringTruth {
     pub hits: i32,
     /// Number of respawns.
     pub respawns: i32,
+    /// Number of freezes, without those after a rewind.
+    pub freezes: i32,
+    /// Number of rewinds.
+    pub rewinds: i32,
+    /// Whether the flight is frozen.
+    pub is_frozen: bool,
     /// The last two traffic changes, encoded as on the wire; 0 if there was no change.
     pub traffic: [i32; 2],
     /// The session's seed.

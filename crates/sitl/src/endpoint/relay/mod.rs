@@ -28,6 +28,7 @@ pub use autopilot_report::{AutopilotReport, FirmwareVersion, ReportedParam};
 use instructor_params::InstructorParams;
 use setup_requests::SetupRequests;
 use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
@@ -61,6 +62,7 @@ pub struct RelayEndpoint {
     autopilot_link: Option<LinkId>,
     instructor: InstructorParams,
     injections: VecDeque<FailureInjection>,
+    practice_requests: VecDeque<PracticeRequest>,
     manual: ManualControl,
     /// Encoder for sticks under the only accepted sender.
     stick_encoder: Option<Encoder>,
@@ -84,6 +86,7 @@ impl RelayEndpoint {
             autopilot_link: None,
             instructor: InstructorParams::new(rules.params),
             injections: VecDeque::new(),
+            practice_requests: VecDeque::new(),
             manual: ManualControl::default(),
             stick_encoder: rules.stick_sender.map(|(system, component)| Encoder::new(system, component)),
             texts: TextQueue::default(),
@@ -153,6 +156,11 @@ impl RelayEndpoint {
     /// Removes and returns the next failure to inject.
     pub fn next_injection(&mut self) -> Option<FailureInjection> {
         self.injections.pop_front()
+    }
+
+    /// Removes and returns the next request to freeze or resume the flight.
+    pub fn next_practice_request(&mut self) -> Option<PracticeRequest> {
+        self.practice_requests.pop_front()
     }
 
     /// Returns true once after a client has requested a reboot that the simulator carries out.

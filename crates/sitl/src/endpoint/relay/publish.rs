@@ -25,13 +25,15 @@ impl RelayEndpoint {
         self.payload.send_requested_images(&mut self.links);
     }
 
-    /// Repeats the autopilot's latest heartbeat and sends texts while the simulation is paused, because the autopilot's own clock
-    /// is stopped.
-    pub fn send_heartbeats(&mut self) {
+    /// Repeats the autopilot's latest heartbeat, sends texts and the values that report a freeze while simulation time is
+    /// stopped, because the autopilot's own clock is stopped as well.
+    pub fn send_heartbeats(&mut self, aircraft: &SimulatedAircraft) {
         if let Some(beat) = self.report.heartbeat.clone() {
             self.broadcast_to_clients(AUTOPILOT, &MavMessage::HEARTBEAT(beat));
         }
         self.send_texts();
+        let input = self.input(aircraft);
+        self.payload.send_frozen_values(&input, &mut self.links);
     }
 
     /// Broadcasts equipment changes once.

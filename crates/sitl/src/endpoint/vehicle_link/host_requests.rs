@@ -1,5 +1,6 @@
 //! Client requests that the simulation or the host executes.
 
+use crate::endpoint::refused_request::RefusedRequest;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use crate::faults::{FailureType, FailureUnit, Faults};
 use spandrel_mavlink::dialect::MavResult;
@@ -16,22 +17,13 @@ pub struct FailureInjection {
     pub instance: usize,
 }
 
-/// Reason why a failure cannot be injected.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RefusedInjection {
-    /// Result for the acknowledgment.
-    pub result: MavResult,
-    /// Text for the operator, if the result alone does not explain the reason.
-    pub text: Option<String>,
-}
-
 impl FailureInjection {
     /// Reads the parameters of MAV_CMD_INJECT_FAILURE: 1 unit, 2 failure type, 3 instance.
     ///
     /// # Errors
     /// Returns the result and a text if this aircraft does not support the failure.
-    pub fn from_command(c: &VehicleCommand, vehicle: &Vehicle) -> Result<Self, RefusedInjection> {
-        let unsupported = RefusedInjection { result: MavResult::MAV_RESULT_UNSUPPORTED, text: None };
+    pub fn from_command(c: &VehicleCommand, vehicle: &Vehicle) -> Result<Self, RefusedRequest> {
+        let unsupported = RefusedRequest { result: MavResult::MAV_RESULT_UNSUPPORTED, text: None };
         let whole = |k: usize| c.finite_param(k).map(|value| value as i64);
         let (unit, kind) = (whole(0).and_then(FailureUnit::from_number), whole(1).and_then(FailureType::from_number));
         let (Some(unit), Some(kind)) = (unit, kind) else { return Err(unsupported) };
@@ -39,7 +31,7 @@ impl FailureInjection {
         let cells = vehicle.battery.cells as usize;
         if unit == FailureUnit::Battery && instance > cells {
             let text = Some(format!("No battery cell {instance} (1 to {cells}, 0: whole pack)"));
-            return Err(RefusedInjection { result: MavResult::MAV_RESULT_DENIED, text });
+            return Err(RefusedRequest { result: MavResult::MAV_RESULT_DENIED, text });
         }
         if !Faults::new(0).inject(unit, kind, instance, vehicle.rotors.len()) {
             return Err(unsupported);

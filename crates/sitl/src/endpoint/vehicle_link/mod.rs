@@ -41,6 +41,7 @@ mod switch_position;
 use super::files::FileServer;
 use super::link::LinkId;
 use super::payload::Payload;
+use super::refused_request::RefusedRequest;
 use super::simulated_aircraft::SimulatedAircraft;
 use super::text_queue::TextQueue;
 use crate::autopilot::{Autopilot, Sticks};
@@ -59,7 +60,8 @@ use params::{AircraftValues, InstructorSettings, ParamValue, Params, metadata};
 pub(super) use receive::HANDLED;
 use shell::NshShell;
 use snapshot::VehicleSnapshot;
-use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::dialect::{MavResult, MavSeverity};
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use switch_position::SwitchPosition;
@@ -83,6 +85,7 @@ pub struct VehicleLink {
     shown_by_params: Option<(u64, [u16; 3], bool)>,
     restart_requested: bool,
     injections: VecDeque<FailureInjection>,
+    practice_requests: VecDeque<PracticeRequest>,
     /// Whether manual control is accepted.
     pub accepts_sticks: bool,
     plans: PlanStore,
@@ -129,6 +132,7 @@ impl VehicleLink {
             shown_by_params: None,
             restart_requested: false,
             injections: VecDeque::new(),
+            practice_requests: VecDeque::new(),
             accepts_sticks: true,
             plans: PlanStore::with_lead_items(u16::from(flavor.home_item))
                 .with_splines(flavor.splines)
@@ -221,6 +225,11 @@ impl VehicleLink {
         self.injections.pop_front()
     }
 
+    /// Removes and returns the next request to freeze, resume or rewind the flight.
+    pub fn next_practice_request(&mut self) -> Option<PracticeRequest> {
+        self.practice_requests.pop_front()
+    }
+
     /// Removes and returns the messages to broadcast once.
     pub fn take_announcements(&mut self) -> BTreeSet<u32> {
         std::mem::take(&mut self.announcements)
@@ -262,6 +271,20 @@ impl VehicleLink {
     /// Broadcasts an informational text.
     fn inform(&mut self, text: &str) {
         self.texts.push(MavSeverity::MAV_SEVERITY_INFO, text);
+    }
+
+    /// Queues a request to the simulation, or reports why it is refused. Returns the result for the acknowledgment.
+    fn queue<T>(&mut self, request: Result<T, RefusedRequest>, queue: impl Fn(&mut Self) -> &mut VecDeque<T>) -> MavResult {
+        match request {
+            Ok(request) => {
+                queue(self).push_back(request);
+                MavResult::MAV_RESULT_ACCEPTED
+            }
+            Err(refusal) => {
+                refusal.text.iter().for_each(|text| self.warn(text));
+                refusal.result
+            }
+        }
     }
 
     /// Warns about a stream of messages, at most once a second.

@@ -28,6 +28,7 @@ pub fn header(review: &Review) -> Markup {
                     @if let Some(difficulty) = &review.scenario.difficulty { " · level " (difficulty.level) " of " (difficulty.levels()) }
                 }
                 p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) "." @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
+                @if let Some(words) = review.assessment.practice_aids.words() { p { "This session was " (words) ". It counts as practice: it is neither certified nor compared with others." } }
                 @if let Some(words) = review.out_of_sight.sentence() { p { (words) } }
             }
             div.overall {

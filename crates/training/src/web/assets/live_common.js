@@ -2,7 +2,7 @@
 "use strict";
 const number = (value, digits, unit) => (value === null ? "–" : `${value.toFixed(digits)}${unit === "%" ? "" : " "}${unit}`);
 const clock = (t) => (t === null ? "–" : `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`);
-const flightState = (now) => (now.heard ? (now.armed ? "live, motors armed" : "live, motors disarmed") : "no telemetry");
+const flightState = (now) => (now.heard ? (now.frozen ? "frozen" : now.armed ? "live, motors armed" : "live, motors disarmed") : "no telemetry");
 
 function onSheet(matrix, [e, n, u]) {
   const m = matrix.split(" ").map(Number);

@@ -29,6 +29,10 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     let (pad, side) = (clamp_point(place(&scale, hud.pad_m), area.inside(0.5 * font)), 0.35 * font);
     let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
     items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
+    if let Some(ghost) = hud.ghost {
+        let here = clamp_point(place(&scale, ghost.position_m), area.inside(font));
+        items.push(pane.fill(&arrow(here, ghost.ned_from_frd.yaw_rad(), font), HudColor::Ghost));
+    }
     let drone = clamp_point(place(&scale, hud.position_m), area.inside(font));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 1.15 * font), HudColor::Black));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 0.85 * font), HudColor::Yellow));

@@ -22,9 +22,14 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
     let level = [(area.x, drone.1), (area.x + area.width, drone.1)];
     items.push(pane.line(&level, 0.07 * font, HudColor::Gray));
     let size = 0.55 * font;
-    let diamond = |size: f64| [(0.0, -size), (size, 0.0), (0.0, size), (-size, 0.0)].map(|(x, y)| (drone.0 + x, drone.1 + y));
-    items.push(pane.fill(&diamond(1.35 * size), HudColor::Black));
-    items.push(pane.fill(&diamond(size), HudColor::Yellow));
+    let diamond =
+        |at: Point, size: f64| [(0.0, -size), (size, 0.0), (0.0, size), (-size, 0.0)].map(|(x, y)| (at.0 + x, at.1 + y));
+    if let Some(ghost) = hud.ghost {
+        let here = clamp_point(scale.place(side.view.at(ghost.position_m)), area.inside(0.6 * font));
+        items.push(pane.fill(&diamond(here, size), HudColor::Ghost));
+    }
+    items.push(pane.fill(&diamond(drone, 1.35 * size), HudColor::Black));
+    items.push(pane.fill(&diamond(drone, size), HudColor::Yellow));
     // Above the line, at the side with more space.
     let left = drone.0 > area.x + 0.5 * area.width;
     let (x, side) =

@@ -159,9 +159,12 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
     })
 }
 
-/// Handles commands that don't involve the autopilot: failure injection, calibration, storage, checks, and reboot.
+/// Handles commands that don't involve the autopilot: freeze and rewind, failure injection, calibration, storage, checks, and reboot.
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
+    if let Some(request) = a.aircraft.practice.admit(c) {
+        return Some(Answer(v.queue(request, |v| &mut v.practice_requests)));
+    }
     Some(Answer(match c.number {
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, v, a),
         n if n == M::MAV_CMD_PREFLIGHT_CALIBRATION as u16 => calibration::command(c, v, a),
@@ -178,16 +181,7 @@ fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
         v.warn("Failure injection is disabled (SYS_FAILURE_EN)");
         return MavResult::MAV_RESULT_DENIED;
     }
-    match FailureInjection::from_command(c, a.aircraft.vehicle) {
-        Ok(injection) => {
-            v.injections.push_back(injection);
-            MavResult::MAV_RESULT_ACCEPTED
-        }
-        Err(refusal) => {
-            refusal.text.iter().for_each(|text| v.warn(text));
-            refusal.result
-        }
-    }
+    v.queue(FailureInjection::from_command(c, a.aircraft.vehicle), |v| &mut v.injections)
 }
 
 /// Parameter 1: 0 does nothing, and 1 or 3 reboots the autopilot. Clients cannot shut down the simulated vehicle.

@@ -210,7 +210,8 @@ pub(crate) fn odometry(v: &VehicleSnapshot) -> Option<MavMessage> {
         velocity_covariance: [f32::NAN; 21],
         frame_id: MavFrame::MAV_FRAME_LOCAL_NED,
         child_frame_id: MavFrame::MAV_FRAME_BODY_FRD,
-        reset_counter: (v.scoring.respawns.wrapping_add(v.status.position_resets.cast_signed()) & 0xff) as u8,
+        reset_counter: ((v.scoring.respawns + v.scoring.rewinds).wrapping_add(v.status.position_resets.cast_signed()) & 0xff)
+            as u8,
         estimator_type: MavEstimatorType::MAV_ESTIMATOR_TYPE_AUTOPILOT,
         quality: 100,
     }))

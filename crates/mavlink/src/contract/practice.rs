@@ -1,0 +1,89 @@
+//! Requests that are allowed in practice only: to freeze the flight, to resume it, and to rewind it. They are commands,
+//! so that displays, the instructor's page and scripts can send them.
+
+use crate::dialect::MavCmd;
+use spandrel_model::time::SimTime;
+
+/// Time by which a flight is rewound if the request does not contain one.
+pub const DEFAULT_REWIND: SimTime = SimTime::from_ms(10_000);
+/// Longest time by which one request rewinds a flight.
+pub const MAX_REWIND: SimTime = SimTime::from_ms(30_000);
+
+/// A request that is allowed in practice only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PracticeRequest {
+    /// Stop simulation time: MAV_CMD_USER_1 with 1 in parameter 1.
+    Freeze,
+    /// Let simulation time continue: MAV_CMD_USER_1 with 0 in parameter 1.
+    Resume,
+    /// Put the aircraft back to where it was, and freeze: MAV_CMD_USER_2 with the time in s in parameter 1 (0 or NaN:
+    /// [`DEFAULT_REWIND`]).
+    Rewind {
+        /// Time of flight to undo.
+        by: SimTime,
+    },
+}
+
+impl PracticeRequest {
+    /// Returns the command and its parameters.
+    #[must_use]
+    pub fn command(self) -> (MavCmd, [f32; 7]) {
+        let (command, value) = match self {
+            Self::Freeze => (MavCmd::MAV_CMD_USER_1, 1.0),
+            Self::Resume => (MavCmd::MAV_CMD_USER_1, 0.0),
+            Self::Rewind { by } => (MavCmd::MAV_CMD_USER_2, by.s() as f32),
+        };
+        (command, [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    }
+
+    /// Returns the request of a command with this number and parameter 1; `None` for other commands.
+    ///
+    /// # Errors
+    /// Returns a text with the allowed values if the parameter is invalid.
+    #[must_use]
+    pub fn of(number: u16, param: f64) -> Option<Result<Self, &'static str>> {
+        match number {
+            n if n == MavCmd::MAV_CMD_USER_1 as u16 => Some(match param {
+                1.0 => Ok(Self::Freeze),
+                0.0 => Ok(Self::Resume),
+                _ => Err("Freeze: parameter 1 must be 1 or 0 (resume)"),
+            }),
+            n if n == MavCmd::MAV_CMD_USER_2 as u16 => Some(match param {
+                by if by.is_nan() || by == 0.0 => Ok(Self::Rewind { by: DEFAULT_REWIND }),
+                by if by >= 1.0 && by <= MAX_REWIND.s() => Ok(Self::Rewind { by: SimTime::from_s(by) }),
+                _ => Err("Rewind: parameter 1 must be 1 to 30 s, or 0 (10 s)"),
+            }),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_requests_survive_the_command() {
+        let five = PracticeRequest::Rewind { by: SimTime::from_ms(5_000) };
+        for request in [PracticeRequest::Freeze, PracticeRequest::Resume, five] {
+            let (command, params) = request.command();
+            assert_eq!(PracticeRequest::of(command as u16, f64::from(params[0])), Some(Ok(request)));
+        }
+    }
+
+    #[test]
+    fn exact_parameters_out_of_range_are_refused() {
+        let (freeze, rewind) = (MavCmd::MAV_CMD_USER_1 as u16, MavCmd::MAV_CMD_USER_2 as u16);
+        for (number, param) in
+            [(freeze, 2.0), (freeze, f64::NAN), (rewind, -1.0), (rewind, 0.5), (rewind, 30.1), (rewind, f64::INFINITY)]
+        {
+            let refusal = PracticeRequest::of(number, param).and_then(Result::err).expect("refused");
+            // A longer text would need several STATUSTEXT messages.
+            assert!(refusal.len() <= 50, "{refusal}");
+        }
+        for param in [0.0, f64::NAN] {
+            assert_eq!(PracticeRequest::of(rewind, param), Some(Ok(PracticeRequest::Rewind { by: DEFAULT_REWIND })));
+        }
+        assert_eq!(PracticeRequest::of(MavCmd::MAV_CMD_USER_3 as u16, 1.0), None);
+    }
+}

@@ -1,0 +1,87 @@
+//! Requests that are allowed in practice only: to freeze, resume and rewind the flight. The endpoint decides whether a
+//! request is accepted; the simulation carries it out.
+
+use super::refused_request::RefusedRequest;
+use super::vehicle_command::VehicleCommand;
+use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::dialect::MavResult;
+
+/// What the simulation can do for a request at this instant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PracticeState {
+    /// Whether these requests are allowed; not in an assessment.
+    pub is_allowed: bool,
+    /// Whether simulation time can stop; not with a flight controller, whose clock runs on.
+    pub can_freeze: bool,
+    /// Whether the flight can be rewound; not with an external autopilot, whose estimator cannot be put back.
+    pub can_rewind: bool,
+    /// Whether an earlier state in the air is known.
+    pub has_flown: bool,
+    /// Whether the flight has ended.
+    pub has_ended: bool,
+}
+
+impl PracticeState {
+    /// Reads a request and decides about it; `None` for other commands and for mission items.
+    ///
+    /// # Errors
+    /// Returns the result and a text if the request is refused.
+    pub fn admit(&self, c: &VehicleCommand) -> Option<Result<PracticeRequest, RefusedRequest>> {
+        if c.own {
+            return None;
+        }
+        let request = PracticeRequest::of(c.number, c.p[0])?;
+        let admitted = request.and_then(|request| self.refusal(request).map_or(Ok(request), Err));
+        Some(admitted.map_err(|text| RefusedRequest { result: MavResult::MAV_RESULT_DENIED, text: Some(text.to_owned()) }))
+    }
+
+    fn refusal(&self, request: PracticeRequest) -> Option<&'static str> {
+        let is_rewind = match request {
+            PracticeRequest::Freeze | PracticeRequest::Resume => false,
+            PracticeRequest::Rewind { .. } => true,
+        };
+        if !self.is_allowed {
+            Some("No freeze or rewind in an assessment")
+        } else if !self.can_freeze {
+            Some("No freeze: a flight controller runs in real time")
+        } else if !is_rewind {
+            None
+        } else if !self.can_rewind {
+            Some("No rewind with an external autopilot")
+        } else if self.has_ended {
+            Some("No rewind: the flight has ended")
+        } else if !self.has_flown {
+            Some("No rewind: not flown yet")
+        } else {
+            None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: PracticeState =
+        PracticeState { is_allowed: true, can_freeze: true, can_rewind: true, has_flown: true, has_ended: false };
+
+    #[test]
+    fn exact_each_reason_refuses_with_a_short_text() {
+        let rewind = PracticeRequest::Rewind { by: spandrel_mavlink::contract::practice::DEFAULT_REWIND };
+        let requests = [PracticeRequest::Freeze, PracticeRequest::Resume, rewind];
+        let refused = |state: PracticeState| requests.map(|request| state.refusal(request).is_some());
+        assert_eq!(refused(ALL), [false; 3]);
+        assert_eq!(refused(PracticeState { is_allowed: false, ..ALL }), [true; 3]);
+        assert_eq!(refused(PracticeState { can_freeze: false, ..ALL }), [true; 3]);
+        for state in [
+            PracticeState { can_rewind: false, ..ALL },
+            PracticeState { has_flown: false, ..ALL },
+            PracticeState { has_ended: true, ..ALL },
+        ] {
+            assert_eq!(refused(state), [false, false, true], "{state:?}");
+        }
+        let none = PracticeState { is_allowed: false, ..ALL };
+        // A longer text would need several STATUSTEXT messages.
+        assert!(none.refusal(rewind).is_some_and(|text| text.len() <= 50));
+    }
+}

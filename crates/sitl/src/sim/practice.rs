@@ -1,0 +1,144 @@
+//! Freeze and rewind, in practice only. Simulation time never goes back: a freeze stops it, and a rewind puts only the
+//! aircraft and its battery back to an earlier state, while time, wind, traffic and all counters go on from the present.
+//! No client therefore sees a clock that runs backward.
+
+use super::controller::Controller;
+use super::practice_controls::{Freeze, KEPT_STATE_INTERVAL};
+use super::{Sim, SimEvent};
+use crate::autopilot::Sticks;
+use crate::backend::Phase;
+use crate::endpoint::PracticeState;
+use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_model::time::SimTime;
+
+/// Time for which the simulation runs on after a rewind before it freezes, so that clients receive the new position. It
+/// exceeds the 60 ms by which the window's picture lags behind the telemetry, by two samples of ground truth (estimate).
+const RUN_ON_TIME: SimTime = SimTime::from_ms(100);
+/// Stick deflection that counts as moved, of full deflection (the same as for a sender that takes control of the sticks).
+const MOVED_STICK: f64 = 0.1;
+
+impl Sim {
+    /// Refuses all requests to freeze or rewind the flight, as an assessment requires.
+    pub fn forbid_freeze_and_rewind(&mut self) {
+        self.practice.is_forbidden = true;
+    }
+
+    /// Returns whether the flight is frozen: simulation time stands still until a client resumes it. Clients are still
+    /// answered.
+    #[must_use]
+    pub fn is_frozen(&self) -> bool {
+        match self.practice.freeze {
+            Freeze::Off | Freeze::Due { .. } => false,
+            Freeze::On | Freeze::UntilStick { .. } => true,
+        }
+    }
+
+    /// Returns what can be requested now.
+    pub(super) fn practice_state(&self) -> PracticeState {
+        let external = self.controller.external().map(|external| &external.autopilot);
+        PracticeState {
+            is_allowed: !self.practice.is_forbidden,
+            can_freeze: external
+                .is_none_or(|autopilot| autopilot.phase() == Phase::Running && !autopilot.interface.runs_in_real_time()),
+            can_rewind: external.is_none(),
+            has_flown: self.practice.has_states(),
+            has_ended: self.end_reason.is_some(),
+        }
+    }
+
+    /// Carries out the requests that clients have made.
+    pub(super) fn apply_practice_requests(&mut self) {
+        while let Some(request) = self.controller.next_practice_request() {
+            match request {
+                PracticeRequest::Freeze => self.freeze(),
+                PracticeRequest::Resume => self.unfreeze(),
+                PracticeRequest::Rewind { by } => self.rewind(by),
+            }
+        }
+    }
+
+    fn freeze(&mut self) {
+        match self.practice.freeze {
+            Freeze::Off => {
+                self.scoring.freezes += 1;
+                self.begin_freeze(Freeze::On, "Frozen");
+                self.events.push_back(SimEvent::Freeze);
+            }
+            // Sticks no longer end the freeze.
+            Freeze::UntilStick { .. } => self.practice.freeze = Freeze::On,
+            Freeze::On | Freeze::Due { .. } => {}
+        }
+    }
+
+    fn unfreeze(&mut self) {
+        if std::mem::take(&mut self.practice.freeze) != Freeze::Off {
+            self.scoring.is_frozen = false;
+            self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, "Continued");
+        }
+    }
+
+    /// Stops simulation time and announces it, because no tick follows that would.
+    fn begin_freeze(&mut self, freeze: Freeze, text: &str) {
+        self.practice.freeze = freeze;
+        self.scoring.is_frozen = true;
+        self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, text);
+        self.pause(false);
+    }
+
+    /// Puts the aircraft back into an earlier state. The present keeps what does not belong to the aircraft: time, wind, traffic,
+    /// failures, pictures, counters.
+    fn rewind(&mut self, by: SimTime) {
+        let Some((earlier, undone)) = self.practice.take(self.now, by) else { return };
+        self.state.restore(&earlier.physics);
+        self.last_safe_hover = earlier.safe_hover;
+        (self.crashed_since, self.hard_contact) = (None, false);
+        self.scoring.contact = ContactKind::None;
+        self.scoring.rewinds += 1;
+        self.scoring.is_frozen = false;
+        let (rigid, now) = (self.state.rigid, self.now);
+        if let Controller::Builtin(own) = &mut self.controller {
+            own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
+        }
+        self.practice.freeze = Freeze::Due { at: now + RUN_ON_TIME };
+        self.events.push_back(SimEvent::Rewind { undone });
+        self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Rewound {:.0} s", undone.s()));
+    }
+
+    /// Freezes the flight if this is due after a rewind.
+    pub(super) fn freeze_after_rewind(&mut self) {
+        if let Freeze::Due { at } = self.practice.freeze
+            && self.now >= at
+        {
+            self.begin_freeze(Freeze::UntilStick { is_centered: false }, "Frozen: move a stick to continue");
+        }
+    }
+
+    /// Resumes a flight that was rewound once a stick has moved. A stick that was held during the rewind must return to its center
+    /// first.
+    pub(super) fn resume_by_stick(&mut self) {
+        let Freeze::UntilStick { is_centered } = self.practice.freeze else { return };
+        let sticks = self.controller.vehicle().and_then(|vehicle| vehicle.sticks(self.now)).unwrap_or_default();
+        let is_moved = has_moved(sticks);
+        if is_centered && is_moved {
+            self.unfreeze();
+        } else {
+            self.practice.freeze = Freeze::UntilStick { is_centered: !is_moved };
+        }
+    }
+
+    /// Keeps the state of the aircraft for a rewind, if this is due and the aircraft flies undamaged.
+    pub(super) fn keep_state(&mut self) {
+        let is_due = self.now.ns() % KEPT_STATE_INTERVAL.ns() == 0 && !self.practice.is_forbidden;
+        let is_intact = self.crashed_since.is_none() && !self.hard_contact && !self.state.contact.touching();
+        if !is_due || !is_intact || !self.controller.is_flying() {
+            return;
+        }
+        self.practice.keep(self.now, &self.state, self.last_safe_hover);
+    }
+}
+
+fn has_moved(sticks: Sticks) -> bool {
+    [sticks.forward, sticks.right, sticks.up, sticks.yaw].iter().any(|axis| axis.abs() > MOVED_STICK)
+}
