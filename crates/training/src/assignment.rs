@@ -132,6 +132,7 @@ impl Assignment {
         record.scenario == self.scenario
             && record.started_unix_us >= self.assigned_unix_us
             && record.is_complete()
+            && record.is_unaided()
             && self.variant.as_ref().is_none_or(|variant| is_variant(record, variant))
     }
 }

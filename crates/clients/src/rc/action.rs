@@ -66,6 +66,8 @@ impl ControllerAction {
     pub fn title(self) -> String {
         match self {
             Self::Snapshot => "photograph".to_owned(),
+            Self::Freeze => "freeze or continue".to_owned(),
+            Self::Rewind => "rewind 10 s".to_owned(),
             Self::Return => "fly home and land".to_owned(),
             Self::Hold => "hold the position".to_owned(),
             Self::Position => "position mode".to_owned(),
