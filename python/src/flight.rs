@@ -81,7 +81,9 @@ impl Flight {
             builder = builder.after_crash(rule);
         }
         let start_unix_s = job.light.start_unix_s;
-        let vehicle = py.detach(|| builder.build_from(job, aircraft));
+        let mut vehicle = py.detach(|| builder.build_from(job, aircraft));
+        // The script already controls the time; in a freeze, `run` would never reach its end.
+        vehicle.sim.forbid_freeze_and_rewind();
         let inner = Inner { vehicle, links: Links::new(), asked: None, start_unix_s };
         Ok(Self { inner: Mutex::new(inner), guided_mode: flavor.goto_mode })
     }

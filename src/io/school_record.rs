@@ -24,13 +24,24 @@ pub fn find(sessions: &Path, trainee: &str) -> Result<Option<SchoolRecord>, AppE
     read(&folder(sessions, trainee))
 }
 
-/// Saves a trainee's record.
+/// Creates a trainee's folder, if it does not exist.
 ///
 /// # Errors
 /// Returns an error if the disk cannot be written.
+pub fn create(sessions: &Path, trainee: &str) -> Result<(), AppError> {
+    let folder = folder(sessions, trainee);
+    std::fs::create_dir_all(&folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))
+}
+
+/// Saves a trainee's record in its folder.
+///
+/// # Errors
+/// Returns an error if the trainee has been erased since [`create`], or if the disk cannot be written.
 pub fn save(sessions: &Path, trainee: &str, record: &SchoolRecord) -> Result<(), AppError> {
     let folder = folder(sessions, trainee);
-    std::fs::create_dir_all(&folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
+    if !folder.is_dir() {
+        return Err(AppError::failed(format!("the data of '{trainee}' was erased during this round: begin another round")));
+    }
     replace(&folder.join(FILE), record.text().as_bytes())
 }
 
@@ -72,8 +83,11 @@ mod tests {
         assert_eq!(find(&sessions, "anna"), Ok(None));
         let mut record = SchoolRecord::default();
         record.answer(CARD, true, 1000);
-        save(&sessions, "anna", &record).unwrap();
-        save(&sessions, "bert", &SchoolRecord::default()).unwrap();
+        for (trainee, record) in [("anna", &record), ("bert", &SchoolRecord::default())] {
+            assert!(save(&sessions, trainee, record).is_err(), "erased data must not return");
+            create(&sessions, trainee).unwrap();
+            save(&sessions, trainee, record).unwrap();
+        }
         assert_eq!(find(&sessions, "anna"), Ok(Some(record)));
         assert_eq!(folders_older_than(&sessions, 1000), [folder(&sessions, "bert")], "bert has never answered");
         assert_eq!(folders_older_than(&temp_dir.path().join("none"), 1000), Vec::<PathBuf>::new());

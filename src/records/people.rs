@@ -1,17 +1,20 @@
 //! Looks up people, and exports and erases all of a trainee's data.
 
 use super::database::Database;
+use super::erasure_marks::folder_name;
 use super::location::RecordsLocation;
 use super::{erasure, import};
 use crate::errors::AppError;
-use crate::io::school_record;
 use crate::io::session_folder::trainee_and_start;
+use crate::io::{marks, school_record};
 use serde::Serialize;
 use spandrel_training::assignment::Assignment;
+use spandrel_training::marks::TimelineMark;
 use spandrel_training::record::SessionRecord;
 use spandrel_training::rubric::SignOffEvent;
 use spandrel_training::school::SchoolRecord;
 use spandrel_training::trainee::Trainee;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Microseconds in a second.
@@ -26,6 +29,8 @@ pub struct TraineeData {
     sign_offs: Vec<SignOffEvent>,
     sessions: Vec<SessionRecord>,
     folders: Vec<String>,
+    /// The instructors' marks, by session folder.
+    marks: BTreeMap<String, Vec<TimelineMark>>,
     /// Progress in the defect school, for each sessions folder that has any.
     school: Vec<SchoolRecord>,
 }
@@ -61,6 +66,8 @@ pub fn trainee_data(
     if known.is_none() && sessions.is_empty() && folders.is_empty() && school.is_empty() {
         return Ok(None);
     }
+    let named = |folder: &PathBuf| Ok((folder_name(folder), marks::marks(folder)?));
+    let marks = folders.iter().map(named).collect::<Result<BTreeMap<_, _>, AppError>>()?;
     let folders = folders.iter().map(|path| path.display().to_string()).collect();
     Ok(Some(TraineeData {
         trainee: known.unwrap_or_else(|| Trainee::new(trainee)),
@@ -69,6 +76,7 @@ pub fn trainee_data(
         sign_offs: database.sign_offs(trainee)?,
         sessions,
         folders,
+        marks,
         school,
     }))
 }
@@ -81,7 +89,21 @@ pub fn erase_trainee(database: &Database, records_location: &RecordsLocation, tr
     let folders = folders_of_trainee(records_location, trainee)?;
     let (known, sessions) = database.erase(trainee, &folders)?;
     erasure::remove_folders(database, &folders)?;
+    remove_name_from_marks(records_location, trainee)?;
     Ok((known || !folders.is_empty(), sessions))
+}
+
+/// Removes an erased instructor's name from the marks in other trainees' sessions. The marks remain.
+fn remove_name_from_marks(records_location: &RecordsLocation, name: &str) -> Result<(), AppError> {
+    let here: Vec<PathBuf> = records_location.sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
+    for folder in import::session_folders(&here)? {
+        let mut found = marks::valid_marks(&folder);
+        if found.iter().any(|mark| mark.by == name) {
+            found.iter_mut().filter(|mark| mark.by == name).for_each(|mark| mark.by.clear());
+            marks::save_marks(&folder, found)?;
+        }
+    }
+    Ok(())
 }
 
 /// Returns a person, or `None` if nobody has this name.

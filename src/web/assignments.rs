@@ -41,7 +41,9 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
         return Err(WebError::NotFound);
     }
     let choice = |job: StoredScenario| JobChoice { variants: variant_names(&job.text), name: job.named.name };
-    let jobs: Vec<JobChoice> = scenario_library::all(&state.scenarios).into_iter().map(choice).collect();
+    // A session record does not contain which steps of a lesson were done.
+    let jobs = scenario_library::all(&state.scenarios).into_iter().filter(|job| job.scenario.lesson.is_empty());
+    let jobs: Vec<JobChoice> = jobs.map(choice).collect();
     let now = clock::unix_us();
     let about = AssignPage {
         target: &target,

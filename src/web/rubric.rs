@@ -63,7 +63,7 @@ pub fn sign(state: &ServerState, request: &WebRequest) -> HandlerResult {
         let words = format!("{}: already {}; reload the page", criterion.title, action.words());
         return Err(WebError::BadRequest(words));
     }
-    Ok(WebResponse::redirect(&format!("/trainees/{}/rubric#{}", person.pseudonym, criterion.id)))
+    Ok(WebResponse::redirect(&format!("/trainees/{}/rubric#criterion-{}", person.pseudonym, criterion.id)))
 }
 
 /// Returns the instructor's name: the login, or the name in the form where nobody has to log in.

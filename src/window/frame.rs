@@ -87,6 +87,7 @@ impl Cockpit {
             distance_m: (now.moment.drone.pose.position_m - team.inspector_m).norm(),
             cues: live.feed().cues(now.moment.at, false),
             cue_texts: live.feed().cue_texts().clone(),
+            units: self.flow.style().units,
             silent: false,
         });
     }

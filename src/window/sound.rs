@@ -157,7 +157,7 @@ struct SpeechVoice {
 impl SpeechVoice {
     fn update_inputs(&mut self, (now, settings): &Inputs) {
         let cues = if now.silent { 0 } else { now.cues };
-        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts);
+        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts, now.units);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, settings.speech && !self.is_missing, busy) else { return };
         let started = SPEECH_PROGRAMS.iter().find_map(|name| {

@@ -78,7 +78,8 @@ impl WindowSettings {
     pub fn apply(&mut self, change: &SettingChange) -> Option<String> {
         // The keys of a file on the command line stay.
         let keys = self.keys_file.as_ref().map(|_| self.current.keys.clone());
-        change_settings(&mut self.stored, change);
+        let to_store = self.change_to_store(change);
+        change_settings(&mut self.stored, &to_store);
         let words = change_settings(&mut self.current, change);
         if let Some(keys) = keys {
             let sounds = std::mem::replace(&mut self.current.keys, keys).sounds;
@@ -88,6 +89,19 @@ impl WindowSettings {
             self.invalid = None;
         }
         self.save().or(words)
+    }
+
+    /// Returns the change without the values that options of the command line have set for this run.
+    fn change_to_store(&self, change: &SettingChange) -> SettingChange {
+        let SettingChange::Sounds(new) = change else { return change.clone() };
+        let (stored, current) = (sound_settings(self.stored.keys.sounds), sound_settings(self.current.keys.sounds));
+        let switch = |new, current, stored| if new == current { stored } else { new };
+        SettingChange::Sounds(SoundSettings {
+            propellers: switch(new.propellers, current.propellers, stored.propellers),
+            warnings: switch(new.warnings, current.warnings, stored.warnings),
+            speech: switch(new.speech, current.speech, stored.speech),
+            volume: if new.volume == current.volume { stored.volume } else { new.volume },
+        })
     }
 
     /// Turns sound on or off and saves it. Returns a message for the user if that fails.

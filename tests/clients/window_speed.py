@@ -1,5 +1,5 @@
 """Measures the window on a virtual display with software Vulkan: the frame rate of the whole window during a flight, and the time
-from a key press until the picture changes. Prints a table for docs/src/measured/cost.md.
+from a key press until the picture changes. Prints the numbers for docs/src/measured/cost.md.
 
 usage: SPANDREL_COCKPIT=PROGRAM tests/clients/window_speed.py
 
@@ -29,7 +29,7 @@ FLIGHT_S = 60.0
 PRESSES = 15
 # Time limit for a picture to change, s.
 LIMIT_S = 5.0
-# Side of the square in the middle of the window that is watched, px.
+# Side of the square that is watched, px.
 SQUARE_PX = 96
 # A change is visible if the mean difference of the pixel values exceeds that of two pictures without a key press by this factor.
 VISIBLE_FACTOR = 3.0
@@ -38,7 +38,7 @@ VISIBLE_CHANGE = 4.0
 
 
 def middle(screen):
-    """Returns the pixels in the middle of the window's right half, which the camera view covers."""
+    """Returns the pixels of a square right of the window's center, which the camera view covers."""
     x, y = int(0.6 * SIZE[0]) - SQUARE_PX // 2, SIZE[1] // 2 - SQUARE_PX // 2
     image = screen.root.get_image(x, y, SQUARE_PX, SQUARE_PX, display.X.ZPixmap, 0xFFFFFFFF)
     return numpy.frombuffer(image.data, dtype=numpy.uint8).reshape(SQUARE_PX, SQUARE_PX, 4)[:, :, :3].astype(int)

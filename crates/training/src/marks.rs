@@ -20,7 +20,7 @@ pub struct TimelineMark {
     pub t_s: f64,
     /// The instructor's text.
     pub text: String,
-    /// Name of the instructor.
+    /// Name of the instructor; empty if they were erased.
     pub by: String,
     /// Time when the mark was added, µs since the Unix epoch. It identifies the mark in its session.
     pub added_unix_us: u64,

@@ -6,6 +6,7 @@ mod classroom;
 use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest, ToWindow};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::thread::JoinHandle;
 
 /// The school as `train` sees it: a thread while a round is open.
 pub struct SchoolRoom {
@@ -15,8 +16,20 @@ pub struct SchoolRoom {
 
 /// Channels to the thread.
 struct RoundThread {
-    requests: Sender<SchoolRequest>,
+    requests: Option<Sender<SchoolRequest>>,
     pages: Receiver<Result<SchoolPage, String>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for RoundThread {
+    /// Waits for the thread, so that it deletes its pictures. Without requests, it ends after the current picture.
+    fn drop(&mut self) {
+        self.requests = None;
+        if let Some(thread) = self.thread.take() {
+            // A panic has already been reported.
+            let _ = thread.join();
+        }
+    }
 }
 
 impl SchoolRoom {
@@ -29,12 +42,11 @@ impl SchoolRoom {
     pub fn handle(&mut self, request: SchoolRequest) {
         match request {
             SchoolRequest::Begin(trainee) => self.round = Some(RoundThread::start(self.sessions.clone(), trainee)),
-            // Dropping the channels ends the thread.
             SchoolRequest::Leave => self.round = None,
             SchoolRequest::Answer(_) | SchoolRequest::Continue => {
-                if let Some(round) = &self.round {
+                if let Some(requests) = self.round.as_ref().and_then(|round| round.requests.as_ref()) {
                     // The thread has just ended; its last message explains why.
-                    let _ = round.requests.send(request);
+                    let _ = requests.send(request);
                 }
             }
         }
@@ -57,14 +69,14 @@ impl RoundThread {
     fn start(sessions: PathBuf, trainee: String) -> Self {
         let (request_sender, requests) = channel();
         let (page_sender, pages) = channel();
-        std::thread::spawn(move || {
+        let thread = std::thread::spawn(move || {
             if let Err(error) = teach(&sessions, &trainee, &requests, &page_sender) {
                 tracing::warn!("defect school: {error}");
                 // The user may have left the school.
                 let _ = page_sender.send(Err(error));
             }
         });
-        Self { requests: request_sender, pages }
+        Self { requests: Some(request_sender), pages, thread: Some(thread) }
     }
 }
 

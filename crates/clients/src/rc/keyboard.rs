@@ -240,19 +240,32 @@ impl KeyBindings {
         let mut taken = BTreeMap::new();
         let mut s = r.section(root, "sticks");
         for (name, push, usual) in STICK_BINDINGS {
-            keys.stick_keys.insert(read_binding(r, &mut s, (name, usual), &mut taken), push);
+            keys.stick_keys.extend(read_binding(r, &mut s, (name, usual), &mut taken).map(|key| (key, push)));
         }
         r.finish(&s);
+        let (mut later_actions, mut later_window_actions) = (Vec::new(), Vec::new());
         let mut s = r.section(root, "actions");
         for (action, usual) in ACTION_BINDINGS {
-            keys.actions.insert(read_binding(r, &mut s, (action.name(), usual), &mut taken), action);
+            match read_binding(r, &mut s, (action.name(), usual), &mut taken) {
+                Some(key) => drop(keys.actions.insert(key, action)),
+                None => later_actions.push((action, usual)),
+            }
         }
         r.finish(&s);
         let mut s = r.section(root, "window");
         for (name, wish, usual) in WINDOW_BINDINGS {
-            keys.window_actions.insert(read_binding(r, &mut s, (name, usual), &mut taken), wish);
+            match read_binding(r, &mut s, (name, usual), &mut taken) {
+                Some(key) => drop(keys.window_actions.insert(key, wish)),
+                None => later_window_actions.push((name, wish, usual)),
+            }
         }
         r.finish(&s);
+        for (action, usual) in later_actions {
+            keys.actions.insert(free_key(usual, action.name(), &mut taken), action);
+        }
+        for (name, wish, usual) in later_window_actions {
+            keys.window_actions.insert(free_key(usual, name, &mut taken), wish);
+        }
         keys.sounds = sounds(r, root);
         keys
     }
@@ -387,20 +400,38 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
     sounds
 }
 
-/// Reads a binding's key, which must be valid and not bound to anything else.
+/// Functions that key files of earlier versions do not contain. Where such a file uses their default for something else, they give
+/// way.
+const LATER_FUNCTIONS: [&str; 3] = ["freeze", "rewind", "ghost"];
+
+/// Returns the usual key, or the first free character if it is taken, and marks it as taken.
+fn free_key(usual: &str, name: &'static str, taken: &mut BTreeMap<String, &'static str>) -> String {
+    let characters = ('a'..='z').chain('0'..='9').chain("-=;',./".chars()).map(String::from);
+    let mut candidates = std::iter::once(usual.to_owned()).chain(characters);
+    // There are more characters than functions.
+    let key = candidates.find(|key| !taken.contains_key(key)).unwrap_or_default();
+    taken.insert(key.clone(), name);
+    key
+}
+
+/// Reads a binding's key, which must be valid and not bound to anything else. Returns `None` if the file does not bind one of the
+/// [`LATER_FUNCTIONS`].
 fn read_binding(
     r: &mut Reader,
     s: &mut Section,
     (name, usual): (&'static str, &str),
     bound_keys: &mut BTreeMap<String, &'static str>,
-) -> String {
+) -> Option<String> {
+    if LATER_FUNCTIONS.contains(&name) && !s.has(name) {
+        return None;
+    }
     let key = r.text(s, name, Some(usual)).to_lowercase();
     if !key::is_valid_key(&key) {
         r.add_problem(s, name, &key, &key::allowed(), "unknown key");
     } else if let Some(before) = bound_keys.insert(key.clone(), name) {
         r.add_problem(s, name, &key, "an unused key", &format!("already bound to {before}"));
     }
-    key
+    Some(key)
 }
 
 /// Keys that are currently held.
@@ -471,6 +502,16 @@ mod tests {
 
     fn at(s: f64) -> SimTime {
         SimTime::from_s(s)
+    }
+
+    #[test]
+    fn regress_key_files_of_earlier_versions_stay_valid() {
+        let keys = KeyBindings::read("keys.toml", "format = 1\n[actions]\nlamp = \"x\"\n[window]\nmap = \"g\"\n").unwrap();
+        assert_eq!((keys.label("lamp").as_str(), keys.label("map").as_str()), ("X", "G"));
+        let functions: std::collections::BTreeSet<String> = KeyBindings::functions().map(|(name, _)| keys.label(name)).collect();
+        assert_eq!(functions.len(), KeyBindings::functions().count(), "every function has a key of its own");
+        let both = "format = 1\n[actions]\nlamp = \"x\"\nfreeze = \"x\"\n";
+        assert!(KeyBindings::read("keys.toml", both).is_err(), "a conflict in the file is an error");
     }
 
     #[test]

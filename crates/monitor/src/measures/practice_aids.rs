@@ -21,7 +21,8 @@ impl PracticeAids {
         let count = |signal: &Signal<i32>| {
             // The vehicle does not send the numbers before the first freeze or rewind.
             let at = |frame: &Frame| signal.at(frame.time).unwrap_or(0);
-            u32::try_from(at(last) - at(first)).unwrap_or(0)
+            // A recording may contain any numbers.
+            u32::try_from(at(last).saturating_sub(at(first))).unwrap_or(0)
         };
         Self { freezes: count(&flight.freezes), rewinds: count(&flight.rewinds) }
     }

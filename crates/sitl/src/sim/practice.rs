@@ -68,7 +68,8 @@ impl Sim {
             }
             // Sticks no longer end the freeze.
             Freeze::UntilStick { .. } => self.practice.freeze = Freeze::On,
-            Freeze::On | Freeze::Due { .. } => {}
+            Freeze::Due { at, .. } => self.practice.freeze = Freeze::Due { at, then_until_stick: false },
+            Freeze::On => {}
         }
     }
 
@@ -101,17 +102,21 @@ impl Sim {
         if let Controller::Builtin(own) = &mut self.controller {
             own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
         }
-        self.practice.freeze = Freeze::Due { at: now + RUN_ON_TIME };
+        self.practice.freeze = Freeze::Due { at: now + RUN_ON_TIME, then_until_stick: true };
         self.events.push_back(SimEvent::Rewind { undone });
         self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Rewound {:.0} s", undone.s()));
     }
 
     /// Freezes the flight if this is due after a rewind.
     pub(super) fn freeze_after_rewind(&mut self) {
-        if let Freeze::Due { at } = self.practice.freeze
+        if let Freeze::Due { at, then_until_stick } = self.practice.freeze
             && self.now >= at
         {
-            self.begin_freeze(Freeze::UntilStick { is_centered: false }, "Frozen: move a stick to continue");
+            if then_until_stick {
+                self.begin_freeze(Freeze::UntilStick { is_centered: false }, "Frozen: move a stick to continue");
+            } else {
+                self.begin_freeze(Freeze::On, "Frozen");
+            }
         }
     }
 

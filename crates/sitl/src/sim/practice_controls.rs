@@ -27,7 +27,12 @@ pub(super) enum Freeze {
     #[default]
     Off,
     /// After a rewind; simulation time stops at `at`.
-    Due { at: SimTime },
+    Due {
+        /// Time of the freeze.
+        at: SimTime,
+        /// Whether a stick resumes the flight afterwards; otherwise only a request does.
+        then_until_stick: bool,
+    },
     /// Until it is resumed by a request.
     On,
     /// Until it is resumed by a request, or a stick moves away from its center.

@@ -72,9 +72,7 @@ const FIRST_DRILL: &str = "drill-hover";
 pub fn lesson_advice(trainee: &str) -> SessionAdvice {
     SessionAdvice {
         points: Vec::new(),
-        note: Some(
-            "The scores of a lesson don't matter: what counts is that you did every step. Fly the first drill next.".into(),
-        ),
+        note: Some("The scores of a lesson don't matter. Once you have done every step, fly the first drill.".into()),
         next: Some(NextFlight {
             scenario: FIRST_DRILL.to_owned(),
             command: format!("spandrel train --trainee {trainee} --scenario {FIRST_DRILL}"),

@@ -156,13 +156,13 @@ fn read_criterion(reader: &mut Reader<'_>, section: &mut Section<'_>) -> RubricC
         text: reader.text(section, "text", Some("")),
     };
     let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    if criterion.id.len() > MAX_ID_LEN || !criterion.id.chars().all(fits) {
+    if !(1..=MAX_ID_LEN).contains(&criterion.id.len()) || !criterion.id.chars().all(fits) {
         let allowed = format!("1 to {MAX_ID_LEN} characters: a-z, 0-9 and -");
         reader.add_problem(section, "id", &criterion.id, &allowed, "invalid ID");
     }
-    for (key, value, most) in [("title", &criterion.title, MAX_TITLE_LEN), ("text", &criterion.text, MAX_TEXT_LEN)] {
-        if value.chars().count() > most {
-            reader.add_problem(section, key, value, &format!("at most {most} characters"), "too long");
+    for (key, value, least, most) in [("title", &criterion.title, 1, MAX_TITLE_LEN), ("text", &criterion.text, 0, MAX_TEXT_LEN)] {
+        if !(least..=most).contains(&value.chars().count()) {
+            reader.add_problem(section, key, value, &format!("{least} to {most} characters"), "invalid length");
         }
     }
     criterion
@@ -200,7 +200,8 @@ mod tests {
         assert!(told(&twice).starts_with("r.toml:6: criteria[].id = a: duplicate criterion"), "{}", told(&twice));
         assert!(told("format = 1\n").contains("criteria = 0: wrong number (allowed: 1 to 30 [[criteria]])"));
         assert!(told(&one.replace("\"a\"", "\"A b\"")).contains("r.toml:3: criteria[].id = A b: invalid ID"));
-        assert!(told(&one.replace("\"A\"", &format!("\"{}\"", "x".repeat(61)))).contains("too long (allowed: at most 60"));
+        assert!(told(&one.replace("\"A\"", &format!("\"{}\"", "x".repeat(61)))).contains("invalid length (allowed: 1 to 60"));
+        assert!(told(&one.replace("\"A\"", "\"\"")).contains("invalid length (allowed: 1 to 60"));
         assert!(told(&one.replace("title", "heading")).contains("heading"));
         assert!(told("]]]").contains("r.toml:1"));
     }

@@ -2,7 +2,7 @@
 
 use spandrel_model::defect_codes;
 
-/// What is at the middle of a picture. Ordered by defect code; sound surfaces come first.
+/// Subject in the middle of a picture. Ordered by defect code; sound surfaces come first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
     /// A surface without defects.
@@ -27,7 +27,7 @@ pub enum Distance {
 pub struct Card {
     /// Distance of the camera.
     pub distance: Distance,
-    /// What is in the picture.
+    /// Subject of the picture.
     pub subject: Subject,
 }
 

@@ -39,7 +39,7 @@ const SURROUNDINGS_FRACTION: f64 = 0.5;
 /// A picture that can be taken.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SchoolPicture {
-    /// What it shows, and the distance.
+    /// Subject and distance.
     pub card: Card,
     /// Camera pose.
     pub pose: CameraPose,
@@ -120,7 +120,7 @@ pub fn gallery(site: &Site, vehicle: &Vehicle, seed: u64) -> Vec<SchoolPicture> 
     pictures
 }
 
-/// What is needed to choose pictures.
+/// Inputs for choosing pictures.
 struct Studio<'a> {
     site: &'a Site,
     vehicle: &'a Vehicle,

@@ -14,7 +14,7 @@ pub const CARDS_PER_ROUND: usize = 10;
 const REPEAT_AFTER: usize = 3;
 /// Millimeters in a meter.
 const MM_PER_M: f64 = 1000.0;
-/// Sound surfaces are this fraction of the cards at most, so that they don't displace defects: one in this many.
+/// Number of defects for each sound surface among the cards.
 const OTHERS_PER_SOUND: usize = 3;
 
 /// A question: one picture and the possible answers.
@@ -37,7 +37,7 @@ pub enum Answer {
     Nothing,
 }
 
-/// What the school says to an answer.
+/// Response to an answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Verdict {
     /// Whether the answer was right.
@@ -112,7 +112,7 @@ impl Question {
         let right = given == right_answer;
         let first = match (right, given) {
             (true, _) => "Right.".to_owned(),
-            (false, Answer::Defect(code)) => format!("Wrong: this is not {}.", defect_codes::defect_name(code)),
+            (false, Answer::Defect(code)) => format!("Wrong: not {}.", defect_codes::defect_name(code)),
             (false, Answer::Nothing) => "Wrong: there is a defect.".to_owned(),
         };
         let rest = match (&self.picture.defect, right_answer) {
@@ -128,8 +128,8 @@ impl Question {
     /// Explains why a defect cannot be seen.
     fn hidden_words(&self, defect: &PlacedDefect) -> String {
         format!(
-            "Here is {}, but nobody can see it from {} m: a pixel covers {:.1} mm. {} Fly closer.",
-            with_article(defect.kind),
+            "There is a defect here ({}), but it can't be seen from {} m: a pixel covers {:.1} mm. {} Fly closer.",
+            defect_codes::defect_name(defect.kind),
             self.picture.card.distance.m(),
             MM_PER_M * self.picture.pixel_m,
             size_words(defect)
@@ -191,8 +191,11 @@ impl Round {
         Some(verdict)
     }
 
-    /// Continues with the next question.
+    /// Continues with the next question once the current one is answered.
     pub fn advance(&mut self) {
+        if self.current.is_some() {
+            return;
+        }
         self.current = self.waiting.pop_front().and_then(|(card, repeated)| {
             let same: Vec<&SchoolPicture> = self.pictures.iter().filter(|picture| picture.card == card).collect();
             let picture = *same.get(self.stream.below(same.len().max(1)))?;
@@ -241,12 +244,6 @@ fn size_words(defect: &PlacedDefect) -> String {
     } else {
         format!("It measures {length_mm:.0} mm by {width_mm:.0} mm.")
     }
-}
-
-/// Returns the name of a defect as an object of a sentence.
-fn with_article(code: u32) -> String {
-    let name = defect_codes::defect_name(code);
-    if defect_codes::is_line(code) { format!("a crack ({name})") } else { name.to_owned() }
 }
 
 fn capitalized(words: &str) -> String {

@@ -165,6 +165,8 @@ fn exact_answer_that_is_not_offered_changes_nothing() {
     assert_eq!(round.answer(99, &mut record, NOW), None);
     assert_eq!((round.question().cloned(), record), (before, SchoolRecord::default()));
     assert_eq!(round.position(), (1, CARDS_PER_ROUND));
+    round.advance();
+    assert_eq!(round.question().cloned(), before, "an open question must be answered first");
     assert!(
         Round::new(&SchoolRecord::default(), Vec::new(), 1, NOW).question().is_none(),
         "without pictures there is no question"

@@ -37,7 +37,7 @@ pub fn rubric_page(visitor: &Visitor, about: &RubricPage<'_>) -> Markup {
         p.lead { a href={ "/trainees/" (about.trainee) } { (about.trainee) } " · " (count_words(about.rubric, about.events)) }
         @if let Some(problem) = about.problem { (message_lines("warn", problem)) }
         (section("criteria", "Criteria", &html! {
-            ol.rubric { @for criterion in &about.rubric.criteria { li id=(criterion.id) { (criterion_item(visitor, about, criterion)) } } }
+            ol.rubric { @for criterion in &about.rubric.criteria { li id={ "criterion-" (criterion.id) } { (criterion_item(visitor, about, criterion)) } } }
         }))
         (section("history", "History", &html! {
             @if about.events.is_empty() { p.calm { "Nothing signed off yet." } } @else { (history(about.events)) }

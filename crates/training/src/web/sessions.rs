@@ -164,7 +164,7 @@ fn timeline_marks(visitor: &Visitor, record: &SessionRecord, marks: &[TimelineMa
         @if marks.is_empty() { p.calm { "No marks yet. Marks appear on the timeline of the report; they do not change scores." } }
         ol.marks {
             @for mark in marks {
-                li { (moment_link(record, mark.t_s, &formatting::clock(mark.t_s))) " " (mark.text) span.note { " (" (mark.by) ")" }
+                li { (moment_link(record, mark.t_s, &formatting::clock(mark.t_s))) " " (mark.text) @if !mark.by.is_empty() { span.note { " (" (mark.by) ")" } }
                     @if instructor {
                         form.inline method="post" action={ "/sessions/" (record.id) "/marks/remove" } {
                             (token(visitor))

@@ -199,7 +199,7 @@ pub struct FlightSummary {
     pub questionnaire: String,
 }
 
-/// What the defect school shows.
+/// Page of the defect school.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct SchoolPage {
     /// Path of the picture (PNG), if there is one.

@@ -132,17 +132,14 @@ impl WindowFlow {
             ),
             (
                 row(Setting::Propellers, "Propellers", on_off(sounds.propellers)),
-                "Sound of the propellers, which also tells how far away the drone is.",
+                "Propeller sound. It gets quieter as the drone flies away.",
             ),
             (
                 row(Setting::WarningTones, "Warnings", on_off(sounds.warnings)),
                 "A tone for each warning. A warning is always on the screen as well.",
             ),
             (row(Setting::Speech, "Speech", on_off(sounds.speech)), "Warnings are spoken, if spd-say or espeak-ng is installed."),
-            (
-                MenuRow::button(MenuAction::RestoreSettings, "Restore all defaults"),
-                "All settings and keys as after the installation.",
-            ),
+            (MenuRow::button(MenuAction::RestoreSettings, "Restore all defaults"), "Resets all settings and keys."),
             (MenuRow::button(MenuAction::Back, "Back (Esc)"), "All changes are saved."),
         ]
     }

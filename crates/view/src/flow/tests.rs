@@ -457,7 +457,7 @@ fn school_question() -> SchoolPage {
         title: "Defect school: picture 3 of 10".into(),
         lines: vec![
             "Arch, reinforced concrete, element 144. The middle of a photograph at full resolution, taken from 3 m with the lamp on.".into(),
-            "What is at the middle?".into(),
+            "What is in the middle?".into(),
         ],
         answers: ["Delamination or spall", "Exposed rebar", "Efflorescence or rust staining", "Cracking", "Abrasion", "No defect can be seen from here"]
             .map(str::to_owned)

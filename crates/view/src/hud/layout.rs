@@ -166,7 +166,7 @@ fn readouts(hud: &Hud, pane: Pane, count: usize) -> (Vec<DrawItem>, f64) {
     let mut lines = vec![
         ("height", hud.style.units.length(hud.height_m, 1)),
         ("home", hud.style.units.length(hud.home_distance_m, 0)),
-        ("gimbal", format!("{:+.0}°", hud.gimbal_rad.to_degrees())),
+        ("gimbal", format!("{:+.0}°", hud.gimbal_rad.to_degrees().round() + 0.0)),
         ("time left", format!("{}:{:02}", (left / 60.0).floor(), (left % 60.0).floor())),
         ("lamp", if hud.lamp { "on".into() } else { "off".into() }),
         ("pictures", hud.pictures.to_string()),

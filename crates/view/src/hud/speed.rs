@@ -16,7 +16,15 @@ pub(super) const PANEL_HEIGHT: f64 = 0.105;
 /// Returns the speed as text, and its color.
 pub(super) fn speed_text(hud: &Hud) -> (HudColor, String) {
     let fast = hud.cues & cue::SPEEDING != 0;
-    (if fast { HudColor::Yellow } else { HudColor::White }, hud.style.units.speed(hud.speed_m_s))
+    let over = hud.speed_m_s > hud.limit_m_s;
+    let words = match hud.style.units {
+        // The digits must show that the speed is above the limit.
+        DisplayUnits::UsCustomary if over => {
+            format!("{} mph", SpeedUnit::MilesPerHour.format_speed(hud.speed_m_s, hud.limit_m_s))
+        }
+        DisplayUnits::UsCustomary | DisplayUnits::Metric => hud.style.units.speed(hud.speed_m_s),
+    };
+    (if fast { HudColor::Yellow } else { HudColor::White }, words)
 }
 
 /// Returns the speed block in the upper left corner.

@@ -8,6 +8,7 @@ mod warnings;
 pub use smoothing::SAMPLE_RATE_HZ;
 pub use warnings::spoken;
 
+use crate::hud::DisplayUnits;
 use propellers::Propellers;
 use smoothing::SmoothedValue;
 use spandrel_mavlink::contract::cue::CueTexts;
@@ -47,6 +48,8 @@ pub struct SoundInputs {
     pub cues: i32,
     /// The monitor's texts for the active cues.
     pub cue_texts: CueTexts,
+    /// Units in which the texts are displayed and spoken.
+    pub units: DisplayUnits,
     /// Whether all sound is off, because it is muted or the flight is paused.
     pub silent: bool,
 }

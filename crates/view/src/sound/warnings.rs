@@ -1,6 +1,7 @@
 //! Warning tones, distinguished by pitch and rhythm. Only the tone of the most serious warning sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
+use crate::hud::DisplayUnits;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
 
@@ -29,14 +30,15 @@ const TONES: [Tone; 6] = [
 /// Returns the spoken warning for the most serious cue that has just become active: the text that is displayed, with its
 /// units in words.
 #[must_use]
-pub fn spoken(before: i32, now: i32, texts: &CueTexts) -> Option<String> {
+pub fn spoken(before: i32, now: i32, texts: &CueTexts, units: DisplayUnits) -> Option<String> {
     let new = cue::displayed(now) & !cue::displayed(before);
     let tone = TONES.iter().find(|tone| new & tone.cue != 0)?;
-    texts.text(tone.cue).map(units_in_words)
+    texts.text(tone.cue).map(|text| units_in_words(&units.words(text)))
 }
 
 /// Units and how they are spoken.
-const SPOKEN_UNITS: [(&str, &str); 3] = [("m", "meters"), ("mph", "miles per hour"), ("m/s", "meters per second")];
+const SPOKEN_UNITS: [(&str, &str); 4] =
+    [("m", "meters"), ("ft", "feet"), ("mph", "miles per hour"), ("m/s", "meters per second")];
 
 fn units_in_words(text: &str) -> String {
     let spoken = |word: &str| {

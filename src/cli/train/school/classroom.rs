@@ -18,6 +18,7 @@ use spandrel_view::camera::PinholeCamera;
 use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest};
 use spandrel_view::quality::Quality;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
 
 /// Job whose bridges the pictures show, the aircraft whose camera takes them, and the quality of the pictures: fine enough for
@@ -49,6 +50,7 @@ pub fn run(
     let drawing = SceneDrawing::new(&scenario, &vehicle, seed, quality, SimTime::ZERO)?;
     let round = Round::new(&record, gallery(drawing.site(), &vehicle, seed), seed, unix_s());
     let folder = PictureFolder::create(sessions)?;
+    school_record::create(sessions, trainee)?;
     let mut studio = Studio { scenario: &scenario, vehicle: &vehicle, drawing: &drawing, renderer: drawing.scene_renderer() };
     let mut lesson = Lesson { round, record, sessions, trainee, folder, number: 0, picture: None };
     // The window has gone if a page cannot be sent.
@@ -131,7 +133,10 @@ struct PictureFolder(PathBuf);
 
 impl PictureFolder {
     fn create(sessions: &Path) -> Result<Self, AppError> {
-        let path = sessions.join(format!(".school-{}", std::process::id()));
+        // An earlier round of this process may still be deleting its folder.
+        static ROUND_COUNTER: AtomicU32 = AtomicU32::new(0);
+        let number = ROUND_COUNTER.fetch_add(1, Ordering::Relaxed);
+        let path = sessions.join(format!(".school-{}-{number}", std::process::id()));
         std::fs::create_dir_all(&path).map_err(|error| AppError::failed(format!("{}: {error}", path.display())))?;
         Ok(Self(path))
     }
@@ -156,7 +161,7 @@ fn title((number, of): (usize, usize)) -> String {
 fn question_page(question: &Question, position: (usize, usize), picture: Option<String>) -> SchoolPage {
     let again = question.repeated.then(|| "You missed one of this kind. Once more:".to_owned());
     let answers = question.answers.iter().map(|answer| answer.words()).collect();
-    let lines = again.into_iter().chain([question.words(), "What is at the middle?".to_owned()]).collect();
+    let lines = again.into_iter().chain([question.words(), "What is in the middle?".to_owned()]).collect();
     SchoolPage { picture, title: title(position), lines, answers, right: None, over: false }
 }
 
@@ -168,10 +173,10 @@ fn verdict_page(verdict: Verdict, position: (usize, usize), picture: Option<Stri
 fn summary_page(summary: &RoundSummary, mastered: usize) -> SchoolPage {
     let mut lines = vec![format!("{} of {} right at the first attempt.", summary.right, summary.asked)];
     if !summary.missed.is_empty() {
-        lines.push(format!("Missed: {}. They come back in the next round.", summary.missed.join(", ")));
+        lines.push(format!("Missed: {}. You will see them again soon.", summary.missed.join(", ")));
     }
     if summary.asked < CARDS_PER_ROUND {
-        lines.push("This job has no more pictures.".to_owned());
+        lines.push("There were no more pictures in this round.".to_owned());
     }
     let kinds = if mastered == 1 { "kind of picture" } else { "kinds of pictures" };
     lines.push(format!("You know {mastered} {kinds} well: right at least four times in a row."));

@@ -55,7 +55,7 @@ fn instructor_marks(review: &Review) -> Markup {
     html! {
         @if !marks.is_empty() {
             h3 { "Instructor's marks" }
-            ol.marks { @for mark in marks { li { (moment::link(mark.t_s)) " " (mark.text) span.note { " (" (mark.by) ")" } } } }
+            ol.marks { @for mark in marks { li { (moment::link(mark.t_s)) " " (mark.text) @if !mark.by.is_empty() { span.note { " (" (mark.by) ")" } } } } }
         }
     }
 }
