@@ -183,10 +183,10 @@ mod tests {
     fn exact_changes_are_applied_saved_and_named() {
         let folder = tempfile::tempdir().unwrap();
         let mut settings = WindowSettings::load(file(&folder), SettingsOverrides::default());
-        let told = settings.apply(&SettingChange::Key(index("lamp"), "x".into()));
-        assert_eq!(told.as_deref(), Some("X: lamp."));
+        let told = settings.apply(&SettingChange::Key(index("lamp"), "y".into()));
+        assert_eq!(told.as_deref(), Some("Y: lamp."));
         let told = settings.apply(&SettingChange::Key(index("lamp"), "l".into()));
-        assert_eq!(told.as_deref(), Some("L: lamp. The key was taken: land now has X."));
+        assert_eq!(told.as_deref(), Some("L: lamp. The key was taken: land now has Y."));
         let told = settings.apply(&SettingChange::Key(index("lamp"), "f5".into()));
         assert!(told.is_some_and(|words| words.contains("'f5' cannot be used (allowed: one character")));
         let style = DisplayStyle { units: DisplayUnits::UsCustomary, text_scale: TextScale::Double };

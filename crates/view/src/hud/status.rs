@@ -44,7 +44,8 @@ pub fn alarm(hud: &Hud) -> Option<String> {
 pub fn alarm_line(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let Some(words) = alarm(hud) else { return Vec::new() };
     let top = EDGE_MARGIN + speed::PANEL_HEIGHT + BLOCK_GAP;
-    let width = CHAR_WIDTH * words.chars().count() as f64;
+    // Capitals are wider than the average character.
+    let width = CHAR_WIDTH * (words.chars().count() + 1) as f64;
     vec![
         pane.panel((EDGE_MARGIN, top), (EDGE_MARGIN + width, top + PANEL_HEIGHT)),
         pane.text(
