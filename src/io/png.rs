@@ -17,6 +17,7 @@ pub fn png(picture: &Picture) -> Result<Vec<u8>, AppError> {
 }
 
 /// Reads an image from a PNG file without transparency. Returns `None` if there is no such file or it cannot be decoded.
+#[cfg_attr(not(feature = "view"), allow(dead_code, reason = "only the window shows picture files"))]
 pub fn read_picture(path: &str) -> Option<Picture> {
     let read = || -> Result<Picture, png::DecodingError> {
         let mut reader = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(path)?)).read_info()?;

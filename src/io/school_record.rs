@@ -28,6 +28,7 @@ pub fn find(sessions: &Path, trainee: &str) -> Result<Option<SchoolRecord>, AppE
 ///
 /// # Errors
 /// Returns an error if the disk cannot be written.
+#[cfg_attr(not(feature = "view"), allow(dead_code, reason = "only the window asks questions"))]
 pub fn create(sessions: &Path, trainee: &str) -> Result<(), AppError> {
     let folder = folder(sessions, trainee);
     std::fs::create_dir_all(&folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))
@@ -37,6 +38,7 @@ pub fn create(sessions: &Path, trainee: &str) -> Result<(), AppError> {
 ///
 /// # Errors
 /// Returns an error if the trainee has been erased since [`create`], or if the disk cannot be written.
+#[cfg_attr(not(feature = "view"), allow(dead_code, reason = "only the window asks questions"))]
 pub fn save(sessions: &Path, trainee: &str, record: &SchoolRecord) -> Result<(), AppError> {
     let folder = folder(sessions, trainee);
     if !folder.is_dir() {
