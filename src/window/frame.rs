@@ -27,6 +27,8 @@ const ZOOM_FACTOR_PER_S: f64 = 2.0;
 /// Display time for messages and for the initial key help, s.
 const MESSAGE_DURATION_S: f64 = 7.0;
 const KEY_HELP_DURATION_S: f64 = 25.0;
+/// Maximum number of messages at the same time.
+const MAX_MESSAGES: usize = 4;
 
 impl Cockpit {
     /// Handles messages from `train` and requests from the pages, and renders a frame.
@@ -278,8 +280,8 @@ impl Cockpit {
     fn text(&self, moment: Option<&LiveMoment>, now: std::time::Duration) -> WindowText {
         let Some(flight) = &self.threads.flight else { return WindowText::default() };
         let style = self.flow.style();
-        // Larger text has room for only one message.
-        let most = if style.text_scale == TextScale::Normal { self.notices.len() } else { 1 };
+        // The messages must not cover the picture; larger text has room for only one.
+        let most = if style.text_scale == TextScale::Normal { MAX_MESSAGES } else { 1 };
         let latest = self.notices.iter().skip(self.notices.len().saturating_sub(most));
         let is_frozen = moment.is_some_and(|moment| moment.hud.is_frozen);
         let frozen = is_frozen.then(|| frozen(self.flow.key_names(), self.threads.pilot.is_some()));
