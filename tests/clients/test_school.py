@@ -5,7 +5,7 @@ import json
 import pytest
 
 import spandrel
-from test_flow import DOWN, ENTER, ESCAPE, FOCUS, LIMIT_S, NIGHT, Training, count, is_page, screen  # noqa: F401  (the fixture)
+from test_flow import DOWN, ENTER, ESCAPE, FOCUS, LIMIT_S, NIGHT, Training, count, is_page, is_start_page, screen  # noqa: F401  (the fixture)
 
 # Color of the verdict on a right and on a wrong answer (crates/view/src/hud/mod.rs).
 RIGHT, WRONG = (0, 190, 130), (240, 228, 66)
@@ -41,7 +41,7 @@ def test_wire_school_asks_a_round_and_keeps_the_record(screen, tmp_path):  # noq
     """Answers every picture with the first answer; what was missed is asked again; the record counts first answers only."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--no-sound")
     try:
-        training.wait_for_screenshot("start", is_page)
+        training.wait_for_screenshot("start", is_start_page)
         screen.focus()
         for _ in range(ROWS_DOWN):
             screen.tap(DOWN)

@@ -9,7 +9,7 @@ import pytest
 import asking
 import display
 import spandrel
-from test_flow import AGAIN_S, DOWN, ENTER, ESCAPE, LIMIT_S, NIGHT, UP, Training, count, in_flight, is_page, other_page
+from test_flow import AGAIN_S, DOWN, ENTER, ESCAPE, LIMIT_S, NIGHT, UP, Training, count, focus, in_flight, is_page, is_start_page, other_page
 
 # Number of rows above "take off" in the list of keys: eight stick directions and four actions.
 ROWS_ABOVE_TAKE_OFF = 12
@@ -34,9 +34,9 @@ def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):
     """Changes the key for takeoff from T to Y on the settings page, and takes off with it."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", "--no-sound")
     try:
-        start = training.wait_for_screenshot("start", is_page)
+        training.wait_for_screenshot("start", is_start_page)
         # The settings are above "Quit", the last row.
-        moved = training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and abs(photograph - start).mean() > 0.1, UP)
+        moved = training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
         screen.tap(UP)
         settings = training.wait_for_screenshot("settings", other_page(moved), ENTER)
         keys = training.wait_for_screenshot("keys", other_page(settings), ENTER)
@@ -50,7 +50,7 @@ def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):
         assert stored["sound"]["on"], "--no-sound applies to this run only"
         # Back to the start page; "Next" is four rows down: recommendation, job, purpose, next.
         page = training.wait_for_screenshot("settings-again", other_page(screen.photograph()), ESCAPE)
-        page = training.wait_for_screenshot("start-again", other_page(page), ESCAPE)
+        page = training.wait_for_screenshot("start-again", is_start_page, ESCAPE)
         for _ in range(4):
             screen.tap(DOWN)
         page = training.wait_for_screenshot("controls", other_page(page), ENTER)

@@ -325,7 +325,10 @@ def test_two_live_flights_have_a_tile_each(browser, tmp_path):
 
     def keep_picture_current():
         while not ended.wait(1.0):
-            picture.write_bytes(photograph)
+            # The window replaces its file whole, too.
+            part = picture.with_suffix(".part")
+            part.write_bytes(photograph)
+            part.replace(picture)
 
     window = threading.Thread(target=keep_picture_current)
     window.start()
