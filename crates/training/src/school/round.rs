@@ -12,6 +12,8 @@ use std::collections::VecDeque;
 pub const CARDS_PER_ROUND: usize = 10;
 /// Number of other questions before a missed card is asked again in the same round.
 const REPEAT_AFTER: usize = 3;
+/// Maximum number of repetitions of a card in a round (estimate): whoever misses everything still sees every card.
+const MAX_REPETITIONS: u8 = 2;
 /// Millimeters in a meter.
 const MM_PER_M: f64 = 1000.0;
 /// Number of defects for each sound surface among the cards.
@@ -24,8 +26,8 @@ pub struct Question {
     pub picture: SchoolPicture,
     /// Possible answers.
     pub answers: Vec<Answer>,
-    /// Whether the card was missed earlier in this round.
-    pub repeated: bool,
+    /// Number of times that the card was missed earlier in this round.
+    pub misses: u8,
 }
 
 /// A possible answer.
@@ -60,8 +62,8 @@ pub struct RoundSummary {
 /// A round in progress.
 #[derive(Debug, Clone)]
 pub struct Round {
-    /// Cards to ask, and whether each is a repetition.
-    waiting: VecDeque<(Card, bool)>,
+    /// Cards to ask, and how often each was asked before in this round.
+    waiting: VecDeque<(Card, u8)>,
     pictures: Vec<SchoolPicture>,
     stream: RandomStream,
     current: Option<Question>,
@@ -81,9 +83,9 @@ impl Answer {
 }
 
 impl Question {
-    fn new(picture: SchoolPicture, repeated: bool) -> Self {
+    fn new(picture: SchoolPicture, misses: u8) -> Self {
         let defects = picture.element.permitted_defects().iter().map(|code| Answer::Defect(*code));
-        Self { answers: defects.chain([Answer::Nothing]).collect(), picture, repeated }
+        Self { answers: defects.chain([Answer::Nothing]).collect(), picture, misses }
     }
 
     /// Returns the right answer.
@@ -150,7 +152,7 @@ impl Round {
         let mut stream = RandomStream::new(seed, "school.round");
         let mut waiting = VecDeque::new();
         while !chosen.is_empty() {
-            waiting.push_back((chosen.swap_remove(stream.below(chosen.len())), false));
+            waiting.push_back((chosen.swap_remove(stream.below(chosen.len())), 0));
         }
         let total = waiting.len();
         let mut round = Self { waiting, pictures, stream, current: None, first_answers: Vec::new(), total };
@@ -167,7 +169,7 @@ impl Round {
     /// Returns the number of the current card and the number of cards, such as (3, 10). A repetition keeps the number.
     #[must_use]
     pub fn position(&self) -> (usize, usize) {
-        let current = self.current.as_ref().is_some_and(|question| !question.repeated);
+        let current = self.current.as_ref().is_some_and(|question| question.misses == 0);
         (self.first_answers.len() + usize::from(current), self.total)
     }
 
@@ -181,12 +183,12 @@ impl Round {
         let verdict = question.verdict(*given);
         let card = question.picture.card;
         // A repetition in the same round says little about tomorrow.
-        if !question.repeated {
+        if question.misses == 0 {
             record.answer(card, verdict.right, now_unix_s);
             self.first_answers.push((card, verdict.right));
         }
-        if !verdict.right {
-            self.waiting.insert(REPEAT_AFTER.min(self.waiting.len()), (card, true));
+        if !verdict.right && question.misses < MAX_REPETITIONS {
+            self.waiting.insert(REPEAT_AFTER.min(self.waiting.len()), (card, question.misses + 1));
         }
         Some(verdict)
     }
@@ -196,10 +198,10 @@ impl Round {
         if self.current.is_some() {
             return;
         }
-        self.current = self.waiting.pop_front().and_then(|(card, repeated)| {
+        self.current = self.waiting.pop_front().and_then(|(card, misses)| {
             let same: Vec<&SchoolPicture> = self.pictures.iter().filter(|picture| picture.card == card).collect();
             let picture = *same.get(self.stream.below(same.len().max(1)))?;
-            Some(Question::new(picture.clone(), repeated))
+            Some(Question::new(picture.clone(), misses))
         });
     }
 

@@ -158,6 +158,21 @@ fn exact_round_ends_when_every_missed_card_was_answered() {
 }
 
 #[test]
+fn exact_round_ends_for_a_trainee_who_misses_everything() {
+    let mut record = SchoolRecord::default();
+    let mut round = Round::new(&record, pictures(), 7, NOW);
+    let mut asked = 0;
+    while let Some(question) = round.question() {
+        let wrong = (right_number(&round) + 1) % question.answers.len();
+        assert_eq!(round.answer(wrong, &mut record, NOW).map(|verdict| verdict.right), Some(false));
+        asked += 1;
+        round.advance();
+    }
+    assert_eq!(asked, 3 * CARDS_PER_ROUND, "each card is repeated twice");
+    assert_eq!((round.summary().asked, round.summary().right), (CARDS_PER_ROUND, 0));
+}
+
+#[test]
 fn exact_answer_that_is_not_offered_changes_nothing() {
     let mut record = SchoolRecord::default();
     let mut round = Round::new(&record, pictures(), 7, NOW);

@@ -159,7 +159,7 @@ fn title((number, of): (usize, usize)) -> String {
 }
 
 fn question_page(question: &Question, position: (usize, usize), picture: Option<String>) -> SchoolPage {
-    let again = question.repeated.then(|| "You missed one of this kind. Once more:".to_owned());
+    let again = (question.misses > 0).then(|| "You missed one of this kind. Once more:".to_owned());
     let answers = question.answers.iter().map(|answer| answer.words()).collect();
     let lines = again.into_iter().chain([question.words(), "What is in the middle?".to_owned()]).collect();
     SchoolPage { picture, title: title(position), lines, answers, right: None, over: false }
