@@ -194,7 +194,7 @@ impl VehicleShell {
         self.wait_without_time(wall);
     }
 
-    /// Sends outgoing data and waits for incoming data while simulation time stands still.
+    /// Sends outgoing data and waits for incoming data while simulation time is stopped.
     fn wait_without_time(&mut self, wall: Duration) {
         self.send_outgoing();
         self.pacer.resync(wall, self.core.now());

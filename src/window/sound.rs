@@ -24,7 +24,7 @@ const PLAYBACK_LEAD_TIME: Duration = Duration::from_millis(80);
 /// Interval at which the thread checks whether the player needs another chunk.
 const CHUNK_INTERVAL: Duration = Duration::from_millis(5);
 
-/// What the sound thread plays.
+/// Inputs of the sound thread.
 type Inputs = (SoundInputs, SoundSettings);
 
 /// The window's sound output. Its thread starts with the first sound.

@@ -29,6 +29,13 @@ AGAIN_S = 20.0
 ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
 
 
+# Message of `train` to a window that is started alone.
+OFFERS = {
+    "is": "offers", "trainees": [], "web": None, "scenarios": [{"name": "drill-hover", "title": "Drill", "kind": "1 task"}],
+    "choice": {"trainee": "nina", "scenario": "drill-hover", "purpose": "practice"},
+}
+
+
 @pytest.fixture
 def screen(tmp_path):
     """A virtual display that is large enough for legible text."""
@@ -363,11 +370,7 @@ def test_wire_invalid_lines_are_reported_once_without_closing_the_window(screen,
     )
     try:
         assert json.loads(window.stdout.readline()) == {"is": "ready"}
-        offers = {
-            "is": "offers", "trainees": [], "web": None, "scenarios": [{"name": "drill-hover", "title": "Drill", "kind": "1 task"}],
-            "choice": {"trainee": "nina", "scenario": "drill-hover", "purpose": "practice"},
-        }
-        window.stdin.write(b"rubbish\n\xff\xfe\n{}\n" + json.dumps(offers).encode() + b"\n")
+        window.stdin.write(b"rubbish\n\xff\xfe\n{}\n" + json.dumps(OFFERS).encode() + b"\n")
         window.stdin.flush()
         spandrel.wait_for("the start page", lambda: is_page(screen.photograph()), LIMIT_S)
         window.stdin.close()

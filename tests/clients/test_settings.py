@@ -7,20 +7,11 @@ import tomllib
 import pytest
 
 import asking
-import display
 import spandrel
-from test_flow import AGAIN_S, DOWN, ENTER, ESCAPE, LIMIT_S, NIGHT, UP, Training, count, focus, in_flight, is_page, is_start_page, other_page
+from test_flow import AGAIN_S, DOWN, ENTER, ESCAPE, LIMIT_S, NIGHT, OFFERS, UP, Training, count, focus, in_flight, is_page, is_start_page, other_page, screen  # noqa: F401  (the fixture)
 
 # Number of rows above "take off" in the list of keys: eight stick directions and four actions.
 ROWS_ABOVE_TAKE_OFF = 12
-
-
-@pytest.fixture
-def screen(tmp_path):
-    """A virtual display that is large enough for legible text."""
-    opened = display.Display(tmp_path, width=1280, height=560)
-    yield opened
-    opened.close()
 
 
 def settings_of(training):
@@ -30,7 +21,7 @@ def settings_of(training):
 
 
 @pytest.mark.timeout(1800)
-def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):
+def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):  # noqa: F811
     """Changes the key for takeoff from T to Y on the settings page, and takes off with it."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", "--no-sound")
     try:
@@ -72,7 +63,7 @@ def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):
 
 
 @pytest.mark.timeout(900)
-def test_wire_an_invalid_settings_file_is_reported_and_kept(screen, tmp_path):
+def test_wire_an_invalid_settings_file_is_reported_and_kept(screen, tmp_path):  # noqa: F811
     """The window opens with the defaults, and the file stays as it is."""
     path = tmp_path / "spandrel" / "settings.toml"
     path.parent.mkdir()
@@ -85,11 +76,7 @@ def test_wire_an_invalid_settings_file_is_reported_and_kept(screen, tmp_path):
     )
     try:
         assert json.loads(window.stdout.readline()) == {"is": "ready"}
-        offers = {
-            "is": "offers", "trainees": [], "web": None, "scenarios": [{"name": "drill-hover", "title": "Drill", "kind": "1 task"}],
-            "choice": {"trainee": "nina", "scenario": "drill-hover", "purpose": "practice"},
-        }
-        window.stdin.write(json.dumps(offers).encode() + b"\n")
+        window.stdin.write(json.dumps(OFFERS).encode() + b"\n")
         window.stdin.flush()
         # A message covers the lower edge of the page.
         spandrel.wait_for("the start page", lambda: count(screen.photograph()[:200], NIGHT) > 100_000, LIMIT_S)

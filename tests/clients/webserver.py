@@ -54,6 +54,14 @@ def set_password(sessions, name, role, *more, password=PASSWORD):
     assert done.returncode == 0, done.stderr
 
 
+def set_passwords(sessions, *trainees):
+    """Sets the passwords of these trainees, of the instructor Ida and of the administrator Ada."""
+    for name in trainees:
+        set_password(sessions, name, "trainee")
+    set_password(sessions, "ida", "instructor")
+    set_password(sessions, "ada", "administrator")
+
+
 class NoRedirect(urllib.request.HTTPRedirectHandler):
     """Handler that does not follow redirects."""
 

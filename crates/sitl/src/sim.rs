@@ -378,7 +378,7 @@ impl Sim {
     /// Returns the next datagram to send.
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         while let Some(transmit) = self.controller.links_mut().poll() {
-            // While simulation time stands still, nothing that the radio link delays would arrive.
+            // While simulation time is stopped, nothing that the radio link delays would arrive.
             if !self.is_over_radio(transmit.link) || self.is_frozen() {
                 return Some(transmit);
             }

@@ -85,26 +85,43 @@ fn scenarios_by_form(name: &str) -> Vec<String> {
 
 /// Returns how much of the path a trainee sees in practice, from the conformity of the earlier sessions.
 pub fn path_aids(sessions: &Path, trainee: &str) -> PathAids {
-    let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
-    let mut own: Vec<(u64, &PathBuf)> = folders
-        .iter()
-        .filter_map(|folder| {
-            trainee_and_start(folder).ok().filter(|(who, _)| who == trainee).map(|(_, started)| (started, folder))
-        })
-        .collect();
-    own.sort_by_key(|(started, _)| std::cmp::Reverse(*started));
+    let mut own = stored_sessions(sessions);
+    own.retain(|session| session.trainee == trainee);
+    own.sort_by_key(|session| std::cmp::Reverse(session.started_unix_us));
     // The latest sessions are enough; reading all of them would delay the flight.
-    let latest: Vec<f64> = own.iter().filter_map(|(_, folder)| conformity_pct(folder)).take(PathAids::SESSIONS).collect();
+    let latest: Vec<f64> = own.iter().filter_map(|session| conformity_pct(&session.folder)).take(PathAids::SESSIONS).collect();
     PathAids::for_conformity(&latest)
 }
 
-/// Returns the flight that a ghost repeats: the trainee's complete session of this job with the highest score or, without one, the
-/// synthetic expert's latest one. A form or another seed only moves the defects, so the paths are the same.
-pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario) -> Option<GhostFlight> {
+/// A readable session folder.
+struct StoredSessionFolder {
+    trainee: String,
+    started_unix_us: u64,
+    folder: PathBuf,
+}
+
+/// Returns the sessions in a folder; none if the folder does not exist yet.
+fn stored_sessions(sessions: &Path) -> Vec<StoredSessionFolder> {
     let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
+    let stored = |folder: PathBuf| {
+        let (trainee, started_unix_us) = trainee_and_start(&folder).ok()?;
+        Some(StoredSessionFolder { trainee, started_unix_us, folder })
+    };
+    folders.into_iter().filter_map(stored).collect()
+}
+
+/// Returns the contents of a JSON file in a session folder; `None` if it is missing or invalid.
+fn read_json(session: &Path, name: &str) -> Option<Value> {
+    serde_json::from_str(&std::fs::read_to_string(session.join(name)).ok()?).ok()
+}
+
+/// Returns the flight that a ghost repeats: the trainee's complete session of this job with the highest score or, without one, the
+/// synthetic expert's best one. A form or another seed only moves the defects, so the paths are the same.
+pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario) -> Option<GhostFlight> {
+    let stored = stored_sessions(sessions);
     let level = scenario.difficulty.as_ref().map(|difficulty| difficulty.level);
     let flown = |who: &str| {
-        let of = folders.iter().filter(|folder| trainee_and_start(folder).is_ok_and(|(name, _)| name == who));
+        let of = stored.iter().filter(|session| session.trainee == who).map(|session| &session.folder);
         let scored = of.filter_map(|folder| Some((folder, complete_score(folder, &scenario.name, level)?)));
         scored.max_by(|a, b| a.1.0.total_cmp(&b.1.0))
     };
@@ -117,12 +134,11 @@ pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario) -> Op
 
 /// Returns the score of a session and the highest possible one, if it is a complete session of this job.
 fn complete_score(session: &Path, scenario: &str, level: Option<u8>) -> Option<(f64, f64)> {
-    let read = |name: &str| serde_json::from_str::<Value>(&std::fs::read_to_string(session.join(name)).ok()?).ok();
-    let info = read(SESSION)?;
+    let info = read_json(session, SESSION)?;
     if info["scenario"] != scenario || info["level"].as_u64() != level.map(u64::from) {
         return None;
     }
-    let assessment = read(ASSESSMENT)?;
+    let assessment = read_json(session, ASSESSMENT)?;
     let scores = &assessment["scores"];
     // A rewound flight jumps, and is not compared with others.
     let is_unaided = PracticeAids::deserialize(&assessment["practice_aids"]).unwrap_or_default().count() == 0;
@@ -133,8 +149,7 @@ fn complete_score(session: &Path, scenario: &str, level: Option<u8>) -> Option<(
 /// Returns the conformity of a complete session, %. Lessons and incomplete sessions say little about how well somebody follows a
 /// path.
 fn conformity_pct(session: &Path) -> Option<f64> {
-    let text = std::fs::read_to_string(session.join(ASSESSMENT)).ok()?;
-    let assessment: Value = serde_json::from_str(&text).ok()?;
+    let assessment = read_json(session, ASSESSMENT)?;
     let counts = assessment["completion"]["complete"].as_bool() == Some(true) && lesson_of(session).is_none();
     assessment["scores"]["conformity"]["pct"].as_f64().filter(|_| counts)
 }
@@ -178,8 +193,7 @@ struct OpenLesson {
 
 /// Returns the name and the number of steps of a session's lesson, if the session is one of an installed lesson.
 fn lesson_of(session: &Path) -> Option<(String, usize)> {
-    let text = std::fs::read_to_string(session.join(SESSION)).ok()?;
-    let name = serde_json::from_str::<Value>(&text).ok()?["scenario"].as_str()?.to_owned();
+    let name = read_json(session, SESSION)?["scenario"].as_str()?.to_owned();
     let steps = files::scenario(&name).ok()?.scenario.lesson.len();
     (steps > 0).then_some((name, steps))
 }
@@ -209,19 +223,16 @@ fn next_job(advice: &SessionAdvice) -> Option<NextJob> {
 
 /// Returns each trainee with the number of sessions and practice sessions.
 fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
-    // If the folder does not exist yet, there are no sessions.
-    let folders = session_folders(&[sessions.to_path_buf()]).unwrap_or_default();
     let mut found: BTreeMap<String, KnownSessions> = BTreeMap::new();
-    for folder in &folders {
-        let Ok((trainee, started_unix_us)) = trainee_and_start(folder) else { continue };
+    for StoredSessionFolder { trainee, started_unix_us, folder } in stored_sessions(sessions) {
         if trainee == EXPERT_ID {
             continue;
         }
         let known = found.entry(trainee).or_default();
         known.sessions += 1;
-        known.practices += u32::from(purpose(folder).as_deref() == Some(Purpose::Practice.word()));
+        known.practices += u32::from(purpose(&folder).as_deref() == Some(Purpose::Practice.word()));
         if known.latest.as_ref().is_none_or(|(other, _)| *other <= started_unix_us) {
-            known.latest = Some((started_unix_us, folder.clone()));
+            known.latest = Some((started_unix_us, folder));
         }
     }
     found.into_iter().map(|(name, known)| known.summary(name)).collect()
@@ -244,8 +255,7 @@ fn contents_summary(scenario: &Scenario) -> String {
 
 /// Returns a session's end page. `trouble` is the reason why scores are missing, if known.
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
-    let text = std::fs::read_to_string(session.join(ASSESSMENT)).unwrap_or_default();
-    let assessment: Value = serde_json::from_str(&text).unwrap_or_default();
+    let assessment = read_json(session, ASSESSMENT).unwrap_or_default();
     let advice = report::saved_advice(session);
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });

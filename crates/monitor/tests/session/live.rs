@@ -74,7 +74,7 @@ fn exact_replay_matches_live_session() {
     }
 }
 
-/// Time stands still during a freeze and goes on after a rewind, so the session is one flight, and its events name both.
+/// Simulation time stops during a freeze and continues after a rewind, so the session remains one flight. Its events list both.
 #[test]
 fn exact_freezes_and_rewinds_are_events_of_one_session() {
     let mut monitor = new_monitor(one_task());

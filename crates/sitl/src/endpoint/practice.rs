@@ -6,7 +6,7 @@ use super::vehicle_command::VehicleCommand;
 use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavResult;
 
-/// What the simulation can do for a request at this instant.
+/// Requests that the simulation can carry out at this instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PracticeState {
     /// Whether these requests are allowed; not in an assessment.

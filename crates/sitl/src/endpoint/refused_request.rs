@@ -1,6 +1,8 @@
 //! Refusal of a request that the simulation would carry out.
 
-use spandrel_mavlink::dialect::MavResult;
+use super::text_queue::TextQueue;
+use spandrel_mavlink::dialect::{MavResult, MavSeverity};
+use std::collections::VecDeque;
 
 /// Reason why a request to the simulation is refused.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,4 +11,18 @@ pub struct RefusedRequest {
     pub result: MavResult,
     /// Text for the operator, if the result alone does not explain the reason.
     pub text: Option<String>,
+}
+
+/// Queues a request to the simulation, or reports why it is refused. Returns the result for the acknowledgment.
+pub fn queue_or_refuse<T>(request: Result<T, RefusedRequest>, queue: &mut VecDeque<T>, texts: &mut TextQueue) -> MavResult {
+    match request {
+        Ok(request) => {
+            queue.push_back(request);
+            MavResult::MAV_RESULT_ACCEPTED
+        }
+        Err(refusal) => {
+            refusal.text.iter().for_each(|text| texts.push(MavSeverity::MAV_SEVERITY_CRITICAL, text));
+            refusal.result
+        }
+    }
 }

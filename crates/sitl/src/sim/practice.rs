@@ -25,7 +25,7 @@ impl Sim {
         self.practice.is_forbidden = true;
     }
 
-    /// Returns whether the flight is frozen: simulation time stands still until a client resumes it. Clients are still
+    /// Returns whether the flight is frozen: simulation time is stopped until a client resumes it. Clients are still
     /// answered.
     #[must_use]
     pub fn is_frozen(&self) -> bool {

@@ -21,7 +21,7 @@ pub(super) struct EarlierState {
     pub safe_hover: (Vec3<Ned>, f64),
 }
 
-/// Whether simulation time stands still.
+/// Whether simulation time is stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Freeze {
     #[default]
@@ -47,7 +47,7 @@ pub(super) enum Freeze {
 pub(super) struct PracticeControls {
     /// Whether all requests are refused.
     pub is_forbidden: bool,
-    /// Whether simulation time stands still.
+    /// Whether simulation time is stopped.
     pub freeze: Freeze,
     /// Oldest first.
     kept: VecDeque<EarlierState>,

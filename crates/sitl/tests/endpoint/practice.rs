@@ -101,7 +101,7 @@ fn flight_freeze_does_not_change_the_flight() {
     let flown = |freezes: bool| {
         let mut station = start.clone();
         fly(&mut station, [400, -300, 600, 200], 2_000);
-        // The inputs of both flights are the same; only one of them stands still in between.
+        // The inputs of both flights are the same; only one of them is frozen in between.
         let requests = if freezes { [PracticeRequest::Freeze, PracticeRequest::Resume] } else { [PracticeRequest::Resume; 2] };
         for request in requests {
             let (command, params) = request.command();

@@ -30,13 +30,13 @@ pub struct Rubric {
 pub struct RubricCriterion {
     /// Unique ID, which records refer to.
     pub id: String,
-    /// What the trainee can do, in a few words.
+    /// Skill that the trainee must show, in a few words.
     pub title: String,
-    /// What the instructor looks for.
+    /// Description of the skill, for the instructor.
     pub text: String,
 }
 
-/// What an instructor did with a criterion.
+/// An instructor's decision on a criterion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SignOffAction {
@@ -82,7 +82,7 @@ pub struct SignOffEvent {
     pub criterion: String,
     /// Title of the criterion at that time; the rubric may have changed since.
     pub title: String,
-    /// What was done.
+    /// Decision.
     pub action: SignOffAction,
     /// Time, µs since the Unix epoch.
     pub unix_us: u64,

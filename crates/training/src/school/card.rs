@@ -22,7 +22,7 @@ pub enum Distance {
     Far,
 }
 
-/// A card. Cards are ordered by distance, so that new ones are asked from near to far.
+/// A card. The order is by distance, because new cards are asked from near to far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Card {
     /// Distance of the camera.

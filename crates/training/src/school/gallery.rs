@@ -136,14 +136,8 @@ impl Studio<'_> {
         let alone = views.iter().all(|view| view.defect_id == defect.id || !is_in_picture(view));
         let view = views.iter().find(|view| view.defect_id == defect.id)?;
         let visible = visibility(view)?;
-        alone.then(|| SchoolPicture {
-            card: Card { distance, subject: Subject::Defect(defect.kind) },
-            pose,
-            element: defect.element,
-            defect: Some(defect.clone()),
-            visible,
-            pixel_m: f64::from(distance.m()) / self.surroundings.focal_px(),
-        })
+        let card = Card { distance, subject: Subject::Defect(defect.kind) };
+        alone.then(|| SchoolPicture { defect: Some(defect.clone()), visible, ..self.picture(card, pose, defect.element) })
     }
 
     /// Returns a picture of the same surface at some distance from a defect, if no defect is in it.
@@ -161,14 +155,13 @@ impl Studio<'_> {
         let spot = SurfaceSpot { position_m, normal: defect.normal };
         let pose = close_up_pose(self.site, spot, f64::from(distance.m()), SimTime::ZERO)?;
         let empty = self.views(&pose).iter().all(|view| !is_in_picture(view));
-        empty.then(|| SchoolPicture {
-            card: Card { distance, subject: Subject::Sound },
-            pose,
-            element: defect.element,
-            defect: None,
-            visible: true,
-            pixel_m: f64::from(distance.m()) / self.surroundings.focal_px(),
-        })
+        empty.then(|| self.picture(Card { distance, subject: Subject::Sound }, pose, defect.element))
+    }
+
+    /// Returns a picture without a defect.
+    fn picture(&self, card: Card, pose: CameraPose, element: Element) -> SchoolPicture {
+        let pixel_m = f64::from(card.distance.m()) / self.surroundings.focal_px();
+        SchoolPicture { card, pose, element, defect: None, visible: true, pixel_m }
     }
 
     /// Returns the defects in front of the camera.

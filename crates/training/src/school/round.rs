@@ -3,6 +3,7 @@
 use super::card::{Card, Subject};
 use super::gallery::SchoolPicture;
 use super::record::SchoolRecord;
+use crate::words::capitalized;
 use spandrel_model::defect_codes;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::PlacedDefect;
@@ -246,9 +247,4 @@ fn size_words(defect: &PlacedDefect) -> String {
     } else {
         format!("It measures {length_mm:.0} mm by {width_mm:.0} mm.")
     }
-}
-
-fn capitalized(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

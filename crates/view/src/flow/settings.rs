@@ -29,7 +29,7 @@ pub enum Setting {
 pub struct KeyFunction {
     /// Name of the binding in configuration files.
     pub binding: &'static str,
-    /// What it does.
+    /// Description of the function.
     pub title: String,
     /// Display name of its key.
     pub key: String,

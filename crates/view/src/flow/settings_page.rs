@@ -53,18 +53,25 @@ impl WindowFlow {
 
     /// Starts to wait for a key for a function.
     pub(super) fn await_key(&mut self, index: usize) {
-        if let Some(file) = &self.settings.fixed_keys {
-            self.notice = Some(format!("The keys come from {file} (option --keys). Change them there."));
-        } else {
+        if !self.are_keys_fixed() {
             self.awaited_key = Some(index);
         }
     }
 
+    /// Checks whether a file on the command line sets the keys, and tells the user if so.
+    fn are_keys_fixed(&mut self) -> bool {
+        let file = self.settings.fixed_keys.as_ref();
+        let words = file.map(|file| format!("The keys come from {file} (option --keys). Change them there."));
+        let are_fixed = words.is_some();
+        if are_fixed {
+            self.notice = words;
+        }
+        are_fixed
+    }
+
     /// Restores the default keys.
     pub(super) fn restore_keys(&mut self) {
-        if let Some(file) = &self.settings.fixed_keys {
-            self.notice = Some(format!("The keys come from {file} (option --keys). Change them there."));
-        } else {
+        if !self.are_keys_fixed() {
             self.change(SettingChange::RestoreKeys);
         }
     }

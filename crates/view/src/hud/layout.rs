@@ -37,7 +37,7 @@ const REFERENCE_HEIGHT_PX: f64 = 720.0;
 /// Numbers of readouts, of which the largest that fits is shown: all, height and distance, none.
 const READOUT_COUNTS: [usize; 3] = [usize::MAX, 2, 0];
 
-/// What the HUD contains besides speed, battery and warnings.
+/// Contents of the HUD besides speed, battery and warnings.
 #[derive(Debug, Clone, Copy)]
 struct Contents {
     panel: PanelDetail,

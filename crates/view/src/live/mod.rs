@@ -242,7 +242,7 @@ impl LiveFlight {
             }
             SampleContent::Value(value) => {
                 if value == SampleValue::Frozen(true) {
-                    // While time stands still, there is no ground truth, but the link is not lost.
+                    // While simulation time is stopped, there is no ground truth, but the link is not lost.
                     self.last_sample_at = self.last_sample_at.map(|_| wall);
                 }
                 self.handle_value(value, sample.message_time);

@@ -4,12 +4,11 @@ use super::RelayEndpoint;
 use crate::endpoint::component_ids::{AUTOPILOT, CAMERA, LAMP};
 use crate::endpoint::link::LinkId;
 use crate::endpoint::payload::commands as payload_commands;
-use crate::endpoint::refused_request::RefusedRequest;
+use crate::endpoint::refused_request::queue_or_refuse;
 use crate::endpoint::simulated_aircraft::SimulatedAircraft;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use crate::endpoint::vehicle_link::FailureInjection;
 use spandrel_mavlink::dialect::{MavCmd, MavResult, MavSeverity};
-use std::collections::VecDeque;
 
 const COMMAND_ACK: u32 = 77;
 
@@ -34,7 +33,7 @@ impl RelayEndpoint {
         }
         let for_autopilot = c.component <= AUTOPILOT;
         if let Some(request) = aircraft.practice.admit(c).filter(|_| for_autopilot) {
-            return Some(self.queue(request, |relay| &mut relay.practice_requests));
+            return Some(queue_or_refuse(request, &mut self.practice_requests, &mut self.texts));
         }
         match c.number {
             n if n == MavCmd::MAV_CMD_INJECT_FAILURE as u16 && for_autopilot => return Some(self.inject(c, aircraft)),
@@ -55,21 +54,7 @@ impl RelayEndpoint {
 
     /// Queues a failure of the simulated hardware. The autopilot's own failure injection is never used as well.
     fn inject(&mut self, c: &VehicleCommand, aircraft: &SimulatedAircraft) -> MavResult {
-        self.queue(FailureInjection::from_command(c, aircraft.vehicle), |relay| &mut relay.injections)
-    }
-
-    /// Queues a request to the simulation, or reports why it is refused. Returns the result for the acknowledgment.
-    fn queue<T>(&mut self, request: Result<T, RefusedRequest>, queue: impl Fn(&mut Self) -> &mut VecDeque<T>) -> MavResult {
-        match request {
-            Ok(request) => {
-                queue(self).push_back(request);
-                MavResult::MAV_RESULT_ACCEPTED
-            }
-            Err(refusal) => {
-                refusal.text.iter().for_each(|text| self.push_text(MavSeverity::MAV_SEVERITY_CRITICAL, text));
-                refusal.result
-            }
-        }
+        queue_or_refuse(FailureInjection::from_command(c, aircraft.vehicle), &mut self.injections, &mut self.texts)
     }
 
     /// Requests a restart of the process of an autopilot that cannot reboot itself. Parameter 1: 1 or 3 reboots.

@@ -41,7 +41,6 @@ mod switch_position;
 use super::files::FileServer;
 use super::link::LinkId;
 use super::payload::Payload;
-use super::refused_request::RefusedRequest;
 use super::simulated_aircraft::SimulatedAircraft;
 use super::text_queue::TextQueue;
 use crate::autopilot::{Autopilot, Sticks};
@@ -61,7 +60,7 @@ pub(super) use receive::HANDLED;
 use shell::NshShell;
 use snapshot::VehicleSnapshot;
 use spandrel_mavlink::contract::practice::PracticeRequest;
-use spandrel_mavlink::dialect::{MavResult, MavSeverity};
+use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use switch_position::SwitchPosition;
@@ -271,20 +270,6 @@ impl VehicleLink {
     /// Broadcasts an informational text.
     fn inform(&mut self, text: &str) {
         self.texts.push(MavSeverity::MAV_SEVERITY_INFO, text);
-    }
-
-    /// Queues a request to the simulation, or reports why it is refused. Returns the result for the acknowledgment.
-    fn queue<T>(&mut self, request: Result<T, RefusedRequest>, queue: impl Fn(&mut Self) -> &mut VecDeque<T>) -> MavResult {
-        match request {
-            Ok(request) => {
-                queue(self).push_back(request);
-                MavResult::MAV_RESULT_ACCEPTED
-            }
-            Err(refusal) => {
-                refusal.text.iter().for_each(|text| self.warn(text));
-                refusal.result
-            }
-        }
     }
 
     /// Warns about a stream of messages, at most once a second.

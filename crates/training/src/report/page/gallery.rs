@@ -10,6 +10,7 @@ use crate::report::pictures::{PictureVerdict, ReviewedPicture};
 use crate::report::plots::coord;
 use crate::report::sketch::{SketchExposure, Sketcher, WIDTH_PX};
 use crate::report::table::{Table, TableCell};
+use crate::words::capitalized;
 use maud::{Markup, html};
 use spandrel_model::site::CameraPose;
 use spandrel_model::site::visibility::CENTRAL_FRACTION;
@@ -53,7 +54,7 @@ fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mark
             p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
                 b { "Picture " (picture.number) } " at " (moment::link(picture.t_s))
                 @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
-            p { (capitalize(&picture.reason)) "." }
+            p { (capitalized(&picture.reason)) "." }
             p.note { (target(picture)) }
         }
     }
@@ -62,11 +63,6 @@ fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Mark
 /// Returns the ID of a picture's card.
 pub fn anchor(picture: &ReviewedPicture) -> String {
     format!("picture-{}", picture.number)
-}
-
-fn capitalize(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn target(picture: &ReviewedPicture) -> String {

@@ -7,6 +7,7 @@ use super::super::{VehicleLink, calibration};
 use super::{storage, take_off};
 use crate::autopilot::orbit::{OrbitRequest, OrbitYaw};
 use crate::autopilot::{AutopilotRequest, FlightMode, RequestOutcome, TurnCommand};
+use crate::endpoint::refused_request::queue_or_refuse;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use mavlink::MessageData;
 use spandrel_mavlink::dialect::{GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult};
@@ -163,7 +164,7 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     if let Some(request) = a.aircraft.practice.admit(c) {
-        return Some(Answer(v.queue(request, |v| &mut v.practice_requests)));
+        return Some(Answer(queue_or_refuse(request, &mut v.practice_requests, &mut v.texts)));
     }
     Some(Answer(match c.number {
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, v, a),
@@ -181,7 +182,7 @@ fn inject(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Ma
         v.warn("Failure injection is disabled (SYS_FAILURE_EN)");
         return MavResult::MAV_RESULT_DENIED;
     }
-    v.queue(FailureInjection::from_command(c, a.aircraft.vehicle), |v| &mut v.injections)
+    queue_or_refuse(FailureInjection::from_command(c, a.aircraft.vehicle), &mut v.injections, &mut v.texts)
 }
 
 /// Parameter 1: 0 does nothing, and 1 or 3 reboots the autopilot. Clients cannot shut down the simulated vehicle.
