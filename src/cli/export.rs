@@ -15,7 +15,6 @@ use spandrel_mavlink::telemetry::Timeline;
 use spandrel_model::foxglove;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::site::Site;
-use spandrel_model::site::gltf;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::assessment::scored_flight;
 use spandrel_monitor::export::{ScenarioExport, frames_csv, json_text};
@@ -149,7 +148,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         files::write(target, json_text(&flight_plan::plan(&map, args.flavor.display_name().autopilot)).as_bytes())?;
     }
     if let Some(target) = &args.glb {
-        files::write(target, &gltf::glb(&site))?;
+        files::write(target, &files::site_model(&site)?)?;
     }
     Ok(())
 }
@@ -203,7 +202,7 @@ fn recording(stored: &StoredSession) -> Result<Vec<u8>, AppError> {
         return Err(AppError::failed("the session contains no flight to export"));
     };
     // The geometry is the same for every seed.
-    let glb = gltf::glb(&Site::build(scenario, 0));
+    let glb = files::site_model(&Site::build(scenario, 0))?;
     let write = || {
         let mut out = McapRecording::begin(Cursor::new(Vec::new()))?;
         out.write(&foxglove::site(first.unix_ns, &mcap::base64(&glb)))?;

@@ -10,6 +10,7 @@ mod cohort;
 mod demo;
 mod export;
 mod generate;
+mod invocation;
 mod monitor;
 #[cfg(feature = "view")]
 mod picture_args;

@@ -1,5 +1,6 @@
 //! `spandrel plan`: recommends a trainee's next exercises.
 
+use super::invocation::typed;
 use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::clock;
@@ -90,7 +91,7 @@ fn plan_text(plan: &TrainingPlan) -> String {
             let label = if reason.consequence_of.is_some() { "Consequence: " } else { "" };
             let _ = writeln!(out, "   {label}{}", reason.words);
         }
-        let _ = writeln!(out, "   To fly it: {}", step.command(&plan.trainee));
+        let _ = writeln!(out, "   To fly it: {}", typed(&step.command(&plan.trainee)));
     }
     for drill in &plan.drills {
         let next = drill.next_level.as_ref().map(|next| format!("; next level: {}", next.level)).unwrap_or_default();

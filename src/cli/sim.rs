@@ -20,7 +20,7 @@ use crate::io::signing_store::SigningStore;
 use crate::io::stop::StopRequest;
 use crate::io::store::FileStore;
 use spandrel_model::scenario::{AfterCrash, Scenario};
-use spandrel_model::site::{Site, gltf};
+use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::endpoint::LinkKind;
@@ -227,7 +227,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let mut doors = VehicleIo::open_all(args, autopilot.as_ref())?;
     let progress = ProgressLog::start("building the site");
     let site = Arc::new(Site::build(&scenario, seed));
-    let glb = args.files.is_some().then(|| gltf::glb(&site));
+    let glb = args.files.is_some().then(|| files::site_model(&site)).transpose()?;
     for door in &mut doors {
         if let (Some(store), Some(glb)) = (&mut door.files.store, &glb) {
             store.set_site(glb);

@@ -1,5 +1,6 @@
 //! Prints the assessment from its JSON. Numbers are rounded only for this output.
 
+use super::invocation::typed;
 use crate::errors::AppError;
 use crate::io::report;
 use serde::Deserialize;
@@ -80,7 +81,7 @@ fn to_do_better(out: &mut String, advice: &SessionAdvice) {
         let _ = if advice.points.len() > 1 { writeln!(out, "{}. {words}", k + 1) } else { writeln!(out, "{words}") };
     }
     if let Some(next) = &advice.next {
-        let _ = writeln!(out, "next flight   {}", next.command);
+        let _ = writeln!(out, "next flight   {}", typed(&next.command));
     }
 }
 

@@ -4,6 +4,7 @@ use crate::errors::AppError;
 use spandrel_clients::pilot::{Skill, skill_file};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped;
+use spandrel_model::site::Site;
 use spandrel_model::vehicle::{self, Vehicle};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -225,6 +226,11 @@ impl SourceFile {
         }
         std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string())
     }
+}
+
+/// Returns the site as a binary glTF file.
+pub fn site_model(site: &Site) -> Result<Vec<u8>, AppError> {
+    spandrel_model::site::gltf::glb(site).map_err(|error| AppError::failed(format!("cannot write the site as glTF: {error}")))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Contents of the window's start page and end page.
 
+use crate::cli::invocation::typed;
 use crate::io::files;
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
@@ -15,8 +16,8 @@ use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, NextJob, Purpose, SCORE_NAMES,
-    TraineeSummary,
+    FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, Purpose,
+    SCORE_NAMES, TraineeSummary,
 };
 use spandrel_view::path_guide::PathAids;
 use std::collections::BTreeMap;
@@ -150,7 +151,7 @@ fn complete_score(session: &Path, scenario: &str, level: Option<u8>) -> Option<(
 /// path.
 fn conformity_pct(session: &Path) -> Option<f64> {
     let assessment = read_json(session, ASSESSMENT)?;
-    let counts = assessment["completion"]["complete"].as_bool() == Some(true) && lesson_of(session).is_none();
+    let counts = assessment["completion"]["complete"].as_bool() == Some(true) && LessonSession::read(session).is_none();
     assessment["scores"]["conformity"]["pct"].as_f64().filter(|_| counts)
 }
 
@@ -167,16 +168,18 @@ impl KnownSessions {
     fn summary(self, name: String) -> TraineeSummary {
         let latest = self.latest.map(|(_, folder)| folder);
         let advice = latest.as_deref().and_then(report::saved_advice);
-        let open_lesson = latest.as_deref().and_then(open_lesson);
+        let lesson = latest.as_deref().and_then(LessonSession::unfinished);
         TraineeSummary {
             name,
             sessions: self.sessions,
             practices: self.practices,
-            last: match &open_lesson {
-                Some(lesson) => Some(format!("{} of {} steps of the lesson.", lesson.done, lesson.steps)),
+            last: match &lesson {
+                Some(LessonSession { progress, .. }) => {
+                    Some(format!("{} of {} steps of the lesson.", progress.done, progress.steps))
+                }
                 None => advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
             },
-            next: match open_lesson {
+            next: match lesson {
                 Some(lesson) => job_named(&lesson.scenario),
                 None => advice.as_ref().and_then(next_job),
             },
@@ -184,30 +187,33 @@ impl KnownSessions {
     }
 }
 
-/// A lesson of which not all steps are done.
-struct OpenLesson {
+/// A session of an installed lesson.
+struct LessonSession {
     scenario: String,
-    done: u64,
-    steps: usize,
+    progress: LessonProgress,
 }
 
-/// Returns the name and the number of steps of a session's lesson, if the session is one of an installed lesson.
-fn lesson_of(session: &Path) -> Option<(String, usize)> {
-    let name = read_json(session, SESSION)?["scenario"].as_str()?.to_owned();
-    let steps = files::scenario(&name).ok()?.scenario.lesson.len();
-    (steps > 0).then_some((name, steps))
-}
+impl LessonSession {
+    /// Reads a session. `None` if it is not one of an installed lesson.
+    fn read(session: &Path) -> Option<Self> {
+        let scenario = read_json(session, SESSION)?["scenario"].as_str()?.to_owned();
+        let steps = files::scenario(&scenario).ok()?.scenario.lesson.len();
+        if steps == 0 {
+            return None;
+        }
+        let events = std::fs::read_to_string(session.join(EVENTS)).unwrap_or_default();
+        let steps_done = events.lines().filter_map(|line| {
+            let event: Value = serde_json::from_str(line).ok()?;
+            event["done"].as_u64().filter(|_| event["event"] == "lesson_step")
+        });
+        let done = steps_done.max().and_then(|done| usize::try_from(done).ok()).unwrap_or(0);
+        Some(Self { scenario, progress: LessonProgress { done, steps } })
+    }
 
-/// Returns the lesson of a session if not all of its steps were done.
-fn open_lesson(session: &Path) -> Option<OpenLesson> {
-    let (scenario, steps) = lesson_of(session)?;
-    let events = std::fs::read_to_string(session.join(EVENTS)).unwrap_or_default();
-    let steps_done = events.lines().filter_map(|line| {
-        let event: Value = serde_json::from_str(line).ok()?;
-        event["done"].as_u64().filter(|_| event["event"] == "lesson_step")
-    });
-    let done = steps_done.max().unwrap_or(0);
-    (done < steps as u64).then_some(OpenLesson { scenario, done, steps })
+    /// Reads a session of a lesson of which not all steps were done.
+    fn unfinished(session: &Path) -> Option<Self> {
+        Self::read(session).filter(|lesson| !lesson.progress.is_complete())
+    }
 }
 
 /// Returns a job with its title, if it is installed.
@@ -257,6 +263,8 @@ fn contents_summary(scenario: &Scenario) -> String {
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
     let assessment = read_json(session, ASSESSMENT).unwrap_or_default();
     let advice = report::saved_advice(session);
+    let lesson = LessonSession::read(session);
+    let is_lesson = lesson.is_some();
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
     let page = session.join(REPORT);
@@ -272,16 +280,18 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         complete,
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
-        next: match open_lesson(session) {
+        lesson: lesson.as_ref().map(|lesson| lesson.progress),
+        next: match lesson.filter(|lesson| !lesson.progress.is_complete()) {
             Some(lesson) => job_named(&lesson.scenario),
             None => advice.as_ref().and_then(next_job),
         },
         watched: false,
-        advice: advice.iter().flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
+        // The sentence after a lesson is about its scores, which the page does not show.
+        advice: advice.iter().filter(|_| !is_lesson).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
             Some(web) => format!("{web}/sessions/{id}/questions"),
-            None => format!("spandrel questionnaire {}", session.display()),
+            None => typed(&format!("spandrel questionnaire {}", session.display())).into_owned(),
         },
     }
 }
@@ -354,8 +364,11 @@ mod tests {
         let summary = trainee_summaries(sessions.path()).remove(0);
         assert_eq!(summary.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
         assert_eq!(summary.last.as_deref(), Some("2 of 11 steps of the lesson."));
+        let ended = flight_summary(&folder, None, None);
+        assert_eq!(ended.lesson, Some(LessonProgress { done: 2, steps: 11 }));
+        assert_eq!(ended.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
         std::fs::write(folder.join(EVENTS), step(11)).unwrap();
-        assert!(open_lesson(&folder).is_none());
+        assert!(LessonSession::unfinished(&folder).is_none());
     }
 
     #[test]

@@ -8,6 +8,7 @@ use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::school::SchoolRoom;
 use super::window::WindowProcess;
+use crate::cli::invocation::typed;
 use crate::cli::table::report_outcome;
 use crate::errors::AppError;
 use crate::io::addresses;
@@ -308,7 +309,7 @@ impl<'a> TrainRun<'a> {
     fn end(&mut self, choice: &FlightChoice, session: &Path, outcome: FlightOutcome) -> Result<(), AppError> {
         let told = report_outcome(session);
         if told.is_ok() {
-            println!("questions     spandrel questionnaire {}", session.display());
+            println!("questions     {}", typed(&format!("spandrel questionnaire {}", session.display())));
         }
         let result = match outcome {
             FlightOutcome::Lost(error) => Err(error),

@@ -194,12 +194,13 @@ impl WayTo {
         Self { distance_m, bearing_rad, up_m }
     }
 
-    /// Returns the way in words, such as "140 m, 30 deg left, 12 m up".
+    /// Returns the way in words, such as "140 m, 30 deg left, 12 m up" or "60 m, behind you".
     #[must_use]
     pub fn words(&self) -> String {
         let turn_deg = self.bearing_rad.to_degrees();
         let turn = match turn_deg.abs() {
             small if small < MIN_TURN_DEG => "ahead".to_owned(),
+            large if large > 180.0 - MIN_TURN_DEG => "behind you".to_owned(),
             large => format!("{large:.0} deg {}", if turn_deg < 0.0 { "left" } else { "right" }),
         };
         let height = match self.up_m.abs() {
@@ -268,5 +269,7 @@ mod tests {
         }
         let near = WayTo { distance_m: 8.0, bearing_rad: 0.05, up_m: 0.4 };
         assert_eq!(Guidance { step: GuidanceStep::FlyHome, way: Some(near), ..guidance() }.words(), "Fly home: 8 m, ahead");
+        let passed = WayTo { distance_m: 60.0, bearing_rad: -3.1, up_m: 0.0 };
+        assert_eq!(Guidance { way: Some(passed), ..guidance() }.words(), "Task 2: 60 m, behind you");
     }
 }

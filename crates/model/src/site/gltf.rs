@@ -4,46 +4,62 @@
 
 use super::Site;
 use crate::frames::{Enu, Vec3};
+use gltf::binary::{Glb, Header};
+use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, Type};
+use gltf::json::buffer::{Buffer, Stride, Target, View};
+use gltf::json::material::{Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf::json::mesh::{Mesh, Mode, Primitive, Semantic};
+use gltf::json::scene::{Node, Scene};
+use gltf::json::validation::Checked::Valid;
+use gltf::json::{Asset, Index, Root};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 
-const POSITIONS: usize = 0;
-const INDICES: usize = 1;
-const FLOAT: u32 = 5126;
-const UNSIGNED_INT: u32 = 5125;
-const ARRAY_BUFFER: u32 = 34962;
-const ELEMENT_ARRAY_BUFFER: u32 = 34963;
-
-/// Material names and colors (red, green, blue).
-const MATERIALS: [(&str, f64, f64, f64); 4] =
+/// Material names and colors (red, green, blue), in the order of [`Surface`].
+const MATERIALS: [(&str, f32, f32, f32); 4] =
     [("structure", 0.62, 0.60, 0.57), ("ground", 0.33, 0.40, 0.25), ("water", 0.16, 0.30, 0.38), ("pad", 0.85, 0.55, 0.10)];
 
-/// Buffers of a binary glTF file under construction.
+/// Materials by their position in the file.
+#[derive(Clone, Copy)]
+enum Surface {
+    Structure = 0,
+    Ground = 1,
+    Water = 2,
+    Pad = 3,
+}
+
+/// Size of a vertex in the buffer: three 32-bit floats.
+const VERTEX_BYTES: usize = 12;
+
+/// A binary glTF file under construction. All positions are in the first view of its only buffer, all indices in the second.
 #[derive(Default)]
 struct GlbWriter {
     positions: Vec<u8>,
     indices: Vec<u8>,
-    accessors: Vec<Value>,
-    meshes: Vec<Value>,
-    nodes: Vec<Value>,
+    root: Root,
 }
 
 /// Returns the entire site as a binary glTF file.
-#[must_use]
-pub fn glb(site: &Site) -> Vec<u8> {
+///
+/// # Errors
+///
+/// The file would be longer than 4 GiB, the limit of the format.
+pub fn glb(site: &Site) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = GlbWriter::default();
     for member in site.members() {
-        parts.add(&member.name, &member.solid.vertices_m, &member.solid.triangles(), 0, &json!({ "element": member.element }));
+        let (corners, triangles) = (&member.solid.vertices_m, member.solid.triangles());
+        parts.add(&member.name, corners, &triangles, Surface::Structure, &json!({ "element": member.element }));
     }
     let geometry = site.geometry();
     let (corners, triangles) = geometry.terrain.ground.triangles();
-    parts.add("ground", &corners, &triangles, 1, &json!({ "surface": "terrain" }));
+    parts.add("ground", &corners, &triangles, Surface::Ground, &json!({ "surface": "terrain" }));
     if let (Some(first), Some(last)) = (corners.first(), corners.last()) {
         let up = geometry.terrain.water_m;
         let water = square([first.east(), first.north()], [last.east(), last.north()], up);
-        parts.add("water", &water, &SQUARE_TRIANGLES, 2, &json!({ "surface": "water" }));
+        parts.add("water", &water, &SQUARE_TRIANGLES, Surface::Water, &json!({ "surface": "water" }));
     }
     let pad = &geometry.pad().solid;
-    parts.add("pad", &pad.vertices_m, &pad.triangles(), 3, &json!({ "surface": "pad" }));
+    parts.add("pad", &pad.vertices_m, &pad.triangles(), Surface::Pad, &json!({ "surface": "pad" }));
     parts.finish()
 }
 
@@ -60,69 +76,117 @@ fn to_gltf_axes(point: &Vec3<Enu>) -> [f32; 3] {
 }
 
 impl GlbWriter {
-    fn add(&mut self, name: &str, corners: &[Vec3<Enu>], triangles: &[[u32; 3]], material: usize, extras: &Value) {
+    fn add(&mut self, name: &str, corners: &[Vec3<Enu>], triangles: &[[u32; 3]], surface: Surface, extras: &Value) {
         let points: Vec<[f32; 3]> = corners.iter().map(to_gltf_axes).collect();
-        let bound = |start: f32, pick: fn(f32, f32) -> f32| {
-            points.iter().fold([start; 3], |so_far, p| [pick(so_far[0], p[0]), pick(so_far[1], p[1]), pick(so_far[2], p[2])])
-        };
-        let accessor = self.accessors.len();
-        self.accessors.push(json!({
-            "bufferView": POSITIONS, "byteOffset": self.positions.len(), "componentType": FLOAT, "count": points.len(),
-            "type": "VEC3", "min": bound(f32::INFINITY, f32::min), "max": bound(f32::NEG_INFINITY, f32::max)
-        }));
-        self.accessors.push(json!({
-            "bufferView": INDICES, "byteOffset": self.indices.len(), "componentType": UNSIGNED_INT, "count": 3 * triangles.len(),
-            "type": "SCALAR"
-        }));
+        let positions = self.root.push(position_accessor(self.positions.len(), &points));
+        let indices = self.root.push(index_accessor(self.indices.len(), 3 * triangles.len()));
         self.positions.extend(points.iter().flatten().flat_map(|value| value.to_le_bytes()));
         self.indices.extend(triangles.iter().flatten().flat_map(|index| index.to_le_bytes()));
-        let primitive = json!({ "attributes": { "POSITION": accessor }, "indices": accessor + 1, "material": material });
-        self.nodes.push(json!({ "name": name, "mesh": self.meshes.len(), "extras": extras }));
-        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
+        let primitive = Primitive {
+            attributes: [(Valid(Semantic::Positions), positions)].into(),
+            extensions: None,
+            extras: None,
+            indices: Some(indices),
+            material: Some(Index::new(surface as u32)),
+            mode: Valid(Mode::Triangles),
+            targets: None,
+        };
+        let mesh = self.root.push(Mesh {
+            extensions: None,
+            extras: None,
+            name: Some(name.to_owned()),
+            primitives: vec![primitive],
+            weights: None,
+        });
+        self.root.push(Node {
+            extras: serde_json::value::to_raw_value(extras).ok(),
+            mesh: Some(mesh),
+            name: Some(name.to_owned()),
+            ..Node::default()
+        });
     }
 
-    fn finish(self) -> Vec<u8> {
-        let material = |(name, r, g, b): &(&str, f64, f64, f64)| {
-            json!({ "name": name, "pbrMetallicRoughness":
-                { "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9 } })
-        };
+    fn finish(mut self) -> Result<Vec<u8>, gltf::Error> {
         let (positions, indices) = (self.positions.len(), self.indices.len());
-        let document = json!({
-            "asset": { "version": "2.0", "generator": concat!("spandrel ", env!("CARGO_PKG_VERSION")) },
-            "scene": 0,
-            "scenes": [{ "name": "site", "nodes": (0..self.nodes.len()).collect::<Vec<_>>() }],
-            "nodes": self.nodes,
-            "meshes": self.meshes,
-            "materials": MATERIALS.iter().map(material).collect::<Vec<_>>(),
-            "accessors": self.accessors,
-            "bufferViews": [
-                { "buffer": 0, "byteOffset": 0, "byteLength": positions, "byteStride": 12, "target": ARRAY_BUFFER },
-                { "buffer": 0, "byteOffset": positions, "byteLength": indices, "target": ELEMENT_ARRAY_BUFFER }
-            ],
-            "buffers": [{ "byteLength": positions + indices }]
+        self.root.asset =
+            Asset { generator: Some(concat!("spandrel ", env!("CARGO_PKG_VERSION")).to_owned()), ..Asset::default() };
+        let nodes = (0..self.root.nodes.len() as u32).map(Index::new).collect();
+        let scene = Scene { extensions: None, extras: None, name: Some("site".to_owned()), nodes };
+        self.root.scene = Some(self.root.push(scene));
+        self.root.materials = MATERIALS.iter().map(material).collect();
+        let buffer = self.root.push(Buffer {
+            byte_length: (positions + indices).into(),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: None,
         });
+        let view = |target, offset: usize, length: usize, stride| View {
+            buffer,
+            byte_length: length.into(),
+            byte_offset: Some(offset.into()),
+            byte_stride: stride,
+            name: None,
+            target: Some(Valid(target)),
+            extensions: None,
+            extras: None,
+        };
+        self.root.buffer_views = vec![
+            view(Target::ArrayBuffer, 0, positions, Some(Stride(VERTEX_BYTES))),
+            view(Target::ElementArrayBuffer, positions, indices, None),
+        ];
+        let json = self.root.to_vec().map_err(gltf::Error::Deserialize)?;
         let binary = [self.positions, self.indices].concat();
-        glb_container(document.to_string().into_bytes(), binary)
+        // The writer computes the length.
+        let header = Header { magic: *b"glTF", version: 2, length: 0 };
+        Glb { header, json: Cow::Owned(json), bin: Some(Cow::Owned(binary)) }.to_vec()
     }
 }
 
-/// Builds the GLB container: header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0 specification,
-/// section 4.4).
-fn glb_container(mut json: Vec<u8>, mut binary: Vec<u8>) -> Vec<u8> {
-    json.resize(json.len().next_multiple_of(4), b' ');
-    binary.resize(binary.len().next_multiple_of(4), 0);
-    let length = |bytes: usize| u32::try_from(bytes).unwrap_or(u32::MAX).to_le_bytes();
-    let total = 12 + 8 + json.len() + 8 + binary.len();
-    let mut file = Vec::with_capacity(total);
-    file.extend(b"glTF");
-    file.extend(2u32.to_le_bytes());
-    file.extend(length(total));
-    for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &binary)] {
-        file.extend(length(chunk.len()));
-        file.extend(kind);
-        file.extend(chunk);
+fn position_accessor(offset: usize, points: &[[f32; 3]]) -> Accessor {
+    let bound = |start: f32, pick: fn(f32, f32) -> f32| {
+        json!(points.iter().fold([start; 3], |so_far, p| [pick(so_far[0], p[0]), pick(so_far[1], p[1]), pick(so_far[2], p[2])]))
+    };
+    Accessor {
+        min: Some(bound(f32::INFINITY, f32::min)),
+        max: Some(bound(f32::NEG_INFINITY, f32::max)),
+        ..accessor((0, offset), points.len(), ComponentType::F32, Type::Vec3)
     }
-    file
+}
+
+fn index_accessor(offset: usize, count: usize) -> Accessor {
+    accessor((1, offset), count, ComponentType::U32, Type::Scalar)
+}
+
+/// Returns an accessor of `count` elements that start at a view and an offset in it.
+fn accessor((view, offset): (u32, usize), count: usize, component: ComponentType, elements: Type) -> Accessor {
+    Accessor {
+        buffer_view: Some(Index::new(view)),
+        byte_offset: Some(offset.into()),
+        count: count.into(),
+        component_type: Valid(GenericComponentType(component)),
+        extensions: None,
+        extras: None,
+        type_: Valid(elements),
+        min: None,
+        max: None,
+        name: None,
+        normalized: false,
+        sparse: None,
+    }
+}
+
+fn material((name, r, g, b): &(&str, f32, f32, f32)) -> Material {
+    Material {
+        name: Some((*name).to_owned()),
+        pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor([*r, *g, *b, 1.0]),
+            metallic_factor: StrengthFactor(0.0),
+            roughness_factor: StrengthFactor(0.9),
+            ..PbrMetallicRoughness::default()
+        },
+        ..Material::default()
+    }
 }
 
 #[cfg(test)]
@@ -140,7 +204,7 @@ mod tests {
         // 32-bit floats represent positions within 1 km with an accuracy of 6e-5 m.
         const ROUNDING_TOLERANCE_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);
-        let (document, buffers, _) = gltf::import_slice(glb(&site)).unwrap();
+        let (document, buffers, _) = gltf::import_slice(glb(&site).unwrap()).unwrap();
         let nodes: Vec<_> = document.nodes().collect();
         assert_eq!(nodes.len(), site.members().len() + 3);
         for (node, member) in nodes.iter().zip(site.members()) {

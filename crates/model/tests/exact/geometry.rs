@@ -30,7 +30,7 @@ fn site() -> Site {
 
 /// Parses the exported file with the gltf crate and converts it back to east, north, up.
 fn exported_nodes(site: &Site) -> BTreeMap<String, Node> {
-    let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site)).unwrap();
+    let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site).unwrap()).unwrap();
     let back = |p: [f32; 3]| Vec3::new(f64::from(p[0]), -f64::from(p[2]), f64::from(p[1]));
     let node = |node: ::gltf::Node| {
         let primitive = node.mesh().unwrap().primitives().next().unwrap();

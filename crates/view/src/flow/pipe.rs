@@ -169,6 +169,23 @@ pub struct FinalScore {
     pub pct: f64,
 }
 
+/// Steps of a lesson.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LessonProgress {
+    /// Number of steps that were done.
+    pub done: usize,
+    /// Number of all steps.
+    pub steps: usize,
+}
+
+impl LessonProgress {
+    /// Returns true if all steps were done.
+    #[must_use]
+    pub fn is_complete(self) -> bool {
+        self.done >= self.steps
+    }
+}
+
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
@@ -193,6 +210,9 @@ pub struct FlightSummary {
     /// Whether the trainee only watched the synthetic expert.
     #[serde(default)]
     pub watched: bool,
+    /// Steps of the lesson, if the session was one. The scores of a lesson don't matter.
+    #[serde(default)]
+    pub lesson: Option<LessonProgress>,
     /// Address of the report, if one was written.
     pub report: Option<String>,
     /// Address of the questionnaire if a server is running, otherwise the command that starts it.
@@ -359,6 +379,7 @@ mod tests {
             advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
             next: Some(next),
             watched: false,
+            lesson: None,
             report: Some("file:///a%20b".into()),
             questionnaire: "spandrel questionnaire x".into(),
         };

@@ -1,7 +1,7 @@
 //! Result page: what to do better, the four scores, links to the report and questionnaire, and the next steps.
 
 use super::menu::{self, MenuAction, MenuRow};
-use super::pipe::{FlightSummary, SCORE_NAMES};
+use super::pipe::{FlightSummary, LessonProgress, SCORE_NAMES};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE};
 use crate::hud::{HudColor, TextAlign};
 
@@ -44,7 +44,7 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     let half = if pen.is_narrow() { whole } else { 0.52 * pen.width };
     let top = headline(pen, ended);
     let top = to_do_better(pen, &ended.advice, top) + 0.03;
-    let bottom = scores(pen, (LEFT, top), half, ended);
+    let bottom = if ended.lesson.is_some() { top } else { scores(pen, (LEFT, top), half, ended) };
     let bottom = locations(pen, bottom + 0.02, half, ended);
     if pen.is_narrow() {
         menu::draw(pen, (LEFT, bottom + 0.02), whole, rows, focus);
@@ -55,6 +55,11 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
 
 /// Draws how much of the job was done and why the flight ended, and returns the y position below.
 fn headline(pen: &mut PageWriter, ended: &FlightSummary) -> f64 {
+    if let Some(lesson) = ended.lesson {
+        let title = if lesson.is_complete() { "Lesson done".to_owned() } else { lesson_title(lesson) };
+        pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, &title);
+        return pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &ended.why);
+    }
     let (title, note) = match &ended.completion {
         Some(words) if !ended.complete => (words.as_str(), format!("{}. The scores cover the part you flew.", ended.why)),
         _ => ("Flight ended", ended.why.clone()),
@@ -62,6 +67,10 @@ fn headline(pen: &mut PageWriter, ended: &FlightSummary) -> f64 {
     // The headline's length depends on the job.
     pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, title);
     pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &note)
+}
+
+fn lesson_title(lesson: LessonProgress) -> String {
+    format!("{} of {} steps of the lesson done", lesson.done, lesson.steps)
 }
 
 /// Draws the sentences on what to do better, and returns the y position below.

@@ -2,7 +2,7 @@
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing,
-    JobOffer, NextJob, Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
+    JobOffer, LessonProgress, NextJob, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
 use super::sheet::{PageLayout, PictureSource};
 use super::{
@@ -69,6 +69,7 @@ fn ended() -> FlightSummary {
         .to_vec(),
         next: None,
         watched: false,
+        lesson: None,
         report: Some("file:///sessions/a/report.html".into()),
         questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),
     }
@@ -840,4 +841,16 @@ fn exact_ghost_is_for_practice_only() {
     assert_eq!(flow.ghost(), None);
     flow.explain_missing_ghost();
     assert_eq!(flow.take_notice().as_deref(), Some("No ghost in an assessment."));
+}
+
+#[test]
+fn exact_result_of_a_lesson_shows_its_steps_and_no_scores() {
+    for (done, title) in [(7, "7 of 11 steps of the lesson done"), (11, "Lesson done")] {
+        let mut flow = in_flight(Purpose::Practice);
+        let lesson = Some(LessonProgress { done, steps: 11 });
+        flow.handle_message(ToWindow::Ended(FlightSummary { lesson, advice: Vec::new(), ..ended() }));
+        let shown = words(&flow);
+        assert!(shown.contains(title), "{shown}");
+        assert!(SCORE_NAMES.iter().all(|name| !shown.contains(name)) && !shown.contains("overall"), "{shown}");
+    }
 }

@@ -1,5 +1,8 @@
 //! XMP metadata: gimbal and aircraft attitude under the names that photogrammetry software expects from drones (DJI's
 //! names, which Metashape, Pix4D, and OpenDroneMap use), and simulator-specific values in the `spandrel` namespace.
+//!
+//! The values are attributes of one `rdf:Description`, as DJI writes them. OpenDroneMap finds them only there. The
+//! `xmp-writer` crate writes every value as an element, and Adobe's toolkit requires a C++ compiler.
 
 use super::info::PhotoInfo;
 use std::fmt::Write;
