@@ -143,8 +143,8 @@ impl WallPacer {
     }
 }
 
-/// Time without a TIMESYNC response after which a peer that sends data is served in real time. MAVSDK sends data about 3 s
-/// before its first response (measured). Shorter than [`LOCKSTEP_PEER_TIMEOUT`].
+/// Time without a TIMESYNC response after which a peer that sends data is served in real time. MAVSDK responds after one of
+/// its own time requests was answered, and sends these only every 5 s. Shorter than [`LOCKSTEP_PEER_TIMEOUT`].
 const FIRST_RESPONSE_TIMEOUT: Duration = Duration::from_secs(7);
 
 /// Pauses the simulation until a peer's first response. No simulation time passes until then, so a peer that responds

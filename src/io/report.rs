@@ -7,7 +7,7 @@ use super::session_folder::StoredSession;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::export::json_text;
-use spandrel_monitor::folder::{ADVICE, REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, sha256_hex};
+use spandrel_monitor::folder::{ADVICE, REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, VIDEO, sha256_hex};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::cohort::MeasureReliability;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
@@ -40,7 +40,9 @@ pub fn saved_advice(session: &Path) -> Option<SessionAdvice> {
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
-    let review = review(session)?;
+    let mut review = review(session)?;
+    // The package contains no video.
+    review.metadata.video = None;
     Ok(scorm::files(&review, &page::session(&review)))
 }
 
@@ -130,6 +132,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
         telemetry_sha256: stored.log.sha256()?,
         pictures: Vec::new(),
         marks: valid_marks(session),
+        video: Some(VIDEO).filter(|video| session.join(video).is_file()),
     })
 }
 
@@ -159,6 +162,16 @@ fn photographs(folder: &Path) -> Vec<(u32, Jpeg)> {
         );
     }
     found
+}
+
+/// Returns the numbers of a session's photographs.
+pub fn photograph_numbers(folder: &Path) -> Vec<u32> {
+    numbered_photographs(folder).into_iter().map(|(number, _)| number).collect()
+}
+
+/// Returns the path of a photograph or its small copy.
+pub fn photograph_path(folder: &Path, number: u32) -> Option<PathBuf> {
+    numbered_photographs(folder).into_iter().find(|(one, _)| *one == number).map(|(_, path)| path)
 }
 
 /// Returns the photographs or their copies, keyed by the number at the end of their names.

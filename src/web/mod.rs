@@ -28,6 +28,7 @@ mod scenario_library;
 mod scenarios;
 mod server;
 mod session_importer;
+mod session_media;
 mod sessions;
 mod settings;
 mod spool;

@@ -37,6 +37,8 @@ pub struct WebRequest {
     pub upload: Option<UploadedFile>,
     /// The browser's preferred languages (Accept-Language).
     pub languages: String,
+    /// The requested part of a file (Range).
+    pub range: Option<String>,
     /// True for requests from the pages' scripts, which expect JSON.
     pub expects_json: bool,
 }

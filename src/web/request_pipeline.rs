@@ -115,9 +115,10 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
         let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
         let device = state.auth.browser_cookie_from(&headers);
         let expects_json = accepts_json(&headers);
-        let languages = headers.get(header::ACCEPT_LANGUAGE).and_then(|value| value.to_str().ok()).unwrap_or_default().to_owned();
-        let web_request =
-            WebRequest { visitor, cookie, from, device, path, query, form: Vec::new(), upload: None, languages, expects_json };
+        let text = |name| headers.get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
+        let (languages, range) = (text(header::ACCEPT_LANGUAGE).unwrap_or_default(), text(header::RANGE));
+        let (form, upload) = (Vec::new(), None);
+        let web_request = WebRequest { visitor, cookie, from, device, path, query, form, upload, languages, range, expects_json };
         Ok(RequestHead { request: web_request, identity: recognized })
     })
     .await

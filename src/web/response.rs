@@ -6,7 +6,7 @@ use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
 use maud::Markup;
 
 /// Content security policy for the pages: only the server's own files, no inline code and no requests to other sites.
-const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; connect-src 'self'; \
+const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; media-src 'self'; connect-src 'self'; \
     form-action 'self'; base-uri 'none'; frame-ancestors 'none'";
 
 /// A handler's HTTP response.
@@ -19,6 +19,7 @@ pub struct WebResponse {
     download: Option<String>,
     cacheable: bool,
     retry_after_s: Option<u64>,
+    content_range: Option<String>,
     /// Complete values of Set-Cookie headers.
     pub cookies: Vec<String>,
     body: Vec<u8>,
@@ -59,6 +60,7 @@ impl WebResponse {
             download: None,
             cacheable: false,
             retry_after_s: None,
+            content_range: None,
             cookies: Vec::new(),
             body,
         }
@@ -89,6 +91,24 @@ impl WebResponse {
     /// Responds with an image that is not cached.
     pub fn picture(jpeg: Vec<u8>) -> Self {
         Self::new("image/jpeg", jpeg)
+    }
+
+    /// Responds with a part of a file of `len` bytes that starts at `from`.
+    pub fn partial(kind: &'static str, bytes: Vec<u8>, from: u64, len: u64) -> Self {
+        let last = (from + bytes.len() as u64).saturating_sub(1);
+        let part = Self { content_range: Some(format!("bytes {from}-{last}/{len}")), ..Self::new(kind, bytes) };
+        part.with_status(StatusCode::PARTIAL_CONTENT)
+    }
+
+    /// Responds that the requested part is outside the file of `len` bytes.
+    pub fn range_not_satisfiable(len: u64) -> Self {
+        let none = Self { content_range: Some(format!("bytes */{len}")), ..Self::new("text/plain; charset=utf-8", Vec::new()) };
+        none.with_status(StatusCode::RANGE_NOT_SATISFIABLE)
+    }
+
+    /// Responds with text that a page's element loads, such as the chapters of a video.
+    pub fn track(text: Vec<u8>) -> Self {
+        Self::new("text/vtt; charset=utf-8", text)
     }
 
     /// Responds with a map tile.
@@ -137,6 +157,10 @@ impl WebResponse {
         }
         if let Some(name) = &self.download {
             set(header::CONTENT_DISPOSITION, &format!("attachment; filename=\"{name}\""));
+        }
+        if let Some(range) = &self.content_range {
+            set(header::ACCEPT_RANGES, "bytes");
+            set(header::CONTENT_RANGE, range);
         }
         if let Some(seconds) = self.retry_after_s {
             set(header::RETRY_AFTER, &seconds.to_string());

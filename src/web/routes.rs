@@ -4,8 +4,8 @@ use super::request::WebRequest;
 use super::response::HandlerResult;
 use super::state::ServerState;
 use super::{
-    assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenarios, sessions, settings, trainees,
-    uploads,
+    assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenarios, session_media, sessions,
+    settings, trainees, uploads,
 };
 use spandrel_training::web::access::AccessLevel;
 
@@ -89,6 +89,9 @@ pub const ROUTES: &[Route] = &[
     show("/sessions/{id}/report", AccessLevel::Login, sessions::report),
     show("/sessions/{id}/frames.csv", AccessLevel::Login, sessions::frames),
     show("/sessions/{id}/telemetry.tlog", AccessLevel::Login, sessions::telemetry),
+    show("/sessions/{id}/video.mp4", AccessLevel::Login, session_media::video),
+    show("/sessions/{id}/video.vtt", AccessLevel::Login, session_media::chapters),
+    show("/sessions/{id}/pictures/{name}", AccessLevel::Login, session_media::photograph),
     show("/sessions/{id}/questions", AccessLevel::Login, questions::page),
     change("/sessions/{id}/questions", AccessLevel::Login, questions::save),
     change("/sessions/{id}/marks", AccessLevel::Instructor, marks::add),

@@ -2,6 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::session_media::media;
 use super::state::ServerState;
 use crate::io::marks::valid_marks;
 use crate::io::report;
@@ -70,8 +71,16 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let advice = folder.as_deref().and_then(report::saved_advice);
     let standing = standing(&record, &state.database.records(Some(&record.trainee))?);
     let marks = folder.as_deref().map(valid_marks).unwrap_or_default();
-    let about =
-        pages::SessionPageData { folder: folder.is_some(), others: &others, advice: advice.as_ref(), standing, marks: &marks };
+    let (pictures, video) = folder.as_deref().map(media).unwrap_or_default();
+    let about = pages::SessionPageData {
+        folder: folder.is_some(),
+        others: &others,
+        advice: advice.as_ref(),
+        standing,
+        marks: &marks,
+        pictures: &pictures,
+        video,
+    };
     Ok(WebResponse::page(pages::session(&request.visitor, &record, &about)))
 }
 

@@ -26,6 +26,8 @@ pub const REPORT: &str = "report.html";
 pub const SNAPSHOTS: &str = "snapshots";
 /// Subfolder with downsized copies of the pictures for the report. The file names are the same.
 pub const SMALL_SNAPSHOTS: &str = "small";
+/// Video of the camera's view (MP4), from lift-off.
+pub const VIDEO: &str = "video.mp4";
 
 /// Contents of `session.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -321,6 +321,10 @@ impl Sim {
             self.pending_responses.remove(&link);
             self.controller.links_mut().join_lockstep(link);
         }
+        if self.awaits_response_of(link) {
+            let clock = self.interface().aircraft.clock;
+            self.controller.links_mut().answer_time_requests(link, &mut datagram, clock);
+        }
         self.inbox.push(link, datagram);
     }
 
@@ -338,6 +342,12 @@ impl Sim {
             (step == LockstepState::Awaited && self.pending_responses.contains_key(&link)).then_some(has_received)
         };
         self.controller.links().lockstep_states().filter_map(has_received).reduce(|a, b| a && b)
+    }
+
+    /// Returns true while the simulation waits for the first response of this peer.
+    fn awaits_response_of(&self, link: LinkId) -> bool {
+        self.pending_responses.contains_key(&link)
+            && self.controller.links().lockstep_states().any(|(id, step, _)| id == link && step == LockstepState::Awaited)
     }
 
     /// Sends heartbeats and another lockstep request to peers that have never responded. Does not change the vehicle.

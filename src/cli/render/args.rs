@@ -19,6 +19,7 @@ Examples:
   spandrel render sessions/20260801T... --at 95 --view camera --size 4000x3000 --quality high --no-hud
   spandrel render sessions/20260801T... --snapshots
   spandrel render sessions/20260801T... --snapshots --masks
+  spandrel render sessions/20260801T... --video
   spandrel render sessions/20260801T... --video flight.mp4 --span 60,90 --size 960x540
   spandrel render two-bridges --from=-150,-60,12 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
   spandrel render two-bridges --from 20,-1,28 --look 0,0,31 --lamp --seed 7
@@ -56,9 +57,14 @@ pub struct Args {
     /// "small" folder, and rewrite the report
     #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
     pub snapshots: bool,
-    /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["at", "out", "view"])]
-    pub video: Option<PathBuf>,
+    /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it. Without FILE, the video goes to
+    /// the session folder, begins at lift-off, and appears in the report
+    #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["at", "out", "view"])]
+    #[expect(clippy::option_option, reason = "clap's type for an option with an optional value")]
+    pub video: Option<Option<PathBuf>>,
+    /// Render the video only with a graphics card; without one, do nothing
+    #[arg(long, requires = "video")]
+    pub only_with_gpu: bool,
     /// Video frame rate in frames per second (1 to 60)
     #[arg(long, value_name = "HZ", default_value_t = 15.0, requires = "video")]
     pub fps: f64,

@@ -27,8 +27,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     if args.snapshots {
         return snapshots::run(args);
     }
-    if let Some(path) = &args.video {
-        return video::run(args, path);
+    if let Some(file) = &args.video {
+        return video::run(args, file.as_deref());
     }
     let quality = parse_quality(&args.quality)?;
     let size = parse_size(args.size.as_deref().unwrap_or("1280x720"))?;

@@ -16,6 +16,7 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 use spandrel_monitor::assessment::flight_and_prior_runs;
 use spandrel_monitor::folder::{EVENTS, SIMULATOR_RESTARTED};
 use spandrel_monitor::measures::attention;
+use spandrel_monitor::session::Session;
 use spandrel_view::feed::Feed;
 use spandrel_view::live::MotionHistory;
 use spandrel_view::scene::DronePose;
@@ -93,6 +94,14 @@ impl RecordedFlight {
     pub fn span(&self) -> (SimTime, SimTime) {
         let time = |truth: Option<&spandrel_mavlink::contract::truth::Truth>| truth.map_or(SimTime::ZERO, |truth| truth.time);
         (time(self.flight.truths.first()), time(self.flight.truths.last()))
+    }
+
+    /// Returns the start and end times of the scored part of the flight, which begins at lift-off.
+    /// The whole flight if there is none.
+    pub fn scored_span(&self) -> (SimTime, SimTime) {
+        let session = Session::from_flight(&self.flight, self.scenario(), self.vehicle());
+        let ends = session.as_ref().and_then(|session| session.frames.first().zip(session.frames.last()));
+        ends.map_or_else(|| self.span(), |(first, last)| (first.time, last.time))
     }
 
     /// Returns the seed for defects and traffic.

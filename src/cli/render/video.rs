@@ -9,9 +9,11 @@ use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
 use spandrel_model::time::SimTime;
+use spandrel_monitor::folder::VIDEO;
 use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::exposure::ExposureMeter;
+use spandrel_view::gpu::Gpu;
 use spandrel_view::hud;
 use spandrel_view::stage;
 use spandrel_view::video::{H264Encoder, Mp4Chunk, Mp4Writer, webvtt};
@@ -26,8 +28,32 @@ const KEY_FRAME_INTERVAL_S: f64 = 2.0;
 /// Maximum duration of a photograph's chapter, s; a chapter ends where the next one starts.
 const MAX_CHAPTER_DURATION_S: f64 = 4.0;
 
-/// Renders the video to `path`, and writes its chapters next to it.
-pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
+/// Renders the video to a file, or to the session folder, and writes its chapters next to it.
+pub fn run(args: &Args, file: Option<&Path>) -> Result<(), AppError> {
+    if args.only_with_gpu && Gpu::open()?.software {
+        tracing::info!("no graphics card: the video is not rendered");
+        return Ok(());
+    }
+    match file {
+        Some(path) => render(args, path),
+        None => render_for_report(args),
+    }
+}
+
+/// Renders the video to the session folder, and rewrites the report, which shows it.
+fn render_for_report(args: &Args) -> Result<(), AppError> {
+    let session = Path::new(&args.what);
+    if args.span.is_some() {
+        return Err(AppError::invalid(
+            "--span: the video in the session folder always shows the entire flight; specify a file: --video FILE",
+        ));
+    }
+    render(args, &session.join(VIDEO))?;
+    report::write(session)?;
+    Ok(())
+}
+
+fn render(args: &Args, path: &Path) -> Result<(), AppError> {
     let preset = parse_quality(&args.quality)?;
     let within_px = parse_size(args.size.as_deref().unwrap_or("1280x720"))?;
     if !(1.0..=60.0).contains(&args.fps) {
@@ -41,7 +67,11 @@ pub fn run(args: &Args, path: &Path) -> Result<(), AppError> {
         )));
     }
     let recorded = RecordedFlight::read(Path::new(&args.what))?;
-    let (from, to) = span(args, &recorded)?;
+    let (from, to) = match &args.video {
+        // The report's times count from lift-off.
+        Some(None) => recorded.scored_span(),
+        _ => span(args, &recorded)?,
+    };
     let size_px = largest_even_size_px(within_px, recorded.vehicle().camera.aspect());
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
     let drawing = drawing.with_closures(recorded.closure_times());

@@ -79,6 +79,9 @@ pub struct Args {
     /// Quit when the session is scored instead of keeping the vehicle connected
     #[arg(long, conflicts_with = "choose")]
     pub once: bool,
+    /// Render a video of the camera's view after each flight, for the report: on, off, or auto (only with a graphics card)
+    #[arg(long, value_name = "MODE", default_value = "auto", conflicts_with = "no_view")]
+    pub video: VideoMode,
     /// Disable sound in the window
     #[arg(long)]
     pub no_sound: bool,
@@ -100,6 +103,17 @@ pub struct Args {
     pub stream: Option<SocketAddr>,
     #[command(flatten)]
     pub ports: PortArgs,
+}
+
+/// When to render a video after a flight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum VideoMode {
+    /// After every flight. In software, this takes minutes of all cores at low priority.
+    On,
+    /// Never.
+    Off,
+    /// Only with a graphics card.
+    Auto,
 }
 
 impl Args {

@@ -6,7 +6,7 @@ mod connection_info;
 mod expert_ghost;
 mod flight_processes;
 mod offers;
-mod photographs;
+mod picture_jobs;
 mod prompt;
 mod questionnaire_state;
 mod school;

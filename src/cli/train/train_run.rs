@@ -3,7 +3,7 @@
 use super::args::{Args, camera_file};
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
-use super::photographs::PhotographJobs;
+use super::picture_jobs::PictureJobs;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::school::SchoolRoom;
@@ -42,7 +42,7 @@ pub struct TrainRun<'a> {
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
-    photographs: PhotographJobs,
+    pictures: PictureJobs,
     /// Processes of the last flight. Its vehicle stays connected until the next flight or the end of the run, so ground
     /// stations can download its logs.
     vehicle: Option<FlightProcesses>,
@@ -70,7 +70,7 @@ impl<'a> TrainRun<'a> {
             closed: false,
             web: None,
             web_announced: false,
-            photographs: PhotographJobs::default(),
+            pictures: PictureJobs::default(),
             vehicle: None,
             prompt: TerminalPrompt::default(),
             school: SchoolRoom::new(&args.sessions),
@@ -124,7 +124,7 @@ impl<'a> TrainRun<'a> {
         if let (Some(session), false, true) = (&last, seen || self.prompt.has_quit, result.is_ok()) {
             self.keep_serving(session);
         }
-        self.photographs.finish(&self.stop);
+        self.pictures.finish(&self.stop);
         result
     }
 
@@ -319,7 +319,8 @@ impl<'a> TrainRun<'a> {
         // If the window has crashed, rendering does not work; after a stop request, the user should not have to wait
         // for photographs.
         if (open || self.closed) && result.is_ok() && !self.stop.is_requested() {
-            self.photographs.draw(session);
+            self.pictures.draw_photographs(session);
+            self.pictures.draw_video(session, self.args.video);
         }
         if open {
             self.offer(choice);

@@ -204,15 +204,15 @@ mod tests {
         // 32-bit floats represent positions within 1 km with an accuracy of 6e-5 m.
         const ROUNDING_TOLERANCE_M: f64 = 6e-5;
         let site = Site::build(&two_bridges(), 1);
-        let (document, buffers, _) = gltf::import_slice(glb(&site).unwrap()).unwrap();
-        let nodes: Vec<_> = document.nodes().collect();
+        let file = gltf::Gltf::from_slice(&glb(&site).unwrap()).unwrap();
+        let nodes: Vec<_> = file.nodes().collect();
         assert_eq!(nodes.len(), site.members().len() + 3);
         for (node, member) in nodes.iter().zip(site.members()) {
             assert_eq!(node.name(), Some(member.name.as_str()));
             let extras: Value = serde_json::from_str(node.extras().as_ref().unwrap().get()).unwrap();
             assert_eq!(extras["element"], member.element.number());
             let primitive = node.mesh().unwrap().primitives().next().unwrap();
-            let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()].0));
+            let reader = primitive.reader(|_| file.blob.as_deref());
             let corners: Vec<[f32; 3]> = reader.read_positions().unwrap().collect();
             for (corner, vertex) in corners.iter().zip(&member.solid.vertices_m) {
                 let back = Vec3::<Enu>::new(f64::from(corner[0]), -f64::from(corner[2]), f64::from(corner[1]));

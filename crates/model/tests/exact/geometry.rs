@@ -30,11 +30,11 @@ fn site() -> Site {
 
 /// Parses the exported file with the gltf crate and converts it back to east, north, up.
 fn exported_nodes(site: &Site) -> BTreeMap<String, Node> {
-    let (document, buffers, _) = ::gltf::import_slice(gltf::glb(site).unwrap()).unwrap();
+    let file = ::gltf::Gltf::from_slice(&gltf::glb(site).unwrap()).unwrap();
     let back = |p: [f32; 3]| Vec3::new(f64::from(p[0]), -f64::from(p[2]), f64::from(p[1]));
     let node = |node: ::gltf::Node| {
         let primitive = node.mesh().unwrap().primitives().next().unwrap();
-        let reader = primitive.reader(|buffer| Some(&buffers[buffer.index()].0));
+        let reader = primitive.reader(|_| file.blob.as_deref());
         let corners: Vec<Vec3<Enu>> = reader.read_positions().unwrap().map(back).collect();
         let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
         let triangles = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|k| corners[k as usize])).collect();
@@ -42,7 +42,7 @@ fn exported_nodes(site: &Site) -> BTreeMap<String, Node> {
         let element = extras["element"].as_u64().map(|e| e as u32);
         (node.name().unwrap().to_string(), Node { element, corners, triangles })
     };
-    document.nodes().map(node).collect()
+    file.nodes().map(node).collect()
 }
 
 /// Returns the unit normal of a triangle from the order of its corners.

@@ -302,6 +302,27 @@ fn regress_lockstep_starts_with_the_first_response() {
 }
 
 #[test]
+fn regress_time_requests_are_answered_while_waiting_for_the_first_response() {
+    let mut sim = Station::new("drill-hover", 7).vehicle.sim;
+    sim.open_link(PEER, LinkKind::Sdk, true);
+    sim.handle_timeout(SimTime::from_ms(1_000));
+    let answers = |sim: &mut spandrel_sitl::sim::Sim| {
+        let sent: Vec<_> = std::iter::from_fn(|| sim.poll_transmit()).filter(|t| t.link == PEER).collect();
+        let frames = sent.iter().flat_map(|t| Decoder::new().datagram(&t.bytes));
+        let answer =
+            |message| if let MavMessage::TIMESYNC(t) = message { Some((t.ts1, t.tc1)).filter(|_| t.tc1 != 0) } else { None };
+        frames.filter_map(|frame| answer(frame.message?)).collect::<Vec<_>>()
+    };
+    answers(&mut sim);
+    let request = TIMESYNC_DATA { tc1: 0, ts1: 77, ..Default::default() };
+    sim.handle_datagram(PEER, &Encoder::new(7, 191).encode(&MavMessage::TIMESYNC(request)));
+    assert_eq!(answers(&mut sim), [(77, 20_000_000)], "the simulation waits at 20 ms");
+    sim.handle_datagram(PEER, &answer(5, 20_000_000));
+    sim.handle_timeout(SimTime::from_ms(1_000));
+    assert!(sim.now() > SimTime::from_ms(20) && answers(&mut sim).is_empty(), "each request has one answer");
+}
+
+#[test]
 fn regress_digest_does_not_depend_on_client_clocks() {
     let fly = |clock: u32, north: f32| {
         let mut station = Station::new("drill-hover", 7);

@@ -39,7 +39,7 @@ pub fn policy(scripts: &[&str], styles: &[&str]) -> String {
         texts.iter().map(hash).collect::<Vec<_>>().join(" ")
     };
     format!(
-        "default-src 'none'; script-src {} blob:; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'",
+        "default-src 'none'; script-src {} blob:; style-src {}; img-src data: blob:; media-src 'self' file:; base-uri 'none'; form-action 'none'",
         hashes(scripts),
         hashes(styles)
     )

@@ -63,6 +63,8 @@ pub struct SessionMetadata {
     pub pictures: Vec<(u32, Jpeg)>,
     /// The instructor's marks on the timeline, by moment.
     pub marks: Vec<TimelineMark>,
+    /// File name of the video beside the report, which begins at lift-off; `None` without a video.
+    pub video: Option<&'static str>,
 }
 
 /// A JPEG picture.

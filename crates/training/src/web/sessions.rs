@@ -1,7 +1,8 @@
 //! Session lists and session pages.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{page, page_navigation, section, table, token};
+use super::assets;
+use super::layout::{page, page_navigation, page_with_script, section, table, token};
 use super::rubric::MAX_NAME_LEN;
 use super::standing::SessionStanding;
 use crate::advice::SessionAdvice;
@@ -111,6 +112,10 @@ pub struct SessionPageData<'a> {
     pub standing: Option<SessionStanding>,
     /// The instructor's marks, by moment.
     pub marks: &'a [TimelineMark],
+    /// File numbers of the photographs, ascending. The report numbers its pictures from 1.
+    pub pictures: &'a [u32],
+    /// Whether there is a video.
+    pub video: bool,
 }
 
 /// Renders a session's page.
@@ -127,13 +132,16 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
         @if page_data.folder && (!page_data.marks.is_empty() || visitor.satisfies(AccessLevel::Instructor)) {
             (section("marks", "Marks", &timeline_marks(visitor, record, page_data.marks)))
         }
+        @if page_data.video { (section("video", "Video", &video(record, page_data))) }
+        @if !page_data.pictures.is_empty() { (section("pictures", "Photographs", &photographs(record, page_data.pictures))) }
         (section("scores", "Scores", &scores(record)))
         @if let Some(certification) = &record.certification { (section("certification", "Certification", &requirements(certification))) }
         @if !record.tasks.is_empty() { (section("tasks", "Tasks", &tasks(record))) }
         @if !record.defects.is_empty() { (section("defects", "Defects", &defects(record))) }
         (section("compare", "Compare with", &compare(record, page_data.others)))
     };
-    page(visitor, "/sessions", &format!("Session: {}", record.scenario_with_level()), &body)
+    let script = page_data.video.then_some(assets::SESSION_NAME);
+    page_with_script(visitor, "/sessions", &format!("Session: {}", record.scenario_with_level()), script, &body)
 }
 
 /// Renders the outcome, the things to do better with links to their moments in the report, and the next flight.
@@ -190,6 +198,39 @@ fn timeline_marks(visitor: &Visitor, record: &SessionRecord, marks: &[TimelineMa
 /// Renders a link to a moment of the report, s since lift-off.
 fn moment_link(record: &SessionRecord, t_s: f64, label: &str) -> Markup {
     html! { a href={ "/sessions/" (record.id) "/report#t=" (formatting::number(t_s, 2)) } { (label) } }
+}
+
+/// Renders the camera's video with buttons for the moments of the advice and the marks.
+fn video(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
+    let advice = page_data.advice.into_iter().flat_map(|advice| &advice.points).map(|point| (point.t_s, point.words.as_str()));
+    let marks = page_data.marks.iter().map(|mark| (mark.t_s, mark.text.as_str()));
+    let mut moments: Vec<(f64, &str)> = advice.chain(marks).collect();
+    moments.sort_by(|a, b| a.0.total_cmp(&b.0));
+    html! {
+        video.flight src={ "/sessions/" (record.id) "/video.mp4" } controls muted playsinline preload="metadata" {
+            track kind="chapters" src={ "/sessions/" (record.id) "/video.vtt" } srclang="en" label="Photographs";
+        }
+        @if !moments.is_empty() {
+            ol.moments hidden id="video-moments" {
+                @for (t_s, words) in moments {
+                    li { button type="button" data-t=(formatting::number(t_s, 2)) { (formatting::clock(t_s)) } " " (words) }
+                }
+            }
+        }
+    }
+}
+
+/// Renders the photographs with links to their assessment in the report.
+fn photographs(record: &SessionRecord, pictures: &[u32]) -> Markup {
+    html! {
+        ul.photographs {
+            @for (k, file) in pictures.iter().enumerate() {
+                li { a href={ "/sessions/" (record.id) "/report#picture-" (k + 1) } {
+                    img src={ "/sessions/" (record.id) "/pictures/" (file) ".jpg" } alt={ "Picture " (k + 1) } loading="lazy";
+                } }
+            }
+        }
+    }
 }
 
 /// Describes how a session compares with the trainee's other sessions on the job.
@@ -367,7 +408,7 @@ mod tests {
     use crate::trainee::Role;
 
     fn page_data(folder: bool, others: &[SessionListEntry]) -> SessionPageData<'_> {
-        SessionPageData { folder, others, advice: None, standing: None, marks: &[] }
+        SessionPageData { folder, others, advice: None, standing: None, marks: &[], pictures: &[], video: false }
     }
 
     #[test]
@@ -390,6 +431,23 @@ mod tests {
         assert!(text.contains("Personal best on this job: 350 of 400. Change since last time: 30 points down."), "{text}");
         let bare = session(&administrator(), &record, &SessionPageData { folder: false, ..data }).into_string();
         assert!(!bare.contains("#t="), "there is no report to link to");
+    }
+
+    #[test]
+    fn exact_video_has_the_moments_in_order_and_photographs_lead_to_the_report() {
+        let point = |t_s, words: &str| AdvicePoint { words: words.into(), rule: "r".into(), frame: 1, t_s, drill: "d".into() };
+        let advice = SessionAdvice { points: vec![point(70.0, "late"), point(10.0, HOSTILE_NAME)], note: None, next: None };
+        let marks = [TimelineMark { t_s: 30.0, text: "middle".into(), by: String::new(), added_unix_us: 7 }];
+        let data =
+            SessionPageData { advice: Some(&advice), marks: &marks, pictures: &[4, 9], video: true, ..page_data(true, &[]) };
+        let record = perfect_record("anna", 1);
+        let text = session(&administrator(), &record, &data).into_string();
+        check(&text);
+        let moments = ["data-t=\"10.00\"", "data-t=\"30.00\"", "data-t=\"70.00\""].map(|moment| text.find(moment).unwrap());
+        assert!(moments.is_sorted(), "{text}");
+        assert!(text.contains("/pictures/9.jpg\" alt=\"Picture 2\"") && text.contains("/report#picture-2"), "{text}");
+        let without = session(&administrator(), &record, &page_data(true, &[])).into_string();
+        assert!(!without.contains("<video") && !without.contains("session.js"));
     }
 
     #[test]

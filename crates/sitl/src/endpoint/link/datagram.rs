@@ -33,6 +33,11 @@ impl ReceivedDatagram {
         &self.decoded.get_or_insert_with(|| decode(&self.bytes)).0
     }
 
+    /// Removes the frames that match, and returns them.
+    pub fn extract_frames(&mut self, matches: impl FnMut(&mut ReceivedFrame) -> bool) -> Vec<ReceivedFrame> {
+        self.decoded.get_or_insert_with(|| decode(&self.bytes)).0.extract_if(.., matches).collect()
+    }
+
     /// Returns the frames and the number of bytes outside them.
     #[must_use]
     pub fn into_frames(self) -> (Vec<ReceivedFrame>, u64) {

@@ -5,6 +5,7 @@ use super::link_id::LinkId;
 use super::links::Links;
 use super::peer_link::{LockstepState, PeerLink};
 use super::signing_policy::FrameAdmission;
+use crate::endpoint::clock::VehicleClock;
 use crate::endpoint::component_ids::AUTOPILOT;
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::dialect::{MavMessage, TIMESYNC_DATA};
@@ -61,6 +62,25 @@ impl Links {
         }
     }
 
+    /// Answers the time requests in a datagram at once, and removes them from it. MAVSDK answers lockstep requests only after one of its
+    /// own time requests was answered, and no tick processes them while simulation time waits for its first response.
+    pub fn answer_time_requests(&mut self, id: LinkId, datagram: &mut ReceivedDatagram, clock: VehicleClock) {
+        let mut policy = self.signing.clone();
+        let Some(link) = self.peers.get_mut(&id) else { return };
+        let requests = datagram.extract_frames(|frame| {
+            is_time_request(frame)
+                && policy.as_mut().is_none_or(|policy| policy.admit(frame, link.kind) == FrameAdmission::Execute)
+        });
+        for frame in requests {
+            if let Some(MavMessage::TIMESYNC(request)) = frame.message {
+                let (target_system, target_component) = (frame.system_id, frame.component_id);
+                let tc1 = clock.for_link(link.kind).since_boot(clock.now).ns().max(1);
+                let answer = TIMESYNC_DATA { tc1, ts1: request.ts1, target_system, target_component };
+                link.send(AUTOPILOT, &MavMessage::TIMESYNC(answer));
+            }
+        }
+    }
+
     /// Checks whether a datagram that has not been processed yet contains an admitted response to the lockstep request
     /// with this token.
     #[must_use]
@@ -88,6 +108,10 @@ impl Links {
         let ours = system == 0 || (system == self.system_id() && matches!(component, 0 | AUTOPILOT));
         Some(sync.ts1).filter(|token| ours && sync.tc1 != 0 && link.is_answer(*token))
     }
+}
+
+fn is_time_request(frame: &ReceivedFrame) -> bool {
+    matches!(&frame.message, Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0)
 }
 
 /// Creates a lockstep request.

@@ -43,13 +43,35 @@
     for (const listener of listeners) listener(now);
   }
   slider.max = String(count - 1);
-  slider.addEventListener('input', () => { stop(); show(Number(slider.value)); });
+  slider.addEventListener('input', () => { hold(); show(Number(slider.value)); });
   byId('run').hidden = false;
   byId('readout').hidden = false;
   document.body.classList.add('live');
 
+  // The video begins at lift-off, as the slider does. While it plays, it leads; otherwise it follows the slider.
+  const video = byId('video');
+  // Difference above which the paused video is moved, s (half a picture at 10 pictures per second).
+  const VIDEO_STEP_S = 0.05;
+  function followSlider() {
+    if (video.paused && video.readyState > 0 && !video.seeking && Math.abs(video.currentTime - s.t[now]) > VIDEO_STEP_S) video.currentTime = s.t[now];
+  }
+  if (video) {
+    video.addEventListener('error', () => { video.hidden = true; byId('video-missing').hidden = false; });
+    video.addEventListener('timeupdate', () => { if (!video.paused) show(Flight.indexAt(s.t, video.currentTime)); });
+    video.addEventListener('play', () => stop());
+    // The slider may have moved on during the search.
+    for (const event of ['loadedmetadata', 'seeked']) video.addEventListener(event, followSlider);
+    listeners.push(followSlider);
+  }
+  // Stops everything that moves the slider by itself.
+  function hold() {
+    stop();
+    if (video) video.pause();
+  }
+
   let t = 0;
   const stop = Flight.player(byId('play'), () => {
+    if (video) video.pause();
     if (now >= count - 1) show(0);
     t = s.t[now];
   }, (seconds) => {
@@ -60,7 +82,7 @@
 
   // Links to moments.
   for (const link of all('a.moment-link')) {
-    link.addEventListener('click', () => { stop(); show(Flight.indexAt(s.t, Number(link.dataset.t))); });
+    link.addEventListener('click', () => { hold(); show(Flight.indexAt(s.t, Number(link.dataset.t))); });
   }
 
   // Charts.
@@ -76,7 +98,7 @@
     if (limit) lines.push({ values: limit(), color: '--off', width: 1.5, dash: [6, 4] });
     const range = { battery: [0, 100], fb: [-1, 1] }[columns[0]];
     return { times: s.t, lines, range: range || Flight.fromZero({ distance: 20, clearance: 20 }[columns[0]]) };
-  }, () => s.t[now], (moment) => { stop(); show(Flight.indexAt(s.t, moment)); });
+  }, () => s.t[now], (moment) => { hold(); show(Flight.indexAt(s.t, moment)); });
   listeners.push(curves.follow);
   Flight.whenColorsChange(() => { curves.draw(); if (model) model.paint(); });
 

@@ -23,6 +23,7 @@ const CHARTS: [(&str, &str, &str); 5] = [
 pub fn section(review: &Review) -> Markup {
     html! {
         (controls(review))
+        (video(review))
         (marks_legend())
         (drawings(review))
         (figure("Session timeline", &html! {
@@ -90,6 +91,19 @@ fn controls(review: &Review) -> Markup {
                 div class={ "key " (class) } {
                     (legend(&colors::classes(k).iter().copied().zip(colors::legend(k, review.scenario.scoring.speed_limit_m_s)).collect::<Vec<_>>()))
                 }
+            }
+        }
+    }
+}
+
+/// Renders the video beside the report. The slider moves it, and while it plays, it moves the slider.
+fn video(review: &Review) -> Markup {
+    html! {
+        @if let Some(file) = review.metadata.video {
+            figure.video id="video-figure" {
+                figcaption { "Camera view" }
+                video id="video" src=(file) controls muted playsinline preload="metadata" {}
+                p.note id="video-missing" hidden { "The video cannot be loaded from here. It is also on the session's page and in the session folder (" code { (file) } ")." }
             }
         }
     }
