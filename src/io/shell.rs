@@ -490,6 +490,7 @@ impl VehicleShell {
             SimEvent::AutopilotProblem { problem } => tracing::warn!("{now}: autopilot: {problem}"),
             SimEvent::Freeze => tracing::info!("{now}: frozen"),
             SimEvent::Rewind { undone } => tracing::info!("{now}: rewound by {:.0} s", undone.s()),
+            SimEvent::MoveToTask { task } => tracing::info!("{now}: moved to the start of task {task}"),
             SimEvent::BatteryEmpty => tracing::info!("{now}: battery empty"),
             SimEvent::Ended { reason } => tracing::info!("{now}: flight ended: {reason}"),
         }

@@ -296,7 +296,7 @@ def test_wire_practice_freezes_rewinds_and_shows_a_ghost(screen, tmp_path):
     try:
         training.wait_for_screenshot("practice", in_flight)
         screen.focus()
-        press_until("rewind is refused on the ground", "z", lambda: "No rewind: not flown yet" in training.output())
+        press_until("rewind is refused on the ground", "z", lambda: "Rejected: not flown yet" in training.output())
         fly = asking.Repeater(lambda: (screen.tap("1"), screen.tap("t")))
         spandrel.wait_for("lift-off", lambda: fly.if_due() or "lift-off" in training.output(), LIMIT_S)
         # An expert flies the drill in the background, once.

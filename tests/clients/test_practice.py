@@ -9,7 +9,7 @@ from pymavlink import mavutil
 import spandrel
 from stick_client import Client, M
 
-FREEZE, REWIND = M.MAV_CMD_USER_1, M.MAV_CMD_USER_2
+FREEZE, REWIND, MOVE = M.MAV_CMD_USER_1, M.MAV_CMD_USER_2, M.MAV_CMD_USER_3
 NAN = float("nan")
 
 
@@ -46,7 +46,7 @@ def test_wire_a_script_freezes_and_rewinds_a_flight(tmp_path):
         client = Client(flight.client_port, scenario="drill-hover")
         client.ready()
         assert client.command(REWIND, 10) == M.MAV_RESULT_DENIED
-        heard(client, "No rewind: not flown yet")
+        heard(client, "Rejected: not flown yet")
         assert client.command(M.MAV_CMD_COMPONENT_ARM_DISARM, 1) == M.MAV_RESULT_ACCEPTED
         place = (0.0, 0.0, 5.0)
         client.fly_to(place, lambda _: 0.0)
@@ -78,19 +78,28 @@ def test_wire_a_script_freezes_and_rewinds_a_flight(tmp_path):
         assert now_ms(client) > at
         (east, north, up), _ = client.here()
         assert math.dist((east, north, up), place) < 2.0
+        # Moved to the start of the task, which is the drill's only one.
+        assert client.command(MOVE, 2) == M.MAV_RESULT_DENIED
+        heard(client, "No such task")
+        client.texts.clear()
+        assert client.command(MOVE, 1) == M.MAV_RESULT_ACCEPTED
+        heard(client, "Frozen: move a stick to continue")
+        client.sticks((0, 0, 0, 0))
+        beats(client, 1)
+        client.fly_to(place, lambda _: 0.0)
         assert client.command(M.MAV_CMD_NAV_LAND, 0, 0, 0, NAN, NAN, NAN, 0) == M.MAV_RESULT_ACCEPTED
         assessment = flight.assessment()
     finally:
         flight.close()
-    assert assessment["practice_aids"] == {"freezes": 1, "rewinds": 1}
+    assert assessment["practice_aids"] == {"freezes": 1, "rewinds": 2}
     certification = assessment["certification"]
-    assert not certification["passed"] and certification["unmet"][0] == "rewound once and frozen once, so it was practice"
+    assert not certification["passed"] and certification["unmet"][0] == "rewound twice and frozen once, so it was practice"
     lines = (flight.session() / "events.jsonl").read_text(encoding="utf-8").splitlines()
     events = [json.loads(line) for line in lines]
-    assert [(one["event"], one["count"]) for one in events if one["event"] in ("freeze", "rewind")] == [("freeze", 1), ("rewind", 1)]
+    assert [(one["event"], one["count"]) for one in events if one["event"] in ("freeze", "rewind")] == [("freeze", 1), ("rewind", 1), ("rewind", 2)]
     stamps, named = records(flight.session() / "telemetry.tlog")
     assert stamps == sorted(stamps)
-    assert {("freezes", 1), ("rewinds", 1), ("frozen", 1), ("frozen", 0)} <= set(named)
+    assert {("freezes", 1), ("rewinds", 2), ("frozen", 1), ("frozen", 0)} <= set(named)
 
 
 @pytest.mark.timeout(120)

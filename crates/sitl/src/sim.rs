@@ -111,6 +111,11 @@ pub enum SimEvent {
         /// Time of flight that was undone.
         undone: SimTime,
     },
+    /// A client moved the aircraft to the start of a task's path.
+    MoveToTask {
+        /// Number of the task, from 1.
+        task: u32,
+    },
     /// The battery is empty.
     BatteryEmpty,
     /// The flight has ended.

@@ -120,6 +120,7 @@ impl CommandQueue {
                     PracticeRequest::Freeze => "freeze".to_owned(),
                     PracticeRequest::Resume => "continue".to_owned(),
                     PracticeRequest::Rewind { by } => format!("rewind {:.0} s", by.s()),
+                    PracticeRequest::MoveToTask { task } => format!("move to task {task}"),
                 };
                 (vec![CommandStep::Practice(request)], format!("instructor: {words}"))
             }

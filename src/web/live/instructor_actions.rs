@@ -18,6 +18,12 @@ pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(if request.expects_json { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
 }
 
+fn task_number(request: &WebRequest) -> Result<u32, WebError> {
+    let number = request.required_field("task")?.parse().ok();
+    let allowed = || WebError::BadRequest(format!("task: invalid number (allowed: 1 to {})", pages::MAX_TASK_NUMBER));
+    number.filter(|number| (1..=pages::MAX_TASK_NUMBER).contains(number)).ok_or_else(allowed)
+}
+
 fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
     match request.required_field("act")? {
         "note" => {
@@ -37,7 +43,8 @@ fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
             "freeze" => PracticeRequest::Freeze,
             "resume" => PracticeRequest::Resume,
             "rewind" => PracticeRequest::Rewind { by: DEFAULT_REWIND },
-            _ => return Err(WebError::BadRequest("do: unknown (allowed: freeze, resume, rewind)".into())),
+            "move" => PracticeRequest::MoveToTask { task: task_number(request)? },
+            _ => return Err(WebError::BadRequest("do: unknown (allowed: freeze, resume, rewind, move)".into())),
         })),
         "failure" => {
             let key = request.required_field("unit")?;

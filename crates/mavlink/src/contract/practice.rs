@@ -1,5 +1,5 @@
-//! Requests that are allowed in practice only: to freeze the flight, to resume it, and to rewind it. They are commands,
-//! so that displays, the instructor's page and scripts can send them.
+//! Requests that are allowed in practice only: to freeze the flight, to resume it, to rewind it, and to move the aircraft to
+//! a task. They are commands, so that displays, the instructor's page and scripts can send them.
 
 use crate::dialect::MavCmd;
 use spandrel_model::time::SimTime;
@@ -22,7 +22,15 @@ pub enum PracticeRequest {
         /// Time of flight to undo.
         by: SimTime,
     },
+    /// Put the aircraft at the start of a task's path, and freeze: MAV_CMD_USER_3 with the task's number in parameter 1.
+    MoveToTask {
+        /// Number of the task, from 1.
+        task: u32,
+    },
 }
+
+/// Largest number of a task in a request.
+const MAX_TASK: f64 = 99.0;
 
 impl PracticeRequest {
     /// Returns the command and its parameters.
@@ -32,6 +40,7 @@ impl PracticeRequest {
             Self::Freeze => (MavCmd::MAV_CMD_USER_1, 1.0),
             Self::Resume => (MavCmd::MAV_CMD_USER_1, 0.0),
             Self::Rewind { by } => (MavCmd::MAV_CMD_USER_2, by.s() as f32),
+            Self::MoveToTask { task } => (MavCmd::MAV_CMD_USER_3, task as f32),
         };
         (command, [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
@@ -53,6 +62,10 @@ impl PracticeRequest {
                 by if by >= 1.0 && by <= MAX_REWIND.s() => Ok(Self::Rewind { by: SimTime::from_s(by) }),
                 _ => Err("Rewind: parameter 1 must be 1 to 30 s, or 0 (10 s)"),
             }),
+            n if n == MavCmd::MAV_CMD_USER_3 as u16 => Some(match param {
+                task if (1.0..=MAX_TASK).contains(&task) && task.fract() == 0.0 => Ok(Self::MoveToTask { task: task as u32 }),
+                _ => Err("Move: parameter 1 must be a task's number"),
+            }),
             _ => None,
         }
     }
@@ -65,7 +78,7 @@ mod tests {
     #[test]
     fn exact_requests_survive_the_command() {
         let five = PracticeRequest::Rewind { by: SimTime::from_ms(5_000) };
-        for request in [PracticeRequest::Freeze, PracticeRequest::Resume, five] {
+        for request in [PracticeRequest::Freeze, PracticeRequest::Resume, five, PracticeRequest::MoveToTask { task: 3 }] {
             let (command, params) = request.command();
             assert_eq!(PracticeRequest::of(command as u16, f64::from(params[0])), Some(Ok(request)));
         }
@@ -74,9 +87,11 @@ mod tests {
     #[test]
     fn exact_parameters_out_of_range_are_refused() {
         let (freeze, rewind) = (MavCmd::MAV_CMD_USER_1 as u16, MavCmd::MAV_CMD_USER_2 as u16);
-        for (number, param) in
-            [(freeze, 2.0), (freeze, f64::NAN), (rewind, -1.0), (rewind, 0.5), (rewind, 30.1), (rewind, f64::INFINITY)]
-        {
+        let task = MavCmd::MAV_CMD_USER_3 as u16;
+        let freezes = [2.0, f64::NAN].map(|param| (freeze, param));
+        let rewinds = [-1.0, 0.5, 30.1, f64::INFINITY].map(|param| (rewind, param));
+        let tasks = [0.0, 1.5, -1.0, 100.0, f64::NAN].map(|param| (task, param));
+        for (number, param) in freezes.into_iter().chain(rewinds).chain(tasks) {
             let refusal = PracticeRequest::of(number, param).and_then(Result::err).expect("refused");
             // A longer text would need several STATUSTEXT messages.
             assert!(refusal.len() <= 50, "{refusal}");
@@ -84,6 +99,6 @@ mod tests {
         for param in [0.0, f64::NAN] {
             assert_eq!(PracticeRequest::of(rewind, param), Some(Ok(PracticeRequest::Rewind { by: DEFAULT_REWIND })));
         }
-        assert_eq!(PracticeRequest::of(MavCmd::MAV_CMD_USER_3 as u16, 1.0), None);
+        assert_eq!(PracticeRequest::of(MavCmd::MAV_CMD_USER_4 as u16, 1.0), None);
     }
 }

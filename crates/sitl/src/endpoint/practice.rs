@@ -1,4 +1,4 @@
-//! Requests that are allowed in practice only: to freeze, resume and rewind the flight. The endpoint decides whether a
+//! Requests that are allowed in practice only: to freeze, resume and rewind the flight, and to move the aircraft. The endpoint decides whether a
 //! request is accepted; the simulation carries it out.
 
 use super::refused_request::RefusedRequest;
@@ -19,6 +19,8 @@ pub struct PracticeState {
     pub has_flown: bool,
     /// Whether the flight has ended.
     pub has_ended: bool,
+    /// Number of tasks.
+    pub tasks: u32,
 }
 
 impl PracticeState {
@@ -36,22 +38,25 @@ impl PracticeState {
     }
 
     fn refusal(&self, request: PracticeRequest) -> Option<&'static str> {
-        let is_rewind = match request {
-            PracticeRequest::Freeze | PracticeRequest::Resume => false,
-            PracticeRequest::Rewind { .. } => true,
+        let (moves_aircraft, has_task) = match request {
+            PracticeRequest::Freeze | PracticeRequest::Resume => (false, true),
+            PracticeRequest::Rewind { .. } => (true, true),
+            PracticeRequest::MoveToTask { task } => (true, (1..=self.tasks).contains(&task)),
         };
         if !self.is_allowed {
             Some("No freeze or rewind in an assessment")
         } else if !self.can_freeze {
             Some("No freeze: a flight controller runs in real time")
-        } else if !is_rewind {
+        } else if !moves_aircraft {
             None
         } else if !self.can_rewind {
-            Some("No rewind with an external autopilot")
+            Some("Only a freeze with an external autopilot")
         } else if self.has_ended {
-            Some("No rewind: the flight has ended")
+            Some("Rejected: the flight has ended")
         } else if !self.has_flown {
-            Some("No rewind: not flown yet")
+            Some("Rejected: not flown yet")
+        } else if !has_task {
+            Some("No such task")
         } else {
             None
         }
@@ -63,23 +68,25 @@ mod tests {
     use super::*;
 
     const ALL: PracticeState =
-        PracticeState { is_allowed: true, can_freeze: true, can_rewind: true, has_flown: true, has_ended: false };
+        PracticeState { is_allowed: true, can_freeze: true, can_rewind: true, has_flown: true, has_ended: false, tasks: 2 };
 
     #[test]
     fn exact_each_reason_refuses_with_a_short_text() {
         let rewind = PracticeRequest::Rewind { by: spandrel_mavlink::contract::practice::DEFAULT_REWIND };
-        let requests = [PracticeRequest::Freeze, PracticeRequest::Resume, rewind];
+        let move_to = |task| PracticeRequest::MoveToTask { task };
+        let requests = [PracticeRequest::Freeze, PracticeRequest::Resume, rewind, move_to(2)];
         let refused = |state: PracticeState| requests.map(|request| state.refusal(request).is_some());
-        assert_eq!(refused(ALL), [false; 3]);
-        assert_eq!(refused(PracticeState { is_allowed: false, ..ALL }), [true; 3]);
-        assert_eq!(refused(PracticeState { can_freeze: false, ..ALL }), [true; 3]);
+        assert_eq!(refused(ALL), [false; 4]);
+        assert_eq!(refused(PracticeState { is_allowed: false, ..ALL }), [true; 4]);
+        assert_eq!(refused(PracticeState { can_freeze: false, ..ALL }), [true; 4]);
         for state in [
             PracticeState { can_rewind: false, ..ALL },
             PracticeState { has_flown: false, ..ALL },
             PracticeState { has_ended: true, ..ALL },
         ] {
-            assert_eq!(refused(state), [false, false, true], "{state:?}");
+            assert_eq!(refused(state), [false, false, true, true], "{state:?}");
         }
+        assert_eq!(ALL.refusal(move_to(3)), Some("No such task"));
         let none = PracticeState { is_allowed: false, ..ALL };
         // A longer text would need several STATUSTEXT messages.
         assert!(none.refusal(rewind).is_some_and(|text| text.len() <= 50));

@@ -1,4 +1,4 @@
-//! Freeze and rewind, in practice only. Simulation time never goes back: a freeze stops it, and a rewind puts only the
+//! Freeze, rewind, and moves to a task, in practice only. Simulation time never goes back: a freeze stops it, and a rewind puts only the
 //! aircraft and its battery back to an earlier state, while time, wind, traffic and all counters go on from the present.
 //! No client therefore sees a clock that runs backward.
 
@@ -8,9 +8,11 @@ use super::{Sim, SimEvent};
 use crate::autopilot::Sticks;
 use crate::backend::Phase;
 use crate::endpoint::PracticeState;
+use crate::physics;
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavSeverity;
+use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::time::SimTime;
 
 /// Time for which the simulation runs on after a rewind before it freezes, so that clients receive the new position. It
@@ -18,6 +20,8 @@ use spandrel_model::time::SimTime;
 const RUN_ON_TIME: SimTime = SimTime::from_ms(100);
 /// Stick deflection that counts as moved, of full deflection (the same as for a sender that takes control of the sticks).
 const MOVED_STICK: f64 = 0.1;
+/// Horizontal part of a unit viewing direction below which it has no heading (estimate: 6 deg from the vertical).
+const MIN_HORIZONTAL_VIEW: f64 = 0.1;
 
 impl Sim {
     /// Refuses all requests to freeze or rewind the flight, as an assessment requires.
@@ -45,6 +49,7 @@ impl Sim {
             can_rewind: external.is_none(),
             has_flown: self.practice.has_states(),
             has_ended: self.end_reason.is_some(),
+            tasks: self.config.scenario.tasks.len() as u32,
         }
     }
 
@@ -55,6 +60,7 @@ impl Sim {
                 PracticeRequest::Freeze => self.freeze(),
                 PracticeRequest::Resume => self.unfreeze(),
                 PracticeRequest::Rewind { by } => self.rewind(by),
+                PracticeRequest::MoveToTask { task } => self.move_to_task(task),
             }
         }
     }
@@ -94,6 +100,36 @@ impl Sim {
         let Some((earlier, undone)) = self.practice.take(self.now, by) else { return };
         self.state.restore(&earlier.physics);
         self.last_safe_hover = earlier.safe_hover;
+        self.continue_from_new_place();
+        self.events.push_back(SimEvent::Rewind { undone });
+        self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Rewound {:.0} s", undone.s()));
+    }
+
+    /// Puts the aircraft at the start of a task's path, hovering and facing the inspected surface. Everything else is as in the
+    /// present. Scores count it as a rewind.
+    fn move_to_task(&mut self, number: u32) {
+        let Some((position_m, yaw_rad)) = self.task_start(number) else { return };
+        self.state.place(position_m, yaw_rad);
+        self.state.rigid.rotor_rad_s = [self.model.hover_rotor_rad_s(); physics::MAX_ROTORS];
+        self.last_safe_hover = (position_m, yaw_rad);
+        self.continue_from_new_place();
+        self.events.push_back(SimEvent::MoveToTask { task: number });
+        self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("At the start of task {number}"));
+    }
+
+    /// Returns the first point of a task's path and the heading toward the inspected surface. Along a vertical viewing direction,
+    /// the heading stays.
+    fn task_start(&self, number: u32) -> Option<(Vec3<Ned>, f64)> {
+        let task = self.config.scenario.tasks.iter().find(|task| task.id == number)?;
+        let view = task.viewing_directions.first()?;
+        let is_vertical = view.east().hypot(view.north()) < MIN_HORIZONTAL_VIEW;
+        let yaw_rad = if is_vertical { self.state.rigid.attitude.euler().2 } else { view.east().atan2(view.north()) };
+        Some((task.path_m.first()?.ned(), yaw_rad))
+    }
+
+    /// Ends contact and crash, starts the estimator at the new place, and lets the simulation run on until every client has the
+    /// new position.
+    fn continue_from_new_place(&mut self) {
         (self.crashed_since, self.hard_contact) = (None, false);
         self.scoring.contact = ContactKind::None;
         self.scoring.rewinds += 1;
@@ -103,8 +139,6 @@ impl Sim {
             own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
         }
         self.practice.freeze = Freeze::Due { at: now + RUN_ON_TIME, then_until_stick: true };
-        self.events.push_back(SimEvent::Rewind { undone });
-        self.controller.push_text(MavSeverity::MAV_SEVERITY_INFO, &format!("Rewound {:.0} s", undone.s()));
     }
 
     /// Freezes the flight if this is due after a rewind.

@@ -13,6 +13,8 @@ use spandrel_testkit::station::{Station, one, p};
 const SEED: u64 = 7;
 /// Largest error of the estimated position, m: twice the horizontal noise of the receiver.
 const MAX_ESTIMATE_ERROR_M: f64 = 3.0;
+/// Largest motion in the 0.1 s before the freeze, m (estimate: a gust on a hovering aircraft).
+const MAX_RUN_ON_DRIFT_M: f64 = 0.1;
 
 /// Asks the vehicle to freeze, resume or rewind. Returns the result of its acknowledgment, which must arrive even if time stops.
 fn ask(station: &mut Station, request: PracticeRequest) -> MavResult {
@@ -218,7 +220,7 @@ fn wire_requests_are_refused_with_a_reason() {
     let mut station = Station::new("drill-hover", SEED);
     station.run_ms(2_500);
     assert_eq!(ask(&mut station, rewind(10)), denied);
-    assert!(station.has_text("No rewind: not flown yet"), "{:?}", station.texts());
+    assert!(station.has_text("Rejected: not flown yet"), "{:?}", station.texts());
     for (command, param) in [(MavCmd::MAV_CMD_USER_1, 3.0), (MavCmd::MAV_CMD_USER_2, 31.0)] {
         assert_eq!(station.command(1, command, one(param)), denied);
         assert!(station.has_text("parameter 1 must be"), "{:?}", station.texts());
@@ -258,4 +260,28 @@ fn wire_copter_station_learns_that_the_flight_is_frozen() {
     station.run_ms(3_000);
     assert_eq!(ask(&mut station, PracticeRequest::Freeze), MavResult::MAV_RESULT_ACCEPTED);
     assert_eq!(frozen_values(&station), [1]);
+}
+
+#[test]
+fn flight_move_to_a_task_hovers_at_its_start_until_a_stick_moves() {
+    let mut station = Station::airborne("drill-orbit", SEED);
+    fly(&mut station, [0, 0, 600, 0], 2_000);
+    let start = spandrel_model::scenario::read("drill-orbit.toml", spandrel_model::shipped::DRILL_ORBIT, &|_| Err(String::new()));
+    let start = start.unwrap().tasks[0].path_m[0].ned();
+    let charge = station.sim.truth().battery.charge;
+    assert_eq!(ask(&mut station, PracticeRequest::MoveToTask { task: 2 }), MavResult::MAV_RESULT_DENIED);
+    assert!(station.has_text("No such task"), "{:?}", station.texts());
+    assert_eq!(ask(&mut station, PracticeRequest::MoveToTask { task: 1 }), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(1_000);
+    assert!(station.sim.is_frozen() && station.has_text("At the start of task 1"), "{:?}", station.texts());
+    let distance_m = |station: &Station| (station.sim.truth().rigid.position_m - start).norm();
+    assert!(distance_m(&station) < MAX_RUN_ON_DRIFT_M, "{} m", distance_m(&station));
+    assert!((station.sim.truth().battery.charge - charge).abs() < 1e-3, "the battery is that of the present");
+    let rewinds = named(&station, |value| if let NamedValue::Rewinds(count) = value { Some(count) } else { None });
+    assert_eq!(rewinds.last(), Some(&1));
+    fly(&mut station, [0, 0, 500, 0], 100);
+    fly(&mut station, [0, 0, 500, 300], 100);
+    assert!(!station.sim.is_frozen(), "a stick resumes the flight");
+    fly(&mut station, [0, 0, 500, 0], 5_000);
+    assert!(distance_m(&station) < MAX_ESTIMATE_ERROR_M, "{} m", distance_m(&station));
 }

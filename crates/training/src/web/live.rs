@@ -7,6 +7,8 @@ use maud::{Markup, PreEscaped, html};
 
 /// Maximum length of an instructor's note, characters. A note must fit in one MAVLink message.
 pub const MAX_NOTE_LEN: usize = 100;
+/// Largest number of a task in the form.
+pub const MAX_TASK_NUMBER: u32 = 99;
 /// Maximum wind speed, m/s, from the vehicle parameter's upper limit.
 pub const MAX_WIND_M_S: f64 = 25.0;
 
@@ -145,12 +147,17 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("practice"))
-            p.note { "In practice only. A flight that was frozen or rewound is neither certified nor compared with others." }
+            p.note { "In practice only. A flight that was frozen, rewound or moved is neither certified nor compared with others." }
             div.row {
                 button type="submit" name="do" value="freeze" { "Freeze" }
                 button type="submit" name="do" value="resume" { "Continue" }
                 button type="submit" name="do" value="rewind" { "Rewind 10 s" }
             }
+        }
+        form.stacked method="post" action="/live/act" data-act {
+            (hidden("practice"))
+            label { "Task" input type="number" name="task" required min="1" max=(MAX_TASK_NUMBER) value="1"; }
+            button type="submit" name="do" value="move" { "Move to the start of this task" }
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
@@ -194,8 +201,8 @@ mod tests {
         };
         let text = live(&administrator(), Some(&drawn), &choice).into_string();
         check(&text);
-        assert_eq!(text.matches("action=\"/live/act\"").count(), 5);
-        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 5);
+        assert_eq!(text.matches("action=\"/live/act\"").count(), 6);
+        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 6);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &VehicleSelection::default()).into_string();
         assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "no vehicle to connect to: {text}");
