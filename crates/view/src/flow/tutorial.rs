@@ -5,7 +5,8 @@ use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, text_width, wrap_text};
 use crate::hud::{
-    DisplayStyle, DisplayUnits, DrawItem, GnssStatus, Hud, HudColor, MapPath, ScreenPoint, TextAlign, TextScale, layout,
+    DisplayStyle, DisplayUnits, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TextAlign, TextScale, instruments,
+    layout,
 };
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
@@ -145,24 +146,33 @@ fn job(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     label(pen, frame, "task 4: around the pier", (0.24, 0.07), (0.235, 0.355));
 }
 
+/// Width of the column with the trainee's own view and the instruments, as a fraction of the picture.
+const SIDE_SHARE: f64 = 0.3;
+
+/// Draws the window as it is in flight: the trainee's own view above the instruments, and the camera view.
 fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
-    let half = frame.part((0.0, 0.0), (0.5, 0.5));
-    let other = frame.part((0.5, 0.0), (0.5, 0.5));
-    pen.picture("inspector", half.at(0.0, 0.0), (half.width, half.height));
-    pen.picture("camera", other.at(0.0, 0.0), (other.width, other.height));
-    inset(pen, &layout(&example(0, pen.style().units), PICTURE_ASPECT), other);
-    pen.line(&[other.at(0.0, 0.0), other.at(0.0, 1.0)], 0.004, HudColor::Black);
-    label(pen, half, "drone position", (0.42, 1.15), (0.50, 0.56));
-    label(pen, other, "the camera's view", (0.40, 1.15), (0.5, 0.75));
-    label(pen, other, "the map", (0.86, 1.15), (0.92, 0.88));
-    let (x, y) = frame.at(0.0, 0.68);
+    let camera = frame.part((SIDE_SHARE, 0.0), (1.0 - SIDE_SHARE, 1.0 - SIDE_SHARE));
+    let own = frame.part((0.0, 0.0), (SIDE_SHARE, SIDE_SHARE));
+    let below = frame.part((0.0, SIDE_SHARE), (SIDE_SHARE, 1.0 - 2.0 * SIDE_SHARE));
+    pen.picture("inspector", own.at(0.0, 0.0), (own.width, own.height));
+    pen.picture("camera", camera.at(0.0, 0.0), (camera.width, camera.height));
+    let display = example(0, pen.style().units);
+    inset(pen, &layout(&display, PICTURE_ASPECT), camera);
+    pen.panel(below.at(0.0, 0.0), (below.width, below.height), HudColor::PageBackground);
+    // The unit is only a scale: the navigation display fills its area.
+    let shape = (1_000.0 * below.width, 1_000.0 * below.height);
+    inset(pen, &instruments(&display, &SiteOutline::empty(), shape), below);
+    label(pen, frame, "your own view", (0.16, 0.80), (0.12, 0.26));
+    label(pen, frame, "navigation display", (0.42, 0.90), (0.16, 0.62));
+    label(pen, frame, "the camera's view", (0.74, 0.80), (0.66, 0.60));
+    let (x, y) = frame.at(0.0, 1.0);
     pen.lines(
         (x, y),
         frame.width,
         frame.font,
         HudColor::Gray,
-        "The bracket in your view marks the drone and shows its distance. On the map beside the camera view, the triangle is the \
-         drone, the square is the pad, and the lines are the tasks' paths.",
+        "The bracket in your view marks the drone and shows its distance. In a practice, a map and a side profile of the bridge stand \
+         below the navigation display.",
     );
 }
 
@@ -175,7 +185,6 @@ fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
         ("battery", (0.70, 0.13), (0.84, 0.065)),
         ("height, distance home, time left", (0.64, 0.38), (0.885, 0.25)),
         ("keep defects inside these corners", (0.38, 0.80), (0.105, 0.895)),
-        ("map", (0.76, 0.84), (0.84, 0.86)),
     ] {
         label(pen, frame, words, from, to);
     }
@@ -233,11 +242,6 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
 
 /// Returns an example HUD in flight.
 fn example(cues: i32, units: DisplayUnits) -> Hud {
-    let line = |id, path_m: [(f64, f64); 2]| MapPath {
-        id,
-        path_m: path_m.map(|(east, north)| Vec3::new(east, north, 20.0)).to_vec(),
-        closed: false,
-    };
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 10.0 * spandrel_model::math::M_S_PER_MPH,
@@ -271,7 +275,7 @@ fn example(cues: i32, units: DisplayUnits) -> Hud {
         pad_m: Vec3::new(-120.0, 60.0, 5.0),
         guidance: None,
         lesson: None,
-        tracks: vec![line(1, [(-50.0, -5.0), (50.0, -5.0)]), line(4, [(-70.0, 150.0), (-64.0, 156.0)])],
+        tracks: Vec::new(),
         style: DisplayStyle { units, text_scale: TextScale::Normal },
     }
 }

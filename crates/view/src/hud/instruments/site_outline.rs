@@ -47,6 +47,13 @@ pub struct SiteOutline {
 }
 
 impl SiteOutline {
+    /// Returns an outline without water, bridges and tasks.
+    #[must_use]
+    pub fn empty() -> Self {
+        let bounds = ([0.0; 2], [0.0; 2]);
+        Self { water: Vec::new(), members: Vec::new(), bounds, sides: Vec::new(), bridges: Vec::new(), water_level_m: 0.0 }
+    }
+
     /// Computes the outlines of a job's site.
     #[must_use]
     pub fn new(scenario: &Scenario, site: &Site) -> Self {
