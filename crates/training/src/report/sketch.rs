@@ -64,6 +64,32 @@ pub struct Sketcher {
     colors: Vec<[f64; 3]>,
 }
 
+/// Lens and air of a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SketchLens {
+    /// Height of the drawing, px; the width is [`WIDTH_PX`].
+    pub height_px: usize,
+    /// Focal length, px of the drawing.
+    pub focal_px: f64,
+    /// Maximum distance at which members are drawn, m.
+    pub max_distance_m: f64,
+    /// Distance at which haze hides about two thirds of an object's color, m.
+    pub haze_distance_m: f64,
+}
+
+impl SketchLens {
+    /// Returns the lens of an aircraft's camera.
+    #[must_use]
+    pub fn of(camera: &Camera) -> Self {
+        Self {
+            height_px: (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX),
+            focal_px: camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px),
+            max_distance_m: MAX_DISTANCE_M,
+            haze_distance_m: HAZE_DISTANCE_M,
+        }
+    }
+}
+
 /// Lighting of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SketchExposure {
@@ -89,23 +115,36 @@ impl Sketcher {
     /// # Errors
     /// Fails if the image cannot be encoded.
     pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: SketchExposure) -> Result<Vec<u8>, png::EncodingError> {
-        let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
-        let mut sheet = SketchCanvas::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
-        let slope = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
-        let lens = SketchCamera {
+        self.png_with_lens(pose, &SketchLens::of(camera), exposure)
+    }
+
+    /// Draws the view through a lens and returns it as a PNG file.
+    ///
+    /// # Errors
+    /// Fails if the image cannot be encoded.
+    pub fn png_with_lens(
+        &self,
+        pose: &CameraPose,
+        lens: &SketchLens,
+        exposure: SketchExposure,
+    ) -> Result<Vec<u8>, png::EncodingError> {
+        let mut sheet = SketchCanvas::new(lens.height_px, lens.focal_px);
+        let slope = |px: usize| 0.5 * px as f64 / lens.focal_px;
+        let camera = SketchCamera {
             pose,
             down: pose.forward.cross(pose.right),
-            slopes: [slope(camera.width_px), slope(camera.height_px)],
+            slopes: [slope(WIDTH_PX), slope(lens.height_px)],
+            max_distance_m: lens.max_distance_m,
         };
         for body in &self.bodies {
-            if !lens.may_be_visible(body) {
+            if !camera.may_be_visible(body) {
                 continue;
             }
             for facet in &body.facets {
-                sheet.draw(&lens, facet);
+                sheet.draw(&camera, facet);
             }
         }
-        encode(&sheet.shaded(&self.colors, exposure), WIDTH_PX, height)
+        encode(&sheet.shaded(&self.colors, exposure, lens.haze_distance_m), WIDTH_PX, lens.height_px)
     }
 }
 
@@ -167,6 +206,7 @@ struct SketchCamera<'a> {
     down: Vec3<Enu>,
     /// Half the width and half the height of the image at a depth of 1 m.
     slopes: [f64; 2],
+    max_distance_m: f64,
 }
 
 impl SketchCamera<'_> {
@@ -182,7 +222,7 @@ impl SketchCamera<'_> {
         let r = body.radius_m;
         let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
         depth + r >= NEAR_PLANE_DISTANCE_M
-            && depth - r <= MAX_DISTANCE_M
+            && depth - r <= self.max_distance_m
             && !beside(x, self.slopes[0])
             && !beside(y, self.slopes[1])
     }
@@ -244,7 +284,7 @@ impl SketchCanvas {
     }
 
     /// Applies edges, haze and light, and converts the colors to 8 bits per channel.
-    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
+    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure, haze_distance_m: f64) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
         for y in 0..self.height {
@@ -255,7 +295,7 @@ impl SketchCanvas {
                     if self.is_edge(x, y) {
                         color = color.map(|c| 0.72 * c);
                     }
-                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_DISTANCE_M));
+                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * haze_distance_m));
                     color = [0, 1, 2].map(|k| math::lerp(color[k], SKY_COLOR[k], haze));
                 }
                 let lit = dim * if exposure.by_lamp { self.lamp_falloff(x, y) } else { 1.0 };
@@ -343,7 +383,7 @@ mod tests {
             right: Vec3::new(1.0, 0.0, 0.0),
             lamp_on: false,
         };
-        let lens = SketchCamera { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
+        let lens = SketchCamera { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75], max_distance_m: 100.0 };
         assert_eq!(lens.project(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, forward");
         let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
         for order in [[&near, &far], [&far, &near]] {
