@@ -100,7 +100,7 @@ mod tests {
     fn exact_only_the_expected_file_is_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let target = upload_path(folder.path(), "job");
-        let check = |expected| check_expected(&target, "job", expected);
+        let check = |expected: Expected<'_>| check_expected(&target, "job", expected);
         assert_eq!((check(Expected::Absent), check(Expected::Anything)), (Ok(()), Ok(())));
         assert!(matches!(check(Expected::Version("x")), Err(SaveError::Conflict(words)) if words.contains("deleted")));
         std::fs::write(&target, "a = 1\n").unwrap();

@@ -243,7 +243,7 @@ def test_invalid_and_oversized_uploads_are_rejected(server, sessions):
         assert status == 422 and "root:" not in text, (name, status)
     assert ida.upload("/scenarios", "/scenarios", {}, b"#" * 400_000, "x.toml")[0] == 413
     text_form = lambda text: ida.post("/scenarios", "/scenario-editor/check", {"text": text})[0]
-    assert (text_form("#" * 250_000), text_form("#" * 300_000), text_form("#" * 2_000_000)) == (200, 413, 413)
+    assert (text_form("#" * 250_000), text_form("#" * 300_000)) == (200, 413)
     status, _, _ = ida.ask("/settings/login", body=b"a=" + b"x" * 200_000, headers={"Content-Type": "application/x-www-form-urlencoded"})
     assert status in (403, 413)
     # A length above the limit ends the request before the body is sent.

@@ -189,7 +189,7 @@ def test_wire_text_and_form_change_each_other(browser, server):
     page.fill("#text", text.replace("cars = 4", "cars = "))
     wait_until_checked(page, "1 problem")
     expect(page.locator("#findings")).to_contain_text("syntax")
-    expect(page.locator("#fields")).to_be_disabled()
+    expect(page.locator("#field-title")).to_be_disabled()
     expect(page.locator("#stale")).to_be_visible()
     expect(page.locator("#preview svg")).to_have_count(4)
     page.fill("#text", text.replace("cars = 4", "cars = 12 # rush hour"))

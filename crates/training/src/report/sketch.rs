@@ -75,6 +75,8 @@ pub struct SketchLens {
     pub max_distance_m: f64,
     /// Distance at which haze hides about two thirds of an object's color, m.
     pub haze_distance_m: f64,
+    /// Whether edges are drawn between faces of different colors, and not only where the distance jumps.
+    pub facet_edges: bool,
 }
 
 impl SketchLens {
@@ -86,6 +88,7 @@ impl SketchLens {
             focal_px: camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px),
             max_distance_m: MAX_DISTANCE_M,
             haze_distance_m: HAZE_DISTANCE_M,
+            facet_edges: true,
         }
     }
 }
@@ -144,7 +147,7 @@ impl Sketcher {
                 sheet.draw(&camera, facet);
             }
         }
-        encode(&sheet.shaded(&self.colors, exposure, lens.haze_distance_m), WIDTH_PX, lens.height_px)
+        encode(&sheet.shaded(&self.colors, exposure, lens), WIDTH_PX, lens.height_px)
     }
 }
 
@@ -284,7 +287,7 @@ impl SketchCanvas {
     }
 
     /// Applies edges, haze and light, and converts the colors to 8 bits per channel.
-    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure, haze_distance_m: f64) -> Vec<u8> {
+    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure, lens: &SketchLens) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
         for y in 0..self.height {
@@ -292,10 +295,10 @@ impl SketchCanvas {
                 let at = y * WIDTH_PX + x;
                 let mut color = colors[self.shade[at] as usize];
                 if self.near[at] > 0.0 {
-                    if self.is_edge(x, y) {
+                    if self.is_edge(x, y, lens.facet_edges) {
                         color = color.map(|c| 0.72 * c);
                     }
-                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * haze_distance_m));
+                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * lens.haze_distance_m));
                     color = [0, 1, 2].map(|k| math::lerp(color[k], SKY_COLOR[k], haze));
                 }
                 let lit = dim * if exposure.by_lamp { self.lamp_falloff(x, y) } else { 1.0 };
@@ -305,12 +308,12 @@ impl SketchCanvas {
         rgb
     }
 
-    /// Returns whether a different color or depth starts at the pixel to the right or below.
-    fn is_edge(&self, x: usize, y: usize) -> bool {
+    /// Returns whether another depth or, with `facet_edges`, another color starts at the pixel to the right or below.
+    fn is_edge(&self, x: usize, y: usize, facet_edges: bool) -> bool {
         let at = y * WIDTH_PX + x;
         let differs = |other: usize| {
             let jump = (self.near[at] - self.near[other]).abs() > 0.06 * self.near[at].max(self.near[other]);
-            jump || self.shade[at] != self.shade[other]
+            jump || (facet_edges && self.shade[at] != self.shade[other])
         };
         (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
     }

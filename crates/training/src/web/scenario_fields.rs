@@ -169,7 +169,10 @@ fn notes(field: &Field, id: &str) -> Markup {
         p.field-problem id={ (id) "-problem" } {}
         p.note id={ (id) "-note" } {
             (with_code(&field.description.meaning))
-            span.allowed { " Allowed: " (allowed) "." @if default != "none" { " " (default_words(default)) } }
+            span.allowed {
+                @if !["text", "list of texts"].contains(&allowed.as_str()) { " Allowed: " (allowed) "." }
+                @if default != "none" { " " (default_words(default)) }
+            }
         }
     }
 }

@@ -37,9 +37,9 @@ pub fn editor_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &corners);
     let place = |(x, y): (f64, f64)| format!("translate({} {})", coord(x), coord(y));
     let marks = html! {
-        g.crew transform=(place(map.at(team.inspector_m))) { circle r="4" {} text.tick x="8" y="4" { "inspector" } }
-        g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="10" y="4" { "truck" } }
-        g.crew transform=(place(map.at(team.pad_m))) { text.tick x="10" y="4" { "pad" } }
+        g.crew transform=(place(map.at(team.inspector_m))) { circle r="4" {} text.tick x="-2" y="20" { "inspector" } }
+        g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="-7" y="-10" { "truck" } }
+        g.crew transform=(place(map.at(team.pad_m))) { text.tick x="11" y="4" { "pad" } }
     };
     plan(scenario, site, &corners, &marks)
 }

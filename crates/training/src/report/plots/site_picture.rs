@@ -35,6 +35,8 @@ pub fn site_picture(scenario: &Scenario, site: &Site) -> Markup {
         focal_px: FOCAL_PX,
         max_distance_m: f64::INFINITY,
         haze_distance_m: HAZE_FACTOR * viewer.distance_m,
+        // The edges of all ground triangles would hide the site.
+        facet_edges: false,
     };
     let light = SketchExposure { light: 1.0, by_lamp: false };
     let picture = Sketcher::new(site, scenario, SimTime::ZERO).png_with_lens(&viewer.pose, &lens, light);
