@@ -2,6 +2,7 @@
 
 use super::request::WebRequest;
 use super::response::HandlerResult;
+use super::scenario_library::MAX_SCENARIO_BYTES;
 use super::state::ServerState;
 use super::{
     assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor, scenarios, sessions,
@@ -14,8 +15,6 @@ pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 
 /// Maximum size of a form without a file, bytes.
 pub const MAX_FORM_BYTES: usize = 64 * 1024;
-/// Maximum size of an uploaded scenario, bytes; the shipped scenarios are about ten thousand bytes long.
-pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
 /// Maximum size of an uploaded file with training plan rules, bytes; the shipped rules are about thirty thousand bytes long.
 pub const MAX_PLAN_RULES_BYTES: usize = 64 * 1024;
 /// Maximum size of an uploaded recording, bytes; an hour of telemetry is about one-third of this.

@@ -3,12 +3,12 @@
 use super::editor_edits;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::routes::MAX_SCENARIO_BYTES;
 use super::safe_names::is_safe_file_name;
-use super::scenario_library::{DEFAULT_VEHICLE, all, find, upload_path};
+use super::scenario_library::{DEFAULT_VEHICLE, MAX_SCENARIO_BYTES, all, find, upload_path};
 use super::scenario_store::{self, Expected, SaveError, version};
 use super::state::ServerState;
 use crate::errors::AppError;
+use crate::io::clock::Stopwatch;
 use crate::io::files;
 use axum::http::StatusCode;
 use spandrel_model::scenario::edit;
@@ -17,7 +17,7 @@ use spandrel_training::scenario_check::CheckOptions;
 use spandrel_training::web::scenario_check_result::{CheckedScenario, check_text};
 use spandrel_training::web::scenario_editor::{self as pages, EditorPage};
 use spandrel_training::web::scenarios::ScenarioEntry;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Time after which a check begins no further step. Estimate: several times the time for the largest shipped scenario.
 const CHECK_TIME: Duration = Duration::from_secs(10);
@@ -88,7 +88,7 @@ pub fn check(_: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 fn checked(text: String) -> Result<CheckedScenario, WebError> {
-    let begun = Instant::now();
+    let begun = Stopwatch::start();
     let aircraft = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
     let options = CheckOptions { aircraft: &aircraft, may_continue: &|| begun.elapsed() < CHECK_TIME };
     Ok(check_text(&file_name(&text), text, &options))
