@@ -24,16 +24,22 @@ pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Reques
     let late = |_| WebError::BadRequest("the form upload timed out".into());
     match kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
-        RouteKind::Change => {
-            let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), MAX_FORM_BYTES)).await.map_err(late)?;
-            let bytes = bytes.map_err(|_| WebError::TooLarge(MAX_FORM_BYTES))?;
-            web_request.form = form_urlencoded::parse(&bytes).into_owned().collect();
-            Authenticator::check_token(&web_request.visitor, web_request.form_field("token"))
-        }
+        RouteKind::Change => read_form(web_request, request, MAX_FORM_BYTES).await,
+        // Up to three bytes encode one byte, and the form's other fields also need space.
+        RouteKind::Text(most) => read_form(web_request, request, 3 * most + MAX_FORM_BYTES).await,
         RouteKind::Upload(most) => {
             tokio::time::timeout(UPLOAD_TIMEOUT, read_parts(web_request, most, request, spool)).await.map_err(late)?
         }
     }
+}
+
+/// Reads a form without a file.
+async fn read_form(web_request: &mut WebRequest, request: Request, most: usize) -> Result<(), WebError> {
+    let late = |_| WebError::BadRequest("the form upload timed out".into());
+    let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), most)).await.map_err(late)?;
+    let bytes = bytes.map_err(|_| WebError::TooLarge(most))?;
+    web_request.form = form_urlencoded::parse(&bytes).into_owned().collect();
+    Authenticator::check_token(&web_request.visitor, web_request.form_field("token"))
 }
 
 /// Reads a form with a file. The token must be the first field; without it, nothing else is read.

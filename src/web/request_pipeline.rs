@@ -58,12 +58,14 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
     let answered = async {
         authorize(&web_request, route)?;
         let _room = match route.kind {
-            RouteKind::Upload(_) => Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(RETRY_AFTER_S))?),
+            RouteKind::Upload(_) | RouteKind::Text(_) => {
+                Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(RETRY_AFTER_S))?)
+            }
             RouteKind::File | RouteKind::Show | RouteKind::Compute | RouteKind::Change => None,
         };
         body::read(&mut web_request, route.kind, request, &shared.state.spool()).await?;
         let turn = match route.kind {
-            RouteKind::Upload(_) | RouteKind::Compute => Some(
+            RouteKind::Upload(_) | RouteKind::Text(_) | RouteKind::Compute => Some(
                 shared
                     .compute_permit
                     .clone()

@@ -2,10 +2,11 @@
 
 use super::request::WebRequest;
 use super::response::HandlerResult;
+use super::scenario_library::MAX_SCENARIO_BYTES;
 use super::state::ServerState;
 use super::{
-    assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenarios, session_media, sessions,
-    settings, trainees, uploads,
+    assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor, scenarios,
+    session_media, sessions, settings, trainees, uploads,
 };
 use spandrel_training::web::access::AccessLevel;
 
@@ -14,8 +15,6 @@ pub type Handler = fn(&ServerState, &WebRequest) -> HandlerResult;
 
 /// Maximum size of a form without a file, bytes.
 pub const MAX_FORM_BYTES: usize = 64 * 1024;
-/// Maximum size of an uploaded scenario, bytes; the shipped scenarios are about ten thousand bytes long.
-pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
 /// Maximum size of an uploaded file with training plan rules, bytes; the shipped rules are about thirty thousand bytes long.
 pub const MAX_PLAN_RULES_BYTES: usize = 64 * 1024;
 /// Maximum size of an uploaded recording, bytes; an hour of telemetry is about one-third of this.
@@ -32,6 +31,9 @@ pub enum RouteKind {
     Compute,
     /// A form that changes data; it must contain the visitor's token.
     Change,
+    /// A form with a text of at most this many bytes; it must contain the visitor's token. The text is checked like an uploaded file,
+    /// so only one request runs at a time.
+    Text(usize),
     /// A form that uploads one file of at most this many bytes.
     Upload(usize),
 }
@@ -66,6 +68,10 @@ const fn compute(path: &'static str, required_access: AccessLevel, handler: Hand
 
 const fn change(path: &'static str, required_access: AccessLevel, handler: Handler) -> Route {
     Route { path, kind: RouteKind::Change, required_access, handler }
+}
+
+const fn text(path: &'static str, most: usize, required_access: AccessLevel, handler: Handler) -> Route {
+    Route { path, kind: RouteKind::Text(most), required_access, handler }
 }
 
 const fn upload(path: &'static str, most: usize, required_access: AccessLevel, handler: Handler) -> Route {
@@ -117,7 +123,12 @@ pub const ROUTES: &[Route] = &[
     compute("/cohort/report.html", AccessLevel::Instructor, trainees::cohort_report),
     compute("/cohort/tables/{name}", AccessLevel::Instructor, trainees::cohort_table),
     show("/scenarios", AccessLevel::Login, scenarios::scenario_list),
+    show("/scenarios/new", AccessLevel::Instructor, scenario_editor::new),
     show("/scenarios/{name}", AccessLevel::Login, scenarios::scenario_page),
+    show("/scenarios/{name}/edit", AccessLevel::Instructor, scenario_editor::edit),
+    text("/scenario-editor/check", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenario_editor::check),
+    text("/scenario-editor/save", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenario_editor::save),
+    text("/scenario-editor/download", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenario_editor::download),
     show("/tiles/{name}/{z}/{x}/{y}", AccessLevel::Public, map_tiles::tile),
     show("/scenarios/{name}/briefing", AccessLevel::Login, scenarios::briefing_page),
     upload("/scenarios", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenarios::upload),

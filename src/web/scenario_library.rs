@@ -5,8 +5,14 @@ use super::safe_names::is_safe_file_name;
 use crate::errors::AppError;
 use crate::io::files;
 use spandrel_model::scenario::{self, Scenario};
+use spandrel_training::web::scenario_check_result::no_siblings;
 use spandrel_training::web::scenarios::ScenarioEntry;
 use std::path::{Path, PathBuf};
+
+/// Maximum size of an uploaded scenario, bytes; the shipped scenarios are about ten thousand bytes long.
+pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
+/// Aircraft of briefings and checks, as in the other commands.
+pub const DEFAULT_VEHICLE: &str = "phantom2";
 
 /// A scenario with its source text.
 pub struct StoredScenario {
@@ -62,8 +68,7 @@ pub fn uploaded(folder: &Path) -> Vec<PathBuf> {
 
 /// Parses an uploaded scenario. It cannot refer to other files.
 pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
-    let alone = |_: &str| Err("an uploaded scenario cannot refer to other files".to_owned());
-    Ok(scenario::read(file, text, &alone)?)
+    Ok(scenario::read(file, text, &no_siblings)?)
 }
 
 /// Returns the argument that identifies the scenario to other functions: the path of an uploaded scenario, or the name

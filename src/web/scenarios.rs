@@ -2,21 +2,15 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::safe_names::is_safe_file_name;
-use super::scenario_library::{all, find, read, upload_path, uploaded};
+use super::scenario_library::{DEFAULT_VEHICLE, all, find, upload_path};
+use super::scenario_store::{Expected, SaveError, save};
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::files;
-use crate::io::replace::replace;
 use axum::http::StatusCode;
 use spandrel_model::site::Site;
 use spandrel_training::briefing::Briefing;
 use spandrel_training::web::scenarios::{self as pages, ScenarioEntry};
-
-/// Maximum number of uploaded scenarios.
-const MAX_UPLOADS: usize = 200;
-/// Aircraft of the briefing, as in the other commands.
-const DEFAULT_VEHICLE: &str = "phantom2";
 
 /// Responds with the list of scenarios.
 pub fn scenario_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
@@ -48,35 +42,20 @@ pub fn briefing_page(state: &ServerState, request: &WebRequest) -> HandlerResult
 pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
     match save_upload(state, request) {
         Ok(name) => render_list(state, request, Some(("good", &format!("{name} was saved.")))),
-        Err(AppError::Wrong(words)) => {
+        Err(SaveError::Conflict(words) | SaveError::App(AppError::Wrong(words))) => {
             Ok(render_list(state, request, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(error @ (AppError::Failed(_) | AppError::Autopilot(..))) => Err(error.into()),
+        Err(SaveError::App(error @ (AppError::Failed(_) | AppError::Autopilot(..)))) => Err(error.into()),
     }
 }
 
-fn save_upload(state: &ServerState, request: &WebRequest) -> Result<String, AppError> {
+fn save_upload(state: &ServerState, request: &WebRequest) -> Result<String, SaveError> {
     let upload = request.upload.as_ref().ok_or_else(|| AppError::invalid("file: missing"))?;
     let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
     let bytes = upload.file.bytes()?;
     let text = std::str::from_utf8(&bytes)
         .map_err(|error| AppError::invalid(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
-    let scenario = read(&shown, text)?;
-    // The name becomes part of folder names; the scenario parser allows only [a-z0-9-].
-    if !is_safe_file_name(&scenario.name) || scenario.name.len() > 60 {
-        return Err(AppError::invalid(format!("{shown}: the name is too long (allowed: 60 characters)")));
-    }
-    if files::scenario_names().contains(&scenario.name.as_str()) {
-        return Err(AppError::invalid(format!("{shown}: '{}' is the name of a shipped scenario; choose another", scenario.name)));
-    }
-    let target = upload_path(&state.scenarios, &scenario.name);
-    if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
-        return Err(AppError::invalid(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")));
-    }
-    std::fs::create_dir_all(&state.scenarios)
-        .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;
-    replace(&target, text.as_bytes())?;
-    Ok(scenario.name)
+    save(state, &shown, text, Expected::Anything)
 }
 
 /// Removes an uploaded scenario.

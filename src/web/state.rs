@@ -50,6 +50,8 @@ pub struct ServerState {
     pub answers: Mutex<()>,
     /// Locked while a file with marks is read, modified and written.
     pub marks: Mutex<()>,
+    /// Locked while an uploaded scenario is compared with the stored file and written.
+    pub scenario_writing: Mutex<()>,
     /// Map tiles of the job that was requested last.
     pub map_tiles: Mutex<Option<LatestMap>>,
     /// Locked while a map tile is drawn.
@@ -89,6 +91,7 @@ impl ServerState {
             importer: taking_in,
             answers,
             marks,
+            scenario_writing: Mutex::default(),
             map_tiles: Mutex::default(),
             tile_drawing: Mutex::default(),
             scoring,

@@ -69,6 +69,9 @@ def forms(sessions):
         "/assign": ("/assign?trainee=anna", {"trainee": "anna", "scenario": "drill-hover", "due": "2099-01-01"}),
         "/assignments/none/remove": ("/classes", {}),
         "/scenarios/none/remove": ("/scenarios", {}),
+        "/scenario-editor/check": ("/scenarios", {"text": "name = 'x'"}),
+        "/scenario-editor/save": ("/scenarios", {"text": "name = 'x'"}),
+        "/scenario-editor/download": ("/scenarios", {"text": "name = 'x'"}),
         "/plan-rules": ("/plan-rules", {"rules": "format = 1"}),
         "/plan-rules/reset": ("/plan-rules", {}),
         "/live/act": ("/sessions", {"act": "note", "text": "x"}),
@@ -105,7 +108,7 @@ def test_cross_site_requests_are_rejected(server, sessions):
 def test_attack_tests_cover_every_form(sessions):
     """Compares the server's table of routes with the list above."""
     source = (spandrel.ROOT / "src" / "web" / "routes.rs").read_text(encoding="utf-8")
-    changes = set(re.findall(r'change\(\s*"([^"]+)"', source)) - {"/login"}
+    changes = set(re.findall(r'(?:change|text)\(\s*"([^"]+)"', source)) - {"/login"}
     listed = {re.sub(r"/(sessions|trainees|scenarios|classes|assignments)/[^/]+/", r"/\1/{}/", path) for path in forms(sessions)}
     assert {re.sub(r"\{\w+\}", "{}", path) for path in changes} == listed
 
@@ -129,6 +132,9 @@ def test_script_in_any_field_is_escaped(server, sessions):
         ("/trainees/anna", "/trainees/anna/rubric", {"criterion": EVIL, "action": EVIL, "note": EVIL}),
         ("/trainees/anna", "/trainees/anna/rubric", {"criterion": "path", "action": "signed_off", "note": EVIL}),
         ("/rubric", "/rubric", {"rubric": EVIL}),
+        ("/scenarios", "/scenario-editor/check", {"text": f"title = '{EVIL}'", "opened": EVIL, "version": EVIL}),
+        ("/scenarios", "/scenario-editor/check", {"text": EVIL, "edits": json.dumps([{"set": EVIL, "text": EVIL}])}),
+        ("/scenarios", "/scenario-editor/save", {"text": EVIL, "opened": EVIL, "version": EVIL, "save_as": "yes", "new_name": EVIL}),
         ("/classes", "/classes", {"name": EVIL}),
         ("/classes", "/classes/none/members", {"trainees": EVIL}),
         ("/classes", "/assign", {"trainee": EVIL, "scenario": EVIL, "variant": EVIL, "due": EVIL}),
@@ -140,6 +146,7 @@ def test_script_in_any_field_is_escaped(server, sessions):
         assert "script-src 'self'" in headers["Content-Security-Policy"]
     for path in [f"/sessions?trainee={urllib.parse.quote(EVIL)}", f"/cohort?scenario={urllib.parse.quote(EVIL)}", f"/trainees/{urllib.parse.quote(EVIL)}",
                  f"/scenarios/{urllib.parse.quote(EVIL)}", f"/compare?first={urllib.parse.quote(EVIL)}", f"/classes/{urllib.parse.quote(EVIL)}",
+                 f"/scenarios/new?base={urllib.parse.quote(EVIL)}&name={urllib.parse.quote(EVIL)}", f"/scenarios/new?from=practice&name={urllib.parse.quote(EVIL)}",
                  f"/assign?trainee=anna&scenario={urllib.parse.quote(EVIL)}&variant={urllib.parse.quote(EVIL)}", f"/{urllib.parse.quote(EVIL)}"]:
         status, _, text = ada.ask(path)
         assert status != 500 and "<script>" not in text, (path, status)
@@ -199,7 +206,7 @@ def test_path_traversal_is_rejected(server, sessions):
     ways = ["..%2Fsecret", "%2e%2e%2fsecret", "..", "%2e%2e", "....//secret", "..%5Csecret", "%00", f"{session_folder(sessions, 'anna')}%2F..%2F..%2Fsecret",
             urllib.parse.quote(str(secret), safe=""), ".%2e%2fsecret", "..%252fsecret"]
     routes = ["/sessions/{}", "/sessions/{}/report", "/sessions/{}/frames.csv", "/sessions/{}/telemetry.tlog", "/sessions/{}/questions",
-              "/scenarios/{}", "/assets/{}", "/trainees/{}/export.json", "/compare?first={}&second={}"]
+              "/scenarios/{}", "/scenarios/{}/edit", "/scenarios/new?from={}", "/assets/{}", "/trainees/{}/export.json", "/compare?first={}&second={}"]
     for route in routes:
         for way in ways:
             status, _, text = ida.ask(route.replace("{}", way))
@@ -235,6 +242,8 @@ def test_invalid_and_oversized_uploads_are_rejected(server, sessions):
         status, _, text = ida.upload("/scenarios", "/scenarios", {}, body, "x.toml")
         assert status == 422 and "root:" not in text, (name, status)
     assert ida.upload("/scenarios", "/scenarios", {}, b"#" * 400_000, "x.toml")[0] == 413
+    text_form = lambda text: ida.post("/scenarios", "/scenario-editor/check", {"text": text})[0]
+    assert (text_form("#" * 250_000), text_form("#" * 300_000)) == (200, 413)
     status, _, _ = ida.ask("/settings/login", body=b"a=" + b"x" * 200_000, headers={"Content-Type": "application/x-www-form-urlencoded"})
     assert status in (403, 413)
     # A length above the limit ends the request before the body is sent.

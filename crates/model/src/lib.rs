@@ -34,6 +34,7 @@ pub mod elements;
 pub mod foxglove;
 pub mod frames;
 pub mod geodesy;
+pub mod key_table;
 pub mod math;
 pub mod numbers;
 pub mod pose;

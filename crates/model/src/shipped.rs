@@ -2,3 +2,6 @@
 //! automatically.
 
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
+
+/// Text of `scenarios/README.md`, with the table of all keys.
+pub const SCENARIO_README: &str = include_str!("../../../scenarios/README.md");

@@ -15,6 +15,9 @@ pub struct Problem {
     pub line: usize,
     /// Key with its path, e.g. `wind.speed_m_s`.
     pub key: String,
+    /// Like `key`, but with the index of each repeated table, such as `tasks[2].name`. Not part of the printed problem.
+    #[serde(skip)]
+    pub location: String,
     /// Value as written; empty if missing.
     pub value: String,
     /// Description of the allowed values; empty if there is none.
@@ -113,6 +116,8 @@ impl fmt::Debug for Adjustment {
 /// A table in the file, with the keys that were read from it so far.
 pub struct Section<'d> {
     path: String,
+    /// Like `path`, with the index of each repeated table.
+    location: String,
     table: Option<&'d dyn TableLike>,
     line: usize,
     read_keys: Vec<&'static str>,
@@ -151,6 +156,7 @@ impl<'a> Reader<'a> {
             file: self.file.into(),
             line,
             key: one_line(key),
+            location: one_line(key),
             value: one_line(value),
             allowed: allowed.into(),
             message: one_line(message.trim()),
@@ -160,7 +166,15 @@ impl<'a> Reader<'a> {
     /// Records a problem with a key. The line is the key's line, or the table's line if the key is missing.
     pub fn add_problem(&mut self, section: &Section, key: &str, value: &str, allowed: &str, message: &str) {
         let line = section.table.and_then(|t| t.get(key)).and_then(|i| self.line_of(i)).unwrap_or(section.line);
+        self.add_problem_on_line(section, key, line, value, (allowed, message));
+    }
+
+    /// Records a problem with a key whose line is known.
+    fn add_problem_on_line(&mut self, section: &Section, key: &str, line: usize, value: &str, (allowed, message): (&str, &str)) {
         self.add_problem_at(line, &section.full_key(key), value, allowed, message);
+        if let Some(problem) = self.problems.last_mut() {
+            problem.location = one_line(&section.location_of(key));
+        }
     }
 
     /// Replaces the documented default of a key with a description, for a default that depends on another key.
@@ -172,44 +186,38 @@ impl<'a> Reader<'a> {
 
     /// Returns the root table of the document.
     pub fn root<'d>(&self, document: &'d Document<&'a str>) -> Section<'d> {
-        Section { path: String::new(), table: Some(document.as_table()), line: 1, read_keys: Vec::new() }
+        Section { path: String::new(), location: String::new(), table: Some(document.as_table()), line: 1, read_keys: Vec::new() }
     }
 
     /// Returns a nested table. If it is missing, all of its keys are treated as missing.
     pub fn section<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Section<'d> {
-        let path = parent.full_key(key);
+        let (path, location) = (parent.full_key(key), parent.location_of(key));
         let (item, line) = self.item(parent, key);
         let table = item.and_then(Item::as_table_like);
         if let (Some(item), None) = (item, table) {
-            self.add_problem_at(line, &path, &display_value(item), "a table", "not a table");
+            self.add_problem_on_line(parent, key, line, &display_value(item), ("a table", "not a table"));
         }
-        Section { path, table, line, read_keys: Vec::new() }
+        Section { path, location, table, line, read_keys: Vec::new() }
     }
 
     /// Returns the tables in an array of tables; empty if the key is missing.
     pub fn sections<'d>(&mut self, parent: &mut Section<'d>, key: &'static str) -> Vec<Section<'d>> {
-        let path = parent.full_key(key);
+        let (path, location) = (format!("{}[]", parent.full_key(key)), parent.location_of(key));
         let (item, line) = self.item(parent, key);
         let Some(item) = item else { return Vec::new() };
-        if let Some(array) = item.as_array_of_tables() {
-            let line_of = |table: &toml_edit::Table| table.span().map_or(line, |span| self.line_at(span.start));
-            return array
-                .iter()
-                .map(|t| Section { path: format!("{path}[]"), table: Some(t), line: line_of(t), read_keys: Vec::new() })
-                .collect();
-        }
-        let inline = item.as_array().map(|a| a.iter().map(|v| v.as_inline_table().zip(v.span())).collect::<Option<Vec<_>>>());
-        if let Some(tables) = inline.flatten() {
-            let section = |(t, span): (&'d toml_edit::InlineTable, std::ops::Range<usize>)| Section {
-                path: format!("{path}[]"),
-                table: Some(t),
-                line: self.line_at(span.start),
-                read_keys: Vec::new(),
-            };
-            return tables.into_iter().map(section).collect();
-        }
-        self.add_problem_at(line, &path, &display_value(item), "an array of tables", "not an array of tables");
-        Vec::new()
+        let Some(tables) = repeated_tables(item) else {
+            let given = display_value(item);
+            self.add_problem_on_line(parent, key, line, &given, ("an array of tables", "not an array of tables"));
+            return Vec::new();
+        };
+        let section = |(k, (table, start)): (usize, (&'d dyn TableLike, Option<usize>))| Section {
+            path: path.clone(),
+            location: format!("{location}[{k}]"),
+            table: Some(table),
+            line: start.map_or(line, |start| self.line_at(start)),
+            read_keys: Vec::new(),
+        };
+        tables.into_iter().enumerate().map(section).collect()
     }
 
     fn item<'d>(&mut self, section: &mut Section<'d>, key: &'static str) -> (Option<&'d Item>, usize) {
@@ -260,18 +268,18 @@ impl<'a> Reader<'a> {
         let (item, line) = self.item(section, key);
         let Some(item) = item else {
             if default.is_none() {
-                self.add_problem_at(line, &path, "", &allowed, "missing");
+                self.add_problem_on_line(section, key, line, "", (&allowed, "missing"));
             }
             return default.unwrap_or(min);
         };
         match as_number(item) {
             Some(value) if value >= min && value <= max => value,
             Some(_) => {
-                self.add_problem_at(line, &path, &display_value(item), &allowed, "out of range");
+                self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "out of range"));
                 default.unwrap_or(min)
             }
             None => {
-                self.add_problem_at(line, &path, &display_value(item), &allowed, "not a number");
+                self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "not a number"));
                 default.unwrap_or(min)
             }
         }
@@ -294,18 +302,18 @@ impl<'a> Reader<'a> {
         let (item, line) = self.item(section, key);
         let Some(item) = item else {
             if default.is_none() {
-                self.add_problem_at(line, &path, "", &allowed, "missing");
+                self.add_problem_on_line(section, key, line, "", (&allowed, "missing"));
             }
             return default.unwrap_or(min);
         };
         match item.as_integer() {
             Some(value) if (min..=max).contains(&value) => value,
             Some(_) => {
-                self.add_problem_at(line, &path, &display_value(item), &allowed, "out of range");
+                self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "out of range"));
                 default.unwrap_or(min)
             }
             None => {
-                self.add_problem_at(line, &path, &display_value(item), &allowed, "not a whole number");
+                self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "not a whole number"));
                 default.unwrap_or(min)
             }
         }
@@ -326,7 +334,7 @@ impl<'a> Reader<'a> {
         let (item, line) = self.item(section, key);
         let Some(item) = item else { return default };
         item.as_bool().unwrap_or_else(|| {
-            self.add_problem_at(line, &path, &display_value(item), "true or false", "not true or false");
+            self.add_problem_on_line(section, key, line, &display_value(item), ("true or false", "not true or false"));
             default
         })
     }
@@ -339,12 +347,12 @@ impl<'a> Reader<'a> {
         match (item, item.and_then(Item::as_str)) {
             (_, Some(value)) => value.to_string(),
             (Some(item), None) => {
-                self.add_problem_at(line, &path, &display_value(item), "text", "not a string");
+                self.add_problem_on_line(section, key, line, &display_value(item), ("text", "not a string"));
                 default.unwrap_or_default().to_string()
             }
             (None, None) => {
                 if default.is_none() {
-                    self.add_problem_at(line, &path, "", "text", "missing");
+                    self.add_problem_on_line(section, key, line, "", ("text", "missing"));
                 }
                 default.unwrap_or_default().to_string()
             }
@@ -366,14 +374,14 @@ impl<'a> Reader<'a> {
         let fallback = words[default.unwrap_or(0)].1;
         let Some(item) = item else {
             if default.is_none() {
-                self.add_problem_at(line, &path, "", &allowed, "missing");
+                self.add_problem_on_line(section, key, line, "", (&allowed, "missing"));
             }
             return fallback;
         };
         let found = item.as_str().and_then(|text| words.iter().find(|(w, _)| *w == text));
         found.map_or_else(
             || {
-                self.add_problem_at(line, &path, &display_value(item), &allowed, "unknown keyword");
+                self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "unknown keyword"));
                 fallback
             },
             |(_, value)| *value,
@@ -395,13 +403,13 @@ impl<'a> Reader<'a> {
         let fallback = default.unwrap_or([range.0; N]);
         let Some(item) = item else {
             if default.is_none() {
-                self.add_problem_at(line, &path, "", &allowed, "missing");
+                self.add_problem_on_line(section, key, line, "", (&allowed, "missing"));
             }
             return fallback;
         };
         let values = item.as_value().and_then(|v| number_list(v, range)).and_then(|v| <[f64; N]>::try_from(v).ok());
         values.unwrap_or_else(|| {
-            self.add_problem_at(line, &path, &display_value(item), &allowed, "not a valid list");
+            self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "not a valid list"));
             fallback
         })
     }
@@ -416,7 +424,7 @@ impl<'a> Reader<'a> {
         let point = |v: &Value| number_list(v, range).and_then(|p| <[f64; 3]>::try_from(p).ok());
         let points = item.as_array().map(|array| array.iter().map(point).collect::<Option<Vec<_>>>());
         points.flatten().unwrap_or_else(|| {
-            self.add_problem_at(line, &path, &display_value(item), &allowed, "not a valid list");
+            self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "not a valid list"));
             Vec::new()
         })
     }
@@ -431,7 +439,7 @@ impl<'a> Reader<'a> {
         let one = |v: &Value| v.as_integer().filter(|i| (min..=max).contains(i));
         let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
         values.flatten().unwrap_or_else(|| {
-            self.add_problem_at(line, &path, &display_value(item), &allowed, "not a valid list");
+            self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "not a valid list"));
             Vec::new()
         })
     }
@@ -446,7 +454,7 @@ impl<'a> Reader<'a> {
         let one = |v: &Value| v.as_str().map(str::to_owned);
         let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
         values.flatten().unwrap_or_else(|| {
-            self.add_problem_at(line, &path, &display_value(item), allowed, "not a valid list");
+            self.add_problem_on_line(section, key, line, &display_value(item), (allowed, "not a valid list"));
             Vec::new()
         })
     }
@@ -463,7 +471,7 @@ impl<'a> Reader<'a> {
             let known = section.read_keys.iter().filter(near).min_by_key(|s| edit_distance(s, key));
             let message = known.map_or("unknown key".to_string(), |k| format!("unknown key; did you mean {k}?"));
             let allowed = section.read_keys.join(", ");
-            self.add_problem_at(line, &section.full_key(key), &display_value(item), &allowed, &message);
+            self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, &message));
         }
     }
 }
@@ -473,6 +481,11 @@ impl Section<'_> {
     #[must_use]
     pub fn full_key(&self, key: &str) -> String {
         if self.path.is_empty() { key.to_string() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// Returns the full path of a key with the index of each repeated table, such as `tasks[2].name`.
+    fn location_of(&self, key: &str) -> String {
+        if self.location.is_empty() { key.to_string() } else { format!("{}.{key}", self.location) }
     }
 
     /// Returns the line number where the table starts, from 1.
@@ -486,6 +499,21 @@ impl Section<'_> {
     pub fn has(&self, key: &str) -> bool {
         self.table.is_some_and(|t| t.contains_key(key))
     }
+}
+
+/// Returns the tables of an array, each with the offset at which it starts; `None` if the item is not an array of tables.
+fn repeated_tables(item: &Item) -> Option<Vec<(&dyn TableLike, Option<usize>)>> {
+    if let Some(tables) = item.as_array_of_tables() {
+        let start = |table: &toml_edit::Table| table.span().map(|span| span.start);
+        return Some(tables.iter().map(|table| (table as &dyn TableLike, start(table))).collect());
+    }
+    item.as_array()?
+        .iter()
+        .map(|value| {
+            let (table, start) = (value.as_inline_table()?, value.span()?.start);
+            Some((table as &dyn TableLike, Some(start)))
+        })
+        .collect()
 }
 
 fn as_number(item: &Item) -> Option<f64> {

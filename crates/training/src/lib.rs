@@ -1,5 +1,5 @@
 //! Before and after the flight, as pure functions: the briefing ([`briefing`]), session records ([`record`]), statistics
-//! ([`statistics`]), training plans ([`plan`]), things to do better ([`advice`]), the defect school ([`school`]), cohort analysis ([`cohort`]), questionnaires
+//! ([`statistics`]), training plans ([`plan`]), things to do better ([`advice`]), the defect school ([`school`]), checks of scenarios ([`scenario_check`]), cohort analysis ([`cohort`]), questionnaires
 //! ([`questionnaire`]), statements for learning record stores ([`xapi`]), session reports ([`report`]) and web pages ([`web`]).
 //! The application reads the session folders, maintains the database and serves the pages.
 //!
@@ -22,6 +22,7 @@ pub mod questionnaire;
 pub mod record;
 pub mod report;
 pub mod rubric;
+pub mod scenario_check;
 pub mod school;
 pub mod statistics;
 mod time_text;

@@ -283,6 +283,7 @@ pub(super) fn check_ends(
             file: file.to_owned(),
             line,
             key: TABLE.to_owned(),
+            location: TABLE.to_owned(),
             value: format!("level {level}"),
             allowed: problem.allowed,
             message: format!("invalid at the {end} level: {} = {}: {}", problem.key, problem.value, problem.message),

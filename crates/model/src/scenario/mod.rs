@@ -4,6 +4,7 @@
 pub mod bridges;
 mod certification;
 mod difficulty;
+pub mod edit;
 mod forms;
 mod job;
 mod lesson;
@@ -11,6 +12,8 @@ mod point;
 mod read;
 mod resolve;
 pub mod tasks;
+mod toml_text;
+pub mod values;
 mod weather;
 
 pub use bridges::path::TaskKind;

@@ -45,7 +45,10 @@ fn default_threshold_m(kind: TaskKind) -> f64 {
 
 pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Vec<Task> {
     let mut out = Vec::new();
-    for mut s in r.sections(root, "tasks") {
+    let tables = r.sections(root, "tasks");
+    let count = tables.len();
+    // The paths of thousands of tasks would fill the memory.
+    for mut s in tables.into_iter().take(MAX_TASKS) {
         let id = out.len() as u32 + 1;
         out.push(read_task(r, &mut s, id, bridges));
         r.finish(&s);
@@ -53,8 +56,8 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
     if out.is_empty() {
         r.add_problem_at(1, "tasks", "", "at least one [[tasks]]", "no tasks");
     }
-    if out.len() > MAX_TASKS {
-        r.add_problem(root, "tasks", &out.len().to_string(), "at most 64 [[tasks]]", "too many");
+    if count > MAX_TASKS {
+        r.add_problem(root, "tasks", &count.to_string(), "at most 64 [[tasks]]", "too many");
     }
     out
 }

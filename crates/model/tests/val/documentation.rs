@@ -1,6 +1,7 @@
 //! Tests that the READMEs of scenarios and vehicles document exactly the keys, ranges and defaults in the code.
 
 use crate::shipped_files::toml_files;
+use spandrel_model::key_table::{self, KeyDescription};
 use spandrel_model::scenario::BridgeKind;
 use spandrel_model::toml::DocumentedKey;
 use std::collections::BTreeMap;
@@ -40,26 +41,16 @@ fn vehicle_keys() -> Keys {
     all
 }
 
-const TABLE_HEADER: &str = "| key | allowed | default | meaning |";
-
-/// Returns key, definition and meaning from each row of the key tables in a README.
-fn documented_keys(readme: &str) -> Vec<(String, DocumentedKey, String)> {
+/// Returns the rows of the key tables in a README.
+fn documented_keys(readme: &str) -> Vec<KeyDescription> {
     let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(readme);
-    let text = std::fs::read_to_string(path).unwrap();
-    let row = |line: &str| {
-        let cells: Vec<&str> = line.strip_prefix("| `")?.strip_suffix(" |")?.splitn(4, " | ").collect();
-        let [key, allowed, default, meaning] = cells[..] else { panic!("{readme}: the row does not have four columns: {line}") };
-        let asked = DocumentedKey { allowed: allowed.into(), default: default.into() };
-        Some((key.trim_end_matches('`').to_string(), asked, meaning.to_string()))
-    };
-    let tables = text.split(TABLE_HEADER).skip(1).flat_map(|rest| rest.lines().skip(1).take_while(|line| !line.is_empty()));
-    tables.filter_map(row).collect()
+    key_table::parse(&std::fs::read_to_string(path).unwrap())
 }
 
 fn find_differences(readme: &str, keys: &Keys) -> Vec<String> {
     let rows = documented_keys(readme);
     let mut wrong = Vec::new();
-    for (key, asked, meaning) in &rows {
+    for KeyDescription { key, documented: asked, meaning } in &rows {
         let right = keys.get(key);
         if right != Some(asked) {
             wrong.push(format!("{key}: {asked:?} in the README, but {right:?} in the code"));
@@ -67,11 +58,11 @@ fn find_differences(readme: &str, keys: &Keys) -> Vec<String> {
         if meaning.trim().is_empty() {
             wrong.push(format!("{key}: the meaning is empty"));
         }
-        if rows.iter().filter(|row| row.0 == *key).count() != 1 {
+        if rows.iter().filter(|row| row.key == *key).count() != 1 {
             wrong.push(format!("{key}: documented twice"));
         }
     }
-    for (key, asked) in keys.iter().filter(|(key, _)| !rows.iter().any(|row| row.0 == **key)) {
+    for (key, asked) in keys.iter().filter(|(key, _)| !rows.iter().any(|row| row.key == **key)) {
         wrong.push(format!("missing row: | `{key}` | {} | {} | |", asked.allowed, asked.default));
     }
     wrong
@@ -89,8 +80,8 @@ fn val_bridge_dimensions_are_documented_with_their_meaning() {
     for bridge in BridgeKind::TYPES {
         for field in bridge.fields {
             let key = format!("bridges[].{}.{}", bridge.name, field.key);
-            let row = rows.iter().find(|row| row.0 == key).unwrap_or_else(|| panic!("{key} is not documented"));
-            assert_eq!(row.2, field.meaning, "{key}");
+            let row = rows.iter().find(|row| row.key == key).unwrap_or_else(|| panic!("{key} is not documented"));
+            assert_eq!(row.meaning, field.meaning, "{key}");
         }
     }
 }

@@ -193,6 +193,7 @@ impl AnswerReader<'_> {
             file: self.file.to_owned(),
             line,
             key: short(key),
+            location: short(key),
             value: short(value),
             allowed: allowed.to_owned(),
             message: message.to_owned(),

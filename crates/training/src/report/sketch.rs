@@ -64,6 +64,35 @@ pub struct Sketcher {
     colors: Vec<[f64; 3]>,
 }
 
+/// Lens and air of a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SketchLens {
+    /// Height of the drawing, px; the width is [`WIDTH_PX`].
+    pub height_px: usize,
+    /// Focal length, px of the drawing.
+    pub focal_px: f64,
+    /// Maximum distance at which members are drawn, m.
+    pub max_distance_m: f64,
+    /// Distance at which haze hides about two thirds of an object's color, m.
+    pub haze_distance_m: f64,
+    /// Whether edges are drawn between faces of different colors, and not only where the distance jumps.
+    pub facet_edges: bool,
+}
+
+impl SketchLens {
+    /// Returns the lens of an aircraft's camera.
+    #[must_use]
+    pub fn of(camera: &Camera) -> Self {
+        Self {
+            height_px: (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX),
+            focal_px: camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px),
+            max_distance_m: MAX_DISTANCE_M,
+            haze_distance_m: HAZE_DISTANCE_M,
+            facet_edges: true,
+        }
+    }
+}
+
 /// Lighting of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SketchExposure {
@@ -89,23 +118,36 @@ impl Sketcher {
     /// # Errors
     /// Fails if the image cannot be encoded.
     pub fn png(&self, pose: &CameraPose, camera: &Camera, exposure: SketchExposure) -> Result<Vec<u8>, png::EncodingError> {
-        let height = (WIDTH_PX * camera.height_px as usize / (camera.width_px as usize).max(1)).clamp(1, 4 * WIDTH_PX);
-        let mut sheet = SketchCanvas::new(height, camera.focal_px() * WIDTH_PX as f64 / f64::from(camera.width_px));
-        let slope = |px: u32| 0.5 * f64::from(px) / camera.focal_px();
-        let lens = SketchCamera {
+        self.png_with_lens(pose, &SketchLens::of(camera), exposure)
+    }
+
+    /// Draws the view through a lens and returns it as a PNG file.
+    ///
+    /// # Errors
+    /// Fails if the image cannot be encoded.
+    pub fn png_with_lens(
+        &self,
+        pose: &CameraPose,
+        lens: &SketchLens,
+        exposure: SketchExposure,
+    ) -> Result<Vec<u8>, png::EncodingError> {
+        let mut sheet = SketchCanvas::new(lens.height_px, lens.focal_px);
+        let slope = |px: usize| 0.5 * px as f64 / lens.focal_px;
+        let camera = SketchCamera {
             pose,
             down: pose.forward.cross(pose.right),
-            slopes: [slope(camera.width_px), slope(camera.height_px)],
+            slopes: [slope(WIDTH_PX), slope(lens.height_px)],
+            max_distance_m: lens.max_distance_m,
         };
         for body in &self.bodies {
-            if !lens.may_be_visible(body) {
+            if !camera.may_be_visible(body) {
                 continue;
             }
             for facet in &body.facets {
-                sheet.draw(&lens, facet);
+                sheet.draw(&camera, facet);
             }
         }
-        encode(&sheet.shaded(&self.colors, exposure), WIDTH_PX, height)
+        encode(&sheet.shaded(&self.colors, exposure, lens), WIDTH_PX, lens.height_px)
     }
 }
 
@@ -167,6 +209,7 @@ struct SketchCamera<'a> {
     down: Vec3<Enu>,
     /// Half the width and half the height of the image at a depth of 1 m.
     slopes: [f64; 2],
+    max_distance_m: f64,
 }
 
 impl SketchCamera<'_> {
@@ -182,7 +225,7 @@ impl SketchCamera<'_> {
         let r = body.radius_m;
         let beside = |aside: f64, slope: f64| aside.abs() - slope * depth > r * (1.0 + slope * slope).sqrt();
         depth + r >= NEAR_PLANE_DISTANCE_M
-            && depth - r <= MAX_DISTANCE_M
+            && depth - r <= self.max_distance_m
             && !beside(x, self.slopes[0])
             && !beside(y, self.slopes[1])
     }
@@ -244,7 +287,7 @@ impl SketchCanvas {
     }
 
     /// Applies edges, haze and light, and converts the colors to 8 bits per channel.
-    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure) -> Vec<u8> {
+    fn shaded(&self, colors: &[[f64; 3]], exposure: SketchExposure, lens: &SketchLens) -> Vec<u8> {
         let dim = exposure.light.clamp(0.0, 1.0).sqrt().max(0.06);
         let mut rgb = Vec::with_capacity(3 * self.near.len());
         for y in 0..self.height {
@@ -252,10 +295,10 @@ impl SketchCanvas {
                 let at = y * WIDTH_PX + x;
                 let mut color = colors[self.shade[at] as usize];
                 if self.near[at] > 0.0 {
-                    if self.is_edge(x, y) {
+                    if self.is_edge(x, y, lens.facet_edges) {
                         color = color.map(|c| 0.72 * c);
                     }
-                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * HAZE_DISTANCE_M));
+                    let haze = 1.0 - math::exp(-1.0 / (self.near[at] * lens.haze_distance_m));
                     color = [0, 1, 2].map(|k| math::lerp(color[k], SKY_COLOR[k], haze));
                 }
                 let lit = dim * if exposure.by_lamp { self.lamp_falloff(x, y) } else { 1.0 };
@@ -265,12 +308,12 @@ impl SketchCanvas {
         rgb
     }
 
-    /// Returns whether a different color or depth starts at the pixel to the right or below.
-    fn is_edge(&self, x: usize, y: usize) -> bool {
+    /// Returns whether another depth or, with `facet_edges`, another color starts at the pixel to the right or below.
+    fn is_edge(&self, x: usize, y: usize, facet_edges: bool) -> bool {
         let at = y * WIDTH_PX + x;
         let differs = |other: usize| {
             let jump = (self.near[at] - self.near[other]).abs() > 0.06 * self.near[at].max(self.near[other]);
-            jump || self.shade[at] != self.shade[other]
+            jump || (facet_edges && self.shade[at] != self.shade[other])
         };
         (x + 1 < WIDTH_PX && differs(at + 1)) || (y + 1 < self.height && differs(at + WIDTH_PX))
     }
@@ -343,7 +386,7 @@ mod tests {
             right: Vec3::new(1.0, 0.0, 0.0),
             lamp_on: false,
         };
-        let lens = SketchCamera { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75] };
+        let lens = SketchCamera { pose: &pose, down: pose.forward.cross(pose.right), slopes: [1.0, 0.75], max_distance_m: 100.0 };
         assert_eq!(lens.project(Vec3::new(1.0, 2.0, 3.0)), [1.0, -3.0, 2.0], "right, down, forward");
         let (near, far) = (triangle(2.0, 1), triangle(4.0, 2));
         for order in [[&near, &far], [&far, &near]] {

@@ -35,6 +35,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<(&str, &s
     };
     let body = html! {
         @if let Some((kind, words)) = notice { (message_lines(kind, words)) }
+        @if visitor.satisfies(AccessLevel::Instructor) { p { a.button href="/scenarios/new" { "New scenario" } } }
         section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("Source", false)], &rows)) }
         @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
     };
@@ -64,6 +65,16 @@ fn levels(difficulty: &Difficulty) -> String {
     )
 }
 
+fn edit_link(named: &ScenarioEntry) -> Markup {
+    html! {
+        @if named.uploaded {
+            a.button href={ "/scenarios/" (named.name) "/edit" } { "Edit" }
+        } @else {
+            a.button href={ "/scenarios/new?base=" (named.name) } { "Make a copy to edit" }
+        }
+    }
+}
+
 /// Renders one scenario's page. Only instructors see the file, because it contains the seed and thus reveals the
 /// defects.
 #[must_use]
@@ -89,6 +100,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     let body = html! {
         p.lead { (scenario.title) }
         p { a href={ "/scenarios/" (named.name) "/briefing" } { "Briefing" } ": tasks in order, hazards, what counts, and the site check, to read before the flight or to print." }
+        @if visitor.satisfies(AccessLevel::Instructor) { p { (edit_link(named)) } }
         (section("facts", "Summary", &facts))
         @if !scenario.tasks.is_empty() {
             (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance (m)", true)], &rows)))

@@ -3,7 +3,7 @@
 use super::backdrop::{ground, lake};
 use super::map::{extent, near_bridge_data, north, pad, reference_paths, scale, structure, task_numbers};
 use super::plot_map::PlotMap;
-use super::svg_figure;
+use super::{coord, svg_figure};
 use maud::{Markup, html};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
@@ -15,10 +15,37 @@ const END_MARGIN_M: f64 = 25.0;
 /// Margin above a bridge, m, so that a drone above the deck stays inside the drawing.
 const TOP_MARGIN_M: f64 = 15.0;
 
+/// Margin around a job in the plan of the scenario editor, m: room for new places.
+const EDITOR_MARGIN_M: f64 = 50.0;
+
 /// Draws the plan view with north up.
 #[must_use]
 pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
-    let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
+    plan(scenario, site, &extent(scenario, site), &html! {})
+}
+
+/// Draws the plan view for the scenario editor: with a margin, the inspector and the truck.
+#[must_use]
+pub fn editor_plan(scenario: &Scenario, site: &Site) -> Markup {
+    let team = &scenario.ground_team;
+    let mut points = extent(scenario, site);
+    points.extend([team.inspector_m, team.truck_m]);
+    let corners: Vec<Vec3<Enu>> = points
+        .iter()
+        .flat_map(|point| [-EDITOR_MARGIN_M, EDITOR_MARGIN_M].map(|margin_m| *point + Vec3::new(margin_m, margin_m, 0.0)))
+        .collect();
+    let map = PlotMap::around(ParallelView::plan(), &corners);
+    let place = |(x, y): (f64, f64)| format!("translate({} {})", coord(x), coord(y));
+    let marks = html! {
+        g.crew transform=(place(map.at(team.inspector_m))) { circle r="4" {} text.tick x="-2" y="20" { "inspector" } }
+        g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="-7" y="-10" { "truck" } }
+        g.crew transform=(place(map.at(team.pad_m))) { text.tick x="11" y="4" { "pad" } }
+    };
+    plan(scenario, site, &corners, &marks)
+}
+
+fn plan(scenario: &Scenario, site: &Site, shown: &[Vec3<Enu>], marks: &Markup) -> Markup {
+    let map = PlotMap::around(ParallelView::plan(), shown);
     svg_figure(
         map.size,
         "Job site from above, north up",
@@ -29,6 +56,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
             (reference_paths(scenario, &map, None))
             (task_numbers(scenario, &map, None))
             (pad(scenario, &map))
+            (marks)
             (north(&map))
             (drone(&map, None))
             (scale(&map))
@@ -108,6 +136,8 @@ mod tests {
         assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));
         assert_eq!(plan.matches("class=\"start\"").count(), 4, "each path has its number");
         assert!(plan.contains("class=\"lake\"") && plan.contains("class=\"structure\""));
+        let wide = editor_plan(&scenario, &site).into_string();
+        assert!(wide.contains("inspector") && wide.contains("truck") && wide.contains("data-matrix") && wide != plan);
         for bridge in &scenario.bridges {
             let side = job_side(&scenario, &site, bridge).into_string();
             assert!(side.contains("class=\"ground\"") && side.contains("data-matrix"));

@@ -16,6 +16,7 @@ pub mod overlay;
 pub mod path_diagram;
 pub mod plot_map;
 pub mod radar;
+pub mod site_picture;
 pub mod timeline;
 
 use maud::{Markup, html};

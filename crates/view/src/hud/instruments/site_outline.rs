@@ -50,7 +50,7 @@ impl SiteOutline {
     /// Returns an outline without water, bridges and tasks.
     #[must_use]
     pub fn empty() -> Self {
-        let bounds = ([0.0; 2], [0.0; 2]);
+        let bounds = ((0.0, 0.0), (0.0, 0.0));
         Self { water: Vec::new(), members: Vec::new(), bounds, sides: Vec::new(), bridges: Vec::new(), water_level_m: 0.0 }
     }
 

@@ -1,0 +1,400 @@
+//! Edits the text of a scenario and keeps its comments, its order and the spelling of all other values.
+
+use super::toml_text::{shown, typed};
+use super::values::{ScenarioValues, describe};
+use std::collections::BTreeSet;
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
+
+/// Keys that determine which other keys a table has.
+const KIND_KEYS: [&str; 4] = ["type", "source", "kind", "step"];
+/// Distance between a new bridge and the one before it, m to the north.
+const NEW_BRIDGE_DISTANCE_M: f64 = 100.0;
+
+/// A change to the text of a scenario. Locations contain the indices of repeated tables, as in `tasks[2].name`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Edit {
+    /// Sets the value at a location. An empty text removes it.
+    Set {
+        /// Location of the value.
+        location: String,
+        /// Text as typed in a form.
+        text: String,
+    },
+    /// Adds a table to a repeated table.
+    Add {
+        /// Location of the repeated table: `tasks`, `bridges` or `wind.events`.
+        location: String,
+    },
+    /// Removes one table of a repeated table.
+    Remove {
+        /// Location of the table, such as `tasks[2]`.
+        location: String,
+    },
+    /// Swaps one table of a repeated table with the one before it or after it.
+    Move {
+        /// Location of the table, such as `tasks[2]`.
+        location: String,
+        /// Whether the table moves toward the beginning.
+        up: bool,
+    },
+}
+
+/// Returns the text after these edits.
+///
+/// # Errors
+/// Returns a message if the text is not valid TOML, or a location does not exist.
+pub fn apply(text: &str, edits: &[Edit]) -> Result<String, String> {
+    edits.iter().try_fold(text.to_owned(), |text, edit| apply_one(&text, edit))
+}
+
+fn apply_one(text: &str, edit: &Edit) -> Result<String, String> {
+    let mut document: DocumentMut = text.parse().map_err(|_| "the text is not valid TOML".to_owned())?;
+    match edit {
+        Edit::Set { location, text: typed } => {
+            set(document.as_table_mut(), location, typed)?;
+            let changed = document.to_string();
+            let key = location.rsplit('.').next().unwrap_or_default();
+            return Ok(if KIND_KEYS.contains(&key) { without_unused_keys(text, changed, location) } else { changed });
+        }
+        Edit::Add { location } => add(&mut document, location)?,
+        Edit::Remove { location } => remove(document.as_table_mut(), location)?,
+        Edit::Move { location, up } => swap(document.as_table_mut(), location, *up)?,
+    }
+    Ok(document.to_string())
+}
+
+/// One part of a location: a key, and the index if its table is repeated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Step<'a> {
+    key: &'a str,
+    index: Option<usize>,
+}
+
+fn steps(location: &str) -> Result<Vec<Step<'_>>, String> {
+    let step = |part: &'_ str| -> Option<(usize, usize)> {
+        let open = part.find('[')?;
+        let index = part.get(open + 1..)?.strip_suffix(']')?.parse().ok()?;
+        Some((open, index))
+    };
+    let steps: Vec<Step> = location
+        .split('.')
+        .map(|part| match step(part) {
+            Some((open, index)) => Step { key: &part[..open], index: Some(index) },
+            None => Step { key: part, index: None },
+        })
+        .collect();
+    let legal = |key: &str| !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+    if steps.iter().all(|step| legal(step.key)) { Ok(steps) } else { Err(unknown(location)) }
+}
+
+fn unknown(location: &str) -> String {
+    format!("there is no key or table '{location}'")
+}
+
+/// Returns the table at the end of the steps. Creates missing tables if `create` is set, but none of a repeated table.
+fn table_at<'t>(root: &'t mut Table, steps: &[Step], create: bool) -> Option<&'t mut dyn TableLike> {
+    steps.iter().try_fold(root as &mut dyn TableLike, |table, step| {
+        if create && step.index.is_none() && !table.contains_key(step.key) {
+            table.insert(step.key, Item::Table(Table::new()));
+        }
+        let item = table.get_mut(step.key)?;
+        match step.index {
+            None => item.as_table_like_mut(),
+            Some(k) => repeated_table(item, k),
+        }
+    })
+}
+
+fn repeated_table(item: &mut Item, k: usize) -> Option<&mut dyn TableLike> {
+    match item {
+        Item::ArrayOfTables(tables) => tables.get_mut(k).map(|table| table as &mut dyn TableLike),
+        Item::Value(Value::Array(array)) => array.get_mut(k)?.as_inline_table_mut().map(|table| table as &mut dyn TableLike),
+        Item::None | Item::Value(_) | Item::Table(_) => None,
+    }
+}
+
+fn set(root: &mut Table, location: &str, text: &str) -> Result<(), String> {
+    let described = describe(location).ok_or_else(|| unknown(location))?;
+    let steps = steps(location)?;
+    let (last, path) = steps.split_last().ok_or_else(|| unknown(location))?;
+    if text.trim().is_empty() {
+        if let Some(table) = table_at(root, path, false) {
+            table.remove(last.key);
+        }
+        return Ok(());
+    }
+    let table = table_at(root, path, true).ok_or_else(|| unknown(location))?;
+    let mut new = typed(&described.documented.allowed, text);
+    match table.get_mut(last.key) {
+        Some(Item::Value(old)) if shown(old) == shown(&new) && old.type_name() == new.type_name() => {}
+        Some(Item::Value(old)) => {
+            *new.decor_mut() = old.decor().clone();
+            *old = new;
+        }
+        Some(Item::None | Item::Table(_) | Item::ArrayOfTables(_)) | None => {
+            table.insert(last.key, Item::Value(new));
+        }
+    }
+    Ok(())
+}
+
+/// Removes the keys that a new kind of table no longer uses, which would be errors.
+fn without_unused_keys(before: &str, after: String, location: &str) -> String {
+    let table = location.rsplit_once('.').map_or("", |(table, _)| table);
+    let known_before = unknown_locations(before, table);
+    let unused: Vec<String> = unknown_locations(&after, table).into_iter().filter(|key| !known_before.contains(key)).collect();
+    let Ok(mut document) = after.parse::<DocumentMut>() else { return after };
+    for location in &unused {
+        let Ok(steps) = steps(location) else { continue };
+        if let Some((last, path)) = steps.split_last()
+            && let Some(table) = table_at(document.as_table_mut(), path, false)
+        {
+            table.remove(last.key);
+        }
+    }
+    if unused.is_empty() { after } else { document.to_string() }
+}
+
+/// Returns the locations of the unknown keys in a table.
+fn unknown_locations(text: &str, table: &str) -> BTreeSet<String> {
+    let problems = super::read::read("", text, &|_| Err(String::new())).err().map_or_else(Vec::new, |problems| problems.0);
+    let inside = |location: &str| location.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'));
+    let unknown = problems.into_iter().filter(|problem| problem.message.starts_with("unknown key") && inside(&problem.location));
+    unknown.map(|problem| problem.location).collect()
+}
+
+fn add(document: &mut DocumentMut, location: &str) -> Result<(), String> {
+    let values = ScenarioValues::read(&document.to_string()).unwrap_or_default();
+    let entries = new_table(location, &values).ok_or_else(|| unknown(location))?;
+    let steps = steps(location)?;
+    let (last, path) = steps.split_last().ok_or_else(|| unknown(location))?;
+    let parent = table_at(document.as_table_mut(), path, true).ok_or_else(|| unknown(location))?;
+    let is_empty_list = parent.get(last.key).and_then(Item::as_array).is_some_and(Array::is_empty);
+    if is_empty_list || !parent.contains_key(last.key) {
+        parent.insert(last.key, Item::ArrayOfTables(ArrayOfTables::new()));
+    }
+    match parent.get_mut(last.key) {
+        Some(Item::ArrayOfTables(tables)) => {
+            tables.push(entries.into_iter().map(|(key, entry)| (key, Item::Value(entry))).collect())
+        }
+        Some(Item::Value(Value::Array(array))) => array.push(entries.into_iter().collect::<InlineTable>()),
+        Some(Item::None | Item::Value(_) | Item::Table(_)) | None => return Err(unknown(location)),
+    }
+    Ok(())
+}
+
+type Entries = Vec<(&'static str, Value)>;
+
+/// Returns the entries of a new table.
+fn new_table(location: &str, values: &ScenarioValues) -> Option<Entries> {
+    match location {
+        "tasks" => Some(new_task(values)),
+        "bridges" => Some(new_bridge(values)),
+        "wind.events" => Some(new_gust()),
+        _ => None,
+    }
+}
+
+fn new_task(values: &ScenarioValues) -> Entries {
+    let name = format!("Task {}", values.count("tasks") + 1);
+    let bridge = values.get("bridges[0].name");
+    let kind = match (bridge, values.get("bridges[0].type")) {
+        (None, _) => "free",
+        (Some(_), Some("suspension")) => "pier_circle",
+        (Some(_), _) => "slab_side",
+    };
+    let mut entries = vec![("name", Value::from(name)), ("kind", Value::from(kind))];
+    match bridge {
+        Some(bridge) => entries.push(("bridge", Value::from(bridge))),
+        None => {
+            let corner = |east: f64, north: f64| -> Value { [east, north, 10.0].into_iter().collect::<Array>().into() };
+            entries.push(("points_m", Value::Array([corner(0.0, 0.0), corner(20.0, 0.0)].into_iter().collect())));
+        }
+    }
+    entries
+}
+
+fn new_bridge(values: &ScenarioValues) -> Entries {
+    let count = values.count("bridges");
+    let names: Vec<&str> = (0..count).filter_map(|k| values.get(&format!("bridges[{k}].name"))).collect();
+    let free = (count + 1..).map(|k| format!("bridge-{k}")).find(|name| !names.contains(&name.as_str())).unwrap_or_default();
+    let last = count.checked_sub(1).and_then(|k| values.get(&format!("bridges[{k}].centre_m")));
+    let center: Vec<f64> =
+        last.unwrap_or_default().trim_matches(['[', ']']).split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    let [east, north, up] = match center[..] {
+        [east, north, up] => [east, north + NEW_BRIDGE_DISTANCE_M, up],
+        _ => [0.0, 0.0, 34.0],
+    };
+    vec![
+        ("name", Value::from(free)),
+        ("type", Value::from("arch")),
+        ("centre_m", Value::Array([east, north, up].into_iter().collect())),
+        ("heading_deg", Value::from(90.0)),
+    ]
+}
+
+fn new_gust() -> Entries {
+    let numbers = [("at_s", 60.0), ("from_deg", 0.0), ("duration_s", 5.0), ("peak_m_s", 5.0)];
+    let numbers = numbers.into_iter().map(|(key, number)| (key, Value::from(number)));
+    [("kind", Value::from("gust"))].into_iter().chain(numbers).collect()
+}
+
+/// Returns the repeated table at a location, and the index in it.
+fn repeated<'t>(root: &'t mut Table, location: &str) -> Result<(&'t mut Item, usize), String> {
+    let steps = steps(location)?;
+    let (last, path) = steps.split_last().ok_or_else(|| unknown(location))?;
+    let index = last.index.ok_or_else(|| unknown(location))?;
+    let item = table_at(root, path, false).and_then(|parent| parent.get_mut(last.key)).ok_or_else(|| unknown(location))?;
+    Ok((item, index))
+}
+
+fn remove(root: &mut Table, location: &str) -> Result<(), String> {
+    match repeated(root, location)? {
+        (Item::ArrayOfTables(tables), k) if k < tables.len() => {
+            tables.remove(k);
+            Ok(())
+        }
+        (Item::Value(Value::Array(array)), k) if k < array.len() => {
+            array.remove(k);
+            Ok(())
+        }
+        _ => Err(unknown(location)),
+    }
+}
+
+fn swap(root: &mut Table, location: &str, up: bool) -> Result<(), String> {
+    let (item, k) = repeated(root, location)?;
+    let other = if up { k.checked_sub(1) } else { k.checked_add(1) }.ok_or_else(|| unknown(location))?;
+    match item {
+        Item::ArrayOfTables(tables) => {
+            let (Some(mut a), Some(mut b)) = (tables.get(k).cloned(), tables.get(other).cloned()) else {
+                return Err(unknown(location));
+            };
+            let (place_a, place_b) = (a.position(), b.position());
+            a.set_position(place_b);
+            b.set_position(place_a);
+            tables.replace(other, a);
+            tables.replace(k, b);
+        }
+        Item::Value(Value::Array(array)) => {
+            let (Some(a), Some(b)) = (array.get(k).cloned(), array.get(other).cloned()) else { return Err(unknown(location)) };
+            array.replace_formatted(other, a);
+            array.replace_formatted(k, b);
+        }
+        Item::None | Item::Value(_) | Item::Table(_) => return Err(unknown(location)),
+    }
+    Ok(())
+}
+
+/// Returns the text with another name. Invalid TOML is returned unchanged.
+#[must_use]
+pub fn with_name(text: &str, name: &str) -> String {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
+    document["name"] = value(name);
+    document.to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shipped::{PRACTICE, TWO_BRIDGES};
+
+    fn set(location: &str, text: &str) -> Edit {
+        Edit::Set { location: location.into(), text: text.into() }
+    }
+
+    fn problems(text: &str) -> Vec<(String, String)> {
+        let read = super::super::read("job.toml", text, &|_| Err(String::new()));
+        let problems = read.err().map_or_else(Vec::new, |problems| problems.0);
+        problems.into_iter().map(|problem| (problem.location, problem.message)).collect()
+    }
+
+    #[test]
+    fn exact_an_edit_changes_one_line_and_keeps_comments() {
+        let text = PRACTICE.replace("from_deg = 200.0", "from_deg  =  200.0   # from the lake");
+        let edited = apply(&text, &[set("wind.from_deg", "215")]).unwrap();
+        assert_eq!(edited, text.replace("200.0   # from", "215   # from"));
+        assert_eq!(apply(&text, &[set("wind.from_deg", "200.0")]).unwrap(), text, "the same value");
+        let removed = apply(&text, &[set("wind.turbulence", " ")]).unwrap();
+        assert_eq!(removed, text.replace("turbulence = 0.5\n", ""));
+        let added = apply(&text, &[set("scoring.clearance_m", "1.5"), set("seed", "7")]).unwrap();
+        assert!(added.ends_with("battery = \"paper\"\n\n[scoring]\nclearance_m = 1.5\n"), "{added}");
+        assert!(added.contains("title = \"Practice at two bridges\"\nseed = 7\n"), "{added}");
+        assert_eq!(problems(&added), []);
+        let dimensions = apply(&text, &[set("bridges[0].arch.span_m", "90"), set("wind.level", "calm")]).unwrap();
+        assert!(dimensions.contains("heading_deg = 90.0\n\n[bridges.arch]\nspan_m = 90\n\n[[bridges]]"), "{dimensions}");
+    }
+
+    #[test]
+    fn exact_wrong_values_are_reported_at_their_location() {
+        let wrong = [set("tasks[2].too_close_m", "90"), set("wind.from_deg", "north"), set("tasks[3].bridge", "none")];
+        let found = problems(&apply(PRACTICE, &wrong).unwrap());
+        assert_eq!(found[0], ("tasks[2].too_close_m".into(), "out of range".into()));
+        assert_eq!(found[1], ("tasks[3].bridge".into(), "unknown bridge".into()));
+        assert!(found.contains(&("wind.from_deg".into(), "not a number".into())), "{found:?}");
+    }
+
+    #[test]
+    fn exact_tasks_are_added_moved_and_removed() {
+        let names = |text: &str| {
+            let values = ScenarioValues::read(text).unwrap();
+            (0..values.count("tasks"))
+                .map(|k| values.get(&format!("tasks[{k}].name")).unwrap().chars().take(6).collect())
+                .collect()
+        };
+        let text = PRACTICE.replace("[[tasks]]\nname = \"Arch", "# About the bottom.\n[[tasks]]\nname = \"Arch");
+        let edited: Vec<String> = names(&apply(&text, &[Edit::Add { location: "tasks".into() }]).unwrap());
+        assert_eq!(edited, ["Slab o", "Arch-s", "Interl", "Pier o", "Task 5"]);
+        let moves = [
+            Edit::Add { location: "tasks".into() },
+            Edit::Move { location: "tasks[4]".into(), up: true },
+            Edit::Move { location: "tasks[1]".into(), up: false },
+            Edit::Remove { location: "tasks[0]".into() },
+        ];
+        let edited = apply(&text, &moves).unwrap();
+        let order: Vec<String> = names(&edited);
+        assert_eq!(order, ["Interl", "Arch-s", "Task 5", "Pier o"]);
+        assert!(edited.contains("# About the bottom.\n[[tasks]]\nname = \"Arch"), "{edited}");
+        assert_eq!(problems(&edited), []);
+        for location in ["tasks", "tasks[9]", "wind[0]", "tasks[x]", "tasks[0].name", "", "a b"] {
+            assert!(apply(&text, &[Edit::Remove { location: location.into() }]).is_err(), "{location}");
+        }
+        assert!(apply(&text, &[Edit::Move { location: "tasks[0]".into(), up: true }]).is_err());
+        assert!(apply(&text, &[Edit::Move { location: "tasks[3]".into(), up: false }]).is_err());
+    }
+
+    #[test]
+    fn exact_new_tables_are_valid() {
+        for text in [PRACTICE, TWO_BRIDGES, include_str!("../../../../scenarios/drill-hover.toml")] {
+            let add = |location: &str| Edit::Add { location: location.into() };
+            let edited = apply(text, &[add("tasks"), add("bridges"), add("bridges"), add("wind.events")]).unwrap();
+            assert_eq!(problems(&edited), [], "{edited}");
+        }
+        let inline = "tasks = [{ name = \"a\", kind = \"free\", points_m = [[0, 0, 5]] }]\n";
+        let edited = apply(inline, &[Edit::Add { location: "tasks".into() }]).unwrap();
+        assert_eq!(ScenarioValues::read(&edited).unwrap().count("tasks"), 2, "{edited}");
+    }
+
+    #[test]
+    fn exact_another_kind_removes_the_keys_that_it_does_not_use() {
+        let sized = apply(PRACTICE, &[set("bridges[1].suspension.sag_m", "15")]).unwrap();
+        let arch = apply(&sized, &[set("bridges[1].type", "arch")]).unwrap();
+        assert!(!arch.contains("sag_m") && arch.contains("name = \"suspension\"\ntype = \"arch\""), "{arch}");
+        let flat = apply(PRACTICE, &[set("terrain.source", "flat")]).unwrap();
+        assert!(!flat.contains("lake_width_m") && flat.contains("size_m = 800.0"), "{flat}");
+        assert_eq!(problems(&flat), []);
+        let free = apply(PRACTICE, &[set("tasks[0].kind", "free")]).unwrap();
+        assert_eq!(problems(&free), [("tasks[0].points_m".into(), "a free path without points".into())]);
+        let typo = PRACTICE.replace("[terrain]\n", "[terrain]\nsizze_m = 3\n");
+        assert!(apply(&typo, &[set("terrain.source", "flat")]).unwrap().contains("sizze_m"), "mistakes of before remain");
+    }
+
+    #[test]
+    fn exact_unknown_keys_and_broken_texts_are_rejected() {
+        for location in ["wind.x", "tasks[9].name", "x.y", "wind.speed_m_s.a", "tasks.name", "", "wind[0].speed_m_s"] {
+            assert!(apply(PRACTICE, &[set(location, "1")]).is_err(), "{location}");
+        }
+        assert_eq!(apply("name = ", &[set("name", "a")]), Err("the text is not valid TOML".into()));
+        assert!(with_name(PRACTICE, "my-job").contains("\nname = \"my-job\"\n"));
+    }
+}

@@ -1,0 +1,334 @@
+//! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the defects can be placed, and what its
+//! forms, levels and certification require. `spandrel check` and the scenario editor show the results.
+
+use spandrel_model::scenario::{self, Scenario, SiblingLoader, Task};
+use spandrel_model::site::{Site, defects};
+use spandrel_model::toml::Problem;
+use spandrel_model::vehicle::Vehicle;
+use spandrel_monitor::measures::image_quality;
+use spandrel_monitor::score::certification::{job_time, pictures, requirements};
+
+/// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
+/// section 2).
+const MIN_CLEARANCE_M: f64 = 0.5;
+
+/// Seeds to try for a scenario without its own seed. One seed is enough to find a task that is too far from the
+/// bridges; three also show whether the defects fit (estimate).
+const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
+
+/// What the checks found.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Findings {
+    /// Errors that must be corrected.
+    pub problems: Vec<Problem>,
+    /// Possible errors.
+    pub warnings: Vec<String>,
+    /// Facts about the scenario.
+    pub notes: Vec<String>,
+}
+
+/// Text of a scenario.
+#[derive(Clone, Copy)]
+pub struct ScenarioText<'a> {
+    /// File name for messages.
+    pub file: &'a str,
+    /// Contents (TOML).
+    pub text: &'a str,
+    /// Loads the files that the scenario refers to.
+    pub siblings: SiblingLoader<'a>,
+}
+
+/// The aircraft that has to fit, and the limit of the work.
+#[derive(Clone, Copy)]
+pub struct CheckOptions<'a> {
+    /// Aircraft for the clearance check.
+    pub aircraft: &'a Vehicle,
+    /// Asked before each step that may take long. If it returns false, the remaining steps are skipped.
+    pub may_continue: &'a dyn Fn() -> bool,
+}
+
+impl ScenarioText<'_> {
+    fn read(&self, text: &str) -> Option<Scenario> {
+        scenario::read(self.file, text, self.siblings).ok()
+    }
+}
+
+/// Checks a valid scenario: clearance along its paths, placement of its defects, and the requirements for certification.
+pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
+    findings.problems.extend(clearance_problems(source, scenario, options));
+    findings.warnings.extend(missing_defects_warning(source, scenario, options));
+    findings.notes.extend(certification_notes(source, scenario, options.aircraft));
+}
+
+/// Describes the difficulty of a scenario's forms: the requested one, or all. Files with problems have already been reported.
+pub fn check_forms(source: &ScenarioText<'_>, requested: Option<&str>, options: &CheckOptions<'_>, findings: &mut Findings) {
+    for form in scenario::form_names(source.text).iter().filter(|form| requested.is_none_or(|one| one == *form)) {
+        let Some(job) = source.read(&scenario::select_form(source.text, form)) else { return };
+        if !(options.may_continue)() {
+            return;
+        }
+        let site = Site::build(&job, 0);
+        let (defects, detection) = (site.defects(), site.predicted_detection(&job.tasks, &defects::REFERENCE_CAMERA));
+        if defects.len() < job.defects.count {
+            findings.warnings.push(format!(
+                "{}: form {form}: only {} of {} defects could be placed: choose another defect_seed or detection_pct",
+                source.file,
+                defects.len(),
+                job.defects.count
+            ));
+        }
+        let gradable = defects.iter().filter(|defect| pictures::is_gradable(defect, &job, &options.aircraft.camera).0).count();
+        let percent = |share: f64| format!("{:.1}%", 100.0 * share);
+        let (low, high) = detection.iter().fold((1.0_f64, 0.0_f64), |(low, high), one| (low.min(*one), high.max(*one)));
+        findings.notes.push(format!(
+            "{}: form {form}: predicted detection {} on average ({} to {}); {gradable} of {} count for certification",
+            source.file,
+            percent(detection.iter().sum::<f64>() / detection.len().max(1) as f64),
+            percent(low),
+            percent(high),
+            count(defects.len(), "defect")
+        ));
+    }
+}
+
+/// Describes a scenario's difficulty levels: the requested one, or all. Checks the paths and the defects at the easiest and at the
+/// hardest level, too, unless a level is requested. Files with problems have already been reported.
+pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &CheckOptions<'_>, findings: &mut Findings) {
+    let Some(difficulty) = source.read(source.text).and_then(|job| job.difficulty) else { return };
+    let levels = difficulty.levels();
+    for level in (1..=levels).filter(|level| requested.is_none_or(|one| one == *level)) {
+        let standard = if level == difficulty.standard { ", the standard level" } else { "" };
+        findings.notes.push(format!("{}: level {level} of {levels}{standard}: {}", source.file, difficulty.settings_at(level)));
+    }
+    for level in [1, levels].into_iter().filter(|level| requested.is_none() && *level != difficulty.level) {
+        let Some(job) = source.read(&scenario::select_level(source.text, level)) else { continue };
+        let at_level = |words: &str| format!("at level {level}: {words}");
+        let problems = clearance_problems(source, &job, options).into_iter();
+        findings.problems.extend(problems.map(|problem| Problem { message: at_level(&problem.message), ..problem }));
+        findings.warnings.extend(missing_defects_warning(source, &job, options).map(|warning| at_level(&warning)));
+    }
+}
+
+/// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.
+fn certification_notes(source: &ScenarioText<'_>, scenario: &Scenario, aircraft: &Vehicle) -> Vec<String> {
+    let mut notes = requirements::describe(scenario);
+    let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
+    let needed_min = job_time::job_needed_s(scenario) / 60.0;
+    notes.push(format!(
+        "time that the job needs: {needed_min:.1} min for {path_m:.0} m of path and {}",
+        count(scenario.defects.count, "defect")
+    ));
+    let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
+    let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
+    notes.push(format!(
+        "the camera of {} reaches {finest_mm:.2} mm/px at the clearance limit; cracks narrower than {crack_mm:.1} mm do not count",
+        aircraft.name
+    ));
+    notes.into_iter().map(|note| format!("{}: to be certified: {note}", source.file)).collect()
+}
+
+fn count(number: usize, what: &str) -> String {
+    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
+}
+
+fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
+    let aircraft = options.aircraft;
+    let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
+    if !(options.may_continue)() {
+        return Vec::new();
+    }
+    let site = Site::without_defects(scenario);
+    let lines: Vec<usize> = task_line_numbers(source.text);
+    let tight = |(k, task): (usize, &Task)| {
+        let (at_m, near) = site.min_path_clearance(task, needed_m)?;
+        let (clearance_m, object) = (near.distance_m, site.object_name(near.object));
+        let [east, north, up] = at_m.array();
+        Some(Problem {
+            file: source.file.to_owned(),
+            line: lines.get(k).copied().unwrap_or(1),
+            key: format!("tasks.{k}"),
+            location: format!("tasks[{k}]"),
+            value: format!("{clearance_m:.2} m"),
+            allowed: format!(
+                "at least {needed_m:.2} m for {}: half its {:.2} m tip-to-tip width plus {MIN_CLEARANCE_M} m",
+                aircraft.id, aircraft.hull.tip_to_tip_m
+            ),
+            message: format!(
+                "the path of task {} '{}' passes too close to {object} at east {east:.1} m, north {north:.1} m, up {up:.1} m",
+                task.id, task.name
+            ),
+        })
+    };
+    scenario.tasks.iter().enumerate().take_while(|_| (options.may_continue)()).filter_map(tight).collect()
+}
+
+/// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.
+fn missing_defects_warning(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Option<String> {
+    let wanted = scenario.defects.count;
+    if wanted == 0 || scenario.defects.placed.is_some() {
+        return None;
+    }
+    let seeds = scenario.seed.map_or_else(|| TRIAL_SEEDS.to_vec(), |seed| vec![seed]);
+    let placed =
+        seeds.iter().take_while(|_| (options.may_continue)()).map(|seed| (Site::build(scenario, *seed).defects().len(), *seed));
+    let (least, seed) = placed.min()?;
+    let line = source.text.lines().position(|line| line.trim_start().starts_with("[defects]")).map_or(1, |k| k + 1);
+    (least < wanted).then(|| {
+        format!(
+            "{}:{line}: defects.count = {wanted}, but only {least} could be placed (seed {seed}): no other spot on a bridge can be \
+             photographed from within a task's threshold; move the tasks closer to the structure, extend defects.elements or \
+             defects.kinds, or set the count to {least}",
+            source.file
+        )
+    })
+}
+
+/// Returns the line number of each task's table.
+fn task_line_numbers(text: &str) -> Vec<usize> {
+    let heads = text.lines().enumerate().filter(|(_, line)| {
+        let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();
+        line.starts_with("[[task]]") || line.starts_with("[[tasks]]")
+    });
+    heads.map(|(k, _)| k + 1).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::frames::{Enu, Vec3};
+    use spandrel_model::{shipped, vehicle};
+
+    const ALWAYS: &dyn Fn() -> bool = &|| true;
+
+    fn aircraft() -> Vehicle {
+        vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap()
+    }
+
+    fn shipped_text(name: &str) -> String {
+        shipped::SCENARIOS.iter().find(|(stem, _)| *stem == name).unwrap().1.to_owned()
+    }
+
+    /// Runs `check` with the text of a file, the aircraft and empty findings, and returns the findings.
+    fn found(
+        name: &str,
+        text: &str,
+        aircraft: &Vehicle,
+        check: impl Fn(&ScenarioText, &CheckOptions, &mut Findings),
+    ) -> Findings {
+        let file = format!("{name}.toml");
+        let source = ScenarioText { file: &file, text, siblings: &|_| Err("none".into()) };
+        let mut findings = Findings::default();
+        check(&source, &CheckOptions { aircraft, may_continue: ALWAYS }, &mut findings);
+        findings
+    }
+
+    fn scenario_findings(name: &str, text: &str, aircraft: &Vehicle) -> Findings {
+        found(name, text, aircraft, |source, options, findings| {
+            check_scenario(source, &source.read(text).unwrap(), options, findings);
+        })
+    }
+
+    fn level_findings(name: &str, level: Option<u8>, aircraft: &Vehicle) -> Findings {
+        found(name, &shipped_text(name), aircraft, |source, options, findings| check_levels(source, level, options, findings))
+    }
+
+    #[test]
+    fn exact_task_lines_are_found() {
+        assert_eq!(task_line_numbers("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
+    }
+
+    #[test]
+    fn exact_every_shipped_path_fits_the_default_aircraft() {
+        let aircraft = aircraft();
+        for (name, text) in shipped::SCENARIOS {
+            assert_eq!(scenario_findings(name, text, &aircraft).problems, [], "{name}");
+        }
+    }
+
+    #[test]
+    fn exact_levels_are_described_and_checked_at_both_ends() {
+        let found = level_findings("drill-gap", None, &aircraft());
+        assert_eq!((found.problems, found.warnings, found.notes.len()), (vec![], vec![], 9));
+        assert_eq!(found.notes[8], "drill-gap.toml: level 9 of 9: wind 5 m/s, gap 2.8 m");
+        assert!(found.notes[4].contains("level 5 of 9, the standard level: wind 0.98 m/s, gap 3.4 m"), "{}", found.notes[4]);
+        assert_eq!(level_findings("drill-gap", Some(9), &aircraft()).notes, found.notes[8..]);
+        let mut wide = aircraft();
+        wide.hull.tip_to_tip_m = 2.0;
+        let found = level_findings("drill-gap", None, &wide);
+        assert!(found.problems[0].message.starts_with("at level 9: the path of task 1 "), "{:?}", found.problems);
+        assert!(level_findings("two-bridges", None, &aircraft()).notes.is_empty());
+    }
+
+    #[test]
+    fn regress_missing_defects_cause_a_warning() {
+        let text = shipped_text("drill-straight-line");
+        let found = |text: &str| {
+            let findings = scenario_findings("drill-straight-line", text, &aircraft());
+            assert_eq!(findings.problems, []);
+            findings.warnings
+        };
+        assert_eq!(found(&text), Vec::<String>::new(), "no defects requested");
+        let text = text.replace("[defects]\ncount = 0", "[defects]\ncount = 4");
+        let line = text.lines().position(|line| line == "[defects]").unwrap() + 1;
+        let warnings = found(&text);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].contains(&format!(":{line}: defects.count = 4, but only 0 could be placed")), "{warnings:?}");
+    }
+
+    #[test]
+    fn exact_low_clearance_is_reported_with_the_position() {
+        let mut aircraft = aircraft();
+        aircraft.hull.tip_to_tip_m = 30.0;
+        let findings = scenario_findings("two-bridges", shipped::TWO_BRIDGES, &aircraft);
+        assert_eq!(findings.problems.len(), 4, "{:?}", findings.problems);
+        let problem = findings.problems[2].to_string();
+        assert!(problem.contains("interlayer") || problem.contains("task 3"), "{problem}");
+        assert!(problem.contains("allowed: at least 15.50 m") && problem.contains("up "), "{problem}");
+        assert_eq!(findings.problems[2].location, "tasks[2]");
+    }
+
+    #[test]
+    fn exact_no_step_begins_after_the_limit() {
+        let aircraft = aircraft();
+        let options = CheckOptions { aircraft: &aircraft, may_continue: &|| false };
+        let source = ScenarioText { file: "a.toml", text: shipped::PILOT_STUDY, siblings: &|_| Err("none".into()) };
+        let mut findings = Findings::default();
+        check_forms(&source, None, &options, &mut findings);
+        check_scenario(&source, &source.read(source.text).unwrap(), &options, &mut findings);
+        assert_eq!((findings.problems, findings.warnings), (Vec::new(), Vec::new()));
+    }
+
+    #[test]
+    fn exact_clearance_limit_matches_the_aircraft_size() {
+        // Tolerance, m: the search along the path stops within 1 mm of the narrowest point.
+        const TOLERANCE_M: f64 = 2e-3;
+        let text = shipped_text("drill-gap");
+        let scenario = scenario::read("drill-gap.toml", &text, &|_| Err("none".into())).unwrap();
+        let site = Site::build(&scenario, 0);
+        let room = |p: &Vec3<Enu>| site.geometry().nearest(*p, 100.0).map_or(100.0, |near| near.distance_m);
+        let path = &scenario.tasks[0].path_m;
+        let tightest_m = path.windows(2).flat_map(|w| (0..200).map(|k| w[0].lerp(w[1], f64::from(k) / 200.0)));
+        let tightest_m = tightest_m.map(|p| room(&p)).fold(f64::INFINITY, f64::min);
+        let problems = |tip_to_tip_m: f64| {
+            let mut aircraft = aircraft();
+            aircraft.hull.tip_to_tip_m = tip_to_tip_m;
+            let check = |source: &ScenarioText, options: &CheckOptions, findings: &mut Findings| {
+                findings.problems = clearance_problems(source, &scenario, options);
+            };
+            found("drill-gap", &text, &aircraft, check).problems
+        };
+        let fits_m = 2.0 * (tightest_m - MIN_CLEARANCE_M);
+        assert_eq!(problems(fits_m - TOLERANCE_M), []);
+        let refused = problems(fits_m + 2.0 * TOLERANCE_M);
+        assert_eq!(refused.len(), 1);
+        assert_eq!(task_line_numbers(&text), [refused[0].line]);
+        // The clearance at the reported point matches the reported clearance.
+        let number = |after: &str| {
+            let rest = refused[0].message.split(after).nth(1).unwrap();
+            rest.trim_start().split(' ').next().unwrap().parse::<f64>().unwrap()
+        };
+        let at = Vec3::new(number("at east"), number("north"), number("up"));
+        assert!((room(&at) - tightest_m).abs() < 0.1, "{}", refused[0].message);
+        assert!(refused[0].value == format!("{tightest_m:.2} m"), "{}", refused[0].value);
+    }
+}

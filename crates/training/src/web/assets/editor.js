@@ -1,0 +1,299 @@
+// The scenario editor. The server edits the text and checks it: this script sends each change, then shows the text, the values,
+// the problems and the drawings of the answer. Without this script, users edit the text and check it with a button.
+"use strict";
+const PAUSE_MS = 400;
+const editor = document.querySelector("[data-editor]");
+const form = document.getElementById("editor");
+const area = document.getElementById("text");
+const fields = document.getElementById("fields");
+const file = document.getElementById("file");
+const status = document.getElementById("status");
+const findings = document.getElementById("findings");
+const preview = document.getElementById("preview");
+const stale = document.getElementById("stale");
+const placingStatus = document.getElementById("placing");
+
+// Text of the saved file; null if it was never saved.
+const saved = editor.dataset.unsaved === "true" ? null : area.defaultValue;
+let shape = editor.dataset.shape ?? "";
+// Changes that the server has not answered yet.
+let edits = [];
+// Texts typed since the last request, by the ID of the input.
+let typed = new Map();
+let timer = null;
+let checking = null;
+let checkedText = null;
+let leaving = false;
+// Location of the position that the next click on the plan sets.
+let placing = null;
+// Edit whose answer moves the focus, and the function that moves it.
+let focusNext = null;
+
+const say = (element, words) => {
+  if (element.textContent !== words) element.textContent = words;
+};
+
+// ---- Checks ----
+
+function checkSoon() {
+  clearTimeout(timer);
+  timer = setTimeout(checkNow, PAUSE_MS);
+}
+
+/** Checks until no change is left; one request at a time. */
+function checkNow() {
+  clearTimeout(timer);
+  checking ??= checkAll().finally(() => { checking = null; });
+  return checking;
+}
+
+async function checkAll() {
+  while (edits.length > 0 || area.value !== checkedText) {
+    const sent = { text: area.value, edits, typed };
+    edits = [];
+    typed = new Map();
+    try {
+      const answer = await ask(sent);
+      // Text typed in the meantime stays; the edits apply to it next.
+      if (area.value === sent.text) show(answer, sent);
+      else edits = [...sent.edits, ...edits];
+    } catch (error) {
+      console.error(error);
+      edits = [...sent.edits, ...edits];
+      say(status, `Not checked: ${error.message}. Your changes are kept on this page.`);
+      return false;
+    }
+  }
+  return true;
+}
+
+async function ask({ text, edits: list }) {
+  const body = new URLSearchParams({ token: form.elements.token.value, opened: form.elements.opened.value, text, edits: JSON.stringify(list), shape });
+  const answer = await fetch("/scenario-editor/check", { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
+  if (!answer.ok) throw new Error(answer.status ? `HTTP status ${answer.status}` : "login required");
+  return answer.json();
+}
+
+// ---- Answers ----
+
+function show(answer, sent) {
+  if (area.value !== answer.text) area.value = answer.text;
+  checkedText = area.value;
+  fields.disabled = answer.values === null;
+  if (answer.form !== null) replaceForm(answer);
+  if (answer.values !== null) showValues(answer.values);
+  showProblems(answer.problems);
+  const open = document.getElementById("check-notes")?.open ?? false;
+  findings.innerHTML = answer.findings;
+  if (open) document.getElementById("check-notes")?.setAttribute("open", "");
+  say(status, answer.rejected ? `${answer.rejected}. ${answer.status}` : answer.status);
+  if (answer.preview !== null) preview.innerHTML = answer.preview;
+  stale.hidden = answer.preview !== null || preview.querySelector("svg") === null;
+  if (focusNext !== null && sent.edits.includes(focusNext.edit)) {
+    focusNext.move();
+    focusNext = null;
+  }
+}
+
+function replaceForm(answer) {
+  const open = [...fields.querySelectorAll("details[open]")].map((details) => details.id);
+  const focus = fields.contains(document.activeElement) ? document.activeElement.id : "";
+  fields.innerHTML = answer.form;
+  shape = answer.shape;
+  for (const id of open) document.getElementById(id)?.setAttribute("open", "");
+  if (focus) document.getElementById(focus)?.focus();
+}
+
+function showValues(values) {
+  for (const [id, value] of Object.entries(values)) {
+    const input = document.getElementById(id);
+    if (input === null) continue;
+    if (typed.has(id)) input.value = typed.get(id);
+    else if (input.value !== value && input !== document.activeElement) setValue(input, value);
+  }
+}
+
+function setValue(input, value) {
+  if (input instanceof HTMLSelectElement && ![...input.options].some((option) => option.value === value)) input.add(new Option(value, value));
+  input.value = value;
+}
+
+function showProblems(problems) {
+  const texts = new Map();
+  for (const { element, text } of problems) if (element !== null) texts.set(element, [...(texts.get(element) ?? []), text]);
+  for (const slot of fields.querySelectorAll(".field-problem")) {
+    const id = slot.id.slice(0, -"-problem".length);
+    const words = texts.get(id);
+    say(slot, words ? words.join("; ") : "");
+    for (const input of [document.getElementById(id), ...fields.querySelectorAll(`[id^="${CSS.escape(id)}-part-"]`)]) {
+      if (!input?.dataset.field) continue;
+      if (words) input.setAttribute("aria-invalid", "true");
+      else input.removeAttribute("aria-invalid");
+    }
+  }
+  for (const details of fields.querySelectorAll("details")) {
+    details.classList.toggle("has-problem", [...details.querySelectorAll(".field-problem")].some((slot) => slot.textContent !== ""));
+  }
+}
+
+// ---- Changes ----
+
+function change(input) {
+  const location = input.dataset.field;
+  typed.set(input.id, input.value);
+  let text = input.value;
+  if (input.dataset.part !== undefined) {
+    const parts = [...input.closest("fieldset").querySelectorAll("[data-part]")].map((part) => part.value.trim());
+    text = parts.every((part) => part === "") ? "" : parts.join(", ");
+  }
+  edits = edits.filter((edit) => edit.set !== location);
+  edits.push({ set: location, text });
+  checkSoon();
+}
+
+fields.addEventListener("input", ({ target }) => {
+  if (target.dataset.field !== undefined) change(target);
+});
+area.addEventListener("input", checkSoon);
+
+fields.addEventListener("click", ({ target }) => {
+  const button = target.closest("button");
+  if (button === null) return;
+  if (button.dataset.place !== undefined) startPlacing(button);
+  if (button.dataset.edit !== undefined) {
+    const edit = JSON.parse(button.dataset.edit);
+    edits.push(edit);
+    focusNext = { edit, move: focusAfter(edit, button) };
+    checkNow();
+  }
+});
+
+/** Returns a function that moves the focus to what the edit changed. */
+function focusAfter(edit, button) {
+  const section = button.closest("details.form-section").id;
+  const last = () => {
+    const groups = document.querySelectorAll(`#${section} details.group`);
+    return groups[groups.length - 1];
+  };
+  if (edit.add !== undefined) {
+    return () => {
+      last()?.setAttribute("open", "");
+      last()?.querySelector("[data-field]")?.focus();
+    };
+  }
+  if (edit.remove !== undefined) return () => document.querySelector(`#${section} > [data-edit]`)?.focus();
+  const index = Number(/\[(\d+)\]$/.exec(edit.move)[1]) + (edit.up ? -1 : 1);
+  return () => {
+    const group = document.querySelectorAll(`#${section} details.group`)[index];
+    group?.setAttribute("open", "");
+    group?.querySelector("summary")?.focus();
+  };
+}
+
+// ---- Problems ----
+
+findings.addEventListener("click", (event) => {
+  const link = event.target.closest("[data-element]");
+  const button = event.target.closest("[data-line]");
+  if (link !== null) {
+    event.preventDefault();
+    const target = document.getElementById(link.dataset.element);
+    for (let details = target; details !== null; details = details.parentElement.closest("details")) {
+      if (details instanceof HTMLDetailsElement) details.open = true;
+    }
+    (target?.matches("input, select, textarea") ? target : target?.querySelector("input, select, summary"))?.focus();
+  }
+  if (button !== null) showLine(Number(button.dataset.line));
+});
+
+function showLine(line) {
+  file.open = true;
+  const lines = area.value.split("\n");
+  const start = lines.slice(0, line - 1).reduce((length, text) => length + text.length + 1, 0);
+  area.focus();
+  area.setSelectionRange(start, start + (lines[line - 1] ?? "").length);
+  area.scrollTop = (area.scrollHeight / Math.max(lines.length, 1)) * Math.max(line - 5, 0);
+}
+
+// ---- Placing ----
+
+function startPlacing(button) {
+  placing = { location: button.dataset.place, button };
+  const plan = preview.querySelector("[data-plan]");
+  if (plan === null) {
+    placing = null;
+    say(placingStatus, "There is no plan yet: the scenario must be valid first.");
+    return;
+  }
+  preview.classList.add("placing");
+  plan.scrollIntoView({ block: "nearest" });
+  say(placingStatus, "Click the site plan to set east and north, or press Escape.");
+}
+
+function stopPlacing() {
+  placing = null;
+  preview.classList.remove("placing");
+  say(placingStatus, "");
+}
+
+preview.addEventListener("click", (event) => {
+  const svg = event.target.closest("[data-plan] svg");
+  if (placing === null || svg === null) return;
+  const [m0, m1, , m3, m4, m5, , m7] = svg.querySelector("[data-matrix]").dataset.matrix.split(" ").map(Number);
+  const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+  const [x, y, determinant] = [at.x - m3, at.y - m7, m0 * m5 - m1 * m4];
+  const places = [(x * m5 - y * m1) / determinant, (y * m0 - x * m4) / determinant].map((value) => String(Math.round(10 * value) / 10));
+  const parts = [...placing.button.closest("fieldset").querySelectorAll("[data-part]")];
+  places.forEach((value, k) => { parts[k].value = value; typed.set(parts[k].id, value); });
+  if (parts[2].value.trim() === "") parts[2].value = "0";
+  const { button } = placing;
+  stopPlacing();
+  change(parts[2]);
+  button.focus();
+});
+
+document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape" && placing !== null) stopPlacing();
+});
+
+// ---- Saving and leaving ----
+
+const isUnsaved = () => saved === null || area.value !== saved || edits.length > 0;
+
+form.addEventListener("submit", (event) => {
+  const { submitter } = event;
+  if (submitter?.id === "download") {
+    event.preventDefault();
+    download();
+  } else if (edits.length > 0 || checking !== null) {
+    event.preventDefault();
+    checkNow().then((done) => { if (done) form.requestSubmit(submitter); });
+  } else {
+    leaving = true;
+  }
+});
+
+async function download() {
+  if (edits.length > 0 && !(await checkNow())) return;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([area.value], { type: "application/toml" }));
+  link.download = `${document.getElementById("field-name")?.value || "scenario"}.toml`;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+document.getElementById("new-name").addEventListener("keydown", (event) => {
+  if (event.key !== "Enter") return;
+  event.preventDefault();
+  form.requestSubmit(document.getElementById("save-as"));
+});
+
+addEventListener("beforeunload", (event) => {
+  if (!leaving && isUnsaved()) event.preventDefault();
+});
+
+for (const element of document.querySelectorAll("[data-without-script]")) element.hidden = true;
+fields.hidden = false;
+file.open = fields.childElementCount === 0;
+fields.querySelector("details")?.setAttribute("open", "");
+checkNow();

@@ -1,0 +1,249 @@
+//! Checks the text in the scenario editor: applies the edits, lists all problems and draws the preview.
+
+use super::layout::counted;
+use super::scenario_fields::{fields, input_texts};
+use super::scenario_form::ScenarioForm;
+use crate::report::plots::job::{editor_plan, job_side, job_south};
+use crate::report::plots::site_picture::site_picture;
+use crate::scenario_check::{CheckOptions, Findings, ScenarioText, check_forms, check_levels, check_scenario};
+use maud::{Markup, html};
+use serde_json::{Value, json};
+use spandrel_model::scenario::{self, Scenario};
+use spandrel_model::site::Site;
+use spandrel_model::toml::{Problem, split_displayed};
+
+/// Result of a check.
+pub struct CheckedScenario {
+    /// Text after the edits.
+    pub text: String,
+    /// Form; `None` if the text is not valid TOML.
+    pub form: Option<ScenarioForm>,
+    /// Problems, warnings and notes.
+    pub findings: Findings,
+    /// Drawings of the site; `None` if the scenario is invalid.
+    pub preview: Option<Markup>,
+    /// Message about an edit that could not be applied.
+    pub rejected: Option<String>,
+}
+
+/// Checks a text. `file` is the name in messages. Uploaded scenarios can't refer to other files.
+#[must_use]
+pub fn check_text(file: &str, text: String, options: &CheckOptions<'_>) -> CheckedScenario {
+    let mut findings = Findings::default();
+    let preview = {
+        let source = ScenarioText { file, text: &text, siblings: &no_siblings };
+        match scenario::read(file, &text, &no_siblings) {
+            Ok(scenario) => {
+                let preview = preview(&scenario, options);
+                check_scenario(&source, &scenario, options, &mut findings);
+                check_forms(&source, None, options, &mut findings);
+                check_levels(&source, None, options, &mut findings);
+                preview
+            }
+            Err(problems) => {
+                findings.problems = problems.0;
+                None
+            }
+        }
+    };
+    if !(options.may_continue)() {
+        let words = "The check took too long and was stopped. Check the file with spandrel check.";
+        findings.warnings.push(format!("{file}: {words}"));
+    }
+    let form = ScenarioForm::read(&text);
+    CheckedScenario { text, form, findings, preview, rejected: None }
+}
+
+/// Refuses files that a scenario refers to.
+///
+/// # Errors
+/// Always returns an error.
+pub fn no_siblings(_: &str) -> Result<String, String> {
+    Err("an uploaded scenario cannot refer to other files".to_owned())
+}
+
+fn preview(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Markup> {
+    if !(options.may_continue)() {
+        return None;
+    }
+    let site = Site::without_defects(scenario);
+    let scroll = |label: &str, drawing: &Markup| html! { div.scroll tabindex="0" role="region" aria-label=(label) { (drawing) } };
+    let sides = scenario.bridges.iter().take_while(|_| (options.may_continue)());
+    Some(html! {
+        figure { (site_picture(scenario, &site)) figcaption { "The site with the tasks' paths and the pad" } }
+        figure data-plan { (editor_plan(scenario, &site)) figcaption { "Site plan, north up" } }
+        @if scenario.bridges.is_empty() {
+            figure.wide { (scroll("View from the south", &job_south(scenario, &site))) figcaption { "View from the south" } }
+        }
+        @for bridge in sides {
+            figure.wide {
+                (scroll(&format!("Side view of {}", bridge.name), &job_side(scenario, &site, bridge)))
+                figcaption { "Side view of " (bridge.name) }
+            }
+        }
+    })
+}
+
+impl CheckedScenario {
+    /// Returns the answer for the page's script. `shape` is the shape of the form that the page shows.
+    #[must_use]
+    pub fn json(&self, shape: &str) -> Value {
+        let (shown, _) = split_displayed(&self.findings.problems);
+        let problems: Vec<Value> = shown.iter().map(|problem| self.problem_json(problem)).collect();
+        let own_shape = self.form.as_ref().map(form_shape);
+        let fresh = self.form.as_ref().filter(|_| own_shape.as_deref() != Some(shape));
+        json!({
+            "text": self.text,
+            "status": self.status(),
+            "problems": problems,
+            "warnings": self.findings.warnings,
+            "notes": self.findings.notes,
+            "findings": self.findings_list().into_string(),
+            "shape": own_shape,
+            "form": fresh.map(|form| fields(form).into_string()),
+            "values": self.form.as_ref().map(input_texts),
+            "preview": self.preview.as_ref().map(|preview| preview.clone().into_string()),
+            "rejected": self.rejected,
+        })
+    }
+
+    fn problem_json(&self, problem: &Problem) -> Value {
+        let element = self.form.as_ref().and_then(|form| form.element_for(problem));
+        json!({
+            "line": problem.line,
+            "key": problem.key,
+            "value": problem.value,
+            "allowed": problem.allowed,
+            "message": problem.message,
+            "text": beside_field(problem),
+            "element": element,
+        })
+    }
+
+    /// Returns a sentence with the number of problems and warnings.
+    #[must_use]
+    pub fn status(&self) -> String {
+        let warnings = match self.findings.warnings.len() {
+            0 => String::new(),
+            many => format!(", {}", counted(many, "warning", "warnings")),
+        };
+        match self.findings.problems.len() {
+            0 => format!("No problems{warnings}."),
+            many => format!("{}{warnings}.", counted(many, "problem", "problems")),
+        }
+    }
+
+    /// Renders the lists of problems, warnings and notes.
+    #[must_use]
+    pub fn findings_list(&self) -> Markup {
+        let Findings { problems, warnings, notes } = &self.findings;
+        let (shown, more) = split_displayed(problems);
+        html! {
+            @if !problems.is_empty() {
+                ul.problems {
+                    @for problem in shown { li { (self.listed(problem)) } }
+                    @if more > 0 { li { "and " (more) " more problems" } }
+                }
+            }
+            @if !warnings.is_empty() { ul.warnings { @for warning in warnings { li { "Warning: " (warning) } } } }
+            @if !notes.is_empty() { details.notes id="check-notes" { summary { "Notes (" (notes.len()) ")" } ul { @for note in notes { li { (note) } } } } }
+        }
+    }
+
+    fn listed(&self, problem: &Problem) -> Markup {
+        let element = self.form.as_ref().and_then(|form| form.element_for(problem));
+        html! {
+            @match element {
+                Some(element) => a href={ "#" (element) } data-element=(element) { code { (problem.location) } },
+                None => code { (problem.location) },
+            }
+            @if !problem.value.is_empty() { " = " (problem.value) }
+            ": " (beside_field(problem)) " "
+            button.line type="button" data-line=(problem.line) { "Line " (problem.line) }
+        }
+    }
+}
+
+/// Returns the words beside a field: what is wrong and what is allowed.
+fn beside_field(problem: &Problem) -> String {
+    if problem.allowed.is_empty() {
+        problem.message.clone()
+    } else {
+        format!("{} (allowed: {})", problem.message, problem.allowed)
+    }
+}
+
+/// Returns a text that changes if the form has other fields or other choices.
+#[must_use]
+pub fn form_shape(form: &ScenarioForm) -> String {
+    let fields = form.fields().map(|field| format!("{}{:?}", field.location, field.control));
+    let names = form.sections.iter().flat_map(|section| &section.groups).map(|group| group.name.clone());
+    let all: String = fields.chain(names).collect::<Vec<_>>().join("\n");
+    spandrel_monitor::folder::sha256_hex(all.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::web::layout::tests::HOSTILE_NAME;
+    use spandrel_model::scenario::edit::{Edit, apply};
+    use spandrel_model::shipped::{PHANTOM2, PRACTICE};
+    use spandrel_model::vehicle;
+
+    fn checked(text: &str, may_continue: &dyn Fn() -> bool) -> CheckedScenario {
+        let aircraft = vehicle::read("phantom2.toml", PHANTOM2).unwrap();
+        check_text("practice.toml", text.to_owned(), &CheckOptions { aircraft: &aircraft, may_continue })
+    }
+
+    fn set(location: &str, text: &str) -> Edit {
+        Edit::Set { location: location.into(), text: text.into() }
+    }
+
+    #[test]
+    fn exact_a_valid_scenario_has_a_preview_and_notes() {
+        let checked = checked(PRACTICE, &|| true);
+        assert_eq!((checked.findings.problems.len(), checked.status().as_str()), (0, "No problems."));
+        let answer = checked.json("");
+        assert_eq!(answer["text"], PRACTICE);
+        assert!(answer["notes"].as_array().unwrap().len() > 2);
+        let preview = answer["preview"].as_str().unwrap();
+        assert!(preview.contains("data-plan") && preview.contains("image/png") && preview.contains("Side view of suspension"));
+        assert!(answer["form"].is_string());
+        assert!(checked.json(answer["shape"].as_str().unwrap())["form"].is_null(), "the page has this form already");
+    }
+
+    #[test]
+    fn exact_problems_name_field_line_and_allowed_range() {
+        let text = apply(PRACTICE, &[set("wind.from_deg", "400"), set("tasks[3].name", HOSTILE_NAME)]).unwrap();
+        let checked = checked(&text, &|| true);
+        let answer = checked.json("");
+        let line = 1 + text.lines().position(|line| line.starts_with("from_deg")).unwrap();
+        let problem = &answer["problems"][0];
+        assert_eq!((problem["line"].as_u64(), problem["element"].as_str()), (Some(line as u64), Some("field-wind-from_deg")));
+        assert_eq!(problem["text"], "out of range (allowed: 0 to 360)");
+        assert!(answer["preview"].is_null() && answer["values"]["field-wind-from_deg"] == "400");
+        assert!(!answer["form"].as_str().unwrap().contains("<script>"));
+        assert_eq!(checked.status(), "1 problem.");
+        let syntax = super::tests::checked("name = ", &|| true);
+        assert!(syntax.form.is_none() && syntax.json("")["values"].is_null());
+        let list = syntax.findings_list().into_string();
+        assert!(list.contains("data-line=\"1\"") && list.contains("syntax"), "{list}");
+    }
+
+    #[test]
+    fn exact_clearance_problems_belong_to_their_task() {
+        let text = PRACTICE.replace(
+            "kind = \"pier_circle\"\nbridge = \"suspension\"\nstand_off_m = 4.5",
+            "kind = \"free\"\npoints_m = [[0, 0, 34.5], [10, 0, 34.5]]",
+        );
+        let checked = checked(&text, &|| true);
+        assert_eq!(checked.json("")["problems"][0]["element"], "field-tasks-3", "{:?}", checked.findings.problems);
+        assert!(checked.preview.is_some(), "the preview shows the path");
+    }
+
+    #[test]
+    fn exact_a_check_without_time_ends_with_a_warning() {
+        let checked = checked(PRACTICE, &|| false);
+        assert!(checked.preview.is_none() && checked.findings.warnings[0].contains("took too long"));
+    }
+}

@@ -1,0 +1,122 @@
+//! Saves uploaded scenarios. A scenario that somebody else has changed is not replaced silently.
+
+use super::lock::lock;
+use super::safe_names::is_safe_file_name;
+use super::scenario_library::{read, upload_path, uploaded};
+use super::state::ServerState;
+use crate::errors::AppError;
+use crate::io::files;
+use crate::io::replace::replace;
+use spandrel_monitor::folder::sha256_hex;
+use std::path::Path;
+
+/// Maximum number of uploaded scenarios.
+const MAX_UPLOADS: usize = 200;
+/// Names that the server's own pages use.
+const RESERVED_NAMES: [&str; 1] = ["new"];
+
+/// Returns an identifier of a scenario's text, by which the editor notices changes by others.
+pub fn version(text: &str) -> String {
+    sha256_hex(text.as_bytes())
+}
+
+/// The stored file that a save may replace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Expected<'a> {
+    /// Any file or none.
+    Anything,
+    /// No file.
+    Absent,
+    /// The file with this version.
+    Version(&'a str),
+}
+
+/// Reason why a scenario was not saved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SaveError {
+    /// The stored file is not the expected one; contains a message.
+    Conflict(String),
+    /// The scenario is invalid, or the file cannot be written.
+    App(AppError),
+}
+
+impl From<AppError> for SaveError {
+    fn from(error: AppError) -> Self {
+        Self::App(error)
+    }
+}
+
+/// Validates and saves an uploaded scenario, and returns its name. `shown` is the file name for messages.
+///
+/// # Errors
+/// Returns an error if the scenario or its name is invalid, the stored file is not the expected one, or writing fails.
+pub fn save(state: &ServerState, shown: &str, text: &str, expected: Expected<'_>) -> Result<String, SaveError> {
+    let name = read(shown, text)?.name;
+    check_name(shown, &name)?;
+    let _writing = lock(&state.scenario_writing);
+    let target = upload_path(&state.scenarios, &name);
+    check_expected(&target, &name, expected)?;
+    if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
+        return Err(AppError::invalid(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")).into());
+    }
+    std::fs::create_dir_all(&state.scenarios)
+        .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;
+    replace(&target, text.as_bytes())?;
+    Ok(name)
+}
+
+fn check_name(shown: &str, name: &str) -> Result<(), AppError> {
+    // The name becomes part of folder names; the scenario parser allows only [a-z0-9-].
+    if !is_safe_file_name(name) || name.len() > 60 {
+        return Err(AppError::invalid(format!("{shown}: the name is too long (allowed: 60 characters)")));
+    }
+    if files::scenario_names().contains(&name) {
+        return Err(AppError::invalid(format!("{shown}: '{name}' is the name of a shipped scenario; choose another")));
+    }
+    if RESERVED_NAMES.contains(&name) {
+        return Err(AppError::invalid(format!("{shown}: '{name}' is the name of a page of this server; choose another")));
+    }
+    Ok(())
+}
+
+fn check_expected(target: &Path, name: &str, expected: Expected<'_>) -> Result<(), SaveError> {
+    let stored = if target.is_file() { Some(files::read(target)?) } else { None };
+    let conflict = match (expected, &stored) {
+        (Expected::Anything, _) | (Expected::Absent, None) => None,
+        (Expected::Absent, Some(_)) => Some(format!("There is already a scenario '{name}'. Choose another name.")),
+        (Expected::Version(_), None) => Some(format!("Somebody deleted '{name}' since you opened it.")),
+        (Expected::Version(opened), Some(text)) => (version(text) != opened).then(|| {
+            format!("Somebody changed '{name}' since you opened it. Save your version under a new name, or overwrite the other version.")
+        }),
+    };
+    conflict.map_or(Ok(()), |words| Err(SaveError::Conflict(words)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_only_the_expected_file_is_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = upload_path(folder.path(), "job");
+        let check = |expected: Expected<'_>| check_expected(&target, "job", expected);
+        assert_eq!((check(Expected::Absent), check(Expected::Anything)), (Ok(()), Ok(())));
+        assert!(matches!(check(Expected::Version("x")), Err(SaveError::Conflict(words)) if words.contains("deleted")));
+        std::fs::write(&target, "a = 1\n").unwrap();
+        assert_eq!((check(Expected::Version(&version("a = 1\n"))), check(Expected::Anything)), (Ok(()), Ok(())));
+        assert!(
+            matches!(check(Expected::Version(&version("a = 2\n"))), Err(SaveError::Conflict(words)) if words.contains("changed"))
+        );
+        assert!(matches!(check(Expected::Absent), Err(SaveError::Conflict(words)) if words.contains("already")));
+    }
+
+    #[test]
+    fn exact_shipped_and_reserved_names_are_refused() {
+        let refused = |name: &str| check_name("job.toml", name).unwrap_err().to_string();
+        assert!(refused("practice").contains("shipped scenario"));
+        assert!(refused("new").contains("page of this server"));
+        assert!(refused("../x").contains("too long") && refused(&"x".repeat(61)).contains("too long"));
+        assert_eq!(check_name("job.toml", "my-job"), Ok(()));
+    }
+}

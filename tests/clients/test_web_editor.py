@@ -1,0 +1,346 @@
+"""The scenario editor of the web server in a real browser: form, checks while typing, plan, saving, and its use without a script."""
+
+import json
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+import spandrel
+import webserver
+from test_web import SIZES, BrowserUser, browser  # noqa: F401 (`browser` is a fixture)
+
+PRACTICE = (spandrel.ROOT / "scenarios" / "practice.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def sessions(tmp_path_factory):
+    """A folder without flights, and the passwords of all roles."""
+    folder = tmp_path_factory.mktemp("editor") / "sessions"
+    folder.mkdir()
+    webserver.set_passwords(folder, "anna")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def server(sessions):
+    """A shared server."""
+    server = webserver.Server(sessions)
+    yield server
+    server.close()
+
+
+def stored(sessions, name):
+    """Returns the file of an uploaded scenario."""
+    return sessions / "scenarios" / f"{name}.toml"
+
+
+def upload(server, name, text=PRACTICE):
+    """Uploads a copy of a scenario as the instructor Ida."""
+    ida = webserver.Browser(server.address)
+    assert ida.log_in("ida") == 303
+    renamed = re.sub(r'(?m)^name = "[a-z-]+"$', f'name = "{name}"', text, count=1)
+    assert ida.upload("/scenarios", "/scenarios", {}, renamed.encode(), "job.toml")[0] == 200
+    return ida
+
+
+def open_section(page, section):
+    """Opens a section of the form."""
+    page.locator(f"#section-{section}").evaluate("details => { details.open = true; }")
+
+
+def wait_until_checked(page, words="No problems"):
+    """Waits until the check of the latest change is shown."""
+    expect(page.locator("#status")).to_contain_text(words)
+
+
+def plan_point(page, east, north):
+    """Returns the point of the window at a place on the site plan."""
+    return page.locator("[data-plan] svg").evaluate(
+        """(svg, [east, north]) => {
+          const [m0, m1, , m3, m4, m5, , m7] = svg.querySelector("[data-matrix]").dataset.matrix.split(" ").map(Number);
+          const at = new DOMPoint(m0 * east + m1 * north + m3, m4 * east + m5 * north + m7).matrixTransform(svg.getScreenCTM());
+          return [at.x, at.y];
+        }""",
+        [east, north],
+    )
+
+
+def test_wire_instructor_makes_a_job_from_practice(browser, server, sessions):
+    ida = BrowserUser(browser, server, "ida")
+    page = ida.page
+    ida.go("/scenarios")
+    page.click("text=New scenario")
+    assert page.input_value("[name=from]") == "practice"
+    page.fill("[name=name]", "lake-crossing")
+    page.click("text=Edit the copy")
+    wait_until_checked(page)
+    expect(page.locator("#preview svg")).to_have_count(4)
+    assert page.input_value("#field-name") == "lake-crossing"
+    # The wind.
+    open_section(page, "wind")
+    page.select_option("#field-wind-level", "gentle")
+    page.fill("#field-wind-from_deg", "400")
+    wait_until_checked(page, "1 problem")
+    problem = page.locator("#field-wind-from_deg-problem")
+    expect(problem).to_have_text("out of range (allowed: 0 to 360)")
+    expect(page.locator("#field-wind-from_deg")).to_have_attribute("aria-invalid", "true")
+    expect(page.locator("#stale")).to_be_visible()
+    expect(page.locator("#preview svg")).to_have_count(4)
+    # The list of problems leads to the field and to the line.
+    page.locator("#section-wind").evaluate("details => { details.open = false; }")
+    page.click("#findings [data-element]")
+    assert page.evaluate("document.activeElement.id") == "field-wind-from_deg"
+    page.click("#findings [data-line]")
+    assert page.evaluate("getSelection().toString() || document.activeElement.value.slice(document.activeElement.selectionStart, document.activeElement.selectionEnd)") == "from_deg = 400"
+    page.fill("#field-wind-from_deg", "250")
+    wait_until_checked(page)
+    expect(problem).to_be_empty()
+    expect(page.locator("#stale")).to_be_hidden()
+    # The pad, by a click on the plan.
+    open_section(page, "place")
+    page.click("[data-place='ground_team.pad_m']")
+    expect(page.locator("#placing")).to_contain_text("Click the site plan")
+    page.locator("[data-plan]").scroll_into_view_if_needed()
+    page.mouse.click(*plan_point(page, -100, 60))
+    east, north, up = (page.locator(f"#field-ground_team-pad_m-part-{k}") for k in range(3))
+    assert abs(float(east.input_value()) + 100) <= 1 and abs(float(north.input_value()) - 60) <= 1 and up.input_value() == "5.0"
+    assert page.evaluate("document.activeElement.dataset.place") == "ground_team.pad_m"
+    expect(page.locator("#text")).to_have_value(re.compile(r"pad_m = \[-\d+(\.\d)?, \d+(\.\d)?, 5\.0\]"))
+    # A task more, above the last one.
+    open_section(page, "tasks")
+    page.click("text=Add a task")
+    expect(page.locator("#field-tasks-4-name")).to_be_focused()
+    page.fill("#field-tasks-4-name", "Slab from the other side")
+    page.fill("#field-tasks-4-stand_off_m", "6")
+    wait_until_checked(page)
+    page.locator("#field-tasks-4 button:text-is('Move up')").click()
+    expect(page.locator("#field-tasks-3 > summary")).to_contain_text("Slab from the other side")
+    wait_until_checked(page)
+    ida.save_screenshot("editor-changed")
+    page.click("button:text-is('Save')")
+    page.wait_for_url("**/scenarios/lake-crossing/edit?saved=yes")
+    expect(page.locator(".message").first).to_contain_text("was saved")
+    ida.go("/scenarios")
+    expect(page.locator("tr:has-text('lake-crossing')")).to_contain_text("uploaded")
+    file = stored(sessions, "lake-crossing")
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith(PRACTICE.splitlines()[0]), "the comment of the shipped file remains"
+    assert 'level = "gentle"' in text and "from_deg = 250\n" in text and text.count("[[tasks]]") == 5
+    assert text.index("Slab from the other side") < text.index("Pier of the suspension bridge")
+    found = json.loads(spandrel.run("check", str(file), "--json"))
+    assert found["problems"] == [] and found["warnings"] == []
+    assert ida.wrong == []
+
+
+def test_wire_editor_passes_axe_in_every_size_and_theme(browser, server):
+    for path, name in [("/scenarios/new", "new"), ("/scenarios/new?from=practice&name=x", "editor")]:
+        for size, (width, height) in SIZES.items():
+            for scheme in ("light", "dark"):
+                ida = BrowserUser(browser, server, "ida", size, scheme)
+                ida.go(path)
+                if name == "editor":
+                    wait_until_checked(ida.page)
+                    ida.save_screenshot(f"{name}-{size}-{scheme}")
+                    open_section(ida.page, "wind")
+                    ida.page.fill("#field-wind-from_deg", "north")
+                    wait_until_checked(ida.page, "1 problem")
+                ida.check()
+                ida.save_screenshot(f"{name}-all-{size}-{scheme}")
+
+
+def test_wire_editor_is_usable_with_the_keyboard_alone(browser, server, sessions):
+    upload(server, "by-keyboard")
+    ida = BrowserUser(browser, server, "ida")
+    page = ida.page
+    ida.go("/scenarios/by-keyboard/edit")
+    wait_until_checked(page)
+    page.focus("#section-traffic > summary")
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "field-traffic-cars"
+    page.keyboard.press("Control+A")
+    page.keyboard.type("9")
+    expect(page.locator("#text")).to_have_value(re.compile(r"cars = 9\n"))
+    page.focus("#section-tasks > summary")
+    page.keyboard.press("Enter")
+    page.focus("#section-tasks > button")
+    page.keyboard.press("Enter")
+    expect(page.locator("#field-tasks-4-name")).to_be_focused()
+    page.focus("[data-place='ground_team.truck_m']") if page.locator("[data-place='ground_team.truck_m']").is_visible() else None
+    page.focus("button:text-is('Save')")
+    page.keyboard.press("Enter")
+    page.wait_for_url("**/scenarios/by-keyboard/edit?saved=yes")
+    text = stored(sessions, "by-keyboard").read_text(encoding="utf-8")
+    assert "cars = 9\n" in text and text.count("[[tasks]]") == 5
+    assert ida.wrong == []
+
+
+def test_wire_text_and_form_change_each_other(browser, server):
+    ida = BrowserUser(browser, server, "ida")
+    page = ida.page
+    ida.go("/scenarios/new?from=practice&name=by-text")
+    wait_until_checked(page)
+    page.click("#file > summary")
+    text = page.input_value("#text")
+    page.fill("#text", text.replace("cars = 4", "cars = 12 # rush hour"))
+    expect(page.locator("#field-traffic-cars")).to_have_value("12")
+    # A syntax error has a line, disables the form, and keeps the drawings.
+    page.fill("#text", text.replace("cars = 4", "cars = "))
+    wait_until_checked(page, "1 problem")
+    expect(page.locator("#findings")).to_contain_text("syntax")
+    expect(page.locator("#field-title")).to_be_disabled()
+    expect(page.locator("#stale")).to_be_visible()
+    expect(page.locator("#preview svg")).to_have_count(4)
+    page.fill("#text", text.replace("cars = 4", "cars = 12 # rush hour"))
+    wait_until_checked(page)
+    open_section(page, "traffic")
+    page.fill("#field-traffic-cars", "3")
+    expect(page.locator("#text")).to_have_value(re.compile("cars = 3 # rush hour\n"))
+    with page.expect_download() as download:
+        page.click("button:text-is('Download')")
+    assert download.value.suggested_filename == "by-text.toml"
+    # The browser asks before it leaves, and the answer "stay" keeps the changes.
+    page.once("dialog", lambda dialog: dialog.dismiss())
+    page.click("a:text-is('Back')", no_wait_after=True)
+    expect(page.locator("#field-traffic-cars")).to_have_value("3")
+    page.once("dialog", lambda dialog: dialog.accept())
+    page.click("a:text-is('Back')")
+    page.wait_for_url("**/scenarios")
+    assert ida.wrong == []
+
+
+def test_wire_changes_by_somebody_else_are_not_overwritten(browser, server, sessions):
+    upload(server, "shared-job")
+    ida, ada = BrowserUser(browser, server, "ida"), BrowserUser(browser, server, "ada")
+    for person in (ida, ada):
+        person.go("/scenarios/shared-job")
+        person.page.click("main a:text-is('Edit')")
+        wait_until_checked(person.page)
+        open_section(person.page, "traffic")
+    ida.page.fill("#field-traffic-cars", "5")
+    ida.page.click("button:text-is('Save')")
+    ida.page.wait_for_url("**saved=yes")
+    ada.page.fill("#field-traffic-cars", "6")
+    ada.page.click("button:text-is('Save')")
+    expect(ada.page.locator(".message").first).to_contain_text("Somebody changed 'shared-job' since you opened it")
+    assert "cars = 5\n" in stored(sessions, "shared-job").read_text(encoding="utf-8")
+    wait_until_checked(ada.page)
+    assert ada.page.input_value("#field-traffic-cars") == "6", "Ada's version is kept on her page"
+    ada.wrong = [wrong for wrong in ada.wrong if "409" not in wrong]
+    ada.check()
+    # Under another name, and then over the other version.
+    ada.page.fill("#new-name", "shared-job-2")
+    ada.page.keyboard.press("Enter")
+    ada.page.wait_for_url("**/scenarios/shared-job-2/edit?saved=yes")
+    assert "cars = 6\n" in stored(sessions, "shared-job-2").read_text(encoding="utf-8")
+    # A name that is taken is refused, even to somebody who opened another scenario.
+    wait_until_checked(ada.page)
+    ada.page.fill("#new-name", "shared-job")
+    ada.page.click("button:text-is('Save as')")
+    expect(ada.page.locator(".message").first).to_contain_text("There is already a scenario 'shared-job'")
+    assert "cars = 5\n" in stored(sessions, "shared-job").read_text(encoding="utf-8")
+    assert ida.wrong == []
+
+
+def test_wire_save_follows_the_rules_of_uploads(server, sessions):
+    ida = upload(server, "ruled-job")
+    save = lambda text, **fields: ida.post("/scenarios", "/scenario-editor/save", {"text": text, **fields})
+    named = lambda name: PRACTICE.replace('name = "practice"', f'name = "{name}"')
+    for text, status, said in [
+        (PRACTICE, 422, "name of a shipped scenario"), (named("new"), 422, "name of a page"), (named("../x"), 422, "invalid name"),
+        (named("bad").replace("turbulence = 0.5", "turbulence = 50"), 422, "allowed: 0 to 5"), ("]]]", 422, "syntax"), (named("ruled-job"), 409, "already a scenario"),
+    ]:
+        got, _, page = save(text)
+        assert got == status and said in page, (said, got, page)
+    status, headers, _ = save(PRACTICE.replace("\n", "\r\n"), save_as="yes", new_name="windows-lines")
+    assert status == 303 and headers["Location"] == "/scenarios/windows-lines/edit?saved=yes"
+    assert "\r" not in stored(sessions, "windows-lines").read_bytes().decode()
+    # The version of the opened file decides; "overwrite" replaces any version.
+    version = re.search(r'name="version" value="([0-9a-f]{64})"', ida.ask("/scenarios/ruled-job/edit")[2]).group(1)
+    assert save(named("ruled-job") + "# one\n", opened="ruled-job", version=version)[0] == 303
+    assert save(named("ruled-job") + "# two\n", opened="ruled-job", version=version)[0] == 409
+    assert save(named("ruled-job") + "# two\n", opened="ruled-job", version=version, overwrite="yes")[0] == 303
+    assert stored(sessions, "ruled-job").read_text(encoding="utf-8").endswith("# two\n")
+    assert ida.post("/scenarios/ruled-job", "/scenarios/ruled-job/remove", {})[0] == 303
+    status, _, page = save(named("ruled-job"), opened="ruled-job", version=version)
+    assert status == 409 and "deleted" in page
+    status, headers, text = ida.post("/scenarios", "/scenario-editor/download", {"text": "name = '../../x'\r\n"})
+    assert status == 200 and headers["Content-Disposition"] == 'attachment; filename="scenario.toml"' and text == "name = '../../x'\n"
+
+
+def test_wire_shipped_scenarios_are_copied_not_changed(browser, server):
+    ida = BrowserUser(browser, server, "ida")
+    ida.go("/scenarios/two-bridges")
+    ida.page.click("text=Make a copy to edit")
+    assert ida.page.input_value("[name=from]") == "two-bridges"
+    ida.go("/scenarios/two-bridges/edit")
+    assert ida.page.url.endswith("/scenarios/new?base=two-bridges")
+    assert ida.wrong == []
+
+
+def test_wire_trainees_and_strangers_are_refused(server):
+    upload(server, "not-for-trainees")
+    anna = webserver.Browser(server.address)
+    assert anna.log_in("anna") == 303
+    for path in ["/scenarios/new", "/scenarios/new?from=practice&name=x", "/scenarios/not-for-trainees/edit"]:
+        assert anna.ask(path)[0] == 403, path
+    for action in ["check", "save", "download"]:
+        assert anna.post("/sessions", f"/scenario-editor/{action}", {"text": PRACTICE})[0] == 403, action
+    page = anna.ask("/scenarios/not-for-trainees")[2]
+    assert "/edit" not in page and "/scenarios/new" not in page and "/scenarios/new" not in anna.ask("/scenarios")[2]
+    stranger = webserver.Browser(server.address)
+    status, headers, _ = stranger.ask("/scenarios/new")
+    assert (status, headers["Location"]) == (303, "/login")
+
+
+def test_wire_editor_works_without_scripts(browser, server, sessions):
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto(server.address + "/login")
+    page.fill("[name=name]", "ida")
+    page.fill("[name=password]", webserver.PASSWORD)
+    page.click("main button[type=submit]")
+    page.goto(f"{server.address}/scenarios/new?from=practice&name=no-script")
+    expect(page.locator("#fields")).to_be_hidden()
+    text = page.input_value("#text")
+    page.fill("#text", text.replace("cars = 4", "cars = 4000"))
+    page.click("button:text-is('Check')")
+    expect(page.locator("#findings")).to_contain_text("out of range (allowed: whole number 0 to 400)")
+    page.fill("#text", text.replace("cars = 4", "cars = 40"))
+    page.click("button:text-is('Check')")
+    expect(page.locator("#status")).to_contain_text("No problems")
+    assert page.locator("#preview svg").count() == 4
+    page.click("button:text-is('Save')")
+    assert page.url.endswith("/scenarios/no-script/edit?saved=yes")
+    assert "cars = 40\n" in stored(sessions, "no-script").read_text(encoding="utf-8")
+
+
+def test_wire_large_and_hostile_scenarios_end_in_time(server):
+    ida = webserver.Browser(server.address)
+    assert ida.log_in("ida") == 303
+    json_answer = {"Accept": "application/json"}
+    token = ida.token("/scenarios")
+    check = lambda text, edits="[]": ida.ask("/scenario-editor/check", {"token": token, "text": text, "edits": edits}, json_answer)
+    head = PRACTICE.split("[[bridges]]")[0].replace("size_m = 800.0", "size_m = 4000.0").replace("spacing_m = 4.0", "spacing_m = 2.0")
+    bridges = "".join(
+        f'[[bridges]]\nname = "b{k}"\ntype = "suspension"\ncentre_m = [0, {100 * k - 800}, 60]\n[bridges.suspension]\nmain_span_m = 1400\nsag_m = 100\n'
+        "side_span_m = 400\nhanger_spacing_m = 3\n" for k in range(16)
+    )
+    tasks = "".join(f'[[tasks]]\nname = "t{k}"\nkind = "pier_circle"\nbridge = "b{k % 16}"\n' for k in range(64))
+    rest = '[defects]\ncount = 200\ndetection_pct = 50\n[traffic]\ncars = 400\n'
+    forms = "".join(f'[[forms]]\nname = "F{k}"\ndefect_seed = {k}\n' for k in range(26))
+    hostile = {
+        "large": head + bridges + tasks + rest + forms,
+        "many tasks": head + bridges + '[[tasks]]\nname = "t"\nkind = "free"\npoints_m = [[-5000, 0, 50], [5000, 0, 50], [-5000, 0, 51]]\n' * 2500,
+        "deep": "a = " + "[" * 20_000 + "]" * 20_000,
+        "many tables": "[[x]]\n" * 40_000,
+    }
+    for name, text in hostile.items():
+        status, _, answer = check(text)
+        assert status == 200, (name, status)
+        assert name == "large" or json.loads(answer)["problems"], name
+    for edits in ["x", "[1]", json.dumps([{"add": "tasks"}] * 65)]:
+        assert check(PRACTICE, edits)[0] == 422, edits
+    unknown = json.loads(check(PRACTICE, json.dumps([{"set": "wind.x", "text": "1"}]))[2])
+    assert unknown["text"] == PRACTICE and "wind.x" in unknown["rejected"]
