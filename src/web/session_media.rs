@@ -4,7 +4,7 @@ use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::sessions::folder;
 use super::state::ServerState;
-use crate::io::report::{photograph_numbers, photograph_path};
+use crate::io::report::photograph_path;
 use spandrel_monitor::folder::{SNAPSHOTS, VIDEO};
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -57,11 +57,6 @@ pub fn photograph(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let number = request.path_param("name").strip_suffix(".jpg").and_then(|number| number.parse().ok());
     let path = number.and_then(|number| photograph_path(&folder, number)).ok_or(WebError::NotFound)?;
     Ok(WebResponse::picture(std::fs::read(path).map_err(|_| WebError::NotFound)?))
-}
-
-/// Returns the numbers of a session's photographs, and whether it has a video.
-pub fn media(session: &Path) -> (Vec<u32>, bool) {
-    (photograph_numbers(&session.join(SNAPSHOTS)), session.join(VIDEO).is_file())
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::session_media::media;
 use super::state::ServerState;
 use crate::io::marks::valid_marks;
 use crate::io::report;
@@ -10,7 +9,7 @@ use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
 use crate::io::trainee_id::TraineeId;
 use spandrel_monitor::export;
-use spandrel_monitor::folder::{REPORT, TELEMETRY};
+use spandrel_monitor::folder::{REPORT, SNAPSHOTS, TELEMETRY, VIDEO};
 use spandrel_training::marks::marks_key;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
@@ -71,9 +70,11 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let advice = folder.as_deref().and_then(report::saved_advice);
     let standing = standing(&record, &state.database.records(Some(&record.trainee))?);
     let marks = folder.as_deref().map(valid_marks).unwrap_or_default();
-    let (pictures, video) = folder.as_deref().map(media).unwrap_or_default();
+    let pictures = folder.as_deref().map(|folder| report::photograph_numbers(&folder.join(SNAPSHOTS))).unwrap_or_default();
+    let has_folder = folder.is_some();
+    let video = folder.is_some_and(|folder| folder.join(VIDEO).is_file());
     let about = pages::SessionPageData {
-        folder: folder.is_some(),
+        folder: has_folder,
         others: &others,
         advice: advice.as_ref(),
         standing,
