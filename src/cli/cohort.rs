@@ -1,6 +1,7 @@
 //! `spandrel cohort`: statistics for a group of trainees.
 
 use super::records::RecordsArgs;
+use crate::cli::invocation::typed;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::records::read_json_lines;
@@ -81,9 +82,10 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         )));
     }
     if cohort.sessions == 0 {
-        return Err(AppError::invalid(
-            "the records contain no sessions of this scenario; to add sessions, use `spandrel records import`",
-        ));
+        return Err(AppError::invalid(format!(
+            "the records contain no sessions of this scenario; to add sessions, use `{}`",
+            typed("spandrel records import")
+        )));
     }
     if let Some(folder) = &args.csv {
         let cannot = |error: std::io::Error| AppError::failed(format!("{}: cannot create the folder: {error}", folder.display()));

@@ -66,7 +66,8 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let incomplete = IncompletePolicy::included(args.include_incomplete);
     let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
         return Err(AppError::invalid(format!(
-            "the records contain no sessions of '{trainee}'; to add sessions, use `spandrel records import`"
+            "the records contain no sessions of '{trainee}'; to add sessions, use `{}`",
+            typed("spandrel records import")
         )));
     };
     let result = results.iter().find(|(id, _)| *id == plan.session).map(|(_, headlines)| format!("Last session: {headlines}.\n"));

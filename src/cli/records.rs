@@ -1,5 +1,6 @@
 //! `spandrel records`: manages the database of sessions, trainees and answers.
 
+use crate::cli::invocation::typed;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::progress::ProgressLog;
 use crate::io::trainee_id::TraineeId;
@@ -213,8 +214,8 @@ fn erasure_note(erased: usize) -> String {
         return String::new();
     }
     format!(
-        ", {erased} not imported because they or their trainees were erased (to remove their folders too, use \
-         `spandrel records erase`)"
+        ", {erased} not imported because they or their trainees were erased (to remove their folders too, use `{}`)",
+        typed("spandrel records erase")
     )
 }
 

@@ -3,7 +3,7 @@
 use super::database::Database;
 use super::erasure;
 use crate::errors::AppError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Locations of the database and the session folders.
 #[derive(Debug, Clone)]
@@ -15,6 +15,19 @@ pub struct RecordsLocation {
 }
 
 impl RecordsLocation {
+    /// Returns whether the database exists; `true` for a PostgreSQL URL, which nobody has asked yet.
+    #[must_use]
+    pub fn exists(&self) -> bool {
+        match &self.database {
+            Some(target) => target.contains("://") || Path::new(target).is_file(),
+            None => self.default_database().is_file(),
+        }
+    }
+
+    fn default_database(&self) -> PathBuf {
+        self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions")).join("records.sqlite")
+    }
+
     /// Opens the database and completes interrupted erasures.
     ///
     /// # Errors
@@ -22,10 +35,7 @@ impl RecordsLocation {
     pub fn open(&self) -> Result<Database, AppError> {
         let database = match &self.database {
             Some(target) => Database::open(target),
-            None => {
-                let folder = self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
-                Database::open(&folder.join("records.sqlite").display().to_string())
-            }
+            None => Database::open(&self.default_database().display().to_string()),
         }?;
         if let Err(error) = erasure::finish_erasures(&database, &self.sessions) {
             tracing::warn!("cannot finish an interrupted erasure: {error}");

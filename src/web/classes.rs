@@ -77,11 +77,25 @@ pub fn add_members(state: &ServerState, request: &WebRequest) -> HandlerResult {
         let count = trainees.len();
         return Err(WebError::BadRequest(format!("trainees: {count} pseudonyms (allowed: 1 to {MAX_NEW_MEMBERS} at once)")));
     }
+    reject_lookalikes(state, &trainees)?;
     if state.database.add_members(name, &trainees)? {
         Ok(WebResponse::redirect(&class_url(name)))
     } else {
         Err(WebError::NotFound)
     }
+}
+
+/// Rejects pseudonyms that differ from a known trainee's only in the case of letters: the instructor means that trainee.
+fn reject_lookalikes(state: &ServerState, added: &[String]) -> Result<(), WebError> {
+    let known: Vec<String> = state.database.trainees()?.into_iter().map(|trainee| trainee.pseudonym).collect();
+    for new in added.iter().filter(|new| !known.contains(new)) {
+        if let Some(other) = known.iter().find(|other| other.eq_ignore_ascii_case(new)) {
+            return Err(WebError::BadRequest(format!(
+                "trainees: there is no '{new}', but a trainee '{other}'; use that pseudonym"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Removes a trainee from a class.

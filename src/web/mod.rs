@@ -26,7 +26,7 @@ mod routes;
 mod rubric;
 mod safe_names;
 mod scenario_editor;
-mod scenario_library;
+pub mod scenario_library;
 mod scenario_store;
 mod scenarios;
 mod server;

@@ -20,6 +20,7 @@ pub struct WebResponse {
     cacheable: bool,
     retry_after_s: Option<u64>,
     content_range: Option<String>,
+    accepts_ranges: bool,
     /// Complete values of Set-Cookie headers.
     pub cookies: Vec<String>,
     body: Vec<u8>,
@@ -61,6 +62,7 @@ impl WebResponse {
             cacheable: false,
             retry_after_s: None,
             content_range: None,
+            accepts_ranges: false,
             cookies: Vec::new(),
             body,
         }
@@ -91,6 +93,11 @@ impl WebResponse {
     /// Responds with an image that is not cached.
     pub fn picture(jpeg: Vec<u8>) -> Self {
         Self::new("image/jpeg", jpeg)
+    }
+
+    /// Responds with an entire file of which clients may also request parts.
+    pub fn seekable(kind: &'static str, bytes: Vec<u8>) -> Self {
+        Self { accepts_ranges: true, ..Self::new(kind, bytes) }
     }
 
     /// Responds with a part of a file of `len` bytes that starts at `from`.
@@ -159,8 +166,10 @@ impl WebResponse {
             set(header::CONTENT_DISPOSITION, &format!("attachment; filename=\"{name}\""));
         }
         if let Some(range) = &self.content_range {
-            set(header::ACCEPT_RANGES, "bytes");
             set(header::CONTENT_RANGE, range);
+        }
+        if self.accepts_ranges || self.content_range.is_some() {
+            set(header::ACCEPT_RANGES, "bytes");
         }
         if let Some(seconds) = self.retry_after_s {
             set(header::RETRY_AFTER, &seconds.to_string());

@@ -73,6 +73,7 @@ fn text_field(request: &WebRequest) -> Result<String, WebError> {
 
 /// Applies edits to a text and checks it. Responds to the page's script with JSON, and to the button with the page.
 pub fn check(_: &ServerState, request: &WebRequest) -> HandlerResult {
+    let begun = Stopwatch::start();
     let text = text_field(request)?;
     let edits = editor_edits::parse(request.form_field("edits").unwrap_or("[]")).map_err(WebError::BadRequest)?;
     let (text, rejected) = match edit::apply(&text, &edits) {
@@ -80,15 +81,14 @@ pub fn check(_: &ServerState, request: &WebRequest) -> HandlerResult {
         Ok(edited) => (edited, None),
         Err(words) => (text, Some(format!("Not changed: {words}"))),
     };
-    let checked = CheckedScenario { rejected, ..checked(text)? };
+    let checked = CheckedScenario { rejected, ..checked(text, begun)? };
     if request.expects_json {
         return Ok(WebResponse::json(&checked.json(request.form_field("shape").unwrap_or_default())));
     }
     respond_with_editor(request, &checked.text, (None, false), Some(&checked))
 }
 
-fn checked(text: String) -> Result<CheckedScenario, WebError> {
-    let begun = Stopwatch::start();
+fn checked(text: String, begun: Stopwatch) -> Result<CheckedScenario, WebError> {
     let aircraft = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
     let options = CheckOptions { aircraft: &aircraft, may_continue: &|| begun.elapsed() < CHECK_TIME };
     Ok(check_text(&file_name(&text), text, &options))

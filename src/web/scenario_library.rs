@@ -9,6 +9,8 @@ use spandrel_training::web::scenario_check_result::no_siblings;
 use spandrel_training::web::scenarios::ScenarioEntry;
 use std::path::{Path, PathBuf};
 
+/// Folder for uploaded scenarios inside the sessions folder, unless another is set.
+pub const UPLOAD_FOLDER: &str = "scenarios";
 /// Maximum size of an uploaded scenario, bytes; the shipped scenarios are about ten thousand bytes long.
 pub const MAX_SCENARIO_BYTES: usize = 256 * 1024;
 /// Aircraft of briefings and checks, as in the other commands.

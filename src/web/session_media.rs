@@ -13,33 +13,53 @@ use std::path::Path;
 /// Maximum number of bytes of a video per response. Browsers request the rest when they need it.
 const MAX_PART_BYTES: u64 = 2 * 1024 * 1024;
 
-/// Responds with the requested part of a session's video.
+/// Responds with a session's video, or the requested part of it.
 pub fn video(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let path = folder(state, request, request.path_param("id"))?.join(VIDEO);
     let (mut file, len) = open(&path)?;
-    let Some((from, count)) = part(request.range.as_deref(), len) else { return Ok(WebResponse::range_not_satisfiable(len)) };
+    let Some(range) = request.range.as_deref().and_then(requested) else {
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(|error| unreadable(&path, &error))?;
+        return Ok(WebResponse::seekable("video/mp4", bytes));
+    };
+    let Some((from, count)) = part(range, len) else { return Ok(WebResponse::range_not_satisfiable(len)) };
     let mut bytes = Vec::new();
     let read = file.seek(SeekFrom::Start(from)).and_then(|_| file.take(count).read_to_end(&mut bytes));
-    read.map_err(|error| WebError::Failed(format!("{}: cannot read: {error}", path.display())))?;
+    read.map_err(|error| unreadable(&path, &error))?;
     Ok(WebResponse::partial("video/mp4", bytes, from, len))
 }
 
 fn open(path: &Path) -> Result<(File, u64), WebError> {
     let file = File::open(path).map_err(|_| WebError::NotFound)?;
-    let len = file.metadata().map_err(|error| WebError::Failed(format!("{}: {error}", path.display())))?.len();
+    let len = file.metadata().map_err(|error| unreadable(path, &error))?.len();
     Ok((file, len))
 }
 
-/// Returns the start and the number of bytes to send for a Range header; `None` if no requested byte exists. A missing or
-/// unreadable header requests everything (RFC 9110, section 14.2). Of several ranges, the first counts.
-fn part(range: Option<&str>, len: u64) -> Option<(u64, u64)> {
-    let asked = range.and_then(|range| range.strip_prefix("bytes=")?.split(',').next()?.trim().split_once('-'));
-    let (from, last) = match asked {
-        Some(("", count)) => (len.saturating_sub(count.parse().unwrap_or(len)), u64::MAX),
-        Some((from, last)) => (from.parse().unwrap_or(0), last.parse().unwrap_or(u64::MAX)),
-        None => (0, u64::MAX),
+fn unreadable(path: &Path, error: &std::io::Error) -> WebError {
+    WebError::Failed(format!("{}: cannot read: {error}", path.display()))
+}
+
+/// First and last byte of a request; without the first one, the last one is the number of bytes from the end.
+type ByteRange = (Option<u64>, Option<u64>);
+
+/// Returns the first range of a Range header; `None` if the header is invalid and therefore ignored (RFC 9110, section 14.2).
+fn requested(header: &str) -> Option<ByteRange> {
+    let (from, last) = header.strip_prefix("bytes=")?.split(',').next()?.trim().split_once('-')?;
+    let number = |text: &str| if text.is_empty() { Some(None) } else { text.parse().ok().map(Some) };
+    match (number(from)?, number(last)?) {
+        (None, None) => None,
+        (Some(from), Some(last)) if last < from => None,
+        range => Some(range),
+    }
+}
+
+/// Returns the start and the number of bytes to send; `None` if the file has none of the requested bytes.
+fn part(range: ByteRange, len: u64) -> Option<(u64, u64)> {
+    let (from, last) = match range {
+        (Some(from), last) => (from, last.unwrap_or(u64::MAX)),
+        (None, count) => (len.saturating_sub(count.unwrap_or(0)), u64::MAX),
     };
-    if from >= len || last < from {
+    if from >= len {
         return None;
     }
     Some((from, (last.min(len - 1) - from + 1).min(MAX_PART_BYTES)))
@@ -67,21 +87,22 @@ mod tests {
     fn exact_parts_of_a_file() {
         const LONG: u64 = 3 * MAX_PART_BYTES;
         for (range, len, expected) in [
-            (None, 10, Some((0, 10))),
-            (Some("bytes=0-"), 10, Some((0, 10))),
-            (Some("bytes=2-3"), 10, Some((2, 2))),
-            (Some("bytes=2-99"), 10, Some((2, 8))),
-            (Some("bytes=-3"), 10, Some((7, 3))),
-            (Some("bytes=-99"), 10, Some((0, 10))),
-            (Some("bytes=4-5, 7-8"), 10, Some((4, 2))),
-            (Some("lines=1-2"), 10, Some((0, 10))),
-            (Some("bytes=10-"), 10, None),
-            (Some("bytes=5-4"), 10, None),
-            (Some("bytes=0-"), 0, None),
-            (None, LONG, Some((0, MAX_PART_BYTES))),
-            (Some("bytes=5000000-"), LONG, Some((5_000_000, LONG - 5_000_000))),
+            ("bytes=0-", 10, Some((0, 10))),
+            ("bytes=2-3", 10, Some((2, 2))),
+            ("bytes=2-99", 10, Some((2, 8))),
+            ("bytes=-3", 10, Some((7, 3))),
+            ("bytes=-99", 10, Some((0, 10))),
+            ("bytes=-0", 10, None),
+            ("bytes=4-5, 7-8", 10, Some((4, 2))),
+            ("bytes=10-", 10, None),
+            ("bytes=0-", 0, None),
+            ("bytes=0-", LONG, Some((0, MAX_PART_BYTES))),
+            ("bytes=5000000-", LONG, Some((5_000_000, LONG - 5_000_000))),
         ] {
-            assert_eq!(part(range, len), expected, "{range:?} of {len}");
+            assert_eq!(part(requested(range).unwrap(), len), expected, "{range} of {len}");
+        }
+        for invalid in ["", "bytes=", "bytes=-", "bytes=5-4", "bytes=a-b", "lines=1-2", "bytes=5"] {
+            assert_eq!(requested(invalid), None, "{invalid}");
         }
     }
 }

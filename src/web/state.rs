@@ -4,6 +4,7 @@ use super::auth::{AllowedOrigins, Authenticator};
 use super::figures::FigureCache;
 use super::live::{LiveVehicle, WatchedVehicle};
 use super::safe_names::is_safe_file_name;
+use super::scenario_library::UPLOAD_FOLDER;
 use super::session_importer::SessionImporter;
 use super::temp_files;
 use crate::errors::AppError;
@@ -72,7 +73,7 @@ impl ServerState {
         std::fs::create_dir_all(&first)
             .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", first.display())))?;
         temp_files::remove_partial_imports(&first)?;
-        let scenarios = scenarios.unwrap_or_else(|| first.join("scenarios"));
+        let scenarios = scenarios.unwrap_or_else(|| first.join(UPLOAD_FOLDER));
         temp_files::remove_stale(&records_location.sessions, &scenarios);
         let (database, figures) = (records_location.open()?, FigureCache::open(&records_location)?);
         let guard = Authenticator::new(!database.names_with_password()?.is_empty(), secure, reach);

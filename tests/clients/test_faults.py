@@ -185,7 +185,8 @@ def photographed(tmp_path_factory):
     if not display.DRIVERS:
         pytest.skip("Mesa's software Vulkan is missing: apt-get install mesa-vulkan-drivers")
     sessions = tmp_path_factory.mktemp("photographed") / "sessions"
-    spandrel.run("demo", "--scenario", "practice", "--seed", "7", "--speed", "max", "--trainee", "anna", "--sessions", str(sessions))
+    # A short job with few photos: everything is rendered dozens of times.
+    spandrel.run("demo", "--scenario", "drill-framing", "--seed", "7", "--speed", "max", "--trainee", "anna", "--sessions", str(sessions))
     (session,) = sessions.iterdir()
     drawn = subprocess.run([spandrel.COCKPIT, "render", str(session), "--out", "-"], capture_output=True, timeout=120, check=False)
     if b"built without the view" in drawn.stderr:

@@ -80,7 +80,7 @@ def test_wire_a_script_freezes_and_rewinds_a_flight(tmp_path):
         assert math.dist((east, north, up), place) < 2.0
         # Moved to the start of the task, which is the drill's only one.
         assert client.command(MOVE, 2) == M.MAV_RESULT_DENIED
-        heard(client, "No such task")
+        heard(client, "No task 2 (allowed: 1 to 1)")
         client.texts.clear()
         assert client.command(MOVE, 1) == M.MAV_RESULT_ACCEPTED
         heard(client, "Frozen: move a stick to continue")

@@ -406,7 +406,7 @@ def test_scenario_can_be_uploaded_validated_and_deleted(browser, server, tmp_pat
     trainee.go(f"/scenarios/{name}")
     expect(trainee.page.locator("#facts")).to_be_visible()
     assert trainee.page.locator("pre").count() == 0 and person.page.locator("pre").count() == 1
-    person.page.click("text=Delete upload")
+    person.page.click("text=Delete this scenario")
     person.page.wait_for_url("**/scenarios")
     expect(person.page.locator("main")).to_contain_text("drill-hover")
     assert name not in person.page.inner_text("main")

@@ -57,16 +57,17 @@ impl ScenarioText<'_> {
 pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
     findings.problems.extend(clearance_problems(source, scenario, options));
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
+    findings.warnings.extend(repeated_paths(source, scenario));
     findings.notes.extend(certification_notes(source, scenario, options.aircraft));
 }
 
 /// Describes the difficulty of a scenario's forms: the requested one, or all. Files with problems have already been reported.
 pub fn check_forms(source: &ScenarioText<'_>, requested: Option<&str>, options: &CheckOptions<'_>, findings: &mut Findings) {
     for form in scenario::form_names(source.text).iter().filter(|form| requested.is_none_or(|one| one == *form)) {
-        let Some(job) = source.read(&scenario::select_form(source.text, form)) else { return };
         if !(options.may_continue)() {
             return;
         }
+        let Some(job) = source.read(&scenario::select_form(source.text, form)) else { return };
         let site = Site::build(&job, 0);
         let (defects, detection) = (site.defects(), site.predicted_detection(&job.tasks, &defects::REFERENCE_CAMERA));
         if defects.len() < job.defects.count {
@@ -94,6 +95,9 @@ pub fn check_forms(source: &ScenarioText<'_>, requested: Option<&str>, options: 
 /// Describes a scenario's difficulty levels: the requested one, or all. Checks the paths and the defects at the easiest and at the
 /// hardest level, too, unless a level is requested. Files with problems have already been reported.
 pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &CheckOptions<'_>, findings: &mut Findings) {
+    if !(options.may_continue)() {
+        return;
+    }
     let Some(difficulty) = source.read(source.text).and_then(|job| job.difficulty) else { return };
     let levels = difficulty.levels();
     for level in (1..=levels).filter(|level| requested.is_none_or(|one| one == *level)) {
@@ -160,6 +164,15 @@ fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &
         })
     };
     scenario.tasks.iter().enumerate().take_while(|_| (options.may_continue)()).filter_map(tight).collect()
+}
+
+/// Returns a warning for each task whose path an earlier task has, too, such as a copied task that was not changed.
+fn repeated_paths(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String> {
+    let tasks = &scenario.tasks;
+    let earlier = |k: usize| tasks[..k].iter().find(|task| task.path_m == tasks[k].path_m);
+    let words =
+        |task: &Task, earlier: &Task| format!("{}: task {} has the same path as task {}", source.file, task.id, earlier.id);
+    tasks.iter().enumerate().filter_map(|(k, task)| Some(words(task, earlier(k)?))).collect()
 }
 
 /// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.
@@ -273,6 +286,16 @@ mod tests {
         let warnings = found(&text);
         assert_eq!(warnings.len(), 1, "{warnings:?}");
         assert!(warnings[0].contains(&format!(":{line}: defects.count = 4, but only 0 could be placed")), "{warnings:?}");
+    }
+
+    #[test]
+    fn exact_copied_task_is_a_warning() {
+        let text = shipped_text("drill-straight-line");
+        let task = &text[text.find("[[tasks]]").unwrap()..];
+        let end = task[1..].find("\n[").map_or(task.len(), |end| end + 2);
+        let twice = text.replace(&task[..end], &task[..end].repeat(2));
+        let warnings = scenario_findings("drill-straight-line", &twice, &aircraft()).warnings;
+        assert_eq!(warnings, ["drill-straight-line.toml: task 2 has the same path as task 1"]);
     }
 
     #[test]

@@ -13,7 +13,7 @@ use spandrel_monitor::folder::VIDEO;
 use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::exposure::ExposureMeter;
-use spandrel_view::gpu::Gpu;
+use spandrel_view::gpu::{Gpu, GpuError};
 use spandrel_view::hud;
 use spandrel_view::stage;
 use spandrel_view::video::{H264Encoder, Mp4Chunk, Mp4Writer, webvtt};
@@ -30,13 +30,21 @@ const MAX_CHAPTER_DURATION_S: f64 = 4.0;
 
 /// Renders the video to a file, or to the session folder, and writes its chapters next to it.
 pub fn run(args: &Args, file: Option<&Path>) -> Result<(), AppError> {
-    if args.only_with_gpu && Gpu::open()?.software {
+    if args.only_with_gpu && !has_graphics_card()? {
         tracing::info!("no graphics card: the video is not rendered");
         return Ok(());
     }
     match file {
         Some(path) => render(args, path),
         None => render_for_report(args),
+    }
+}
+
+fn has_graphics_card() -> Result<bool, AppError> {
+    match Gpu::open() {
+        Ok(gpu) => Ok(!gpu.software),
+        Err(GpuError::NoDevice(_)) => Ok(false),
+        Err(error @ (GpuError::Failed(_) | GpuError::TooLarge(..))) => Err(error.into()),
     }
 }
 

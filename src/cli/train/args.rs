@@ -108,7 +108,7 @@ pub struct Args {
 /// When to render a video after a flight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum VideoMode {
-    /// After every flight. In software, this takes minutes of all cores at low priority.
+    /// After every flight. Without a graphics card, rendering takes minutes and runs at low priority.
     On,
     /// Never.
     Off,

@@ -2,6 +2,7 @@
 //! flights.
 
 mod args;
+mod assigned;
 mod connection_info;
 mod expert_ghost;
 mod flight_processes;

@@ -5,6 +5,7 @@ use crate::io::files;
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::records::session_folders;
+use crate::web::scenario_library::{UPLOAD_FOLDER, uploaded};
 use serde::Deserialize;
 use serde_json::Value;
 use spandrel_model::scenario::{Scenario, form_names};
@@ -29,6 +30,7 @@ pub const EXPERT_ID: &str = "synthetic-expert";
 /// Returns the choices that the start page offers.
 pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().flat_map(scenarios_by_form).collect();
+    names.extend(uploaded(&sessions.join(UPLOAD_FOLDER)).iter().map(|path| path.display().to_string()));
     if !names.contains(&choice.scenario) {
         names.push(choice.scenario.clone());
     }
@@ -217,9 +219,9 @@ impl LessonSession {
 }
 
 /// Returns a job with its title, if it is installed.
-fn job_named(scenario: &str) -> Option<NextJob> {
+pub fn job_named(scenario: &str) -> Option<NextJob> {
     let title = files::scenario(scenario).ok()?.scenario.title;
-    Some(NextJob { scenario: scenario.to_owned(), title })
+    Some(NextJob { scenario: scenario.to_owned(), title, due: None })
 }
 
 /// Returns the job that the advice recommends, if it is installed.

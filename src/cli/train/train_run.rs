@@ -1,6 +1,7 @@
 //! The flights in one run of `train`: those chosen in the window, or the one specified on the command line.
 
 use super::args::{Args, camera_file};
+use super::assigned;
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::picture_jobs::PictureJobs;
@@ -195,7 +196,8 @@ impl<'a> TrainRun<'a> {
 
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
-        let offers = offers::flight_options(&self.args.sessions, choice, web.as_deref());
+        let mut offers = offers::flight_options(&self.args.sessions, choice, web.as_deref());
+        assigned::put_first(&mut offers.trainees, &self.args.sessions);
         self.web_announced = true;
         self.send_to_window(&ToWindow::Offers(offers));
     }
@@ -262,6 +264,7 @@ impl<'a> TrainRun<'a> {
 
     /// Drops a vehicle whose simulator has exited.
     fn check_vehicle(&mut self) {
+        self.pictures.advance();
         if let Some(status) = self.vehicle.as_mut().and_then(FlightProcesses::simulator_exit_status) {
             tracing::warn!("the simulator exited early ({status}): ground stations have lost the vehicle");
             self.vehicle = None;

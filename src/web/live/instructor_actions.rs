@@ -6,7 +6,7 @@ use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::json;
-use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest};
+use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, MAX_TASK, PracticeRequest};
 use spandrel_training::web::live::{self as pages, INJECTABLE_FAILURES};
 
 /// Starts an instructor's action. The result appears later in the stream.
@@ -20,8 +20,8 @@ pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
 
 fn task_number(request: &WebRequest) -> Result<u32, WebError> {
     let number = request.required_field("task")?.parse().ok();
-    let allowed = || WebError::BadRequest(format!("task: invalid number (allowed: 1 to {})", pages::MAX_TASK_NUMBER));
-    number.filter(|number| (1..=pages::MAX_TASK_NUMBER).contains(number)).ok_or_else(allowed)
+    let allowed = || WebError::BadRequest(format!("task: invalid number (allowed: 1 to {MAX_TASK})"));
+    number.filter(|number| (1..=MAX_TASK).contains(number)).ok_or_else(allowed)
 }
 
 fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {

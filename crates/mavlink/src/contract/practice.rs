@@ -29,8 +29,8 @@ pub enum PracticeRequest {
     },
 }
 
-/// Largest number of a task in a request.
-const MAX_TASK: f64 = 99.0;
+/// Largest number of a task in a request: the maximum number of tasks in a scenario.
+pub const MAX_TASK: u32 = 64;
 
 impl PracticeRequest {
     /// Returns the command and its parameters.
@@ -63,8 +63,10 @@ impl PracticeRequest {
                 _ => Err("Rewind: parameter 1 must be 1 to 30 s, or 0 (10 s)"),
             }),
             n if n == MavCmd::MAV_CMD_USER_3 as u16 => Some(match param {
-                task if (1.0..=MAX_TASK).contains(&task) && task.fract() == 0.0 => Ok(Self::MoveToTask { task: task as u32 }),
-                _ => Err("Move: parameter 1 must be a task's number"),
+                task if (1.0..=f64::from(MAX_TASK)).contains(&task) && task.fract() == 0.0 => {
+                    Ok(Self::MoveToTask { task: task as u32 })
+                }
+                _ => Err("Move: parameter 1 must be 1 to 64"),
             }),
             _ => None,
         }
@@ -90,12 +92,13 @@ mod tests {
         let task = MavCmd::MAV_CMD_USER_3 as u16;
         let freezes = [2.0, f64::NAN].map(|param| (freeze, param));
         let rewinds = [-1.0, 0.5, 30.1, f64::INFINITY].map(|param| (rewind, param));
-        let tasks = [0.0, 1.5, -1.0, 100.0, f64::NAN].map(|param| (task, param));
+        let tasks = [0.0, 1.5, -1.0, 65.0, f64::NAN].map(|param| (task, param));
         for (number, param) in freezes.into_iter().chain(rewinds).chain(tasks) {
             let refusal = PracticeRequest::of(number, param).and_then(Result::err).expect("refused");
             // A longer text would need several STATUSTEXT messages.
             assert!(refusal.len() <= 50, "{refusal}");
         }
+        assert_eq!(MAX_TASK, 64, "the text names the limit");
         for param in [0.0, f64::NAN] {
             assert_eq!(PracticeRequest::of(rewind, param), Some(Ok(PracticeRequest::Rewind { by: DEFAULT_REWIND })));
         }

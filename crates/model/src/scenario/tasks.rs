@@ -20,7 +20,7 @@ const WARNING_MARGIN_M: f64 = 0.5;
 const MAX_THRESHOLD_M: f64 = 7.999;
 
 /// Maximum number of tasks per job (estimate; the TASBID paper has four).
-pub(super) const MAX_TASKS: usize = 64;
+pub const MAX_TASKS: usize = 64;
 /// Maximum length of a path in a file, m (estimate: twice the distance flown on one battery). A longer path is likely a
 /// typo.
 const MAX_PATH_LENGTH_M: f64 = 20_000.0;

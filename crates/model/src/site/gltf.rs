@@ -28,6 +28,8 @@ enum Surface {
     Pad = 3,
 }
 
+/// Most bytes of the file besides the JSON text and the buffer: the header, two chunk headers, and their padding.
+const FRAMING_BYTES: usize = 12 + 2 * 8 + 2 * 3;
 /// Size of a vertex in the buffer: three 32-bit floats.
 const VERTEX_BYTES: usize = 12;
 
@@ -137,6 +139,9 @@ impl GlbWriter {
         ];
         let json = self.root.to_vec().map_err(gltf::Error::Deserialize)?;
         let binary = [self.positions, self.indices].concat();
+        if u32::try_from(FRAMING_BYTES + json.len() + binary.len()).is_err() {
+            return Err(gltf::Error::Io(std::io::Error::other("the file would exceed 4 GiB, the limit of binary glTF")));
+        }
         // The writer computes the length.
         let header = Header { magic: *b"glTF", version: 2, length: 0 };
         Glb { header, json: Cow::Owned(json), bin: Some(Cow::Owned(binary)) }.to_vec()

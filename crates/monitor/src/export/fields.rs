@@ -97,7 +97,7 @@ pub const FIELDS: &[JsonField] = &[
     field("flown_by[].to_frame", "", "Last frame of the interval."),
     field("flown_by[].by", "", "`pilot`, `mission`, `script` or `autopilot`; null before the first heartbeat."),
     field("practice_aids.freezes", "", "Number of freezes, without those after a rewind."),
-    field("practice_aids.rewinds", "", "Number of rewinds."),
+    field("practice_aids.rewinds", "", "Number of rewinds and of moves to a task."),
     field("certification.passed", "", "Whether all requirements are met."),
     field("certification.gates.session_complete", "", "Whether the session is complete."),
     field("certification.gates.all_tasks_attempted", "", "Whether every path was entered."),

@@ -9,7 +9,7 @@ use spandrel_mavlink::telemetry::{Flight, Frame};
 pub struct PracticeAids {
     /// Number of freezes, without those after a rewind.
     pub freezes: u32,
-    /// Number of rewinds.
+    /// Number of rewinds and of moves to a task.
     pub rewinds: u32,
 }
 

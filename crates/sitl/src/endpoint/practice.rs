@@ -33,16 +33,28 @@ impl PracticeState {
             return None;
         }
         let request = PracticeRequest::of(c.number, c.p[0])?;
-        let admitted = request.and_then(|request| self.refusal(request).map_or(Ok(request), Err));
-        Some(admitted.map_err(|text| RefusedRequest { result: MavResult::MAV_RESULT_DENIED, text: Some(text.to_owned()) }))
+        let admitted = request.map_err(str::to_owned).and_then(|request| self.refusal(request).map_or(Ok(request), Err));
+        Some(admitted.map_err(|text| RefusedRequest { result: MavResult::MAV_RESULT_DENIED, text: Some(text) }))
     }
 
-    fn refusal(&self, request: PracticeRequest) -> Option<&'static str> {
-        let (moves_aircraft, has_task) = match request {
-            PracticeRequest::Freeze | PracticeRequest::Resume => (false, true),
-            PracticeRequest::Rewind { .. } => (true, true),
-            PracticeRequest::MoveToTask { task } => (true, (1..=self.tasks).contains(&task)),
+    fn refusal(&self, request: PracticeRequest) -> Option<String> {
+        let moves_aircraft = match request {
+            PracticeRequest::Freeze | PracticeRequest::Resume => false,
+            PracticeRequest::Rewind { .. } | PracticeRequest::MoveToTask { .. } => true,
         };
+        self.general_refusal(moves_aircraft).map(str::to_owned).or_else(|| match request {
+            PracticeRequest::MoveToTask { task } if !(1..=self.tasks).contains(&task) => {
+                Some(format!("No task {task} (allowed: 1 to {})", self.tasks))
+            }
+            PracticeRequest::Freeze
+            | PracticeRequest::Resume
+            | PracticeRequest::Rewind { .. }
+            | PracticeRequest::MoveToTask { .. } => None,
+        })
+    }
+
+    /// Returns why no request of this kind is possible now.
+    fn general_refusal(&self, moves_aircraft: bool) -> Option<&'static str> {
         if !self.is_allowed {
             Some("No freeze or rewind in an assessment")
         } else if !self.can_freeze {
@@ -50,13 +62,11 @@ impl PracticeState {
         } else if !moves_aircraft {
             None
         } else if !self.can_rewind {
-            Some("Only a freeze with an external autopilot")
+            Some("External autopilot: only freezing is possible")
         } else if self.has_ended {
             Some("Rejected: the flight has ended")
         } else if !self.has_flown {
             Some("Rejected: not flown yet")
-        } else if !has_task {
-            Some("No such task")
         } else {
             None
         }
@@ -66,6 +76,7 @@ impl PracticeState {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_mavlink::contract::practice::MAX_TASK;
 
     const ALL: PracticeState =
         PracticeState { is_allowed: true, can_freeze: true, can_rewind: true, has_flown: true, has_ended: false, tasks: 2 };
@@ -86,7 +97,8 @@ mod tests {
         ] {
             assert_eq!(refused(state), [false, false, true, true], "{state:?}");
         }
-        assert_eq!(ALL.refusal(move_to(3)), Some("No such task"));
+        assert_eq!(ALL.refusal(move_to(3)), Some("No task 3 (allowed: 1 to 2)".to_owned()));
+        assert_eq!(MAX_TASK as usize, spandrel_model::scenario::tasks::MAX_TASKS);
         let none = PracticeState { is_allowed: false, ..ALL };
         // A longer text would need several STATUSTEXT messages.
         assert!(none.refusal(rewind).is_some_and(|text| text.len() <= 50));

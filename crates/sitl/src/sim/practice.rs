@@ -13,6 +13,7 @@ use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
 /// Time for which the simulation runs on after a rewind before it freezes, so that clients receive the new position. It
@@ -122,8 +123,8 @@ impl Sim {
     fn task_start(&self, number: u32) -> Option<(Vec3<Ned>, f64)> {
         let task = self.config.scenario.tasks.iter().find(|task| task.id == number)?;
         let view = task.viewing_directions.first()?;
-        let is_vertical = view.east().hypot(view.north()) < MIN_HORIZONTAL_VIEW;
-        let yaw_rad = if is_vertical { self.state.rigid.attitude.euler().2 } else { view.east().atan2(view.north()) };
+        let is_vertical = math::hypot(view.east(), view.north()) < MIN_HORIZONTAL_VIEW;
+        let yaw_rad = if is_vertical { self.state.rigid.attitude.euler().2 } else { math::atan2(view.east(), view.north()) };
         Some((task.path_m.first()?.ned(), yaw_rad))
     }
 

@@ -270,7 +270,7 @@ fn flight_move_to_a_task_hovers_at_its_start_until_a_stick_moves() {
     let start = start.unwrap().tasks[0].path_m[0].ned();
     let charge = station.sim.truth().battery.charge;
     assert_eq!(ask(&mut station, PracticeRequest::MoveToTask { task: 2 }), MavResult::MAV_RESULT_DENIED);
-    assert!(station.has_text("No such task"), "{:?}", station.texts());
+    assert!(station.has_text("No task 2 (allowed: 1 to 1)"), "{:?}", station.texts());
     assert_eq!(ask(&mut station, PracticeRequest::MoveToTask { task: 1 }), MavResult::MAV_RESULT_ACCEPTED);
     station.run_ms(1_000);
     assert!(station.sim.is_frozen() && station.has_text("At the start of task 1"), "{:?}", station.texts());

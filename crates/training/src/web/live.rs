@@ -4,11 +4,10 @@ use super::access::Visitor;
 use super::assets;
 use super::layout::{page_with_script, section, token};
 use maud::{Markup, PreEscaped, html};
+use spandrel_mavlink::contract::practice::MAX_TASK;
 
 /// Maximum length of an instructor's note, characters. A note must fit in one MAVLink message.
 pub const MAX_NOTE_LEN: usize = 100;
-/// Largest number of a task in the form.
-pub const MAX_TASK_NUMBER: u32 = 99;
 /// Maximum wind speed, m/s, from the vehicle parameter's upper limit.
 pub const MAX_WIND_M_S: f64 = 25.0;
 
@@ -156,7 +155,7 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
         }
         form.stacked method="post" action="/live/act" data-act {
             (hidden("practice"))
-            label { "Task" input type="number" name="task" required min="1" max=(MAX_TASK_NUMBER) value="1"; }
+            label { "Task" input type="number" name="task" required min="1" max=(MAX_TASK) value="1"; }
             button type="submit" name="do" value="move" { "Move to the start of this task" }
         }
         form.stacked method="post" action="/live/act" data-act {

@@ -34,7 +34,7 @@ pub fn editor_page(visitor: &Visitor, about: &EditorPage<'_>) -> Markup {
     let title = if about.opened.is_empty() { "New scenario".to_owned() } else { format!("Edit {}", about.opened) };
     let body = html! {
         div.scenario-editor data-editor data-unsaved=(about.unsaved) data-shape=[form.as_ref().map(form_shape)] {
-            @if let Some((kind, words)) = about.notice { (message_lines(kind, words)) }
+            @if let Some((kind, words)) = about.notice { div id="notice" { (message_lines(kind, words)) } }
             (main_form(visitor, about))
             div.editor-status {
                 p id="status" role="status" aria-live="polite" { (about.checked.map_or_else(|| "Not checked yet.".to_owned(), CheckedScenario::status)) }

@@ -109,7 +109,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
             details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
             @if named.uploaded {
-                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Delete upload" } }
+                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Delete this scenario" } }
             }
         })) }
     };

@@ -45,13 +45,27 @@ pub struct TraineeSummary {
     pub next: Option<NextJob>,
 }
 
-/// A job that is recommended next.
+/// A job that is recommended or assigned next.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NextJob {
     /// Name, or path of the file.
     pub scenario: String,
     /// Title shown to the user.
     pub title: String,
+    /// Due date (year-month-day) if an instructor assigned the job.
+    #[serde(default)]
+    pub due: Option<String>,
+}
+
+impl NextJob {
+    /// Returns the job with its reason, such as "Recommended: Drill: hover".
+    #[must_use]
+    pub fn words(&self) -> String {
+        match &self.due {
+            Some(due) => format!("Assigned, due {due}: {}", self.title),
+            None => format!("Recommended: {}", self.title),
+        }
+    }
 }
 
 /// An available job.
@@ -341,7 +355,7 @@ mod tests {
     #[test]
     fn exact_messages_survive_serialization() {
         let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
-        let next = NextJob { scenario: "drill-gap".into(), title: "Drill: gap".into() };
+        let next = NextJob { scenario: "drill-gap".into(), title: "Drill: gap".into(), due: None };
         let offers = FlightOptions {
             trainees: vec![TraineeSummary {
                 name: "anna".into(),

@@ -40,7 +40,7 @@ impl WindowFlow {
 
     fn start_rows(&self) -> Vec<MenuRow> {
         let title = self.chosen_job().map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
-        let next = self.next_job().map(|next| MenuRow::button(MenuAction::FlyNext, format!("Recommended: {}", next.title)));
+        let next = self.next_job().map(|next| MenuRow::button(MenuAction::FlyNext, next.words()));
         let rows = [
             MenuRow::text_field(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, "Job", title),

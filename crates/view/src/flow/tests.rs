@@ -137,7 +137,7 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
 
 #[test]
 fn exact_the_recommended_job_is_one_key_away_before_and_after_a_flight() {
-    let job = |scenario: &str, title: &str| Some(NextJob { scenario: scenario.into(), title: title.into() });
+    let job = |scenario: &str, title: &str| Some(NextJob { scenario: scenario.into(), title: title.into(), due: None });
     let mut offers = offers();
     offers.lesson = job("first-flight", "Lesson: first flight");
     offers.trainees[0].next = job("drill-hover", "Drill: hover");

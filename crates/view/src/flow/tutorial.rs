@@ -162,16 +162,16 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     // The unit is only a scale: the navigation display fills its area.
     let shape = (1_000.0 * below.width, 1_000.0 * below.height);
     inset(pen, &instruments(&display, &SiteOutline::empty(), shape), below);
-    label(pen, frame, "your own view", (0.16, 0.80), (0.12, 0.26));
-    label(pen, frame, "navigation display", (0.42, 0.90), (0.16, 0.62));
-    label(pen, frame, "the camera's view", (0.74, 0.80), (0.66, 0.60));
+    label(pen, frame, "your own view", (0.48, 0.26), (0.28, 0.20));
+    label(pen, frame, "navigation display", (0.20, 0.84), (0.16, 0.62));
+    label(pen, frame, "the camera's view", (0.74, 0.84), (0.66, 0.60));
     let (x, y) = frame.at(0.0, 1.0);
     pen.lines(
         (x, y),
         frame.width,
         frame.font,
         HudColor::Gray,
-        "The bracket in your view marks the drone and shows its distance. In a practice, a map and a side profile of the bridge stand \
+        "The bracket in your view marks the drone and shows its distance. During practice, a map and a side profile of the bridge appear \
          below the navigation display.",
     );
 }

@@ -52,15 +52,32 @@
   const video = byId('video');
   // Difference above which the paused video is moved, s (half a picture at 10 pictures per second).
   const VIDEO_STEP_S = 0.05;
+  // Whether the slider moved the video, and not the user with the video's own controls.
+  let sliderSeeks = false;
   function followSlider() {
-    if (video.paused && video.readyState > 0 && !video.seeking && Math.abs(video.currentTime - s.t[now]) > VIDEO_STEP_S) video.currentTime = s.t[now];
+    if (!video.paused || video.readyState === 0 || video.seeking || Math.abs(video.currentTime - s.t[now]) <= VIDEO_STEP_S) return;
+    sliderSeeks = true;
+    video.currentTime = s.t[now];
+  }
+  function missing() {
+    video.hidden = true;
+    byId('video-missing').hidden = false;
   }
   if (video) {
-    video.addEventListener('error', () => { video.hidden = true; byId('video-missing').hidden = false; });
+    video.addEventListener('error', missing);
+    // The video may have failed before this script ran.
+    if (video.error) missing();
     video.addEventListener('timeupdate', () => { if (!video.paused) show(Flight.indexAt(s.t, video.currentTime)); });
     video.addEventListener('play', () => stop());
-    // The slider may have moved on during the search.
-    for (const event of ['loadedmetadata', 'seeked']) video.addEventListener(event, followSlider);
+    video.addEventListener('loadedmetadata', followSlider);
+    video.addEventListener('seeked', () => {
+      const own = !sliderSeeks;
+      sliderSeeks = false;
+      if (!video.paused) return;
+      // The slider may have moved on during the search.
+      if (own) show(Flight.indexAt(s.t, video.currentTime));
+      else followSlider();
+    });
     listeners.push(followSlider);
   }
   // Stops everything that moves the slider by itself.

@@ -26,6 +26,8 @@ let checkedText = null;
 let leaving = false;
 // Location of the position that the next click on the plan sets.
 let placing = null;
+// Position of the caret in a field of a form that was replaced.
+let caret = null;
 // Edit whose answer moves the focus, and the function that moves it.
 let focusNext = null;
 
@@ -43,7 +45,10 @@ function checkSoon() {
 /** Checks until no change is left; one request at a time. */
 function checkNow() {
   clearTimeout(timer);
-  checking ??= checkAll().finally(() => { checking = null; });
+  checking ??= checkAll().finally(() => {
+    checking = null;
+    fields.inert = false;
+  });
   return checking;
 }
 
@@ -55,11 +60,15 @@ async function checkAll() {
     try {
       const answer = await ask(sent);
       // Text typed in the meantime stays; the edits apply to it next.
-      if (area.value === sent.text) show(answer, sent);
-      else edits = [...sent.edits, ...edits];
+      if (area.value === sent.text) {
+        show(answer, sent);
+        if (answer.rejected !== null) return false;
+      } else edits = [...sent.edits, ...edits];
     } catch (error) {
       console.error(error);
-      edits = [...sent.edits, ...edits];
+      // Fields keep their values. A change of the form's structure is repeated with its button.
+      edits = [...sent.edits, ...edits].filter((edit) => edit.set !== undefined);
+      focusNext = null;
       say(status, `Not checked: ${error.message}. Your changes are kept on this page.`);
       return false;
     }
@@ -77,11 +86,15 @@ async function ask({ text, edits: list }) {
 // ---- Answers ----
 
 function show(answer, sent) {
+  // The result of the last save no longer applies to a changed text.
+  if (area.value !== area.defaultValue) document.getElementById("notice")?.remove();
   if (area.value !== answer.text) area.value = answer.text;
   checkedText = area.value;
   fields.disabled = answer.values === null;
   if (answer.form !== null) replaceForm(answer);
   if (answer.values !== null) showValues(answer.values);
+  if (caret !== null) caret.input.setSelectionRange(caret.start, caret.end);
+  caret = null;
   showProblems(answer.problems);
   const open = document.getElementById("check-notes")?.open ?? false;
   findings.innerHTML = answer.findings;
@@ -97,11 +110,14 @@ function show(answer, sent) {
 
 function replaceForm(answer) {
   const open = [...fields.querySelectorAll("details[open]")].map((details) => details.id);
-  const focus = fields.contains(document.activeElement) ? document.activeElement.id : "";
+  const { id, selectionStart: start, selectionEnd: end } = fields.contains(document.activeElement) ? document.activeElement : {};
   fields.innerHTML = answer.form;
   shape = answer.shape;
   for (const id of open) document.getElementById(id)?.setAttribute("open", "");
-  if (focus) document.getElementById(focus)?.focus();
+  const focused = id ? document.getElementById(id) : null;
+  focused?.focus();
+  // The caret stays where it was; number fields have none.
+  if (focused !== null && Number.isInteger(start)) caret = { input: focused, start, end };
 }
 
 function showValues(values) {
@@ -151,8 +167,14 @@ function change(input) {
   checkSoon();
 }
 
+// An empty field removes its key, and a select can change which keys exist, so both wait until the user has left the field or made
+// the choice.
+const waitsForChange = (input) => input instanceof HTMLSelectElement || input.value.trim() === "";
 fields.addEventListener("input", ({ target }) => {
-  if (target.dataset.field !== undefined) change(target);
+  if (target.dataset.field !== undefined && !waitsForChange(target)) change(target);
+});
+fields.addEventListener("change", ({ target }) => {
+  if (target.dataset.field !== undefined && waitsForChange(target)) change(target);
 });
 area.addEventListener("input", checkSoon);
 
@@ -164,6 +186,8 @@ fields.addEventListener("click", ({ target }) => {
     const edit = JSON.parse(button.dataset.edit);
     edits.push(edit);
     focusNext = { edit, move: focusAfter(edit, button) };
+    // The other fields' places in the file change with the answer.
+    fields.inert = true;
     checkNow();
   }
 });
@@ -274,7 +298,7 @@ form.addEventListener("submit", (event) => {
 });
 
 async function download() {
-  if (edits.length > 0 && !(await checkNow())) return;
+  if (edits.length > 0 && !(await checkNow())) say(status, `${status.textContent} Downloaded without the latest changes in the form.`);
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([area.value], { type: "application/toml" }));
   link.download = `${document.getElementById("field-name")?.value || "scenario"}.toml`;
