@@ -313,7 +313,8 @@ fn is_used(description: &KeyDescription, location: &str, values: &ScenarioValues
     }
     let Some(kind) = kind_of(table, values) else { return true };
     let only = words_before(&description.meaning, " only");
-    let not = words_after(&description.meaning, "ot used by ");
+    let meaning = description.meaning.to_lowercase();
+    let not = words_after(&meaning, "not used by ");
     (only.is_empty() || only.contains(&kind.as_str())) && !not.contains(&kind.as_str())
 }
 
