@@ -103,6 +103,8 @@ function show(answer, sent) {
   if (answer.preview !== null) preview.innerHTML = answer.preview;
   stale.hidden = answer.preview !== null || preview.querySelector("svg") === null;
   if (focusNext !== null && sent.edits.includes(focusNext.edit)) {
+    // Nothing inert takes the focus.
+    fields.inert = false;
     focusNext.move();
     focusNext = null;
   }
