@@ -15,13 +15,16 @@ pub struct RecordsLocation {
 }
 
 impl RecordsLocation {
-    /// Returns whether the database exists; `true` for a PostgreSQL URL, which nobody has asked yet.
+    /// Returns one sessions folder with the database in it.
+    #[must_use]
+    pub fn beside(sessions: &Path) -> Self {
+        Self { sessions: vec![sessions.to_path_buf()], database: None }
+    }
+
+    /// Returns whether the database has been created. One that was chosen explicitly counts as created.
     #[must_use]
     pub fn exists(&self) -> bool {
-        match &self.database {
-            Some(target) => target.contains("://") || Path::new(target).is_file(),
-            None => self.default_database().is_file(),
-        }
+        self.database.is_some() || self.default_database().is_file()
     }
 
     fn default_database(&self) -> PathBuf {

@@ -10,6 +10,7 @@ use axum::extract::multipart::{Field, MultipartError};
 use axum::extract::{FromRequest, Multipart, Request};
 use std::path::Path;
 use std::time::Duration;
+use tokio::time::error::Elapsed;
 
 /// Time limit for a form without a file.
 const FORM_TIMEOUT: Duration = Duration::from_secs(30);
@@ -21,7 +22,6 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 /// # Errors
 /// Returns an error if the body is too large, arrives too slowly, is not a form, or has a wrong token.
 pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the form upload timed out".into());
     match kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
         RouteKind::Change => read_form(web_request, request, MAX_FORM_BYTES).await,
@@ -33,9 +33,13 @@ pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Reques
     }
 }
 
+/// Returns the error for a form that did not arrive in time.
+fn late(_: Elapsed) -> WebError {
+    WebError::BadRequest("the form upload timed out".into())
+}
+
 /// Reads a form without a file.
 async fn read_form(web_request: &mut WebRequest, request: Request, most: usize) -> Result<(), WebError> {
-    let late = |_| WebError::BadRequest("the form upload timed out".into());
     let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), most)).await.map_err(late)?;
     let bytes = bytes.map_err(|_| WebError::TooLarge(most))?;
     web_request.form = form_urlencoded::parse(&bytes).into_owned().collect();

@@ -103,13 +103,14 @@ impl WebResponse {
     /// Responds with a part of a file of `len` bytes that starts at `from`.
     pub fn partial(kind: &'static str, bytes: Vec<u8>, from: u64, len: u64) -> Self {
         let last = (from + bytes.len() as u64).saturating_sub(1);
-        let part = Self { content_range: Some(format!("bytes {from}-{last}/{len}")), ..Self::new(kind, bytes) };
+        let part = Self { content_range: Some(format!("bytes {from}-{last}/{len}")), ..Self::seekable(kind, bytes) };
         part.with_status(StatusCode::PARTIAL_CONTENT)
     }
 
     /// Responds that the requested part is outside the file of `len` bytes.
     pub fn range_not_satisfiable(len: u64) -> Self {
-        let none = Self { content_range: Some(format!("bytes */{len}")), ..Self::new("text/plain; charset=utf-8", Vec::new()) };
+        let none = Self::seekable("text/plain; charset=utf-8", Vec::new());
+        let none = Self { content_range: Some(format!("bytes */{len}")), ..none };
         none.with_status(StatusCode::RANGE_NOT_SATISFIABLE)
     }
 
@@ -168,7 +169,7 @@ impl WebResponse {
         if let Some(range) = &self.content_range {
             set(header::CONTENT_RANGE, range);
         }
-        if self.accepts_ranges || self.content_range.is_some() {
+        if self.accepts_ranges {
             set(header::ACCEPT_RANGES, "bytes");
         }
         if let Some(seconds) = self.retry_after_s {

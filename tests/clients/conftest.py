@@ -6,6 +6,7 @@ import pytest
 
 import sdk
 import spandrel
+import webserver
 
 # Test measurements for the summary; they do not affect the result.
 MEASURED = []
@@ -33,6 +34,14 @@ def pytest_terminal_summary(terminalreporter):
     """Prints the measurements at the end of the output, even if all tests pass."""
     for line in MEASURED:
         terminalreporter.write_line(f"measured: {line}")
+
+
+@pytest.fixture(scope="module")
+def server(sessions):
+    """A web server that the tests of one file share. The file's fixture `sessions` returns the folder."""
+    server = webserver.Server(sessions)
+    yield server
+    server.close()
 
 
 @pytest.fixture

@@ -34,10 +34,9 @@ def session(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def server(session):
-    server = webserver.Server(session.parent)
-    yield server
-    server.close()
+def sessions(session):
+    """The folder that contains the flight."""
+    return session.parent
 
 
 def video(page, value):

@@ -45,14 +45,6 @@ def sessions(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="module")
-def server(sessions):
-    """A shared server for these sessions."""
-    server = webserver.Server(sessions)
-    yield server
-    server.close()
-
-
 def session_ids(sessions, trainee):
     """Returns a trainee's sessions by start time; the names of flights in the same second have random parts."""
     folders = [path for path in sessions.iterdir() if f"-{trainee}-" in path.name]

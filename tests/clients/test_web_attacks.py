@@ -30,14 +30,6 @@ def sessions(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="module")
-def server(sessions):
-    """A shared server for these sessions."""
-    server = webserver.Server(sessions)
-    yield server
-    server.close()
-
-
 def logged_in(server, name):
     browser = webserver.Browser(server.address)
     assert browser.log_in(name) == 303

@@ -22,14 +22,6 @@ def sessions(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="module")
-def server(sessions):
-    """A shared server."""
-    server = webserver.Server(sessions)
-    yield server
-    server.close()
-
-
 def stored(sessions, name):
     """Returns the file of an uploaded scenario."""
     return sessions / "scenarios" / f"{name}.toml"

@@ -27,14 +27,6 @@ def sessions(tmp_path_factory):
     return folder
 
 
-@pytest.fixture(scope="module")
-def server(sessions):
-    """A shared server for these sessions."""
-    server = webserver.Server(sessions)
-    yield server
-    server.close()
-
-
 def due_date():
     return (datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(days=DUE_DAYS)).strftime("%Y-%m-%d")
 

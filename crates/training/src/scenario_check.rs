@@ -16,7 +16,7 @@ const MIN_CLEARANCE_M: f64 = 0.5;
 /// bridges; three also show whether the defects fit (estimate).
 const TRIAL_SEEDS: [u64; 3] = [1, 2, 3];
 
-/// What the checks found.
+/// Findings of the checks.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Findings {
     /// Errors that must be corrected.

@@ -35,7 +35,7 @@ pub fn run(args: &Args, file: Option<&Path>) -> Result<(), AppError> {
         return Ok(());
     }
     match file {
-        Some(path) => render(args, path),
+        Some(path) => render(args, path, |recorded| span(args, recorded)),
         None => render_for_report(args),
     }
 }
@@ -56,12 +56,18 @@ fn render_for_report(args: &Args) -> Result<(), AppError> {
             "--span: the video in the session folder always shows the entire flight; specify a file: --video FILE",
         ));
     }
-    render(args, &session.join(VIDEO))?;
+    // The report's times count from lift-off.
+    render(args, &session.join(VIDEO), |recorded| Ok(recorded.scored_span()))?;
     report::write(session)?;
     Ok(())
 }
 
-fn render(args: &Args, path: &Path) -> Result<(), AppError> {
+/// Renders the part of the flight between the times that `span` returns.
+fn render(
+    args: &Args,
+    path: &Path,
+    span: impl FnOnce(&RecordedFlight) -> Result<(SimTime, SimTime), AppError>,
+) -> Result<(), AppError> {
     let preset = parse_quality(&args.quality)?;
     let within_px = parse_size(args.size.as_deref().unwrap_or("1280x720"))?;
     if !(1.0..=60.0).contains(&args.fps) {
@@ -75,11 +81,7 @@ fn render(args: &Args, path: &Path) -> Result<(), AppError> {
         )));
     }
     let recorded = RecordedFlight::read(Path::new(&args.what))?;
-    let (from, to) = match &args.video {
-        // The report's times count from lift-off.
-        Some(None) => recorded.scored_span(),
-        _ => span(args, &recorded)?,
-    };
+    let (from, to) = span(&recorded)?;
     let size_px = largest_even_size_px(within_px, recorded.vehicle().camera.aspect());
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
     let drawing = drawing.with_closures(recorded.closure_times());

@@ -12,15 +12,18 @@ use std::path::Path;
 
 /// Offers each trainee the pending assignment that is due first, instead of the recommended job.
 pub fn put_first(trainees: &mut [TraineeSummary], sessions: &Path) {
-    let location = RecordsLocation { sessions: vec![sessions.to_path_buf()], database: None };
+    let location = RecordsLocation::beside(sessions);
     // Without a database, nothing was assigned, and the start page does not create one.
     if !location.exists() {
         return;
     }
     if let Err(error) = location.open().and_then(|database| {
         trainees.iter_mut().try_for_each(|trainee| {
-            let records = database.records(Some(&trainee.name))?;
-            let jobs = assigned_jobs(database.assignments_of_trainee(&trainee.name)?, &records, clock::unix_us());
+            let assignments = database.assignments_of_trainee(&trainee.name)?;
+            if assignments.is_empty() {
+                return Ok(());
+            }
+            let jobs = assigned_jobs(assignments, &database.records(Some(&trainee.name))?, clock::unix_us());
             let pending =
                 jobs.iter().filter(|job| job.state.is_pending()).find_map(|job| assigned_job(&job.assignment, sessions));
             trainee.next = pending.or_else(|| trainee.next.take());
@@ -68,8 +71,7 @@ mod tests {
         let mut trainees = [trainee("anna"), trainee("bert")];
         put_first(&mut trainees, sessions.path());
         assert_eq!(trainees[0].next, recommended, "no database");
-        let location = RecordsLocation { sessions: vec![sessions.path().to_path_buf()], database: None };
-        let database = location.open().unwrap();
+        let database = RecordsLocation::beside(sessions.path()).open().unwrap();
         database.update_details("anna", None, [None; 3]).unwrap();
         let own = sessions.path().join(UPLOAD_FOLDER);
         std::fs::create_dir(&own).unwrap();

@@ -266,7 +266,6 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
     let assessment = read_json(session, ASSESSMENT).unwrap_or_default();
     let advice = report::saved_advice(session);
     let lesson = LessonSession::read(session);
-    let is_lesson = lesson.is_some();
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
     let page = session.join(REPORT);
@@ -283,13 +282,13 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
         lesson: lesson.as_ref().map(|lesson| lesson.progress),
-        next: match lesson.filter(|lesson| !lesson.progress.is_complete()) {
+        next: match lesson.as_ref().filter(|lesson| !lesson.progress.is_complete()) {
             Some(lesson) => job_named(&lesson.scenario),
             None => advice.as_ref().and_then(next_job),
         },
         watched: false,
         // The sentence after a lesson is about its scores, which the page does not show.
-        advice: advice.iter().filter(|_| !is_lesson).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
+        advice: advice.iter().filter(|_| lesson.is_none()).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: match web {
             Some(web) => format!("{web}/sessions/{id}/questions"),

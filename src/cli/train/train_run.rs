@@ -227,6 +227,7 @@ impl<'a> TrainRun<'a> {
                 self.send_to_window(&message);
             }
             self.check_vehicle();
+            self.pictures.advance();
             if self.stop.is_requested() {
                 return NextFlight::NoChoice;
             }
@@ -257,6 +258,7 @@ impl<'a> TrainRun<'a> {
                 None => {}
             }
             self.check_vehicle();
+            self.pictures.advance();
             std::thread::sleep(CHECK_INTERVAL);
         }
         NextFlight::Leave
@@ -264,7 +266,6 @@ impl<'a> TrainRun<'a> {
 
     /// Drops a vehicle whose simulator has exited.
     fn check_vehicle(&mut self) {
-        self.pictures.advance();
         if let Some(status) = self.vehicle.as_mut().and_then(FlightProcesses::simulator_exit_status) {
             tracing::warn!("the simulator exited early ({status}): ground stations have lost the vehicle");
             self.vehicle = None;
@@ -353,7 +354,7 @@ impl<'a> TrainRun<'a> {
         // The database is next to the sessions; its folder may not exist before the first session.
         let made = std::fs::create_dir_all(&self.args.sessions);
         let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera_file(self.args)) });
-        let records_location = RecordsLocation { sessions: vec![self.args.sessions.clone()], database: None };
+        let records_location = RecordsLocation::beside(&self.args.sessions);
         let setup =
             ServerSetup { records_location, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
         let started = made
@@ -373,6 +374,7 @@ impl<'a> TrainRun<'a> {
         println!("questionnaire {address}   (available until you press Enter)");
         // Enter only stops the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
+            self.pictures.advance();
             std::thread::sleep(CHECK_INTERVAL);
         }
     }

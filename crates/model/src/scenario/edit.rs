@@ -1,12 +1,12 @@
 //! Edits the text of a scenario and keeps its comments, its order and the spelling of all other values.
 
 use super::toml_text::{shown, typed};
-use super::values::{ScenarioValues, describe};
+use super::values::{KIND_KEYS, ScenarioValues, describe};
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
-/// Keys that determine which other keys a table has.
-const KIND_KEYS: [&str; 4] = ["type", "source", "kind", "step"];
+/// Key of a bridge's type, which determines which table with dimensions the bridge has.
+const BRIDGE_TYPE_KEY: &str = "type";
 /// Distance between a new bridge and the one before it, m to the north.
 const NEW_BRIDGE_DISTANCE_M: f64 = 100.0;
 
@@ -47,6 +47,11 @@ pub fn apply(text: &str, edits: &[Edit]) -> Result<String, String> {
     edits.iter().try_fold(text.to_owned(), |text, edit| apply_one(&text, edit))
 }
 
+/// Returns whether a key determines which other keys its table has.
+fn is_kind_key(key: &str) -> bool {
+    key == BRIDGE_TYPE_KEY || KIND_KEYS.contains(&key)
+}
+
 fn apply_one(text: &str, edit: &Edit) -> Result<String, String> {
     let mut document: DocumentMut = text.parse().map_err(|_| "the text is not valid TOML".to_owned())?;
     match edit {
@@ -54,7 +59,7 @@ fn apply_one(text: &str, edit: &Edit) -> Result<String, String> {
             set(document.as_table_mut(), location, typed)?;
             let changed = document.to_string();
             let key = location.rsplit('.').next().unwrap_or_default();
-            return Ok(if KIND_KEYS.contains(&key) { without_unused_keys(text, changed, location) } else { changed });
+            return Ok(if is_kind_key(key) { without_unused_keys(text, changed, location) } else { changed });
         }
         Edit::Add { location } => add(&mut document, location)?,
         Edit::Remove { location } => remove(document.as_table_mut(), location)?,

@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 use toml_edit::{Document, Item, TableLike, Value};
 
+/// Keys of a table that determine which other keys it uses.
+pub const KIND_KEYS: [&str; 3] = ["source", "kind", "step"];
+
 /// Returns the description of every key of a scenario, in the order of the documentation.
 #[must_use]
 pub fn key_descriptions() -> &'static [KeyDescription] {

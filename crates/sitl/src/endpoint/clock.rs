@@ -1,6 +1,7 @@
 //! Clocks used in messages: time since autopilot boot, simulation time, and UTC.
 
 use super::link::LinkKind;
+use spandrel_mavlink::dialect::{MavMessage, TIMESYNC_DATA};
 use spandrel_model::time::SimTime;
 
 /// One instant in time, expressed on each clock.
@@ -28,6 +29,14 @@ impl VehicleClock {
     #[must_use]
     pub fn since_boot(&self, at: SimTime) -> SimTime {
         if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_boot_time) }
+    }
+
+    /// Returns the response to a time request from a system and component. Uses the clock of the message timestamps, so that clients
+    /// can convert them.
+    #[must_use]
+    pub fn time_response(&self, request: &TIMESYNC_DATA, (target_system, target_component): (u8, u8)) -> MavMessage {
+        let tc1 = self.since_boot(self.now).ns().max(1);
+        MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: request.ts1, target_system, target_component })
     }
 
     /// Returns the time since autopilot boot in ms, modulo 2^32 because MAVLink's field has 32 bits.

@@ -165,13 +165,22 @@ impl Sim {
 
     /// Places the aircraft at rest with all rotors at one speed, ends its contact, and counts the respawn.
     pub(super) fn place_after_crash(&mut self, position_m: Vec3<Ned>, yaw_rad: f64, rotor_rad_s: f64) {
-        self.crashed_since = None;
-        self.hard_contact = false;
+        self.place_at_rest(position_m, yaw_rad, rotor_rad_s);
+        self.end_contact();
+        self.scoring.respawns += 1;
+        self.events.push_back(SimEvent::Respawn);
+    }
+
+    /// Places the aircraft at rest with all rotors at one speed.
+    pub(super) fn place_at_rest(&mut self, position_m: Vec3<Ned>, yaw_rad: f64, rotor_rad_s: f64) {
         self.state.place(position_m, yaw_rad);
         self.state.rigid.rotor_rad_s = [rotor_rad_s; physics::MAX_ROTORS];
-        self.scoring.respawns += 1;
+    }
+
+    /// Ends a contact and its consequences, because the aircraft is now at another place.
+    pub(super) fn end_contact(&mut self) {
+        (self.crashed_since, self.hard_contact) = (None, false);
         self.scoring.contact = ContactKind::None;
-        self.events.push_back(SimEvent::Respawn);
     }
 
     /// Updates clearance and light for scoring, and the last safe hover.

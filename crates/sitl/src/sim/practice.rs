@@ -8,8 +8,6 @@ use super::{Sim, SimEvent};
 use crate::autopilot::Sticks;
 use crate::backend::Phase;
 use crate::endpoint::PracticeState;
-use crate::physics;
-use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::frames::{Ned, Vec3};
@@ -110,8 +108,7 @@ impl Sim {
     /// present. Scores count it as a rewind.
     fn move_to_task(&mut self, number: u32) {
         let Some((position_m, yaw_rad)) = self.task_start(number) else { return };
-        self.state.place(position_m, yaw_rad);
-        self.state.rigid.rotor_rad_s = [self.model.hover_rotor_rad_s(); physics::MAX_ROTORS];
+        self.place_at_rest(position_m, yaw_rad, self.model.hover_rotor_rad_s());
         self.last_safe_hover = (position_m, yaw_rad);
         self.continue_from_new_place();
         self.events.push_back(SimEvent::MoveToTask { task: number });
@@ -131,8 +128,7 @@ impl Sim {
     /// Ends contact and crash, starts the estimator at the new place, and lets the simulation run on until every client has the
     /// new position.
     fn continue_from_new_place(&mut self) {
-        (self.crashed_since, self.hard_contact) = (None, false);
-        self.scoring.contact = ContactKind::None;
+        self.end_contact();
         self.scoring.rewinds += 1;
         self.scoring.is_frozen = false;
         let (rigid, now) = (self.state.rigid, self.now);

@@ -2,11 +2,8 @@
 //! documentation of the keys ([`key_descriptions`]).
 
 use spandrel_model::key_table::KeyDescription;
-use spandrel_model::scenario::values::{ScenarioValues, describe, key_descriptions, without_indices};
+use spandrel_model::scenario::values::{KIND_KEYS, ScenarioValues, describe, key_descriptions, without_indices};
 use spandrel_model::toml::Problem;
-
-/// Keys that determine which other keys a table uses.
-const KIND_KEYS: [&str; 3] = ["source", "kind", "step"];
 
 /// Maximum number of bridges, tasks or events with fields: as many as a job may have. Files with more have a problem anyway.
 const MAX_GROUPS: usize = 64;

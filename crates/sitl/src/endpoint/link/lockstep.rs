@@ -73,10 +73,8 @@ impl Links {
         });
         for frame in requests {
             if let Some(MavMessage::TIMESYNC(request)) = frame.message {
-                let (target_system, target_component) = (frame.system_id, frame.component_id);
-                let tc1 = clock.for_link(link.kind).since_boot(clock.now).ns().max(1);
-                let answer = TIMESYNC_DATA { tc1, ts1: request.ts1, target_system, target_component };
-                link.send(AUTOPILOT, &MavMessage::TIMESYNC(answer));
+                let from = (frame.system_id, frame.component_id);
+                link.send(AUTOPILOT, &clock.for_link(link.kind).time_response(&request, from));
             }
         }
     }
@@ -110,7 +108,8 @@ impl Links {
     }
 }
 
-fn is_time_request(frame: &ReceivedFrame) -> bool {
+/// Checks whether a frame asks for the time, as opposed to a response.
+pub fn is_time_request(frame: &ReceivedFrame) -> bool {
     matches!(&frame.message, Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0)
 }
 

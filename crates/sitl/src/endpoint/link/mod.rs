@@ -15,6 +15,7 @@ pub use budget::LinkBudget;
 pub use datagram::ReceivedDatagram;
 pub use link_id::{LinkId, LinkKind, Transmit};
 pub use links::Links;
+pub use lockstep::is_time_request;
 pub use peer_link::{LockstepState, PeerLink};
 pub use signing_policy::{FrameAdmission, SigningPolicy};
 pub use stream_schedule::{ScheduledStream, StreamSchedule};

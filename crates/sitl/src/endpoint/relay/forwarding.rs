@@ -2,7 +2,7 @@
 
 use super::RelayEndpoint;
 use crate::endpoint::component_ids::AUTOPILOT;
-use crate::endpoint::link::{LinkId, LinkKind, PeerLink};
+use crate::endpoint::link::{LinkId, LinkKind, PeerLink, is_time_request};
 use mavlink::{Message, MessageData};
 use spandrel_mavlink::codec::{Encodable, ReceivedFrame};
 use spandrel_mavlink::dialect::{
@@ -23,7 +23,7 @@ impl RelayEndpoint {
         for target in self.links.targets(from, frame) {
             let Some(link) = self.links.get_mut(target).filter(|link| !(link.sends_only_responses && to_all)) else { continue };
             // In lockstep, a peer answers each TIMESYNC request as the end of a step. Only the simulator may ask.
-            let is_misleading = link.lockstep && is_timesync_request(frame);
+            let is_misleading = link.lockstep && is_time_request(frame);
             if link.kind == LinkKind::Payload {
                 forward_to_payload_process(link, frame);
             } else if !is_misleading {
@@ -80,8 +80,4 @@ fn forward_to_payload_process(link: &mut PeerLink, frame: &ReceivedFrame) {
     if known && !SENT_BY_SIMULATOR.contains(&frame.message_id) && frame.component_id == AUTOPILOT {
         link.send_payload(AUTOPILOT, frame.message_id, &frame.payload(0));
     }
-}
-
-fn is_timesync_request(frame: &ReceivedFrame) -> bool {
-    matches!(&frame.message, Some(MavMessage::TIMESYNC(sync)) if sync.tc1 == 0)
 }

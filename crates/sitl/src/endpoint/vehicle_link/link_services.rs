@@ -10,11 +10,8 @@ pub(super) fn timesync(_: &mut VehicleLink, sync: &TIMESYNC_DATA, a: &mut Inboun
     if sync.tc1 != 0 {
         return;
     }
-    let (target_system, target_component) = a.from;
     let Some(link) = a.links.get(a.link) else { return };
-    // Uses the same clock as the message timestamps so that clients can convert them.
-    let tc1 = a.aircraft.clock.for_link(link.kind).since_boot(a.now()).ns().max(1);
-    a.answer(&MavMessage::TIMESYNC(TIMESYNC_DATA { tc1, ts1: sync.ts1, target_system, target_component }));
+    a.answer(&a.aircraft.clock.for_link(link.kind).time_response(sync, a.from));
 }
 
 /// Answers a ping request. A ping without a target is a request; one with a target is a response.

@@ -21,7 +21,8 @@ const EDITOR_MARGIN_M: f64 = 50.0;
 /// Draws the plan view with north up.
 #[must_use]
 pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
-    plan(scenario, site, &extent(scenario, site), &html! {})
+    let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
+    plan(scenario, site, &map, &html! {})
 }
 
 /// Draws the plan view for the scenario editor: with a margin, the inspector and the truck.
@@ -41,25 +42,24 @@ pub fn editor_plan(scenario: &Scenario, site: &Site) -> Markup {
         g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="-7" y="-10" { "truck" } }
         g.crew transform=(place(map.at(team.pad_m))) { text.tick x="11" y="4" { "pad" } }
     };
-    plan(scenario, site, &corners, &marks)
+    plan(scenario, site, &map, &marks)
 }
 
-fn plan(scenario: &Scenario, site: &Site, shown: &[Vec3<Enu>], marks: &Markup) -> Markup {
-    let map = PlotMap::around(ParallelView::plan(), shown);
+fn plan(scenario: &Scenario, site: &Site, map: &PlotMap, marks: &Markup) -> Markup {
     svg_figure(
         map.size,
         "Job site from above, north up",
         "map",
         &html! {
-            (lake(scenario, site, &map))
-            (structure(site, &map, None))
-            (reference_paths(scenario, &map, None))
-            (task_numbers(scenario, &map, None))
-            (pad(scenario, &map))
+            (lake(scenario, site, map))
+            (structure(site, map, None))
+            (reference_paths(scenario, map, None))
+            (task_numbers(scenario, map, None))
+            (pad(scenario, map))
             (marks)
-            (north(&map))
-            (drone(&map, None))
-            (scale(&map))
+            (north(map))
+            (drone(map, None))
+            (scale(map))
         },
     )
 }
