@@ -40,6 +40,7 @@ pub mod signing_store;
 pub mod simulator_socket;
 pub mod stop;
 pub mod store;
+pub mod system_language;
 pub mod trainee_id;
 pub mod user_folder;
 #[cfg(feature = "view")]

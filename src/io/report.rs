@@ -4,6 +4,7 @@ use super::clock;
 use super::marks::valid_marks;
 use super::replace::replace;
 use super::session_folder::StoredSession;
+use super::system_language::system_language;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::export::json_text;
@@ -122,6 +123,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
     let name =
         std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
     Ok(SessionMetadata {
+        language: system_language(),
         trainee: stored.trainee.clone(),
         started_unix_us: stored.started_unix_us,
         purpose: stored.purpose.clone(),

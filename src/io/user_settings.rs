@@ -1,12 +1,14 @@
-//! The user's settings of the window: keys, units, text size, picture quality and sound, in one file in the user's
+//! The user's settings of the window: keys, language, units, text size, picture quality and sound, in one file in the user's
 //! configuration folder.
 
 use super::files;
 use super::replace::replace;
+use super::system_language::system_language;
 use super::user_folder;
 use crate::errors::AppError;
 use spandrel_clients::rc::keyboard::KeyBindings;
 use spandrel_model::toml::{Problems, Reader, Section};
+use spandrel_text::Language;
 use spandrel_view::hud::{DisplayStyle, DisplayUnits, TextScale};
 use spandrel_view::quality::{PRESETS, Quality};
 use std::fmt::Write;
@@ -24,7 +26,7 @@ const AUTO: &str = "auto";
 pub struct UserSettings {
     /// Keys and sound.
     pub keys: KeyBindings,
-    /// Units and text size.
+    /// Language, units and text size.
     pub style: DisplayStyle,
     /// Name of the quality preset; `None` chooses one that suits the computer.
     pub quality: Option<&'static str>,
@@ -44,6 +46,7 @@ impl UserSettings {
             let mut display = r.section(&mut root, "display");
             let units = DisplayUnits::ALL.map(|units| (units.word(), units));
             let style = DisplayStyle {
+                language: language(&mut r, &mut display),
                 units: r.keyword(&mut display, "units", &units, Some(0)),
                 text_scale: text_scale(&mut r, &mut display),
             };
@@ -60,12 +63,18 @@ impl UserSettings {
         }
     }
 
+    /// Returns the default settings in the language of the system.
+    pub fn of_system() -> Self {
+        Self { style: DisplayStyle { language: system_language(), ..DisplayStyle::default() }, ..Self::default() }
+    }
+
     /// Returns the settings as a TOML file.
     pub fn write(&self) -> String {
         let mut text = format!("# Written by the settings page of the window.\nformat = {FORMAT}\n{}", self.keys.write_tables());
         let _ = write!(
             text,
-            "\n[display]\nunits = \"{}\"\ntext_scale_pct = {}\nquality = \"{}\"\n",
+            "\n[display]\nlanguage = \"{}\"\nunits = \"{}\"\ntext_scale_pct = {}\nquality = \"{}\"\n",
+            self.style.language.tag(),
             self.style.units.word(),
             self.style.text_scale.pct(),
             self.quality.unwrap_or(AUTO)
@@ -77,6 +86,13 @@ impl UserSettings {
     pub fn quality_preset(&self) -> Option<Quality> {
         self.quality.and_then(Quality::by_name)
     }
+}
+
+/// Reads the language; the default is the language of the system.
+fn language(r: &mut Reader, display: &mut Section) -> Language {
+    let languages: Vec<_> = Language::ALL.into_iter().chain([Language::Pseudo]).map(|one| (one.tag(), one)).collect();
+    let default = languages.iter().position(|(_, one)| *one == system_language());
+    r.keyword(display, "language", &languages, default)
 }
 
 fn text_scale(r: &mut Reader, display: &mut Section) -> TextScale {
@@ -118,7 +134,7 @@ impl SettingsFile {
     pub fn load(&self) -> Result<UserSettings, AppError> {
         match self.path().filter(|path| path.exists()) {
             Some(path) => Ok(UserSettings::read(&path.display().to_string(), &files::read(path)?)?),
-            None => Ok(UserSettings::default()),
+            None => Ok(UserSettings::of_system()),
         }
     }
 
@@ -151,7 +167,8 @@ mod tests {
             volume: 0.1 * (k % 11) as f64,
             ..keys.sounds
         };
-        let style = DisplayStyle { units: DisplayUnits::ALL[k % 2], text_scale: TextScale::ALL[k % 4] };
+        let style =
+            DisplayStyle { language: Language::ALL[k % 3], units: DisplayUnits::ALL[k % 2], text_scale: TextScale::ALL[k % 4] };
         UserSettings {
             keys,
             style,
@@ -165,7 +182,7 @@ mod tests {
             let wanted = settings(k);
             assert_eq!(UserSettings::read("settings.toml", &wanted.write()).as_ref(), Ok(&wanted), "{k}:\n{}", wanted.write());
         }
-        assert_eq!(UserSettings::read("settings.toml", "format = 1\n"), Ok(UserSettings::default()), "all keys are optional");
+        assert_eq!(UserSettings::read("settings.toml", "format = 1\n"), Ok(UserSettings::of_system()), "all keys are optional");
     }
 
     #[test]
@@ -193,7 +210,7 @@ mod tests {
     fn exact_settings_are_stored_in_the_configuration_folder() {
         let folder = tempfile::tempdir().unwrap();
         let file = SettingsFile(Some(folder.path().join("deep").join(FILE_NAME)));
-        assert_eq!(file.load().unwrap(), UserSettings::default());
+        assert_eq!(file.load().unwrap(), UserSettings::of_system());
         file.save(&settings(3)).unwrap();
         assert_eq!(file.load().unwrap(), settings(3));
         let names: Vec<_> =
@@ -202,7 +219,7 @@ mod tests {
         std::fs::write(file.path().unwrap(), "format = 9\n").unwrap();
         assert!(file.load().unwrap_err().to_string().contains("settings.toml:1: format = 9"));
         let nowhere = SettingsFile::default();
-        assert_eq!(nowhere.load().unwrap(), UserSettings::default());
+        assert_eq!(nowhere.load().unwrap(), UserSettings::of_system());
         assert_eq!(nowhere.save(&settings(1)).unwrap_err().to_string(), "no home folder found");
     }
 }

@@ -12,6 +12,7 @@ use crate::errors::AppError;
 use crate::io::clock;
 use crate::records::{Account, Database};
 use axum::http::{HeaderMap, header};
+use spandrel_text::Language;
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::access::Visitor;
 use spandrel_training::web::browser_sessions::{BrowserSession, BrowserSessions, TokenBytes, constant_time_eq};
@@ -260,7 +261,8 @@ impl Authenticator {
     }
 }
 
-fn cookie_value(headers: &HeaderMap, name: &str) -> Option<String> {
+/// Returns the value of a cookie.
+pub fn cookie_value(headers: &HeaderMap, name: &str) -> Option<String> {
     let all = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
     let mut pairs = all.flat_map(cookie::Cookie::split_parse).flatten();
     pairs.find(|cookie| cookie.name() == name).map(|cookie| cookie.value().to_owned())
@@ -272,7 +274,7 @@ fn wrong_credentials() -> WebError {
 
 fn visitor(open: bool, person: Option<Trainee>, visit: BrowserSession) -> Visitor {
     let role = if open { Role::Administrator } else { person.as_ref().map_or(Role::Trainee, |person| person.role) };
-    Visitor { name: person.map(|person| person.pseudonym), role, open, token: visit.token }
+    Visitor { name: person.map(|person| person.pseudonym), role, open, token: visit.token, language: Language::default() }
 }
 
 fn secrets() -> Result<[TokenBytes; 2], WebError> {

@@ -1,7 +1,7 @@
 //! Request pipeline. It identifies the visitor of every request, authorizes the request and checks its form token. Then
 //! the route's handler runs on a thread that may block on disk and database access.
 
-use super::auth::IdentifiedVisitor;
+use super::auth::{IdentifiedVisitor, cookie_value};
 use super::body;
 use super::live;
 use super::request::WebRequest;
@@ -12,6 +12,7 @@ use axum::RequestExt;
 use axum::body::Body;
 use axum::extract::{ConnectInfo, Path, Request};
 use axum::http::{HeaderMap, Method, Response, header};
+use spandrel_text::Language;
 use spandrel_training::web::access::AccessLevel;
 use spandrel_training::web::layout;
 use std::collections::BTreeMap;
@@ -96,6 +97,9 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
     response
 }
 
+/// Cookie with the tag of the language that the visitor has selected.
+pub const LANGUAGE_COOKIE: &str = "spandrel-language";
+
 async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut Request) -> Result<RequestHead, WebError> {
     let path = request.extract_parts::<Path<BTreeMap<String, String>>>().await;
     let path = path.map_err(|_| WebError::NotFound)?.0;
@@ -113,12 +117,13 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
             state.auth.address(socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?, &headers)?;
         let recognized =
             if file { None } else { Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?) };
-        let visitor = recognized.as_ref().map_or_else(anonymous_visitor, |recognized| recognized.visitor.clone());
+        let mut visitor = recognized.as_ref().map_or_else(anonymous_visitor, |recognized| recognized.visitor.clone());
         let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
         let device = state.auth.browser_cookie_from(&headers);
         let expects_json = accepts_json(&headers);
         let text = |name| headers.get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
         let (languages, range) = (text(header::ACCEPT_LANGUAGE).unwrap_or_default(), text(header::RANGE));
+        visitor.language = language_from(&headers, &languages);
         let (form, upload) = (Vec::new(), None);
         let web_request = WebRequest { visitor, cookie, from, device, path, query, form, upload, languages, range, expects_json };
         Ok(RequestHead { request: web_request, identity: recognized })
@@ -132,7 +137,14 @@ fn anonymous_visitor() -> spandrel_training::web::access::Visitor {
         role: spandrel_training::trainee::Role::Trainee,
         open: false,
         token: String::new(),
+        language: Language::default(),
     }
+}
+
+/// Returns the language that the visitor has selected, or else the one that the browser prefers.
+fn language_from(headers: &HeaderMap, accepted: &str) -> Language {
+    let selected = cookie_value(headers, LANGUAGE_COOKIE).and_then(|tag| Language::from_tag(&tag));
+    selected.or_else(|| Language::accepted(accepted)).unwrap_or_default()
 }
 
 fn accepts_json(headers: &HeaderMap) -> bool {

@@ -145,7 +145,7 @@ fn change_settings(settings: &mut UserSettings, change: &SettingChange) -> Optio
             return Some("All keys have their defaults.".to_owned());
         }
         SettingChange::RestoreAll => {
-            *settings = UserSettings::default();
+            *settings = UserSettings::of_system();
             return Some("All settings have their defaults.".to_owned());
         }
     }
@@ -189,7 +189,7 @@ mod tests {
         assert_eq!(told.as_deref(), Some("L: lamp. The key was taken: land now has Y."));
         let told = settings.apply(&SettingChange::Key(index("lamp"), "f5".into()));
         assert!(told.is_some_and(|words| words.contains("'f5' cannot be used (allowed: one character")));
-        let style = DisplayStyle { units: DisplayUnits::UsCustomary, text_scale: TextScale::Double };
+        let style = DisplayStyle { units: DisplayUnits::UsCustomary, text_scale: TextScale::Double, ..DisplayStyle::default() };
         assert_eq!(settings.apply(&SettingChange::Style(style)), None);
         assert_eq!(settings.set_sound(false), None);
         let again = WindowSettings::load(file(&folder), SettingsOverrides::default());

@@ -39,10 +39,13 @@ use spandrel_monitor::measures::attention;
 use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::{AssessError, AssessedSession, ScoringJob, assess};
+use spandrel_text::Language;
 
 /// Session metadata, from the session folder.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SessionMetadata {
+    /// Language of the report.
+    pub language: Language,
     /// Trainee's pseudonym.
     pub trainee: String,
     /// Session purpose, `practice` or `assessment`; `None` if not specified.

@@ -1,6 +1,7 @@
 //! Website visitors and their access rights.
 
 use crate::trainee::Role;
+use spandrel_text::Language;
 
 /// Access level that a page or action requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +27,8 @@ pub struct Visitor {
     pub open: bool,
     /// CSRF token included in every form.
     pub token: String,
+    /// Language of the pages.
+    pub language: Language,
 }
 
 impl Visitor {
@@ -64,7 +67,7 @@ mod tests {
     use super::*;
 
     fn visitor(name: Option<&str>, role: Role, open: bool) -> Visitor {
-        Visitor { name: name.map(str::to_owned), role, open, token: String::new() }
+        Visitor { name: name.map(str::to_owned), role, open, token: String::new(), language: Language::English }
     }
 
     #[test]

@@ -177,12 +177,19 @@ pub fn refusal(visitor: &Visitor, title: &str, text: &str) -> Markup {
 pub(super) mod tests {
     use super::*;
     use crate::trainee::Role;
+    use spandrel_text::Language;
 
     /// A name that attempts script injection.
     pub(crate) const HOSTILE_NAME: &str = "<script>alert(1)</script>\"'&";
 
     pub(crate) fn administrator() -> Visitor {
-        Visitor { name: Some(HOSTILE_NAME.into()), role: Role::Administrator, open: false, token: "t0ken".into() }
+        Visitor {
+            name: Some(HOSTILE_NAME.into()),
+            role: Role::Administrator,
+            open: false,
+            token: "t0ken".into(),
+            language: Language::English,
+        }
     }
 
     /// Panics if the page contains unescaped text or anything blocked by the content security policy.

@@ -560,7 +560,7 @@ fn prop_words_stay_apart_and_in_the_window_at_any_text_size() {
             .into_iter()
             .flat_map(|scale| DisplayUnits::ALL.into_iter().flat_map(move |units| ASPECTS.map(|aspect| (scale, units, aspect))))
         {
-            let flow = styled(&flow, DisplayStyle { units, text_scale });
+            let flow = styled(&flow, DisplayStyle { units, text_scale, ..DisplayStyle::default() });
             let texts = text_places(&flow.sheet(aspect), aspect);
             let what = format!("{name}, {}%, {}, aspect {aspect:.2}", text_scale.pct(), units.word());
             for (k, (place, words)) in texts.iter().enumerate() {

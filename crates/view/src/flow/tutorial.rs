@@ -5,8 +5,7 @@ use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, text_width, wrap_text};
 use crate::hud::{
-    DisplayStyle, DisplayUnits, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TextAlign, TextScale, instruments,
-    layout,
+    DisplayStyle, DisplayUnits, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TextAlign, instruments, layout,
 };
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
@@ -276,7 +275,7 @@ fn example(cues: i32, units: DisplayUnits) -> Hud {
         guidance: None,
         lesson: None,
         tracks: Vec::new(),
-        style: DisplayStyle { units, text_scale: TextScale::Normal },
+        style: DisplayStyle { units, ..DisplayStyle::default() },
     }
 }
 

@@ -218,9 +218,9 @@ fn prop_items_do_not_overlap_at_any_size() {
 
 #[test]
 fn prop_items_do_not_overlap_at_any_text_size_and_in_any_units() {
-    let styles = TextScale::ALL
-        .into_iter()
-        .flat_map(|text_scale| DisplayUnits::ALL.into_iter().map(move |units| DisplayStyle { units, text_scale }));
+    let styles = TextScale::ALL.into_iter().flat_map(|text_scale| {
+        DisplayUnits::ALL.into_iter().map(move |units| DisplayStyle { units, text_scale, ..DisplayStyle::default() })
+    });
     for style in styles {
         // The camera view in windows of 1280x720, 1920x1080, 3840x2160 and 1000x1000 px.
         for window_px in [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0)] {

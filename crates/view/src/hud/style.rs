@@ -1,6 +1,7 @@
 //! How the window shows texts and values: units and text size.
 
 use spandrel_model::math::M_S_PER_MPH;
+use spandrel_text::Language;
 
 /// Length of the international foot, m (exact).
 const M_PER_FT: f64 = 0.3048;
@@ -213,9 +214,11 @@ impl TextScale {
     }
 }
 
-/// Units and text size.
+/// Language, units and text size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DisplayStyle {
+    /// Language of all texts.
+    pub language: Language,
     /// Units of lengths and speeds.
     pub units: DisplayUnits,
     /// Size of all texts.

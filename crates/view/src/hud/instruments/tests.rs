@@ -71,8 +71,9 @@ fn prop_texts_do_not_overlap_and_everything_is_inside_in_any_window() {
     let (job, site) = job();
     let hud = flying(&job);
     let windows = [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0), (1600.0, 560.0), (800.0, 600.0)];
-    let styles =
-        TextScale::ALL.into_iter().flat_map(|text_scale| DisplayUnits::ALL.map(|units| DisplayStyle { units, text_scale }));
+    let styles = TextScale::ALL
+        .into_iter()
+        .flat_map(|text_scale| DisplayUnits::ALL.map(|units| DisplayStyle { units, text_scale, ..DisplayStyle::default() }));
     for (window_px, style) in styles.flat_map(|style| windows.map(|window_px| (window_px, style))) {
         let shape = WindowShape { window: window_px.0 / window_px.1, camera: 4.0 / 3.0 };
         let places = ViewLayout::Camera.view_rects(shape);

@@ -1,0 +1,2 @@
+# The name of the language, in the language itself.
+common-language-name = English

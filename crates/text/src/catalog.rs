@@ -1,0 +1,55 @@
+//! Formats messages with Fluent.
+
+use crate::Language;
+use crate::messages::FILES;
+use crate::pseudo::pseudo;
+use fluent_bundle::concurrent::FluentBundle;
+use fluent_bundle::{FluentArgs, FluentResource};
+use std::sync::LazyLock;
+
+/// Value of a message's variable: a text, or an integer that selects a plural form.
+pub use fluent_bundle::FluentValue as Value;
+
+type Bundle = FluentBundle<FluentResource>;
+
+static BUNDLES: LazyLock<[Bundle; 4]> =
+    LazyLock::new(|| [Language::English, Language::German, Language::Spanish, Language::Pseudo].map(bundle));
+
+/// Reads a language's catalog. The tests read it with all errors.
+fn bundle(language: Language) -> Bundle {
+    let mut bundle = FluentBundle::new_concurrent(vec![language.identifier()]);
+    // The marks that isolate variables in bidirectional text would be visible in the window.
+    bundle.set_use_isolating(false);
+    if language == Language::Pseudo {
+        bundle.set_transform(Some(pseudo));
+    }
+    for text in FILES[language.catalog()] {
+        let resource = FluentResource::try_new((*text).to_owned()).unwrap_or_else(|(resource, _)| resource);
+        bundle.add_resource_overriding(resource);
+    }
+    bundle
+}
+
+/// Returns a message in a language, or in English if the language does not have it. The macro [`text!`](crate::text) checks the
+/// names.
+#[must_use]
+pub fn message(language: Language, id: &str, variables: &[(&str, Value<'_>)]) -> String {
+    let bundles = &*BUNDLES;
+    let [english, german, spanish, pseudo] = bundles;
+    let bundle = match language {
+        Language::English => english,
+        Language::German => german,
+        Language::Spanish => spanish,
+        Language::Pseudo => pseudo,
+    };
+    format(bundle, id, variables).or_else(|| format(english, id, variables)).unwrap_or_else(|| id.to_owned())
+}
+
+fn format(bundle: &Bundle, id: &str, variables: &[(&str, Value<'_>)]) -> Option<String> {
+    let pattern = bundle.get_message(id)?.value()?;
+    let arguments: FluentArgs = variables.iter().map(|(name, value)| (*name, value.clone())).collect();
+    let mut errors = Vec::new();
+    let text = bundle.format_pattern(pattern, Some(&arguments), &mut errors);
+    debug_assert!(errors.is_empty(), "{id}: {errors:?}");
+    Some(text.into_owned())
+}

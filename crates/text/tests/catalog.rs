@@ -1,0 +1,114 @@
+//! The catalogs: every language has the messages of the English one, with the same variables.
+
+use fluent_syntax::ast::{CallArguments, Entry, Expression, InlineExpression, Pattern, PatternElement};
+use spandrel_text::{Language, text};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Variables of each message.
+type Messages = BTreeMap<String, BTreeSet<String>>;
+
+fn folder(language: Language) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("catalog").join(language.tag())
+}
+
+/// Returns the catalog files of a language by name.
+fn files(language: Language) -> BTreeMap<String, Messages> {
+    let entries = std::fs::read_dir(folder(language)).unwrap().map(|entry| entry.unwrap().path());
+    entries.map(|path| (path.file_stem().unwrap().to_str().unwrap().to_owned(), read(&path))).collect()
+}
+
+fn read(path: &Path) -> Messages {
+    let file = path.display();
+    let text = std::fs::read_to_string(path).unwrap();
+    let resource = fluent_syntax::parser::parse(text).unwrap_or_else(|(_, errors)| panic!("{file}: {errors:?}"));
+    let mut messages = Messages::new();
+    for entry in resource.body {
+        match entry {
+            Entry::Message(message) => {
+                let mut found = Variables::default();
+                found.pattern(message.value.as_ref().unwrap_or_else(|| panic!("{file}: {} has no text", message.id.name)));
+                assert!(messages.insert(message.id.name.clone(), found.0).is_none(), "{file}: {} twice", message.id.name);
+            }
+            Entry::Junk { content } => panic!("{file}: {content}"),
+            Entry::Term(_) | Entry::Comment(_) | Entry::GroupComment(_) | Entry::ResourceComment(_) => {}
+        }
+    }
+    messages
+}
+
+#[derive(Default)]
+struct Variables(BTreeSet<String>);
+
+impl Variables {
+    fn pattern(&mut self, pattern: &Pattern<String>) {
+        for element in &pattern.elements {
+            if let PatternElement::Placeable { expression } = element {
+                self.expression(expression);
+            }
+        }
+    }
+
+    fn expression(&mut self, expression: &Expression<String>) {
+        match expression {
+            Expression::Inline(inline) => self.inline(inline),
+            Expression::Select { selector, variants } => {
+                self.inline(selector);
+                variants.iter().for_each(|variant| self.pattern(&variant.value));
+            }
+        }
+    }
+
+    fn inline(&mut self, inline: &InlineExpression<String>) {
+        match inline {
+            InlineExpression::VariableReference { id } => drop(self.0.insert(id.name.clone())),
+            InlineExpression::Placeable { expression } => self.expression(expression),
+            InlineExpression::FunctionReference { arguments, .. } => self.arguments(arguments),
+            InlineExpression::TermReference { arguments, .. } => arguments.iter().for_each(|all| self.arguments(all)),
+            InlineExpression::StringLiteral { .. }
+            | InlineExpression::NumberLiteral { .. }
+            | InlineExpression::MessageReference { .. } => {}
+        }
+    }
+
+    fn arguments(&mut self, arguments: &CallArguments<String>) {
+        arguments.positional.iter().for_each(|one| self.inline(one));
+        arguments.named.iter().for_each(|one| self.inline(&one.value));
+    }
+}
+
+#[test]
+fn exact_every_language_has_every_message_with_the_same_variables() {
+    let english = files(Language::English);
+    assert!(!english.is_empty());
+    for language in Language::ALL {
+        let own = files(language);
+        assert_eq!(own.keys().collect::<Vec<_>>(), english.keys().collect::<Vec<_>>(), "files of {language:?}");
+        for (file, messages) in &english {
+            let missing: Vec<&String> = messages.keys().filter(|id| !own[file].contains_key(*id)).collect();
+            let unknown: Vec<&String> = own[file].keys().filter(|id| !messages.contains_key(*id)).collect();
+            assert!(
+                missing.is_empty() && unknown.is_empty(),
+                "{language:?}, {file}.ftl: missing {missing:?}, unknown {unknown:?}"
+            );
+            for (id, variables) in messages {
+                assert_eq!(&own[file][id], variables, "{language:?}, {file}.ftl: variables of {id}");
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_names_begin_with_the_name_of_their_file() {
+    for (file, messages) in files(Language::English) {
+        for id in messages.keys() {
+            assert!(id.starts_with(&format!("{file}-")), "{file}.ftl: {id}");
+        }
+    }
+}
+
+#[test]
+fn exact_pseudo_language_changes_texts() {
+    let pseudo = text!(Language::Pseudo, "common-language-name");
+    assert!(!pseudo.is_ascii() && pseudo.chars().count() > "English".len(), "{pseudo}");
+}
