@@ -30,13 +30,13 @@ need_packages() {
 }
 
 # need_build_packages KIND: installs the packages for a headless build or a build with windows. A headless build requires a C compiler. A build with
-# windows also requires a C++ compiler for the video encoder, and udev to find gamepads.
+# windows also requires a C++ compiler for the video encoder, udev to find gamepads, and ALSA for sound.
 need_build_packages() {
     local packages=(cc:gcc objcopy:binutils)
     if [ "$(uname)" = Linux ]; then
         packages+=(/usr/include/stdio.h:libc6-dev)
         if [ "$1" = window ]; then
-            packages+=(c++:g++ pkg-config:pkg-config /usr/include/libudev.h:libudev-dev)
+            packages+=(c++:g++ pkg-config:pkg-config /usr/include/libudev.h:libudev-dev /usr/include/alsa/asoundlib.h:libasound2-dev)
         fi
     fi
     need_packages "${packages[@]}"

@@ -13,6 +13,7 @@ from PIL import Image
 import asking
 import display
 import spandrel
+from speakers import RATE_HZ, Speakers
 
 # Colors of pages (crates/view/src/hud/mod.rs): background, focused row, score bar.
 NIGHT, FOCUS, BLUE = (20, 24, 30), (20, 92, 140), (86, 180, 233)
@@ -44,11 +45,21 @@ def screen(tmp_path):
     opened.close()
 
 
+@pytest.fixture
+def speakers(tmp_path):
+    """A sound server that records what is played."""
+    opened = Speakers(tmp_path)
+    yield opened
+    opened.close()
+
+
 class Training:
     """`train` with its window on a display, using free ports."""
 
-    def __init__(self, screen, folder, *args):
+    def __init__(self, screen, folder, *args, speakers=None):
         self.screen, self.folder = screen, folder
+        # Without speakers, the sound has no device to play on.
+        self.sound = speakers.environment() if speakers else {"PULSE_SERVER": "unix:/nonexistent"}
         self.sessions = folder / "sessions"
         self.out = open(folder / "train.txt", "w", encoding="utf-8")
         # Folder for screenshots, for inspection after the test.
@@ -59,13 +70,8 @@ class Training:
         )
 
     def environment(self):
-        """Sets up a fake audio player that stores its input, and an empty user configuration."""
-        programs = self.folder / "programs"
-        programs.mkdir()
-        player = programs / "pacat"
-        player.write_text(f"#!/bin/sh\nexec cat > {self.folder / 'played.raw'}\n", encoding="utf-8")
-        player.chmod(0o755)
-        return {"PATH": f"{programs}:{os.environ['PATH']}", "XDG_CONFIG_HOME": str(self.folder / "config")}
+        """Returns the speakers, and an empty user configuration."""
+        return self.sound | {"XDG_CONFIG_HOME": str(self.folder / "config")}
 
     def output(self):
         """Returns the output so far."""
@@ -150,9 +156,9 @@ def folders(training):
 
 
 @pytest.mark.timeout(2400)
-def test_wire_keyboard_controls_a_complete_session(screen, tmp_path):
+def test_wire_keyboard_controls_a_complete_session(screen, speakers, tmp_path):
     """Start page, controller check, tutorial, briefing, flight, pause, restart, end; takes a screenshot of every page."""
-    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7")
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", speakers=speakers)
     try:
         start = training.wait_for_screenshot("start", is_start_page)
         # Moves the focus down past the recommendation, the job and the purpose to "Next", which opens the controller check.
@@ -211,13 +217,14 @@ def test_wire_keyboard_controls_a_complete_session(screen, tmp_path):
     drawn = sorted((folders(training)[1] / "snapshots").glob("*.jpg"))
     assert drawn and all(Image.open(path).size[0] > 600 for path in drawn)
     assert "data:image/jpeg;base64," in (folders(training)[1] / "report.html").read_text(encoding="utf-8")
-    assert_propellers_audible(tmp_path)
+    assert_propellers_audible(speakers.recording)
 
 
-def assert_propellers_audible(folder):
+def assert_propellers_audible(recording):
     """Checks the audio output: while the drone climbed, the blade frequency must dominate the spectrum."""
-    samples = numpy.frombuffer((folder / "played.raw").read_bytes(), dtype="<i2").astype(float)
-    pieces = samples[: len(samples) // 24000 * 24000].reshape(-1, 24000)
+    data = recording.read_bytes()
+    samples = numpy.frombuffer(data[: len(data) // 2 * 2], dtype="<i2").astype(float)
+    pieces = samples[: len(samples) // RATE_HZ * RATE_HZ].reshape(-1, RATE_HZ)
     loudest = pieces[numpy.abs(pieces).mean(axis=1).argmax()]
     spectrum = numpy.abs(numpy.fft.rfft(loudest * numpy.hanning(len(loudest))))
     # A Phantom's rotors have two blades and turn at about 60 to 150 revolutions per second.

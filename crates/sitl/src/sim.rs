@@ -507,6 +507,7 @@ impl Sim {
             },
             vehicle: &self.config.vehicle,
             plane: self.site.plane(),
+            site: &self.site,
             readings: &self.readings,
             truth: &self.state.rigid,
             specific_force_m_s2: self.state.specific_force_m_s2,

@@ -124,6 +124,19 @@ impl HeightGrid {
         Vec3::new(-east, -north, self.spacing_m).unit()
     }
 
+    /// Returns the distance between two heights, m.
+    #[must_use]
+    pub fn spacing_m(&self) -> f64 {
+        self.spacing_m
+    }
+
+    /// Checks whether a point is within the grid. Outside of it, the ground continues at the height of the edge.
+    #[must_use]
+    pub fn contains(&self, east_m: f64, north_m: f64) -> bool {
+        let half_m = -self.origin_m;
+        east_m.abs() <= half_m && north_m.abs() <= half_m
+    }
+
     /// Returns the height and upward unit normal of the ground at a point.
     #[must_use]
     pub fn ground(&self, east_m: f64, north_m: f64) -> (f64, Vec3<Enu>) {

@@ -177,6 +177,19 @@ impl Site {
         self.geometry.ground_up_m(east_m, north_m)
     }
 
+    /// Returns the height of the ground (without the pad) in meters above the origin; `None` outside of the terrain's grid.
+    #[must_use]
+    pub fn terrain_up_m(&self, east_m: f64, north_m: f64) -> Option<f64> {
+        let ground = &self.geometry.terrain.ground;
+        ground.contains(east_m, north_m).then(|| ground.ground(east_m, north_m).0)
+    }
+
+    /// Returns the distance between two heights of the terrain's grid, m.
+    #[must_use]
+    pub fn terrain_spacing_m(&self) -> f64 {
+        self.geometry.terrain.ground.spacing_m()
+    }
+
     /// Returns the fraction of the upper hemisphere that is open sky, 0 to 1 (static geometry only; deterministic rays).
     #[must_use]
     pub fn sky_view(&self, position_m: Vec3<Enu>) -> f64 {

@@ -7,6 +7,7 @@ use crate::physics::{Actuators, BatteryState, RigidState};
 use crate::sensors::Readings;
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
 
 /// State of the physics, the sensors and the site at one instant.
@@ -18,6 +19,8 @@ pub struct SimulatedAircraft<'a> {
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,
+    /// The site.
+    pub site: &'a Site,
     /// Latest sensor readings.
     pub readings: &'a Readings,
     /// True state of the aircraft.

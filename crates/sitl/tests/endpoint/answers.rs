@@ -3,8 +3,10 @@
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::dialect::*;
+use spandrel_mavlink::units::deg_e7;
+use spandrel_model::frames::Vec3;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::endpoint::{LinkId, LinkKind};
+use spandrel_sitl::endpoint::{LinkId, LinkKind, flavor};
 use spandrel_sitl::sim::Sim;
 use spandrel_testkit::station::{GCS, Station};
 
@@ -204,6 +206,38 @@ fn wire_parameter_hash_precedes_the_list_and_setting_it_stops_the_list() {
     station.received.clear();
     station.run_ms(500);
     assert!(station.all(value_of).is_empty(), "no parameters must follow");
+}
+
+#[test]
+fn wire_terrain_check_is_answered_with_the_height_of_the_ground() {
+    /// Half the resolution of an `f32` altitude near 500 m, m.
+    const RESOLUTION_M: f64 = 3e-5;
+    let mut station = Station::with_flavor(&flavor::ardupilot::FLAVOR, "two-bridges", 7);
+    station.run_ms(2_500);
+    let site = station.sim.site().clone();
+    let report = |station: &mut Station, lat: i32, lon: i32| {
+        station.ask(&MavMessage::TERRAIN_CHECK(TERRAIN_CHECK_DATA { lat, lon }), |m| match m {
+            MavMessage::TERRAIN_REPORT(r) => Some(r.clone()),
+            _ => None,
+        })
+    };
+    for (east_m, north_m) in [(0.0, 0.0), (120.0, -80.0), (-300.0, 250.0)] {
+        let up_m = site.terrain_up_m(east_m, north_m).unwrap();
+        let geo = site.plane().geo_from_enu(Vec3::new(east_m, north_m, up_m));
+        let (lat, lon) = (deg_e7(geo.latitude_deg), deg_e7(geo.longitude_deg));
+        let answer = report(&mut station, lat, lon).unwrap();
+        assert_eq!((answer.lat, answer.lon), (lat, lon));
+        let expected = site.plane().origin().altitude_m + up_m;
+        // A step of 1e-7 degrees is 1 cm, on a slope of at most 45 degrees.
+        assert!((f64::from(answer.terrain_height) - expected).abs() < 0.01 + RESOLUTION_M, "{answer:?} for {expected}");
+        assert_eq!(f64::from(answer.spacing), site.terrain_spacing_m());
+        assert!(answer.current_height.is_finite());
+    }
+    let elsewhere = report(&mut station, 10_000_000, 20_000_000).unwrap();
+    assert_eq!((elsewhere.spacing, elsewhere.loaded), (0, 0), "no heights outside of the site");
+    assert!(report(&mut station, i32::MAX, i32::MIN).is_some_and(|answer| answer.spacing == 0));
+    // PX4 has no terrain heights.
+    assert!(report(&mut Station::new("two-bridges", 7), 0, 0).is_none());
 }
 
 #[test]

@@ -66,6 +66,7 @@ fn connection() -> Vec<MavMessage> {
         MavMessage::REQUEST_EVENT(REQUEST_EVENT_DATA { first_sequence: 1, last_sequence: 3, ..Default::default() }),
         MavMessage::TIMESYNC(TIMESYNC_DATA { ts1: 123_456, ..Default::default() }),
         MavMessage::PING(PING_DATA { seq: 7, ..Default::default() }),
+        MavMessage::TERRAIN_CHECK(TERRAIN_CHECK_DATA { lat: 470_000_000, lon: 80_000_000 }),
         MavMessage::REQUEST_DATA_STREAM(REQUEST_DATA_STREAM_DATA { req_message_rate: 4, start_stop: 1, ..Default::default() }),
         MavMessage::LOG_REQUEST_LIST(LOG_REQUEST_LIST_DATA { end: u16::MAX, ..Default::default() }),
         MavMessage::VIDEO_STREAM_STATUS(VIDEO_STREAM_STATUS_DATA {

@@ -2,9 +2,11 @@
 //! caller provides the time base.
 
 mod propellers;
+mod resampled;
 mod smoothing;
 mod warnings;
 
+pub use resampled::ResampledSound;
 pub use smoothing::SAMPLE_RATE_HZ;
 pub use warnings::spoken;
 

@@ -1,7 +1,7 @@
 //! Tests of frequencies, levels, silence, and absence of clicks.
 
 use super::propellers::BLADES_PER_PROPELLER;
-use super::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
+use super::{FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
 use crate::hud::DisplayUnits;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
@@ -21,7 +21,11 @@ fn render_sound(sound: &mut FlightSound, sound_inputs: SoundInputs, seconds: f64
 
 /// Returns the amplitude at one frequency (a bin of the discrete Fourier transform).
 fn amplitude(samples: &[f64], hz: f64) -> f64 {
-    let step = math::TAU * hz / f64::from(SAMPLE_RATE_HZ);
+    amplitude_at(samples, hz, f64::from(SAMPLE_RATE_HZ))
+}
+
+fn amplitude_at(samples: &[f64], hz: f64, rate_hz: f64) -> f64 {
+    let step = math::TAU * hz / rate_hz;
     let (mut re, mut im) = (0.0, 0.0);
     for (k, sample) in samples.iter().enumerate() {
         let (s, c) = math::sin_cos(step * k as f64);
@@ -146,4 +150,36 @@ fn prop_sound_never_clips_or_clicks() {
     let mut out = [0.0_f32; 480];
     sound.fill(&mut out);
     assert!(out.iter().all(|sample| sample.is_finite()));
+}
+
+/// Returns `seconds` of resampled sound, recorded after the levels have settled for one second.
+fn resampled(rate_hz: u32, seconds: f64) -> Vec<f64> {
+    let mut sound = ResampledSound::new(rate_hz);
+    sound.flight().set_settings(only(true, true));
+    sound.flight().set(sound_inputs(120.0 * math::TAU, 1.0, 0));
+    let count = (f64::from(rate_hz) * seconds) as usize;
+    let samples: Vec<f64> = (0..rate_hz as usize + count).map(|_| f64::from(sound.next_sample())).collect();
+    samples[rate_hz as usize..].to_vec()
+}
+
+#[test]
+fn exact_resampled_sound_keeps_pitch_and_level() {
+    /// Loss of linear interpolation at 960 Hz and 24 kHz: 1 - sinc²(0.04) = 0.5 %.
+    const INTERPOLATION_LOSS: f64 = 0.006;
+    let tone = |rate_hz: u32, hz: f64| amplitude_at(&resampled(rate_hz, 1.0), hz, f64::from(rate_hz));
+    for rate_hz in [24_000, 44_100, 48_000, 96_000] {
+        for hz in [240.0, 480.0, 720.0] {
+            let (found, wanted) = (tone(rate_hz, hz), tone(SAMPLE_RATE_HZ, hz));
+            assert!((found / wanted - 1.0).abs() < INTERPOLATION_LOSS, "{hz} Hz at {rate_hz} Hz: {found} for {wanted}");
+        }
+        assert!(tone(rate_hz, 350.0) < 0.01 * tone(rate_hz, 240.0));
+    }
+}
+
+#[test]
+fn exact_sound_at_its_own_rate_is_not_changed() {
+    let mut flight = FlightSound::new(only(true, true));
+    let expected = render_sound(&mut flight, sound_inputs(120.0 * math::TAU, 1.0, 0), 0.5);
+    // Interpolation delays the sound by two samples.
+    assert_eq!(resampled(SAMPLE_RATE_HZ, 0.5)[2..], expected[..expected.len() - 2]);
 }

@@ -37,6 +37,7 @@ pub mod snapshot;
 mod status_texts;
 pub(super) mod streams;
 mod switch_position;
+mod terrain;
 
 use super::files::FileServer;
 use super::link::LinkId;

@@ -4,7 +4,7 @@
 use super::inbound::InboundMessage;
 use super::{
     VehicleLink, events, follow_targets, ftp, ground_station, link_services, log_messages, manual_input, mission_service,
-    mode_requests, param_service, setpoint_messages, shell,
+    mode_requests, param_service, setpoint_messages, shell, terrain,
 };
 use mavlink::MessageData;
 use spandrel_mavlink::codec::ReceivedFrame;
@@ -36,6 +36,7 @@ handlers! {
     GLOBAL_POSITION_INT GLOBAL_POSITION_INT_DATA follow_targets::other_position,
     REQUEST_EVENT REQUEST_EVENT_DATA events::request,
     SERIAL_CONTROL SERIAL_CONTROL_DATA shell::bytes,
+    TERRAIN_CHECK TERRAIN_CHECK_DATA terrain::check,
     TIMESYNC TIMESYNC_DATA link_services::timesync,
     PING PING_DATA link_services::ping,
     REQUEST_DATA_STREAM REQUEST_DATA_STREAM_DATA link_services::data_stream,

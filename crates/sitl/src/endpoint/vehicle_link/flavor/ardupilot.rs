@@ -135,6 +135,7 @@ pub static FLAVOR: Flavor = Flavor {
     calibration: CalibrationTexts::ArduPilot,
     shell: false,
     events: false,
+    terrain: true,
     loiter_mode: Some(LOITER),
     offsets: true,
     pauses: true,

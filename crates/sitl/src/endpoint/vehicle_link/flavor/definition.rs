@@ -135,6 +135,8 @@ pub struct Flavor {
     pub shell: bool,
     /// Whether arming checks and health are reported as events.
     pub events: bool,
+    /// Whether the vehicle has terrain heights and reports them (TERRAIN_CHECK).
+    pub terrain: bool,
     /// Number of the mode that NAV_LOITER_UNLIM enters, or `None` for Hold mode.
     pub loiter_mode: Option<u32>,
     /// Whether setpoint positions in body and offset frames are relative to the vehicle; otherwise they are ignored.

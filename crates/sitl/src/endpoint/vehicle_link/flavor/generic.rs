@@ -51,6 +51,7 @@ pub static FLAVOR: Flavor = Flavor {
     calibration: CalibrationTexts::Px4,
     shell: false,
     events: false,
+    terrain: true,
     loiter_mode: None,
     offsets: false,
     pauses: false,

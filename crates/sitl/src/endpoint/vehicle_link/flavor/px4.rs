@@ -88,6 +88,7 @@ pub static FLAVOR: Flavor = Flavor {
     calibration: CalibrationTexts::Px4,
     shell: true,
     events: true,
+    terrain: false,
     loiter_mode: None,
     offsets: false,
     pauses: false,

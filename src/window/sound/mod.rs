@@ -1,0 +1,70 @@
+//! Plays the sound of a flight, and speaks warnings.
+
+mod output;
+mod speech;
+
+use super::window_settings::sound_settings;
+use output::play;
+use spandrel_clients::rc::keyboard::SoundPreferences;
+use spandrel_view::sound::{SoundInputs, SoundSettings};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Inputs of the sound thread.
+type Inputs = (SoundInputs, SoundSettings);
+
+/// The window's sound output. Its thread starts with the first sound.
+pub struct AudioOutput {
+    on: bool,
+    started: bool,
+    inputs: Arc<Mutex<Inputs>>,
+}
+
+impl AudioOutput {
+    /// Creates the output.
+    pub fn new(sounds: SoundPreferences) -> Self {
+        let silent = SoundInputs { silent: true, ..SoundInputs::default() };
+        let inputs = Arc::new(Mutex::new((silent, sound_settings(sounds))));
+        Self { on: sounds.on, started: false, inputs }
+    }
+
+    /// Changes the settings, and turns sound on or off.
+    pub fn set_preferences(&mut self, sounds: SoundPreferences) {
+        lock_inputs(&self.inputs).1 = sound_settings(sounds);
+        self.set_on(sounds.on);
+    }
+
+    /// Returns true if sound is on.
+    pub fn is_on(&self) -> bool {
+        self.on
+    }
+
+    /// Turns sound on or off.
+    pub fn set_on(&mut self, on: bool) {
+        self.on = on;
+        if !on {
+            self.silence();
+        }
+    }
+
+    /// Mutes the output until the inputs are updated again.
+    pub fn silence(&self) {
+        lock_inputs(&self.inputs).0.silent = true;
+    }
+
+    /// Updates the inputs for sound synthesis.
+    pub fn set(&mut self, heard: SoundInputs) {
+        if !self.on {
+            return;
+        }
+        lock_inputs(&self.inputs).0 = heard;
+        if !self.started {
+            self.started = true;
+            let heard = Arc::downgrade(&self.inputs);
+            std::thread::spawn(move || play(&heard));
+        }
+    }
+}
+
+fn lock_inputs(heard: &Mutex<Inputs>) -> MutexGuard<'_, Inputs> {
+    heard.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,139 @@
+//! Plays samples on the default audio device: PulseAudio or PipeWire if one of them is running, otherwise the system's own
+//! interface.
+
+use super::speech::SpeechVoice;
+use super::{Inputs, lock_inputs};
+use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
+use cpal::{BufferSize, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig, SupportedBufferSize};
+use spandrel_view::sound::ResampledSound;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, Weak};
+use std::time::Duration;
+
+/// Interval at which the thread looks for new warnings and for a lost device.
+const CHECK_INTERVAL: Duration = Duration::from_millis(10);
+/// Number of checks after which a lost or missing device is opened again: 3 s.
+const CHECKS_BEFORE_RETRY: u32 = 300;
+/// Buffer of the device (estimate). A longer time delays the sound; a shorter time causes dropouts on a busy machine.
+const BUFFER_MS: u32 = 40;
+
+/// The audio device with the stream that plays on it.
+struct OpenDevice {
+    /// Plays until it is dropped.
+    _stream: Stream,
+    is_lost: Arc<AtomicBool>,
+}
+
+/// Plays sound and speaks warnings until the window is closed. Opens the device again after it was lost.
+pub fn play(heard: &Weak<Mutex<Inputs>>) {
+    let (mut voice, mut device, mut wait, mut reported) = (SpeechVoice::default(), None::<OpenDevice>, 0, false);
+    while let Some(inputs) = heard.upgrade() {
+        if device.as_ref().is_some_and(|open| open.is_lost.load(Ordering::Relaxed)) {
+            device = None;
+        }
+        if device.is_none() && wait == 0 {
+            wait = CHECKS_BEFORE_RETRY;
+            match OpenDevice::open(&inputs) {
+                Ok(open) => device = Some(open),
+                Err(why) if !reported => {
+                    reported = true;
+                    tracing::warn!("no sound: {why}; everything else works");
+                }
+                Err(_) => {}
+            }
+        }
+        wait = wait.saturating_sub(1);
+        // A copy, because speaking starts a program.
+        let now = lock_inputs(&inputs).clone();
+        voice.update_inputs(&now);
+        drop(inputs);
+        std::thread::sleep(CHECK_INTERVAL);
+    }
+}
+
+impl OpenDevice {
+    /// Opens the default device and starts to play.
+    fn open(heard: &Arc<Mutex<Inputs>>) -> Result<Self, String> {
+        let device = cpal::default_host().default_output_device().ok_or("there is no audio device")?;
+        let supported = device.default_output_config().map_err(|error| error.to_string())?;
+        let mut config = supported.config();
+        config.buffer_size = buffer_size(config.sample_rate, supported.buffer_size());
+        let is_lost = Arc::new(AtomicBool::new(false));
+        let source = SoundSource { heard: Arc::downgrade(heard), sound: ResampledSound::new(config.sample_rate) };
+        let stream = match supported.sample_format() {
+            SampleFormat::F32 => stream::<f32>(&device, config, source, &is_lost),
+            SampleFormat::I16 => stream::<i16>(&device, config, source, &is_lost),
+            SampleFormat::I32 => stream::<i32>(&device, config, source, &is_lost),
+            SampleFormat::U8 => stream::<u8>(&device, config, source, &is_lost),
+            other => return Err(format!("the audio device needs samples in the format {other}")),
+        }?;
+        stream.play().map_err(|error| error.to_string())?;
+        Ok(Self { _stream: stream, is_lost })
+    }
+}
+
+/// Returns the device's buffer size closest to the wanted duration.
+fn buffer_size(rate_hz: u32, supported: &SupportedBufferSize) -> BufferSize {
+    match supported {
+        SupportedBufferSize::Range { min, max } if min <= max => {
+            BufferSize::Fixed((rate_hz / 1_000 * BUFFER_MS).clamp(*min, *max))
+        }
+        _ => BufferSize::Default,
+    }
+}
+
+/// Source of the samples.
+struct SoundSource {
+    heard: Weak<Mutex<Inputs>>,
+    sound: ResampledSound,
+}
+
+impl SoundSource {
+    /// Takes over the latest inputs, unless the window is just changing them: the device must not wait.
+    fn update(&mut self) {
+        let Some(inputs) = self.heard.upgrade() else { return };
+        if let Ok(now) = inputs.try_lock() {
+            self.sound.flight().set_settings(now.1);
+            self.sound.flight().set(now.0.clone());
+        }
+    }
+}
+
+/// Creates a stream with samples of type `T`, the same on all channels.
+fn stream<T: SizedSample + FromSample<f32>>(
+    device: &cpal::Device,
+    config: StreamConfig,
+    mut source: SoundSource,
+    is_lost: &Arc<AtomicBool>,
+) -> Result<Stream, String> {
+    let channels = usize::from(config.channels).max(1);
+    let fill = move |samples: &mut [T], _: &cpal::OutputCallbackInfo| {
+        source.update();
+        for frame in samples.chunks_mut(channels) {
+            frame.fill(T::from_sample(source.sound.next_sample()));
+        }
+    };
+    let is_lost = is_lost.clone();
+    let on_error = move |error: cpal::Error| match error.kind() {
+        // The stream goes on.
+        ErrorKind::DeviceChanged | ErrorKind::Xrun | ErrorKind::RealtimeDenied => {}
+        _ if !is_lost.swap(true, Ordering::Relaxed) => tracing::warn!("the sound was interrupted: {error}"),
+        _ => {}
+    };
+    device.build_output_stream(config, fill, on_error, None).map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_buffer_lasts_forty_milliseconds_if_the_device_allows_it() {
+        let size = |min, max| buffer_size(48_000, &SupportedBufferSize::Range { min, max });
+        assert_eq!(size(64, 8_192), BufferSize::Fixed(1_920));
+        assert_eq!(size(4_096, 8_192), BufferSize::Fixed(4_096));
+        assert_eq!(size(16, 512), BufferSize::Fixed(512));
+        assert_eq!(size(9, 3), BufferSize::Default);
+        assert_eq!(buffer_size(48_000, &SupportedBufferSize::Unknown), BufferSize::Default);
+    }
+}

@@ -1,0 +1,39 @@
+//! Speaks warnings with a system program.
+
+use super::Inputs;
+use spandrel_view::sound::spoken;
+use std::process::{Child, Command, Stdio};
+
+/// Programs that speak their last argument.
+const SPEECH_PROGRAMS: [&str; 2] = ["spd-say", "espeak-ng"];
+
+/// Speaks new warnings, one at a time.
+#[derive(Default)]
+pub struct SpeechVoice {
+    /// True once no program for speech was found.
+    is_missing: bool,
+    cues: i32,
+    speaking: Option<Child>,
+}
+
+impl SpeechVoice {
+    /// Speaks a warning that has become active, unless the previous one is still being spoken.
+    pub fn update_inputs(&mut self, (now, settings): &Inputs) {
+        let cues = if now.silent { 0 } else { now.cues };
+        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts, now.units);
+        let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
+        let (Some(words), true, false) = (words, settings.speech && !self.is_missing, busy) else { return };
+        let started = SPEECH_PROGRAMS.iter().find_map(|name| {
+            let mut command = Command::new(name);
+            command.arg(&words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+        });
+        if started.is_none() {
+            self.is_missing = true;
+            tracing::warn!(
+                "no spoken warnings: none of {} is installed (on Debian and Ubuntu, run apt-get install espeak-ng)",
+                SPEECH_PROGRAMS.join(", ")
+            );
+        }
+        self.speaking = started;
+    }
+}
