@@ -4,6 +4,7 @@ use super::records::RecordsArgs;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses::Destination;
 use crate::io::files;
+use crate::io::station_key::StationKey;
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
@@ -56,6 +57,9 @@ pub struct Args {
     /// --vehicle
     #[arg(long, value_name = "FILE")]
     picture: Vec<PathBuf>,
+    /// File with the key of the training stations, so that instructors can start flights there (`spandrel train --server`)
+    #[arg(long, value_name = "FILE")]
+    station_key: Option<PathBuf>,
     /// Set this user's password (prompt for it or read it from standard input) and exit
     #[arg(long, value_name = "USER", requires = "role")]
     set_password: Option<TraineeId>,
@@ -133,7 +137,9 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let watched = pair_vehicles_with_pictures(&args.vehicle, &args.picture)?;
     let scenarios = args.scenarios.clone();
     let (records_location, wordings) = (args.records_location.location(), args.wording.clone());
-    let server = WebServer::start(&args.listen.config(), ServerSetup { records_location, scenarios, watched, wordings })?;
+    let station_key = args.station_key.as_deref().map(StationKey::read).transpose()?;
+    let setup = ServerSetup { records_location, scenarios, watched, wordings, station_key };
+    let server = WebServer::start(&args.listen.config(), setup)?;
     if args.announce {
         files::write("-", format!("{}\n", serde_json::json!({ "address": server.address() })).as_bytes())?;
     } else {

@@ -24,6 +24,10 @@ const UPLOAD_TIMEOUT: Duration = Duration::from_secs(600);
 pub async fn read(web_request: &mut WebRequest, kind: RouteKind, request: Request, spool: &Path) -> Result<(), WebError> {
     match kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => Ok(()),
+        RouteKind::StationMessage => {
+            web_request.body = read_all(request, MAX_FORM_BYTES).await?;
+            Ok(())
+        }
         RouteKind::Change => read_form(web_request, request, MAX_FORM_BYTES).await,
         // Up to three bytes encode one byte, and the form's other fields also need space.
         RouteKind::Text(most) => read_form(web_request, request, 3 * most + MAX_FORM_BYTES).await,
@@ -38,10 +42,15 @@ fn late(_: Elapsed) -> WebError {
     WebError::BadRequest("the form upload timed out".into())
 }
 
+/// Reads a body of at most this many bytes.
+async fn read_all(request: Request, most: usize) -> Result<Vec<u8>, WebError> {
+    let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), most)).await.map_err(late)?;
+    Ok(bytes.map_err(|_| WebError::TooLarge(most))?.to_vec())
+}
+
 /// Reads a form without a file.
 async fn read_form(web_request: &mut WebRequest, request: Request, most: usize) -> Result<(), WebError> {
-    let bytes = tokio::time::timeout(FORM_TIMEOUT, to_bytes(request.into_body(), most)).await.map_err(late)?;
-    let bytes = bytes.map_err(|_| WebError::TooLarge(most))?;
+    let bytes = read_all(request, most).await?;
     web_request.form = form_urlencoded::parse(&bytes).into_owned().collect();
     Authenticator::check_token(&web_request.visitor, web_request.form_field("token"))
 }

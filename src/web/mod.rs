@@ -36,6 +36,7 @@ mod sessions;
 mod settings;
 mod spool;
 mod state;
+mod stations;
 mod temp_files;
 mod tls;
 mod trainees;

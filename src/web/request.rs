@@ -37,6 +37,10 @@ pub struct WebRequest {
     pub upload: Option<UploadedFile>,
     /// The browser's preferred languages (Accept-Language).
     pub languages: String,
+    /// Value of the Authorization header.
+    pub authorization: Option<String>,
+    /// Body of a message from a training station.
+    pub body: Vec<u8>,
     /// The requested part of a file (Range).
     pub range: Option<String>,
     /// True for requests from the pages' scripts, which expect JSON.

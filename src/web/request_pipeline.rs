@@ -62,7 +62,7 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
             RouteKind::Upload(_) | RouteKind::Text(_) => {
                 Some(shared.uploads.try_acquire().map_err(|_| WebError::Busy(RETRY_AFTER_S))?)
             }
-            RouteKind::File | RouteKind::Show | RouteKind::Compute | RouteKind::Change => None,
+            RouteKind::File | RouteKind::Show | RouteKind::Compute | RouteKind::Change | RouteKind::StationMessage => None,
         };
         body::read(&mut web_request, route.kind, request, &shared.state.spool()).await?;
         let turn = match route.kind {
@@ -74,7 +74,7 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
                     .await
                     .map_err(|_| WebError::Failed("the server is stopping".into()))?,
             ),
-            RouteKind::File | RouteKind::Show | RouteKind::Change => None,
+            RouteKind::File | RouteKind::Show | RouteKind::Change | RouteKind::StationMessage => None,
         };
         let state = shared.state.clone();
         blocking(move || {
@@ -109,14 +109,14 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
     let query = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let state = shared.state.clone();
     let changes = !route.kind.is_read_only();
-    let file = route.kind == RouteKind::File;
+    let anonymous = matches!(route.kind, RouteKind::File | RouteKind::StationMessage);
     blocking(move || {
         let open = state.auth.has_no_passwords(&state.database)?;
         state.auth.check_origin(&headers, changes, open)?;
         let from =
             state.auth.address(socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?, &headers)?;
         let recognized =
-            if file { None } else { Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?) };
+            if anonymous { None } else { Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?) };
         let mut visitor = recognized.as_ref().map_or_else(anonymous_visitor, |recognized| recognized.visitor.clone());
         let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
         let device = state.auth.browser_cookie_from(&headers);
@@ -124,8 +124,23 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
         let text = |name| headers.get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
         let (languages, range) = (text(header::ACCEPT_LANGUAGE).unwrap_or_default(), text(header::RANGE));
         visitor.language = language_from(&headers, &languages);
-        let (form, upload) = (Vec::new(), None);
-        let web_request = WebRequest { visitor, cookie, from, device, path, query, form, upload, languages, range, expects_json };
+        let authorization = text(header::AUTHORIZATION);
+        let (form, upload, body) = (Vec::new(), None, Vec::new());
+        let web_request = WebRequest {
+            visitor,
+            cookie,
+            from,
+            device,
+            path,
+            query,
+            form,
+            upload,
+            languages,
+            authorization,
+            body,
+            range,
+            expects_json,
+        };
         Ok(RequestHead { request: web_request, identity: recognized })
     })
     .await

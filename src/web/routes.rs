@@ -6,7 +6,7 @@ use super::scenario_library::MAX_SCENARIO_BYTES;
 use super::state::ServerState;
 use super::{
     assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor, scenarios,
-    session_media, sessions, settings, trainees, uploads,
+    session_media, sessions, settings, stations, trainees, uploads,
 };
 use spandrel_training::web::access::AccessLevel;
 
@@ -34,6 +34,8 @@ pub enum RouteKind {
     /// A form with a text of at most this many bytes; it must contain the visitor's token. The text is checked like an uploaded file,
     /// so only one request runs at a time.
     Text(usize),
+    /// A message from a training station (JSON). It contains the stations' key instead of the token.
+    StationMessage,
     /// A form that uploads one file of at most this many bytes.
     Upload(usize),
 }
@@ -142,6 +144,14 @@ pub const ROUTES: &[Route] = &[
     change("/rubric/reset", AccessLevel::Instructor, rubric::reset),
     show("/upload", AccessLevel::Instructor, uploads::page),
     upload("/upload", MAX_RECORDING_BYTES, AccessLevel::Instructor, uploads::recording),
+    show("/stations", AccessLevel::Instructor, stations::page),
+    change("/stations", AccessLevel::Instructor, stations::order),
+    Route {
+        path: "/stations/check-in",
+        kind: RouteKind::StationMessage,
+        required_access: AccessLevel::Public,
+        handler: stations::check_in,
+    },
     show("/live", AccessLevel::Instructor, live::page),
     show("/live/all", AccessLevel::Instructor, live::all_page),
     show("/live/all.json", AccessLevel::Instructor, live::all_now),
@@ -164,8 +174,11 @@ mod tests {
     fn exact_anonymous_visitors_reach_only_the_login_page_and_map_tiles() {
         let open: Vec<&str> =
             ROUTES.iter().filter(|route| route.required_access == AccessLevel::Public).map(|route| route.path).collect();
-        // Ground stations cannot log in, and map tiles show no defects.
-        assert_eq!(open, ["/", "/assets/{name}", "/login", "/login", "/logout", "/tiles/{name}/{z}/{x}/{y}"]);
+        // Ground stations cannot log in, and map tiles show no defects. Training stations send their key.
+        assert_eq!(
+            open,
+            ["/", "/assets/{name}", "/login", "/login", "/logout", "/tiles/{name}/{z}/{x}/{y}", "/stations/check-in"]
+        );
     }
 
     #[test]

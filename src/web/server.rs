@@ -150,7 +150,7 @@ fn method(route: &'static Route, shared: &PipelineState) -> MethodRouter {
     let handle = move |request: Request| request_pipeline::handle_route(shared.clone(), route, request);
     match route.kind {
         RouteKind::File | RouteKind::Show | RouteKind::Compute => get(handle),
-        RouteKind::Change | RouteKind::Text(_) => post(handle),
+        RouteKind::Change | RouteKind::Text(_) | RouteKind::StationMessage => post(handle),
         // The form's other fields also need space.
         RouteKind::Upload(most) => post(handle).layer(DefaultBodyLimit::max(most + MAX_FORM_BYTES)),
     }

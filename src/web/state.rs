@@ -10,8 +10,10 @@ use super::temp_files;
 use crate::errors::AppError;
 use crate::io::answers;
 use crate::io::map_tiles::LatestMap;
+use crate::io::station_key::StationKey;
 use crate::records::{Database, RecordsLocation};
 use spandrel_training::questionnaire::Languages;
+use spandrel_training::stations::StationBoard;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
@@ -26,6 +28,8 @@ pub struct ServerSetup {
     pub watched: Vec<WatchedVehicle>,
     /// Files with custom questionnaire wordings.
     pub wordings: Vec<PathBuf>,
+    /// Key of the training stations; without one, no station can check in.
+    pub station_key: Option<StationKey>,
 }
 
 /// Server state shared by all requests.
@@ -39,6 +43,10 @@ pub struct ServerState {
     pub records_location: RecordsLocation,
     /// Folder for uploaded scenarios.
     pub scenarios: PathBuf,
+    /// Training stations that have checked in.
+    pub stations: Mutex<StationBoard>,
+    /// Key of the training stations.
+    pub station_key: Option<StationKey>,
     /// Manages logins, browser sessions and cookies.
     pub auth: Authenticator,
     /// Questionnaire languages.
@@ -67,7 +75,7 @@ impl ServerState {
     /// # Errors
     /// Returns an error if a wording is invalid, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
-        let ServerSetup { records_location, scenarios, watched, wordings } = setup;
+        let ServerSetup { records_location, scenarios, watched, wordings, station_key } = setup;
         let languages = answers::languages(&wordings)?;
         let first = records_location.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
@@ -86,6 +94,8 @@ impl ServerState {
             figures,
             records_location,
             scenarios,
+            stations: Mutex::default(),
+            station_key,
             auth: guard,
             languages,
             live,

@@ -24,6 +24,7 @@ pub mod report;
 pub mod rubric;
 pub mod scenario_check;
 pub mod school;
+pub mod stations;
 pub mod statistics;
 mod time_text;
 pub mod trainee;

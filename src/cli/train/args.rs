@@ -101,8 +101,27 @@ pub struct Args {
     /// QGroundControl listens on UDP 5600)
     #[arg(long, value_name = "HOST:PORT", value_parser = addresses::address, conflicts_with = "no_view")]
     pub stream: Option<SocketAddr>,
+    /// Web server (`spandrel serve`) on which instructors start flights at this station, such as http://10.0.0.5:8080
+    #[arg(long, value_name = "URL", value_parser = server_url, requires_all = ["station", "station_key"])]
+    pub server: Option<String>,
+    /// Name of this station on the server
+    #[arg(long, value_name = "NAME", requires = "server")]
+    pub station: Option<TraineeId>,
+    /// File with the key that the server expects from its stations
+    #[arg(long, value_name = "FILE", requires = "server")]
+    pub station_key: Option<PathBuf>,
     #[command(flatten)]
     pub ports: PortArgs,
+}
+
+fn server_url(text: &str) -> Result<String, String> {
+    let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://")).unwrap_or_default();
+    let wrong = rest.is_empty() || rest.starts_with('/') || text.contains(['?', '#', ' ', '@']);
+    if wrong {
+        Err(format!("'{text}' is not the address of a server (example: http://10.0.0.5:8080)"))
+    } else {
+        Ok(text.to_owned())
+    }
 }
 
 /// When to render a video after a flight.

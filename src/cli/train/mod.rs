@@ -11,6 +11,7 @@ mod picture_jobs;
 mod prompt;
 mod questionnaire_state;
 mod school;
+mod station;
 mod train_run;
 mod window;
 

@@ -8,6 +8,7 @@ use super::picture_jobs::PictureJobs;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::school::SchoolRoom;
+use super::station::StationLink;
 use super::window::WindowProcess;
 use crate::cli::invocation::typed;
 use crate::cli::table::report_outcome;
@@ -49,6 +50,8 @@ pub struct TrainRun<'a> {
     vehicle: Option<FlightProcesses>,
     prompt: TerminalPrompt,
     school: SchoolRoom,
+    /// Connection to the server on which instructors start flights, if this computer is a station.
+    station: Option<StationLink>,
 }
 
 /// What to do after a flight.
@@ -75,6 +78,7 @@ impl<'a> TrainRun<'a> {
             vehicle: None,
             prompt: TerminalPrompt::default(),
             school: SchoolRoom::new(&args.sessions),
+            station: None,
         }
     }
 
@@ -83,6 +87,9 @@ impl<'a> TrainRun<'a> {
     /// # Errors
     /// Returns an error if a flight cannot be started or scored; returns the last error.
     pub fn run(mut self) -> Result<(), AppError> {
+        if let (Some(server), Some(name), Some(key)) = (&self.args.server, &self.args.station, &self.args.station_key) {
+            self.station = Some(StationLink::start(server, name, key, &self.args.sessions)?);
+        }
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {
             trainee: self.args.trainee.as_str().to_owned(),
@@ -98,7 +105,10 @@ impl<'a> TrainRun<'a> {
         let mut result = Ok(());
         let mut last = None;
         while let NextFlight::Fly(choice) = next {
-            let (flown, session) = match self.fly(&choice) {
+            self.report_flight(Some(&choice));
+            let done = self.fly(&choice);
+            self.report_flight(None);
+            let (flown, session) = match done {
                 Ok(done) => done,
                 // An error in the first flight ends the run, as it does without a window; later errors are shown in the
                 // window.
@@ -186,6 +196,9 @@ impl<'a> TrainRun<'a> {
         if self.stop.is_requested() {
             return NextFlight::Leave;
         }
+        if self.station.is_some() {
+            return self.wait_for_order();
+        }
         tracing::info!(
             "using the command line: {} flies {}; to change this, use --trainee, --scenario and --purpose",
             usual.trainee,
@@ -226,6 +239,9 @@ impl<'a> TrainRun<'a> {
             while let Some(message) = self.school.poll() {
                 self.send_to_window(&message);
             }
+            if let Some(choice) = self.ordered_flight() {
+                return NextFlight::Fly(choice);
+            }
             self.check_vehicle();
             self.pictures.advance();
             if self.stop.is_requested() {
@@ -238,11 +254,34 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
+    /// Returns a flight that an instructor has ordered at this station.
+    fn ordered_flight(&self) -> Option<FlightChoice> {
+        self.station.as_ref().and_then(StationLink::next_flight)
+    }
+
+    /// Reports the flight in progress to the server; `None` after its end.
+    fn report_flight(&self, choice: Option<&FlightChoice>) {
+        self.station.iter().for_each(|station| station.report_flight(choice));
+    }
+
+    /// Waits for an instructor's order at a station without a window.
+    fn wait_for_order(&mut self) -> NextFlight {
+        tracing::info!("waiting for an instructor to start a flight; press Ctrl-C to quit");
+        while !self.stop.is_requested() {
+            if let Some(choice) = self.ordered_flight() {
+                return NextFlight::Fly(choice);
+            }
+            std::thread::sleep(CHECK_INTERVAL);
+        }
+        NextFlight::Leave
+    }
+
     /// If there is no window, keeps the vehicle connected until the user answers at the terminal or a stop is
     /// requested.
     fn prompt_at_terminal(&mut self, last: &FlightChoice) -> NextFlight {
         if self.args.once || self.closed || self.vehicle.is_none() {
-            return NextFlight::NoChoice;
+            let waits = self.station.is_some() && !self.args.once && !self.closed;
+            return if waits { self.wait_for_order() } else { NextFlight::NoChoice };
         }
         println!("{}", self.prompt.help_text());
         if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
@@ -252,6 +291,9 @@ impl<'a> TrainRun<'a> {
             );
         }
         while self.vehicle.is_some() && !self.stop.is_requested() {
+            if let Some(choice) = self.ordered_flight() {
+                return NextFlight::Fly(choice);
+            }
             match self.prompt.answer() {
                 Some(PromptAnswer::Again) => return NextFlight::Fly(last.clone()),
                 Some(PromptAnswer::Quit) => return NextFlight::Leave,
@@ -355,8 +397,13 @@ impl<'a> TrainRun<'a> {
         let made = std::fs::create_dir_all(&self.args.sessions);
         let watched = vehicle.map(|vehicle| WatchedVehicle { vehicle, picture: Some(camera_file(self.args)) });
         let records_location = RecordsLocation::beside(&self.args.sessions);
-        let setup =
-            ServerSetup { records_location, scenarios: None, watched: watched.into_iter().collect(), wordings: Vec::new() };
+        let setup = ServerSetup {
+            records_location,
+            scenarios: None,
+            watched: watched.into_iter().collect(),
+            wordings: Vec::new(),
+            station_key: None,
+        };
         let started = made
             .map_err(|error| AppError::failed(format!("{}: {error}", self.args.sessions.display())))
             .and_then(|()| WebServer::start(&ListenConfig::local(port), setup));

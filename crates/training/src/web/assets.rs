@@ -16,6 +16,8 @@ pub const TILES_NAME: &str = "tiles.js";
 pub const SESSION_NAME: &str = "session.js";
 /// File name of the scenario editor's script.
 pub const EDITOR_NAME: &str = "editor.js";
+/// File name of the script for the page of the stations.
+pub const STATIONS_SCRIPT_NAME: &str = "stations.js";
 /// File name of the script for the trainee's own flight page.
 pub const FLIGHT_NAME: &str = "flight.js";
 
@@ -27,6 +29,7 @@ const TILES_SCRIPT: &str = include_str!("assets/tiles.js");
 const LIVE_SCRIPT: &str = include_str!("assets/live.js");
 const SESSION_SCRIPT: &str = include_str!("assets/session.js");
 const EDITOR_SCRIPT: &str = include_str!("assets/editor.js");
+const STATIONS_SCRIPT: &str = include_str!("assets/stations.js");
 const FLIGHT_SCRIPT: &str = include_str!("assets/flight.js");
 
 /// Returns the content and media type of a file; `None` if there is no such file.
@@ -40,6 +43,7 @@ pub fn file(name: &str) -> Option<(String, &'static str)> {
         TILES_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{TILES_SCRIPT}"), script)),
         SESSION_NAME => Some((SESSION_SCRIPT.to_owned(), script)),
         FLIGHT_NAME => Some((format!("{LIVE_COMMON_SCRIPT}{FLIGHT_SCRIPT}"), script)),
+        STATIONS_SCRIPT_NAME => Some((STATIONS_SCRIPT.to_owned(), script)),
         EDITOR_NAME => Some((EDITOR_SCRIPT.to_owned(), script)),
         _ => None,
     }
@@ -58,7 +62,7 @@ mod tests {
 
     #[test]
     fn exact_asset_urls_contain_content_hash() {
-        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, TILES_NAME, SESSION_NAME, FLIGHT_NAME, EDITOR_NAME] {
+        for name in [STYLE_NAME, FORM_NAME, LIVE_NAME, TILES_NAME, SESSION_NAME, FLIGHT_NAME, EDITOR_NAME, STATIONS_SCRIPT_NAME] {
             let (text, _) = file(name).unwrap();
             assert_eq!(asset_url(name), format!("/assets/{name}?v={}", &sha256_hex(text.as_bytes())[..12]));
         }

@@ -7,11 +7,12 @@ use maud::{DOCTYPE, Markup, html};
 /// URL of the trainee's own flight page; instructors use the live page.
 const OWN_FLIGHT_URL: &str = "/flight";
 /// Navigation entries: URL, label, required access.
-const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 9] = [
+const NAVIGATION_ENTRIES: [(&str, &str, AccessLevel); 10] = [
     ("/sessions", "Sessions", AccessLevel::Login),
     (OWN_FLIGHT_URL, "My flight", AccessLevel::Login),
     ("/live", "Live", AccessLevel::Instructor),
     ("/trainees", "Trainees", AccessLevel::Instructor),
+    ("/stations", "Stations", AccessLevel::Instructor),
     ("/classes", "Classes", AccessLevel::Instructor),
     ("/cohort", "Cohort", AccessLevel::Instructor),
     ("/scenarios", "Scenarios", AccessLevel::Login),

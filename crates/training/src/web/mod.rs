@@ -25,5 +25,6 @@ pub mod scenarios;
 pub mod sessions;
 pub mod settings;
 pub mod standing;
+pub mod stations;
 pub mod tiles;
 pub mod trainees;

@@ -1,0 +1,27 @@
+# Page with the computers (stations) of a training center, where an instructor starts flights.
+stations-title = Stations
+stations-none = No station has checked in. On each station, start "train" with the options --server, --station and --station-key.
+stations-disabled = This server does not accept stations. Start "serve" with the option --station-key.
+stations-name = Station
+stations-state = State
+stations-flight = Flight
+stations-order = Last order
+stations-ready = ready
+stations-flying = flying
+stations-lost = no connection
+stations-practice-of = { $trainee }: practice of { $job }
+stations-assessment-of = { $trainee }: assessment of { $job }
+stations-sent = sent: { $flight }
+stations-started = started: { $flight }
+stations-refused = not started: { $flight }. { $why }
+stations-start = Start a flight
+stations-station = Station
+stations-trainee = Trainee
+stations-job = Job
+stations-purpose = Purpose
+stations-practice = Practice
+stations-assessment = Assessment
+stations-error-unknown = { $station } is not known. It may have been renamed.
+stations-error-lost = { $station } does not respond. Check that it is switched on and connected.
+stations-error-flying = A flight is in progress at { $station }. End it first.
+stations-error-trainee = Enter the trainee's pseudonym: 1 to 32 letters, digits, "-" or "_", starting with a letter or digit.

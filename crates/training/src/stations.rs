@@ -1,0 +1,251 @@
+//! Training stations: computers that check in with the web server at short intervals and start the flights that an instructor
+//! orders. Sans-IO: the caller supplies time and messages.
+//!
+//! A station sends a [`CheckIn`] and receives a [`CheckInReply`]. An order is repeated in every reply until the station has
+//! answered it, because a reply can be lost.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Interval at which stations check in, s (estimate: an instructor waits at most this long).
+pub const CHECK_IN_INTERVAL_S: u64 = 2;
+/// Time after which a station that has not checked in counts as lost, µs.
+const LOST_AFTER_US: u64 = 5 * CHECK_IN_INTERVAL_S * 1_000_000;
+/// Maximum number of stations.
+pub const MAX_STATIONS: usize = 200;
+
+/// A flight at a station.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StationFlight {
+    /// Trainee's pseudonym.
+    pub trainee: String,
+    /// Scenario with its form or level, as on the command line.
+    pub scenario: String,
+    /// `practice` or `assessment`.
+    pub purpose: String,
+}
+
+/// A flight that an instructor has ordered.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FlightOrder {
+    /// Unique ID.
+    pub id: String,
+    /// The flight.
+    pub flight: StationFlight,
+    /// Text of the scenario file, unless the scenario is shipped.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scenario_text: Option<String>,
+}
+
+/// A station's answer to an order.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OrderAnswer {
+    /// ID of the order.
+    pub id: String,
+    /// Why the flight was not started; `None` if it was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refusal: Option<String>,
+}
+
+/// Message from a station to the server.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CheckIn {
+    /// Name of the station.
+    pub station: String,
+    /// The flight in progress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flight: Option<StationFlight>,
+    /// Answer to the last order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub answer: Option<OrderAnswer>,
+}
+
+/// The server's reply.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct CheckInReply {
+    /// Flight to start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<FlightOrder>,
+}
+
+/// State of the last order to a station.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum OrderState {
+    /// The station has not answered.
+    Sent(FlightOrder),
+    /// The station has started the flight.
+    Started(StationFlight),
+    /// The station could not start it, for this reason.
+    Refused(StationFlight, String),
+}
+
+/// Whether a station is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StationState {
+    /// It waits for a flight.
+    Ready,
+    /// A flight is in progress.
+    Flying,
+    /// It has not checked in for a while.
+    Lost,
+}
+
+/// A station as the server knows it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Station {
+    /// The flight in progress at the last check-in.
+    pub flight: Option<StationFlight>,
+    /// Time of the last check-in, µs since the Unix epoch.
+    pub seen_unix_us: u64,
+    /// The last order.
+    pub order: Option<OrderState>,
+}
+
+impl Station {
+    /// Returns the state at this time.
+    #[must_use]
+    pub fn state(&self, now_unix_us: u64) -> StationState {
+        if now_unix_us.saturating_sub(self.seen_unix_us) > LOST_AFTER_US {
+            StationState::Lost
+        } else if self.flight.is_some() {
+            StationState::Flying
+        } else {
+            StationState::Ready
+        }
+    }
+}
+
+/// Why a flight cannot be ordered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum OrderError {
+    /// No station with this name has checked in.
+    #[error("unknown station")]
+    Unknown,
+    /// The station has not checked in for a while.
+    #[error("the station does not respond")]
+    Lost,
+    /// A flight is in progress.
+    #[error("a flight is in progress at this station")]
+    Flying,
+}
+
+/// There are too many stations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("too many stations (at most {MAX_STATIONS})")]
+pub struct TooManyStations;
+
+/// All stations that have checked in since the server was started.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct StationBoard(BTreeMap<String, Station>);
+
+impl StationBoard {
+    /// Handles a check-in. The caller has checked the name.
+    ///
+    /// # Errors
+    /// Returns an error if there are too many stations.
+    pub fn check_in(&mut self, message: CheckIn, now_unix_us: u64) -> Result<CheckInReply, TooManyStations> {
+        if !self.0.contains_key(&message.station) && self.0.len() >= MAX_STATIONS {
+            self.0.retain(|_, station| station.state(now_unix_us) != StationState::Lost);
+            if self.0.len() >= MAX_STATIONS {
+                return Err(TooManyStations);
+            }
+        }
+        let before = self.0.remove(&message.station).and_then(|station| station.order);
+        let order = match (before, message.answer) {
+            (Some(OrderState::Sent(order)), Some(answer)) if answer.id == order.id => Some(match answer.refusal {
+                Some(why) => OrderState::Refused(order.flight, why),
+                None => OrderState::Started(order.flight),
+            }),
+            (before, _) => before,
+        };
+        let pending = match &order {
+            Some(OrderState::Sent(order)) => Some(order.clone()),
+            Some(OrderState::Started(_) | OrderState::Refused(..)) | None => None,
+        };
+        self.0.insert(message.station, Station { flight: message.flight, seen_unix_us: now_unix_us, order });
+        Ok(CheckInReply { order: pending })
+    }
+
+    /// Orders a flight. A newer order replaces one that the station has not answered yet.
+    ///
+    /// # Errors
+    /// Returns an error if the station is unknown or lost, or a flight is in progress there.
+    pub fn order(&mut self, station: &str, order: FlightOrder, now_unix_us: u64) -> Result<(), OrderError> {
+        let station = self.0.get_mut(station).ok_or(OrderError::Unknown)?;
+        match station.state(now_unix_us) {
+            StationState::Ready => {}
+            StationState::Flying => return Err(OrderError::Flying),
+            StationState::Lost => return Err(OrderError::Lost),
+        }
+        station.order = Some(OrderState::Sent(order));
+        Ok(())
+    }
+
+    /// Returns the stations in the order of their names.
+    pub fn stations(&self) -> impl Iterator<Item = (&str, &Station)> {
+        self.0.iter().map(|(name, station)| (name.as_str(), station))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flight() -> StationFlight {
+        StationFlight { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: "practice".into() }
+    }
+
+    fn order(id: &str) -> FlightOrder {
+        FlightOrder { id: id.into(), flight: flight(), scenario_text: None }
+    }
+
+    fn check_in(answer: Option<(&str, Option<&str>)>, flight: Option<StationFlight>) -> CheckIn {
+        let answer = answer.map(|(id, refusal)| OrderAnswer { id: id.into(), refusal: refusal.map(str::to_owned) });
+        CheckIn { station: "s1".into(), flight, answer }
+    }
+
+    fn last_order(board: &StationBoard) -> Option<OrderState> {
+        board.stations().next().and_then(|(_, station)| station.order.clone())
+    }
+
+    #[test]
+    fn exact_order_is_repeated_until_the_station_answers() {
+        let mut board = StationBoard::default();
+        assert_eq!(board.order("s1", order("a"), 0), Err(OrderError::Unknown));
+        assert_eq!(board.check_in(check_in(None, None), 0), Ok(CheckInReply::default()));
+        assert_eq!(board.order("s1", order("a"), 1), Ok(()));
+        for now in [2, 3] {
+            assert_eq!(board.check_in(check_in(Some(("old", None)), None), now).unwrap().order, Some(order("a")));
+        }
+        assert_eq!(board.check_in(check_in(Some(("a", None)), Some(flight())), 4), Ok(CheckInReply::default()));
+        assert_eq!(last_order(&board), Some(OrderState::Started(flight())));
+        assert_eq!(board.order("s1", order("b"), 5), Err(OrderError::Flying));
+        board.check_in(check_in(None, None), 6).unwrap();
+        board.order("s1", order("b"), 7).unwrap();
+        board.check_in(check_in(Some(("b", Some("no such file"))), None), 8).unwrap();
+        assert_eq!(last_order(&board), Some(OrderState::Refused(flight(), "no such file".into())));
+        assert_eq!(board.order("s1", order("c"), 8 + LOST_AFTER_US + 1), Err(OrderError::Lost));
+    }
+
+    #[test]
+    fn exact_lost_stations_make_room_for_new_ones() {
+        let mut board = StationBoard::default();
+        let new = |k: usize| CheckIn { station: format!("s{k}"), flight: None, answer: None };
+        for k in 0..MAX_STATIONS {
+            board.check_in(new(k), 0).unwrap();
+        }
+        assert_eq!(board.check_in(new(MAX_STATIONS), 1), Err(TooManyStations));
+        board.check_in(new(0), LOST_AFTER_US).unwrap();
+        board.check_in(new(MAX_STATIONS), LOST_AFTER_US + 1).unwrap();
+        assert_eq!(board.stations().map(|(name, _)| name).collect::<Vec<_>>(), ["s0".to_owned(), format!("s{MAX_STATIONS}")]);
+    }
+
+    #[test]
+    fn exact_messages_survive_json() {
+        let message = check_in(Some(("a", Some("why"))), Some(flight()));
+        let text = serde_json::to_string(&message).unwrap();
+        assert_eq!(serde_json::from_str::<CheckIn>(&text).unwrap(), message);
+        assert_eq!(serde_json::from_str::<CheckIn>("{\"station\":\"s1\"}").unwrap(), check_in(None, None));
+        assert_eq!(serde_json::to_string(&CheckInReply::default()).unwrap(), "{}");
+    }
+}

@@ -1,0 +1,177 @@
+//! Page with the training stations, where an instructor starts flights.
+
+use super::access::Visitor;
+use super::assets;
+use super::layout::{message, page_with_script, section, table, token};
+use crate::stations::{OrderState, Station, StationFlight, StationState};
+use maud::{Markup, html};
+use spandrel_text::{Language, text};
+
+/// URL of the page.
+pub const URL: &str = "/stations";
+
+/// Contents of the page.
+#[derive(Debug)]
+pub struct StationsPage<'a> {
+    /// Stations by name.
+    pub stations: Vec<(&'a str, &'a Station)>,
+    /// Names of the scenarios, with their forms or levels.
+    pub scenarios: &'a [String],
+    /// Known trainees.
+    pub trainees: &'a [String],
+    /// Why the last order was refused.
+    pub refusal: Option<&'a str>,
+    /// Current time, µs since the Unix epoch.
+    pub now_unix_us: u64,
+    /// Whether the server accepts stations.
+    pub enabled: bool,
+}
+
+/// Renders the page.
+#[must_use]
+pub fn stations_page(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
+    let language = visitor.language;
+    let body = html! {
+        @if let Some(refusal) = about.refusal { (message("bad", refusal)) }
+        @if about.stations.is_empty() {
+            p { (if about.enabled { text!(language, "stations-none") } else { text!(language, "stations-disabled") }) }
+        } @else {
+            (section("stations", &text!(language, "stations-title"), &station_table(language, about)))
+            (section("start-flight", &text!(language, "stations-start"), &order_form(visitor, about)))
+        }
+    };
+    page_with_script(visitor, URL, &text!(language, "stations-title"), Some(assets::STATIONS_SCRIPT_NAME), &body)
+}
+
+fn station_table(language: Language, about: &StationsPage<'_>) -> Markup {
+    let heads = [
+        text!(language, "stations-name"),
+        text!(language, "stations-state"),
+        text!(language, "stations-flight"),
+        text!(language, "stations-order"),
+    ];
+    let heads: Vec<(&str, bool)> = heads.iter().map(|head| (head.as_str(), false)).collect();
+    let rows = html! {
+        @for (name, station) in &about.stations {
+            tr {
+                th scope="row" { (name) }
+                td { (state_words(language, station.state(about.now_unix_us))) }
+                td { @match &station.flight { Some(flight) => (flight_words(language, flight)), None => "–" } }
+                td { (order_words(language, station.order.as_ref())) }
+            }
+        }
+    };
+    html! { div id="station-table" { (table(&text!(language, "stations-title"), &heads, &rows)) } }
+}
+
+fn state_words(language: Language, state: StationState) -> String {
+    match state {
+        StationState::Ready => text!(language, "stations-ready"),
+        StationState::Flying => text!(language, "stations-flying"),
+        StationState::Lost => text!(language, "stations-lost"),
+    }
+}
+
+fn flight_words(language: Language, flight: &StationFlight) -> String {
+    let (trainee, job) = (flight.trainee.as_str(), flight.scenario.as_str());
+    if flight.purpose == ASSESSMENT {
+        text!(language, "stations-assessment-of", trainee = trainee, job = job)
+    } else {
+        text!(language, "stations-practice-of", trainee = trainee, job = job)
+    }
+}
+
+fn order_words(language: Language, order: Option<&OrderState>) -> String {
+    match order {
+        None => "–".to_owned(),
+        Some(OrderState::Sent(order)) => text!(language, "stations-sent", flight = flight_words(language, &order.flight)),
+        Some(OrderState::Started(flight)) => text!(language, "stations-started", flight = flight_words(language, flight)),
+        Some(OrderState::Refused(flight, why)) => {
+            text!(language, "stations-refused", flight = flight_words(language, flight), why = why.as_str())
+        }
+    }
+}
+
+/// Purposes, as in files.
+const PRACTICE: &str = "practice";
+const ASSESSMENT: &str = "assessment";
+
+fn order_form(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
+    let language = visitor.language;
+    html! {
+        form.stacked method="post" action=(URL) {
+            (token(visitor))
+            label { (text!(language, "stations-station"))
+                select name="station" required {
+                    @for (name, station) in &about.stations {
+                        option value=(name) disabled[station.state(about.now_unix_us) != StationState::Ready] { (name) }
+                    }
+                }
+            }
+            label { (text!(language, "stations-trainee"))
+                input name="trainee" list="known-trainees" required maxlength="32" autocomplete="off";
+            }
+            datalist id="known-trainees" { @for name in about.trainees { option value=(name) {} } }
+            label { (text!(language, "stations-job"))
+                select name="scenario" required { @for name in about.scenarios { option value=(name) { (name) } } }
+            }
+            label { (text!(language, "stations-purpose"))
+                select name="purpose" {
+                    option value=(PRACTICE) { (text!(language, "stations-practice")) }
+                    option value=(ASSESSMENT) { (text!(language, "stations-assessment")) }
+                }
+            }
+            button type="submit" { (text!(language, "stations-start")) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::*;
+    use crate::stations::{CheckIn, FlightOrder, StationBoard};
+
+    fn flight() -> StationFlight {
+        StationFlight { trainee: HOSTILE_NAME.into(), scenario: "drill-hover".into(), purpose: PRACTICE.into() }
+    }
+
+    #[test]
+    fn exact_page_shows_stations_and_offers_only_those_that_are_ready() {
+        let mut board = StationBoard::default();
+        let station = |name: &str, flight| CheckIn { station: name.into(), flight, answer: None };
+        board.check_in(station("s1", None), 0).unwrap();
+        board.check_in(station("s2", Some(flight())), 0).unwrap();
+        board.order("s1", FlightOrder { id: "a".into(), flight: flight(), scenario_text: None }, 0).unwrap();
+        let about = |now_unix_us| StationsPage {
+            stations: board.stations().collect(),
+            scenarios: &[],
+            trainees: &[],
+            refusal: Some(HOSTILE_NAME),
+            now_unix_us,
+            enabled: true,
+        };
+        let text = stations_page(&administrator(), &about(0)).into_string();
+        check(&text);
+        assert!(text.contains("<option value=\"s1\">") && text.contains("<option value=\"s2\" disabled>"), "{text}");
+        assert!(text.contains("ready") && text.contains("practice of"), "{text}");
+        let german = Visitor { language: Language::German, ..administrator() };
+        let lost = stations_page(&german, &about(u64::MAX)).into_string();
+        assert!(lost.contains("keine Verbindung") && lost.contains("<option value=\"s1\" disabled>"), "{lost}");
+    }
+
+    #[test]
+    fn exact_empty_page_explains_how_stations_connect() {
+        let about = |enabled| StationsPage {
+            stations: Vec::new(),
+            scenarios: &[],
+            trainees: &[],
+            refusal: None,
+            now_unix_us: 0,
+            enabled,
+        };
+        let text = stations_page(&administrator(), &about(true)).into_string();
+        assert!(text.contains("No station") && !text.contains("<select"), "{text}");
+        assert!(stations_page(&administrator(), &about(false)).into_string().contains("--station-key"));
+    }
+}

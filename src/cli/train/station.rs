@@ -1,0 +1,236 @@
+//! Connection of a training station to the web server: checks in, and receives the flights that an instructor orders.
+
+use crate::errors::AppError;
+use crate::io::files::{self, FORM_SEPARATOR};
+use crate::io::replace::replace;
+use crate::io::station_key::StationKey;
+use crate::io::trainee_id::TraineeId;
+use crate::web::scenario_library::{self, MAX_SCENARIO_BYTES, UPLOAD_FOLDER, upload_path};
+use spandrel_training::stations::{CHECK_IN_INTERVAL_S, CheckIn, CheckInReply, FlightOrder, OrderAnswer, StationFlight};
+use spandrel_view::flow::pipe::{FlightChoice, FlownBy, Purpose};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// Timeout for a request.
+const REQUEST_TIMEOUT: Duration = Duration::from_secs(10);
+/// Interval at which the thread checks whether it must stop.
+const STOP_CHECK_INTERVAL: Duration = Duration::from_millis(100);
+/// Folder for scenarios from the server, inside the folder for the station's own scenarios: it never replaces those.
+const SERVER_FOLDER: &str = "from-server";
+/// Maximum size of a reply, bytes: a scenario in JSON.
+const MAX_REPLY_BYTES: u64 = 2 * MAX_SCENARIO_BYTES as u64 + 4_096;
+
+/// What the thread sends.
+#[derive(Debug, Default)]
+struct Shared {
+    flight: Option<StationFlight>,
+    answer: Option<OrderAnswer>,
+}
+
+/// A station's connection.
+pub struct StationLink {
+    shared: Arc<Mutex<Shared>>,
+    orders: Receiver<FlightOrder>,
+    stop: Arc<AtomicBool>,
+    sessions: PathBuf,
+}
+
+impl StationLink {
+    /// Starts to check in under this name.
+    ///
+    /// # Errors
+    /// Returns an error if the key cannot be read.
+    pub fn start(server: &str, name: &TraineeId, key: &Path, sessions: &Path) -> Result<Self, AppError> {
+        let client = StationClient::new(server, name.as_str(), &StationKey::read(key)?);
+        let (shared, stop) = (Arc::new(Mutex::new(Shared::default())), Arc::new(AtomicBool::new(false)));
+        let (sender, orders) = channel();
+        let (own, stopped) = (shared.clone(), stop.clone());
+        std::thread::spawn(move || client.run(&own, &sender, &stopped));
+        Ok(Self { shared, orders, stop, sessions: sessions.to_path_buf() })
+    }
+
+    /// Reports the flight in progress; `None` after its end.
+    pub fn report_flight(&self, choice: Option<&FlightChoice>) {
+        lock(&self.shared).flight = choice.map(|choice| StationFlight {
+            trainee: choice.trainee.clone(),
+            scenario: choice.scenario.clone(),
+            purpose: choice.purpose.word().to_owned(),
+        });
+    }
+
+    /// Returns the next flight that an instructor has ordered, and answers the order.
+    pub fn next_flight(&self) -> Option<FlightChoice> {
+        let order = self.orders.try_iter().last()?;
+        let choice = choice(&order, &self.sessions);
+        let refusal = choice.as_ref().err().map(ToString::to_string);
+        match &refusal {
+            Some(why) => tracing::warn!("the flight ordered by the instructor was not started: {why}"),
+            None => tracing::info!("the instructor starts {} for {}", order.flight.scenario, order.flight.trainee),
+        }
+        lock(&self.shared).answer = Some(OrderAnswer { id: order.id, refusal });
+        choice.ok()
+    }
+}
+
+impl Drop for StationLink {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::SeqCst);
+    }
+}
+
+fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Converts an order to a choice, as if the trainee had made it. Saves the scenario unless it is shipped.
+fn choice(order: &FlightOrder, sessions: &Path) -> Result<FlightChoice, AppError> {
+    let flight = &order.flight;
+    flight.trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
+    let purpose = [Purpose::Practice, Purpose::Assessment].into_iter().find(|purpose| purpose.word() == flight.purpose);
+    let purpose = purpose.ok_or_else(|| AppError::invalid(format!("unknown purpose '{}'", flight.purpose)))?;
+    let scenario = match &order.scenario_text {
+        Some(text) => save_scenario(&flight.scenario, text, &sessions.join(UPLOAD_FOLDER).join(SERVER_FOLDER))?,
+        None if files::scenario_names().contains(&split(&flight.scenario).0) => flight.scenario.clone(),
+        None => return Err(AppError::invalid(format!("'{}' is not a shipped scenario", flight.scenario))),
+    };
+    files::scenario(&scenario)?;
+    Ok(FlightChoice { trainee: flight.trainee.clone(), scenario, purpose, by: FlownBy::Trainee })
+}
+
+/// Splits a scenario argument into the name and the form or level.
+fn split(argument: &str) -> (&str, Option<&str>) {
+    argument.split_once(FORM_SEPARATOR).map_or((argument, None), |(name, variant)| (name, Some(variant)))
+}
+
+/// Saves a scenario and returns the argument that names it, with its form or level.
+fn save_scenario(name: &str, text: &str, folder: &Path) -> Result<String, AppError> {
+    let (stem, variant) = split(name);
+    // The name becomes a file name.
+    stem.parse::<TraineeId>().map_err(AppError::invalid)?;
+    let scenario = scenario_library::read(stem, text)?;
+    if scenario.name != stem {
+        return Err(AppError::invalid(format!("the scenario is named '{}' and not '{stem}'", scenario.name)));
+    }
+    std::fs::create_dir_all(folder).map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
+    let path = upload_path(folder, stem);
+    replace(&path, text.as_bytes())?;
+    Ok(files::with_variant(&path.display().to_string(), variant, None))
+}
+
+/// The part that talks to the server, in a thread of its own.
+struct StationClient {
+    agent: ureq::Agent,
+    url: String,
+    authorization: String,
+    name: String,
+}
+
+impl StationClient {
+    fn new(server: &str, name: &str, key: &StationKey) -> Self {
+        let config = ureq::Agent::config_builder()
+            .http_status_as_error(false)
+            .timeout_global(Some(REQUEST_TIMEOUT))
+            .max_redirects(0)
+            .build();
+        let url = format!("{}/stations/check-in", server.trim_end_matches('/'));
+        Self { agent: config.into(), url, authorization: key.authorization(), name: name.to_owned() }
+    }
+
+    /// Checks in until the connection is dropped. Reports only changes of the connection.
+    fn run(&self, shared: &Mutex<Shared>, orders: &Sender<FlightOrder>, stop: &AtomicBool) {
+        let (mut connected, mut last_order) = (None, None);
+        while !stop.load(Ordering::SeqCst) {
+            match self.check_in(shared) {
+                Ok(reply) => {
+                    if connected != Some(true) {
+                        tracing::info!("connected to {} as station {}", self.url, self.name);
+                    }
+                    connected = Some(true);
+                    if let Some(order) = reply.order.filter(|order| last_order.as_ref() != Some(&order.id)) {
+                        last_order = Some(order.id.clone());
+                        if orders.send(order).is_err() {
+                            return;
+                        }
+                    }
+                }
+                Err(why) => {
+                    if connected != Some(false) {
+                        tracing::warn!("{}: {why}; the station keeps trying", self.url);
+                    }
+                    connected = Some(false);
+                }
+            }
+            let mut waited = Duration::ZERO;
+            while waited < Duration::from_secs(CHECK_IN_INTERVAL_S) && !stop.load(Ordering::SeqCst) {
+                std::thread::sleep(STOP_CHECK_INTERVAL);
+                waited += STOP_CHECK_INTERVAL;
+            }
+        }
+    }
+
+    fn check_in(&self, shared: &Mutex<Shared>) -> Result<CheckInReply, String> {
+        let message = {
+            let now = lock(shared);
+            CheckIn { station: self.name.clone(), flight: now.flight.clone(), answer: now.answer.clone() }
+        };
+        let body = serde_json::to_string(&message).map_err(|error| error.to_string())?;
+        let request = self.agent.post(&self.url).header("Content-Type", "application/json");
+        let sent = request.header("Accept", "application/json").header("Authorization", &self.authorization).send(&body);
+        let mut answer = sent.map_err(|error| error.to_string())?;
+        let status = answer.status().as_u16();
+        let text = answer.body_mut().with_config().limit(MAX_REPLY_BYTES).read_to_string().map_err(|error| error.to_string())?;
+        match status {
+            200 => serde_json::from_str(&text).map_err(|error| format!("the reply is invalid: {error}")),
+            403 => Err("the server rejects the station (see --station-key)".to_owned()),
+            404 => Err("the server does not accept stations (serve --station-key)".to_owned()),
+            other => Err(format!("status {other}")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::shipped;
+
+    fn order(scenario: &str, purpose: &str, text: Option<&str>) -> FlightOrder {
+        let flight = StationFlight { trainee: "anna".into(), scenario: scenario.into(), purpose: purpose.into() };
+        FlightOrder { id: "a".into(), flight, scenario_text: text.map(str::to_owned) }
+    }
+
+    #[test]
+    fn exact_orders_become_choices_and_own_scenarios_are_saved() {
+        let sessions = tempfile::tempdir().unwrap();
+        let shipped = choice(&order("drill-hover", "assessment", None), sessions.path()).unwrap();
+        assert_eq!((shipped.scenario.as_str(), shipped.purpose), ("drill-hover", Purpose::Assessment));
+        let text = shipped::PRACTICE.replace("name = \"practice\"", "name = \"windy\"");
+        let own = choice(&order("windy", "practice", Some(&text)), sessions.path()).unwrap();
+        let path = sessions.path().join(UPLOAD_FOLDER).join(SERVER_FOLDER).join("windy.toml");
+        assert_eq!(own.scenario, path.display().to_string());
+        assert_eq!(std::fs::read_to_string(path).unwrap(), text);
+    }
+
+    #[test]
+    fn exact_bad_orders_are_refused_and_leave_no_file() {
+        let sessions = tempfile::tempdir().unwrap();
+        let text = shipped::PRACTICE.replace("name = \"practice\"", "name = \"windy\"");
+        for bad in [
+            order("no-such-job", "practice", None),
+            order("/etc/passwd", "practice", None),
+            order("../windy", "practice", Some(&text)),
+            order("calm", "practice", Some(&text)),
+            order("windy", "practice", Some("name = ")),
+            order("drill-hover", "fun", None),
+            FlightOrder {
+                flight: StationFlight { trainee: "a b".into(), ..order("drill-hover", "practice", None).flight },
+                ..order("x", "x", None)
+            },
+        ] {
+            assert!(choice(&bad, sessions.path()).is_err(), "{bad:?}");
+        }
+        assert!(!sessions.path().join(UPLOAD_FOLDER).exists());
+    }
+}

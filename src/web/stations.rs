@@ -1,0 +1,106 @@
+//! Check-ins of training stations, and the page where an instructor starts flights at them.
+
+use super::lock::lock;
+use super::request::WebRequest;
+use super::response::{HandlerResult, WebError, WebResponse};
+use super::scenario_library;
+use super::state::ServerState;
+use crate::io::clock;
+use crate::io::files::with_variant;
+use crate::io::trainee_id::{ALLOWED_IDS, is_plain_id};
+use spandrel_model::scenario::form_names;
+use spandrel_monitor::folder::sha256_hex;
+use spandrel_text::{Language, text};
+use spandrel_training::stations::{CheckIn, FlightOrder, OrderError, StationFlight};
+use spandrel_training::web::browser_sessions::constant_time_eq;
+use spandrel_training::web::stations::{StationsPage, URL, stations_page};
+
+/// Length of an order's ID, hexadecimal digits.
+const ID_DIGITS: usize = 16;
+/// Purposes of a flight.
+const PURPOSES: [&str; 2] = ["practice", "assessment"];
+
+/// Handles a station's check-in.
+pub fn check_in(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let key = state.station_key.as_ref().ok_or(WebError::NotFound)?;
+    if !request.authorization.as_deref().is_some_and(|sent| constant_time_eq(sent, &key.authorization())) {
+        return Err(WebError::Forbidden("The station key is wrong.".into()));
+    }
+    let message: CheckIn =
+        serde_json::from_slice(&request.body).map_err(|error| WebError::BadRequest(format!("not a check-in: {error}")))?;
+    if !is_plain_id(&message.station) {
+        return Err(WebError::BadRequest(format!("station: '{}' is not a name (allowed: {ALLOWED_IDS})", message.station)));
+    }
+    let reply = lock(&state.stations).check_in(message, clock::unix_us());
+    let reply = reply.map_err(|error| WebError::Forbidden(error.to_string()))?;
+    let value = serde_json::to_value(reply).map_err(|error| WebError::Failed(error.to_string()))?;
+    Ok(WebResponse::json(&value))
+}
+
+/// Responds with the page of all stations.
+pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    render(state, request, None)
+}
+
+fn render(state: &ServerState, request: &WebRequest, refusal: Option<&str>) -> HandlerResult {
+    let board = lock(&state.stations).clone();
+    let scenarios: Vec<String> =
+        scenario_library::all(&state.scenarios).iter().flat_map(|job| names(&job.named.name, &job.text)).collect();
+    let trainees: Vec<String> = state.database.trainees()?.into_iter().map(|person| person.pseudonym).collect();
+    let about = StationsPage {
+        stations: board.stations().collect(),
+        scenarios: &scenarios,
+        trainees: &trainees,
+        refusal,
+        now_unix_us: clock::unix_us(),
+        enabled: state.station_key.is_some(),
+    };
+    Ok(WebResponse::page(stations_page(&request.visitor, &about)))
+}
+
+/// Returns a scenario's name, or its name with each of its forms.
+fn names(name: &str, text: &str) -> Vec<String> {
+    let forms = form_names(text);
+    if forms.is_empty() { vec![name.to_owned()] } else { forms.iter().map(|form| with_variant(name, Some(form), None)).collect() }
+}
+
+/// Orders a flight at a station.
+pub fn order(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let language = request.visitor.language;
+    let station = request.required_field("station")?;
+    let trainee = request.form_field("trainee").unwrap_or_default().trim();
+    if !is_plain_id(trainee) {
+        return refused(state, request, &text!(language, "stations-error-trainee"));
+    }
+    let scenario = request.required_field("scenario")?;
+    let purpose = request.required_field("purpose")?;
+    if !PURPOSES.contains(&purpose) {
+        return Err(WebError::BadRequest(format!("purpose: unknown (allowed: {})", PURPOSES.join(", "))));
+    }
+    let jobs = scenario_library::all(&state.scenarios);
+    let job = jobs.into_iter().find(|job| names(&job.named.name, &job.text).iter().any(|name| name == scenario));
+    let job = job.ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
+    let now = clock::unix_us();
+    let order = FlightOrder {
+        id: sha256_hex(format!("{station} {trainee} {scenario} {now}").as_bytes()).chars().take(ID_DIGITS).collect(),
+        flight: StationFlight { trainee: trainee.to_owned(), scenario: scenario.to_owned(), purpose: purpose.to_owned() },
+        scenario_text: job.named.uploaded.then_some(job.text),
+    };
+    match lock(&state.stations).order(station, order, now) {
+        Ok(()) => {}
+        Err(error) => return refused(state, request, &refusal_words(language, error, station)),
+    }
+    Ok(WebResponse::redirect(URL))
+}
+
+fn refused(state: &ServerState, request: &WebRequest, words: &str) -> HandlerResult {
+    Ok(render(state, request, Some(words))?.with_status(axum::http::StatusCode::CONFLICT))
+}
+
+fn refusal_words(language: Language, error: OrderError, station: &str) -> String {
+    match error {
+        OrderError::Unknown => text!(language, "stations-error-unknown", station = station),
+        OrderError::Lost => text!(language, "stations-error-lost", station = station),
+        OrderError::Flying => text!(language, "stations-error-flying", station = station),
+    }
+}

@@ -1,0 +1,135 @@
+"""An instructor starts flights at training stations from the web, in a real browser."""
+
+import json
+import pathlib
+import subprocess
+
+import pytest
+from playwright.sync_api import expect
+
+import spandrel
+import webserver
+from test_web import BrowserUser, browser  # noqa: F401 (a fixture)
+
+KEY = "0123456789abcdef-stations"
+# Time limit for a change on the page on a busy machine: a check-in and an update of the page take 4 s, ms.
+PATIENCE_MS = 120_000
+LIMIT_S = PATIENCE_MS / 1000
+
+
+class Station:
+    """`train` without a window, which waits for orders."""
+
+    def __init__(self, folder, name, address, key):
+        self.sessions = folder / name / "sessions"
+        self.sessions.parent.mkdir()
+        key_file = folder / name / "key"
+        key_file.write_text(key + "\n", encoding="utf-8")
+        self.log = folder / name / "log.txt"
+        self.out = open(self.log, "w", encoding="utf-8")
+        self.process = subprocess.Popen(
+            [spandrel.PROGRAM, "train", "--no-view", "--ports", "ephemeral", "--web", "none", "--sessions", str(self.sessions),
+             "--server", address, "--station", name, "--station-key", str(key_file)],
+            stdin=subprocess.DEVNULL, stdout=self.out, stderr=self.out,
+        )
+
+    def output(self):
+        return self.log.read_text(encoding="utf-8")
+
+    def close(self):
+        spandrel.end(self.process)
+        self.out.close()
+
+
+@pytest.fixture
+def server(tmp_path):
+    """A server with an instructor, a trainee, and an own scenario."""
+    sessions = tmp_path / "sessions"
+    (sessions / "scenarios").mkdir(parents=True)
+    text = (spandrel.ROOT / "scenarios" / "practice.toml").read_text(encoding="utf-8")
+    (sessions / "scenarios" / "windy.toml").write_text(text.replace('name = "practice"', 'name = "windy"'), encoding="utf-8")
+    key = tmp_path / "station.key"
+    key.write_text(KEY, encoding="utf-8")
+    webserver.set_passwords(sessions, "zoe")
+    opened = webserver.Server(sessions, "--station-key", str(key))
+    yield opened
+    opened.close()
+
+
+@pytest.mark.timeout(600)
+def test_instructor_starts_flights_at_a_station(browser, server, tmp_path):
+    ida = BrowserUser(browser, server, "ida")
+    page = ida.page
+    ida.go("/stations")
+    expect(page.locator("main")).to_contain_text("No station has checked in")
+    stations = [Station(tmp_path, "s1", server.address, KEY), Station(tmp_path, "stranger", server.address, "another-key-of-a-stranger")]
+    try:
+        # The page shows the station without a reload by hand.
+        expect(page.locator("#station-table")).to_contain_text("ready", timeout=PATIENCE_MS)
+        spandrel.wait_for("the refusal", lambda: "rejects the station" in stations[1].output(), LIMIT_S)
+        expect(page.locator("#station-table tbody tr")).to_have_count(1)
+        ida.check()
+        ida.save_screenshot("stations")
+        page.fill("[name=trainee]", "zoe")
+        page.select_option("[name=scenario]", "windy")
+        page.click("button:has-text('Start a flight')")
+        table = page.locator("#station-table")
+        expect(table).to_contain_text("started: zoe: practice of windy", timeout=PATIENCE_MS)
+        expect(table).to_contain_text("flying", timeout=PATIENCE_MS)
+        spandrel.wait_for("a session", lambda: sessions_of(stations[0].sessions), LIMIT_S)
+        (session,) = sessions_of(stations[0].sessions)
+        facts = json.loads((session / "session.json").read_text(encoding="utf-8"))
+        assert (facts["trainee"], facts["purpose"]) == ("zoe", "practice")
+        assert 'name = "windy"' in (session / "scenario.toml").read_text(encoding="utf-8")
+        # A station with a flight in progress cannot be selected, and a late form is refused.
+        expect(page.locator("[name=station] option[value=s1]")).to_be_disabled(timeout=PATIENCE_MS)
+        form = {"station": "s1", "trainee": "zoe", "scenario": "drill-hover", "purpose": "practice"}
+        desk = webserver.Browser(server.address)
+        desk.log_in("ida")
+        status, _, text = desk.post("/stations", "/stations", form)
+        assert status == 409 and "A flight is in progress" in text
+        status, _, text = desk.post("/stations", "/stations", form | {"trainee": "a b"})
+        assert status == 409 and "pseudonym" in text
+        status, _, text = desk.post("/stations", "/stations", form | {"scenario": "../etc"})
+        assert status == 400 and "unknown name" in text
+        stations[0].close()
+        expect(table).to_contain_text("no connection", timeout=PATIENCE_MS)
+    finally:
+        for station in stations:
+            station.close()
+
+
+def sessions_of(folder):
+    """Returns the session folders that have their scenario already."""
+    return [path.parent for path in pathlib.Path(folder).glob("*/scenario.toml")] if folder.is_dir() else []
+
+
+def test_only_stations_with_the_key_check_in(server):
+    stranger = webserver.Browser(server.address)
+    body = json.dumps({"station": "s1"}).encode()
+    for headers in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": KEY}):
+        assert stranger.ask("/stations/check-in", body=body, headers=headers)[0] == 403
+    known = {"Authorization": f"Bearer {KEY}"}
+    status, answer, text = stranger.ask("/stations/check-in", body=body, headers=known)
+    assert (status, text) == (200, "{}") and not answer.get_all("Set-Cookie", [])
+    for bad in (b"", b"{}", b'{"station": "../x"}', b'{"station": 3}', b"\xff" * 100):
+        assert stranger.ask("/stations/check-in", body=bad, headers=known)[0] == 400, bad
+    assert stranger.ask("/stations/check-in", body=b"x" * 100_000, headers=known)[0] == 413
+    assert stranger.ask("/stations/check-in", headers=known)[0] in (403, 404, 405)
+    # Trainees see no stations.
+    zoe = webserver.Browser(server.address)
+    zoe.log_in("zoe")
+    assert zoe.ask("/stations")[0] == 403
+
+
+def test_bad_station_options_are_reported(tmp_path):
+    short = tmp_path / "short.key"
+    short.write_text("short", encoding="utf-8")
+    for args, words in [
+        (["train", "--server", "http://127.0.0.1:9", "--no-view"], "--station"),
+        (["train", "--server", "127.0.0.1:9", "--station", "s1", "--station-key", str(short), "--no-view"], "is not the address of a server"),
+        (["train", "--server", "http://127.0.0.1:9", "--station", "s1", "--station-key", str(short), "--no-view"], "short.key: not a station key"),
+        (["serve", "--station-key", str(tmp_path / "missing")], "missing"),
+    ]:
+        done = subprocess.run([spandrel.PROGRAM, *args], capture_output=True, text=True, timeout=60, check=False)
+        assert done.returncode == 2 and words in done.stderr, (args, done.stderr)
