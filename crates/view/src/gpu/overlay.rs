@@ -31,12 +31,33 @@ impl Overlay {
 
     /// Draws items over the contents of `target`; the size is in px.
     pub fn draw(&mut self, gpu: &Gpu, items: &[DrawItem], target: &wgpu::TextureView, size_px: (u32, u32)) {
+        self.draw_with(gpu, target, size_px, |painter, rect| paint(painter, items, rect));
+    }
+
+    /// Draws a page over the contents of `target`; the size is in px.
+    pub fn draw_page(
+        &mut self,
+        gpu: &Gpu,
+        sheet: &PageLayout,
+        pictures: &mut PageTextures,
+        target: &wgpu::TextureView,
+        size_px: (u32, u32),
+    ) {
+        self.draw_with(gpu, target, size_px, |painter, rect| paint_sheet(painter, sheet, rect, pictures));
+    }
+
+    fn draw_with(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        size_px: (u32, u32),
+        mut contents: impl FnMut(&egui::Painter, Rect),
+    ) {
         let size = egui::vec2(size_px.0 as f32, size_px.1 as f32);
-        let input = egui::RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), ..egui::RawInput::default() };
-        let mut output = self.context.run_ui(input, |ui| {
-            let painter = ui.ctx().layer_painter(egui::LayerId::background());
-            paint(&painter, items, Rect::from_min_size(Pos2::ZERO, size));
-        });
+        let rect = Rect::from_min_size(Pos2::ZERO, size);
+        let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
+        let mut output =
+            self.context.run_ui(input, |ui| contents(&ui.ctx().layer_painter(egui::LayerId::background()), rect));
         let mut changes = std::mem::take(&mut output.textures_delta);
         for (id, deltas) in &changes.set {
             for delta in deltas {

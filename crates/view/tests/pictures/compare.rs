@@ -118,8 +118,12 @@ fn rgb(picture: &Picture) -> Vec<u8> {
 
 /// Writes a PNG to the test output folder and returns its path.
 pub fn save(name: &str, picture: &Picture) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view");
-    std::fs::create_dir_all(&folder).unwrap();
+    save_in(&Path::new(env!("CARGO_TARGET_TMPDIR")).join("view"), name, picture)
+}
+
+/// Writes a PNG to a folder and returns its path.
+pub fn save_in(folder: &Path, name: &str, picture: &Picture) -> PathBuf {
+    std::fs::create_dir_all(folder).unwrap();
     let path = folder.join(name);
     image::save_buffer(&path, &rgb(picture), picture.width, picture.height, image::ExtendedColorType::Rgb8).unwrap();
     path

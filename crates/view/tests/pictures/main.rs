@@ -7,4 +7,5 @@ mod compare;
 mod contrast;
 mod gallery;
 mod masks;
+mod pages;
 mod snapshots;

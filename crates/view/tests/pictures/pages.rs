@@ -1,0 +1,188 @@
+//! Every page of the window in every language, compared with committed pictures. With `SPANDREL_ALBUM`, the pages are also saved
+//! in the usual sizes of windows, to be looked at.
+
+use super::compare::{check_picture, save_in};
+use spandrel_text::Language;
+use spandrel_view::flow::pipe::{
+    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing, JobOffer, NextJob, Purpose,
+    SchoolPage, ToWindow, TraineeSummary,
+};
+use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
+use spandrel_view::gpu::{Gpu, Overlay, PageTextures, picture_texture, read};
+use spandrel_view::hud::DisplayStyle;
+use spandrel_view::path_guide::PathAids;
+use spandrel_view::picture::Picture;
+use std::net::SocketAddr;
+use std::path::Path;
+
+/// Size of the committed pictures: small, because there are many.
+const COMMITTED_PX: (u32, u32) = (640, 360);
+/// Sizes of the album's pictures.
+const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
+/// Number of pages of the tutorial.
+const TUTORIAL_PAGES: usize = 6;
+
+fn job(name: &str, title: &str) -> JobOffer {
+    let briefing = JobBriefing {
+        notes: vec!["Begin with the arch bridge.".into()],
+        tasks: vec!["1  Arch soffit: north arch, 152 m long, 12 to 24 m above the pad, stand-off 5.0 ± 1.5 m".into()],
+        hazards: vec!["Wind: 4 m/s from 250°, gusts up to 7 m/s.".into(), "Traffic on both bridges.".into()],
+        site_check: vec!["Battery at least 95%".into(), "Landing pad free of people".into()],
+    };
+    JobOffer { name: name.into(), title: title.into(), kind: "4 tasks, 10 defects".into(), briefing }
+}
+
+fn options() -> FlightOptions {
+    let next = NextJob { scenario: "drill-hover".into(), title: "Drill: hover".into(), due: Some("2026-12-04".into()) };
+    let last = "You flew 2 m too far from the arch for 80 s.".to_owned();
+    FlightOptions {
+        trainees: vec![TraineeSummary { name: "anna".into(), sessions: 3, practices: 2, last: Some(last), next: Some(next) }],
+        scenarios: vec![job("two-bridges", "Two bridges"), job("drill-hover", "Drill: hover")],
+        choice: choice(Purpose::Practice),
+        web: Some("http://127.0.0.1:8080".into()),
+        lesson: None,
+    }
+}
+
+fn choice(purpose: Purpose) -> FlightChoice {
+    FlightChoice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose, by: FlownBy::Trainee }
+}
+
+fn flying(purpose: Purpose) -> ToWindow {
+    let here = SocketAddr::from(([127, 0, 0, 1], 14280));
+    ToWindow::Flying(FlightStarted {
+        choice: choice(purpose),
+        vehicle: "phantom2".into(),
+        seed: 7,
+        connect: here,
+        fly: Some(here),
+        path_aids: PathAids::Full,
+        ghost: None,
+    })
+}
+
+fn ended() -> FlightSummary {
+    let score = |pct: f64| Some(FinalScore { raw: pct, pct });
+    FlightSummary {
+        scores: [score(81.0), score(100.0), score(91.0), None],
+        overall: Some((272.0, 300.0)),
+        completion: Some("Complete: 4 of 4 tasks, 98% of the path".into()),
+        complete: true,
+        verdict: Some("Not certified: 12% battery at landing, 20% needed".into()),
+        why: "landed after 12 min 30 s".into(),
+        advice: vec!["You flew up to 6.2 m/s in tasks 1, 2 and 4, over the 4.5 m/s limit for 2 min 34 s: slow down.".into()],
+        next: None,
+        watched: false,
+        lesson: None,
+        report: Some("file:///sessions/a/report.html".into()),
+        questionnaire: "http://127.0.0.1:8080/sessions/a/questions".into(),
+    }
+}
+
+fn question() -> SchoolPage {
+    SchoolPage {
+        title: "1 of 12".into(),
+        lines: vec!["What does this picture show? It was taken from 3 m.".into()],
+        answers: ["Crack", "Spall", "Corrosion", "No defect"].map(str::to_owned).to_vec(),
+        ..SchoolPage::default()
+    }
+}
+
+/// Returns the window with its start page.
+fn started(language: Language) -> WindowFlow {
+    let mut flow = WindowFlow::new();
+    let keys = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right", "pause", "lamp", "snapshot"];
+    let key = |binding: &'static str| KeyFunction { binding, title: binding.replace('_', " "), key: "K".to_owned() };
+    let style = DisplayStyle { language, ..DisplayStyle::default() };
+    flow.update_settings(SettingsStatus { style, is_sound_on: true, keys: keys.map(key).to_vec(), ..SettingsStatus::default() });
+    flow.handle_message(ToWindow::Offers(options()));
+    flow
+}
+
+/// Returns the window with a page that is at most two clicks away from the start page.
+fn on_page(language: Language, wanted: impl Fn(Page) -> bool) -> WindowFlow {
+    // Tries the rows of the start page, and of the pages behind them, until one leads to the page.
+    for first in 0..ROWS {
+        for second in 0..ROWS {
+            let mut flow = started(language);
+            for row in [first, second] {
+                flow.press(KeyPress::Row(row));
+                if wanted(flow.page()) {
+                    return flow;
+                }
+            }
+        }
+    }
+    panic!("the page is more than two clicks away from the start page")
+}
+
+/// Maximum number of rows of a page that are tried.
+const ROWS: usize = 16;
+
+/// Returns all pages with their names.
+fn pages(language: Language) -> Vec<(String, WindowFlow)> {
+    let mut pages = vec![
+        ("start".to_owned(), started(language)),
+        ("settings".to_owned(), on_page(language, |page| matches!(page, Page::Settings { .. }))),
+        ("keys".to_owned(), on_page(language, |page| matches!(page, Page::Keys { .. }))),
+        ("controls".to_owned(), on_page(language, |page| page == Page::Controls)),
+    ];
+    let mut tutorial = on_page(language, |page| matches!(page, Page::Tutorial(..)));
+    for number in 1..=TUTORIAL_PAGES {
+        pages.push((format!("tutorial-{number}"), tutorial.clone()));
+        tutorial.press(KeyPress::Enter);
+    }
+    let mut briefing = on_page(language, |page| page == Page::Controls);
+    briefing.press(KeyPress::Enter);
+    assert_eq!(briefing.page(), Page::Briefing);
+    pages.push(("briefing".to_owned(), briefing));
+    let flight = |purpose| {
+        let mut flow = started(language);
+        flow.handle_message(flying(purpose));
+        flow
+    };
+    let mut paused = flight(Purpose::Practice);
+    paused.handle_message(ToWindow::Paused { on: true });
+    pages.push(("paused".to_owned(), paused));
+    let mut confirm = flight(Purpose::Assessment);
+    confirm.pause();
+    pages.push(("confirm-end".to_owned(), confirm));
+    let mut results = flight(Purpose::Practice);
+    results.handle_message(ToWindow::Ended(ended()));
+    pages.push(("results".to_owned(), results));
+    let mut school = on_page(language, |page| page == Page::Waiting);
+    school.handle_message(ToWindow::School(question()));
+    assert_eq!(school.page(), Page::School);
+    pages.push(("school".to_owned(), school));
+    pages
+}
+
+/// Renders a page.
+fn drawn(gpu: &Gpu, overlay: &mut Overlay, flow: &WindowFlow, size_px: (u32, u32)) -> Picture {
+    let texture = picture_texture(gpu, size_px);
+    let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let sheet = flow.sheet(f64::from(size_px.0) / f64::from(size_px.1));
+    overlay.draw_page(gpu, &sheet, &mut PageTextures::new(|_| None), &target, size_px);
+    read(gpu, &texture).unwrap()
+}
+
+#[test]
+fn regress_pages_look_as_committed_in_every_language() {
+    let gpu = Gpu::open_software().unwrap();
+    let mut overlay = Overlay::new(&gpu);
+    let album = std::env::var_os("SPANDREL_ALBUM");
+    let mut problems = Vec::new();
+    for language in Language::ALL {
+        for (name, flow) in pages(language) {
+            let name = format!("page-{name}-{}", language.tag());
+            let found = check_picture(&name, &drawn(&gpu, &mut overlay, &flow, COMMITTED_PX));
+            problems.extend(found.err());
+            for size_px in album.iter().flat_map(|_| ALBUM_PX) {
+                let picture = drawn(&gpu, &mut overlay, &flow, size_px);
+                let file = format!("{name}-{}x{}.png", size_px.0, size_px.1);
+                save_in(Path::new(album.as_deref().unwrap()), &file, &picture);
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
