@@ -25,6 +25,7 @@ pub mod rubric;
 pub mod scenario_check;
 pub mod school;
 pub mod statistics;
+pub mod terms;
 mod time_text;
 pub mod trainee;
 pub mod training_class;
