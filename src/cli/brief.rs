@@ -5,6 +5,7 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use spandrel_model::site::Site;
 use spandrel_monitor::export::json_text;
+use spandrel_text::Language;
 use spandrel_training::briefing::{Briefing, text};
 use spandrel_training::report::page;
 
@@ -39,7 +40,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = args.job.load_scenario()?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let site = Site::without_defects(&scenario);
-    let briefing = Briefing::new(&scenario, &vehicle, &site);
+    let briefing = Briefing::new(&scenario, &vehicle, &site, Language::English);
     match (&args.html, args.json) {
         (Some(file), _) => files::write(file, page::briefing(&briefing, &scenario, &site).as_bytes()),
         (None, true) => files::write("-", json_text(&briefing).as_bytes()),

@@ -6,6 +6,7 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
+use spandrel_text::Language;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::record::{IncompletePolicy, excluded_sessions_note};
 use spandrel_training::report::page::cohort as page;
@@ -75,7 +76,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     };
     let cohort = cohort(&records, &selection);
     if cohort.sessions == 0
-        && let Some(words) = excluded_sessions_note(cohort.left_out)
+        && let Some(words) = excluded_sessions_note(cohort.left_out, Language::English)
     {
         return Err(AppError::invalid(format!(
             "this scenario has no complete sessions: {words} (to count them, use --include-incomplete)"
@@ -106,7 +107,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
 /// Formats the session count and the main statistics for first sessions as text.
 fn first_session_summary(cohort: &Cohort) -> String {
     let mut out = format!("{} trainees, {} sessions of {}\n", cohort.trainees, cohort.sessions, cohort.scenarios.join(", "));
-    if let Some(words) = excluded_sessions_note(cohort.left_out) {
+    if let Some(words) = excluded_sessions_note(cohort.left_out, Language::English) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     out.push('\n');

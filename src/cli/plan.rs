@@ -9,6 +9,7 @@ use crate::io::plan_rules::rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
+use spandrel_text::Language;
 use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionOutcome, excluded_sessions_note};
 use std::fmt::Write;
@@ -61,10 +62,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     };
     records.retain(|record| record.trainee == trainee);
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
-    let results: Vec<(String, String)> = records.iter().map(|record| (record.id.clone(), record.headlines())).collect();
+    let results: Vec<(String, String)> =
+        records.iter().map(|record| (record.id.clone(), record.headlines(Language::English))).collect();
     let rules = rules(args.rules.as_deref())?;
     let incomplete = IncompletePolicy::included(args.include_incomplete);
-    let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us()) else {
+    let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us(), Language::English) else {
         return Err(AppError::invalid(format!(
             "the records contain no sessions of '{trainee}'; to add sessions, use `{}`",
             typed("spandrel records import")
@@ -96,12 +98,12 @@ fn plan_text(plan: &TrainingPlan) -> String {
     }
     for drill in &plan.drills {
         let next = drill.next_level.as_ref().map(|next| format!("; next level: {}", next.level)).unwrap_or_default();
-        let _ = writeln!(out, "Drill {}: {}{next}", drill.scenario, drill.words());
+        let _ = writeln!(out, "Drill {}: {}{next}", drill.scenario, drill.words(Language::English));
     }
     if let Some(note) = &plan.note {
         let _ = writeln!(out, "{note}");
     }
-    if let Some(words) = excluded_sessions_note(plan.left_out) {
+    if let Some(words) = excluded_sessions_note(plan.left_out, Language::English) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
     if let Some(changes) = &plan.changes {
@@ -125,7 +127,7 @@ mod tests {
     fn exact_plan_prints_the_level_and_the_command_that_flies_it() {
         let mut record = perfect_record("anna", 1);
         (record.scenario, record.level) = ("drill-gap".into(), Some(SessionLevel { level: 5, levels: 9, standard: 5 }));
-        let plan = plan_for_policy(vec![record], IncompletePolicy::Exclude, &rules(None).unwrap(), 0).unwrap();
+        let plan = plan_for_policy(vec![record], IncompletePolicy::Exclude, &rules(None).unwrap(), 0, Language::English).unwrap();
         let text = plan_text(&plan);
         let level = "1. drill-gap\n   Level 6 of 9 (wind 1.99 m/s, gap 3.25 m): the last session met the criterion at level 5.\n";
         assert!(text.contains(level), "{text}");

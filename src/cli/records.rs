@@ -10,6 +10,7 @@ use crate::records::{
     import_into, lines, push, session_folders, session_id, trainee_data,
 };
 use spandrel_monitor::export::json_text;
+use spandrel_text::Language;
 use spandrel_training::record::SessionOutcome;
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role};
 use spandrel_training::xapi::DEFAULT_ACCOUNT_HOME_PAGE;
@@ -262,7 +263,7 @@ fn list(database: &Database, trainee: Option<&str>, last: u32) -> Result<(), App
             true => (format!("{:.1}", one.overall), format!("{:.0}", one.overall_max)),
             false => ("-".to_owned(), "-".to_owned()),
         };
-        let result = one.headlines();
+        let result = one.headlines(Language::English);
         table.push_str(&format!("{started:<22}{who:<16}{job:<22}{overall:>8}{most:>6}  {end:<12}{id}  {result}\n"));
     }
     files::write("-", table.as_bytes())

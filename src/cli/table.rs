@@ -8,6 +8,7 @@ use serde_json::Value;
 use spandrel_monitor::folder::REPORT;
 use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::{self, Completion, TaskState};
+use spandrel_text::Language;
 use spandrel_training::advice::SessionAdvice;
 use std::fmt::Write;
 use std::path::Path;
@@ -42,7 +43,7 @@ pub fn scores_text(assessment: &Value, advice: Option<&SessionAdvice>) -> String
     let completion = Completion::deserialize(&assessment["completion"]).ok();
     let complete = completion.is_none_or(|completion| completion.complete);
     if let Some(completion) = completion {
-        let _ = writeln!(out, "{}", completion.headline());
+        let _ = writeln!(out, "{}", completion.headline(Language::English));
     }
     if !complete {
         verdict(&mut out, &assessment["certification"]);
@@ -94,14 +95,20 @@ fn requirements(out: &mut String, requirements: &Value) {
     let _ = writeln!(out, "\n{:<26}{:<16}needed", "certification", "reached");
     for one in requirements {
         let state = if one.met { "met" } else { "not met" };
-        let _ = writeln!(out, "{:<26}{:<16}{:<22}{state}", one.name, one.reached_text(), one.limit_text());
+        let _ = writeln!(
+            out,
+            "{:<26}{:<16}{:<22}{state}",
+            one.name,
+            one.reached_text(Language::English),
+            one.limit_text(Language::English)
+        );
     }
 }
 
 fn verdict(out: &mut String, certification: &Value) {
     if let Some(passed) = certification["passed"].as_bool() {
         let unmet = Vec::<String>::deserialize(&certification["unmet"]).unwrap_or_default();
-        let _ = writeln!(out, "{}", completion::verdict(passed, &unmet));
+        let _ = writeln!(out, "{}", completion::verdict(passed, &unmet, Language::English));
     }
 }
 
@@ -110,7 +117,8 @@ fn tasks(out: &mut String, assessment: &Value) {
     for task in assessment["tasks"].as_array().into_iter().flatten() {
         let id = task["id"].as_u64().unwrap_or_default();
         let state = TaskState::deserialize(&task["state"]).ok().zip(number(&task["covered"]));
-        let state = state.map_or(String::new(), |(state, covered)| format!("{}, ", state.description(covered, done_share)));
+        let state = state
+            .map_or(String::new(), |(state, covered)| format!("{}, ", state.description(covered, done_share, Language::English)));
         let _ = match (task["attempted"].as_bool(), number(&task["on_path"]), number(&task["speeding"])) {
             (Some(true), Some(on_path), Some(speeding)) => {
                 writeln!(out, "task {id}        {state}on path {:.1}% of the time, speeding loss {speeding:.3}", 100.0 * on_path)

@@ -7,6 +7,7 @@ use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::trainee_id::{ALLOWED_IDS, TraineeId, is_plain_id};
+use spandrel_text::Language;
 use spandrel_training::assignment::{Assignment, AssignmentCounts};
 use spandrel_training::plan::{PlanRules, plan_for_policy};
 use spandrel_training::record::IncompletePolicy;
@@ -53,7 +54,7 @@ fn member(state: &ServerState, trainee: &str, rules: &PlanRules, now_unix_us: u6
     let records = state.database.records(Some(trainee))?;
     let jobs = jobs_of(state, trainee, &records, now_unix_us)?;
     let last = state.database.list(Some(trainee), 1, 0)?.pop();
-    let plan = plan_for_policy(records, IncompletePolicy::Exclude, rules, now_unix_us);
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, rules, now_unix_us, Language::English);
     Ok(ClassMember { trainee: trainee.to_owned(), last, next: plan.and_then(|plan| plan.steps.into_iter().next()), jobs })
 }
 

@@ -8,6 +8,7 @@ use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::clock;
 use axum::http::StatusCode;
+use spandrel_text::Language;
 use spandrel_training::rubric::{DEFAULT_RUBRIC, Rubric, SignOffAction, SignOffEvent, read_rubric};
 use spandrel_training::web::rubric::{self as pages, MAX_NAME_LEN, MAX_NOTE_LEN, RubricEditor, RubricPage};
 
@@ -60,7 +61,7 @@ pub fn sign(state: &ServerState, request: &WebRequest) -> HandlerResult {
         note: request.line_field("note", (min, MAX_NOTE_LEN))?.to_owned(),
     };
     if !state.database.add_sign_off(&person.pseudonym, &event)? {
-        let words = format!("{}: already {}; reload the page", criterion.title, action.words());
+        let words = format!("{}: already {}; reload the page", criterion.title, action.words(Language::English));
         return Err(WebError::BadRequest(words));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}/rubric#criterion-{}", person.pseudonym, criterion.id)))

@@ -9,6 +9,7 @@ use crate::errors::AppError;
 use crate::io::files;
 use axum::http::StatusCode;
 use spandrel_model::site::Site;
+use spandrel_text::Language;
 use spandrel_training::briefing::Briefing;
 use spandrel_training::web::scenarios::{self as pages, ScenarioEntry};
 
@@ -34,7 +35,7 @@ pub fn briefing_page(state: &ServerState, request: &WebRequest) -> HandlerResult
     let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
     let site = Site::without_defects(&job.scenario);
     let vehicle = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
-    let briefing = Briefing::new(&job.scenario, &vehicle, &site);
+    let briefing = Briefing::new(&job.scenario, &vehicle, &site, Language::English);
     Ok(WebResponse::page(pages::briefing_page(&request.visitor, &briefing, &job.scenario, &site)))
 }
 

@@ -11,6 +11,7 @@ use crate::io::clock;
 use crate::io::trainee_id::TraineeId;
 use crate::records::{erase_trainee, trainee_data};
 use spandrel_monitor::export::json_text;
+use spandrel_text::Language;
 use spandrel_training::cohort::{JobReliability, Selection, TABLES, table};
 use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
@@ -38,7 +39,7 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     let incomplete = incomplete_policy(request);
     let (rules, problem) = rules_in_use(state)?;
     let now = clock::unix_us();
-    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, now);
+    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, now, Language::English);
     if let Some((plan, problem)) = plan.as_mut().zip(problem) {
         plan.note = Some(plan.note.take().map_or_else(|| problem.clone(), |note| format!("{note} {problem}")));
     }

@@ -34,6 +34,7 @@ pub mod recording;
 pub mod score;
 pub mod session;
 pub mod sidecar;
+pub mod stored_text;
 
 pub use assessment::{AssessError, AssessedSession, Assessment, ScoringJob, assess, assess_log};
 pub use sidecar::{Monitor, MonitorConfig, SessionOutput};

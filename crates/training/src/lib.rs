@@ -26,6 +26,7 @@ pub mod scenario_check;
 pub mod school;
 pub mod stations;
 pub mod statistics;
+pub mod terms;
 mod time_text;
 pub mod trainee;
 pub mod training_class;

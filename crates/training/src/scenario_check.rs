@@ -7,6 +7,7 @@ use spandrel_model::toml::Problem;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::measures::image_quality;
 use spandrel_monitor::score::certification::{job_time, pictures, requirements};
+use spandrel_text::Language;
 
 /// Minimum clearance between the path and obstacles, in addition to half the aircraft's tip-to-tip width, m (issue 2,
 /// section 2).
@@ -115,7 +116,7 @@ pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &
 
 /// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.
 fn certification_notes(source: &ScenarioText<'_>, scenario: &Scenario, aircraft: &Vehicle) -> Vec<String> {
-    let mut notes = requirements::describe(scenario);
+    let mut notes = requirements::describe(scenario, Language::English);
     let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
     let needed_min = job_time::job_needed_s(scenario) / 60.0;
     notes.push(format!(

@@ -5,6 +5,7 @@ use super::record::{SessionOutcome, SessionRecord, TaskRecord};
 use serde_json::{Value, json};
 use spandrel_model::calendar::utc;
 use spandrel_monitor::score::completion::TaskState;
+use spandrel_text::Language;
 use uuid::Uuid;
 
 /// xAPI version to send in the request header.
@@ -54,7 +55,7 @@ fn flight(record: &SessionRecord, home: &str) -> Value {
         "completion": complete,
         "success": complete && record.certified,
         "duration": format!("PT{:.2}S", record.seconds),
-        "response": record.headlines(),
+        "response": record.headlines(Language::English),
     });
     // The sum of the scores is meaningful only for a complete job.
     if complete {

@@ -10,6 +10,7 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{AssessedSession, assess_log};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
+use spandrel_text::Language;
 use spandrel_training::advice::{AdvicePoint, FlightEvidence, MAX_POINTS, MissedDefect, SessionAdvice, session_advice};
 use spandrel_training::plan::{DEFAULT_RULES, PlanReason, PlanRule, PlanRules, PlanStep, RuleMeasure, plan, read_rules};
 use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
@@ -70,7 +71,7 @@ fn advice(tape: &Tape, missed: &[MissedDefect]) -> SessionAdvice {
     timeline.push_log(tape.log(0).as_slice()).unwrap();
     let (flight, _) = flight_with_seed(&timeline, &job, &vehicle()).unwrap();
     let record = session_record(&assessed_session, &job, &[]);
-    let steps = plan(std::slice::from_ref(&record), &rules(), record.started_unix_us).unwrap().steps;
+    let steps = plan(std::slice::from_ref(&record), &rules(), record.started_unix_us, Language::English).unwrap().steps;
     let evidence = FlightEvidence {
         scenario: &job,
         vehicle: &vehicle(),
@@ -79,7 +80,7 @@ fn advice(tape: &Tape, missed: &[MissedDefect]) -> SessionAdvice {
         record: &record,
         missed,
     };
-    session_advice(&steps, &rules(), &evidence)
+    session_advice(&steps, &rules(), &evidence, Language::English)
 }
 
 fn point<'a>(advice: &'a SessionAdvice, rule: &str) -> &'a AdvicePoint {
@@ -220,17 +221,30 @@ fn prop_every_rule_has_a_sentence_with_a_number_and_a_moment() {
     let end_s = assessed_session.assessment.end.seconds;
     let mut with_moment = 0;
     for rule in &rules.rules {
-        let advice = session_advice(&[step_for(rule)], &rules, &evidence);
+        let advice = session_advice(&[step_for(rule)], &rules, &evidence, Language::English);
+        let in_language = |language| session_advice(&[step_for(rule)], &rules, &evidence, language).points[0].words.clone();
         let [point] = advice.points.as_slice() else { panic!("{}: {advice:#?}", rule.name) };
         println!("{:32} {}", rule.name, point.words);
         assert!((0.0..=end_s + MOMENT_TOLERANCE_S).contains(&point.t_s) && point.frame >= 1, "{point:?}");
         assert!(point.words.ends_with('.') && !point.words.contains("NaN") && !point.words.contains("inf"), "{point:?}");
         if !point.words.starts_with("Rule without") {
             with_moment += 1;
+            assert_translated(&rule.name, Language::ALL.map(in_language), &in_language(Language::Pseudo));
             assert!(point.words.chars().any(|c| c.is_ascii_digit()), "{point:?}");
         }
     }
     assert!(with_moment > rules.rules.len() / 3, "{with_moment} of {} rules", rules.rules.len());
+}
+
+/// Checks that a sentence differs between the languages, and that the pseudo language leaves only units in plain letters.
+fn assert_translated(rule: &str, [english, german, spanish]: [String; 3], pseudo: &str) {
+    assert!(german != english && spanish != english && german != spanish, "{rule}: {english} {german} {spanish}");
+    let units = ["m", "s", "min", "m/s"];
+    let left = |word: &&str| {
+        let word = word.trim_matches(|c: char| !c.is_alphanumeric());
+        word.chars().any(|c| c.is_ascii_alphabetic()) && !units.contains(&word)
+    };
+    assert_eq!(pseudo.split_whitespace().find(left), None, "{rule}: {pseudo}");
 }
 
 #[test]

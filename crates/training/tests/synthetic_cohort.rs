@@ -3,6 +3,7 @@
 //! flights.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+use spandrel_text::Language;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::plan::{DEFAULT_RULES, plan, read_rules};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
@@ -61,7 +62,7 @@ fn val_only_poor_interlayer_flights_are_found_in_the_plan() {
         let steady = 1.0 - task.on_path <= MAX_OFF_PATH_SHARE && task.speeding_s / task.seconds <= MAX_SPEEDING_SHARE;
         let holds = task.attempted && steady && task.crashes.total() == 0;
         let whole = spandrel_training::plan::PlanRules { steps: 20, focus: 0.0, ..rules.clone() };
-        let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us).unwrap();
+        let plan = plan(std::slice::from_ref(&record), &whole, record.started_unix_us, Language::English).unwrap();
         // A finding that follows from a fault in all tasks is listed with its cause, whose drill is another one.
         let about_the_task = |rule: &str| RULES_OF_THE_INTERLAYER.contains(&rule);
         let found: Vec<_> = plan.steps.iter().flat_map(|step| &step.reasons).filter(|one| about_the_task(&one.rule)).collect();

@@ -16,6 +16,7 @@ use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Assessment, Monitor, MonitorConfig, SessionOutput};
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
 use spandrel_sitl::sim::{Sim, SimConfig};
+use spandrel_text::Language;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::Duration;
@@ -79,7 +80,7 @@ pub fn record_motion(inputs: &FlightInputs, stop: &StopRequest) -> Result<Vec<u8
         flight.motion = Some(Vec::new());
         let flown = flight.run(stop)?;
         if !flown.assessment.completion.complete {
-            return Err(FlightError::Failed(flown.assessment.completion.headline()));
+            return Err(FlightError::Failed(flown.assessment.completion.headline(Language::English)));
         }
         Ok(flight.motion.unwrap_or_default())
     })

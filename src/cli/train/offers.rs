@@ -14,6 +14,7 @@ use spandrel_model::site::Site;
 use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, verdict};
+use spandrel_text::Language;
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
 use spandrel_view::flow::pipe::{
@@ -59,8 +60,10 @@ const FIRST_LESSON: &str = "first-flight";
 
 /// Returns what the window's briefing page shows.
 fn job_briefing(scenario: &Scenario) -> JobBriefing {
-    let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario));
-    let task = |task: &TaskBriefing| format!("{}  {}: {}, {}", task.id, task.name, task.place, text::task_numbers(task));
+    let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario), Language::English);
+    let task = |task: &TaskBriefing| {
+        format!("{}  {}: {}, {}", task.id, task.name, task.place, text::task_numbers(task, Language::English))
+    };
     JobBriefing {
         notes: scenario.briefing.clone(),
         tasks: briefing.tasks.iter().map(task).collect(),
@@ -277,9 +280,9 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
     FlightSummary {
         scores: SCORE_NAMES.map(one),
         overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
-        completion: completion.map(|completion| completion.headline()),
+        completion: completion.map(|completion| completion.headline(Language::English)),
         complete,
-        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet)),
+        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet, Language::English)),
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
         lesson: lesson.as_ref().map(|lesson| lesson.progress),
         next: match lesson.as_ref().filter(|lesson| !lesson.progress.is_complete()) {

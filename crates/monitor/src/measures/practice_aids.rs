@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use spandrel_mavlink::telemetry::signal::Signal;
 use spandrel_mavlink::telemetry::{Flight, Frame};
+use spandrel_text::{Language, text};
 
 /// Number of freezes and rewinds in a session.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -35,15 +36,29 @@ impl PracticeAids {
 
     /// Returns the aids as text, such as "rewound twice and frozen once"; `None` if there were none.
     #[must_use]
-    pub fn words(self) -> Option<String> {
-        let times = |what: &str, count: u32| match count {
-            0 => None,
-            1 => Some(format!("{what} once")),
-            2 => Some(format!("{what} twice")),
-            n => Some(format!("{what} {n} times")),
+    pub fn words(self, language: Language) -> Option<String> {
+        let rewound = || text!(language, "completion-rewound", rewinds = self.rewinds);
+        let frozen = || text!(language, "completion-frozen", freezes = self.freezes);
+        match (self.rewinds, self.freezes) {
+            (0, 0) => None,
+            (_, 0) => Some(rewound()),
+            (0, _) => Some(frozen()),
+            (_, _) => Some(text!(language, "completion-rewound-and-frozen", rewound = rewound(), frozen = frozen())),
+        }
+    }
+
+    /// Reads the English text of [`Self::words`]. Counts that it does not name are 0.
+    #[must_use]
+    pub fn from_words(words: &str) -> Self {
+        let count = |what: &str| {
+            let times = words.split(" and ").find_map(|part| part.strip_prefix(what))?;
+            match times {
+                " once" => Some(1),
+                " twice" => Some(2),
+                many => many.strip_suffix(" times")?.trim().parse().ok(),
+            }
         };
-        let parts: Vec<String> = [times("rewound", self.rewinds), times("frozen", self.freezes)].into_iter().flatten().collect();
-        (!parts.is_empty()).then(|| parts.join(" and "))
+        Self { freezes: count("frozen").unwrap_or(0), rewinds: count("rewound").unwrap_or(0) }
     }
 }
 
@@ -53,9 +68,14 @@ mod tests {
 
     #[test]
     fn exact_aids_read_as_text() {
-        let words = |freezes, rewinds| PracticeAids { freezes, rewinds }.words();
+        let words = |freezes, rewinds| PracticeAids { freezes, rewinds }.words(Language::English);
         assert_eq!(words(0, 0), None);
         assert_eq!(words(1, 0).as_deref(), Some("frozen once"));
         assert_eq!(words(3, 2).as_deref(), Some("rewound twice and frozen 3 times"));
+        for aids in [(0, 0), (1, 0), (3, 2), (0, 12)].map(|(freezes, rewinds)| PracticeAids { freezes, rewinds }) {
+            assert_eq!(PracticeAids::from_words(&aids.words(Language::English).unwrap_or_default()), aids);
+        }
+        let german = PracticeAids { freezes: 1, rewinds: 4 }.words(Language::German);
+        assert_eq!(german.as_deref(), Some("4-mal zurückgespult und einmal angehalten"));
     }
 }

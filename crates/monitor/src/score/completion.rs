@@ -1,8 +1,10 @@
 //! Job completion. Every score is shown with it so that no one mistakes an incomplete flight for a complete one.
 
 use crate::measures::coverage::PathCoverage;
+use crate::stored_text::translated;
 use serde::{Deserialize, Serialize};
 use spandrel_model::numbers::{format_limit, format_with_limit};
+use spandrel_text::{Language, text};
 
 /// Task completion state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,11 +31,12 @@ impl TaskState {
 
     /// Returns the state as text, with the percentage of the path flown.
     #[must_use]
-    pub fn description(self, covered: f64, done_share: f64) -> String {
+    pub fn description(self, covered: f64, done_share: f64, language: Language) -> String {
+        let share = format_percent(covered, done_share);
         match self {
-            Self::Done => format!("done ({}% of path)", format_percent(covered, done_share)),
-            Self::Part => format!("partly flown ({}% of path)", format_percent(covered, done_share)),
-            Self::NotAttempted => "not attempted".to_owned(),
+            Self::Done => text!(language, "completion-task-done", share = share),
+            Self::Part => text!(language, "completion-task-part", share = share),
+            Self::NotAttempted => text!(language, "completion-task-not-attempted"),
         }
     }
 }
@@ -77,24 +80,29 @@ impl Completion {
 
     /// Returns the completion as text, such as "Incomplete: 1 of 4 tasks, 31% of the path".
     #[must_use]
-    pub fn summary(&self) -> String {
-        let word = if self.complete { "Complete" } else { "Incomplete" };
-        // If there is only one task, its share determines whether the job is complete, so the text needs enough digits
-        // to show why. Otherwise, a rounded share is enough.
-        let share = if self.tasks == 1 {
-            format_percent(self.path_share, self.done_share)
+    pub fn summary(&self, language: Language) -> String {
+        let (done, tasks, share) = (self.tasks_done, self.tasks, self.share_text());
+        if self.complete {
+            text!(language, "completion-complete", done = done, tasks = tasks, share = share)
         } else {
-            format!("{:.0}", 100.0 * self.path_share)
-        };
-        let tasks = if self.tasks == 1 { "task" } else { "tasks" };
-        format!("{word}: {} of {} {tasks}, {share}% of the path", self.tasks_done, self.tasks)
+            text!(language, "completion-incomplete", done = done, tasks = tasks, share = share)
+        }
     }
 
     /// Returns [`Self::summary`]. Mentions a missing landing only if all tasks are done.
     #[must_use]
-    pub fn headline(&self) -> String {
-        let only_landing = !self.landed_at_home && self.tasks_done == self.tasks;
-        self.summary() + if only_landing { ", not landed at home" } else { "" }
+    pub fn headline(&self, language: Language) -> String {
+        if self.landed_at_home || self.tasks_done < self.tasks {
+            return self.summary(language);
+        }
+        text!(language, "completion-not-landed", done = self.tasks_done, tasks = self.tasks, share = self.share_text())
+    }
+
+    /// Returns the percentage of the path that was flown.
+    fn share_text(&self) -> String {
+        // If there is only one task, its share determines whether the job is complete, so the text needs enough digits
+        // to show why. Otherwise, a rounded share is enough.
+        if self.tasks == 1 { format_percent(self.path_share, self.done_share) } else { format!("{:.0}", 100.0 * self.path_share) }
     }
 }
 
@@ -104,27 +112,57 @@ pub fn format_percent(share: f64, done_share: f64) -> String {
     format_with_limit(100.0 * share, 100.0 * done_share, 0)
 }
 
-/// Describes why a task is incomplete; `None` if it is done.
+/// Describes why a task is incomplete, in English; `None` if it is done.
 #[must_use]
 pub fn describe_unfinished_task(id: u32, state: TaskState, covered: f64, done_share: f64) -> Option<String> {
     match state {
         TaskState::Done => None,
-        TaskState::Part => Some(format!(
-            "task {id} not done: {}% of its path, {}% needed",
-            format_percent(covered, done_share),
-            format_limit(100.0 * done_share)
+        TaskState::Part => Some(text!(
+            Language::English,
+            "certification-unmet-task-part",
+            task = id,
+            share = format_percent(covered, done_share),
+            needed = format_limit(100.0 * done_share)
         )),
-        TaskState::NotAttempted => Some(format!("task {id} not attempted")),
+        TaskState::NotAttempted => Some(text!(Language::English, "certification-unmet-task-not-attempted", task = id)),
     }
 }
 
-/// Returns the certification verdict as text, including the first unmet requirement if the session is not certified.
+/// Returns the certification verdict as text, including the first unmet requirement if the session is not certified. `unmet` is
+/// in English.
 #[must_use]
-pub fn verdict(certified: bool, unmet: &[String]) -> String {
+pub fn verdict(certified: bool, unmet: &[String], language: Language) -> String {
     match (certified, unmet) {
-        (true, _) => "Certified".to_owned(),
-        (false, []) => "Not certified".to_owned(),
-        (false, [only]) => format!("Not certified: {only}"),
-        (false, [first, rest @ ..]) => format!("Not certified: {first} (and {} more)", rest.len()),
+        (true, _) => text!(language, "completion-certified"),
+        (false, []) => text!(language, "completion-not-certified"),
+        (false, [only]) => text!(language, "completion-not-certified-why", unmet = translated(only, language)),
+        (false, [first, rest @ ..]) => {
+            text!(language, "completion-not-certified-more", unmet = translated(first, language), more = rest.len())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_completion_and_verdict_are_in_the_language_of_the_page() {
+        let completion =
+            Completion { complete: false, tasks_done: 1, tasks: 1, path_share: 1.0, landed_at_home: false, done_share: 0.8 };
+        assert_eq!(completion.headline(Language::English), "Incomplete: 1 of 1 task, 100% of the path, not landed at home");
+        assert_eq!(
+            completion.headline(Language::German),
+            "Unvollständig: 1 von 1 Aufgabe, 100% der Bahn, nicht am Landeplatz gelandet"
+        );
+        let four = Completion { tasks: 4, path_share: 0.31, ..completion };
+        assert_eq!(four.headline(Language::Spanish), "Incompleto: 1 de 4 tareas, 31% de la trayectoria");
+        let unmet = ["task 2 not attempted".to_owned(), "not landed at home".to_owned()];
+        assert_eq!(verdict(false, &unmet, Language::English), "Not certified: task 2 not attempted (and 1 more)");
+        assert_eq!(verdict(false, &unmet, Language::German), "Nicht zertifiziert: Aufgabe 2 nicht begonnen (und 1 weitere)");
+        assert_eq!(TaskState::Part.description(0.5, 0.8, Language::German), "teilweise geflogen (50% der Bahn)");
+        for shown in [four.summary(Language::Pseudo), verdict(true, &[], Language::Pseudo)] {
+            assert!(!shown.chars().any(|c| c.is_ascii_alphabetic()), "{shown}");
+        }
     }
 }

@@ -22,6 +22,7 @@ use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
 use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::time::SimTime;
+use spandrel_text::Language;
 impl Monitor {
     /// Returns a frame's log timestamp in µs: the session's start plus the simulation time since the first truth
     /// message. It keeps increasing when the simulator restarts.
@@ -307,7 +308,7 @@ impl Monitor {
                 let words = match completion.complete {
                     true => format!("Session over: {overall:.0} points, {verdict}"),
                     // Longer texts do not fit into a STATUSTEXT message. An incomplete session is never certified.
-                    false => completion.summary(),
+                    false => completion.summary(Language::English),
                 };
                 (json!(assessed_session.assessment.end.reason), words)
             }

@@ -7,6 +7,7 @@ use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
 use spandrel_monitor::score::completion::TaskState;
 use spandrel_monitor::session::EndReason;
 use spandrel_testkit::job::*;
+use spandrel_text::Language;
 
 /// Tolerance for the end of a flown section, as a fraction of a 100 m path: the nearest point changes up to half a
 /// point spacing (1 m) early or late.
@@ -66,7 +67,7 @@ fn regress_session_without_tasks_flown_is_incomplete() {
     assert_eq!((scores.conformity.map(|score| score.pct), scores.efficiency.pct, scores.safety.pct), (Some(50.0), 100.0, 100.0));
     let completion = assessment.completion;
     assert_eq!((completion.complete, completion.tasks_done, completion.tasks, completion.path_share), (false, 0, 2, 0.0));
-    assert_eq!(completion.headline(), "Incomplete: 0 of 2 tasks, 0% of the path");
+    assert_eq!(completion.headline(Language::English), "Incomplete: 0 of 2 tasks, 0% of the path");
     assert!(assessment.tasks.iter().all(|task| task.state == TaskState::NotAttempted));
     assert_eq!(assessment.certification.unmet[..2], ["task 1 not attempted", "task 2 not attempted"]);
     assert!(!assessment.certification.passed && !assessment.certification.gates.session_complete);
@@ -78,7 +79,10 @@ fn regress_session_without_landing_at_home_is_incomplete() {
     let assessment = &assessed_session.assessment;
     assert_eq!((assessment.end.reason, assessment.tasks[0].state), (EndReason::Abort, TaskState::Done));
     assert!(!assessment.completion.complete);
-    assert_eq!(assessment.completion.headline(), "Incomplete: 1 of 1 task, 100% of the path, not landed at home");
+    assert_eq!(
+        assessment.completion.headline(Language::English),
+        "Incomplete: 1 of 1 task, 100% of the path, not landed at home"
+    );
     assert_eq!(assessment.certification.unmet, ["not landed at home", "accuracy 0, 50 needed"]);
 }
 
@@ -92,7 +96,10 @@ fn regress_half_flown_path_is_not_certified() {
     assert!(first.starts_with("task 1 not done: ") && first.ends_with("% of its path, 80% needed"), "{first}");
     let share = assessment.completion.path_share;
     assert!((share - 0.49).abs() <= HALF_POINT_SPACING, "{share}");
-    assert_eq!(assessment.completion.headline(), format!("Incomplete: 0 of 1 task, {:.0}% of the path", 100.0 * share));
+    assert_eq!(
+        assessment.completion.headline(Language::English),
+        format!("Incomplete: 0 of 1 task, {:.0}% of the path", 100.0 * share)
+    );
 }
 
 #[test]

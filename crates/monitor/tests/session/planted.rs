@@ -6,6 +6,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_monitor::score::certification::Certification;
 use spandrel_monitor::score::completion::verdict;
 use spandrel_testkit::job::*;
+use spandrel_text::Language;
 
 /// Length of the planted path, m. The ten defects of the test site are beside it, every 10 m.
 const PATH_M: f64 = 100.0;
@@ -112,7 +113,7 @@ fn assert_fails(inspection: &Inspection, wanted: &[&str]) -> Certification {
     let certification = inspection.fly();
     assert_eq!(unmet(&certification), wanted, "{:?}", certification.requirements);
     assert!(!certification.passed && !certification.unmet.is_empty());
-    assert!(verdict(certification.passed, &certification.unmet).starts_with("Not certified: "));
+    assert!(verdict(certification.passed, &certification.unmet, Language::English).starts_with("Not certified: "));
     certification
 }
 
@@ -120,7 +121,7 @@ fn assert_fails(inspection: &Inspection, wanted: &[&str]) -> Certification {
 fn regress_clean_flight_is_certified() {
     let certification = CLEAN.fly();
     assert!(certification.passed, "{:?}", certification.unmet);
-    assert_eq!(verdict(certification.passed, &certification.unmet), "Certified");
+    assert_eq!(verdict(certification.passed, &certification.unmet, Language::English), "Certified");
     let scores = certification.scores;
     assert_eq!((scores.conformity, scores.safety, scores.accuracy, scores.efficiency), (Some(100.0), 100.0, Some(100.0), 100.0));
     // The drone enters and leaves the path at an angle, which costs a little.

@@ -7,6 +7,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::AssessedSession;
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
+use spandrel_text::Language;
 
 /// Gaps shorter than this don't split a stretch, s (estimate: a trainee perceives both parts as one mistake).
 const MERGE_GAP_S: f64 = 1.0;
@@ -61,15 +62,17 @@ pub(super) struct FlightScan<'a> {
     pub on_path: OnPath,
     /// Path that each frame counts for.
     pub near: Vec<Option<NearPath>>,
+    /// Language of the sentences.
+    pub language: Language,
 }
 
 impl<'a> FlightScan<'a> {
-    pub(super) fn new(evidence: &'a FlightEvidence<'a>) -> Self {
+    pub(super) fn new(evidence: &'a FlightEvidence<'a>, language: Language) -> Self {
         let (scenario, frames) = (evidence.scenario, &evidence.assessed_session.frames);
         let paths = ReferencePaths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
         let near = near_frames(scenario, frames, &paths, &on_path).collect();
-        Self { evidence, paths, on_path, near }
+        Self { evidence, paths, on_path, near, language }
     }
 
     pub(super) fn frames(&self) -> &'a [Frame] {

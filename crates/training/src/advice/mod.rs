@@ -15,6 +15,8 @@ use crate::plan::{PlanReason, PlanRule, PlanRules, PlanStep, RuleMeasure, Sessio
 use crate::record::{SessionOutcome, SessionRecord};
 use flight_scan::FlightScan;
 use serde::{Deserialize, Serialize};
+use spandrel_monitor::stored_text::translated;
+use spandrel_text::{Language, text};
 use wording::Sentence;
 
 /// Maximum number of things to do better: more are not remembered in the next flight.
@@ -69,10 +71,10 @@ const FIRST_DRILL: &str = "drill-hover";
 
 /// Returns the advice after a lesson: what counts is that every step was done, not the scores.
 #[must_use]
-pub fn lesson_advice(trainee: &str) -> SessionAdvice {
+pub fn lesson_advice(trainee: &str, language: Language) -> SessionAdvice {
     SessionAdvice {
         points: Vec::new(),
-        note: Some("The scores of a lesson don't matter. Once you have done every step, fly the first drill.".into()),
+        note: Some(text!(language, "advice-lesson")),
         next: Some(NextFlight {
             scenario: FIRST_DRILL.to_owned(),
             command: format!("spandrel train --trainee {trainee} --scenario {FIRST_DRILL}"),
@@ -88,15 +90,15 @@ struct Cause<'a> {
     tasks: Vec<u32>,
 }
 
-/// Returns the advice after a session. `steps` is the plan for this session alone.
+/// Returns the advice after a session, in a language. `steps` is the plan for this session alone, in the same language.
 #[must_use]
-pub fn session_advice(steps: &[PlanStep], rules: &PlanRules, evidence: &FlightEvidence<'_>) -> SessionAdvice {
+pub fn session_advice(steps: &[PlanStep], rules: &PlanRules, evidence: &FlightEvidence<'_>, language: Language) -> SessionAdvice {
     let causes = chosen(causes(steps, rules));
-    let scan = FlightScan::new(evidence);
+    let scan = FlightScan::new(evidence, language);
     let points: Vec<AdvicePoint> = causes.iter().map(|cause| point(cause, &steps[cause.step].scenario, &scan)).collect();
     let next =
         steps.first().map(|step| NextFlight { scenario: step.scenario.clone(), command: step.command(&evidence.record.trainee) });
-    SessionAdvice { note: points.is_empty().then(|| no_findings(evidence.record)), points, next }
+    SessionAdvice { note: points.is_empty().then(|| no_findings(evidence.record, language)), points, next }
 }
 
 /// Returns the plan's causes in its order. Causes with the same measure are one: they are the same habit in several tasks.
@@ -174,10 +176,10 @@ fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<
         SessionMeasure::CrashesOutside => crashes::outside(scan, rule),
         SessionMeasure::CrashesAll => crashes::anywhere(scan, rule),
         SessionMeasure::Missed if !rule.lacked.is_empty() => pictures::failed(scan, &rule.lacked),
-        SessionMeasure::Missed => pictures::missed(scan, "defects", |_| true),
-        SessionMeasure::MissedSevere => pictures::missed(scan, "severe defects", pictures::is_severe),
+        SessionMeasure::Missed => pictures::missed(scan, "all", |_| true),
+        SessionMeasure::MissedSevere => pictures::missed(scan, "severe", pictures::is_severe),
         SessionMeasure::MissedInView => pictures::missed_in_view(scan),
-        SessionMeasure::MissedHidden => pictures::missed(scan, "defects that face away from the path", |defect| defect.hidden),
+        SessionMeasure::MissedHidden => pictures::missed(scan, "hidden", |defect| defect.hidden),
         SessionMeasure::MissedLines => pictures::missed(scan, "cracks", |defect| defect.line),
         SessionMeasure::PoorPictures => pictures::poor(scan, &rule.lacked),
         SessionMeasure::NoPictures => pictures::none_taken(scan),
@@ -191,14 +193,14 @@ fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<
 }
 
 /// Returns the sentence for a flight without findings. It praises only a flight that did the job.
-fn no_findings(record: &SessionRecord) -> String {
+fn no_findings(record: &SessionRecord, language: Language) -> String {
     if record.certified && record.is_complete() {
-        return "Nothing to correct: fly the next job.".to_owned();
+        return text!(language, "advice-nothing-to-correct");
     }
     match (record.is_complete(), record.unmet.first()) {
-        (true, Some(unmet)) => format!("No single mistake stands out, but you are not certified yet: {unmet}."),
-        (true, None) => "No single mistake stands out: fly the job again.".to_owned(),
-        (false, _) => "No single mistake stands out, but the job is not finished: fly it to the end.".to_owned(),
+        (true, Some(unmet)) => text!(language, "advice-not-certified", unmet = translated(unmet, language)),
+        (true, None) => text!(language, "advice-fly-again"),
+        (false, _) => text!(language, "advice-not-finished"),
     }
 }
 

@@ -6,35 +6,33 @@ use crate::plan::MIN_SEVERE_CONDITION_STATE;
 use crate::record::DefectRecord;
 use crate::time_text::clock;
 use spandrel_monitor::measures::attention::Snapshot;
+use spandrel_text::text;
 
 /// Returns whether a defect is in a severe condition state.
 pub(super) fn is_severe(defect: &DefectRecord) -> bool {
     defect.condition_state >= MIN_SEVERE_CONDITION_STATE
 }
 
-/// Missed defects of a kind. The moment is the best chance to photograph one of them.
+/// Missed defects of a kind: `all`, `severe`, `hidden` or `cracks`. The moment is the best chance to photograph one of them.
 pub(super) fn missed(scan: &FlightScan<'_>, kind: &str, about: fn(&DefectRecord) -> bool) -> Option<Sentence> {
     let (missed, all) = counts(scan, about);
     let chance = best_chance(scan, |id| missed.contains(&id))?;
-    let frame = scan.frame_at(chance.t_s);
-    let (id, at) = (chance.id, clock(chance.t_s));
-    let hint = if chance.in_view_s > 0.0 {
-        format!("defect {id} was in clear view at {at}: stop and take a picture")
+    let (missed, all) = (missed.len().to_string(), all.to_string());
+    let (defect, at) = (chance.id.to_string(), clock(chance.t_s));
+    let words = if chance.in_view_s > 0.0 {
+        text!(scan.language, "advice-missed-in-view", missed = missed, all = all, kind = kind, defect = defect, at = at)
     } else {
-        format!("at {at} you were nearest to a view of defect {id}: search slowly there")
+        text!(scan.language, "advice-missed-nearest", missed = missed, all = all, kind = kind, defect = defect, at = at)
     };
-    Some((format!("You missed {} of {all} {kind}; {hint}.", missed.len()), frame))
+    Some((words, scan.frame_at(chance.t_s)))
 }
 
 /// Defects that were in clear view.
 pub(super) fn missed_in_view(scan: &FlightScan<'_>) -> Option<Sentence> {
-    let seen: Vec<&MissedDefect> = scan.evidence.missed.iter().filter(|defect| defect.in_view_s > 0.0).collect();
+    let count = scan.evidence.missed.iter().filter(|defect| defect.in_view_s > 0.0).count();
     let chance = best_chance(scan, |_| true)?;
-    let (count, at, seconds) = (seen.len(), clock(chance.t_s), chance.in_view_s);
-    let subject = if count == 1 { "a defect".to_owned() } else { format!("{count} defects") };
-    let words = format!(
-        "You passed {subject} in clear view without a picture, the longest for {seconds:.1} s at {at}: fly slower or closer there."
-    );
+    let (seconds, at) = (format!("{:.1}", chance.in_view_s), clock(chance.t_s));
+    let words = text!(scan.language, "advice-passed-in-view", count = count, seconds = seconds, at = at);
     Some((words, scan.frame_at(chance.t_s)))
 }
 
@@ -50,15 +48,16 @@ pub(super) fn failed(scan: &FlightScan<'_>, lacked: &str) -> Option<Sentence> {
     };
     let count = scan.evidence.record.defects.iter().filter(|defect| failed(defect.id)).count();
     let picture = scan.evidence.assessed_session.assessment.snapshots.each.iter().find(shows)?;
-    let (what, remedy) = match lacked {
-        "too dark" => ("too dark", "switch on the lamp"),
-        "too oblique" => ("taken at too flat an angle", "point the nose straight at the surface"),
-        "too small" => ("taken from too far away", "move closer"),
-        "line too thin" => ("taken from too far for a fine crack", "move closer"),
-        other => (other, "correct this before the picture"),
+    let why = match lacked {
+        "too dark" => "dark",
+        "too oblique" => "oblique",
+        "too small" => "small",
+        "line too thin" => "thin",
+        _ => "other",
     };
-    let subject = if count == 1 { "picture of a defect was".to_owned() } else { format!("pictures of {count} defects were") };
-    Some((format!("Your {subject} {what}, first at {}: {remedy}.", clock(picture.t_s)), index(picture.frame)))
+    let at = clock(picture.t_s);
+    let words = text!(scan.language, "advice-picture-failed", count = count, why = why, reason = lacked, at = at);
+    Some((words, index(picture.frame)))
 }
 
 /// Found defects without a picture of sufficient quality.
@@ -70,21 +69,21 @@ pub(super) fn poor(scan: &FlightScan<'_>, lacked: &str) -> Option<Sentence> {
     let accuracy = &scan.evidence.assessed_session.assessment.certification.accuracy;
     let fails = |text: &String| text.split_once(": ").is_some_and(|(_, reason)| reason.starts_with(lacked));
     let frame = index(accuracy.pictures.iter().find(|picture| picture.fails.iter().any(fails))?.frame);
-    let (what, remedy) = match lacked {
-        "motion blur" => ("blurred by motion", "stop before the picture"),
-        "resolution" => ("too coarse", "move closer"),
-        "incidence" => ("taken at too flat an angle", "point the nose straight at the surface"),
-        _ => ("not good enough", "check what the report says about each one"),
+    let why = match lacked {
+        "motion blur" => "blur",
+        "resolution" => "coarse",
+        "incidence" => "oblique",
+        _ => "other",
     };
-    let at = clock(scan.t_s(frame));
-    Some((format!("Your pictures of {count} of the {found} defects that you found are {what}, first at {at}: {remedy}."), frame))
+    let (count, found, at) = (count.to_string(), found.to_string(), clock(scan.t_s(frame)));
+    Some((text!(scan.language, "advice-picture-poor", count = count, found = found, why = why, at = at), frame))
 }
 
 pub(super) fn none_taken(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (missed, _) = counts(scan, |_| true);
     let chance = best_chance(scan, |_| true)?;
-    let (count, at) = (missed.len(), clock(chance.t_s));
-    let words = format!("You took no picture of the {count} defects; your best chance was at {at}: photograph every defect.");
+    let (count, at) = (missed.len().to_string(), clock(chance.t_s));
+    let words = text!(scan.language, "advice-no-pictures", count = count, at = at);
     Some((words, scan.frame_at(chance.t_s)))
 }
 
@@ -93,8 +92,8 @@ pub(super) fn without_defect(scan: &FlightScan<'_>) -> Option<Sentence> {
     let pictures = &scan.evidence.assessed_session.assessment.snapshots;
     let first = pictures.each.iter().find(|picture| !picture.hit)?;
     let count = pictures.each.iter().filter(|picture| !picture.hit).count();
-    let (taken, at) = (pictures.taken, clock(first.t_s));
-    let words = format!("{count} of your {taken} pictures show no new defect, first at {at}: look first, then take the picture.");
+    let (count, taken, at) = (count.to_string(), pictures.taken.to_string(), clock(first.t_s));
+    let words = text!(scan.language, "advice-pictures-of-nothing", count = count, taken = taken, at = at);
     Some((words, index(first.frame)))
 }
 

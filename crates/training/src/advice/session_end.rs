@@ -1,11 +1,12 @@
 //! Sentences on what was left undone, and on the end of the flight.
 
 use super::flight_scan::FlightScan;
-use super::wording::{Sentence, listed, tasks};
+use super::wording::{Place, Sentence, listed};
 use crate::plan::BATTERY_RESERVE_PCT;
 use crate::record::TaskRecord;
 use crate::time_text::{clock, duration};
 use spandrel_monitor::session::EndReason;
+use spandrel_text::text;
 
 fn end(scan: &FlightScan<'_>) -> (usize, String) {
     let last = scan.last_frame();
@@ -14,8 +15,8 @@ fn end(scan: &FlightScan<'_>) -> (usize, String) {
 
 pub(super) fn not_attempted(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
     let (last, at) = end(scan);
-    let what = if scan.evidence.scenario.tasks.len() == 1 { "the task".to_owned() } else { tasks(ids) };
-    Some((format!("You did not fly {what}: the flight ended at {at}."), last))
+    let Place { kind, tasks } = Place::of(scan, ids);
+    Some((text!(scan.language, "advice-not-attempted", place = kind, tasks = tasks, at = at), last))
 }
 
 pub(super) fn not_covered(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
@@ -25,50 +26,50 @@ pub(super) fn not_covered(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence
     let window = scan.task_indices(&[least.id]).first().and_then(|task| scan.on_path.windows[*task]);
     let frame = window.map_or_else(|| scan.last_frame(), |window| window.last);
     let shares: Vec<String> = records.iter().map(|task| format!("{:.0}%", 100.0 * covered(task))).collect();
-    let of = if scan.evidence.scenario.tasks.len() == 1 { "the path".to_owned() } else { format!("the path of {}", tasks(ids)) };
-    let of = if records.len() > 1 { of.replacen("path", "paths", 1) } else { of };
-    let (shares, at) = (listed(&shares), clock(scan.t_s(frame)));
-    let left = if records.len() > 1 { format!("task {} at {at}", least.id) } else { format!("it at {at}") };
-    Some((format!("You flew only {shares} of {of} and left {left}: fly each path to its end."), frame))
+    let (shares, at) = (listed(&shares, scan.language), clock(scan.t_s(frame)));
+    let (Place { kind, tasks }, least) = (Place::of(scan, ids), least.id.to_string());
+    let words = text!(scan.language, "advice-not-covered", shares = shares, place = kind, tasks = tasks, least = least, at = at);
+    Some((words, frame))
 }
 
 pub(super) fn overtime(scan: &FlightScan<'_>) -> Option<Sentence> {
     let best_s = scan.evidence.scenario.scoring.time_best_s;
     let flown_s = scan.evidence.assessed_session.assessment.end.seconds;
     let (flown, over, at) = (duration(flown_s), duration((flown_s - best_s).max(0.0)), clock(best_s));
-    let words = format!(
-        "You flew for {flown}, {over} longer than full points allow; the time was up at {at}: plan the order of the tasks."
-    );
-    Some((words, scan.frame_at(best_s)))
+    Some((text!(scan.language, "advice-overtime", flown = flown, over = over, at = at), scan.frame_at(best_s)))
 }
 
 pub(super) fn not_landed(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (last, at) = end(scan);
-    let away_m = (scan.frames().get(last)?.position_m - scan.evidence.scenario.ground_team.pad_m).horizontal_norm();
-    Some((format!("Your flight ended at {at}, {away_m:.0} m from the pad: fly back and land on it."), last))
+    let away = pad_distance(scan, last)?;
+    Some((text!(scan.language, "advice-not-landed", at = at, away = away), last))
+}
+
+/// Returns the horizontal distance from the pad as text, m.
+fn pad_distance(scan: &FlightScan<'_>, frame: usize) -> Option<String> {
+    let away_m = (scan.frames().get(frame)?.position_m - scan.evidence.scenario.ground_team.pad_m).horizontal_norm();
+    Some(format!("{away_m:.0}"))
 }
 
 pub(super) fn battery_low(scan: &FlightScan<'_>) -> Option<Sentence> {
     let frame = scan.frames().iter().position(|frame| frame.battery_pct < BATTERY_RESERVE_PCT)?;
-    let (left, at) = (scan.evidence.record.battery_at_end_pct, clock(scan.t_s(frame)));
-    let words = format!(
-        "You ended with {left:.0}% battery; the {BATTERY_RESERVE_PCT:.0}% reserve was reached at {at}: turn back earlier."
-    );
-    Some((words, frame))
+    let left = format!("{:.0}", scan.evidence.record.battery_at_end_pct);
+    let (reserve, at) = (format!("{BATTERY_RESERVE_PCT:.0}"), clock(scan.t_s(frame)));
+    Some((text!(scan.language, "advice-battery-low", left = left, reserve = reserve, at = at), frame))
 }
 
 pub(super) fn battery_failed(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (last, at) = end(scan);
-    let away_m = (scan.frames().get(last)?.position_m - scan.evidence.scenario.ground_team.pad_m).horizontal_norm();
-    let what = match scan.evidence.assessed_session.assessment.end.reason {
-        EndReason::TimeLimit => "Your time was up",
+    let away = pad_distance(scan, last)?;
+    let words = match scan.evidence.assessed_session.assessment.end.reason {
+        EndReason::TimeLimit => text!(scan.language, "advice-time-up", at = at, away = away),
         EndReason::Landed
         | EndReason::Battery
         | EndReason::Person
         | EndReason::Vehicle
         | EndReason::Crash
         | EndReason::Abort
-        | EndReason::Restart => "Your battery was empty",
+        | EndReason::Restart => text!(scan.language, "advice-battery-empty", at = at, away = away),
     };
-    Some((format!("{what} at {at}, {away_m:.0} m from the pad: turn back earlier."), last))
+    Some((words, last))
 }

@@ -1,12 +1,13 @@
 //! Sentences on how the drone was flown.
 
 use super::flight_scan::{FlightScan, Stretches};
-use super::wording::{Sentence, how_long, in_tasks, surface};
+use super::wording::{Place, Sentence, surface, when};
 use crate::record::{MAX_OFF_PATH_DISTANCE_M, clearance_limit_m};
 use crate::time_text::clock;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::numbers::format_limit;
 use spandrel_monitor::measures::on_speed;
+use spandrel_text::text;
 
 /// Period in which the busiest stick movements are sought, s (estimate: long enough to notice when replayed).
 const BUSY_PERIOD_S: f64 = 10.0;
@@ -22,8 +23,8 @@ fn measured(scan: &FlightScan<'_>, value: impl Fn(usize) -> Option<f64>) -> Opti
 pub(super) fn off_path(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
     let tasks = scan.task_indices(ids);
     let (stretches, _, most_m) = measured(scan, |frame| scan.off_path_m(frame, &tasks).map(|offset| offset.norm()))?;
-    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
-    Some((format!("You left the path{place} {time}, up to {most_m:.1} m away: return before you go on."), stretches.longest))
+    let when = when(scan, Place::of(scan, ids), &stretches);
+    Some((text!(scan.language, "advice-off-path", when = when, most = format!("{most_m:.1}")), stretches.longest))
 }
 
 pub(super) fn off_height(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
@@ -34,9 +35,13 @@ pub(super) fn off_height(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence>
         (is_near && offset_m.up().abs() > offset_m.horizontal_norm()).then(|| offset_m.up())
     };
     let (stretches, mean_m, _) = measured(scan, height_m)?;
-    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
-    let side = if mean_m > 0.0 { "above" } else { "below" };
-    Some((format!("You drifted {:.1} m {side} the path{place} {time}: hold your altitude.", mean_m.abs()), stretches.longest))
+    let (mean, when) = (format!("{:.1}", mean_m.abs()), when(scan, Place::of(scan, ids), &stretches));
+    let words = if mean_m > 0.0 {
+        text!(scan.language, "advice-drifted-up", mean = mean, when = when)
+    } else {
+        text!(scan.language, "advice-drifted-down", mean = mean, when = when)
+    };
+    Some((words, stretches.longest))
 }
 
 pub(super) fn beside_path(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
@@ -46,8 +51,8 @@ pub(super) fn beside_path(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence
         Some(near.offset_m.norm())
     };
     let (stretches, mean_m, _) = measured(scan, away_m)?;
-    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
-    Some((format!("You flew {mean_m:.1} m beside the path{place} {time}: fly on the path itself."), stretches.longest))
+    let when = when(scan, Place::of(scan, ids), &stretches);
+    Some((text!(scan.language, "advice-beside-path", mean = format!("{mean_m:.1}"), when = when), stretches.longest))
 }
 
 /// Too far from the surface (`sign` is 1) or too close to it (-1).
@@ -58,11 +63,12 @@ pub(super) fn stand_off(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: 
         (sign * error_m > limit_m).then_some(sign * error_m)
     };
     let (stretches, mean_m, _) = measured(scan, error_m)?;
-    let (place, time, surface) = (in_tasks(scan, ids), how_long(scan, &stretches), surface(scan, &tasks));
+    let (mean, when) = (format!("{mean_m:.1}"), when(scan, Place::of(scan, ids), &stretches));
+    let surface = surface(scan, &tasks);
     let words = if sign > 0.0 {
-        format!("You flew {mean_m:.1} m too far from {surface}{place} {time}: move closer.")
+        text!(scan.language, "advice-too-far", mean = mean, surface = surface, when = when)
     } else {
-        format!("You flew {mean_m:.1} m too close to {surface}{place} {time}: back off.")
+        text!(scan.language, "advice-too-close", mean = mean, surface = surface, when = when)
     };
     Some((words, stretches.longest))
 }
@@ -75,9 +81,13 @@ pub(super) fn height(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: f64
         (sign * error_m > limit_m).then_some(sign * error_m)
     };
     let (stretches, mean_m, _) = measured(scan, error_m)?;
-    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
-    let (side, remedy) = if sign > 0.0 { ("above", "descend to it") } else { ("below", "climb to it") };
-    Some((format!("You flew {mean_m:.1} m {side} the path{place} {time}: {remedy}."), stretches.longest))
+    let (mean, when) = (format!("{mean_m:.1}"), when(scan, Place::of(scan, ids), &stretches));
+    let words = if sign > 0.0 {
+        text!(scan.language, "advice-too-high", mean = mean, when = when)
+    } else {
+        text!(scan.language, "advice-too-low", mean = mean, when = when)
+    };
+    Some((words, stretches.longest))
 }
 
 pub(super) fn speeding(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
@@ -86,8 +96,9 @@ pub(super) fn speeding(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
     let speeds: Vec<f64> = scan.frames().iter().map(Frame::speed_m_s).collect();
     let is_speeding = on_speed::speeding(&speeds, &windows, limit_m_s);
     let (stretches, _, most_m_s) = measured(scan, |frame| is_speeding[frame].then(|| speeds[frame]))?;
-    let (place, time) = (in_tasks(scan, ids), how_long(scan, &stretches));
-    let words = format!("You flew up to {most_m_s:.1} m/s{place}, over the {limit_m_s:.1} m/s limit {time}: slow down.");
+    let Place { kind, tasks } = Place::of(scan, ids);
+    let (most, limit, when) = (format!("{most_m_s:.1}"), format!("{limit_m_s:.1}"), when(scan, Place::none(), &stretches));
+    let words = text!(scan.language, "advice-speeding", most = most, place = kind, tasks = tasks, limit = limit, when = when);
     Some((words, stretches.longest))
 }
 
@@ -99,7 +110,7 @@ pub(super) fn low_clearance(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Senten
         let limit_m = clearance_limit_m(scan.evidence.scenario, near.task);
         scan.frames()[frame].clearance_m.filter(|clearance| *clearance < limit_m)
     };
-    too_close(scan, &in_tasks(scan, ids), limit_m, clearance_m)
+    too_close(scan, Place::of(scan, ids), limit_m, clearance_m)
 }
 
 /// Time below the minimum clearance in the whole session. The limit is that of the last task entered.
@@ -116,15 +127,13 @@ pub(super) fn exposure(scan: &FlightScan<'_>) -> Option<Sentence> {
         let is_home = (now.position_m - team.pad_m).horizontal_norm() <= team.home_radius_m;
         now.clearance_m.filter(|clearance| *clearance < limits_m[frame] && !is_home && !now.missing)
     };
-    too_close(scan, "", scenario.scoring.clearance_m, clearance_m)
+    too_close(scan, Place::none(), scenario.scoring.clearance_m, clearance_m)
 }
 
-fn too_close(scan: &FlightScan<'_>, place: &str, limit_m: f64, clearance_m: impl Fn(usize) -> Option<f64>) -> Option<Sentence> {
+fn too_close(scan: &FlightScan<'_>, place: Place, limit_m: f64, clearance_m: impl Fn(usize) -> Option<f64>) -> Option<Sentence> {
     let (stretches, _, most_m) = measured(scan, |frame| clearance_m(frame).map(|clearance| -clearance))?;
-    let (limit, time, least_m) = (format_limit(limit_m), how_long(scan, &stretches), -most_m);
-    let words = format!(
-        "You were less than {limit} m from the structure{place} {time}, {least_m:.1} m at the closest: keep your distance."
-    );
+    let (limit, least, when) = (format_limit(limit_m), format!("{:.1}", -most_m), when(scan, place, &stretches));
+    let words = text!(scan.language, "advice-low-clearance", limit = limit, when = when, least = least);
     Some((words, stretches.longest))
 }
 
@@ -135,12 +144,15 @@ pub(super) fn reversals(scan: &FlightScan<'_>, ids: &[u32], axes: &[usize]) -> O
     let of = |technique: crate::record::TaskTechnique| {
         if axes == [3] { technique.yaw_reversals_per_min } else { technique.stick_reversals_per_min }
     };
-    let most = per_min.map(of).fold(0.0, f64::max);
+    let most = format!("{:.0}", per_min.map(of).fold(0.0, f64::max));
     let frame = busiest(scan, &tasks, axes)?;
-    let (place, at) = (in_tasks(scan, ids), clock(scan.t_s(frame)));
-    let (sticks, remedy) =
-        if axes == [3] { ("yaw stick", "hold your heading") } else { ("sticks", "make small, smooth corrections") };
-    Some((format!("You reversed the {sticks} up to {most:.0} times a minute{place}, most often from {at}: {remedy}."), frame))
+    let (Place { kind, tasks }, at) = (Place::of(scan, ids), clock(scan.t_s(frame)));
+    let words = if axes == [3] {
+        text!(scan.language, "advice-yaw-reversals", most = most, place = kind, tasks = tasks, at = at)
+    } else {
+        text!(scan.language, "advice-stick-reversals", most = most, place = kind, tasks = tasks, at = at)
+    };
+    Some((words, frame))
 }
 
 /// Returns the first frame of the period with the most stick travel near the tasks' paths.

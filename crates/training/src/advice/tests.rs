@@ -9,7 +9,7 @@ fn rules() -> PlanRules {
 }
 
 fn steps(record: &SessionRecord) -> Vec<PlanStep> {
-    plan(std::slice::from_ref(record), &rules(), record.started_unix_us).unwrap().steps
+    plan(std::slice::from_ref(record), &rules(), record.started_unix_us, Language::English).unwrap().steps
 }
 
 /// Returns a record with faults of many kinds.
@@ -69,11 +69,16 @@ fn exact_one_habit_in_several_tasks_is_one_cause() {
 
 #[test]
 fn exact_flight_without_findings_is_not_praised_falsely() {
-    assert_eq!(no_findings(&perfect_record("anna", 1)), "Nothing to correct: fly the next job.");
+    assert_eq!(no_findings(&perfect_record("anna", 1), Language::English), "Nothing to correct: fly the next job.");
     let mut record = perfect_record("anna", 1);
     (record.certified, record.unmet) = (false, vec!["precision 60, 70 needed".into()]);
-    assert_eq!(no_findings(&record), "No single mistake stands out, but you are not certified yet: precision 60, 70 needed.");
-    assert!(no_findings(&aborted_record("anna", 1)).contains("not finished"));
+    assert_eq!(
+        no_findings(&record, Language::English),
+        "No single mistake stands out, but you are not certified yet: precision 60, 70 needed."
+    );
+    assert!(no_findings(&aborted_record("anna", 1), Language::English).contains("not finished"));
+    let german = no_findings(&record, Language::German);
+    assert_eq!(german, "Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: Präzision 60, 70 nötig.");
     let (rules, steps) = (rules(), steps(&perfect_record("anna", 1)));
     assert!(causes(&steps, &rules).is_empty(), "the job's own step is no cause");
 }

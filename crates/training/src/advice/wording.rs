@@ -1,54 +1,61 @@
-//! Phrases that several sentences share.
+//! Phrases that several sentences share, and the words that select their variants.
 
 use super::flight_scan::{FlightScan, Stretches};
 use crate::time_text::{clock, duration};
 use spandrel_model::scenario::TaskKind;
+use spandrel_text::{Language, text};
 
 /// A sentence and the index of the frame that shows it best.
 pub(super) type Sentence = (String, usize);
 
 /// Joins words as in a sentence: "a", "a and b", "a, b and c".
-pub(super) fn listed(words: &[String]) -> String {
+pub(super) fn listed(words: &[String], language: Language) -> String {
     match words.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        Some((last, rest)) if !rest.is_empty() => {
+            text!(language, "advice-and", first = rest.join(", "), last = last.as_str())
+        }
         Some((last, _)) => last.clone(),
         None => String::new(),
     }
 }
 
-/// Names tasks by number: "task 2", "tasks 1, 2 and 4".
-pub(super) fn tasks(ids: &[u32]) -> String {
-    let numbers: Vec<String> = ids.iter().map(u32::to_string).collect();
-    format!("{} {}", if ids.len() == 1 { "task" } else { "tasks" }, listed(&numbers))
+/// The tasks in which a mistake was made, for a sentence.
+pub(super) struct Place {
+    /// Selects the words: `task` or `tasks`, or `none` if the job has only one task.
+    pub kind: &'static str,
+    /// Task numbers, such as "1, 2 and 4".
+    pub tasks: String,
 }
 
-/// Returns " in task 2"; empty if the job has only one task.
-pub(super) fn in_tasks(scan: &FlightScan<'_>, ids: &[u32]) -> String {
-    if scan.evidence.scenario.tasks.len() == 1 { String::new() } else { format!(" in {}", tasks(ids)) }
-}
+impl Place {
+    /// Returns the place that is not named.
+    pub(super) fn none() -> Self {
+        Self { kind: "none", tasks: String::new() }
+    }
 
-/// Describes how long and when: "for 8 s from 3:12", "for 80 s, longest from 3:12".
-pub(super) fn how_long(scan: &FlightScan<'_>, stretches: &Stretches) -> String {
-    let (time, from) = (duration(stretches.total_s.max(1.0)), clock(scan.t_s(stretches.longest)));
-    if stretches.count == 1 { format!("for {time} from {from}") } else { format!("for {time}, longest from {from}") }
-}
-
-/// Returns a number of times as a word: "once", "twice", "3 times".
-pub(super) fn times(count: usize) -> String {
-    match count {
-        1 => "once".to_owned(),
-        2 => "twice".to_owned(),
-        many => format!("{many} times"),
+    pub(super) fn of(scan: &FlightScan<'_>, ids: &[u32]) -> Self {
+        if scan.evidence.scenario.tasks.len() == 1 {
+            return Self::none();
+        }
+        let numbers: Vec<String> = ids.iter().map(u32::to_string).collect();
+        Self { kind: if ids.len() == 1 { "task" } else { "tasks" }, tasks: listed(&numbers, scan.language) }
     }
 }
 
-/// Names the surface that the tasks inspect.
+/// Describes where, how long and when: "in task 2 for 8 s from 3:12", "for 80 s, longest from 3:12".
+pub(super) fn when(scan: &FlightScan<'_>, place: Place, stretches: &Stretches) -> String {
+    let (time, from) = (duration(stretches.total_s.max(1.0)), clock(scan.t_s(stretches.longest)));
+    let Place { kind, tasks } = place;
+    text!(scan.language, "advice-when", place = kind, tasks = tasks, stretches = stretches.count, time = time, from = from)
+}
+
+/// Names the surface that the tasks inspect: `deck`, `arch`, `pier` or `structure`.
 pub(super) fn surface(scan: &FlightScan<'_>, tasks: &[usize]) -> &'static str {
-    let [task] = tasks else { return "the structure" };
+    let [task] = tasks else { return "structure" };
     match scan.evidence.scenario.tasks[*task].kind {
-        TaskKind::SlabSide => "the deck",
-        TaskKind::ArchBottom => "the arch",
-        TaskKind::PierCircle => "the pier",
-        TaskKind::Interlayer | TaskKind::Free => "the structure",
+        TaskKind::SlabSide => "deck",
+        TaskKind::ArchBottom => "arch",
+        TaskKind::PierCircle => "pier",
+        TaskKind::Interlayer | TaskKind::Free => "structure",
     }
 }

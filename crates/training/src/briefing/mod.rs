@@ -2,19 +2,19 @@
 //! computed from the scenario, the aircraft and the site, so it holds for every job; [`text`] renders it for a terminal, and
 //! `report::page::briefing` as a page.
 
-mod counting;
 mod hazards;
 mod tasks;
 pub mod text;
 
 pub use tasks::TaskBriefing;
 
-use counting::count;
+use crate::terms::scenario_title;
 use serde::Serialize;
 use spandrel_model::scenario::{Scenario, Task, WindModel};
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::score::certification::{job_time, requirements};
+use spandrel_text::{Language, text};
 
 /// The contents of a briefing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,99 +51,116 @@ pub struct SiteBriefing {
 impl SiteBriefing {
     /// Computes the parts. The result does not depend on the seed and the defects of the site.
     #[must_use]
-    pub fn new(scenario: &Scenario, site: &Site) -> Self {
-        let tasks: Vec<TaskBriefing> = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site)).collect();
-        Self { hazards: hazards::hazards(scenario, site, &tasks), site_check: site_check(scenario), tasks }
+    pub fn new(scenario: &Scenario, site: &Site, language: Language) -> Self {
+        let tasks = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site, language));
+        let tasks: Vec<TaskBriefing> = tasks.collect();
+        Self { hazards: hazards::hazards(scenario, site, &tasks, language), site_check: site_check(scenario, language), tasks }
     }
 }
 
 impl Briefing {
     /// Computes the briefing for a job with an aircraft. The result does not depend on the seed of the site.
     #[must_use]
-    pub fn new(scenario: &Scenario, vehicle: &Vehicle, site: &Site) -> Self {
-        let SiteBriefing { tasks, hazards, site_check } = SiteBriefing::new(scenario, site);
+    pub fn new(scenario: &Scenario, vehicle: &Vehicle, site: &Site, language: Language) -> Self {
+        let SiteBriefing { tasks, hazards, site_check } = SiteBriefing::new(scenario, site, language);
         Self {
             job: scenario.name_with_form(),
-            title: scenario.title.clone(),
+            title: scenario_title(&scenario.name, &scenario.title, language),
             notes: scenario.briefing.clone(),
             tasks,
-            conditions: conditions(scenario, vehicle),
+            conditions: conditions(scenario, vehicle, language),
             hazards,
-            counts: counts(scenario),
+            counts: counts(scenario, language),
             site_check,
         }
     }
 }
 
-fn conditions(scenario: &Scenario, vehicle: &Vehicle) -> Vec<(String, String)> {
-    let length_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
-    let needed_s = job_time::job_needed_s(scenario);
-    let scoring = &scenario.scoring;
+fn conditions(scenario: &Scenario, vehicle: &Vehicle, language: Language) -> Vec<(String, String)> {
     let mut rows = vec![
-        ("aircraft", vehicle.name.clone()),
-        ("tasks", format!("{}, {length_m:.0} m of path", scenario.tasks.len())),
-        ("time", format!("about {:.0} min needed, {:.0} min allowed", needed_s / 60.0, scoring.time_max_s / 60.0)),
-        (
-            "speed",
-            format!(
-                "{:.1} m/s for inspection, limit {}",
-                scenario.certification.inspection_speed_m_s,
-                scoring.speed_limit_unit.format_limit(scoring.speed_limit_m_s)
-            ),
-        ),
-        ("defects", if scenario.defects.count == 0 { "none".to_owned() } else { format!("{} to find", scenario.defects.count) }),
-        ("wind", wind_words(scenario)),
-        ("sky", format!("{:.0}% clouds", 100.0 * scenario.light.cloud_cover)),
-        ("traffic", traffic_words(scenario)),
+        (text!(language, "briefing-aircraft"), vehicle.name.clone()),
+        (text!(language, "briefing-tasks"), tasks_words(scenario, language)),
+        (text!(language, "briefing-time"), time_words(scenario, language)),
+        (text!(language, "briefing-speed"), speed_words(scenario, language)),
+        (text!(language, "briefing-defects"), defects_words(scenario, language)),
+        (text!(language, "briefing-wind"), wind_words(scenario, language)),
+        (text!(language, "briefing-sky"), clouds_words(scenario, language)),
+        (text!(language, "briefing-traffic"), traffic_words(scenario, language)),
     ];
     rows.retain(|(_, value)| !value.is_empty());
-    rows.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    rows
 }
 
-fn wind_words(scenario: &Scenario) -> String {
+fn tasks_words(scenario: &Scenario, language: Language) -> String {
+    let length_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
+    let (tasks, length) = (scenario.tasks.len().to_string(), format!("{length_m:.0}"));
+    text!(language, "briefing-tasks-and-length", tasks = tasks, length = length)
+}
+
+fn time_words(scenario: &Scenario, language: Language) -> String {
+    let minutes = |time_s: f64| format!("{:.0}", time_s / 60.0);
+    let (needed, allowed) = (minutes(job_time::job_needed_s(scenario)), minutes(scenario.scoring.time_max_s));
+    text!(language, "briefing-time-needed", needed = needed, allowed = allowed)
+}
+
+fn speed_words(scenario: &Scenario, language: Language) -> String {
+    let scoring = &scenario.scoring;
+    let speed = format!("{:.1}", scenario.certification.inspection_speed_m_s);
+    let limit = scoring.speed_limit_unit.format_limit(scoring.speed_limit_m_s);
+    text!(language, "briefing-speed-limit", speed = speed, limit = limit)
+}
+
+fn defects_words(scenario: &Scenario, language: Language) -> String {
+    match scenario.defects.count {
+        0 => text!(language, "briefing-no-defects"),
+        count => text!(language, "briefing-defects-to-find", count = count.to_string()),
+    }
+}
+
+fn wind_words(scenario: &Scenario, language: Language) -> String {
     let wind = &scenario.wind;
-    match wind.model {
-        WindModel::Paper => format!("{:.1} N from {:.0}°", wind.paper_force_n, wind.from_deg),
-        WindModel::Physical if wind.speed_m_s < 0.05 => "calm".to_owned(),
-        WindModel::Physical => format!("{:.1} m/s from {:.0}°", wind.speed_m_s, wind.from_deg),
-    }
+    let strength = match wind.model {
+        WindModel::Physical if wind.speed_m_s < 0.05 => return text!(language, "briefing-calm"),
+        WindModel::Physical => format!("{:.1} m/s", wind.speed_m_s),
+        WindModel::Paper => format!("{:.1} N", wind.paper_force_n),
+    };
+    text!(language, "briefing-wind-from", wind = strength, bearing = format!("{:.0}", wind.from_deg))
 }
 
-fn traffic_words(scenario: &Scenario) -> String {
+fn clouds_words(scenario: &Scenario, language: Language) -> String {
+    text!(language, "briefing-clouds", share = format!("{:.0}", 100.0 * scenario.light.cloud_cover))
+}
+
+fn traffic_words(scenario: &Scenario, language: Language) -> String {
     let traffic = &scenario.traffic;
-    let kinds = [(traffic.cars, "car"), (traffic.trucks, "truck"), (traffic.pedestrians, "pedestrian")];
-    let present: Vec<String> =
-        kinds.into_iter().filter(|(number, _)| *number > 0).map(|(number, what)| count(number, what)).collect();
-    present.join(", ")
+    let cars = (traffic.cars > 0).then(|| text!(language, "briefing-cars", count = traffic.cars));
+    let trucks = (traffic.trucks > 0).then(|| text!(language, "briefing-trucks", count = traffic.trucks));
+    let pedestrians = (traffic.pedestrians > 0).then(|| text!(language, "briefing-pedestrians", count = traffic.pedestrians));
+    [cars, trucks, pedestrians].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-fn counts(scenario: &Scenario) -> Vec<String> {
-    let mut lines = vec![
-        "Conformity: stay on the path, and below the speed limit while you are on it.".to_owned(),
-        "Efficiency: land before the time is over and before the battery is empty.".to_owned(),
-        "Safety: touch nothing. A person or a vehicle that is hit ends the session.".to_owned(),
-    ];
+fn counts(scenario: &Scenario, language: Language) -> Vec<String> {
+    let mut lines =
+        vec![text!(language, "briefing-conformity"), text!(language, "briefing-efficiency"), text!(language, "briefing-safety")];
     if scenario.defects.count > 0 {
-        lines.push("Accuracy: photograph every defect once, near the middle of the picture, and nothing else.".to_owned());
+        lines.push(text!(language, "briefing-accuracy"));
     }
-    lines.extend(requirements::describe(scenario).into_iter().map(|line| format!("To be certified: {line}.")));
+    let requirements = requirements::describe(scenario, language);
+    lines.extend(requirements.into_iter().map(|line| text!(language, "briefing-to-be-certified", requirement = line)));
     lines
 }
 
-fn site_check(scenario: &Scenario) -> Vec<String> {
+fn site_check(scenario: &Scenario, language: Language) -> Vec<String> {
     let team = &scenario.ground_team;
     let [east, north, _] = (team.pad_m - team.inspector_m).array();
-    let away_m = (east * east + north * north).sqrt();
+    let away = format!("{:.0}", (east * east + north * north).sqrt());
+    let radius = format!("{:.0}", team.home_radius_m);
+    let least = format!("{:.0}", scenario.certification.min_battery_pct);
+    let low = format!("{:.0}", scenario.rules.low_battery_pct);
     vec![
-        "Risk: I know the hazards, and I stop if somebody enters the flight area.".to_owned(),
-        format!(
-            "Battery: full. I land with at least {:.0}%, and fly home at the low-battery warning ({:.0}%).",
-            scenario.certification.min_battery_pct, scenario.rules.low_battery_pct
-        ),
-        format!(
-            "Landing place: the pad, {away_m:.0} m from the inspector. Landings within {:.0} m of it count as home.",
-            team.home_radius_m
-        ),
+        text!(language, "briefing-check-risk"),
+        text!(language, "briefing-check-battery", least = least, low = low),
+        text!(language, "briefing-check-landing", away = away, radius = radius),
     ]
 }
 

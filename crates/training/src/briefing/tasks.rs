@@ -1,10 +1,12 @@
 //! What the briefing says about each task.
 
+use crate::terms::task_title;
 use serde::Serialize;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::{Scenario, Task, TaskKind};
 use spandrel_model::site::Site;
+use spandrel_text::{Language, text};
 
 /// Shortest distance between the ends of a path that gives it a direction, m (estimate).
 const MIN_DIRECTED_M: f64 = 2.0;
@@ -36,19 +38,14 @@ pub struct TaskBriefing {
 const MAX_CLEARANCE_M: f64 = 10.0;
 
 impl TaskBriefing {
-    pub(super) fn new(task: &Task, scenario: &Scenario, site: &Site) -> Self {
+    pub(super) fn new(task: &Task, scenario: &Scenario, site: &Site, language: Language) -> Self {
         let pad_up_m = scenario.ground_team.pad_m.up();
         let heights_m = task.path_m.iter().map(|point| point.up() - pad_up_m);
         let (low_m, high_m) = heights_m.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), up| (low.min(up), high.max(up)));
-        let bridge = task.bridge.map_or_else(String::new, |bridge| format!(" of bridge '{}'", scenario.bridges[bridge].name));
         Self {
             id: task.id,
-            name: task.name.clone(),
-            place: if task.is_hold_position() {
-                "hover at one place".to_owned()
-            } else {
-                format!("{}{bridge}{}", place_words(task.kind), direction_words(task))
-            },
+            name: task_title(&scenario.name, &task.name, language),
+            place: place(task, scenario, language),
             length_m: task.length_m(),
             heights_m: (low_m, high_m),
             stand_off_m: task.stand_off.as_ref().map(|stand_off| (stand_off.recommended_m, stand_off.tolerance_m)),
@@ -59,35 +56,56 @@ impl TaskBriefing {
     }
 }
 
-fn place_words(kind: TaskKind) -> &'static str {
-    match kind {
-        TaskKind::SlabSide => "along the edge of the deck",
-        TaskKind::ArchBottom => "under the arch",
-        TaskKind::Interlayer => "between the arch and the deck",
-        TaskKind::PierCircle => "around the pier",
-        TaskKind::Free => "along the free path",
+/// Describes where a task is flown, and in which direction.
+fn place(task: &Task, scenario: &Scenario, language: Language) -> String {
+    if task.is_hold_position() {
+        return text!(language, "briefing-hover");
+    }
+    let kind = match task.kind {
+        TaskKind::SlabSide => "slab",
+        TaskKind::ArchBottom => "arch",
+        TaskKind::Interlayer => "interlayer",
+        TaskKind::PierCircle => "pier",
+        TaskKind::Free => "free",
+    };
+    let bridge = task.bridge.map_or("", |bridge| scenario.bridges[bridge].name.as_str());
+    let named = if task.bridge.is_some() { "yes" } else { "no" };
+    let place = text!(language, "briefing-place", kind = kind, named = named, bridge = bridge);
+    match way(task, language) {
+        Some(way) => text!(language, "briefing-place-and-way", place = place, way = way),
+        None => place,
     }
 }
 
-fn direction_words(task: &Task) -> String {
+/// Describes the direction of a task's path; `None` for a task without a path.
+fn way(task: &Task, language: Language) -> Option<String> {
     if task.closed {
-        return ", once around, in either direction".to_owned();
+        return Some(text!(language, "briefing-way-loop"));
     }
-    let (Some(first), Some(last)) = (task.path_m.first(), task.path_m.last()) else { return String::new() };
+    let (first, last) = task.path_m.first().zip(task.path_m.last())?;
     let way = *last - *first;
-    if way.norm() < MIN_DIRECTED_M {
-        return ", ending where it starts".to_owned();
-    }
-    if way.horizontal_norm() < MIN_DIRECTED_M {
-        return format!(", {}", if way.up() > 0.0 { "from bottom to top" } else { "from top to bottom" });
-    }
-    let (from, to) = (compass(*first - *last), compass(way));
-    format!(", from {from} to {to}")
+    Some(if way.norm() < MIN_DIRECTED_M {
+        text!(language, "briefing-way-back")
+    } else if way.horizontal_norm() >= MIN_DIRECTED_M {
+        text!(language, "briefing-way", from = compass(*first - *last, language), to = compass(way, language))
+    } else if way.up() > 0.0 {
+        text!(language, "briefing-way-up")
+    } else {
+        text!(language, "briefing-way-down")
+    })
 }
 
 /// Returns the nearest of eight compass directions.
-fn compass(way: Vec3<Enu>) -> &'static str {
-    const NAMES: [&str; 8] = ["north", "northeast", "east", "southeast", "south", "southwest", "west", "northwest"];
+fn compass(way: Vec3<Enu>, language: Language) -> String {
     let turns = math::atan2(way.east(), way.north()) / (2.0 * math::PI);
-    NAMES[(8.0 * turns).round().rem_euclid(8.0) as usize % 8]
+    match (8.0 * turns).round().rem_euclid(8.0) as usize % 8 {
+        0 => text!(language, "briefing-north"),
+        1 => text!(language, "briefing-northeast"),
+        2 => text!(language, "briefing-east"),
+        3 => text!(language, "briefing-southeast"),
+        4 => text!(language, "briefing-south"),
+        5 => text!(language, "briefing-southwest"),
+        6 => text!(language, "briefing-west"),
+        _ => text!(language, "briefing-northwest"),
+    }
 }

@@ -4,9 +4,13 @@ use super::*;
 use spandrel_model::{scenario, shipped, vehicle};
 
 fn briefing(text: &str) -> Briefing {
+    briefing_in(text, Language::English)
+}
+
+fn briefing_in(text: &str, language: Language) -> Briefing {
     let scenario = scenario::read("job.toml", text, &|file| Err(file.to_owned())).unwrap();
     let vehicle = vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap();
-    Briefing::new(&scenario, &vehicle, &Site::build(&scenario, 0))
+    Briefing::new(&scenario, &vehicle, &Site::build(&scenario, 0), language)
 }
 
 #[test]
@@ -45,4 +49,22 @@ fn exact_the_instructors_words_come_first() {
     assert_eq!(briefing.notes, ["Meet at the gate.", "Bring a vest."]);
     let shown = text::render(&briefing);
     assert!(shown.find("Meet at the gate.") < shown.find("Tasks, in this order"), "{shown}");
+}
+
+#[test]
+fn exact_briefing_is_in_the_language_of_the_page() {
+    let shown = |briefing: &Briefing| {
+        let numbers = |task: &TaskBriefing, language| format!("{} {}", task.place, text::task_numbers(task, language));
+        let tasks = briefing.tasks.iter().map(|task| numbers(task, Language::Pseudo));
+        let lines = briefing.hazards.iter().chain(&briefing.counts).chain(&briefing.site_check).cloned();
+        let names = briefing.conditions.iter().map(|(name, _)| name.clone()).chain([briefing.title.clone()]);
+        tasks.chain(lines).chain(names).collect::<Vec<_>>().join("\n")
+    };
+    let german = shown(&briefing_in(shipped::TWO_BRIDGES, Language::German));
+    assert!(german.contains("einmal herum, in beliebiger Richtung") && german.contains("Für die Zertifizierung: "), "{german}");
+    let words = shown(&briefing_in(shipped::TWO_BRIDGES, Language::Pseudo));
+    // Units and the names of the bridges.
+    let kept = ["m", "m/s", "N", "px", "mm/px", "'arch'", "'suspension'"];
+    let left = |word: &&str| word.chars().any(|c| c.is_ascii_alphabetic()) && !kept.contains(&word.trim_matches([',', '.']));
+    assert_eq!(words.split_whitespace().find(left), None, "{words}");
 }

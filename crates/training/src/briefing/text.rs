@@ -1,6 +1,7 @@
-//! The briefing as plain text, for a terminal.
+//! The briefing as plain English text, for a terminal.
 
 use super::{Briefing, TaskBriefing};
+use spandrel_text::{Language, text};
 use std::fmt::Write as _;
 
 /// Maximum line length, characters.
@@ -32,7 +33,7 @@ pub fn render(briefing: &Briefing) -> String {
     }
     for task in &briefing.tasks {
         put(&format!("{}  {}: {}", task.id, task.name, task.place), "  ");
-        put(&task_numbers(task), "     ");
+        put(&task_numbers(task, Language::English), "     ");
     }
     let lists = [("Hazards", &briefing.hazards), ("What counts", &briefing.counts), ("Site check", &briefing.site_check)];
     for (heading, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
@@ -47,21 +48,29 @@ pub fn render(briefing: &Briefing) -> String {
 
 /// Returns a task's numbers, such as "152 m long, 12 to 24 m above the pad, stand-off 5 ± 1.5 m, lamp needed".
 #[must_use]
-pub fn task_numbers(task: &TaskBriefing) -> String {
+pub fn task_numbers(task: &TaskBriefing, language: Language) -> String {
     let (low_m, high_m) = task.heights_m;
-    let height = if high_m - low_m < 1.0 {
-        format!("{:.0} m {} the pad", high_m.abs(), if high_m < 0.0 { "below" } else { "above" })
-    } else {
-        format!("{low_m:.0} to {high_m:.0} m above the pad")
-    };
-    let mut parts = if task.length_m < 1.0 { Vec::new() } else { vec![format!("{:.0} m long", task.length_m)] };
-    parts.push(height);
-    match task.stand_off_m {
-        Some((recommended_m, tolerance_m)) => parts.push(format!("stand-off {recommended_m:.1} ± {tolerance_m:.1} m")),
-        None => parts.push(format!("within {:.1} m of the path", task.threshold_m)),
+    let mut parts = Vec::new();
+    if task.length_m >= 1.0 {
+        parts.push(text!(language, "briefing-length", length = format!("{:.0}", task.length_m)));
     }
+    let height = format!("{:.0}", high_m.abs());
+    parts.push(if high_m - low_m >= 1.0 {
+        text!(language, "briefing-heights", low = format!("{low_m:.0}"), high = format!("{high_m:.0}"))
+    } else if high_m < 0.0 {
+        text!(language, "briefing-height-below", height = height)
+    } else {
+        text!(language, "briefing-height-above", height = height)
+    });
+    parts.push(match task.stand_off_m {
+        Some((recommended_m, tolerance_m)) => {
+            let (distance, tolerance) = (format!("{recommended_m:.1}"), format!("{tolerance_m:.1}"));
+            text!(language, "briefing-stand-off", distance = distance, tolerance = tolerance)
+        }
+        None => text!(language, "briefing-within", distance = format!("{:.1}", task.threshold_m)),
+    });
     if task.lamp {
-        parts.push("lamp needed".to_owned());
+        parts.push(text!(language, "briefing-lamp-needed"));
     }
     parts.join(", ")
 }

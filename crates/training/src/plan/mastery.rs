@@ -6,6 +6,7 @@ use super::staircase::{self, LevelAdvice, StaircaseSession};
 use super::wording::limit_words;
 use crate::record::{SessionLevel, SessionOutcome, SessionRecord};
 use serde::Serialize;
+use spandrel_text::{Language, text};
 
 /// A trainee's progress on one drill.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,7 +28,7 @@ pub struct DrillProgress {
     /// Start of the latest session of this drill, µs since the Unix epoch; absent if it was never flown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_unix_us: Option<u64>,
-    /// The criterion as text.
+    /// The criterion as text, in the language of the plan.
     pub criterion: String,
     /// Difficulty level of the next session; absent if the drill has no levels or difficulty does not adapt.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -35,25 +36,30 @@ pub struct DrillProgress {
 }
 
 impl DrillProgress {
-    /// Describes the progress, such as "1 of the last 2 sessions met the criterion; done after 2 of 3".
+    /// Describes the progress in the language of the plan, such as "1 of the last 2 sessions met the criterion; done after 2 of 3".
     #[must_use]
-    pub fn words(&self) -> String {
-        let counted = self.counted;
-        let state = match (self.done, counted) {
-            (true, _) => format!("done: {} of the last {counted} sessions met the criterion", self.met),
+    pub fn words(&self, language: Language) -> String {
+        let [met, counted, needed, of] = [self.met, self.counted, self.needed, self.of].map(|count| count.to_string());
+        let criterion = self.criterion.as_str();
+        match (self.done, self.counted) {
+            (true, _) => text!(language, "plan-drill-done", met = met, counted = counted, criterion = criterion),
             (false, 0) if self.sessions > 0 => {
-                format!("no session at the standard level yet; done after {} of {} at the criterion", self.needed, self.of)
+                text!(language, "plan-drill-not-at-standard", needed = needed, of = of, criterion = criterion)
             }
-            (false, 0) => format!("not flown yet; done after {} of {} sessions at the criterion", self.needed, self.of),
-            (false, 1) => format!("{} of 1 session met the criterion; done after {} of {}", self.met, self.needed, self.of),
-            (false, _) => {
-                format!(
-                    "{} of the last {counted} sessions met the criterion; done after {} of {}",
-                    self.met, self.needed, self.of
-                )
+            (false, 0) => text!(language, "plan-drill-not-flown", needed = needed, of = of, criterion = criterion),
+            (false, 1) => {
+                text!(language, "plan-drill-one-session", met = met, needed = needed, of = of, criterion = criterion)
             }
-        };
-        format!("{state} ({})", self.criterion)
+            (false, _) => text!(
+                language,
+                "plan-drill-sessions",
+                met = met,
+                counted = counted,
+                needed = needed,
+                of = of,
+                criterion = criterion
+            ),
+        }
     }
 }
 
@@ -67,18 +73,19 @@ pub fn meets_criterion(record: &SessionRecord, drill: &DrillCriterion) -> bool {
 /// Returns the progress on every drill of the rules, from all of a trainee's sessions in chronological order. Incomplete
 /// sessions do not meet the criterion, and sessions that were frozen or rewound do not count.
 #[must_use]
-pub fn progress(records: &[SessionRecord], rules: &PlanRules) -> Vec<DrillProgress> {
-    rules.drills.iter().map(|drill| progress_on(records, drill, rules)).collect()
+pub fn progress(records: &[SessionRecord], rules: &PlanRules, language: Language) -> Vec<DrillProgress> {
+    rules.drills.iter().map(|drill| progress_on(records, drill, rules, language)).collect()
 }
 
-fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRules) -> DrillProgress {
+fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRules, language: Language) -> DrillProgress {
     let flown: Vec<&SessionRecord> = records.iter().filter(|record| record.scenario == drill.scenario).collect();
     let unaided: Vec<&SessionRecord> = flown.iter().copied().filter(|record| record.is_unaided()).collect();
     let results: Vec<bool> = unaided.iter().filter_map(|record| result_at_standard_level(record, drill)).collect();
     let latest = &results[results.len().saturating_sub(rules.mastery_of)..];
     let met = latest.iter().filter(|met| **met).count();
-    let standard = drill.difficulty.as_ref().map(|difficulty| format!("level {} or harder", difficulty.standard));
-    let limits: Vec<String> = drill.limits.iter().map(limit_words).chain(standard).collect();
+    let or_harder = |level: u8| text!(language, "plan-level-or-harder", level = level.to_string());
+    let standard = drill.difficulty.as_ref().map(|difficulty| or_harder(difficulty.standard));
+    let limits: Vec<String> = drill.limits.iter().map(|limit| limit_words(limit, language)).chain(standard).collect();
     DrillProgress {
         scenario: drill.scenario.clone(),
         sessions: flown.len(),
@@ -88,18 +95,18 @@ fn progress_on(records: &[SessionRecord], drill: &DrillCriterion, rules: &PlanRu
         of: rules.mastery_of,
         done: met >= rules.mastery_needed,
         last_unix_us: flown.last().map(|record| record.started_unix_us),
-        criterion: format!("complete, {}", limits.join(", ")),
-        next_level: next_level(&unaided, drill, rules),
+        criterion: text!(language, "plan-criterion", limits = limits.join(", ")),
+        next_level: next_level(&unaided, drill, rules, language),
     }
 }
 
 /// Returns the level of the drill's next session; `None` if the drill has no levels or difficulty does not adapt.
-fn next_level(flown: &[&SessionRecord], drill: &DrillCriterion, rules: &PlanRules) -> Option<LevelAdvice> {
+fn next_level(flown: &[&SessionRecord], drill: &DrillCriterion, rules: &PlanRules, language: Language) -> Option<LevelAdvice> {
     let (difficulty, rule) = (drill.difficulty.as_ref()?, rules.staircase.as_ref()?);
     // A session without a level was flown before the drill had levels, with the values of the standard level.
     let level = |record: &SessionRecord| record.level.map_or(difficulty.standard, |level| level.level);
     let session = |record: &&SessionRecord| StaircaseSession { level: level(record), met: meets_criterion(record, drill) };
-    Some(staircase::advice(&flown.iter().map(session).collect::<Vec<_>>(), difficulty, rule))
+    Some(staircase::advice(&flown.iter().map(session).collect::<Vec<_>>(), difficulty, rule, language))
 }
 
 /// Returns whether a session met the criterion; `None` if it says nothing about the standard level, because an easier level was

@@ -3,6 +3,7 @@
 
 mod causes;
 mod changes;
+mod default_reasons;
 mod finding;
 mod mastery;
 mod measure;
@@ -12,7 +13,7 @@ mod wording;
 
 pub(crate) use finding::{BATTERY_RESERVE_PCT, MIN_SEVERE_CONDITION_STATE};
 
-pub use changes::{MeasureChange, SessionChanges};
+pub use changes::{ChangedMeasure, MeasureChange, SessionChanges};
 pub use mastery::{DrillProgress, meets_criterion};
 pub use measure::{MEASURES, MeasureUnit, RuleMeasure, SessionMeasure, TaskMeasure};
 pub use rules::{DEFAULT_RULES, DrillCriterion, PlanRule, PlanRules, StaircaseRule, read_rules};
@@ -22,6 +23,7 @@ use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
 use causes::RankedFinding;
 use finding::Finding;
 use serde::Serialize;
+use spandrel_text::{Language, text};
 
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
@@ -96,10 +98,10 @@ impl PlanStep {
     }
 }
 
-/// Creates a plan from one trainee's records in chronological order; `None` if there are no records.
+/// Creates a plan in a language from one trainee's records in chronological order; `None` if there are no records.
 #[must_use]
-pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64) -> Option<TrainingPlan> {
-    plan_from(records, mastery::progress(records, rules), rules, now_unix_us)
+pub fn plan(records: &[SessionRecord], rules: &PlanRules, now_unix_us: u64, language: Language) -> Option<TrainingPlan> {
+    plan_from(records, mastery::progress(records, rules, language), rules, now_unix_us, language)
 }
 
 /// Creates a plan from the records that count and the progress on the drills.
@@ -108,18 +110,19 @@ fn plan_from(
     mut drills: Vec<DrillProgress>,
     rules: &PlanRules,
     now_unix_us: u64,
+    language: Language,
 ) -> Option<TrainingPlan> {
     let last = records.last()?;
-    let mut steps = recommended_steps(records, &drills, rules);
-    add_begun_drills(&mut steps, &drills, last);
+    let mut steps = recommended_steps(records, &drills, rules, language);
+    add_begun_drills(&mut steps, &drills, last, language);
     steps.truncate(rules.steps);
     let days = now_unix_us.saturating_sub(last.started_unix_us) as f64 / DAY_US;
     let overdue = days > rules.retention_days;
     if overdue {
-        let words = rules.retention_reason.replace("{value}", &format!("{days:.0}"));
+        let words = retention_words(rules, days, language);
         steps.insert(0, single_reason_step(&rules.retention_scenario, last, ("retention", words), (days, rules.retention_days)));
     } else if steps.is_empty() {
-        steps.push(single_reason_step(&rules.job, last, ("job", rules.job_reason.clone()), (0.0, 0.0)));
+        steps.push(single_reason_step(&rules.job, last, ("job", job_words(rules, language)), (0.0, 0.0)));
     }
     drills.retain(|drill| drill.sessions > 0 || steps.iter().any(|step| step.scenario == drill.scenario));
     for step in &mut steps {
@@ -140,7 +143,7 @@ fn plan_from(
     })
 }
 
-/// Creates a plan from the sessions that the policy allows and from the latest session, which always counts: even an
+/// Creates a plan in a language from the sessions that the policy allows and from the latest session, which always counts: even an
 /// incomplete flight shows which paths were not flown, and how the others were. An incomplete session that the policy
 /// excludes is never compared with others.
 #[must_use]
@@ -149,27 +152,30 @@ pub fn plan_for_policy(
     incomplete: IncompletePolicy,
     rules: &PlanRules,
     now_unix_us: u64,
+    language: Language,
 ) -> Option<TrainingPlan> {
     let newest = records.last()?.clone();
     // An attempt that was broken off is a session in which the criterion was not met.
-    let drills = mastery::progress(&records, rules);
+    let drills = mastery::progress(&records, rules, language);
     let all = records.len();
     records.retain(|record| incomplete.counts(record) || record.id == newest.id);
     let left_out = all - records.len();
-    let plan = plan_from(&records, drills, rules, now_unix_us)?;
+    let plan = plan_from(&records, drills, rules, now_unix_us, language)?;
     if incomplete.counts(&newest) {
         return Some(TrainingPlan { left_out, ..plan });
     }
-    let note = format!(
-        "The latest session counts although it is not complete ({}). It is not compared with other sessions.",
-        newest.completion_summary()
-    );
+    let note = text!(language, "plan-latest-incomplete", completion = newest.completion_summary(language));
     Some(TrainingPlan { left_out, changes: None, note: Some(note), ..plan })
 }
 
 /// Returns the scenarios that the rules recommend, most urgent first, except drills that were done after the flight that
 /// calls for them.
-fn recommended_steps(records: &[SessionRecord], drills: &[DrillProgress], rules: &PlanRules) -> Vec<PlanStep> {
+fn recommended_steps(
+    records: &[SessionRecord],
+    drills: &[DrillProgress],
+    rules: &PlanRules,
+    language: Language,
+) -> Vec<PlanStep> {
     let findings = rules.rules.iter().flat_map(|rule| finding::findings(rule, records));
     let ranked = causes::rank(findings.filter(|finding| finding.value > finding.rule.limit).collect());
     let mut steps: Vec<PlanStep> = Vec::new();
@@ -178,7 +184,8 @@ fn recommended_steps(records: &[SessionRecord], drills: &[DrillProgress], rules:
     for one in causes.into_iter().chain(effects) {
         let cause = one.cause.map(|index| ranked[index].finding.rule);
         let scenario = &cause.unwrap_or(one.finding.rule).scenario;
-        add(&mut steps, scenario, one.urgency, reason(&one.finding, cause.map(|rule| rule.name.clone())));
+        let reason = reason(&one.finding, cause.map(|rule| rule.name.clone()), language);
+        add(&mut steps, scenario, one.urgency, reason);
     }
     steps.sort_by(|a, b| b.urgency.total_cmp(&a.urgency));
     let least = steps.first().map_or(0.0, |first| rules.focus * first.urgency);
@@ -193,12 +200,12 @@ fn is_answered(finding: &Finding<'_>, drills: &[DrillProgress]) -> bool {
 }
 
 /// Adds the drills that were begun but are not done, with less urgency than any finding.
-fn add_begun_drills(steps: &mut Vec<PlanStep>, drills: &[DrillProgress], last: &SessionRecord) {
+fn add_begun_drills(steps: &mut Vec<PlanStep>, drills: &[DrillProgress], last: &SessionRecord, language: Language) {
     for drill in drills.iter().filter(|drill| drill.sessions > 0 && !drill.done) {
         let reason = PlanReason {
             rule: "mastery".to_owned(),
             session: last.id.clone(),
-            words: format!("This drill is not done yet: {}.", drill.words()),
+            words: text!(language, "plan-drill-open", progress = drill.words(language)),
             value: drill.met as f64,
             limit: drill.needed as f64,
             tasks: Vec::new(),
@@ -218,16 +225,30 @@ fn add(steps: &mut Vec<PlanStep>, scenario: &str, urgency: f64, reason: PlanReas
     }
 }
 
-fn reason(finding: &Finding<'_>, consequence_of: Option<String>) -> PlanReason {
+fn reason(finding: &Finding<'_>, consequence_of: Option<String>, language: Language) -> PlanReason {
     PlanReason {
         rule: finding.rule.name.clone(),
         session: finding.record.id.clone(),
-        words: wording::words(finding),
+        words: wording::words(finding, language),
         value: finding.value,
         limit: finding.rule.limit,
         tasks: finding.tasks_over_limit(),
         consequence_of,
     }
+}
+
+/// Returns the reason for a flight after a long break. A reason other than the default one stays in its language.
+fn retention_words(rules: &PlanRules, days: f64, language: Language) -> String {
+    let days = format!("{days:.0}");
+    let own = rules.retention_reason.replace("{value}", &days);
+    let of = |language| text!(language, "plan-retention", days = days.as_str());
+    if of(Language::English) == own { of(language) } else { own }
+}
+
+/// Returns the reason for flying the whole job. A reason other than the default one stays in its language.
+fn job_words(rules: &PlanRules, language: Language) -> String {
+    let of = |language| text!(language, "plan-job");
+    if of(Language::English) == rules.job_reason { of(language) } else { rules.job_reason.clone() }
 }
 
 fn single_reason_step(

@@ -3,6 +3,7 @@
 use super::rules::StaircaseRule;
 use serde::Serialize;
 use spandrel_model::scenario::Difficulty;
+use spandrel_text::{Language, text};
 
 /// Recommended difficulty level of a drill.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -53,34 +54,47 @@ pub(super) fn decides(session: StaircaseSession, level: u8) -> bool {
 }
 
 /// Returns the level of a drill's next session and the reason, from its sessions in chronological order.
-pub(super) fn advice(sessions: &[StaircaseSession], difficulty: &Difficulty, rule: &StaircaseRule) -> LevelAdvice {
+pub(super) fn advice(
+    sessions: &[StaircaseSession],
+    difficulty: &Difficulty,
+    rule: &StaircaseRule,
+    language: Language,
+) -> LevelAdvice {
     let level = rule.level_after(sessions, difficulty.standard, difficulty.levels());
     let reason = match sessions.split_last() {
-        None => "start at this level".to_owned(),
+        None => text!(language, "plan-level-start"),
         Some((last, earlier)) => {
             let before = rule.level_after(earlier, difficulty.standard, difficulty.levels());
-            reason(*last, (!earlier.is_empty()).then_some(before))
+            reason(*last, (!earlier.is_empty()).then_some(before), language)
         }
     };
-    describe(difficulty, level, &reason)
+    describe(difficulty, level, reason, language)
 }
 
 /// Explains how the last session moved the recommendation. `before` is the level that was recommended for it; `None` for the
 /// first session.
-fn reason(last: StaircaseSession, before: Option<u8>) -> String {
+fn reason(last: StaircaseSession, before: Option<u8>, language: Language) -> String {
     let StaircaseSession { level, met } = last;
-    let result = if met { "met" } else { "did not meet" };
-    let result = format!("the last session {result} the criterion at level {level}");
-    match before.filter(|before| !decides(last, *before)) {
-        None => result,
-        Some(_) if met => format!("{result}, which is easier than recommended"),
-        Some(_) => format!("{result}, which is harder than recommended"),
+    let decided = before.is_none_or(|before| decides(last, before));
+    let level = level.to_string();
+    match (met, decided) {
+        (true, true) => text!(language, "plan-level-met", level = level),
+        (false, true) => text!(language, "plan-level-not-met", level = level),
+        (true, false) => text!(language, "plan-level-met-easier", level = level),
+        (false, false) => text!(language, "plan-level-not-met-harder", level = level),
     }
 }
 
-fn describe(difficulty: &Difficulty, level: u8, reason: &str) -> LevelAdvice {
+fn describe(difficulty: &Difficulty, level: u8, reason: String, language: Language) -> LevelAdvice {
     let (levels, settings) = (difficulty.levels(), difficulty.settings_at(level).to_owned());
-    let words = format!("Level {level} of {levels} ({settings}): {reason}.");
+    let words = text!(
+        language,
+        "plan-level",
+        level = level.to_string(),
+        levels = levels.to_string(),
+        settings = settings.as_str(),
+        reason = reason
+    );
     LevelAdvice { level, levels, standard: difficulty.standard, settings, words }
 }
 
@@ -193,7 +207,7 @@ mod tests {
         let words = |sessions: &str| {
             let sessions = parse(sessions);
             let (last, earlier) = sessions.split_last().unwrap();
-            reason(*last, (!earlier.is_empty()).then(|| shipped().level_after(earlier, STANDARD, LEVELS)))
+            reason(*last, (!earlier.is_empty()).then(|| shipped().level_after(earlier, STANDARD, LEVELS)), Language::English)
         };
         assert_eq!(words("5+"), "the last session met the criterion at level 5");
         assert_eq!(words("5+ 6-"), "the last session did not meet the criterion at level 6");

@@ -118,7 +118,7 @@ fn reason_of<'a>(plan: &'a TrainingPlan, rule: &str) -> Option<(&'a PlanStep, &'
 fn exact_shipped_rules_apply_only_above_their_limit() {
     let rules = PlanRules { steps: 20, focus: 0.0, ..rules() };
     for rule in &rules.rules {
-        let of = |factor: f64| plan(&[record_with_measure(rule, factor)], &rules, NOW).unwrap();
+        let of = |factor: f64| plan(&[record_with_measure(rule, factor)], &rules, NOW, Language::English).unwrap();
         let plan = of(1.2);
         let (step, reason) = reason_of(&plan, &rule.name).unwrap_or_else(|| panic!("{} does not fire", rule.name));
         if reason.consequence_of.is_none() {
@@ -132,7 +132,7 @@ fn exact_shipped_rules_apply_only_above_their_limit() {
 
 /// Returns the names of the rules that recommend the first scenario, and those of their consequences.
 fn first_step(record: SessionRecord) -> (String, Vec<String>, Vec<String>) {
-    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let plan = plan(&[record], &rules(), NOW, Language::English).unwrap();
     let first = &plan.steps[0];
     let (causes, effects): (Vec<_>, Vec<_>) = first.reasons.iter().partition(|reason| reason.consequence_of.is_none());
     let names = |reasons: Vec<&PlanReason>| reasons.iter().map(|reason| reason.rule.clone()).collect();
@@ -165,7 +165,7 @@ fn exact_chain_of_causes_ends_at_the_first() {
     for defect in &mut record.defects {
         (defect.found, defect.lacked) = (false, vec!["too oblique: 70 deg, limit 60 deg".into()]);
     }
-    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let plan = plan(&[record], &rules(), NOW, Language::English).unwrap();
     assert_eq!(plan.steps.len(), 1, "{:?}", plan.steps);
     let effects = plan.steps[0].reasons.iter().filter(|reason| reason.consequence_of.is_some());
     assert!(effects.clone().count() >= 4);
@@ -210,7 +210,7 @@ fn exact_poor_interlayer_flight_recommends_gap_drill() {
     record.tasks[2].off_sideways_m = Some(0.4);
     record.tasks[2].off_height_m = Some(2.1);
     record.tasks[0].on_path = 0.6;
-    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let plan = plan(&[record], &rules(), NOW, Language::English).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     let words = &plan.steps[0].reasons[0].words;
     assert_eq!(words, "The interlayer: off the path for 70% of the time, mainly vertically. Practice flying in tight spaces.");
@@ -235,10 +235,10 @@ fn exact_drill_is_done_after_two_of_three_sessions_at_its_criterion() {
     let of = |drills: &[f64]| {
         let flown = drills.iter().zip(2..).map(|(on_path, number)| gap_drill(number, *on_path));
         let records: Vec<SessionRecord> = std::iter::once(job.clone()).chain(flown).collect();
-        let plan = plan(&records, &rules(), NOW).unwrap();
+        let plan = plan(&records, &rules(), NOW, Language::English).unwrap();
         assert_eq!(plan.changes.is_some(), drills.len() > 1, "a drill must not be compared with the job");
         let progress = plan.drills.iter().find(|drill| drill.scenario == "drill-gap").unwrap();
-        (plan.steps[0].scenario.clone(), progress.met, progress.done, progress.words())
+        (plan.steps[0].scenario.clone(), progress.met, progress.done, progress.words(Language::English))
     };
     let (scenario, met, done, words) = of(&[]);
     assert_eq!((scenario.as_str(), met, done), ("drill-gap", 0, false));
@@ -260,7 +260,7 @@ fn exact_done_drill_is_recommended_again_after_a_poor_flight() {
     let mut poor = perfect_record("anna", 4);
     poor.tasks[2].on_path = 0.3;
     let records = [gap_drill(2, 1.0), gap_drill(3, 1.0), poor];
-    let plan = plan(&records, &rules(), NOW).unwrap();
+    let plan = plan(&records, &rules(), NOW, Language::English).unwrap();
     assert_eq!(plan.steps[0].scenario, "drill-gap");
     assert!(plan.drills[0].done);
 }
@@ -270,7 +270,7 @@ fn exact_incomplete_drill_does_not_meet_its_criterion() {
     let mut broken_off = gap_drill(3, 1.0);
     broken_off.completion.as_mut().unwrap().complete = false;
     let records = vec![gap_drill(2, 1.0), broken_off, gap_drill(4, 0.5)];
-    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(), NOW).unwrap();
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(), NOW, Language::English).unwrap();
     assert_eq!((plan.drills[0].sessions, plan.drills[0].met, plan.drills[0].done), (3, 1, false));
 }
 
@@ -280,7 +280,7 @@ fn exact_scenarios_far_less_urgent_than_the_first_are_omitted() {
     // Urgencies: 1.5 (1 + log2 7) = 5.7 for the interlayer, 1 + log2 1.5 = 1.6 for the slab.
     (record.tasks[2].on_path, record.tasks[0].on_path) = (0.3, 0.85);
     let names = |focus: f64| {
-        let plan = plan(std::slice::from_ref(&record), &PlanRules { focus, ..rules() }, NOW).unwrap();
+        let plan = plan(std::slice::from_ref(&record), &PlanRules { focus, ..rules() }, NOW, Language::English).unwrap();
         plan.steps.into_iter().map(|step| step.scenario).collect::<Vec<_>>()
     };
     assert_eq!(names(0.4), ["drill-gap"]);
@@ -291,7 +291,9 @@ fn exact_scenarios_far_less_urgent_than_the_first_are_omitted() {
 fn exact_refresher_is_recommended_after_long_break() {
     let record = perfect_record("anna", 0);
     let day = 86_400_000_000;
-    let at = |days: u64| plan(std::slice::from_ref(&record), &rules(), record.started_unix_us + days * day).unwrap();
+    let at = |days: u64| {
+        plan(std::slice::from_ref(&record), &rules(), record.started_unix_us + days * day, Language::English).unwrap()
+    };
     assert!(!at(90).overdue);
     assert!(at(91).overdue);
     assert_eq!(at(91).steps[0].scenario, "practice");
@@ -308,7 +310,7 @@ fn exact_changes_mark_improvements_and_regressions() {
     now.scores.accuracy = Some(60.0);
     let mut drill = perfect_record("anna", 1);
     drill.scenario = "drill-gap".into();
-    let changes = plan(&[then, drill, now], &rules(), NOW).unwrap().changes.unwrap();
+    let changes = plan(&[then, drill, now], &rules(), NOW, Language::English).unwrap().changes.unwrap();
     let of = |what: &str| changes.changes.iter().find(|change| change.what == what).unwrap();
     assert_eq!(changes.since, "session-anna-001");
     assert_eq!((of("safety").before, of("safety").now, of("safety").better), (64.0, 100.0, Some(true)));
@@ -319,7 +321,7 @@ fn exact_changes_mark_improvements_and_regressions() {
 
 #[test]
 fn exact_no_plan_without_sessions() {
-    assert_eq!(plan(&[], &rules(), NOW), None);
+    assert_eq!(plan(&[], &rules(), NOW, Language::English), None);
 }
 
 #[test]
@@ -327,14 +329,16 @@ fn exact_braces_in_task_names_are_not_expanded() {
     let mut record = perfect_record("anna", 1);
     record.tasks[2].name = "{value} {axis}".into();
     record.tasks[2].on_path = 0.5;
-    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let plan = plan(&[record], &rules(), NOW, Language::English).unwrap();
     assert!(plan.steps[0].reasons[0].words.starts_with("{value} {axis}: off the path for 50%"));
 }
 
 #[test]
 fn regress_latest_session_counts_for_the_rules_even_if_incomplete() {
     let records = vec![perfect_record("anna", 1), aborted_record("anna", 2), aborted_record("anna", 3)];
-    let of = |records: &[SessionRecord], incomplete| plan_for_policy(records.to_vec(), incomplete, &rules(), NOW).unwrap();
+    let of = |records: &[SessionRecord], incomplete| {
+        plan_for_policy(records.to_vec(), incomplete, &rules(), NOW, Language::English).unwrap()
+    };
     let without = of(&records, IncompletePolicy::Exclude);
     assert_eq!((without.session.as_str(), without.left_out), ("session-anna-003", 1));
     let note = without.note.as_ref().unwrap();
@@ -356,7 +360,7 @@ fn regress_unflown_task_keeps_the_advice_of_its_last_flight() {
     before.tasks[1].on_path = 0.5;
     (now.tasks[1].attempted, now.tasks[1].covered) = (false, Some(0.0));
     now.tasks[1].technique = Some(crate::record::TaskTechnique::default());
-    let plan = plan(&[before, now], &rules(), NOW).unwrap();
+    let plan = plan(&[before, now], &rules(), NOW, Language::English).unwrap();
     assert_eq!(reason_of(&plan, "off the arch path").unwrap().1.session, "session-anna-001");
     assert_eq!(reason_of(&plan, "arch not attempted").unwrap().1.session, "session-anna-002");
 }
@@ -367,7 +371,7 @@ fn regress_missed_visible_severe_defect_is_reported() {
     record.defects[3].found = false;
     record.defects[3].kind_name = "spalling".into();
     record.defects[3].in_view_s = Some(5.5);
-    let plan = plan(&[record], &rules(), NOW).unwrap();
+    let plan = plan(&[record], &rules(), NOW, Language::English).unwrap();
     let words: Vec<&str> = plan.steps.iter().flat_map(|step| &step.reasons).map(|reason| reason.words.as_str()).collect();
     assert!(words.iter().all(|words| !words.contains("No particular weakness found")), "{words:?}");
     let plain = words.iter().find(|words| words.contains("Clearly visible for up to 5.5 s")).unwrap();
@@ -385,7 +389,7 @@ fn gap_drill_at(number: usize, level: u8, met: bool) -> SessionRecord {
 /// Returns the plan after sessions of the gap drill at these levels, with whether they met the criterion.
 fn plan_after(flown: &[(u8, bool)], rules: &PlanRules) -> TrainingPlan {
     let records: Vec<SessionRecord> = (1..).zip(flown).map(|(number, (level, met))| gap_drill_at(number, *level, *met)).collect();
-    plan(&records, rules, NOW).unwrap()
+    plan(&records, rules, NOW, Language::English).unwrap()
 }
 
 #[test]
@@ -399,7 +403,7 @@ fn exact_plan_names_the_level_and_the_reason() {
     assert_eq!(level(&[(5, false)]).level, 3);
     let mut job = perfect_record("anna", 1);
     job.tasks[2].on_path = 0.3;
-    let first = plan(&[job], &rules, NOW).unwrap();
+    let first = plan(&[job], &rules, NOW, Language::English).unwrap();
     assert_eq!(first.steps[0].scenario, "drill-gap");
     assert!(
         first.steps[0].level.as_ref().unwrap().words.starts_with("Level 5 of 9 (wind 0.98 m/s, gap 3.4 m): start at this level")
@@ -408,10 +412,10 @@ fn exact_plan_names_the_level_and_the_reason() {
     let mut broken_off = gap_drill_at(1, 5, true);
     broken_off.completion.as_mut().unwrap().complete = false;
     let records = vec![broken_off, gap_drill_at(2, 3, true)];
-    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules, NOW).unwrap();
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules, NOW, Language::English).unwrap();
     assert_eq!(plan.drills[0].next_level.as_ref().unwrap().level, 4);
     // A session of an older version has no level: its values are those of the standard level.
-    let older = super::plan(&[gap_drill(1, 1.0)], &rules, NOW).unwrap();
+    let older = super::plan(&[gap_drill(1, 1.0)], &rules, NOW, Language::English).unwrap();
     assert_eq!(older.steps[0].level.as_ref().unwrap().level, 6);
 }
 
@@ -426,7 +430,7 @@ fn exact_mastery_counts_sessions_that_decide_about_the_standard_level() {
     assert_eq!(counted(&[(5, true), (6, true), (7, false), (9, false)]), (2, 2, true));
     assert_eq!(counted(&[(5, true), (6, true), (4, false), (2, false)]), (1, 3, false));
     assert_eq!(counted(&[(5, false), (3, true), (4, true), (5, true), (6, true)]), (2, 3, true));
-    let words = progress(&[(3, true)]).words();
+    let words = progress(&[(3, true)]).words(Language::English);
     assert!(words.starts_with("no session at the standard level yet; done after 2 of 3 at the criterion (complete, "), "{words}");
     assert!(words.ends_with("crashes all, level 5 or harder)"), "{words}");
 }
@@ -435,7 +439,7 @@ fn exact_mastery_counts_sessions_that_decide_about_the_standard_level() {
 fn exact_rewound_sessions_neither_master_a_drill_nor_change_its_level() {
     let rules = rules().with_shipped_levels();
     let mut records = vec![gap_drill_at(1, 5, true), gap_drill_at(2, 6, true)];
-    let done = |records: &[SessionRecord]| plan(records, &rules, NOW).unwrap().drills[0].clone();
+    let done = |records: &[SessionRecord]| plan(records, &rules, NOW, Language::English).unwrap().drills[0].clone();
     assert!(done(&records).done);
     let level = |records: &[SessionRecord]| done(records).next_level.unwrap().level;
     assert_eq!(level(&records), 7);
@@ -469,10 +473,52 @@ fn exact_sessions_at_different_levels_are_not_compared() {
     let changes = |levels: [u8; 2]| plan_after(&[(levels[0], true), (levels[1], true)], &rules()).changes;
     assert!(changes([5, 6]).is_none() && changes([6, 6]).is_some());
     let standard = [gap_drill(1, 1.0), gap_drill_at(2, 5, true)];
-    assert!(plan(&standard, &rules(), NOW).unwrap().changes.is_some(), "an older session was flown at the standard level");
+    assert!(
+        plan(&standard, &rules(), NOW, Language::English).unwrap().changes.is_some(),
+        "an older session was flown at the standard level"
+    );
     assert_eq!(gap_drill_at(1, 6, true).scenario_with_level(), "drill-gap@6");
     assert_eq!(gap_drill_at(1, 5, true).scenario_with_level(), "drill-gap");
     let mut invalid = gap_drill_at(1, 5, true);
     invalid.level = Some(SessionLevel { level: 10, levels: 9, standard: 5 });
     assert_eq!(invalid.check().unwrap_err(), "level.level = 10, level.standard = 5 (allowed: 1 to 9)");
+}
+
+#[test]
+fn exact_default_reasons_are_translated_by_their_rule_and_others_are_not() {
+    let rules = rules();
+    for rule in &rules.rules {
+        let record = record_with_measure(rule, 3.0);
+        let words = |rules: &PlanRules, language| {
+            let plan = plan(std::slice::from_ref(&record), rules, NOW, language).unwrap();
+            let reasons = plan.steps.into_iter().flat_map(|step| step.reasons);
+            reasons.filter(|reason| reason.rule == rule.name).map(|reason| reason.words).collect::<Vec<_>>()
+        };
+        let (english, german) = (words(&rules, Language::English), words(&rules, Language::German));
+        assert!(!english.is_empty() && english.iter().zip(&german).all(|(a, b)| a != b), "{}: {english:?} {german:?}", rule.name);
+        let mut own = rules.clone();
+        own.rules.iter_mut().for_each(|rule| rule.reason = "Fly better.".into());
+        assert!(words(&own, Language::German).iter().all(|words| words == "Fly better."));
+    }
+}
+
+#[test]
+fn exact_plan_is_in_the_language_of_the_page() {
+    let rules = rules().with_shipped_levels();
+    let records = [gap_drill_at(1, 5, true), gap_drill_at(2, 6, false)];
+    let shown = |language| {
+        let plan = plan(&records, &rules, NOW, language).unwrap();
+        let reasons = plan.steps.iter().flat_map(|step| &step.reasons).map(|reason| reason.words.clone());
+        let drills = plan.drills.iter().map(|drill| drill.words(language));
+        reasons.chain(drills).collect::<Vec<_>>().join("\n")
+    };
+    let german = shown(Language::German);
+    assert!(german.contains("Diese Übung ist noch nicht abgeschlossen: 1 von 1 Sitzung"), "{german}");
+    let pseudo = shown(Language::Pseudo);
+    assert!(!pseudo.chars().any(|c| c.is_ascii_alphabetic()), "{pseudo}");
+    let advice = plan(&records, &rules, NOW, Language::German).unwrap().drills[0].next_level.clone().unwrap();
+    assert!(advice.words.starts_with("Stufe 4 von 9") && advice.words.contains("Die letzte Sitzung"), "{}", advice.words);
+    let changes = plan(&[perfect_record("anna", 1), perfect_record("anna", 2)], &rules, NOW, Language::German).unwrap().changes;
+    let title = changes.unwrap().changes[5].title("two-bridges", Language::German);
+    assert!(title.contains("Anteil auf der Bahn") || title.contains("Zeit über"), "{title}");
 }

@@ -24,6 +24,7 @@ use spandrel_monitor::score::certification::CertificationScores;
 use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::Completion;
 use spandrel_monitor::score::{SCORER_VERSION, Score};
+use spandrel_text::{Language, text};
 
 /// Session record.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -186,12 +187,8 @@ impl IncompletePolicy {
 
 /// Returns a note with the number of excluded sessions; `None` if it is 0.
 #[must_use]
-pub fn excluded_sessions_note(count: usize) -> Option<String> {
-    match count {
-        0 => None,
-        1 => Some("1 incomplete session excluded".to_owned()),
-        many => Some(format!("{many} incomplete sessions excluded")),
-    }
+pub fn excluded_sessions_note(count: usize, language: Language) -> Option<String> {
+    (count > 0).then(|| text!(language, "completion-excluded-sessions", count = count))
 }
 
 impl SessionOutcome for SessionListEntry {
@@ -366,6 +363,16 @@ mod tests {
             assert_ne!(base.fingerprint(), other.fingerprint());
         }
         assert_eq!(base.fingerprint(), SourceHashes::of(b"s", b"v", b"t", b"").fingerprint());
+    }
+
+    #[test]
+    fn exact_headlines_are_in_the_language_of_the_page() {
+        let record = crate::testing::perfect_record("anna", 1);
+        assert_eq!(record.headlines(Language::English), "Complete: 4 of 4 tasks, 100% of the path. Certified");
+        assert_eq!(record.headlines(Language::German), "Vollständig: 4 von 4 Aufgaben, 100% der Bahn. Zertifiziert");
+        assert_eq!(excluded_sessions_note(2, Language::Spanish).as_deref(), Some("2 sesiones incompletas excluidas"));
+        assert_eq!(excluded_sessions_note(0, Language::German), None);
+        assert!(!record.headlines(Language::Pseudo).chars().any(|c| c.is_ascii_alphabetic()));
     }
 
     #[test]

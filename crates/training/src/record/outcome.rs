@@ -1,6 +1,7 @@
 //! Completion and certification texts shared by full records and list entries.
 
 use spandrel_monitor::score::completion::{self, Completion};
+use spandrel_text::{Language, text};
 
 /// A session with a completion state and a certification result.
 pub trait SessionOutcome {
@@ -16,18 +17,18 @@ pub trait SessionOutcome {
     }
 
     /// Returns the completion as text.
-    fn completion_summary(&self) -> String {
-        self.completion().map_or_else(|| "Completion unknown: re-import this session".to_owned(), Completion::headline)
+    fn completion_summary(&self, language: Language) -> String {
+        self.completion().map_or_else(|| text!(language, "completion-unknown"), |completion| completion.headline(language))
     }
 
     /// Returns the certification verdict as text: certified, or the first unmet requirement.
-    fn verdict(&self) -> String {
+    fn verdict(&self, language: Language) -> String {
         let (certified, unmet) = self.certification();
-        completion::verdict(certified, unmet)
+        completion::verdict(certified, unmet, language)
     }
 
     /// Returns both headlines, which are always shown together: the completion, and the certification verdict.
-    fn headlines(&self) -> String {
-        format!("{}. {}", self.completion_summary(), self.verdict())
+    fn headlines(&self, language: Language) -> String {
+        format!("{}. {}", self.completion_summary(language), self.verdict(language))
     }
 }

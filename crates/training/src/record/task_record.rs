@@ -2,10 +2,13 @@
 
 use super::crashes::Crashes;
 use super::technique::TaskTechnique;
+use crate::terms::defect_title;
 use serde::{Deserialize, Serialize};
+use spandrel_model::defect_codes::defect_name;
 use spandrel_model::elements::Element;
 use spandrel_model::scenario::TaskKind;
 use spandrel_monitor::score::completion::TaskState;
+use spandrel_text::Language;
 
 /// One task's results and the causes of its score.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,7 +70,7 @@ pub struct DefectRecord {
     pub id: u32,
     /// Defect code (AASHTO MBEI).
     pub kind: u32,
-    /// Defect type in plain language.
+    /// Defect type in plain English. [`Self::kind_title`] returns it in the language of a page.
     pub kind_name: String,
     /// Number of the element with the defect (AASHTO MBEI).
     pub element: Element,
@@ -93,6 +96,14 @@ pub struct DefectRecord {
     /// camera can't reach that quality, and in records before format 4.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shortfalls: Vec<String>,
+}
+
+impl DefectRecord {
+    /// Returns the defect type; the recorded words if they are not those of the defect's code.
+    #[must_use]
+    pub fn kind_title(&self, language: Language) -> String {
+        if self.kind_name == defect_name(self.kind) { defect_title(self.kind, language) } else { self.kind_name.clone() }
+    }
 }
 
 pub(super) fn kind_key(kind: TaskKind) -> &'static str {

@@ -222,10 +222,10 @@ impl ScoredFlight<'_> {
         let Some(rules) = rules_for(self.scene.scenario) else { return Default::default() };
         let record = self.record(defect_outcomes);
         if !self.scene.scenario.lesson.is_empty() {
-            return (Vec::new(), lesson_advice(&record.trainee));
+            return (Vec::new(), lesson_advice(&record.trainee, self.metadata.language));
         }
         let missed: Vec<MissedDefect> = defect_outcomes.iter().filter_map(defects::DefectOutcome::missed).collect();
-        let plan = plan::plan(std::slice::from_ref(&record), &rules, self.metadata.started_unix_us);
+        let plan = plan::plan(std::slice::from_ref(&record), &rules, self.metadata.started_unix_us, self.metadata.language);
         let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
         // A level depends on the trainee's other sessions, which are unknown here.
         steps.iter_mut().for_each(|step| step.level = None);
@@ -240,6 +240,7 @@ impl ScoredFlight<'_> {
                 record: &record,
                 missed: &missed,
             },
+            self.metadata.language,
         );
         (steps, advice)
     }

@@ -7,6 +7,7 @@ use maud::{DOCTYPE, PreEscaped, html};
 use serde_json::{Value, json};
 use spandrel_monitor::Assessment;
 use spandrel_monitor::score::completion::verdict;
+use spandrel_text::Language;
 
 /// Script that reads the result from the page and reports it to the LMS.
 const SCRIPT: &str = include_str!("assets/scorm.js");
@@ -53,10 +54,10 @@ fn title(review: &Review) -> String {
 fn result(assessment: &Assessment) -> (Value, String) {
     let (scores, certification) = (&assessment.scores, &assessment.certification);
     let time = scorm_timespan(assessment.end.seconds);
-    let verdict = verdict(certification.passed, &certification.unmet);
+    let verdict = verdict(certification.passed, &certification.unmet, Language::English);
     if !assessment.completion.complete {
         let result = json!({ "cmi.core.lesson_status": "incomplete", "cmi.core.session_time": time });
-        return (result, format!("{}. {verdict}", assessment.completion.headline()));
+        return (result, format!("{}. {verdict}", assessment.completion.headline(Language::English)));
     }
     let pct = if scores.overall_max > 0.0 { 100.0 * scores.overall / scores.overall_max } else { 0.0 };
     let result = json!({

@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 use spandrel_model::toml::{Problems, Reader, Section};
+use spandrel_text::{Language, text};
 
 /// Default rubric, in TOML.
 pub const DEFAULT_RUBRIC: &str = include_str!("rubric.toml");
@@ -61,10 +62,10 @@ impl SignOffAction {
 
     /// Returns the action as text.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn words(self, language: Language) -> String {
         match self {
-            Self::SignedOff => "signed off",
-            Self::Withdrawn => "withdrawn",
+            Self::SignedOff => text!(language, "rubric-signed-off"),
+            Self::Withdrawn => text!(language, "rubric-withdrawn"),
         }
     }
 
@@ -90,6 +91,60 @@ pub struct SignOffEvent {
     pub by: String,
     /// The instructor's note; may be empty.
     pub note: String,
+}
+
+impl RubricCriterion {
+    /// Returns the title in the language of a page.
+    #[must_use]
+    pub fn shown_title(&self, language: Language) -> String {
+        criterion_title(&self.id, &self.title, language)
+    }
+
+    /// Returns the description in the language of a page. A text other than the default one is the instructor's and stays as it
+    /// is.
+    #[must_use]
+    pub fn shown_text(&self, language: Language) -> String {
+        let is_default = default_text(&self.id, Language::English).as_ref() == Some(&self.text);
+        default_text(&self.id, language).filter(|_| is_default).unwrap_or_else(|| self.text.clone())
+    }
+}
+
+/// Returns the title of a criterion with this ID in the language of a page. A title other than the default one is the instructor's
+/// and stays as it is.
+#[must_use]
+pub fn criterion_title(id: &str, title: &str, language: Language) -> String {
+    let is_default = default_title(id, Language::English).as_deref() == Some(title);
+    default_title(id, language).filter(|_| is_default).unwrap_or_else(|| title.to_owned())
+}
+
+/// Returns the title of a criterion in the default rubric; `None` if it has no such criterion.
+fn default_title(id: &str, language: Language) -> Option<String> {
+    Some(match id {
+        "preparation" => text!(language, "rubric-preparation"),
+        "control" => text!(language, "rubric-control"),
+        "path" => text!(language, "rubric-path"),
+        "clearance" => text!(language, "rubric-clearance"),
+        "pictures" => text!(language, "rubric-pictures"),
+        "defects" => text!(language, "rubric-defects"),
+        "battery" => text!(language, "rubric-battery"),
+        "failures" => text!(language, "rubric-failures"),
+        _ => return None,
+    })
+}
+
+/// Returns the description of a criterion in the default rubric; `None` if it has no such criterion.
+fn default_text(id: &str, language: Language) -> Option<String> {
+    Some(match id {
+        "preparation" => text!(language, "rubric-preparation-text"),
+        "control" => text!(language, "rubric-control-text"),
+        "path" => text!(language, "rubric-path-text"),
+        "clearance" => text!(language, "rubric-clearance-text"),
+        "pictures" => text!(language, "rubric-pictures-text"),
+        "defects" => text!(language, "rubric-defects-text"),
+        "battery" => text!(language, "rubric-battery-text"),
+        "failures" => text!(language, "rubric-failures-text"),
+        _ => return None,
+    })
 }
 
 impl Rubric {
@@ -171,6 +226,22 @@ fn read_criterion(reader: &mut Reader<'_>, section: &mut Section<'_>) -> RubricC
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_default_criteria_are_translated_and_others_are_not() {
+        let rubric = read_rubric("rubric.toml", DEFAULT_RUBRIC).unwrap();
+        for criterion in &rubric.criteria {
+            assert_eq!(criterion.shown_title(Language::English), criterion.title);
+            assert_eq!(criterion.shown_text(Language::English), criterion.text);
+            for shown in [criterion.shown_title(Language::Pseudo), criterion.shown_text(Language::Pseudo)] {
+                assert!(!shown.chars().any(|c| c.is_ascii_alphabetic()), "{shown}");
+            }
+        }
+        assert_eq!(rubric.criteria[2].shown_title(Language::German), "Fliegt die Bahn");
+        let own = RubricCriterion { id: "path".into(), title: "Flies like a bird".into(), text: String::new() };
+        assert_eq!((own.shown_title(Language::German), own.shown_text(Language::German)), (own.title.clone(), String::new()));
+        assert_eq!(SignOffAction::SignedOff.words(Language::Spanish), "aprobado");
+    }
 
     fn event(criterion: &str, action: SignOffAction, unix_us: u64) -> SignOffEvent {
         SignOffEvent {

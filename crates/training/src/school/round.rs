@@ -3,10 +3,12 @@
 use super::card::{Card, Subject};
 use super::gallery::SchoolPicture;
 use super::record::SchoolRecord;
+use crate::terms::{defect_title, element_title};
 use crate::words::capitalized;
 use spandrel_model::defect_codes;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::PlacedDefect;
+use spandrel_text::{Language, text};
 use std::collections::VecDeque;
 
 /// Number of cards in a round (estimate: about five minutes).
@@ -75,10 +77,10 @@ pub struct Round {
 impl Answer {
     /// Returns the words for a list of answers.
     #[must_use]
-    pub fn words(self) -> String {
+    pub fn words(self, language: Language) -> String {
         match self {
-            Self::Defect(code) => capitalized(defect_codes::defect_name(code)),
-            Self::Nothing => "No defect can be seen from here".to_owned(),
+            Self::Defect(code) => capitalized(&defect_title(code, language)),
+            Self::Nothing => text!(language, "school-nothing"),
         }
     }
 }
@@ -100,42 +102,38 @@ impl Question {
 
     /// Returns the question as text.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn words(&self, language: Language) -> String {
         let Self { picture: SchoolPicture { element, card, .. }, .. } = self;
-        format!(
-            "{}, element {}. The middle of a photograph at full resolution, taken from {} m with the lamp on.",
-            capitalized(element.name()),
-            element.number(),
-            card.distance.m()
-        )
+        let (number, distance) = (element.number().to_string(), card.distance.m().to_string());
+        let element = capitalized(&element_title(*element, language));
+        text!(language, "school-question", element = element, number = number, distance = distance)
     }
 
-    fn verdict(&self, given: Answer) -> Verdict {
+    fn verdict(&self, given: Answer, language: Language) -> Verdict {
         let right_answer = self.right_answer();
         let right = given == right_answer;
         let first = match (right, given) {
-            (true, _) => "Right.".to_owned(),
-            (false, Answer::Defect(code)) => format!("Wrong: not {}.", defect_codes::defect_name(code)),
-            (false, Answer::Nothing) => "Wrong: there is a defect.".to_owned(),
+            (true, _) => text!(language, "school-right"),
+            (false, Answer::Defect(code)) => text!(language, "school-wrong", defect = defect_title(code, language)),
+            (false, Answer::Nothing) => text!(language, "school-wrong-nothing"),
         };
         let rest = match (&self.picture.defect, right_answer) {
-            (Some(defect), Answer::Defect(code)) => vec![appearance(code).to_owned(), size_words(defect)],
-            (Some(defect), Answer::Nothing) => vec![self.hidden_words(defect)],
-            (None, _) => vec![
-                "The surface is sound. Stains, form lines, sealed cracks, spider webs and spray paint aren't defects.".to_owned(),
-            ],
+            (Some(defect), Answer::Defect(code)) => vec![appearance(code, language), size_words(defect, language)],
+            (Some(defect), Answer::Nothing) => vec![self.hidden_words(defect, language)],
+            (None, _) => vec![text!(language, "school-sound-surface")],
         };
         Verdict { right, words: std::iter::once(first).chain(rest).collect() }
     }
 
     /// Explains why a defect cannot be seen.
-    fn hidden_words(&self, defect: &PlacedDefect) -> String {
-        format!(
-            "There is a defect here ({}), but it can't be seen from {} m: a pixel covers {:.1} mm. {} Fly closer.",
-            defect_codes::defect_name(defect.kind),
-            self.picture.card.distance.m(),
-            MM_PER_M * self.picture.pixel_m,
-            size_words(defect)
+    fn hidden_words(&self, defect: &PlacedDefect, language: Language) -> String {
+        text!(
+            language,
+            "school-hidden",
+            defect = defect_title(defect.kind, language),
+            distance = self.picture.card.distance.m().to_string(),
+            pixel = format!("{:.1}", MM_PER_M * self.picture.pixel_m),
+            size = size_words(defect, language)
         )
     }
 }
@@ -175,13 +173,13 @@ impl Round {
     }
 
     /// Answers the current question with one of its answers, and records it. `None` if there is no question or no such answer.
-    pub fn answer(&mut self, number: usize, record: &mut SchoolRecord, now_unix_s: u64) -> Option<Verdict> {
+    pub fn answer(&mut self, number: usize, record: &mut SchoolRecord, now_unix_s: u64, language: Language) -> Option<Verdict> {
         let question = self.current.take()?;
         let Some(given) = question.answers.get(number) else {
             self.current = Some(question);
             return None;
         };
-        let verdict = question.verdict(*given);
+        let verdict = question.verdict(*given, language);
         let card = question.picture.card;
         // A repetition in the same round says little about tomorrow.
         if question.misses == 0 {
@@ -208,43 +206,43 @@ impl Round {
 
     /// Returns the result so far.
     #[must_use]
-    pub fn summary(&self) -> RoundSummary {
-        let missed = self.first_answers.iter().filter(|(_, right)| !right).map(|(card, _)| card_words(*card)).collect();
+    pub fn summary(&self, language: Language) -> RoundSummary {
+        let missed = self.first_answers.iter().filter(|(_, right)| !right).map(|(card, _)| card_words(*card, language)).collect();
         let right = self.first_answers.iter().filter(|(_, right)| *right).count();
         RoundSummary { asked: self.first_answers.len(), right, missed }
     }
 }
 
 /// Returns a card as text, such as "cracking from 3 m".
-fn card_words(card: Card) -> String {
+fn card_words(card: Card, language: Language) -> String {
     let subject = match card.subject {
-        Subject::Sound => "sound surface",
-        Subject::Defect(code) => defect_codes::defect_name(code),
+        Subject::Sound => text!(language, "school-sound"),
+        Subject::Defect(code) => defect_title(code, language),
     };
-    format!("{subject} from {} m", card.distance.m())
+    text!(language, "school-card", subject = subject, distance = card.distance.m().to_string())
 }
 
 /// Returns how to recognize a defect in a picture (docs/src/reference/domain.md, "Defects").
-fn appearance(code: u32) -> &'static str {
+fn appearance(code: u32, language: Language) -> String {
     match code {
-        defect_codes::CORROSION => "Corrosion: rough, red-brown patches on steel.",
-        defect_codes::FATIGUE => "Fatigue cracking: a very thin line in steel, often with rust along it.",
-        defect_codes::CONNECTION => "Connection: a bolt or rivet is missing or loose.",
-        defect_codes::SPALL => "Spall: a hollow with a sharp edge. The concrete in it is lighter and rougher.",
-        defect_codes::REBAR => "Exposed rebar: orange-brown bars in a hollow in the concrete.",
-        defect_codes::EFFLORESCENCE => "Efflorescence or rust staining: white or brown streaks that run down the surface.",
-        defect_codes::ABRASION => "Abrasion: a worn patch in which the aggregate shows.",
-        defect_codes::CRACK | defect_codes::PSC_CRACK => "Cracking: a thin, dark, irregular line.",
-        _ => "A defect.",
+        defect_codes::CORROSION => text!(language, "school-corrosion"),
+        defect_codes::FATIGUE => text!(language, "school-fatigue"),
+        defect_codes::CONNECTION => text!(language, "school-connection"),
+        defect_codes::SPALL => text!(language, "school-spall"),
+        defect_codes::REBAR => text!(language, "school-rebar"),
+        defect_codes::EFFLORESCENCE => text!(language, "school-efflorescence"),
+        defect_codes::ABRASION => text!(language, "school-abrasion"),
+        defect_codes::CRACK | defect_codes::PSC_CRACK => text!(language, "school-crack"),
+        _ => text!(language, "school-defect"),
     }
 }
 
 /// Returns the size of a defect as a sentence.
-fn size_words(defect: &PlacedDefect) -> String {
-    let (length_mm, width_mm) = (MM_PER_M * defect.length_m, MM_PER_M * defect.width_m);
+fn size_words(defect: &PlacedDefect, language: Language) -> String {
+    let (length, width_mm) = (format!("{:.0}", MM_PER_M * defect.length_m), MM_PER_M * defect.width_m);
     if defect.line {
-        format!("It is {width_mm:.2} mm wide and {length_mm:.0} mm long.")
+        text!(language, "school-size-line", width = format!("{width_mm:.2}"), length = length)
     } else {
-        format!("It measures {length_mm:.0} mm by {width_mm:.0} mm.")
+        text!(language, "school-size-area", length = length, width = format!("{width_mm:.0}"))
     }
 }

@@ -7,6 +7,7 @@ use spandrel_model::elements::Element;
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::CameraPose;
+use spandrel_text::Language;
 use std::collections::BTreeSet;
 
 /// A day in seconds.
@@ -142,15 +143,15 @@ fn exact_round_ends_when_every_missed_card_was_answered() {
         // The first card is missed once.
         let verdict = if asked == 1 {
             missed = Some(round.question().unwrap().picture.card);
-            round.answer(wrong, &mut record, clock)
+            round.answer(wrong, &mut record, clock, Language::English)
         } else {
-            round.answer(right, &mut record, clock)
+            round.answer(right, &mut record, clock, Language::English)
         };
         assert_eq!(verdict.map(|verdict| verdict.right), Some(asked != 1));
         round.advance();
     }
     assert_eq!(asked, CARDS_PER_ROUND + 1);
-    let summary = round.summary();
+    let summary = round.summary(Language::English);
     assert_eq!((summary.asked, summary.right, summary.missed.len()), (CARDS_PER_ROUND, CARDS_PER_ROUND - 1, 1));
     let missed = record.progress(missed.unwrap()).unwrap();
     assert_eq!((missed.number, missed.asked), (1, 1), "the repetition in the same round does not count");
@@ -164,12 +165,12 @@ fn exact_round_ends_for_a_trainee_who_misses_everything() {
     let mut asked = 0;
     while let Some(question) = round.question() {
         let wrong = (right_number(&round) + 1) % question.answers.len();
-        assert_eq!(round.answer(wrong, &mut record, NOW).map(|verdict| verdict.right), Some(false));
+        assert_eq!(round.answer(wrong, &mut record, NOW, Language::English).map(|verdict| verdict.right), Some(false));
         asked += 1;
         round.advance();
     }
     assert_eq!(asked, 3 * CARDS_PER_ROUND, "each card is repeated twice");
-    assert_eq!((round.summary().asked, round.summary().right), (CARDS_PER_ROUND, 0));
+    assert_eq!((round.summary(Language::English).asked, round.summary(Language::English).right), (CARDS_PER_ROUND, 0));
 }
 
 #[test]
@@ -177,7 +178,7 @@ fn exact_answer_that_is_not_offered_changes_nothing() {
     let mut record = SchoolRecord::default();
     let mut round = Round::new(&record, pictures(), 7, NOW);
     let before = round.question().cloned();
-    assert_eq!(round.answer(99, &mut record, NOW), None);
+    assert_eq!(round.answer(99, &mut record, NOW, Language::English), None);
     assert_eq!((round.question(), record), (before.as_ref(), SchoolRecord::default()));
     assert_eq!(round.position(), (1, CARDS_PER_ROUND));
     round.advance();
@@ -195,9 +196,29 @@ fn exact_defects_that_cannot_be_seen_teach_to_fly_closer() {
     let mut round = Round::new(&record, vec![hidden], 1, NOW);
     assert_eq!(round.question().map(Question::right_answer), Some(Answer::Nothing));
     let number = right_number(&round);
-    let verdict = round.answer(number, &mut record, NOW).unwrap();
+    let verdict = round.answer(number, &mut record, NOW, Language::English).unwrap();
     assert!(verdict.right && verdict.words[1].contains("a pixel covers 3.2 mm"), "{verdict:?}");
     assert!(verdict.words[1].ends_with("Fly closer."), "{verdict:?}");
+}
+
+#[test]
+fn exact_questions_and_verdicts_are_in_the_language_of_the_page() {
+    let hidden = pictures().into_iter().find(|picture| !picture.visible).unwrap();
+    let shown = |language| {
+        let mut round = Round::new(&SchoolRecord::default(), vec![hidden.clone()], 1, NOW);
+        let question = round.question().unwrap();
+        let mut texts = vec![question.words(language)];
+        texts.extend(question.answers.iter().map(|answer| answer.words(language)));
+        texts.extend(round.answer(0, &mut SchoolRecord::default(), NOW, language).unwrap().words);
+        texts.extend(round.summary(language).missed);
+        texts.join("\n")
+    };
+    let german = shown(Language::German);
+    assert!(german.contains("Von hier ist kein Schaden zu sehen") && german.contains("Fliegen Sie näher heran."), "{german}");
+    let units = ["mm", "m"];
+    let words = shown(Language::Pseudo);
+    let left = |word: &&str| word.chars().any(|c| c.is_ascii_alphabetic()) && !units.contains(&word.trim_matches([':', '.']));
+    assert_eq!(words.split_whitespace().find(left), None, "{words}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use super::layout::{counted, page, table, token};
 use crate::assignment::{AssignedJob, Assignment, AssignmentCounts, AssignmentState, AssignmentTarget};
 use maud::{Markup, html};
 use spandrel_model::calendar::day;
+use spandrel_text::Language;
 
 /// Renders a trainee's assignments: the pending ones, then the others in a section that opens.
 #[must_use]
@@ -64,9 +65,9 @@ fn variant_words(variant: &str) -> String {
 fn state(state: &AssignmentState) -> Markup {
     html! {
         @match state {
-            AssignmentState::Open => (state.words()),
-            AssignmentState::Overdue => b.due.overdue { (state.words()) },
-            AssignmentState::Done { session, .. } => a href={ "/sessions/" (session) } { (state.words()) },
+            AssignmentState::Open => (state.words(Language::English)),
+            AssignmentState::Overdue => b.due.overdue { (state.words(Language::English)) },
+            AssignmentState::Done { session, .. } => a href={ "/sessions/" (session) } { (state.words(Language::English)) },
         }
     }
 }

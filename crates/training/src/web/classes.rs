@@ -9,6 +9,7 @@ use crate::record::{SessionListEntry, SessionOutcome};
 use crate::training_class::TrainingClass;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
+use spandrel_text::Language;
 
 /// Maximum number of trainees that can be added at once.
 pub const MAX_NEW_MEMBERS: usize = 100;
@@ -115,7 +116,7 @@ fn members(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
                 @match &member.last {
                     Some(last) => {
                         td.when { a href={ "/sessions/" (last.id) } { (minute(last.started_unix_us)) } br; (last.scenario) }
-                        td { (last.verdict()) }
+                        td { (last.verdict(Language::English)) }
                     }
                     None => { td { "not flown yet" } td { "–" } }
                 }

@@ -6,6 +6,7 @@ use crate::cohort::Cohort;
 use crate::record::{IncompletePolicy, excluded_sessions_note};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
+use spandrel_text::Language;
 
 /// The form's selection.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +42,7 @@ pub fn cohort_page(visitor: &Visitor, selection: &CohortPageSelection<'_>, cohor
             }
             @match cohort {
                 Some(cohort) => (summary_lines(cohort)),
-                None => p.calm { "No sessions yet." @if let Some(words) = excluded_sessions_note(selection.left_out) { " " (words) "." } },
+                None => p.calm { "No sessions yet." @if let Some(words) = excluded_sessions_note(selection.left_out, Language::English) { " " (words) "." } },
             }
         }
         @if let Some(cohort) = cohort {

@@ -5,6 +5,7 @@ use super::layout::{counted, message_lines, page, section, table, token, toml_ed
 use crate::rubric::{Rubric, RubricCriterion, SignOffAction, SignOffEvent, current_sign_off};
 use maud::{Markup, html};
 use spandrel_model::calendar::{day, minute};
+use spandrel_text::Language;
 
 /// Maximum length of a note, characters.
 pub const MAX_NOTE_LEN: usize = 300;
@@ -97,7 +98,7 @@ fn history(events: &[SignOffEvent]) -> Markup {
             tr {
                 th scope="row" { (minute(event.unix_us)) }
                 td { (event.title) }
-                td { (event.action.words()) }
+                td { (event.action.words(Language::English)) }
                 td { (signer(event)) }
                 td { (event.note) }
             }

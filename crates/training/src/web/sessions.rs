@@ -14,6 +14,7 @@ use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
+use spandrel_text::Language;
 
 /// One page of the session list.
 #[derive(Debug, Clone, Copy)]
@@ -88,8 +89,8 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
                     @if one.is_complete() { td.number { (formatting::number(one.overall, 1)) " of " (formatting::number(one.overall_max, 0)) } }
-                    @else { td { (one.completion_summary()) } }
-                    td { (one.verdict()) }
+                    @else { td { (one.completion_summary(Language::English)) } }
+                    td { (one.verdict(Language::English)) }
                     td { (one.scenario) }
                     td { (one.purpose.as_deref().unwrap_or("–")) }
                     td { (one.end_reason.replace('_', " ")) }
@@ -147,7 +148,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
 /// Renders the outcome, the things to do better with links to their moments in the report, and the next flight.
 fn to_do_better(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     html! {
-        p { b { (record.completion_summary()) ". " (record.verdict()) "." } }
+        p { b { (record.completion_summary(Language::English)) ". " (record.verdict(Language::English)) "." } }
         @if let Some(standing) = &page_data.standing { p { (standing_text(standing, record.scores.overall_max)) } }
         @if let Some(advice) = page_data.advice {
             @if let Some(note) = &advice.note { p { (note) } }
@@ -288,7 +289,7 @@ fn scores(record: &SessionRecord) -> Markup {
     let spokes: Vec<RadarAxis> =
         scores_by_name(record).into_iter().map(|(name, value)| RadarAxis { name, values: vec![value] }).collect();
     html! {
-        p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below cover only the part that was flown." } }
+        p { b { (record.completion_summary(Language::English)) ". " (record.verdict(Language::English)) "." } @if !record.is_complete() { " The scores below cover only the part that was flown." } }
         div.split {
             figure { figcaption { "The four scores, 0 at the center, 100 at the edge" } (radar(&spokes, "Radar chart of the four scores")) }
             div.cards {
@@ -312,8 +313,8 @@ fn requirements(certification: &CertificationRecord) -> Markup {
             @for one in &certification.requirements {
                 tr {
                     th scope="row" { (one.name) }
-                    td.number { (one.reached_text()) }
-                    td.number { (one.limit_text()) }
+                    td.number { (one.reached_text(Language::English)) }
+                    td.number { (one.limit_text(Language::English)) }
                     td { @if one.met { "yes" } @else { b { "no" } } }
                 }
             }
@@ -355,7 +356,9 @@ fn tasks(record: &SessionRecord) -> Markup {
 /// Describes a task's completion.
 fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
-    task.state.zip(task.covered).map_or_else(|| "unknown".to_owned(), |(state, covered)| state.description(covered, done_share))
+    task.state
+        .zip(task.covered)
+        .map_or_else(|| "unknown".to_owned(), |(state, covered)| state.description(covered, done_share, Language::English))
 }
 
 fn defects(record: &SessionRecord) -> Markup {

@@ -14,6 +14,7 @@ use crate::report::page::within_error;
 use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
+use spandrel_text::Language;
 
 /// Prefix of the fields that contain the values from when the page was opened, used to detect conflicting edits.
 pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
@@ -111,9 +112,9 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
         @if let Some(note) = &plan.note { p.note { (note) } }
         @if !plan.drills.is_empty() {
             h3 { "Drills" }
-            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words()) @if let Some(next) = &drill.next_level { "; next level: " (next.level) } "." } } }
+            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words(Language::English)) @if let Some(next) = &drill.next_level { "; next level: " (next.level) } "." } } }
         }
-        @if let Some(words) = excluded_sessions_note(plan.left_out) { p.note { (words) "." } }
+        @if let Some(words) = excluded_sessions_note(plan.left_out, Language::English) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
             h3 { "Changes" }
             p.note { "Compared with " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
@@ -207,7 +208,8 @@ mod tests {
         let mut records = vec![perfect_record(HOSTILE_NAME, 1), perfect_record(HOSTILE_NAME, 2), perfect_record(HOSTILE_NAME, 3)];
         records[0].scenario = HOSTILE_NAME.into();
         let person = Trainee { age_band: Some(HOSTILE_NAME.into()), ..Trainee::new(HOSTILE_NAME) };
-        let plan = plan(&records, &read_rules("rules.toml", DEFAULT_RULES).unwrap(), records[2].started_unix_us);
+        let plan =
+            plan(&records, &read_rules("rules.toml", DEFAULT_RULES).unwrap(), records[2].started_unix_us, Language::English);
         let profile = TraineeProfile {
             person: &person,
             records: &records,
@@ -257,7 +259,12 @@ mod tests {
         let selection = crate::cohort::Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
         let reliability = crate::cohort::cohort(&everyone, &selection).reliability;
         let person = Trainee::new("anna");
-        let plan = plan(&everyone[..2], &read_rules("rules.toml", DEFAULT_RULES).unwrap(), everyone[1].started_unix_us);
+        let plan = plan(
+            &everyone[..2],
+            &read_rules("rules.toml", DEFAULT_RULES).unwrap(),
+            everyone[1].started_unix_us,
+            Language::English,
+        );
         let text = |reliability: &JobReliability| {
             let profile = TraineeProfile {
                 person: &person,

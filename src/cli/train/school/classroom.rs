@@ -10,6 +10,7 @@ use crate::io::{files, school_record};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
+use spandrel_text::Language;
 use spandrel_training::school::{
     CARDS_PER_ROUND, Question, Round, RoundSummary, SchoolPicture, SchoolRecord, Verdict, gallery, picture_camera,
     school_scenario,
@@ -106,7 +107,7 @@ impl Lesson<'_> {
     fn ask(&mut self, studio: &mut Studio) -> Result<SchoolPage, AppError> {
         let Some(question) = self.round.question() else {
             self.picture = None;
-            return Ok(summary_page(&self.round.summary(), self.record.mastered()));
+            return Ok(summary_page(&self.round.summary(Language::English), self.record.mastered()));
         };
         self.number += 1;
         let path = self.folder.0.join(format!("{}.png", self.number));
@@ -117,7 +118,7 @@ impl Lesson<'_> {
 
     /// Returns the page with the verdict; `None` if there is nothing to answer.
     fn answer(&mut self, number: usize) -> Result<Option<SchoolPage>, AppError> {
-        let Some(verdict) = self.round.answer(number, &mut self.record, unix_s()) else { return Ok(None) };
+        let Some(verdict) = self.round.answer(number, &mut self.record, unix_s(), Language::English) else { return Ok(None) };
         school_record::save(self.sessions, self.trainee, &self.record)?;
         Ok(Some(verdict_page(verdict, self.round.position(), self.picture.clone())))
     }
@@ -160,8 +161,8 @@ fn title((number, of): (usize, usize)) -> String {
 
 fn question_page(question: &Question, position: (usize, usize), picture: Option<String>) -> SchoolPage {
     let again = (question.misses > 0).then(|| "You missed one of this kind. Once more:".to_owned());
-    let answers = question.answers.iter().map(|answer| answer.words()).collect();
-    let lines = again.into_iter().chain([question.words(), "What is in the middle?".to_owned()]).collect();
+    let answers = question.answers.iter().map(|answer| answer.words(Language::English)).collect();
+    let lines = again.into_iter().chain([question.words(Language::English), "What is in the middle?".to_owned()]).collect();
     SchoolPage { picture, title: title(position), lines, answers, right: None, over: false }
 }
 

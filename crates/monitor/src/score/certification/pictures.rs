@@ -9,6 +9,7 @@ use spandrel_model::elements::Element;
 use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::{CertificationParams, PlacedDefect, Scenario};
 use spandrel_model::vehicle::Camera;
+use spandrel_text::{Language, text};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Millimeters per meter.
@@ -108,18 +109,21 @@ pub fn is_gradable(defect: &PlacedDefect, scenario: &Scenario, camera: &Camera) 
     (best_mm <= gsd_limit_mm(defect, &scenario.certification), best_mm)
 }
 
-/// Returns the quality conditions that a view fails, as text.
+/// Returns the quality conditions that a view fails, as English text; [`crate::stored_text`] translates it.
 fn quality_fails(quality: &ImageQuality, gsd_limit_mm: f64, params: &CertificationParams) -> Vec<String> {
+    type Words = fn(String, String) -> String;
+    let resolution: Words =
+        |value, limit| text!(Language::English, "certification-picture-resolution", value = value, limit = limit);
+    let blur: Words = |value, limit| text!(Language::English, "certification-picture-motion-blur", value = value, limit = limit);
+    let incidence: Words =
+        |value, limit| text!(Language::English, "certification-picture-incidence", value = value, limit = limit);
     let limits = [
-        ("resolution", "mm/px", quality.gsd_mm, gsd_limit_mm, 2),
-        ("motion blur", "px", quality.smear_px, params.max_smear_px, 1),
-        ("incidence", "deg", quality.incidence_deg, params.max_incidence_deg, 0),
+        (resolution, quality.gsd_mm, gsd_limit_mm, 2),
+        (blur, quality.smear_px, params.max_smear_px, 1),
+        (incidence, quality.incidence_deg, params.max_incidence_deg, 0),
     ];
-    let over = limits.iter().filter(|(_, _, value, limit, _)| value > limit);
-    over.map(|(name, unit, value, limit, digits)| {
-        format!("{name} {} {unit}, limit {} {unit}", format_with_limit(*value, *limit, *digits), format_limit(*limit))
-    })
-    .collect()
+    let over = limits.iter().filter(|(_, value, limit, _)| value > limit);
+    over.map(|(words, value, limit, digits)| words(format_with_limit(*value, *limit, *digits), format_limit(*limit))).collect()
 }
 
 impl Accuracy {
@@ -170,14 +174,18 @@ fn grade_picture(picture: &Snapshot, defects: &mut [DefectGrade], params: &Certi
             defect.found_in_frame = Some(picture.frame);
             found.push(view.defect);
         }
-        fails.extend(reasons.iter().map(|reason| format!("defect {}: {reason}", view.defect)));
+        fails.extend(
+            reasons
+                .into_iter()
+                .map(|reason| text!(Language::English, "certification-picture-of-defect", defect = view.defect, reason = reason)),
+        );
     }
     GradedPicture { frame: picture.frame, counted: !found.is_empty() || !too_fine, hit: !found.is_empty(), found, fails }
 }
 
 fn view_fails(view: &DefectSighting, defect: &DefectGrade, params: &CertificationParams) -> Vec<String> {
     if !defect.gradable {
-        return vec!["too fine for this camera".to_owned()];
+        return vec![text!(Language::English, "certification-picture-too-fine")];
     }
     quality_fails(&view.quality, defect.gsd_limit_mm, params)
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::Scenario;
+use spandrel_text::{Language, text};
 
 /// Name of the requirement to land near the ground team.
 const LANDED_AT_HOME: &str = "landed_at_home";
@@ -24,23 +25,12 @@ pub enum LimitKind {
     AtMost,
 }
 
-impl LimitKind {
-    /// Returns the words that precede the limit.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::AtLeast => "at least",
-            Self::AtMost => "at most",
-        }
-    }
-}
-
 /// One requirement: its limit, and the value that the session reached.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Requirement {
     /// Machine-readable name.
     pub id: String,
-    /// Name shown to people.
+    /// Name in English. [`Self::title`] returns it in the language of a page.
     pub name: String,
     /// Unit symbol of limit and value; empty for counts.
     pub unit: String,
@@ -89,34 +79,45 @@ pub struct Reached<'a> {
 }
 
 impl Requirement {
-    fn new(id: &str, name: &str, unit: &str, kind: LimitKind, limit: f64, reached: Option<f64>) -> Self {
+    fn new(id: &str, unit: &str, kind: LimitKind, limit: f64, reached: Option<f64>) -> Self {
         let met = reached.is_some_and(|value| match kind {
             LimitKind::AtLeast => value >= limit,
             LimitKind::AtMost => value <= limit,
         });
-        Self { id: id.into(), name: name.into(), unit: unit.into(), kind, limit, reached, applies: true, met }
+        let name = title(id, Language::English).unwrap_or_default();
+        Self { id: id.into(), name, unit: unit.into(), kind, limit, reached, applies: true, met }
+    }
+
+    /// Returns the name; the stored one if the requirement is unknown.
+    #[must_use]
+    pub fn title(&self, language: Language) -> String {
+        title(&self.id, language).unwrap_or_else(|| self.name.clone())
     }
 
     /// Returns the limit as text, such as "at least 20%".
     #[must_use]
-    pub fn limit_text(&self) -> String {
+    pub fn limit_text(&self, language: Language) -> String {
         if self.is_yes_or_no() {
-            return yes_or_no(self.limit).to_owned();
+            return yes_or_no(self.limit, language);
         }
-        format!("{} {}{}", self.kind.words(), format_limit(self.limit), self.unit_text())
+        let limit = self.with_unit(format_limit(self.limit), language);
+        match self.kind {
+            LimitKind::AtLeast => text!(language, "certification-at-least", limit = limit),
+            LimitKind::AtMost => text!(language, "certification-at-most", limit = limit),
+        }
     }
 
     /// Returns the value reached as text, with enough digits to show which side of the limit it is on.
     #[must_use]
-    pub fn reached_text(&self) -> String {
+    pub fn reached_text(&self, language: Language) -> String {
         match self.reached {
-            _ if !self.applies => "does not apply".to_owned(),
-            Some(value) if self.is_yes_or_no() => yes_or_no(value).to_owned(),
+            _ if !self.applies => text!(language, "certification-does-not-apply"),
+            Some(value) if self.is_yes_or_no() => yes_or_no(value, language),
             Some(value) => {
                 let digits = usize::from(self.unit == "m/s");
-                format!("{}{}", format_with_limit(value, self.limit, digits), self.unit_text())
+                self.with_unit(format_with_limit(value, self.limit, digits), language)
             }
-            None => "no evidence".to_owned(),
+            None => text!(language, "certification-no-evidence"),
         }
     }
 
@@ -125,17 +126,36 @@ impl Requirement {
         self.id == LANDED_AT_HOME
     }
 
-    fn unit_text(&self) -> String {
+    fn with_unit(&self, value: String, language: Language) -> String {
         match self.unit.as_str() {
-            "" => String::new(),
-            "%" => "%".to_owned(),
-            unit => format!(" {unit}"),
+            "" => value,
+            "%" => value + "%",
+            "points" => text!(language, "certification-points", value = value),
+            unit => format!("{value} {unit}"),
         }
     }
 }
 
-fn yes_or_no(value: f64) -> &'static str {
-    if value > 0.0 { "yes" } else { "no" }
+/// Returns the name of the requirement with this ID; `None` if there is none.
+fn title(id: &str, language: Language) -> Option<String> {
+    Some(match id {
+        "tasks_done" => text!(language, "certification-tasks-done"),
+        LANDED_AT_HOME => text!(language, "certification-landed-at-home"),
+        "person_or_vehicle_hits" => text!(language, "certification-person-or-vehicle-hits"),
+        "battery" => text!(language, "certification-battery"),
+        "contacts" => text!(language, "certification-contacts"),
+        "contact_speed" => text!(language, "certification-contact-speed"),
+        "conformity" => text!(language, "certification-conformity"),
+        "precision" => text!(language, "certification-precision"),
+        "safety" => text!(language, "certification-safety"),
+        "accuracy" => text!(language, "certification-accuracy"),
+        PRACTICE_AIDS => text!(language, "certification-practice-aids"),
+        _ => return None,
+    })
+}
+
+fn yes_or_no(value: f64, language: Language) -> String {
+    if value > 0.0 { text!(language, "certification-yes") } else { text!(language, "certification-no") }
 }
 
 fn is_traffic(with: ContactKind) -> bool {
@@ -164,17 +184,17 @@ pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> 
     let traffic = inputs.crashes.iter().filter(|crash| is_traffic(crash.with)).count();
     let fastest_m_s = reached.crashes.iter().map(|crash| crash.speed_m_s).fold(0.0, f64::max);
     let (least, most) = (LimitKind::AtLeast, LimitKind::AtMost);
-    let points = |id: &str, limit: f64, value: Option<f64>| Requirement::new(id, id, "points", least, limit, value);
+    let points = |id: &str, limit: f64, value: Option<f64>| Requirement::new(id, "points", least, limit, value);
     let battery_pct = landed.then_some(reached.battery_pct);
     let contacts = Some(reached.crashes.len() as f64);
     let accuracy = points("accuracy", params.min_accuracy, reached.accuracy);
     let mut all = vec![
-        Requirement::new("tasks_done", "tasks done", "", least, completion.tasks as f64, Some(completion.tasks_done as f64)),
-        Requirement::new(LANDED_AT_HOME, "landed at home", "", least, 1.0, Some(f64::from(u8::from(landed)))),
-        Requirement::new("person_or_vehicle_hits", "people and vehicles hit", "", most, 0.0, Some(traffic as f64)),
-        Requirement::new("battery", "battery at landing", "%", least, params.min_battery_pct, battery_pct),
-        Requirement::new("contacts", "contacts", "", most, params.max_contacts as f64, contacts),
-        Requirement::new("contact_speed", "fastest contact", "m/s", most, params.max_contact_speed_m_s, Some(fastest_m_s)),
+        Requirement::new("tasks_done", "", least, completion.tasks as f64, Some(completion.tasks_done as f64)),
+        Requirement::new(LANDED_AT_HOME, "", least, 1.0, Some(f64::from(u8::from(landed)))),
+        Requirement::new("person_or_vehicle_hits", "", most, 0.0, Some(traffic as f64)),
+        Requirement::new("battery", "%", least, params.min_battery_pct, battery_pct),
+        Requirement::new("contacts", "", most, params.max_contacts as f64, contacts),
+        Requirement::new("contact_speed", "m/s", most, params.max_contact_speed_m_s, Some(fastest_m_s)),
         points("conformity", params.min_conformity, reached.conformity),
         points("precision", params.min_precision, reached.precision),
         points("safety", params.min_safety, Some(reached.safety)),
@@ -182,19 +202,20 @@ pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> 
     let applies = reached.accuracy.is_some();
     all.push(Requirement { applies, met: accuracy.met || !applies, ..accuracy });
     let aids = f64::from(inputs.practice_aids.count());
-    all.push(Requirement::new(PRACTICE_AIDS, "freezes and rewinds", "", most, 0.0, Some(aids)));
+    all.push(Requirement::new(PRACTICE_AIDS, "", most, 0.0, Some(aids)));
     all
 }
 
-/// Returns the unmet requirements as text, each with its limit. Omits the battery reserve if the drone did not land.
+/// Returns the unmet requirements as English text, each with its limit; [`crate::stored_text`] translates it. Omits the battery reserve if the drone did not land.
 #[must_use]
 pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> Vec<String> {
+    let english = Language::English;
     let open = |id: &str| requirements.iter().find(|requirement| requirement.id == id && !requirement.met);
     let mut unmet = Vec::new();
     // Nothing else matters for a flight that was practice.
-    unmet.extend(inputs.practice_aids.words().map(|aids| format!("{aids}, so it was practice")));
+    unmet.extend(inputs.practice_aids.words(english).map(|aids| text!(english, "certification-unmet-practice", aids = aids)));
     if open("person_or_vehicle_hits").is_some() {
-        unmet.push("a person or vehicle was hit".to_owned());
+        unmet.push(text!(english, "certification-unmet-hit"));
     }
     let done_share = inputs.completion.done_share;
     let tasks = inputs.scenario.tasks.iter().zip(inputs.states).zip(inputs.covered);
@@ -202,49 +223,57 @@ pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> 
         tasks.filter_map(|((task, state), covered)| describe_unfinished_task(task.id, *state, covered.share, done_share)),
     );
     if open(LANDED_AT_HOME).is_some() {
-        unmet.push("not landed at home".to_owned());
+        unmet.push(text!(english, "certification-unmet-landing"));
     } else if let Some(battery) = open("battery") {
-        unmet.push(format!("{} battery at landing, {}% needed", battery.reached_text(), format_limit(battery.limit)));
+        let (left, needed) = (battery.reached_text(english), format_limit(battery.limit));
+        unmet.push(text!(english, "certification-unmet-battery", battery = left, needed = needed));
     }
     if let Some(contacts) = open("contacts") {
-        unmet.push(format!("{} contacts, {} allowed", contacts.reached_text(), contacts.limit_text()));
+        let (count, limit) = (contacts.reached_text(english), format_limit(contacts.limit));
+        unmet.push(text!(english, "certification-unmet-contacts", contacts = count, limit = limit));
     }
     if let Some(speed) = open("contact_speed") {
-        unmet.push(format!("contact at {}, {} allowed", speed.reached_text(), speed.limit_text()));
+        let (reached, limit) = (speed.reached_text(english), speed.with_unit(format_limit(speed.limit), english));
+        unmet.push(text!(english, "certification-unmet-contact-speed", speed = reached, limit = limit));
     }
     let scores = ["conformity", "precision", "safety", "accuracy"].into_iter().filter_map(open);
     unmet.extend(scores.map(|score| match score.reached {
         Some(value) => {
-            format!("{} {}, {} needed", score.name, format_with_limit(value, score.limit, 0), format_limit(score.limit))
+            let (value, needed) = (format_with_limit(value, score.limit, 0), format_limit(score.limit));
+            text!(english, "certification-unmet-score", score = score.id.as_str(), value = value, needed = needed)
         }
-        None => format!("no evidence for {}", score.name),
+        None => text!(english, "certification-unmet-no-evidence", score = score.id.as_str()),
     }));
     unmet
 }
 
 /// Returns the requirements of a scenario as text, one per line, for people who prepare jobs.
 #[must_use]
-pub fn describe(scenario: &Scenario) -> Vec<String> {
+pub fn describe(scenario: &Scenario, language: Language) -> Vec<String> {
     let params = &scenario.certification;
     let limit = format_limit;
+    let share = limit(100.0 * scenario.scoring.task_completion_fraction);
+    let speed = limit(params.max_contact_speed_m_s);
     vec![
-        format!("every task flown over at least {}% of its path", limit(100.0 * scenario.scoring.task_completion_fraction)),
-        format!("landed at home with at least {}% battery, no person or vehicle hit", limit(params.min_battery_pct)),
-        "no freezes and no rewinds, which are aids of practice".to_owned(),
-        format!("at most {} contacts, none faster than {} m/s", params.max_contacts, limit(params.max_contact_speed_m_s)),
-        format!(
-            "conformity at least {}, precision {}, safety {}, accuracy {}",
-            limit(params.min_conformity),
-            limit(params.min_precision),
-            limit(params.min_safety),
-            limit(params.min_accuracy)
+        text!(language, "certification-job-tasks", share = share),
+        text!(language, "certification-job-landing", battery = limit(params.min_battery_pct)),
+        text!(language, "certification-job-aids"),
+        text!(language, "certification-job-contacts", contacts = params.max_contacts.to_string(), speed = speed),
+        text!(
+            language,
+            "certification-job-scores",
+            conformity = limit(params.min_conformity),
+            precision = limit(params.min_precision),
+            safety = limit(params.min_safety),
+            accuracy = limit(params.min_accuracy)
         ),
-        format!(
-            "pictures with at most {} mm/px ({} of the width for a crack), {} px of motion blur and {} deg of incidence",
-            limit(params.max_gsd_mm),
-            limit(params.gsd_per_line_width),
-            limit(params.max_smear_px),
-            limit(params.max_incidence_deg)
+        text!(
+            language,
+            "certification-job-pictures",
+            resolution = limit(params.max_gsd_mm),
+            width = limit(params.gsd_per_line_width),
+            blur = limit(params.max_smear_px),
+            incidence = limit(params.max_incidence_deg)
         ),
     ]
 }
@@ -255,13 +284,29 @@ mod tests {
 
     #[test]
     fn exact_limits_and_values_read_as_text() {
-        let texts = |requirement: Requirement| (requirement.limit_text(), requirement.reached_text(), requirement.met);
-        let landed = |value| Requirement::new(LANDED_AT_HOME, "landed at home", "", LimitKind::AtLeast, 1.0, Some(value));
+        let english = Language::English;
+        let texts =
+            |requirement: Requirement| (requirement.limit_text(english), requirement.reached_text(english), requirement.met);
+        let landed = |value| Requirement::new(LANDED_AT_HOME, "", LimitKind::AtLeast, 1.0, Some(value));
         assert_eq!(texts(landed(1.0)), ("yes".into(), "yes".into(), true));
         assert_eq!(texts(landed(0.0)), ("yes".into(), "no".into(), false));
-        let contacts = Requirement::new("contacts", "contacts", "", LimitKind::AtMost, 2.0, Some(3.0));
+        let contacts = Requirement::new("contacts", "", LimitKind::AtMost, 2.0, Some(3.0));
         assert_eq!(texts(contacts), ("at most 2".into(), "3".into(), false));
-        let precision = Requirement::new("precision", "precision", "points", LimitKind::AtLeast, 45.0, None);
+        let precision = Requirement::new("precision", "points", LimitKind::AtLeast, 45.0, None);
         assert_eq!(texts(precision), ("at least 45 points".into(), "no evidence".into(), false));
+    }
+
+    #[test]
+    fn exact_requirements_are_in_the_language_of_the_page() {
+        let contacts = Requirement::new("contacts", "", LimitKind::AtMost, 2.0, Some(3.0));
+        assert_eq!((contacts.name.as_str(), contacts.title(Language::German)), ("contacts", "Berührungen".to_owned()));
+        let precision = Requirement::new("precision", "points", LimitKind::AtLeast, 45.0, Some(44.0));
+        assert_eq!(precision.limit_text(Language::German), "mindestens 45 Punkte");
+        assert_eq!(precision.reached_text(Language::Spanish), "44 puntos");
+        let other = Requirement { id: "elegance".into(), ..precision.clone() };
+        assert_eq!(other.title(Language::German), precision.name, "the stored name of an unknown requirement");
+        for shown in [precision.title(Language::Pseudo), precision.limit_text(Language::Pseudo)] {
+            assert!(!shown.chars().any(|c| c.is_ascii_alphabetic()), "{shown}");
+        }
     }
 }

@@ -10,17 +10,18 @@ use spandrel_monitor::score::certification::TaskVisits;
 use spandrel_monitor::score::certification::contacts::MergedCrash;
 use spandrel_monitor::score::certification::pictures::GradedPicture;
 use spandrel_monitor::score::completion::verdict;
+use spandrel_text::Language;
 
 /// Renders the "Certification" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
     html! {
         p { "The certification profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
-            b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet)) "." } } }
+            b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet, Language::English)) "." } } }
         ul.gates {
             @for requirement in &c.requirements {
                 li { span class={ "badge " (if requirement.met { "v-hit" } else { "v-false" }) } { (if requirement.met { "met" } else { "not met" }) }
-                    " " (requirement.name) ": " (requirement.reached_text()) " (" (requirement.limit_text()) ")" }
+                    " " (requirement.name) ": " (requirement.reached_text(Language::English)) " (" (requirement.limit_text(Language::English)) ")" }
             }
         }
         @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }

@@ -13,6 +13,7 @@ use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::plots::lines::{ChartLine, color_number, lines};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
+use spandrel_text::Language;
 
 /// Names of the four scores.
 const SCORES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
@@ -28,7 +29,8 @@ pub fn max_value(score: &str) -> f64 {
 #[must_use]
 pub fn job_progress(job: &JobProgress) -> Markup {
     let progress = &job.progress;
-    let left_out = html! { @if let Some(words) = excluded_sessions_note(job.left_out) { p.note { (words) "." } } };
+    let left_out =
+        html! { @if let Some(words) = excluded_sessions_note(job.left_out, Language::English) { p.note { (words) "." } } };
     if progress.repetitions.is_empty() {
         return left_out;
     }

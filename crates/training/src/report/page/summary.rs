@@ -9,6 +9,7 @@ use maud::{Markup, html};
 use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
+use spandrel_text::Language;
 
 /// Renders the trainee, job, date and overall score.
 pub fn header(review: &Review) -> Markup {
@@ -28,18 +29,18 @@ pub fn header(review: &Review) -> Markup {
                     @if let Some(difficulty) = &review.scenario.difficulty { " · level " (difficulty.level) " of " (difficulty.levels()) }
                 }
                 p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) "." @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
-                @if let Some(words) = review.assessment.practice_aids.words() { p { "This session was " (words) ". It counts as practice: it is neither certified nor compared with others." } }
+                @if let Some(words) = review.assessment.practice_aids.words(Language::English) { p { "This session was " (words) ". It counts as practice: it is neither certified nor compared with others." } }
                 @if let Some(words) = review.out_of_sight.sentence() { p { (words) } }
             }
             div.overall {
                 @if review.assessment.completion.complete {
                     p.figure { (formatting::number(scores.overall, 0)) span.of { " of " (formatting::number(scores.overall_max, 0)) } }
                     p { "overall" }
-                    p { (review.assessment.completion.headline()) }
+                    p { (review.assessment.completion.headline(Language::English)) }
                 } @else {
-                    p.headline { (review.assessment.completion.headline()) }
+                    p.headline { (review.assessment.completion.headline(Language::English)) }
                 }
-                p { (verdict(certification.passed, &certification.unmet)) }
+                p { (verdict(certification.passed, &certification.unmet, Language::English)) }
             }
         }
     }
@@ -62,7 +63,7 @@ pub fn scores(review: &Review) -> Markup {
         .map(|(name, score)| RadarAxis { name, values: vec![score.map(|score| score.pct)] })
         .collect();
     html! {
-        p { (review.assessment.completion.headline()) "." @if !review.assessment.completion.complete { " The scores below cover only the part that was flown." } }
+        p { (review.assessment.completion.headline(Language::English)) "." @if !review.assessment.completion.complete { " The scores below cover only the part that was flown." } }
         div.split {
             (figure("The four scores, 0 at the center, 100 at the edge", &radar(&spokes, "Radar chart of the four scores")))
             div.cards {

@@ -8,6 +8,7 @@ use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
+use spandrel_text::Language;
 
 /// Object hit and CSS class, in the order of the bars.
 const KINDS: [(ContactKind, &str); 6] = [
@@ -35,7 +36,7 @@ pub fn section(review: &Review) -> Markup {
             }))
         }
         ul { @for (k, task) in review.assessment.tasks.iter().enumerate() {
-            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.description(task.covered, done_share)) }
+            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.description(task.covered, done_share, Language::English)) }
         } }
         (task_table(review).folded())
         (crash_table(review).folded())

@@ -18,6 +18,7 @@ use crate::record::excluded_sessions_note;
 use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
+use spandrel_text::Language;
 
 /// Where the table files are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +54,7 @@ pub fn summary_lines(cohort: &Cohort) -> Markup {
     html! {
         p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
             @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " or more times." }
-            @if let Some(words) = excluded_sessions_note(cohort.left_out) { " " (words) "." } }
+            @if let Some(words) = excluded_sessions_note(cohort.left_out, Language::English) { " " (words) "." } }
     }
 }
 

@@ -12,6 +12,7 @@ use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell};
 use maud::{Markup, html};
 use spandrel_monitor::score::completion::verdict;
+use spandrel_text::Language;
 
 /// Placeholder for values whose reliability is not estimated.
 const NO_MEASURE: &str = "";
@@ -39,7 +40,7 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
                 div {
                     p.kicker { "Session comparison" }
                     h1 { (first.scenario.title) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline()) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet)) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline(Language::English)) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet, Language::English)) } }
                 }
             }
             main {

@@ -1,0 +1,109 @@
+//! Texts that assessments and records contain in English, in another language: unmet requirements, and the reasons why pictures do
+//! not count. Files keep the English text, so that they don't depend on a language; pages translate it for display.
+
+use crate::measures::practice_aids::PracticeAids;
+use spandrel_text::{Language, text};
+
+/// Stands for a value in a pattern. Texts do not contain it.
+const MARK: &str = "\u{0}";
+
+/// Renders a text with its values, which are in the order in which the English text shows them.
+type Render = fn(Language, &[&str]) -> String;
+
+/// Known texts with the numbers of their values. Texts with more words between their values come first.
+const TEXTS: &[(usize, Render)] = &[
+    (3, |l, v| text!(l, "certification-unmet-task-part", task = v[0], share = v[1], needed = v[2])),
+    (1, |l, v| text!(l, "certification-unmet-task-not-attempted", task = v[0])),
+    (0, |l, _| text!(l, "certification-unmet-hit")),
+    (0, |l, _| text!(l, "certification-unmet-landing")),
+    (2, |l, v| text!(l, "certification-unmet-battery", battery = v[0], needed = v[1])),
+    (2, |l, v| text!(l, "certification-unmet-contacts", contacts = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-unmet-contact-speed", speed = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-resolution", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-motion-blur", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-incidence", value = v[0], limit = v[1])),
+    (0, |l, _| text!(l, "certification-picture-too-fine")),
+    (0, |l, _| text!(l, "certification-picture-not-central")),
+    (0, |l, _| text!(l, "certification-picture-hidden")),
+    (2, |l, v| text!(l, "certification-picture-too-oblique", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-too-small", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-line-too-thin", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-dark-lamp-on", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-dark-lamp-off", value = v[0], limit = v[1])),
+    (2, |l, v| text!(l, "certification-picture-of-defect", defect = v[0], reason = translated(v[1], l))),
+    (1, |l, v| text!(l, "certification-unmet-practice", aids = PracticeAids::from_words(v[0]).words(l).unwrap_or_default())),
+    (1, |l, v| text!(l, "certification-unmet-no-evidence", score = v[0])),
+    (3, |l, v| text!(l, "certification-unmet-score", score = v[0], value = v[1], needed = v[2])),
+];
+
+/// Returns a stored English text in a language, or unchanged if it is none of the known ones.
+#[must_use]
+pub fn translated(stored: &str, language: Language) -> String {
+    if language == Language::English {
+        return stored.to_owned();
+    }
+    let known = |(count, render): &(usize, Render)| {
+        // A mark names no aids, so that the text of a practice flight contains none: it begins with them.
+        let pattern = match render(Language::English, &vec![MARK; *count]) {
+            pattern if pattern.contains(MARK) || *count == 0 => pattern,
+            pattern => MARK.to_owned() + &pattern,
+        };
+        let values = values(stored, &pattern)?;
+        Some(render(language, &values))
+    };
+    TEXTS.iter().find_map(known).unwrap_or_else(|| stored.to_owned())
+}
+
+/// Returns the parts of a text at the marks of a pattern; `None` if the rest differs.
+fn values<'a>(stored: &'a str, pattern: &str) -> Option<Vec<&'a str>> {
+    let mut words = pattern.split(MARK).peekable();
+    let mut rest = stored.strip_prefix(words.next()?)?;
+    let mut values = Vec::new();
+    while let Some(word) = words.next() {
+        let is_last = words.peek().is_none();
+        let length = if is_last { rest.strip_suffix(word)?.len() } else { rest.find(word)? };
+        let (value, following) = rest.split_at(length);
+        values.push(value);
+        rest = following.get(word.len()..)?;
+    }
+    rest.is_empty().then_some(values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_every_stored_text_is_translated_with_its_values() {
+        let texts = [
+            ("task 3 not done: 45% of its path, 80% needed", "Aufgabe 3 nicht erledigt: 45% der Bahn, 80% nötig"),
+            ("task 2 not attempted", "Aufgabe 2 nicht begonnen"),
+            ("a person or vehicle was hit", "eine Person oder ein Fahrzeug wurde getroffen"),
+            ("not landed at home", "nicht am Landeplatz gelandet"),
+            ("12% battery at landing, 20% needed", "12% Akku bei der Landung, 20% nötig"),
+            ("3 contacts, at most 2 allowed", "3 Berührungen, höchstens 2 erlaubt"),
+            ("contact at 1.4 m/s, at most 1 m/s allowed", "Berührung mit 1.4 m/s, höchstens 1 m/s erlaubt"),
+            ("precision 60, 70 needed", "Präzision 60, 70 nötig"),
+            ("no evidence for conformity", "kein Nachweis für: Wegtreue"),
+            (
+                "rewound twice and frozen 3 times, so it was practice",
+                "zweimal zurückgespult und 3-mal angehalten, daher ein Übungsflug",
+            ),
+            ("frozen once, so it was practice", "einmal angehalten, daher ein Übungsflug"),
+            ("defect 4: motion blur 3.1 px, limit 2 px", "Schaden 4: Bewegungsunschärfe 3.1 px, Grenzwert 2 px"),
+            ("too dark: lamp off, 10 lx of 50 lx needed", "zu dunkel: Scheinwerfer aus, 10 lx von 50 lx nötig"),
+            ("too oblique: 69 deg, limit 60 deg", "zu schräg: 69°, Grenzwert 60°"),
+            ("line too thin: 0.2 px, at least 0.5 px", "Linie zu dünn: 0.2 px, mindestens 0.5 px"),
+            ("too small: 3 px, at least 16 px", "zu klein: 3 px, mindestens 16 px"),
+            ("not in the central 80% of the image", "nicht in den mittleren 80% des Bildes"),
+            ("hidden behind something", "verdeckt"),
+            ("too fine for this camera", "zu fein für diese Kamera"),
+        ];
+        for (stored, german) in texts {
+            assert_eq!(translated(stored, Language::German), german);
+            assert_eq!(translated(stored, Language::English), stored);
+            assert!(!translated(stored, Language::Pseudo).is_ascii(), "{stored}");
+        }
+        assert_eq!(translated("something else", Language::Spanish), "something else");
+    }
+}

@@ -1,0 +1,146 @@
+advice-lesson = Die Punkte einer Lektion zählen nicht. Wenn Sie jeden Schritt erledigt haben, fliegen Sie die erste Übung.
+advice-nothing-to-correct = Nichts zu verbessern: Fliegen Sie den nächsten Auftrag.
+advice-not-certified = Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: { $unmet }.
+advice-fly-again = Kein einzelner Fehler fällt auf: Fliegen Sie den Auftrag noch einmal.
+advice-not-finished = Kein einzelner Fehler fällt auf, aber der Auftrag ist nicht beendet: Fliegen Sie ihn bis zum Ende.
+
+advice-and = { $first } und { $last }
+advice-when = { $place ->
+        [task] bei Aufgabe { $tasks } für
+        [tasks] bei den Aufgaben { $tasks } für
+       *[none] für
+    } { $time }{ $stretches ->
+        [one] {" "}ab { $from }
+       *[other] , am längsten ab { $from }
+    }
+
+advice-off-path = Sie haben die Bahn verlassen, { $when }, bis zu { $most } m weit: Kehren Sie zurück, bevor Sie weiterfliegen.
+advice-drifted-up = Sie sind { $mean } m über die Bahn geraten, { $when }: Halten Sie die Höhe.
+advice-drifted-down = Sie sind { $mean } m unter die Bahn geraten, { $when }: Halten Sie die Höhe.
+advice-beside-path = Sie sind { $mean } m neben der Bahn geflogen, { $when }: Fliegen Sie auf der Bahn selbst.
+advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
+        [deck] von der Fahrbahntafel
+        [arch] vom Bogen
+        [pier] vom Pfeiler
+       *[structure] vom Bauwerk
+    } geflogen, { $when }: Fliegen Sie näher heran.
+advice-too-close = Sie sind { $mean } m zu nah { $surface ->
+        [deck] an der Fahrbahntafel
+        [arch] am Bogen
+        [pier] am Pfeiler
+       *[structure] am Bauwerk
+    } geflogen, { $when }: Vergrößern Sie den Abstand.
+advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
+advice-too-low = Sie sind { $mean } m unter der Bahn geflogen, { $when }: Steigen Sie auf die Bahn.
+advice-speeding = Sie sind{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+       *[none] {""}
+    } bis zu { $most } m/s geflogen, { $when } über der Höchstgeschwindigkeit von { $limit } m/s: Fliegen Sie langsamer.
+advice-low-clearance = Sie waren weniger als { $limit } m vom Bauwerk entfernt, { $when }, im Minimum { $least } m: Halten Sie Abstand.
+advice-stick-reversals = Sie haben die Steuerknüppel{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+       *[none] {""}
+    } bis zu { $most }-mal pro Minute umgesteuert, am häufigsten ab { $at }: Korrigieren Sie klein und sanft.
+advice-yaw-reversals = Sie haben den Gierknüppel{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+       *[none] {""}
+    } bis zu { $most }-mal pro Minute umgesteuert, am häufigsten ab { $at }: Halten Sie die Richtung.
+
+advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
+        [deck] von der Fahrbahntafel
+        [arch] vom Bogen
+        [pier] vom Pfeiler
+       *[structure] vom Bauwerk
+    } weg, { $when }: Drehen Sie die Nase zur Oberfläche.
+advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.
+
+advice-crash-times = bei { $times }
+advice-crash-first-and-hardest = zuerst bei { $first }, am stärksten bei { $hardest } ({ $speed } m/s)
+advice-crash = Sie haben { $object ->
+        [bridge] die Brücke
+        [terrain] den Boden
+        [water] das Wasser
+        [vehicle] ein Fahrzeug
+        [person] eine Person
+        [other] ein Hindernis
+        [none] nichts
+       *[several] Hindernisse
+    }{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+        [between] {" "}zwischen den Aufgaben
+       *[none] {""}
+    } { $count ->
+        [1] einmal
+        [2] zweimal
+       *[other] { $count }-mal
+    } getroffen, { $when }: { $remedy ->
+        [altitude] Halten Sie die Höhe
+        [people] Bleiben Sie weg von Personen und Verkehr
+       *[distance] Halten Sie Abstand
+    }.
+
+advice-missed-in-view = Sie haben { $missed } von { $all } { $kind ->
+        [severe] schweren Schäden
+        [hidden] Schäden, die von der Bahn abgewandt sind,
+        [cracks] Rissen
+       *[all] Schäden
+    } nicht fotografiert; Schaden { $defect } war bei { $at } klar zu sehen: Halten Sie an und machen Sie ein Bild.
+advice-missed-nearest = Sie haben { $missed } von { $all } { $kind ->
+        [severe] schweren Schäden
+        [hidden] Schäden, die von der Bahn abgewandt sind,
+        [cracks] Rissen
+       *[all] Schäden
+    } nicht fotografiert; bei { $at } waren Sie einer Sicht auf Schaden { $defect } am nächsten: Suchen Sie dort langsam.
+advice-passed-in-view = Sie sind an { $count ->
+        [one] einem klar sichtbaren Schaden
+       *[other] { $count } klar sichtbaren Schäden
+    } ohne Bild vorbeigeflogen, am längsten für { $seconds } s bei { $at }: Fliegen Sie dort langsamer oder näher.
+advice-picture-failed = { $count ->
+        [one] Ihr Bild eines Schadens war
+       *[other] Ihre Bilder von { $count } Schäden waren
+    } { $why ->
+        [dark] zu dunkel
+        [oblique] in zu flachem Winkel aufgenommen
+        [small] aus zu großer Entfernung aufgenommen
+        [thin] für einen feinen Riss aus zu großer Entfernung aufgenommen
+       *[other] ungenügend ({ $reason })
+    }, zuerst bei { $at }: { $why ->
+        [dark] Schalten Sie den Scheinwerfer ein
+        [oblique] Richten Sie die Nase gerade auf die Oberfläche
+        [small] Fliegen Sie näher heran
+        [thin] Fliegen Sie näher heran
+       *[other] Beheben Sie das vor der Aufnahme
+    }.
+advice-picture-poor = Ihre Bilder von { $count } der { $found } gefundenen Schäden sind { $why ->
+        [blur] durch Bewegung unscharf
+        [coarse] zu grob
+        [oblique] in zu flachem Winkel aufgenommen
+       *[other] nicht gut genug
+    }, zuerst bei { $at }: { $why ->
+        [blur] Halten Sie vor der Aufnahme an
+        [coarse] Fliegen Sie näher heran
+        [oblique] Richten Sie die Nase gerade auf die Oberfläche
+       *[other] Lesen Sie im Bericht, was bei jedem Bild fehlt
+    }.
+advice-no-pictures = Sie haben keinen der { $count } Schäden fotografiert; die beste Gelegenheit war bei { $at }: Fotografieren Sie jeden Schaden.
+advice-pictures-of-nothing = { $count } Ihrer { $taken } Bilder zeigen keinen neuen Schaden, zuerst bei { $at }: Schauen Sie erst, dann machen Sie das Bild.
+
+advice-not-attempted = Sie haben { $place ->
+        [task] Aufgabe { $tasks }
+        [tasks] die Aufgaben { $tasks }
+       *[none] die Aufgabe
+    } nicht geflogen: Der Flug endete bei { $at }.
+advice-not-covered = Sie haben nur { $shares } { $place ->
+        [task] der Bahn von Aufgabe { $tasks } geflogen und sie
+        [tasks] der Bahnen der Aufgaben { $tasks } geflogen und Aufgabe { $least }
+       *[none] der Bahn geflogen und sie
+    } bei { $at } verlassen: Fliegen Sie jede Bahn bis zum Ende.
+advice-overtime = Sie sind { $flown } geflogen, { $over } länger als für volle Punkte erlaubt; die Zeit war bei { $at } um: Planen Sie die Reihenfolge der Aufgaben.
+advice-not-landed = Ihr Flug endete bei { $at }, { $away } m vom Landeplatz: Fliegen Sie zurück und landen Sie dort.
+advice-battery-low = Am Ende hatten Sie { $left }% Akku; die Reserve von { $reserve }% war bei { $at } erreicht: Kehren Sie früher um.
+advice-time-up = Ihre Zeit war bei { $at } um, { $away } m vom Landeplatz: Kehren Sie früher um.
+advice-battery-empty = Ihr Akku war bei { $at } leer, { $away } m vom Landeplatz: Kehren Sie früher um.

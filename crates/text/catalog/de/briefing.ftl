@@ -1,0 +1,97 @@
+briefing-aircraft = Fluggerät
+briefing-tasks = Aufgaben
+briefing-time = Zeit
+briefing-speed = Geschwindigkeit
+briefing-defects = Schäden
+briefing-wind = Wind
+briefing-sky = Himmel
+briefing-traffic = Verkehr
+
+briefing-tasks-and-length = { $tasks }, { $length } m Bahn
+briefing-time-needed = etwa { $needed } min nötig, { $allowed } min erlaubt
+briefing-speed-limit = { $speed } m/s für die Prüfung, Grenze { $limit }
+briefing-no-defects = keine
+briefing-defects-to-find = { $count } zu finden
+briefing-wind-from = { $wind } aus { $bearing }°
+briefing-calm = windstill
+briefing-clouds = { $share }% bewölkt
+briefing-cars = { $count ->
+        [one] { $count } Pkw
+       *[other] { $count } Pkw
+    }
+briefing-trucks = { $count ->
+        [one] { $count } Lkw
+       *[other] { $count } Lkw
+    }
+briefing-pedestrians = { $count ->
+        [one] { $count } Fußgänger
+       *[other] { $count } Fußgänger
+    }
+
+briefing-hover = an einer Stelle schweben
+briefing-place = { $kind ->
+        [slab] entlang der Kante der Fahrbahntafel
+        [arch] unter dem Bogen
+        [interlayer] zwischen Bogen und Fahrbahntafel
+        [pier] um den Pfeiler
+       *[free] entlang der freien Bahn
+    }{ $named ->
+        [yes] {" "}der Brücke „{ $bridge }“
+       *[no] {""}
+    }
+briefing-place-and-way = { $place }, { $way }
+briefing-way-loop = einmal herum, in beliebiger Richtung
+briefing-way-back = endet am Anfang
+briefing-way-up = von unten nach oben
+briefing-way-down = von oben nach unten
+briefing-way = von { $from } nach { $to }
+briefing-north = Norden
+briefing-northeast = Nordosten
+briefing-east = Osten
+briefing-southeast = Südosten
+briefing-south = Süden
+briefing-southwest = Südwesten
+briefing-west = Westen
+briefing-northwest = Nordwesten
+briefing-length = { $length } m lang
+briefing-height-above = { $height } m über dem Landeplatz
+briefing-height-below = { $height } m unter dem Landeplatz
+briefing-heights = { $low } bis { $high } m über dem Landeplatz
+briefing-stand-off = Abstand { $distance } ± { $tolerance } m
+briefing-within = höchstens { $distance } m neben der Bahn
+briefing-lamp-needed = Scheinwerfer nötig
+
+briefing-confined = Enger Raum: Bei Aufgabe { $task } kommt das Bauwerk der Bahn auf { $clearance } m nahe.
+briefing-darkness = Dunkelheit: Der Scheinwerfer ist bei { $count ->
+        [one] Aufgabe { $tasks }
+       *[other] den Aufgaben { $tasks }
+    } nötig.
+briefing-vehicles = Verkehr: { $count ->
+        [one] { $count } Fahrzeug
+       *[other] { $count } Fahrzeuge
+    } auf den Brücken. Bleiben Sie von der Fahrbahn weg.
+briefing-people = Personen: { $count ->
+        [one] { $count } Fußgänger
+       *[other] { $count } Fußgänger
+    } auf den Gehwegen. Fliegen Sie nie über Personen.
+briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter der Fahrbahntafel kann die Position abdriften.
+briefing-water = Wasser: Teile der Bahnen liegen über Wasser. Bei einer Notlandung dort geht das Fluggerät verloren.
+briefing-crash-ends = Eine Kollision beendet die Sitzung.
+briefing-wind-force = Wind: eine Kraft von { $force } N.{ $changes ->
+        [yes] {" "}Er ändert sich oder böt während des Flugs.
+       *[no] {""}
+    } Rechnen Sie damit, von der Bahn geschoben zu werden.
+briefing-wind-speed = Wind: im Mittel { $speed } m/s.{ $changes ->
+        [yes] {" "}Er ändert sich oder böt während des Flugs.
+       *[no] {""}
+    } Rechnen Sie mit Turbulenz hinter Pfeilern und unter der Fahrbahntafel.
+
+briefing-conformity = Wegtreue: Bleiben Sie auf der Bahn und dort unter der Höchstgeschwindigkeit.
+briefing-efficiency = Effizienz: Landen Sie, bevor die Zeit um ist und bevor der Akku leer ist.
+briefing-safety = Sicherheit: Berühren Sie nichts. Wird eine Person oder ein Fahrzeug getroffen, endet die Sitzung.
+briefing-accuracy = Genauigkeit: Fotografieren Sie jeden Schaden einmal, nahe der Bildmitte, und sonst nichts.
+briefing-to-be-certified = Für die Zertifizierung: { $requirement }.
+
+briefing-check-risk = Risiko: Ich kenne die Gefahren und breche ab, wenn jemand den Flugbereich betritt.
+briefing-check-battery = Akku: voll. Ich lande mit mindestens { $least }% und fliege bei der Akkuwarnung ({ $low }%) zurück.
+briefing-check-landing = Landeplatz: { $away } m vom Prüfer entfernt. Landungen im Umkreis von { $radius } m gelten als am Landeplatz.

@@ -1,0 +1,35 @@
+job-drill-curve-under-arch = Übung: Kurve unter dem Bogen
+job-drill-framing = Übung: Bildausschnitt
+job-drill-gap = Übung: Engstelle
+job-drill-hover = Übung: Schweben
+job-drill-lamp = Übung: Scheinwerfer
+job-drill-landing = Übung: Landung
+job-drill-orbit = Übung: Umkreisen
+job-drill-search = Übung: Suchen
+job-drill-stand-off = Übung: Abstand
+job-drill-straight-line = Übung: gerade Linie
+job-first-flight = Lektion: erster Flug
+job-pilot-study = Pilotstudie: Seite der Fahrbahntafel, Bogenunterseite, Zwischenraum, Pfeiler
+job-practice = Üben an zwei Brücken
+job-two-bridges = Zwei Brücken: Seite der Fahrbahntafel, Bogenunterseite, Zwischenraum, Pfeiler
+
+job-task-curve = Kurve unter dem Bogen
+job-task-slab-framing = Seite der Fahrbahntafel, Kamera auf die Fahrbahntafel
+job-task-gap = Engstelle zwischen Fahrbahntafel und Bogen
+job-task-hover = Schweben
+job-task-dark-arch = Bogenunterseite im Dunkeln
+job-task-out-and-back = Hin und zurück
+job-task-orbit = Umkreisen
+job-task-pier-faces = Pfeiler, alle Seiten
+job-task-pier-stand-off = Pfeiler in 3 m Abstand
+job-task-straight-line = Gerade Linie
+job-task-square = Quadrat
+job-task-slab = Fahrbahntafel der Bogenbrücke von einer Seite
+job-task-arch = Bogenförmige Unterseite
+job-task-interlayer = Zwischenraum zwischen Fahrbahntafel und Bogen
+job-task-pier = Pfeiler der Hängebrücke nahe am Wasser
+
+job-state-open = offen
+job-state-overdue = überfällig
+job-state-done = erledigt
+job-state-done-late = verspätet erledigt

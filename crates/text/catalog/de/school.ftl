@@ -1,0 +1,21 @@
+school-nothing = Von hier ist kein Schaden zu sehen
+school-question = { $element }, Bauteil { $number }. Die Mitte eines Fotos in voller Auflösung, aus { $distance } m mit eingeschaltetem Scheinwerfer aufgenommen.
+school-right = Richtig.
+school-wrong = Falsch. Nicht zutreffend: { $defect }.
+school-wrong-nothing = Falsch: Da ist ein Schaden.
+school-sound-surface = Die Oberfläche ist schadensfrei. Flecken, Schalungsfugen, verpresste Risse, Spinnweben und Graffiti sind keine Schäden.
+school-hidden = Hier ist ein Schaden ({ $defect }), aber aus { $distance } m ist er nicht zu sehen: Ein Pixel deckt { $pixel } mm ab. { $size } Fliegen Sie näher heran.
+school-card = { $subject } aus { $distance } m
+school-sound = schadensfreie Oberfläche
+school-size-line = Die Breite beträgt { $width } mm, die Länge { $length } mm.
+school-size-area = Die Größe beträgt { $length } mm mal { $width } mm.
+
+school-corrosion = Korrosion: raue, rotbraune Flecken auf Stahl.
+school-fatigue = Ermüdungsriss: eine sehr dünne Linie im Stahl, oft mit Rost entlang der Linie.
+school-connection = Verbindung: Eine Schraube oder ein Niet fehlt oder ist lose.
+school-spall = Abplatzung: eine Vertiefung mit scharfem Rand. Der Beton darin ist heller und rauer.
+school-rebar = Freiliegende Bewehrung: orangebraune Stäbe in einer Vertiefung im Beton.
+school-efflorescence = Aussinterung oder Rostfahne: weiße oder braune Streifen, die an der Oberfläche herunterlaufen.
+school-abrasion = Abrieb: eine abgenutzte Stelle, an der die Gesteinskörnung sichtbar ist.
+school-crack = Riss: eine dünne, dunkle, unregelmäßige Linie.
+school-defect = Ein Schaden.

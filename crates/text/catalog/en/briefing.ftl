@@ -1,0 +1,105 @@
+# The briefing before a flight. The pages that show it have their own headings.
+
+# Names of the conditions.
+briefing-aircraft = aircraft
+briefing-tasks = tasks
+briefing-time = time
+briefing-speed = speed
+briefing-defects = defects
+briefing-wind = wind
+briefing-sky = sky
+briefing-traffic = traffic
+
+# Conditions.
+briefing-tasks-and-length = { $tasks }, { $length } m of path
+briefing-time-needed = about { $needed } min needed, { $allowed } min allowed
+briefing-speed-limit = { $speed } m/s for inspection, limit { $limit }
+briefing-no-defects = none
+briefing-defects-to-find = { $count } to find
+briefing-wind-from = { $wind } from { $bearing }°
+briefing-calm = calm
+briefing-clouds = { $share }% clouds
+briefing-cars = { $count ->
+        [one] { $count } car
+       *[other] { $count } cars
+    }
+briefing-trucks = { $count ->
+        [one] { $count } truck
+       *[other] { $count } trucks
+    }
+briefing-pedestrians = { $count ->
+        [one] { $count } pedestrian
+       *[other] { $count } pedestrians
+    }
+
+# Tasks: where, in which direction, and their numbers.
+briefing-hover = hover at one place
+briefing-place = { $kind ->
+        [slab] along the edge of the deck
+        [arch] under the arch
+        [interlayer] between the arch and the deck
+        [pier] around the pier
+       *[free] along the free path
+    }{ $named ->
+        [yes] {" "}of bridge '{ $bridge }'
+       *[no] {""}
+    }
+briefing-place-and-way = { $place }, { $way }
+briefing-way-loop = once around, in either direction
+briefing-way-back = ending where it starts
+briefing-way-up = from bottom to top
+briefing-way-down = from top to bottom
+briefing-way = from { $from } to { $to }
+briefing-north = north
+briefing-northeast = northeast
+briefing-east = east
+briefing-southeast = southeast
+briefing-south = south
+briefing-southwest = southwest
+briefing-west = west
+briefing-northwest = northwest
+briefing-length = { $length } m long
+briefing-height-above = { $height } m above the pad
+briefing-height-below = { $height } m below the pad
+briefing-heights = { $low } to { $high } m above the pad
+briefing-stand-off = stand-off { $distance } ± { $tolerance } m
+briefing-within = within { $distance } m of the path
+briefing-lamp-needed = lamp needed
+
+# Hazards.
+briefing-confined = Confined space: in task { $task }, structure comes within { $clearance } m of the path.
+briefing-darkness = Darkness: the lamp is needed in { $count ->
+        [one] task { $tasks }
+       *[other] tasks { $tasks }
+    }.
+briefing-vehicles = Traffic: { $count ->
+        [one] { $count } vehicle
+       *[other] { $count } vehicles
+    } on the bridges. Stay away from the roadway.
+briefing-people = People: { $count ->
+        [one] { $count } pedestrian
+       *[other] { $count } pedestrians
+    } on the walkways. Never fly above them.
+briefing-satellites = GNSS: the structure blocks satellites. Under the deck, the position can drift.
+briefing-water = Water: parts of the paths are above water. An emergency landing there loses the aircraft.
+briefing-crash-ends = A crash ends the session.
+briefing-wind-force = Wind: a force of { $force } N.{ $changes ->
+        [yes] {" "}It changes or gusts during the flight.
+       *[no] {""}
+    } Expect to be pushed off the path.
+briefing-wind-speed = Wind: { $speed } m/s on average.{ $changes ->
+        [yes] {" "}It changes or gusts during the flight.
+       *[no] {""}
+    } Expect turbulence behind piers and under the deck.
+
+# What counts.
+briefing-conformity = Conformity: stay on the path, and below the speed limit while you are on it.
+briefing-efficiency = Efficiency: land before the time is over and before the battery is empty.
+briefing-safety = Safety: touch nothing. A person or a vehicle that is hit ends the session.
+briefing-accuracy = Accuracy: photograph every defect once, near the middle of the picture, and nothing else.
+briefing-to-be-certified = To be certified: { $requirement }.
+
+# The site check.
+briefing-check-risk = Risk: I know the hazards, and I stop if somebody enters the flight area.
+briefing-check-battery = Battery: full. I land with at least { $least }%, and fly home at the low-battery warning ({ $low }%).
+briefing-check-landing = Landing place: the pad, { $away } m from the inspector. Landings within { $radius } m of it count as home.

@@ -1,0 +1,40 @@
+# Titles and task names of the shipped jobs, and states of assigned jobs.
+
+# Titles. The English ones are those in the scenario files.
+job-drill-curve-under-arch = Drill: curve under the arch
+job-drill-framing = Drill: framing
+job-drill-gap = Drill: gap
+job-drill-hover = Drill: hover
+job-drill-lamp = Drill: lamp
+job-drill-landing = Drill: landing
+job-drill-orbit = Drill: orbit
+job-drill-search = Drill: search
+job-drill-stand-off = Drill: stand-off
+job-drill-straight-line = Drill: straight line
+job-first-flight = Lesson: first flight
+job-pilot-study = Pilot study: slab side, arch bottom, interlayer, pier
+job-practice = Practice at two bridges
+job-two-bridges = Two bridges: slab side, arch bottom, interlayer, pier
+
+# Names of tasks.
+job-task-curve = Curve under the arch
+job-task-slab-framing = Side of the slab, camera on the slab
+job-task-gap = Gap between deck and arch
+job-task-hover = Hover
+job-task-dark-arch = Arch bottom in the dark
+job-task-out-and-back = Out and back
+job-task-orbit = Orbit
+job-task-pier-faces = Pier, all faces
+job-task-pier-stand-off = Pier at 3 m
+job-task-straight-line = Straight line
+job-task-square = Square
+job-task-slab = Slab of the arch bridge from one side
+job-task-arch = Arch-shaped bottom
+job-task-interlayer = Interlayer between deck and arch
+job-task-pier = Pier of the suspension bridge near the water
+
+# States of an assigned job.
+job-state-open = open
+job-state-overdue = overdue
+job-state-done = done
+job-state-done-late = done late

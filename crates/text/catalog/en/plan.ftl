@@ -1,0 +1,145 @@
+# The training plan.
+
+# Reasons by the name of the default rule. The English ones are those in rules.toml.
+plan-reason-hit-a-person = A person was hit. Practice hovering away from people, and review the collision with an instructor.
+plan-reason-hit-a-vehicle = A vehicle was hit. Practice routes that stay clear of the roadway, and review the collision with an instructor.
+plan-reason-too-fast-everywhere = Over the speed limit in { $task }. Practice flying at a slow, steady speed.
+plan-reason-too-fast-along-the-slab = { $task }: over the speed limit for { $value } of the time, up to { $fastest }. Practice flying at a slow, steady speed.
+plan-reason-too-fast-under-the-arch = { $task }: over the speed limit for { $value } of the time, up to { $fastest }. Slow down through the curve.
+plan-reason-too-fast-in-the-interlayer = { $task }: over the speed limit for { $value } of the time, up to { $fastest }. Fly slowly between structural members.
+plan-reason-too-fast-around-the-pier = { $task }: over the speed limit for { $value } of the time, up to { $fastest }. Practice turning while moving slowly.
+plan-reason-unsteady-heading = The yaw stick was reversed { $value } in { $task }, so the camera could not stay on the surface. Practice holding a heading.
+plan-reason-unsteady-sticks = The sticks were reversed { $value } in { $task }. Practice small, smooth corrections.
+plan-reason-too-far-from-the-surface = In { $task }, { $value } or more too far from the surface. Practice holding the recommended distance.
+plan-reason-too-close-to-the-surface = In { $task }, { $value } or more too close to the surface. Practice holding the recommended distance.
+plan-reason-too-far-in-one-task = { $task }: { $value } too far from the surface. Practice holding the recommended distance.
+plan-reason-too-close-in-one-task = { $task }: { $value } too close to the surface. Practice holding the recommended distance.
+plan-reason-too-low = { $task }: { $value } below the path. Climb to the path's height and practice holding it.
+plan-reason-too-high = { $task }: { $value } above the path. Practice holding altitude.
+plan-reason-low-clearance = { $task }: below the minimum clearance for { $value } of the time. Practice keeping your distance.
+plan-reason-long-exposure = Below the minimum clearance for { $value }. Practice keeping your distance.
+plan-reason-off-the-path-in-several-tasks = Off the path in { $task }. Practice precise control first.
+plan-reason-off-the-slab-path = { $task }: off the path for { $value } of the time, { $axis }. Practice holding a line.
+plan-reason-off-the-arch-path = { $task }: off the path for { $value } of the time, { $axis }. Practice following the curve.
+plan-reason-off-the-interlayer-path = { $task }: off the path for { $value } of the time, { $axis }. Practice flying in tight spaces.
+plan-reason-off-the-pier-circle = { $task }: off the path for { $value } of the time, { $axis }. Practice circling while turning.
+plan-reason-off-a-drill-path = { $task }: off the path for { $value } of the time, { $axis }. Practice hovering first.
+plan-reason-beside-the-path-in-several-tasks = In { $task }, much of the path was passed without being on it. Practice holding a position.
+plan-reason-beside-the-slab-path = { $task }: passed { $value } of the path without being on it. Practice holding a line.
+plan-reason-beside-the-arch-path = { $task }: passed { $value } of the path without being on it. Practice following the curve.
+plan-reason-beside-the-interlayer-path = { $task }: passed { $value } of the path without being on it. Practice flying in tight spaces.
+plan-reason-beside-the-pier-circle = { $task }: passed { $value } of the path without being on it. Practice circling while turning.
+plan-reason-poor-altitude-hold = { $task }: while off the path, { $value } too high or too low on average. Practice holding altitude.
+plan-reason-crashes-in-several-tasks = Crashes in { $task }. Practice keeping your distance from the structure.
+plan-reason-crashes-along-the-slab = { $task }: { $value } crashes. Practice keeping your distance while flying a straight line.
+plan-reason-crashes-under-the-arch = { $task }: { $value } crashes. Practice the curve under the arch.
+plan-reason-crashes-in-the-interlayer = { $task }: { $value } crashes. Practice flying in tight spaces.
+plan-reason-crashes-at-the-pier = { $task }: { $value } crashes. Practice circling close to the water.
+plan-reason-crashes-between-the-tasks = { $value } crashes into a bridge on the way between tasks. Practice transits: climb clear first, then cross.
+plan-reason-crashes-into-ground = { $value } crashes into the ground outside the tasks. Practice leaving the pad and returning.
+plan-reason-crashes-into-water = { $value } crashes into the water. Practice holding altitude.
+plan-reason-several-tasks-not-attempted = { $task } were not flown. The practice job is shorter: fly every task to its end.
+plan-reason-several-paths-partly-flown = In { $task }, a fifth or more of the path was not flown. The practice job is shorter: fly every path to its end.
+plan-reason-slab-not-attempted = { $task } was not flown. Start with its drill, a straight line along a surface.
+plan-reason-slab-partly-flown = { $task }: { $value } of the path was not flown. Practice flying it to its end.
+plan-reason-arch-not-attempted = { $task } was not flown. Practice it separately.
+plan-reason-arch-partly-flown = { $task }: { $value } of the path was not flown. Practice flying it to its end.
+plan-reason-interlayer-not-attempted = { $task } was not flown. Practice it separately.
+plan-reason-interlayer-partly-flown = { $task }: { $value } of the path was not flown. Practice flying it to its end.
+plan-reason-pier-not-attempted = { $task } was not flown. Practice it separately.
+plan-reason-pier-partly-flown = { $task }: { $value } of the path was not flown. Practice flying it to its end.
+plan-reason-lamp-off = { $task }: the lamp was off for { $value } of the time. Switch it on in the shade.
+plan-reason-poor-framing-in-several-tasks = In { $task }, the camera pointed away from the surface. Practice keeping the surface in the frame.
+plan-reason-poor-framing = { $task }: the camera pointed away from the surface by { $value } beyond the tolerance. Practice keeping the surface in the frame.
+plan-reason-no-pictures = No pictures were taken. Take a picture of every defect that you see.
+plan-reason-hidden-defects-missed = { $value } of the defects on surfaces that face away from the path were not photographed. Look around edges and up at soffits.
+plan-reason-fine-cracks-missed = { $value } of the cracks were not photographed. Search slowly, and move closer to fine lines.
+plan-reason-defects-missed = { $value } of the defects were not photographed. Search every surface slowly.
+plan-reason-severe-defects-missed = Not photographed: { $defects }. Practice sweeping every surface slowly; severe defects matter most.
+plan-reason-missed-in-plain-view = Clearly visible for up to { $value }, but not photographed: { $defects }. Stop and take a picture of every defect that you see.
+plan-reason-pictures-too-dark = { $value } of the defects were in a picture, but the image was too dark. Switch on the lamp before every picture in the shade.
+plan-reason-pictures-too-oblique = { $value } of the defects were in a picture, but seen at too oblique an angle. Practice pointing the nose straight at the surface.
+plan-reason-pictures-from-too-far = { $value } of the defects were in a picture, but too small in the image. Practice holding a short, constant distance from the surface.
+plan-reason-lines-too-thin-in-pictures = { $value } of the defects were cracks in a picture, but too thin in the image. Move closer to fine lines.
+plan-reason-blurred-pictures = { $value } of the photographed defects are blurred by motion. Stop before every picture.
+plan-reason-coarse-pictures = { $value } of the photographed defects were taken from too far for the required resolution. Move closer before the picture.
+plan-reason-oblique-pictures = { $value } of the photographed defects were seen at too oblique an angle. Point the nose straight at the surface.
+plan-reason-pictures-of-nothing = { $value } of the pictures show no new defect. Look first, then take the picture.
+plan-reason-battery-empty = The battery was empty or the time was up before the landing. Practice turning back earlier.
+plan-reason-took-too-long = { $value } beyond the time for full efficiency. Practice the task sequence on the easier job.
+plan-reason-did-not-return-to-the-pad = The flight did not end with a landing on the pad. Practice flying out and back.
+plan-reason-landed-with-little-battery = The battery was below 20% at the end. Practice turning back earlier.
+plan-retention = The last flight was { $days } days ago; skills fade, so start with a refresher flight.
+plan-job = No particular weakness found. Fly the whole job again, with different defects.
+plan-drill-open = This drill is not done yet: { $progress }.
+plan-latest-incomplete = The latest session counts although it is not complete ({ $completion }). It is not compared with other sessions.
+
+# Values in the reasons.
+plan-tasks-over = { $over } of { $all } tasks
+plan-degrees = { $value } degrees
+plan-per-minute = { $value } per minute
+plan-mainly-sideways = mainly sideways
+plan-mainly-vertically = mainly vertically
+plan-both-ways = both sideways and vertically
+plan-far-away = and far from it
+plan-missed-defect = defect { $defect } ({ $kind }, condition state { $state })
+plan-more-defects = { $count } more
+plan-and = { $first } and { $last }
+
+# Progress on a drill, with its criterion.
+plan-drill-done = done: { $met } of the last { $counted } sessions met the criterion ({ $criterion })
+plan-drill-not-at-standard = no session at the standard level yet; done after { $needed } of { $of } at the criterion ({ $criterion })
+plan-drill-not-flown = not flown yet; done after { $needed } of { $of } sessions at the criterion ({ $criterion })
+plan-drill-one-session = { $met } of 1 session met the criterion; done after { $needed } of { $of } ({ $criterion })
+plan-drill-sessions = { $met } of the last { $counted } sessions met the criterion; done after { $needed } of { $of } ({ $criterion })
+plan-criterion = complete, { $limits }
+plan-level-or-harder = level { $level } or harder
+plan-limit-at-most = { $measure } at most { $limit }
+plan-limit-none = no { $measure }
+
+# Measures in a criterion.
+plan-measure-off-path = off path
+plan-measure-off-height = off height
+plan-measure-speeding = speeding
+plan-measure-crashes = crashes
+plan-measure-not-attempted = not attempted
+plan-measure-not-covered = not covered
+plan-measure-beside-path = beside path
+plan-measure-too-far = too far
+plan-measure-too-close = too close
+plan-measure-too-low = too low
+plan-measure-too-high = too high
+plan-measure-low-clearance = low clearance
+plan-measure-framing = framing
+plan-measure-lamp-off = lamp off
+plan-measure-stick-reversals = stick reversals
+plan-measure-yaw-reversals = yaw reversals
+plan-measure-crashes-outside = crashes outside
+plan-measure-crashes-all = crashes all
+plan-measure-missed = missed
+plan-measure-missed-severe = missed severe
+plan-measure-missed-in-view = missed in view
+plan-measure-missed-hidden = missed hidden
+plan-measure-missed-lines = missed lines
+plan-measure-poor-pictures = poor pictures
+plan-measure-no-pictures = no pictures
+plan-measure-false-snapshots = false snapshots
+plan-measure-overtime = overtime
+plan-measure-not-landed = not landed
+plan-measure-battery-low = battery low
+plan-measure-battery-failed = battery failed
+plan-measure-exposure = exposure
+
+# Difficulty levels.
+plan-level = Level { $level } of { $levels } ({ $settings }): { $reason }.
+plan-level-start = start at this level
+plan-level-met = the last session met the criterion at level { $level }
+plan-level-not-met = the last session did not meet the criterion at level { $level }
+plan-level-met-easier = the last session met the criterion at level { $level }, which is easier than recommended
+plan-level-not-met-harder = the last session did not meet the criterion at level { $level }, which is harder than recommended
+
+# Changes since the previous session.
+plan-change-on-path = { $task }: on-path share (%)
+plan-change-speeding = { $task }: time above the speed limit (s)
+plan-change-task-crashes = { $task }: crashes
+plan-change-crashes = crashes: { $object }

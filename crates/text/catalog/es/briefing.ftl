@@ -1,0 +1,97 @@
+briefing-aircraft = aeronave
+briefing-tasks = tareas
+briefing-time = tiempo
+briefing-speed = velocidad
+briefing-defects = defectos
+briefing-wind = viento
+briefing-sky = cielo
+briefing-traffic = tráfico
+
+briefing-tasks-and-length = { $tasks }, { $length } m de trayectoria
+briefing-time-needed = unos { $needed } min necesarios, { $allowed } min permitidos
+briefing-speed-limit = { $speed } m/s para la inspección, límite { $limit }
+briefing-no-defects = ninguno
+briefing-defects-to-find = { $count } por encontrar
+briefing-wind-from = { $wind } desde { $bearing }°
+briefing-calm = en calma
+briefing-clouds = { $share }% de nubes
+briefing-cars = { $count ->
+        [one] { $count } auto
+       *[other] { $count } autos
+    }
+briefing-trucks = { $count ->
+        [one] { $count } camión
+       *[other] { $count } camiones
+    }
+briefing-pedestrians = { $count ->
+        [one] { $count } peatón
+       *[other] { $count } peatones
+    }
+
+briefing-hover = vuelo estacionario en un punto
+briefing-place = { $kind ->
+        [slab] a lo largo del borde del tablero
+        [arch] bajo el arco
+        [interlayer] entre el arco y el tablero
+        [pier] alrededor de la pila
+       *[free] a lo largo de la trayectoria libre
+    }{ $named ->
+        [yes] {" "}del puente «{ $bridge }»
+       *[no] {""}
+    }
+briefing-place-and-way = { $place }, { $way }
+briefing-way-loop = una vuelta, en cualquier sentido
+briefing-way-back = termina donde empieza
+briefing-way-up = de abajo hacia arriba
+briefing-way-down = de arriba hacia abajo
+briefing-way = de { $from } a { $to }
+briefing-north = norte
+briefing-northeast = noreste
+briefing-east = este
+briefing-southeast = sureste
+briefing-south = sur
+briefing-southwest = suroeste
+briefing-west = oeste
+briefing-northwest = noroeste
+briefing-length = { $length } m de largo
+briefing-height-above = a { $height } m sobre la plataforma de aterrizaje
+briefing-height-below = a { $height } m bajo la plataforma de aterrizaje
+briefing-heights = de { $low } a { $high } m sobre la plataforma de aterrizaje
+briefing-stand-off = distancia a la superficie { $distance } ± { $tolerance } m
+briefing-within = a menos de { $distance } m de la trayectoria
+briefing-lamp-needed = se necesita el foco
+
+briefing-confined = Espacio reducido: en la tarea { $task }, la estructura queda a { $clearance } m de la trayectoria.
+briefing-darkness = Oscuridad: se necesita el foco en { $count ->
+        [one] la tarea { $tasks }
+       *[other] las tareas { $tasks }
+    }.
+briefing-vehicles = Tráfico: { $count ->
+        [one] { $count } vehículo
+       *[other] { $count } vehículos
+    } en los puentes. Manténgase lejos de la calzada.
+briefing-people = Personas: { $count ->
+        [one] { $count } peatón
+       *[other] { $count } peatones
+    } en las aceras. Nunca vuele sobre personas.
+briefing-satellites = GNSS: la estructura bloquea los satélites. Bajo el tablero, la posición puede derivar.
+briefing-water = Agua: partes de las trayectorias están sobre el agua. Un aterrizaje de emergencia allí supone perder la aeronave.
+briefing-crash-ends = Una colisión termina la sesión.
+briefing-wind-force = Viento: una fuerza de { $force } N.{ $changes ->
+        [yes] {" "}Cambia o tiene ráfagas durante el vuelo.
+       *[no] {""}
+    } Prevea que lo empuje fuera de la trayectoria.
+briefing-wind-speed = Viento: { $speed } m/s en promedio.{ $changes ->
+        [yes] {" "}Cambia o tiene ráfagas durante el vuelo.
+       *[no] {""}
+    } Prevea turbulencia detrás de las pilas y bajo el tablero.
+
+briefing-conformity = Conformidad: manténgase en la trayectoria y, mientras esté en ella, por debajo del límite de velocidad.
+briefing-efficiency = Eficiencia: aterrice antes de que se acabe el tiempo y antes de que se agote la batería.
+briefing-safety = Seguridad: no toque nada. Golpear a una persona o un vehículo termina la sesión.
+briefing-accuracy = Exactitud: fotografíe cada defecto una vez, cerca del centro de la imagen, y nada más.
+briefing-to-be-certified = Para la certificación: { $requirement }.
+
+briefing-check-risk = Riesgo: conozco los peligros y me detengo si alguien entra en el área de vuelo.
+briefing-check-battery = Batería: llena. Aterrizo con al menos { $least }% y regreso a la base con el aviso de batería baja ({ $low }%).
+briefing-check-landing = Lugar de aterrizaje: la plataforma, a { $away } m del inspector. Los aterrizajes a menos de { $radius } m de ella cuentan como en la base.

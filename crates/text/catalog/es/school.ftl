@@ -1,0 +1,21 @@
+school-nothing = Desde aquí no se ve ningún defecto
+school-question = { $element }, elemento { $number }. El centro de una fotografía a resolución completa, tomada desde { $distance } m con el foco encendido.
+school-right = Correcto.
+school-wrong = Incorrecto: no es { $defect }.
+school-wrong-nothing = Incorrecto: hay un defecto.
+school-sound-surface = La superficie está sana. Las manchas, las marcas de encofrado, las fisuras selladas, las telarañas y los grafitis no son defectos.
+school-hidden = Aquí hay un defecto ({ $defect }), pero no se ve desde { $distance } m: un píxel cubre { $pixel } mm. { $size } Vuele más cerca.
+school-card = { $subject } a { $distance } m
+school-sound = superficie sana
+school-size-line = Mide { $width } mm de ancho y { $length } mm de largo.
+school-size-area = Mide { $length } mm por { $width } mm.
+
+school-corrosion = Corrosión: manchas ásperas de color marrón rojizo en el acero.
+school-fatigue = Fisuración por fatiga: una línea muy fina en el acero, a menudo con óxido a lo largo de ella.
+school-connection = Conexión: falta un perno o un remache, o está flojo.
+school-spall = Descascaramiento: una cavidad de borde definido. El concreto en su interior es más claro y más áspero.
+school-rebar = Acero de refuerzo expuesto: barras de color marrón anaranjado en una cavidad del concreto.
+school-efflorescence = Eflorescencia o manchas de óxido: vetas blancas o marrones que bajan por la superficie.
+school-abrasion = Abrasión: una zona desgastada en la que se ve el agregado.
+school-crack = Fisuración: una línea fina, oscura e irregular.
+school-defect = Un defecto.
