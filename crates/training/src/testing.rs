@@ -5,6 +5,14 @@ use super::record::{Crashes, DefectRecord, FORMAT_VERSION, Scores, SessionRecord
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, TaskState};
 
+/// Returns the first word that the pseudo language did not change, except the given ones; `None` if there is none.
+pub fn untranslated_word<'a>(pseudo: &'a str, kept: &[&str]) -> Option<&'a str> {
+    let words = pseudo.split(|c: char| !c.is_alphanumeric());
+    // The letter m has no accented form.
+    let mut plain = words.filter(|word| word.chars().any(|c| c.is_ascii_alphabetic() && !"mM".contains(c)));
+    plain.find(|word| word.chars().all(|c| c.is_ascii()) && !kept.contains(word))
+}
+
 /// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".
 pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
     let mut answers = Answers { language: "en".into(), ..Answers::default() };

@@ -306,7 +306,7 @@ mod tests {
         let other = Requirement { id: "elegance".into(), ..precision.clone() };
         assert_eq!(other.title(Language::German), precision.name, "the stored name of an unknown requirement");
         for shown in [precision.title(Language::Pseudo), precision.limit_text(Language::Pseudo)] {
-            assert!(!shown.chars().any(|c| c.is_ascii_alphabetic()), "{shown}");
+            assert!(!shown.contains(['a', 'e', 'i', 'o', 'u']), "{shown}");
         }
     }
 }
