@@ -3,6 +3,7 @@
 
 use super::record::{SessionOutcome, SessionRecord};
 use serde::Serialize;
+use spandrel_text::{Language, text};
 
 /// Trainee or class that an assignment is for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -93,12 +94,12 @@ impl AssignmentState {
 
     /// Returns the state as text.
     #[must_use]
-    pub fn words(&self) -> &'static str {
+    pub fn words(&self, language: Language) -> String {
         match self {
-            Self::Open => "open",
-            Self::Overdue => "overdue",
-            Self::Done { late: false, .. } => "done",
-            Self::Done { late: true, .. } => "done late",
+            Self::Open => text!(language, "people-state-open"),
+            Self::Overdue => text!(language, "people-state-overdue"),
+            Self::Done { late: false, .. } => text!(language, "people-state-done"),
+            Self::Done { late: true, .. } => text!(language, "people-state-done-late"),
         }
     }
 }
@@ -213,7 +214,9 @@ mod tests {
         let pending =
             |id: &str, due_unix_us| Assignment { id: id.into(), scenario: "drill-gap".into(), due_unix_us, ..assignment(None) };
         let jobs = assigned_jobs(vec![finished, pending("b", 9), pending("a", 5)], &[perfect_record("anna", 3)], 7);
-        let order: Vec<(&str, &str)> = jobs.iter().map(|job| (job.assignment.id.as_str(), job.state.words())).collect();
+        let words: Vec<String> = jobs.iter().map(|job| job.state.words(Language::English)).collect();
+        let ids = jobs.iter().map(|job| job.assignment.id.as_str());
+        let order: Vec<(&str, &str)> = ids.zip(words.iter().map(String::as_str)).collect();
         assert_eq!(order, [("a", "overdue"), ("b", "open"), ("early", "done late")]);
         let mut counts = AssignmentCounts::default();
         jobs.iter().for_each(|job| counts.add(&job.state));

@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 use spandrel_model::toml::{Problems, Reader, Section};
+use spandrel_text::{Language, text};
 
 /// Default rubric, in TOML.
 pub const DEFAULT_RUBRIC: &str = include_str!("rubric.toml");
@@ -61,10 +62,10 @@ impl SignOffAction {
 
     /// Returns the action as text.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn words(self, language: Language) -> String {
         match self {
-            Self::SignedOff => "signed off",
-            Self::Withdrawn => "withdrawn",
+            Self::SignedOff => text!(language, "people-action-signed"),
+            Self::Withdrawn => text!(language, "people-action-withdrawn"),
         }
     }
 
