@@ -11,6 +11,7 @@ use crate::records::RecordsLocation;
 use crate::web::passwords::{self, HashingMemory};
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer, is_host_name};
 use ipnet::IpNet;
+use spandrel_text::Language;
 use spandrel_training::trainee::Role;
 use spandrel_training::web::login;
 use std::io::{BufRead, IsTerminal};
@@ -172,7 +173,8 @@ fn pair_vehicles_with_pictures(vehicles: &[Destination], pictures: &[PathBuf]) -
 /// Returns an error if the password is not acceptable, or the database fails.
 fn set_password(records_location: &RecordsLocation, name: &str, role: Role) -> Result<(), AppError> {
     let password = prompt_password(name)?;
-    login::check(&password, name).map_err(|wrong| AppError::invalid(format!("--set-password {name}: {wrong}")))?;
+    login::check(&password, name, Language::English)
+        .map_err(|wrong| AppError::invalid(format!("--set-password {name}: {wrong}")))?;
     let database = records_location.open()?;
     database.set_login(name, role, &passwords::hash(&password, &mut HashingMemory::default())?)?;
     println!("{}: '{name}' can now log in as {}", database.name(), role.word());

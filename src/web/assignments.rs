@@ -8,6 +8,7 @@ use crate::io::clock;
 use spandrel_model::calendar::{day, end_of_day_unix_us};
 use spandrel_model::scenario::variant_names;
 use spandrel_monitor::folder::sha256_hex;
+use spandrel_text::{Language, text};
 use spandrel_training::assignment::{AssignedJob, Assignment, AssignmentTarget, assigned_jobs};
 use spandrel_training::record::SessionRecord;
 use spandrel_training::web::assignments::{self as pages, AssignPage, JobChoice};
@@ -36,7 +37,9 @@ pub fn jobs_of(
 
 /// Responds with the page that assigns a job.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let target = target(request.query_param("trainee"), request.query_param("class")).map_err(|_| WebError::NotFound)?;
+    let language = request.visitor.language;
+    let target =
+        target(language, request.query_param("trainee"), request.query_param("class")).map_err(|_| WebError::NotFound)?;
     if !exists(state, &target)? {
         return Err(WebError::NotFound);
     }
@@ -56,11 +59,11 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 /// Returns the trainee or class in a request, which must name exactly one.
-fn target(trainee: Option<&str>, class: Option<&str>) -> Result<AssignmentTarget, WebError> {
+fn target(language: Language, trainee: Option<&str>, class: Option<&str>) -> Result<AssignmentTarget, WebError> {
     match (trainee, class) {
         (Some(name), None) => Ok(AssignmentTarget::Trainee(name.to_owned())),
         (None, Some(name)) => Ok(AssignmentTarget::Class(name.to_owned())),
-        (Some(_), Some(_)) | (None, None) => Err(WebError::BadRequest("either trainee or class is required".into())),
+        (Some(_), Some(_)) | (None, None) => Err(WebError::BadRequest(text!(language, "people-assign-one-target"))),
     }
 }
 
@@ -73,11 +76,12 @@ fn exists(state: &ServerState, target: &AssignmentTarget) -> Result<bool, WebErr
 
 /// Assigns a job.
 pub fn assign(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let target = target(request.form_field("trainee"), request.form_field("class"))?;
+    let language = request.visitor.language;
+    let target = target(language, request.form_field("trainee"), request.form_field("class"))?;
     let now = clock::unix_us();
     let scenario = request.required_field("scenario")?;
-    let variant = variant(state, scenario, request.form_field("variant").unwrap_or_default().trim())?;
-    let due_unix_us = due(request.required_field("due")?, now)?;
+    let variant = variant(state, language, scenario, request.form_field("variant").unwrap_or_default().trim())?;
+    let due_unix_us = due(language, request.required_field("due")?, now)?;
     let key = format!("{target:?} {scenario} {variant:?} {now}");
     let assignment = Assignment {
         id: sha256_hex(key.as_bytes()).chars().take(ID_DIGITS).collect(),
@@ -95,8 +99,8 @@ pub fn assign(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 /// Checks the form or level of a scenario; empty for none.
-fn variant(state: &ServerState, scenario: &str, given: &str) -> Result<Option<String>, WebError> {
-    let unknown = || WebError::BadRequest("scenario: unknown name".into());
+fn variant(state: &ServerState, language: Language, scenario: &str, given: &str) -> Result<Option<String>, WebError> {
+    let unknown = || WebError::BadRequest(text!(language, "web-error-unknown-name", field = "scenario"));
     let job = scenario_library::find(&state.scenarios, scenario).ok_or_else(unknown)?;
     if given.is_empty() {
         return Ok(None);
@@ -106,17 +110,20 @@ fn variant(state: &ServerState, scenario: &str, given: &str) -> Result<Option<St
         return Ok(Some(given.to_owned()));
     }
     let short: String = given.chars().take(60).collect();
-    let allowed = if names.is_empty() { "none: the job has no levels or forms".to_owned() } else { names.join(", ") };
-    Err(WebError::BadRequest(format!("variant = {short}: unknown level or form of {scenario} (allowed: {allowed})")))
+    Err(WebError::BadRequest(if names.is_empty() {
+        text!(language, "people-assign-no-variants", value = short, job = scenario)
+    } else {
+        text!(language, "people-assign-variant-unknown", value = short, job = scenario, allowed = names.join(", "))
+    }))
 }
 
 /// Returns the end of the due date, which is today or later.
-fn due(given: &str, now_unix_us: u64) -> Result<u64, WebError> {
+fn due(language: Language, given: &str, now_unix_us: u64) -> Result<u64, WebError> {
     let latest = now_unix_us + MAX_DAYS * DAY_US;
     end_of_day_unix_us(given).filter(|end| (now_unix_us..=latest).contains(end)).ok_or_else(|| {
         let short: String = given.chars().take(60).collect();
         let (first, last) = (day(now_unix_us), day(latest));
-        WebError::BadRequest(format!("due = {short}: invalid date (allowed: {first} to {last})"))
+        WebError::BadRequest(text!(language, "people-assign-due-invalid", value = short, first = first, last = last))
     })
 }
 
@@ -147,9 +154,9 @@ mod tests {
     #[test]
     fn exact_due_dates_are_from_today_to_ten_years() {
         let now = 1_700_000_000_000_000; // 2023-11-14 22:13 UTC
-        assert_eq!(due("2023-11-14", now), Ok(1_700_006_399_999_999));
+        assert_eq!(due(Language::English, "2023-11-14", now), Ok(1_700_006_399_999_999));
         for wrong in ["2023-11-13", "2033-12-01", "soon", ""] {
-            let told = due(wrong, now).unwrap_err();
+            let told = due(Language::English, wrong, now).unwrap_err();
             let expected = format!("due = {wrong}: invalid date (allowed: 2023-11-14 to 2033-11-13)");
             assert_eq!(told, WebError::BadRequest(expected));
         }
@@ -157,6 +164,7 @@ mod tests {
 
     #[test]
     fn exact_assignment_is_for_one_trainee_or_one_class() {
+        let target = |trainee, class| target(Language::English, trainee, class);
         assert_eq!(target(Some("anna"), None), Ok(AssignmentTarget::Trainee("anna".into())));
         assert_eq!(target(None, Some("spring")), Ok(AssignmentTarget::Class("spring".into())));
         assert!(target(None, None).is_err() && target(Some("anna"), Some("spring")).is_err());

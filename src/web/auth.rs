@@ -12,7 +12,7 @@ use crate::errors::AppError;
 use crate::io::clock;
 use crate::records::{Account, Database};
 use axum::http::{HeaderMap, header};
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 use spandrel_training::trainee::{Role, Trainee};
 use spandrel_training::web::access::Visitor;
 use spandrel_training::web::browser_sessions::{BrowserSession, BrowserSessions, TokenBytes, constant_time_eq};
@@ -25,6 +25,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Lifetime of the cookie that identifies a browser. The server also discards its record of the browser after this
 /// period.
 const BROWSER_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::days(90);
+
+/// Cookie with the tag of the language that the visitor has selected.
+pub const LANGUAGE_COOKIE: &str = "spandrel-language";
+/// Lifetime of the cookie with the language.
+const LANGUAGE_COOKIE_LIFETIME: cookie::time::Duration = cookie::time::Duration::days(365);
 
 /// Stores the browser sessions, the known browsers and the failed logins.
 #[derive(Debug)]
@@ -46,6 +51,8 @@ pub struct LoginClient<'a> {
     pub from: IpAddr,
     /// Cookie that identifies a browser that has logged in before.
     pub device: Option<&'a str>,
+    /// Language of messages.
+    pub language: Language,
 }
 
 /// A visitor and their session cookie.
@@ -77,16 +84,16 @@ impl Authenticator {
     ///
     /// # Errors
     /// See [`AllowedOrigins::check_origin`].
-    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
-        self.allowed_origins.check_origin(headers, changes, open)
+    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool, language: Language) -> Result<(), WebError> {
+        self.allowed_origins.check_origin(headers, changes, open, language)
     }
 
     /// Returns the client's address.
     ///
     /// # Errors
     /// See [`AllowedOrigins::address`].
-    pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
-        self.allowed_origins.address(socket, headers)
+    pub fn address(&self, socket: IpAddr, headers: &HeaderMap, language: Language) -> Result<IpAddr, WebError> {
+        self.allowed_origins.address(socket, headers, language)
     }
 
     /// Returns true if all requests use TLS.
@@ -160,7 +167,7 @@ impl Authenticator {
     ) -> Result<(String, String), WebError> {
         let (name, password) = credentials;
         let account = self.check(database, name, password, client)?;
-        let credential = account.credential().ok_or_else(wrong_credentials)?;
+        let credential = account.credential().ok_or_else(|| wrong_credentials(client.language))?;
         let now_us = clock::unix_us();
         let [secret, _] = secrets()?;
         let device = lock(&self.devices).remember(client.device, name, &secret, now_us);
@@ -191,10 +198,10 @@ impl Authenticator {
         let hash = account.as_ref().and_then(|account| account.hash.as_deref());
         if !turn.verify(password, hash) {
             tracing::info!("failed login from {}", client.from);
-            return Err(wrong_credentials());
+            return Err(wrong_credentials(client.language));
         }
         lock(&self.throttle).clear_failures(from, name);
-        account.ok_or_else(wrong_credentials)
+        account.ok_or_else(|| wrong_credentials(client.language))
     }
 
     /// Ends a browser session.
@@ -222,7 +229,7 @@ impl Authenticator {
         if given.is_some_and(|given| constant_time_eq(given, &visitor.token)) {
             return Ok(());
         }
-        Err(WebError::Forbidden("This form has expired. Please reload its page and submit it again.".into()))
+        Err(WebError::Forbidden(text!(visitor.language, "web-error-expired")))
     }
 
     /// Returns the name of the session cookie.
@@ -252,6 +259,12 @@ impl Authenticator {
         built.same_site(cookie::SameSite::Strict).max_age(BROWSER_COOKIE_LIFETIME).build().to_string()
     }
 
+    /// Returns the Set-Cookie value for the selected language.
+    pub fn language_cookie(&self, language: Language) -> String {
+        let built = cookie::Cookie::build((LANGUAGE_COOKIE, language.tag())).path("/").http_only(true).secure(self.secure);
+        built.same_site(cookie::SameSite::Lax).max_age(LANGUAGE_COOKIE_LIFETIME).build().to_string()
+    }
+
     /// Returns the Set-Cookie value for the session. The policy is Lax: with Strict, opening a link from an e-mail
     /// would send no cookie, and the new anonymous session would log the user out. Requests that change anything need a
     /// form token and pass an origin check.
@@ -268,13 +281,14 @@ pub fn cookie_value(headers: &HeaderMap, name: &str) -> Option<String> {
     pairs.find(|cookie| cookie.name() == name).map(|cookie| cookie.value().to_owned())
 }
 
-fn wrong_credentials() -> WebError {
-    WebError::Forbidden("Wrong user name or password.".into())
+fn wrong_credentials(language: Language) -> WebError {
+    WebError::Forbidden(text!(language, "web-error-credentials"))
 }
 
 fn visitor(open: bool, person: Option<Trainee>, visit: BrowserSession) -> Visitor {
     let role = if open { Role::Administrator } else { person.as_ref().map_or(Role::Trainee, |person| person.role) };
-    Visitor { name: person.map(|person| person.pseudonym), role, open, token: visit.token, language: Language::default() }
+    let (language, address) = (Language::default(), String::new());
+    Visitor { name: person.map(|person| person.pseudonym), role, open, token: visit.token, language, address }
 }
 
 fn secrets() -> Result<[TokenBytes; 2], WebError> {
@@ -309,5 +323,7 @@ mod tests {
         let device = guard.browser_cookie("v");
         assert!(device.starts_with("__Host-spandrel-device=v; HttpOnly; SameSite=Strict; Secure;"), "{device}");
         assert!(device.contains("Max-Age=7776000"), "{device}");
+        let language = guard.language_cookie(Language::German);
+        assert_eq!(language, "spandrel-language=de; HttpOnly; SameSite=Lax; Secure; Path=/; Max-Age=31536000");
     }
 }

@@ -6,8 +6,8 @@ use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use crate::io::clock;
-use crate::io::trainee_id::{ALLOWED_IDS, TraineeId, is_plain_id};
-use spandrel_text::Language;
+use crate::io::trainee_id::is_plain_id;
+use spandrel_text::{Language, text};
 use spandrel_training::assignment::{Assignment, AssignmentCounts};
 use spandrel_training::plan::{PlanRules, plan_for_policy};
 use spandrel_training::record::IncompletePolicy;
@@ -21,13 +21,13 @@ pub fn class_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
 
 /// Creates a class.
 pub fn create(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let name = request.required_field("name")?;
+    let (language, name) = (request.visitor.language, request.required_field("name")?);
     if !is_plain_id(name) {
         let short: String = name.chars().take(60).collect();
-        return Err(WebError::BadRequest(format!("name = {short}: invalid class name (allowed: {ALLOWED_IDS})")));
+        return Err(WebError::BadRequest(text!(language, "people-class-name", name = short)));
     }
     if !state.database.add_class(name)? {
-        return Err(WebError::BadRequest(format!("name = {name}: there is already a class with this name")));
+        return Err(WebError::BadRequest(text!(language, "people-class-exists", name = name)));
     }
     Ok(WebResponse::redirect(&class_url(name)))
 }
@@ -35,9 +35,13 @@ pub fn create(state: &ServerState, request: &WebRequest) -> HandlerResult {
 /// Responds with a class's page.
 pub fn class_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let class = class(state, request)?;
-    let (rules, _) = rules_in_use(state)?;
+    let (rules, _) = rules_in_use(state, request.visitor.language)?;
     let now = clock::unix_us();
-    let members = class.members.iter().map(|trainee| member(state, trainee, &rules, now)).collect::<Result<Vec<_>, _>>()?;
+    let members = class
+        .members
+        .iter()
+        .map(|trainee| member(state, trainee, &rules, (now, request.visitor.language)))
+        .collect::<Result<Vec<_>, _>>()?;
     let assignments: Vec<(Assignment, AssignmentCounts)> =
         state.database.assignments_of_class(&class.name)?.into_iter().map(|one| counted(one, &members)).collect();
     let about = ClassPage { name: &class.name, members: &members, assignments: &assignments };
@@ -50,11 +54,16 @@ fn class(state: &ServerState, request: &WebRequest) -> Result<TrainingClass, Web
     state.database.classes()?.into_iter().find(|class| class.name == name).ok_or(WebError::NotFound)
 }
 
-fn member(state: &ServerState, trainee: &str, rules: &PlanRules, now_unix_us: u64) -> Result<ClassMember, WebError> {
+fn member(
+    state: &ServerState,
+    trainee: &str,
+    rules: &PlanRules,
+    (now_unix_us, language): (u64, Language),
+) -> Result<ClassMember, WebError> {
     let records = state.database.records(Some(trainee))?;
     let jobs = jobs_of(state, trainee, &records, now_unix_us)?;
     let last = state.database.list(Some(trainee), 1, 0)?.pop();
-    let plan = plan_for_policy(records, IncompletePolicy::Exclude, rules, now_unix_us, Language::English);
+    let plan = plan_for_policy(records, IncompletePolicy::Exclude, rules, now_unix_us, language);
     Ok(ClassMember { trainee: trainee.to_owned(), last, next: plan.and_then(|plan| plan.steps.into_iter().next()), jobs })
 }
 
@@ -71,14 +80,18 @@ pub fn add_members(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name = request.path_param("name");
     let given = request.required_field("trainees")?;
     let separated = given.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
-    let trainees = separated.map(|word| word.parse::<TraineeId>().map(|id| id.as_str().to_owned()));
-    let trainees: Vec<String> =
-        trainees.collect::<Result<_, _>>().map_err(|wrong| WebError::BadRequest(format!("trainees: {wrong}")))?;
+    let trainees = separated.map(|word| Ok(request.trainee_id("trainees", word)?.as_str().to_owned()));
+    let trainees: Vec<String> = trainees.collect::<Result<_, WebError>>()?;
     if !(1..=MAX_NEW_MEMBERS).contains(&trainees.len()) {
         let count = trainees.len();
-        return Err(WebError::BadRequest(format!("trainees: {count} pseudonyms (allowed: 1 to {MAX_NEW_MEMBERS} at once)")));
+        return Err(WebError::BadRequest(text!(
+            request.visitor.language,
+            "people-too-many-members",
+            count = count,
+            most = MAX_NEW_MEMBERS
+        )));
     }
-    reject_lookalikes(state, &trainees)?;
+    reject_lookalikes(state, &trainees, request.visitor.language)?;
     if state.database.add_members(name, &trainees)? {
         Ok(WebResponse::redirect(&class_url(name)))
     } else {
@@ -87,13 +100,12 @@ pub fn add_members(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 /// Rejects pseudonyms that differ from a known trainee's only in the case of letters: the instructor means that trainee.
-fn reject_lookalikes(state: &ServerState, added: &[String]) -> Result<(), WebError> {
+fn reject_lookalikes(state: &ServerState, added: &[String], language: Language) -> Result<(), WebError> {
     let known: Vec<String> = state.database.trainees()?.into_iter().map(|trainee| trainee.pseudonym).collect();
     for new in added.iter().filter(|new| !known.contains(new)) {
         if let Some(other) = known.iter().find(|other| other.eq_ignore_ascii_case(new)) {
-            return Err(WebError::BadRequest(format!(
-                "trainees: there is no '{new}', but a trainee '{other}'; use that pseudonym"
-            )));
+            let words = text!(language, "people-lookalike", name = new.as_str(), other = other.as_str());
+            return Err(WebError::BadRequest(words));
         }
     }
     Ok(())

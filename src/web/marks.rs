@@ -8,6 +8,7 @@ use super::sessions::{folder, record};
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::marks::{marks, save_marks};
+use spandrel_text::text;
 use spandrel_training::marks::{MAX_MARKS, MAX_TEXT_LEN, TimelineMark};
 use spandrel_training::report::formatting::{self, parse_clock};
 
@@ -19,14 +20,14 @@ pub fn add(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let given = request.line_field("time", (1, 10))?;
     let t_s = parse_clock(given).filter(|t_s| (0.0..=record.seconds).contains(t_s)).ok_or_else(|| {
         let end = formatting::clock(record.seconds.floor());
-        WebError::BadRequest(format!("time = {given}: invalid time (allowed: 0:00 to {end}, minutes and seconds)"))
+        WebError::BadRequest(text!(request.visitor.language, "sessions-mark-time-invalid", value = given, end = end))
     })?;
     let (text, by) = (request.line_field("text", (1, MAX_TEXT_LEN))?.to_owned(), instructor(request)?.to_owned());
     {
         let _others_wait = lock(&state.marks);
         let mut all = marks(&folder)?;
         if all.len() >= MAX_MARKS {
-            return Err(WebError::BadRequest(format!("there are already {MAX_MARKS} marks: remove one first")));
+            return Err(WebError::BadRequest(text!(request.visitor.language, "sessions-too-many-marks", most = MAX_MARKS)));
         }
         // The time identifies the mark, so it must be unique.
         let last = all.iter().map(|mark| mark.added_unix_us).max().unwrap_or_default();

@@ -9,6 +9,7 @@ mod classes;
 mod editor_edits;
 mod figures;
 mod hashing;
+mod languages;
 mod listening;
 mod live;
 mod lock;

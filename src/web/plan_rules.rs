@@ -1,14 +1,16 @@
 //! The rules of the training plans: shipped, or the server's own.
 
 use super::own_file::OwnFile;
-use super::request::WebRequest;
+use super::request::{WebRequest, not_text};
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenario_library::all;
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::plan_rules;
 use axum::http::StatusCode;
+use spandrel_text::{Language, text};
 use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
+use spandrel_training::web::layout::Notice;
 use spandrel_training::web::plan_rules::{PlanRulesPage, plan_rules_page};
 
 /// Path of the page.
@@ -21,8 +23,8 @@ const OWN: OwnFile = OwnFile { folder: "plan-rules", name: "rules.toml" };
 ///
 /// # Errors
 /// Returns an error if the shipped rules are invalid.
-pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
-    let (rules, note) = valid_rules(state)?;
+pub fn rules_in_use(state: &ServerState, language: Language) -> Result<(PlanRules, Option<String>), AppError> {
+    let (rules, note) = valid_rules(state, language)?;
     // Reading all scenarios takes longer than the plan, and only uploaded ones can add anything.
     if rules.drills.iter().all(|drill| drill.difficulty.is_some()) {
         return Ok((rules, note));
@@ -32,7 +34,7 @@ pub fn rules_in_use(state: &ServerState) -> Result<(PlanRules, Option<String>), 
     Ok((rules.with_levels(levels), note))
 }
 
-fn valid_rules(state: &ServerState) -> Result<(PlanRules, Option<String>), AppError> {
+fn valid_rules(state: &ServerState, language: Language) -> Result<(PlanRules, Option<String>), AppError> {
     let shipped = || plan_rules::rules(None);
     if !OWN.exists(state) {
         return Ok((shipped()?, None));
@@ -40,8 +42,7 @@ fn valid_rules(state: &ServerState) -> Result<(PlanRules, Option<String>), AppEr
     match plan_rules::rules(Some(&OWN.path(state))) {
         Ok(rules) => Ok((rules, None)),
         Err(AppError::Wrong(_) | AppError::Failed(_) | AppError::Autopilot(..)) => {
-            let note = "This server's own rules are invalid, so the shipped rules apply. Instructors can correct them.";
-            Ok((shipped()?, Some(note.to_owned())))
+            Ok((shipped()?, Some(text!(language, "editor-rules-invalid"))))
         }
     }
 }
@@ -52,7 +53,7 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let text = own.as_deref().unwrap_or(DEFAULT_RULES);
     let rules = read_rules("rules.toml", text);
     let problems = rules.as_ref().err().map(ToString::to_string);
-    let notice = problems.as_deref().map(|words| ("bad", words));
+    let notice = problems.as_deref().map(|details| Notice { kind: "bad", text: "", details });
     let about = PlanRulesPage { text, own: own.is_some(), rules: rules.as_ref().ok(), notice };
     Ok(WebResponse::page(plan_rules_page(&request.visitor, &about)))
 }
@@ -66,11 +67,10 @@ pub fn save(state: &ServerState, request: &WebRequest) -> HandlerResult {
 
 /// Validates and saves an uploaded file.
 pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let upload = request.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?;
-    let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
-    let bytes = upload.file.bytes()?;
-    let text = std::str::from_utf8(&bytes)
-        .map_err(|error| WebError::BadRequest(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
+    let upload = request.required_upload()?;
+    let (shown, bytes) = (upload.shown_name(), upload.file.bytes()?);
+    let text = std::str::from_utf8(&bytes);
+    let text = text.map_err(|error| WebError::BadRequest(not_text(request.visitor.language, &shown, error)))?;
     save_text(state, request, &shown, text)
 }
 
@@ -78,16 +78,16 @@ fn save_text(state: &ServerState, request: &WebRequest, shown: &str, text: &str)
     let rules = match read_rules(shown, text) {
         Ok(rules) => rules,
         Err(problems) => {
-            let words = format!("Not saved.\n{problems}");
-            let own = OWN.exists(state);
-            let about = PlanRulesPage { text, own, rules: None, notice: Some(("bad", &words)) };
+            let (words, problems) = (text!(request.visitor.language, "web-not-saved"), problems.to_string());
+            let notice = Notice { kind: "bad", text: &words, details: &problems };
+            let about = PlanRulesPage { text, own: OWN.exists(state), rules: None, notice: Some(notice) };
             let shown = WebResponse::page(plan_rules_page(&request.visitor, &about));
             return Ok(shown.with_status(StatusCode::UNPROCESSABLE_ENTITY));
         }
     };
     OWN.save(state, text)?;
-    let notice = Some(("good", "The rules were saved and apply from now on."));
-    let about = PlanRulesPage { text, own: true, rules: Some(&rules), notice };
+    let words = text!(request.visitor.language, "editor-rules-saved");
+    let about = PlanRulesPage { text, own: true, rules: Some(&rules), notice: Some(Notice::good(&words)) };
     Ok(WebResponse::page(plan_rules_page(&request.visitor, &about)))
 }
 

@@ -31,14 +31,14 @@ fn render_form(state: &ServerState, request: &WebRequest, saved: bool) -> Handle
     Ok(WebResponse::page(questionnaire_form::page(&request.visitor, &about)))
 }
 
-/// Returns the wording in the requested language, in the language of the saved answers, or in the browser's preferred
+/// Returns the wording in the requested language, in the language of the saved answers, or in the visitor's preferred
 /// language.
 fn language<'a>(state: &'a ServerState, request: &WebRequest, answers: &Answers) -> Result<&'a Wording, WebError> {
     if let Some(tag) = request.form_field("language").or_else(|| request.query_param("language")) {
         return state
             .languages
             .of(tag)
-            .ok_or_else(|| WebError::BadRequest(format!("language: unknown (allowed: {})", language_tags(state))));
+            .ok_or_else(|| WebError::unknown(request.visitor.language, "language", &language_tags(state)));
     }
     let begun = state.languages.of(&answers.language).filter(|_| !answers.language.is_empty());
     Ok(begun.unwrap_or_else(|| state.languages.accepted(&request.languages)))
@@ -61,8 +61,8 @@ pub fn save(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let answers = {
         let _others_wait = lock(&state.answers);
         let mut answers = read_saved_answers(&folder, &scenario)?.unwrap_or_default();
-        questionnaire_form::parse_answers(&mut answers, &request.form, &tasks)
-            .map_err(|wrong| WebError::BadRequest(wrong.to_string()))?;
+        questionnaire_form::parse_answers(&mut answers, &request.form, &tasks, request.visitor.language)
+            .map_err(WebError::BadRequest)?;
         answers.language.clone_from(&language(state, request, &answers)?.language);
         replace(&folder.join(ANSWERS), json_text(&answers).as_bytes())?;
         answers

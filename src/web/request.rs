@@ -3,6 +3,8 @@
 use super::auth::LoginClient;
 use super::response::WebError;
 use super::spool::SpooledUpload;
+use crate::io::trainee_id::TraineeId;
+use spandrel_text::{Language, text};
 use spandrel_training::web::access::Visitor;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
@@ -14,6 +16,18 @@ pub struct UploadedFile {
     pub name: String,
     /// File contents.
     pub file: SpooledUpload,
+}
+
+impl UploadedFile {
+    /// Returns the file's name for messages.
+    pub fn shown_name(&self) -> String {
+        self.name.chars().filter(|c| !c.is_control()).take(60).collect()
+    }
+}
+
+/// Returns the message about a file that is not a text.
+pub fn not_text(language: Language, file: &str, error: std::str::Utf8Error) -> String {
+    text!(language, "web-error-not-text", file = file, byte = error.valid_up_to())
 }
 
 /// A parsed request and its visitor.
@@ -35,7 +49,7 @@ pub struct WebRequest {
     pub form: Vec<(String, String)>,
     /// Uploaded file, if any.
     pub upload: Option<UploadedFile>,
-    /// The browser's preferred languages (Accept-Language).
+    /// The visitor's preferred languages: the selected one, or else those of the browser (Accept-Language).
     pub languages: String,
     /// Value of the Authorization header.
     pub authorization: Option<String>,
@@ -50,7 +64,7 @@ pub struct WebRequest {
 impl WebRequest {
     /// Returns the client that sent a login request.
     pub fn client(&self) -> LoginClient<'_> {
-        LoginClient { from: self.from, device: self.device.as_deref() }
+        LoginClient { from: self.from, device: self.device.as_deref(), language: self.visitor.language }
     }
 
     /// Returns a path parameter, or an empty string.
@@ -73,7 +87,7 @@ impl WebRequest {
     /// # Errors
     /// Returns an error if the field is missing or empty.
     pub fn required_field(&self, name: &str) -> Result<&str, WebError> {
-        self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::BadRequest(format!("{name}: missing")))
+        self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::missing(self.visitor.language, name))
     }
 
     /// Returns a form field that is one line of text, without spaces at both ends; a missing field is empty. `min` and `max` are its
@@ -87,7 +101,33 @@ impl WebRequest {
         if (min..=max).contains(&count) && !text.chars().any(char::is_control) {
             return Ok(text);
         }
-        Err(WebError::BadRequest(format!("{name}: {count} characters (allowed: {min} to {max}, on one line)")))
+        let language = self.visitor.language;
+        Err(WebError::BadRequest(text!(language, "web-error-line", field = name, count = count, least = min, most = max)))
+    }
+
+    /// Returns the pseudonym in a form field.
+    ///
+    /// # Errors
+    /// Returns an error if the field is missing or not a pseudonym.
+    pub fn trainee_field(&self, name: &str) -> Result<TraineeId, WebError> {
+        self.trainee_id(name, self.required_field(name)?)
+    }
+
+    /// Returns a pseudonym that is a part of a form field.
+    ///
+    /// # Errors
+    /// Returns an error if it is not a pseudonym.
+    pub fn trainee_id(&self, field: &str, given: &str) -> Result<TraineeId, WebError> {
+        let language = self.visitor.language;
+        given.parse().map_err(|_| WebError::BadRequest(text!(language, "web-error-id", field = field, value = given)))
+    }
+
+    /// Returns the uploaded file.
+    ///
+    /// # Errors
+    /// Returns an error if there is none.
+    pub fn required_upload(&self) -> Result<&UploadedFile, WebError> {
+        self.upload.as_ref().ok_or_else(|| WebError::missing(self.visitor.language, "file"))
     }
 
     /// Checks that the visitor may see this trainee's data. Only the trainee, instructors and administrators may; for

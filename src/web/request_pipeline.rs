@@ -1,7 +1,7 @@
 //! Request pipeline. It identifies the visitor of every request, authorizes the request and checks its form token. Then
 //! the route's handler runs on a thread that may block on disk and database access.
 
-use super::auth::{IdentifiedVisitor, cookie_value};
+use super::auth::{IdentifiedVisitor, LANGUAGE_COOKIE, cookie_value};
 use super::body;
 use super::live;
 use super::request::WebRequest;
@@ -11,9 +11,10 @@ use super::state::ServerState;
 use axum::RequestExt;
 use axum::body::Body;
 use axum::extract::{ConnectInfo, Path, Request};
-use axum::http::{HeaderMap, Method, Response, header};
-use spandrel_text::Language;
-use spandrel_training::web::access::AccessLevel;
+use axum::http::{HeaderMap, HeaderName, Method, Response, header};
+use spandrel_text::{Language, text};
+use spandrel_training::trainee::Role;
+use spandrel_training::web::access::{AccessLevel, Visitor};
 use spandrel_training::web::layout;
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
@@ -49,9 +50,10 @@ struct RequestHead {
 }
 
 async fn run_route(shared: PipelineState, route: &'static Route, mut request: Request) -> Response<Body> {
+    let unknown = anonymous_visitor(&request);
     let head = match parse_head(&shared, route, &mut request).await {
         Ok(head) => head,
-        Err(refusal) => return error_response(&shared, None, &refusal),
+        Err(refusal) => return error_response(&shared, &unknown, &refusal),
     };
     let RequestHead { request: mut web_request, identity: recognized } = head;
     let cookie = recognized.filter(|recognized| recognized.is_new).map(|recognized| shared.state.auth.cookie(&recognized.cookie));
@@ -87,7 +89,7 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
     .await;
     let mut response = match answered {
         Ok(answer) => answer.into_response(),
-        Err(refusal) => error_response(&shared, Some(&visitor), &refusal),
+        Err(refusal) => error_response(&shared, &visitor, &refusal),
     };
     if let Some(cookie) = cookie.and_then(|cookie| cookie.parse().ok())
         && !response.headers().contains_key(header::SET_COOKIE)
@@ -96,9 +98,6 @@ async fn run_route(shared: PipelineState, route: &'static Route, mut request: Re
     }
     response
 }
-
-/// Cookie with the tag of the language that the visitor has selected.
-pub const LANGUAGE_COOKIE: &str = "spandrel-language";
 
 async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut Request) -> Result<RequestHead, WebError> {
     let path = request.extract_parts::<Path<BTreeMap<String, String>>>().await;
@@ -109,22 +108,27 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
     let query = form_urlencoded::parse(query.as_bytes()).into_owned().collect();
     let state = shared.state.clone();
     let changes = !route.kind.is_read_only();
-    let anonymous = matches!(route.kind, RouteKind::File | RouteKind::StationMessage);
+    let unidentified = matches!(route.kind, RouteKind::File | RouteKind::StationMessage);
+    let anonymous = anonymous_visitor(request);
     blocking(move || {
         let open = state.auth.has_no_passwords(&state.database)?;
-        state.auth.check_origin(&headers, changes, open)?;
-        let from =
-            state.auth.address(socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?, &headers)?;
-        let recognized =
-            if anonymous { None } else { Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?) };
-        let mut visitor = recognized.as_ref().map_or_else(anonymous_visitor, |recognized| recognized.visitor.clone());
+        let language = anonymous.language;
+        state.auth.check_origin(&headers, changes, open, language)?;
+        let socket = socket.ok_or_else(|| WebError::Failed("the request has no client address".into()))?;
+        let from = state.auth.address(socket, &headers, language)?;
+        let recognized = if unidentified {
+            None
+        } else {
+            Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?)
+        };
+        let address = anonymous.address.clone();
+        let visitor =
+            recognized.as_ref().map_or(anonymous, |recognized| Visitor { language, address, ..recognized.visitor.clone() });
         let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
         let device = state.auth.browser_cookie_from(&headers);
         let expects_json = accepts_json(&headers);
-        let text = |name| headers.get(name).and_then(|value| value.to_str().ok()).map(str::to_owned);
-        let (languages, range) = (text(header::ACCEPT_LANGUAGE).unwrap_or_default(), text(header::RANGE));
-        visitor.language = language_from(&headers, &languages);
-        let authorization = text(header::AUTHORIZATION);
+        let (languages, range) = (preferred_languages(&headers), header_text(&headers, header::RANGE));
+        let authorization = header_text(&headers, header::AUTHORIZATION);
         let (form, upload, body) = (Vec::new(), None, Vec::new());
         let web_request = WebRequest {
             visitor,
@@ -146,20 +150,23 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
     .await
 }
 
-fn anonymous_visitor() -> spandrel_training::web::access::Visitor {
-    spandrel_training::web::access::Visitor {
-        name: None,
-        role: spandrel_training::trainee::Role::Trainee,
-        open: false,
-        token: String::new(),
-        language: Language::default(),
-    }
+/// Returns the visitor of a request that has not been identified yet, with their language.
+fn anonymous_visitor(request: &Request) -> Visitor {
+    let language = Language::accepted(&preferred_languages(request.headers())).unwrap_or_default();
+    let shows = request.method() == Method::GET || request.method() == Method::HEAD;
+    let address = request.uri().path_and_query().filter(|_| shows).map(ToString::to_string).unwrap_or_default();
+    Visitor { name: None, role: Role::Trainee, open: false, token: String::new(), language, address }
 }
 
-/// Returns the language that the visitor has selected, or else the one that the browser prefers.
-fn language_from(headers: &HeaderMap, accepted: &str) -> Language {
+/// Returns the language that the visitor has selected, or else those that the browser prefers.
+fn preferred_languages(headers: &HeaderMap) -> String {
     let selected = cookie_value(headers, LANGUAGE_COOKIE).and_then(|tag| Language::from_tag(&tag));
-    selected.or_else(|| Language::accepted(accepted)).unwrap_or_default()
+    let accepted = || header_text(headers, header::ACCEPT_LANGUAGE).unwrap_or_default();
+    selected.map_or_else(accepted, |language| language.tag().to_owned())
+}
+
+fn header_text(headers: &HeaderMap, name: HeaderName) -> Option<String> {
+    headers.get(name).and_then(|value| value.to_str().ok()).map(str::to_owned)
 }
 
 fn accepts_json(headers: &HeaderMap) -> bool {
@@ -174,8 +181,11 @@ fn authorize(web_request: &WebRequest, route: &Route) -> Result<(), WebError> {
     if !web_request.visitor.is_known() {
         return Err(WebError::LoginRequired);
     }
-    let who = if route.required_access == AccessLevel::Administrator { "administrators" } else { "instructors" };
-    Err(WebError::Forbidden(format!("This page is for {who} only.")))
+    let language = web_request.visitor.language;
+    Err(WebError::Forbidden(match route.required_access {
+        AccessLevel::Administrator => text!(language, "web-error-administrators"),
+        AccessLevel::Public | AccessLevel::Login | AccessLevel::Instructor => text!(language, "web-error-instructors"),
+    }))
 }
 
 /// Runs a function that may block on disk or database access.
@@ -184,20 +194,15 @@ async fn blocking<T: Send + 'static>(work: impl FnOnce() -> Result<T, WebError> 
     done.unwrap_or_else(|_| Err(WebError::Failed("a request handler panicked: please report this bug".into())))
 }
 
-fn error_response(
-    shared: &PipelineState,
-    visitor: Option<&spandrel_training::web::access::Visitor>,
-    refusal: &WebError,
-) -> Response<Body> {
+fn error_response(shared: &PipelineState, visitor: &Visitor, refusal: &WebError) -> Response<Body> {
     if let WebError::Failed(words) = refusal {
         tracing::error!("{words}");
     }
     if *refusal == WebError::LoginRequired {
         return WebResponse::redirect("/login").into_response();
     }
-    let (status, title, words) = refusal.status_and_text();
-    let visitor = visitor.cloned().unwrap_or_else(anonymous_visitor);
-    let page = WebResponse::page(layout::refusal(&visitor, title, &words)).with_status(status);
+    let (status, title, words) = refusal.status_and_text(visitor.language);
+    let page = WebResponse::page(layout::refusal(visitor, &title, &words)).with_status(status);
     let mut response = page.retry_after(refusal.retry_after_s()).into_response();
     set_security_headers(response.headers_mut(), shared.state.auth.is_secure());
     response
@@ -205,12 +210,13 @@ fn error_response(
 
 /// Handles a request for a path that is not in the route table.
 pub async fn handle_unknown_path(shared: PipelineState, request: Request) -> Response<Body> {
+    let visitor = anonymous_visitor(&request);
     let status = if request.method() == Method::GET || request.method() == Method::HEAD {
         WebError::NotFound
     } else {
-        WebError::Forbidden("This page does not accept changes.".into())
+        WebError::Forbidden(text!(visitor.language, "web-error-no-changes"))
     };
-    error_response(&shared, None, &status)
+    error_response(&shared, &visitor, &status)
 }
 
 /// Streams live values while the browser is connected and the visitor has access.
@@ -221,19 +227,21 @@ pub async fn live_stream(shared: PipelineState, mut request: Request) -> Respons
         required_access: AccessLevel::Instructor,
         handler: unreachable_handler,
     };
+    let unknown = anonymous_visitor(&request);
     let head = match parse_head(&shared, &ROUTE, &mut request).await {
         Ok(head) => head,
-        Err(refusal) => return error_response(&shared, None, &refusal),
+        Err(refusal) => return error_response(&shared, &unknown, &refusal),
     };
+    let visitor = &head.request.visitor;
     if let Err(refusal) = authorize(&head.request, &ROUTE) {
-        let refusal =
-            if refusal == WebError::LoginRequired { WebError::Forbidden("Please log in first.".into()) } else { refusal };
-        return error_response(&shared, Some(&head.request.visitor), &refusal);
+        let login = || WebError::Forbidden(text!(visitor.language, "web-error-login-text"));
+        let refusal = if refusal == WebError::LoginRequired { login() } else { refusal };
+        return error_response(&shared, visitor, &refusal);
     }
     let cookie = head.request.cookie.clone();
-    let mut response = match live::select_vehicle(&shared.state, head.request.query_param("vehicle")) {
+    let mut response = match live::select_vehicle(&shared.state, visitor.language, head.request.query_param("vehicle")) {
         Ok((_, live)) => live::stream(shared.state.clone(), live, cookie),
-        Err(refusal) => return error_response(&shared, Some(&head.request.visitor), &refusal),
+        Err(refusal) => return error_response(&shared, visitor, &refusal),
     };
     set_security_headers(response.headers_mut(), shared.state.auth.is_secure());
     response
@@ -241,4 +249,33 @@ pub async fn live_stream(shared: PipelineState, mut request: Request) -> Respons
 
 fn unreachable_handler(_: &ServerState, _: &WebRequest) -> HandlerResult {
     Err(WebError::NotFound)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn visitor(method: &str, address: &str, headers: &[(&str, &str)]) -> Visitor {
+        let mut request = Request::builder().method(method).uri(address);
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        anonymous_visitor(&request.body(Body::empty()).unwrap())
+    }
+
+    #[test]
+    fn exact_language_is_the_selected_one_or_that_of_the_browser() {
+        let language = |headers: &[(&str, &str)]| visitor("GET", "/", headers).language;
+        assert_eq!(language(&[]), Language::English);
+        assert_eq!(language(&[("accept-language", "es-MX,es;q=0.9")]), Language::Spanish);
+        assert_eq!(language(&[("accept-language", "es"), ("cookie", "spandrel-language=de")]), Language::German);
+        assert_eq!(language(&[("accept-language", "es"), ("cookie", "spandrel-language=tlh")]), Language::Spanish);
+        assert_eq!(language(&[("cookie", "spandrel-language=en-XA")]), Language::Pseudo);
+    }
+
+    #[test]
+    fn exact_address_is_that_of_a_page() {
+        assert_eq!(visitor("GET", "/sessions?page=2&trainee=a", &[]).address, "/sessions?page=2&trainee=a");
+        assert_eq!(visitor("POST", "/account", &[]).address, "");
+    }
 }

@@ -4,6 +4,7 @@ use crate::errors::AppError;
 use axum::body::Body;
 use axum::http::{HeaderName, HeaderValue, Response, StatusCode, header};
 use maud::Markup;
+use spandrel_text::{Language, text};
 
 /// Content security policy for the pages: only the server's own files, no inline code and no requests to other sites.
 const PAGE_POLICY: &str = "default-src 'none'; style-src 'self'; script-src 'self'; img-src 'self' data:; media-src 'self'; connect-src 'self'; \
@@ -34,9 +35,9 @@ pub enum WebError {
     NotFound,
     /// The visitor must log in first.
     LoginRequired,
-    /// The visitor lacks permission; contains a message.
+    /// The visitor lacks permission; contains a message in the visitor's language.
     Forbidden(String),
-    /// The request is invalid; contains a message.
+    /// The request is invalid; contains a message in the visitor's language, or in English about the contents of a file.
     BadRequest(String),
     /// The body is larger than this maximum in bytes.
     TooLarge(usize),
@@ -212,31 +213,49 @@ impl WebError {
     }
 
     /// Returns the error page's status, title and message.
-    pub fn status_and_text(&self) -> (StatusCode, &'static str, String) {
+    pub fn status_and_text(&self, language: Language) -> (StatusCode, String, String) {
         match self {
             Self::NotFound => {
-                (StatusCode::NOT_FOUND, "Not found", "This page does not exist, or you do not have access to it.".into())
+                let (title, words) = (text!(language, "web-error-not-found"), text!(language, "web-error-not-found-text"));
+                (StatusCode::NOT_FOUND, title, words)
             }
-            Self::LoginRequired => (StatusCode::UNAUTHORIZED, "Log in", "Please log in first.".into()),
-            Self::Forbidden(words) => (StatusCode::FORBIDDEN, "Not allowed", words.clone()),
-            Self::BadRequest(words) => (StatusCode::UNPROCESSABLE_ENTITY, "Invalid request", words.clone()),
+            Self::LoginRequired => {
+                (StatusCode::UNAUTHORIZED, text!(language, "web-error-login"), text!(language, "web-error-login-text"))
+            }
+            Self::Forbidden(words) => (StatusCode::FORBIDDEN, text!(language, "web-error-forbidden"), words.clone()),
+            Self::BadRequest(words) => (StatusCode::UNPROCESSABLE_ENTITY, text!(language, "web-error-invalid"), words.clone()),
             Self::TooLarge(most) => {
-                (StatusCode::PAYLOAD_TOO_LARGE, "Too large", format!("The request is too large (allowed: {most} bytes)."))
+                let words = text!(language, "web-error-too-large-text", most = *most);
+                (StatusCode::PAYLOAD_TOO_LARGE, text!(language, "web-error-too-large"), words)
             }
             Self::RateLimited(seconds) => {
-                let words = format!("Too many failed logins. Please wait {seconds} s.");
-                (StatusCode::TOO_MANY_REQUESTS, "Please wait", words)
+                let words = text!(language, "web-error-wait-text", seconds = *seconds);
+                (StatusCode::TOO_MANY_REQUESTS, text!(language, "web-error-wait"), words)
             }
             Self::Busy(seconds) => {
-                let words = format!("The server is busy. Try again in {seconds} s.");
-                (StatusCode::SERVICE_UNAVAILABLE, "Server busy", words)
+                let words = text!(language, "web-error-busy-text", seconds = *seconds);
+                (StatusCode::SERVICE_UNAVAILABLE, text!(language, "web-error-busy"), words)
             }
-            Self::Failed(_) => (
-                StatusCode::INTERNAL_SERVER_ERROR,
-                "Internal error",
-                "Details are in the server's log. Please contact the administrator.".into(),
-            ),
+            Self::Failed(_) => {
+                let (title, words) = (text!(language, "web-error-internal"), text!(language, "web-error-internal-text"));
+                (StatusCode::INTERNAL_SERVER_ERROR, title, words)
+            }
         }
+    }
+
+    /// Returns the error for a form field that is missing.
+    pub fn missing(language: Language, field: &str) -> Self {
+        Self::BadRequest(text!(language, "web-error-missing", field = field))
+    }
+
+    /// Returns the error for a form field with a word that is not in the list of allowed ones.
+    pub fn unknown(language: Language, field: &str, allowed: &str) -> Self {
+        Self::BadRequest(text!(language, "web-error-unknown-allowed", field = field, allowed = allowed))
+    }
+
+    /// Returns the error for a form field that is not a number in the allowed range.
+    pub fn not_in_range(language: Language, field: &str, least: u32, most: u32) -> Self {
+        Self::BadRequest(text!(language, "web-error-number", field = field, least = least, most = most))
     }
 }
 
@@ -252,5 +271,36 @@ impl From<AppError> for WebError {
             AppError::Wrong(words) => Self::BadRequest(words),
             AppError::Failed(words) | AppError::Autopilot(_, words) => Self::Failed(words),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_errors_are_in_the_visitor_language() {
+        let errors = [
+            WebError::NotFound,
+            WebError::LoginRequired,
+            WebError::TooLarge(7),
+            WebError::RateLimited(7),
+            WebError::Busy(7),
+            WebError::Failed("disk".into()),
+            WebError::missing(Language::Pseudo, "7"),
+            WebError::unknown(Language::Pseudo, "7", "8"),
+            WebError::not_in_range(Language::Pseudo, "7", 1, 2),
+        ];
+        for error in errors {
+            let (_, title, words) = error.status_and_text(Language::Pseudo);
+            let plain =
+                |text: &str| text.split_whitespace().any(|word| word.len() > 2 && word.chars().all(|c| c.is_ascii_alphabetic()));
+            assert!(!plain(&title) && !plain(&words), "{title}: {words}");
+        }
+        let (_, title, words) = WebError::Busy(5).status_and_text(Language::German);
+        assert_eq!(
+            (title.as_str(), words.as_str()),
+            ("Server ausgelastet", "Der Server ist ausgelastet. Versuchen Sie es in 5 s erneut.")
+        );
     }
 }

@@ -5,7 +5,7 @@ use super::response::HandlerResult;
 use super::scenario_library::MAX_SCENARIO_BYTES;
 use super::state::ServerState;
 use super::{
-    assets, assignments, classes, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor, scenarios,
+    assets, assignments, classes, languages, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor, scenarios,
     session_media, sessions, settings, stations, trainees, uploads,
 };
 use spandrel_training::web::access::AccessLevel;
@@ -90,6 +90,7 @@ pub const ROUTES: &[Route] = &[
     show("/login", AccessLevel::Public, settings::login_page),
     change("/login", AccessLevel::Public, settings::log_in),
     change("/logout", AccessLevel::Public, settings::log_out),
+    change("/language", AccessLevel::Public, languages::select),
     show("/account", AccessLevel::Login, settings::account_page),
     change("/account", AccessLevel::Login, settings::change_password),
     show("/sessions", AccessLevel::Login, sessions::session_list),
@@ -171,13 +172,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_anonymous_visitors_reach_only_the_login_page_and_map_tiles() {
+    fn exact_anonymous_visitors_reach_only_the_login_page_the_languages_and_map_tiles() {
         let open: Vec<&str> =
             ROUTES.iter().filter(|route| route.required_access == AccessLevel::Public).map(|route| route.path).collect();
         // Ground stations cannot log in, and map tiles show no defects. Training stations send their key.
         assert_eq!(
             open,
-            ["/", "/assets/{name}", "/login", "/login", "/logout", "/tiles/{name}/{z}/{x}/{y}", "/stations/check-in"]
+            [
+                "/",
+                "/assets/{name}",
+                "/login",
+                "/login",
+                "/logout",
+                "/language",
+                "/tiles/{name}/{z}/{x}/{y}",
+                "/stations/check-in"
+            ]
         );
     }
 

@@ -13,7 +13,9 @@ use crate::io::files;
 use axum::http::StatusCode;
 use spandrel_model::scenario::edit;
 use spandrel_model::scenario::values::ScenarioValues;
+use spandrel_text::{Language, text};
 use spandrel_training::scenario_check::CheckOptions;
+use spandrel_training::web::layout::Notice;
 use spandrel_training::web::scenario_check_result::{CheckedScenario, check_text};
 use spandrel_training::web::scenario_editor::{self as pages, EditorPage};
 use spandrel_training::web::scenarios::ScenarioEntry;
@@ -52,7 +54,8 @@ pub fn edit(state: &ServerState, request: &WebRequest) -> HandlerResult {
         return Err(WebError::NotFound);
     }
     let text = files::read(&path)?;
-    let notice = request.query_param("saved").map(|_| ("good", "The scenario was saved."));
+    let saved = text!(request.visitor.language, "editor-saved");
+    let notice = request.query_param("saved").map(|_| Notice::good(&saved));
     let about = EditorPage {
         text: &text,
         opened: name,
@@ -73,25 +76,25 @@ fn text_field(request: &WebRequest) -> Result<String, WebError> {
 
 /// Applies edits to a text and checks it. Responds to the page's script with JSON, and to the button with the page.
 pub fn check(_: &ServerState, request: &WebRequest) -> HandlerResult {
-    let begun = Stopwatch::start();
+    let (begun, language) = (Stopwatch::start(), request.visitor.language);
     let text = text_field(request)?;
     let edits = editor_edits::parse(request.form_field("edits").unwrap_or("[]")).map_err(WebError::BadRequest)?;
     let (text, rejected) = match edit::apply(&text, &edits) {
-        Ok(edited) if edited.len() > MAX_SCENARIO_BYTES => (text, Some("The file would become too large".to_owned())),
+        Ok(edited) if edited.len() > MAX_SCENARIO_BYTES => (text, Some(text!(language, "editor-too-large"))),
         Ok(edited) => (edited, None),
-        Err(words) => (text, Some(format!("Not changed: {words}"))),
+        Err(words) => (text, Some(text!(language, "editor-not-changed", reason = words))),
     };
-    let checked = CheckedScenario { rejected, ..checked(text, begun)? };
+    let checked = CheckedScenario { rejected, ..checked(text, begun, language)? };
     if request.expects_json {
-        return Ok(WebResponse::json(&checked.json(request.form_field("shape").unwrap_or_default())));
+        return Ok(WebResponse::json(&checked.json(language, request.form_field("shape").unwrap_or_default())));
     }
     respond_with_editor(request, &checked.text, (None, false), Some(&checked))
 }
 
-fn checked(text: String, begun: Stopwatch) -> Result<CheckedScenario, WebError> {
+fn checked(text: String, begun: Stopwatch, language: Language) -> Result<CheckedScenario, WebError> {
     let aircraft = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
     let options = CheckOptions { aircraft: &aircraft, may_continue: &|| begun.elapsed() < CHECK_TIME };
-    Ok(check_text(&file_name(&text), text, &options))
+    Ok(check_text(&file_name(&text), text, &options, language))
 }
 
 /// Returns the file name for messages and downloads.
@@ -104,7 +107,7 @@ fn file_name(text: &str) -> String {
 fn respond_with_editor(
     request: &WebRequest,
     text: &str,
-    (notice, conflict): (Option<(&str, &str)>, bool),
+    (notice, conflict): (Option<Notice<'_>>, bool),
     checked: Option<&CheckedScenario>,
 ) -> HandlerResult {
     let field = |name: &str| request.form_field(name).unwrap_or_default();
@@ -127,16 +130,23 @@ pub fn save(state: &ServerState, request: &WebRequest) -> HandlerResult {
         (true, _) => Expected::Version(field("version")),
         (false, _) => Expected::Absent,
     };
-    match scenario_store::save(state, &file, &text, expected) {
+    let language = request.visitor.language;
+    match scenario_store::save(state, language, (&file, &text), expected) {
         Ok(name) => Ok(WebResponse::redirect(&format!("/scenarios/{name}/edit?saved=yes"))),
         Err(SaveError::Conflict(words)) => {
-            let notice = format!("Not saved. {words}");
-            Ok(respond_with_editor(request, &text, (Some(("bad", &notice)), is_opened), None)?.with_status(StatusCode::CONFLICT))
+            let words = text!(language, "editor-not-saved-because", reason = words);
+            let told = (Some(Notice::bad(&words)), is_opened);
+            Ok(respond_with_editor(request, &text, told, None)?.with_status(StatusCode::CONFLICT))
         }
-        Err(SaveError::App(AppError::Wrong(words))) => {
-            let notice = format!("Not saved.\n{words}");
-            let page = respond_with_editor(request, &text, (Some(("bad", &notice)), false), None)?;
-            Ok(page.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        Err(SaveError::Refused(words)) => {
+            let words = format!("{}\n{words}", text!(language, "web-not-saved"));
+            let told = (Some(Notice::bad(&words)), false);
+            Ok(respond_with_editor(request, &text, told, None)?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        }
+        Err(SaveError::App(AppError::Wrong(details))) => {
+            let words = text!(language, "web-not-saved");
+            let told = (Some(Notice { kind: "bad", text: &words, details: &details }), false);
+            Ok(respond_with_editor(request, &text, told, None)?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
         Err(SaveError::App(error @ (AppError::Failed(_) | AppError::Autopilot(..)))) => Err(error.into()),
     }

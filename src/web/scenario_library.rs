@@ -5,6 +5,7 @@ use super::safe_names::is_safe_file_name;
 use crate::errors::AppError;
 use crate::io::files;
 use spandrel_model::scenario::{self, Scenario};
+use spandrel_text::{Language, text};
 use spandrel_training::web::scenario_check_result::no_siblings;
 use spandrel_training::web::scenarios::ScenarioEntry;
 use std::path::{Path, PathBuf};
@@ -75,8 +76,9 @@ pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
 
 /// Returns the argument that identifies the scenario to other functions: the path of an uploaded scenario, or the name
 /// of a shipped scenario.
-pub fn argument(folder: &Path, name: &str) -> Result<String, WebError> {
-    let job = find(folder, name).ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
+pub fn argument(folder: &Path, language: Language, name: &str) -> Result<String, WebError> {
+    let job =
+        find(folder, name).ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown-name", field = "scenario")))?;
     Ok(if job.named.uploaded { upload_path(folder, name).display().to_string() } else { job.named.name })
 }
 

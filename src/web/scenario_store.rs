@@ -8,6 +8,7 @@ use crate::errors::AppError;
 use crate::io::files;
 use crate::io::replace::replace;
 use spandrel_monitor::folder::sha256_hex;
+use spandrel_text::{Language, text};
 use std::path::Path;
 
 /// Maximum number of uploaded scenarios.
@@ -34,8 +35,10 @@ pub enum Expected<'a> {
 /// Reason why a scenario was not saved.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SaveError {
-    /// The stored file is not the expected one; contains a message.
+    /// The stored file is not the expected one; contains a message in the user's language.
     Conflict(String),
+    /// The name is not allowed, or there are too many scenarios; contains a message in the user's language.
+    Refused(String),
     /// The scenario is invalid, or the file cannot be written.
     App(AppError),
 }
@@ -46,18 +49,24 @@ impl From<AppError> for SaveError {
     }
 }
 
-/// Validates and saves an uploaded scenario, and returns its name. `shown` is the file name for messages.
+/// Validates and saves an uploaded scenario, and returns its name. `shown` is the file name for messages, which are in this language
+/// unless they are about the contents of the file.
 ///
 /// # Errors
 /// Returns an error if the scenario or its name is invalid, the stored file is not the expected one, or writing fails.
-pub fn save(state: &ServerState, shown: &str, text: &str, expected: Expected<'_>) -> Result<String, SaveError> {
+pub fn save(
+    state: &ServerState,
+    language: Language,
+    (shown, text): (&str, &str),
+    expected: Expected<'_>,
+) -> Result<String, SaveError> {
     let name = read(shown, text)?.name;
-    check_name(shown, &name)?;
+    check_name(language, shown, &name).map_err(SaveError::Refused)?;
     let _writing = lock(&state.scenario_writing);
     let target = upload_path(&state.scenarios, &name);
-    check_expected(&target, &name, expected)?;
+    check_expected(language, &target, &name, expected)?;
     if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
-        return Err(AppError::invalid(format!("there are already {MAX_UPLOADS} uploaded scenarios: remove one first")).into());
+        return Err(SaveError::Refused(text!(language, "editor-too-many", most = MAX_UPLOADS)));
     }
     std::fs::create_dir_all(&state.scenarios)
         .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;
@@ -65,29 +74,30 @@ pub fn save(state: &ServerState, shown: &str, text: &str, expected: Expected<'_>
     Ok(name)
 }
 
-fn check_name(shown: &str, name: &str) -> Result<(), AppError> {
+/// Returns a message if the name is not allowed.
+fn check_name(language: Language, shown: &str, name: &str) -> Result<(), String> {
     // The name becomes part of folder names; the scenario parser allows only [a-z0-9-].
     if !is_safe_file_name(name) || name.len() > 60 {
-        return Err(AppError::invalid(format!("{shown}: the name is too long (allowed: 60 characters)")));
+        return Err(text!(language, "editor-name-too-long", file = shown));
     }
     if files::scenario_names().contains(&name) {
-        return Err(AppError::invalid(format!("{shown}: '{name}' is the name of a shipped scenario; choose another")));
+        return Err(text!(language, "editor-name-shipped", file = shown, name = name));
     }
     if RESERVED_NAMES.contains(&name) {
-        return Err(AppError::invalid(format!("{shown}: '{name}' is the name of a page of this server; choose another")));
+        return Err(text!(language, "editor-name-reserved", file = shown, name = name));
     }
     Ok(())
 }
 
-fn check_expected(target: &Path, name: &str, expected: Expected<'_>) -> Result<(), SaveError> {
+fn check_expected(language: Language, target: &Path, name: &str, expected: Expected<'_>) -> Result<(), SaveError> {
     let stored = if target.is_file() { Some(files::read(target)?) } else { None };
     let conflict = match (expected, &stored) {
         (Expected::Anything, _) | (Expected::Absent, None) => None,
-        (Expected::Absent, Some(_)) => Some(format!("There is already a scenario '{name}'. Choose another name.")),
-        (Expected::Version(_), None) => Some(format!("Somebody deleted '{name}' since you opened it.")),
-        (Expected::Version(opened), Some(text)) => (version(text) != opened).then(|| {
-            format!("Somebody changed '{name}' since you opened it. Save your version under a new name, or overwrite the other version.")
-        }),
+        (Expected::Absent, Some(_)) => Some(text!(language, "editor-conflict-exists", name = name)),
+        (Expected::Version(_), None) => Some(text!(language, "editor-conflict-deleted", name = name)),
+        (Expected::Version(opened), Some(text)) => {
+            (version(text) != opened).then(|| text!(language, "editor-conflict-changed", name = name))
+        }
     };
     conflict.map_or(Ok(()), |words| Err(SaveError::Conflict(words)))
 }
@@ -100,7 +110,7 @@ mod tests {
     fn exact_only_the_expected_file_is_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let target = upload_path(folder.path(), "job");
-        let check = |expected: Expected<'_>| check_expected(&target, "job", expected);
+        let check = |expected: Expected<'_>| check_expected(Language::English, &target, "job", expected);
         assert_eq!((check(Expected::Absent), check(Expected::Anything)), (Ok(()), Ok(())));
         assert!(matches!(check(Expected::Version("x")), Err(SaveError::Conflict(words)) if words.contains("deleted")));
         std::fs::write(&target, "a = 1\n").unwrap();
@@ -113,10 +123,10 @@ mod tests {
 
     #[test]
     fn exact_shipped_and_reserved_names_are_refused() {
-        let refused = |name: &str| check_name("job.toml", name).unwrap_err().to_string();
+        let refused = |name: &str| check_name(Language::English, "job.toml", name).unwrap_err();
         assert!(refused("practice").contains("shipped scenario"));
         assert!(refused("new").contains("page of this server"));
         assert!(refused("../x").contains("too long") && refused(&"x".repeat(61)).contains("too long"));
-        assert_eq!(check_name("job.toml", "my-job"), Ok(()));
+        assert_eq!(check_name(Language::English, "job.toml", "my-job"), Ok(()));
     }
 }

@@ -1,6 +1,6 @@
 //! Pages for the shipped and uploaded scenarios.
 
-use super::request::WebRequest;
+use super::request::{WebRequest, not_text};
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenario_library::{DEFAULT_VEHICLE, all, find, upload_path};
 use super::scenario_store::{Expected, SaveError, save};
@@ -9,8 +9,9 @@ use crate::errors::AppError;
 use crate::io::files;
 use axum::http::StatusCode;
 use spandrel_model::site::Site;
-use spandrel_text::Language;
+use spandrel_text::text;
 use spandrel_training::briefing::Briefing;
+use spandrel_training::web::layout::Notice;
 use spandrel_training::web::scenarios::{self as pages, ScenarioEntry};
 
 /// Responds with the list of scenarios.
@@ -18,7 +19,7 @@ pub fn scenario_list(state: &ServerState, request: &WebRequest) -> HandlerResult
     render_list(state, request, None)
 }
 
-fn render_list(state: &ServerState, request: &WebRequest, told: Option<(&str, &str)>) -> HandlerResult {
+fn render_list(state: &ServerState, request: &WebRequest, told: Option<Notice<'_>>) -> HandlerResult {
     let named: Vec<ScenarioEntry> = all(&state.scenarios).into_iter().map(|job| job.named).collect();
     Ok(WebResponse::page(pages::list(&request.visitor, &named, told)))
 }
@@ -35,28 +36,36 @@ pub fn briefing_page(state: &ServerState, request: &WebRequest) -> HandlerResult
     let job = find(&state.scenarios, request.path_param("name")).ok_or(WebError::NotFound)?;
     let site = Site::without_defects(&job.scenario);
     let vehicle = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
-    let briefing = Briefing::new(&job.scenario, &vehicle, &site, Language::English);
+    let briefing = Briefing::new(&job.scenario, &vehicle, &site, request.visitor.language);
     Ok(WebResponse::page(pages::briefing_page(&request.visitor, &briefing, &job.scenario, &site)))
 }
 
 /// Validates and saves an uploaded scenario.
 pub fn upload(state: &ServerState, request: &WebRequest) -> HandlerResult {
     match save_upload(state, request) {
-        Ok(name) => render_list(state, request, Some(("good", &format!("{name} was saved.")))),
-        Err(SaveError::Conflict(words) | SaveError::App(AppError::Wrong(words))) => {
-            Ok(render_list(state, request, Some(("bad", &words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        Ok(name) => {
+            let words = text!(request.visitor.language, "editor-upload-saved", name = name);
+            render_list(state, request, Some(Notice::good(&words)))
+        }
+        Err(SaveError::Conflict(words) | SaveError::Refused(words)) => {
+            Ok(render_list(state, request, Some(Notice::bad(&words)))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
+        }
+        Err(SaveError::App(AppError::Wrong(details))) => {
+            let notice = Notice { kind: "bad", text: "", details: &details };
+            Ok(render_list(state, request, Some(notice))?.with_status(StatusCode::UNPROCESSABLE_ENTITY))
         }
         Err(SaveError::App(error @ (AppError::Failed(_) | AppError::Autopilot(..)))) => Err(error.into()),
     }
 }
 
 fn save_upload(state: &ServerState, request: &WebRequest) -> Result<String, SaveError> {
-    let upload = request.upload.as_ref().ok_or_else(|| AppError::invalid("file: missing"))?;
-    let shown: String = upload.name.chars().filter(|c| !c.is_control()).take(60).collect();
-    let bytes = upload.file.bytes()?;
-    let text = std::str::from_utf8(&bytes)
-        .map_err(|error| AppError::invalid(format!("{shown}: not UTF-8 text (byte {})", error.valid_up_to())))?;
-    save(state, &shown, text, Expected::Anything)
+    let language = request.visitor.language;
+    let missing = || SaveError::Refused(text!(language, "web-error-missing", field = "file"));
+    let upload = request.upload.as_ref().ok_or_else(missing)?;
+    let (shown, bytes) = (upload.shown_name(), upload.file.bytes()?);
+    let text = std::str::from_utf8(&bytes);
+    let text = text.map_err(|error| SaveError::Refused(not_text(language, &shown, error)))?;
+    save(state, language, (&shown, text), Expected::Anything)
 }
 
 /// Removes an uploaded scenario.

@@ -10,6 +10,7 @@ use crate::io::session_folder::StoredSession;
 use crate::io::trainee_id::TraineeId;
 use spandrel_monitor::export;
 use spandrel_monitor::folder::{REPORT, SNAPSHOTS, TELEMETRY, VIDEO};
+use spandrel_text::text;
 use spandrel_training::marks::marks_key;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
@@ -117,8 +118,8 @@ fn is_current(page: &[u8], policy: &str, marks: Option<&str>) -> bool {
 /// Responds with a comparison of two sessions.
 pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = |word: &str| {
-        let id =
-            request.query_param(word).ok_or_else(|| WebError::BadRequest(format!("{word}: missing (required: a session ID)")))?;
+        let missing = || WebError::BadRequest(text!(request.visitor.language, "sessions-compare-missing", field = word));
+        let id = request.query_param(word).ok_or_else(missing)?;
         folder(state, request, id)
     };
     let reliability = |scenario: &str| state.figures.reliability(scenario, IncompletePolicy::Exclude);

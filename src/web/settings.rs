@@ -4,13 +4,17 @@ use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use crate::io::clock;
-use crate::io::trainee_id::TraineeId;
 use crate::records::{Account, erase_older_than};
+use spandrel_text::text;
 use spandrel_training::trainee::{Role, Trainee};
+use spandrel_training::web::layout::role_text;
 use spandrel_training::web::{login, settings as pages};
 
 /// Microseconds per day.
 const US_PER_DAY: u64 = 86_400_000_000;
+
+/// Longest retention, days: a hundred years.
+const MAX_RETENTION_DAYS: u32 = 36_525;
 
 /// Responds with the login form.
 pub fn login_page(_: &ServerState, request: &WebRequest) -> HandlerResult {
@@ -31,7 +35,7 @@ pub fn log_in(state: &ServerState, request: &WebRequest) -> HandlerResult {
             Ok(answer)
         }
         Err(refusal @ (WebError::Forbidden(_) | WebError::RateLimited(_) | WebError::Busy(_))) => {
-            let (status, _, words) = refusal.status_and_text();
+            let (status, _, words) = refusal.status_and_text(request.visitor.language);
             let page = WebResponse::page(login::login(&request.visitor, name, Some(&words)));
             Ok(page.with_status(status).retry_after(refusal.retry_after_s()))
         }
@@ -56,10 +60,11 @@ pub fn account_page(_: &ServerState, request: &WebRequest) -> HandlerResult {
 /// Changes the visitor's password and ends all their other browser sessions.
 pub fn change_password(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name = request.visitor.name.as_deref().ok_or(WebError::NotFound)?;
+    let language = request.visitor.language;
     let told = match change(state, request, name) {
-        Ok(()) => ("good", "Password changed. You have been logged out everywhere else.".to_owned()),
+        Ok(()) => ("good", text!(language, "web-account-changed")),
         Err(refusal @ (WebError::Forbidden(_) | WebError::BadRequest(_) | WebError::RateLimited(_) | WebError::Busy(_))) => {
-            ("bad", refusal.status_and_text().2)
+            ("bad", refusal.status_and_text(language).2)
         }
         Err(other) => return Err(other),
     };
@@ -68,11 +73,11 @@ pub fn change_password(state: &ServerState, request: &WebRequest) -> HandlerResu
 
 fn change(state: &ServerState, request: &WebRequest, name: &str) -> Result<(), WebError> {
     let mut account = state.auth.check(&state.database, name, request.required_field("present")?, &request.client())?;
-    let new = request.required_field("new")?;
-    login::check(new, name).map_err(WebError::BadRequest)?;
+    let (language, new) = (request.visitor.language, request.required_field("new")?);
+    login::check(new, name, language).map_err(WebError::BadRequest)?;
     let before = account.hash.replace(state.auth.hashing.acquire()?.hash(new)?).unwrap_or_default();
     if !state.database.change_password(name, &before, account.hash.as_deref().unwrap_or_default())? {
-        return Err(WebError::BadRequest("your password was changed elsewhere: log in again with the new one".into()));
+        return Err(WebError::BadRequest(text!(language, "web-account-changed-elsewhere")));
     }
     state.auth.end_other_sessions(name, request.cookie.as_deref());
     state.auth.update_credential(request.cookie.as_deref(), &account);
@@ -95,22 +100,19 @@ fn render_settings(state: &ServerState, request: &WebRequest, told: Option<(&str
 
 /// Sets a person's password and role.
 pub fn set_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let name: TraineeId =
-        request.required_field("name")?.parse().map_err(|wrong| WebError::BadRequest(format!("name: {wrong}")))?;
+    let language = request.visitor.language;
+    let name = request.trainee_field("name")?;
     let name = name.as_str();
-    let role = request.required_field("role")?;
-    let role = Role::from_word(role)
-        .ok_or_else(|| WebError::BadRequest("role: unknown (allowed: trainee, instructor, administrator)".into()))?;
+    let role = Role::from_word(request.required_field("role")?);
+    let role = role.ok_or_else(|| WebError::unknown(language, "role", "trainee, instructor, administrator"))?;
     let password = request.required_field("password")?;
-    login::check(password, name).map_err(WebError::BadRequest)?;
+    login::check(password, name, language).map_err(WebError::BadRequest)?;
     if request.visitor.open && role != Role::Administrator {
-        let words = "the first user with a password must be an administrator: from then on, everyone must log in, and \
-                     only administrators can add users";
-        return Err(WebError::BadRequest(words.into()));
+        return Err(WebError::BadRequest(text!(language, "web-settings-first-administrator")));
     }
     let own = request.visitor.name.as_deref() == Some(name);
     if own && role != Role::Administrator {
-        return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to change your role".into()));
+        return Err(WebError::BadRequest(text!(language, "web-settings-lock-out-role")));
     }
     let hash = state.auth.hashing.acquire()?.hash(password)?;
     state.database.set_login(name, role, &hash)?;
@@ -123,32 +125,35 @@ pub fn set_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
         state.auth.require_login();
         return Ok(WebResponse::redirect("/login"));
     }
-    render_settings(state, request, Some(("good", &format!("{name} can now log in as {}.", role.word()))))
+    let words = text!(language, "web-settings-can-log-in", name = name, role = role_text(language, role));
+    render_settings(state, request, Some(("good", &words)))
 }
 
 /// Removes a person's password.
 pub fn remove_login(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let name = request.required_field("name")?;
+    let (language, name) = (request.visitor.language, request.required_field("name")?);
     if request.visitor.name.as_deref() == Some(name) {
-        return Err(WebError::BadRequest("you would lock yourself out".into()));
+        return Err(WebError::BadRequest(text!(language, "web-settings-lock-out")));
     }
     let had = state.database.remove_password(name)?;
     state.auth.end_other_sessions(name, None);
-    if had { Ok(WebResponse::redirect("/settings")) } else { Err(WebError::BadRequest("this person has no password".into())) }
+    if had {
+        Ok(WebResponse::redirect("/settings"))
+    } else {
+        Err(WebError::BadRequest(text!(language, "web-settings-no-password")))
+    }
 }
 
 /// Erases all sessions older than the specified number of days.
 pub fn retention(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let days: u64 = request
-        .required_field("days")?
-        .parse()
-        .ok()
-        .filter(|days| (1..=36_525).contains(days))
-        .ok_or_else(|| WebError::BadRequest("days: invalid number (allowed: 1 to 36525)".into()))?;
+    let language = request.visitor.language;
+    let days = request.required_field("days")?.parse().ok().filter(|days| (1..=u64::from(MAX_RETENTION_DAYS)).contains(days));
+    let days = days.ok_or_else(|| WebError::not_in_range(language, "days", 1, MAX_RETENTION_DAYS))?;
     if request.required_field("sure")? != "yes" {
-        return Err(WebError::BadRequest("sure: not confirmed (allowed: yes)".into()));
+        return Err(WebError::BadRequest(text!(language, "web-error-not-confirmed")));
     }
     let limit_us = clock::unix_us().saturating_sub(days * US_PER_DAY);
     let (deleted, folders) = erase_older_than(&state.database, &state.records_location, limit_us)?;
-    render_settings(state, request, Some(("good", &format!("Erased {deleted} sessions and {folders} folders."))))
+    let words = text!(language, "web-settings-erased", sessions = deleted, folders = folders);
+    render_settings(state, request, Some(("good", &words)))
 }

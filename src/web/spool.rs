@@ -3,6 +3,7 @@
 
 use super::response::WebError;
 use crate::errors::AppError;
+use spandrel_text::{Language, text};
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::Write;
@@ -56,15 +57,17 @@ impl SpooledUpload {
 pub struct UploadSpool<'a> {
     folder: &'a Path,
     max_bytes: usize,
+    language: Language,
     size: usize,
     head: Vec<u8>,
     disk: Option<(File, SpoolFile)>,
 }
 
 impl<'a> UploadSpool<'a> {
-    /// Creates an empty upload with a limit of `most` bytes. Large uploads are written to this folder.
-    pub fn new(folder: &'a Path, most: usize) -> Self {
-        Self { folder, max_bytes: most, size: 0, head: Vec::new(), disk: None }
+    /// Creates an empty upload with a limit of `most` bytes. Large uploads are written to this folder. The language is that of
+    /// messages.
+    pub fn new(folder: &'a Path, most: usize, language: Language) -> Self {
+        Self { folder, max_bytes: most, language, size: 0, head: Vec::new(), disk: None }
     }
 
     /// Returns the maximum size in bytes.
@@ -82,10 +85,7 @@ impl<'a> UploadSpool<'a> {
             return Err(WebError::TooLarge(self.max_bytes));
         }
         if is_below_min_rate(self.size, elapsed) {
-            return Err(WebError::BadRequest(format!(
-                "the upload was too slow (allowed: {} KiB/s or more)",
-                MIN_UPLOAD_BYTES_S / 1024
-            )));
+            return Err(WebError::BadRequest(text!(self.language, "web-error-slow", rate = MIN_UPLOAD_BYTES_S / 1024)));
         }
         if self.disk.is_none() && self.head.len() + bytes.len() > MAX_BYTES_IN_MEMORY {
             self.disk = Some(self.create_file()?);
@@ -140,17 +140,17 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let files = || std::fs::read_dir(folder.path()).unwrap().count();
         let chunk: Vec<u8> = (0..100_000u32).map(|k| k as u8).collect();
-        let mut spool = UploadSpool::new(folder.path(), 10 * chunk.len());
+        let mut spool = UploadSpool::new(folder.path(), 10 * chunk.len(), Language::English);
         for _ in 0..10 {
             spool.append(&chunk, Duration::ZERO).unwrap();
         }
         assert_eq!(files(), 1);
         assert_eq!(spool.finish().bytes().as_deref(), Ok(&chunk.repeat(10)[..]));
         assert_eq!(files(), 0);
-        let mut small = UploadSpool::new(folder.path(), 10);
+        let mut small = UploadSpool::new(folder.path(), 10, Language::English);
         small.append(b"0123456789", Duration::ZERO).unwrap();
         assert_eq!(small.append(b"x", Duration::ZERO), Err(WebError::TooLarge(10)));
-        let mut dropped = UploadSpool::new(folder.path(), usize::MAX);
+        let mut dropped = UploadSpool::new(folder.path(), usize::MAX, Language::English);
         dropped.append(&vec![0; 2 * MAX_BYTES_IN_MEMORY], Duration::ZERO).unwrap();
         drop(dropped);
         assert_eq!(files(), 0);

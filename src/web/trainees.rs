@@ -11,7 +11,7 @@ use crate::io::clock;
 use crate::io::trainee_id::TraineeId;
 use crate::records::{erase_trainee, trainee_data};
 use spandrel_monitor::export::json_text;
-use spandrel_text::Language;
+use spandrel_text::text;
 use spandrel_training::cohort::{JobReliability, Selection, TABLES, table};
 use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
@@ -33,13 +33,13 @@ pub fn trainee_list(state: &ServerState, request: &WebRequest) -> HandlerResult 
 
 /// Responds with a trainee's sessions, progress and training plan.
 pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let person = person(state, request)?;
+    let (language, person) = (request.visitor.language, person(state, request)?);
     let records = state.database.records(Some(&person.pseudonym))?;
     let listed = state.database.list(Some(&person.pseudonym), MAX_SESSIONS, 0)?;
     let incomplete = incomplete_policy(request);
-    let (rules, problem) = rules_in_use(state)?;
+    let (rules, problem) = rules_in_use(state, language)?;
     let now = clock::unix_us();
-    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, now, Language::English);
+    let mut plan = plan_for_policy(records.clone(), incomplete, &rules, now, language);
     if let Some((plan, problem)) = plan.as_mut().zip(problem) {
         plan.note = Some(plan.note.take().map_or_else(|| problem.clone(), |note| format!("{note} {problem}")));
     }
@@ -50,7 +50,7 @@ pub fn trainee_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
         listed: &listed,
         jobs: &jobs_of(state, &person.pseudonym, &records, now)?,
         classes: &state.database.classes_of(&person.pseudonym)?,
-        rubric: &count_words(&rubric_in_use(state)?.0, &state.database.sign_offs(&person.pseudonym)?),
+        rubric: &count_words(language, &rubric_in_use(state, language)?.0, &state.database.sign_offs(&person.pseudonym)?),
         plan: plan.as_ref(),
         incomplete,
         reliability: &reliability,
@@ -88,36 +88,36 @@ const DETAIL_FIELDS: [(&str, &[&str]); 3] =
 
 /// Saves a person's details, unless they have been changed elsewhere since the page was loaded.
 pub fn details(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let person = person(state, request)?;
+    let (language, person) = (request.visitor.language, person(state, request)?);
     let (mut before, mut after) = ([""; 3], [""; 3]);
     for (k, (field, allowed)) in DETAIL_FIELDS.into_iter().enumerate() {
         let given = request.form_field(field).unwrap_or_default();
         if !given.is_empty() && !allowed.contains(&given) {
             let short: String = given.chars().take(60).collect();
-            return Err(WebError::BadRequest(format!("{field} = {short}: unknown (allowed: {})", allowed.join(", "))));
+            let allowed = allowed.join(", ");
+            let words = text!(language, "web-error-unknown-value", field = field, value = short, allowed = allowed);
+            return Err(WebError::BadRequest(words));
         }
         let shown = format!("{}{field}", pages::ORIGINAL_VALUE_PREFIX);
-        before[k] = request.form_field(&shown).ok_or_else(|| WebError::BadRequest(format!("{shown}: missing")))?;
+        before[k] = request.form_field(&shown).ok_or_else(|| WebError::missing(language, &shown))?;
         after[k] = given;
     }
     if !state.database.set_details(&person.pseudonym, before, after)? {
-        return Err(WebError::BadRequest(
-            "these details have been changed elsewhere: reload the page and check the current details".into(),
-        ));
+        return Err(WebError::BadRequest(text!(language, "people-details-changed")));
     }
     Ok(WebResponse::redirect(&format!("/trainees/{}", request.path_param("name"))))
 }
 
 /// Erases a trainee and all their data. The user must type the pseudonym to confirm.
 pub fn erase(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let person = person(state, request)?;
+    let (language, person) = (request.visitor.language, person(state, request)?);
     let name = &person.pseudonym;
     if request.required_field("again")? != name {
-        return Err(WebError::BadRequest(format!("the pseudonym you typed is not {name}: nothing was erased")));
+        return Err(WebError::BadRequest(text!(language, "people-erase-wrong-name", name = name.as_str())));
     }
     // Administrators cannot erase themselves, so there is always at least one administrator.
     if person.role == Role::Administrator && request.visitor.name.as_deref() == Some(name) {
-        return Err(WebError::BadRequest("you would lock yourself out: ask another administrator to erase you".into()));
+        return Err(WebError::BadRequest(text!(language, "people-erase-self")));
     }
     erase_trainee(&state.database, &state.records_location, name)?;
     state.auth.end_other_sessions(name, None);
@@ -137,7 +137,7 @@ fn selection_from_query(request: &WebRequest) -> Result<Selection, WebError> {
             .parse()
             .ok()
             .filter(|count| (1..=100).contains(count))
-            .ok_or_else(|| WebError::BadRequest("repetitions: invalid number (allowed: 1 to 100)".into()))?,
+            .ok_or_else(|| WebError::not_in_range(request.visitor.language, "repetitions", 1, 100))?,
     };
     let scenarios = request.query.iter().filter(|(key, _)| key == "scenario").map(|(_, name)| name.clone()).collect();
     Ok(Selection { scenarios, repetitions, incomplete: incomplete_policy(request) })
@@ -170,7 +170,7 @@ pub fn cohort_table(state: &ServerState, request: &WebRequest) -> HandlerResult 
 /// Responds with the cohort report as a single page that works offline.
 pub fn cohort_report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let figured = state.figures.get(&selection_from_query(request)?)?;
-    let nothing = || WebError::BadRequest("these scenarios have no sessions to include".into());
+    let nothing = || WebError::BadRequest(text!(request.visitor.language, "people-cohort-nothing"));
     let cohort = figured.non_empty_cohort().ok_or_else(nothing)?;
     Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))
 }

@@ -8,7 +8,6 @@ use super::state::ServerState;
 use crate::io::report;
 use crate::io::scoring;
 use crate::io::session_folder::SessionFolder;
-use crate::io::trainee_id::TraineeId;
 use crate::io::{clock, files};
 use axum::http::StatusCode;
 use spandrel_mavlink::telemetry::tlog;
@@ -16,6 +15,7 @@ use spandrel_monitor::export::json_text;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{AssessError, Monitor, MonitorConfig, SessionOutput};
+use spandrel_text::text;
 use spandrel_training::web::scenarios as pages;
 use std::path::{Path, PathBuf};
 
@@ -60,29 +60,28 @@ pub fn recording(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadOutcome, WebError> {
-    let trainee: TraineeId =
-        request.required_field("trainee")?.parse().map_err(|wrong| WebError::BadRequest(format!("trainee: {wrong}")))?;
-    let scenario = files::scenario(&scenarios::argument(&state.scenarios, request.required_field("scenario")?)?)?;
+    let language = request.visitor.language;
+    let trainee = request.trainee_field("trainee")?;
+    let scenario = files::scenario(&scenarios::argument(&state.scenarios, language, request.required_field("scenario")?)?)?;
     let vehicle = request.required_field("vehicle")?;
     if !files::vehicle_names().contains(&vehicle) {
-        return Err(WebError::BadRequest("vehicle: unknown name".into()));
+        return Err(WebError::BadRequest(text!(language, "web-error-unknown-name", field = "vehicle")));
     }
     let vehicle = files::vehicle(vehicle)?;
-    let log = &*request.upload.as_ref().ok_or_else(|| WebError::BadRequest("file: missing".into()))?.file.bytes()?;
+    let log = &*request.required_upload()?.file.bytes()?;
     // The telemetry is stored unmodified up to the last complete record.
     let kept = &log[..tlog::complete_len(log)];
     if let Some((id, trainee)) = state.database.find_by_telemetry(&sha256_hex(kept))? {
         return Ok(UploadOutcome::AlreadyImported(id, trainee));
     }
     // A recording that cannot be scored counts as an invalid file, no matter which error the scorer reports.
-    let unfit =
-        |error: AssessError| WebError::BadRequest(format!("cannot import this recording: {}", scoring::scoring_error(&error)));
+    let unfit = |error: AssessError| {
+        WebError::BadRequest(text!(language, "editor-import-unfit", reason = scoring::scoring_error(&error).to_string()))
+    };
     let (scenario, assessed_session) = scoring::assess_any_variant(log, scenario, &vehicle.vehicle).map_err(unfit)?;
     let started_unix_us = tlog::session_start_us(log).unwrap_or_else(clock::unix_us);
     if state.database.erased()?.contains("", trainee.as_str(), started_unix_us) {
-        let words =
-            format!("trainee = {}: this trainee was erased after the flight, so the flight cannot be imported", trainee.as_str());
-        return Err(WebError::BadRequest(words));
+        return Err(WebError::BadRequest(text!(language, "editor-import-erased", name = trainee.as_str())));
     }
     let first = state.default_folder();
     let aside = state.spool();

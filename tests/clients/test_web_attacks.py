@@ -45,6 +45,7 @@ def forms(sessions):
     anna = session_folder(sessions, "anna")
     return {
         "/logout": ("/sessions", {}),
+        "/language": ("/sessions", {"language": "de", "back": "/sessions"}),
         "/account": ("/account", {"present": "x" * 12, "new": "y" * 12}),
         f"/sessions/{anna}/questions": (f"/sessions/{anna}/questions", {"frustration": "3"}),
         "/trainees/anna/details": ("/trainees/anna", {"age_band": "25-34"}),
@@ -95,6 +96,22 @@ def test_cross_site_requests_are_rejected(server, sessions):
     for path in ("/scenarios", "/upload", "/plan-rules/upload"):
         status, _, _ = ada.upload("/sessions", path, {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}, b"x", token="0" * 64)
         assert status == 403, path
+
+
+def test_language_form_never_leads_to_another_site(server):
+    ada = logged_in(server, "ada")
+    token = ada.token("/sessions")
+    select = lambda language, back: ada.ask("/language", {"token": token, "language": language, "back": back})
+    for back in ("https://evil.example/", "//evil.example", "/\\evil.example", "\\\\evil.example", "/\t/evil.example", "javascript:alert(1)", ""):
+        status, headers, _ = select("de", back)
+        assert (status, headers["Location"]) == (303, "/"), back
+    status, headers, _ = select("de", "/sessions?page=2")
+    assert (status, headers["Location"]) == (303, "/sessions?page=2")
+    cookie = headers["Set-Cookie"]
+    assert cookie.startswith("spandrel-language=de;") and {"HttpOnly", "SameSite=Lax", "Path=/"} <= set(cookie.split("; ")), cookie
+    german = lambda language: "<h1>Sitzungen</h1>" in ada.ask("/sessions", headers={"Cookie": f"{ada.cookie}; spandrel-language={language}"})[2]
+    assert german("de") and not german("es") and not german(EVIL) and not german("de-AT-x")
+    assert select(EVIL, "/")[0] == 422
 
 
 def test_attack_tests_cover_every_form(sessions):

@@ -92,7 +92,7 @@ class Browser:
             pair = fresh.split(";")[0]
             if pair.split("=")[0].endswith("-device"):
                 self.device = pair
-            else:
+            elif not pair.startswith("spandrel-language="):
                 self.cookie = pair
         return answer.status, answer.headers, text
 

@@ -3,6 +3,7 @@
 use crate::web::response::WebError;
 use axum::http::{HeaderMap, header};
 use ipnet::IpNet;
+use spandrel_text::{Language, text};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr};
 
 /// Trusted proxies and the server's host names.
@@ -43,27 +44,26 @@ impl AllowedOrigins {
     ///
     /// # Errors
     /// Returns an error if one of these checks fails.
-    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool) -> Result<(), WebError> {
-        let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
+    pub fn check_origin(&self, headers: &HeaderMap, changes: bool, open: bool, language: Language) -> Result<(), WebError> {
+        let value = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
         let authority = authority(headers);
         let host = authority.and_then(Host::parse);
-        let host = host.ok_or_else(|| WebError::Forbidden("The request must have exactly one valid Host header.".into()))?;
+        let host = host.ok_or_else(|| WebError::Forbidden(text!(language, "web-error-host-header")))?;
         if open && !host.is_this_machine() {
-            return Err(WebError::Forbidden("Without a password, the server responds only to localhost and 127.0.0.1.".into()));
+            return Err(WebError::Forbidden(text!(language, "web-error-local-only")));
         }
         if !self.is_allowed_host(&host) {
-            let words = "This host name is not configured on the server. The administrator can add it with --host NAME.";
-            return Err(WebError::Forbidden(words.into()));
+            return Err(WebError::Forbidden(text!(language, "web-error-host-name")));
         }
         if !changes {
             return Ok(());
         }
-        let site = text("sec-fetch-site").is_none_or(|site| site == "same-origin" || site == "none");
-        let origin = text("origin").is_none_or(|origin| origin.split_once("://").map(|(_, from)| from) == authority);
+        let site = value("sec-fetch-site").is_none_or(|site| site == "same-origin" || site == "none");
+        let origin = value("origin").is_none_or(|origin| origin.split_once("://").map(|(_, from)| from) == authority);
         if site && origin {
             return Ok(());
         }
-        Err(WebError::Forbidden("This request came from another site.".into()))
+        Err(WebError::Forbidden(text!(language, "web-error-other-site")))
     }
 
     /// Returns the client's address: the socket's peer address or, behind a proxy, the last address in X-Forwarded-For
@@ -71,12 +71,12 @@ impl AllowedOrigins {
     ///
     /// # Errors
     /// Returns an error if a proxy is required and the request does not come from one.
-    pub fn address(&self, socket: IpAddr, headers: &HeaderMap) -> Result<IpAddr, WebError> {
+    pub fn address(&self, socket: IpAddr, headers: &HeaderMap, language: Language) -> Result<IpAddr, WebError> {
         if self.proxies.is_empty() {
             return Ok(socket);
         }
         if !self.is_trusted_proxy(socket) {
-            return Err(WebError::Forbidden("This server accepts requests only from its proxy (--trusted-proxy).".into()));
+            return Err(WebError::Forbidden(text!(language, "web-error-proxy-only")));
         }
         let lines = headers.get_all("x-forwarded-for").iter().rev().map(|line| line.to_str().unwrap_or_default());
         // Each proxy appends the address that sent it the request; the client can forge everything before the last
@@ -168,7 +168,9 @@ mod tests {
     #[test]
     fn exact_other_sites_and_host_names_are_rejected() {
         let guard = named(&["trainer.example"]);
-        let ok = |pairs: &[(&'static str, &str)], changes, open| guard.check_origin(&headers(pairs), changes, open).is_ok();
+        let ok = |pairs: &[(&'static str, &str)], changes, open| {
+            guard.check_origin(&headers(pairs), changes, open, Language::English).is_ok()
+        };
         assert!(ok(&[("host", "127.0.0.1:8080")], true, true));
         assert!(ok(
             &[("host", "localhost:8080"), ("origin", "http://localhost:8080"), ("sec-fetch-site", "same-origin")],
@@ -197,7 +199,7 @@ mod tests {
     #[test]
     fn regress_invalid_host_headers_are_rejected() {
         let guard = named(&["trainer.example"]);
-        let ok = |pairs: &[(&'static str, &str)]| guard.check_origin(&headers(pairs), false, false).is_ok();
+        let ok = |pairs: &[(&'static str, &str)]| guard.check_origin(&headers(pairs), false, false, Language::English).is_ok();
         for good in ["trainer.example", "TRAINER.example:8443", "10.0.0.7:8443", "[2001:db8::7]", "localhost:1"] {
             assert!(ok(&[("host", good)]), "{good}");
         }
@@ -229,7 +231,7 @@ mod tests {
         let (proxy, client): (IpAddr, IpAddr) = ([10, 0, 0, 2].into(), [203, 0, 113, 9].into());
         let forwarded = headers(&[("x-forwarded-for", "1.1.1.1, 203.0.113.9")]);
         let address = |reach: AllowedOrigins, socket, headers: &HeaderMap| {
-            Authenticator::new(true, true, reach).address(socket, headers).ok()
+            Authenticator::new(true, true, reach).address(socket, headers, Language::English).ok()
         };
         assert_eq!(address(AllowedOrigins::default(), local, &forwarded), Some(local), "without a proxy, the header is ignored");
         let here = AllowedOrigins::behind_proxies(&[], &[]);

@@ -12,7 +12,7 @@ const JPEG_SIGNATURE: [u8; 3] = [0xff, 0xd8, 0xff];
 
 /// Responds to an instructor with a vehicle's image.
 pub fn show(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let (_, live) = select_vehicle(state, request.query_param("vehicle"))?;
+    let (_, live) = select_vehicle(state, request.visitor.language, request.query_param("vehicle"))?;
     respond_with_picture(live)
 }
 

@@ -45,7 +45,7 @@ pub enum InstructorCommand {
         /// The component's FAILURE_UNIT.
         unit: f32,
         /// Component name.
-        words: &'static str,
+        words: String,
         /// True to inject the failure, false to clear it.
         fails: bool,
     },
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn wire_rejections_and_timeouts_are_reported_and_next_command_runs() {
         let mut commands = CommandQueue::default();
-        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Satellite navigation", fails: true });
+        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Satellite navigation".into(), fails: true });
         commands.push(InstructorCommand::Note("look".into()));
         sent(&mut commands, 0);
         commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
@@ -356,7 +356,7 @@ mod tests {
         assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: rejected, the value is out of range"));
         assert_eq!(sent(&mut commands, 10_000), (vec![], vec![]), "the command has ended");
 
-        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Compass", fails: true });
+        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Compass".into(), fails: true });
         sent(&mut commands, 10_000);
         commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut commands, 10_001);

@@ -7,11 +7,12 @@ use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::json;
 use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, MAX_TASK, PracticeRequest};
-use spandrel_training::web::live::{self as pages, INJECTABLE_FAILURES};
+use spandrel_text::{Language, text};
+use spandrel_training::web::live::{self as pages, FailingUnit};
 
 /// Starts an instructor's action. The result appears later in the stream.
 pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let (number, live) = select_vehicle(state, request.form_field("vehicle"))?;
+    let (number, live) = select_vehicle(state, request.visitor.language, request.form_field("vehicle"))?;
     let command = parse_command(request)?;
     live.commands.send(command).map_err(|_| WebError::Failed("the live listener has stopped: restart the server".into()))?;
     let back = format!("/live?vehicle={number}");
@@ -20,23 +21,25 @@ pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
 
 fn task_number(request: &WebRequest) -> Result<u32, WebError> {
     let number = request.required_field("task")?.parse().ok();
-    let allowed = || WebError::BadRequest(format!("task: invalid number (allowed: 1 to {MAX_TASK})"));
+    let language = request.visitor.language;
+    let allowed = || WebError::not_in_range(language, "task", 1, MAX_TASK);
     number.filter(|number| (1..=MAX_TASK).contains(number)).ok_or_else(allowed)
 }
 
 fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
+    let language = request.visitor.language;
     match request.required_field("act")? {
         "note" => {
             let text = request.line_field("text", (1, pages::MAX_NOTE_LEN))?;
             Ok(InstructorCommand::Note(text.to_owned()))
         }
         "wind" => {
-            let number = |name: &str, most: f64| {
+            let number = |name: &str, most: u32| {
                 let value: Option<f64> = request.required_field(name)?.parse().ok();
-                let allowed = || WebError::BadRequest(format!("{name}: invalid number (allowed: 0 to {most})"));
-                value.filter(|value| (0.0..=most).contains(value)).ok_or_else(allowed)
+                let allowed = || WebError::not_in_range(language, name, 0, most);
+                value.filter(|value| (0.0..=f64::from(most)).contains(value)).ok_or_else(allowed)
             };
-            Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::MAX_WIND_M_S)?, from_deg: number("from", 360.0)? })
+            Ok(InstructorCommand::Wind { speed_m_s: number("speed", pages::MAX_WIND_M_S)?, from_deg: number("from", 360)? })
         }
         "traffic" => Ok(InstructorCommand::Traffic { open: request.required_field("open")? == "yes" }),
         "practice" => Ok(InstructorCommand::Practice(match request.required_field("do")? {
@@ -44,14 +47,16 @@ fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
             "resume" => PracticeRequest::Resume,
             "rewind" => PracticeRequest::Rewind { by: DEFAULT_REWIND },
             "move" => PracticeRequest::MoveToTask { task: task_number(request)? },
-            _ => return Err(WebError::BadRequest("do: unknown (allowed: freeze, resume, rewind, move)".into())),
+            _ => return Err(WebError::unknown(language, "do", "freeze, resume, rewind, move")),
         })),
         "failure" => {
-            let key = request.required_field("unit")?;
-            let unit = INJECTABLE_FAILURES.iter().find(|(name, ..)| *name == key);
-            let (_, words, unit) = unit.ok_or_else(|| WebError::BadRequest("unit: unknown".into()))?;
-            Ok(InstructorCommand::Failure { unit: *unit, words, fails: request.required_field("fails")? == "yes" })
+            let unit = FailingUnit::from_key(request.required_field("unit")?);
+            let unit = unit.ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown", field = "unit")))?;
+            // The message log is the same for all visitors.
+            let words = unit.name(Language::English);
+            let fails = request.required_field("fails")? == "yes";
+            Ok(InstructorCommand::Failure { unit: unit.code(), words, fails })
         }
-        _ => Err(WebError::BadRequest("act: unknown (allowed: note, wind, traffic, practice, failure)".into())),
+        _ => Err(WebError::unknown(language, "act", "note, wind, traffic, practice, failure")),
     }
 }

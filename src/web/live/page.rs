@@ -16,8 +16,8 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     if state.live.len() > 1 && request.query_param("vehicle").is_none() {
         return Ok(WebResponse::redirect("/live/all"));
     }
-    let (number, live) = select_vehicle(state, request.query_param("vehicle"))?;
-    let drawings = lock(&live.known.drawings).clone();
+    let (number, live) = select_vehicle(state, request.visitor.language, request.query_param("vehicle"))?;
+    let drawings = lock(&live.known.drawings).for_language(request.visitor.language);
     let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
     Ok(WebResponse::page(pages::live(&request.visitor, drawings.as_ref(), &pages::VehicleSelection { vehicles, number })))
 }

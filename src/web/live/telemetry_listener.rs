@@ -13,8 +13,9 @@ use spandrel_mavlink::dialect::{MavAutopilot, MavMessage};
 use spandrel_mavlink::station;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_text::Language;
 use spandrel_training::report::plots::job::{job_plan, job_side, job_south};
-use spandrel_training::web::live::JobDrawings;
+use spandrel_training::web::live::{DrawingView, JobDrawings};
 use spandrel_training::web::live_state::{JobIdentity, LiveFlightState};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
@@ -65,9 +66,21 @@ pub struct LiveListener {
 #[derive(Debug, Clone, Default)]
 pub struct SharedFlightInfo {
     /// The scenario's drawings.
-    pub drawings: Arc<Mutex<Option<JobDrawings>>>,
+    pub drawings: Arc<Mutex<TranslatedDrawings>>,
     /// The current flight's trainee.
     pub trainee: Arc<Mutex<Option<String>>>,
+}
+
+/// Drawings of a job in all languages; empty until they are known.
+#[derive(Debug, Default)]
+pub struct TranslatedDrawings(Vec<(Language, JobDrawings)>);
+
+impl TranslatedDrawings {
+    /// Returns the drawings in a language, or in English if there are none in this language.
+    pub fn for_language(&self, language: Language) -> Option<JobDrawings> {
+        let found = self.0.iter().find(|(own, _)| *own == language).or_else(|| self.0.first());
+        found.map(|(_, drawings)| drawings.clone())
+    }
 }
 
 impl LiveListener {
@@ -183,7 +196,7 @@ impl LiveListener {
             return;
         };
         let drawings = draw_scenario(&scenario, key);
-        *lock(&self.known.drawings) = Some(drawings);
+        *lock(&self.known.drawings) = drawings;
         self.flight.set_job(key, &scenario);
     }
 
@@ -212,14 +225,20 @@ impl LiveListener {
     }
 }
 
-fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> JobDrawings {
+fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> TranslatedDrawings {
     let site = Site::build(scenario, key.seed);
-    let mut drawings = vec![("From above, north up".to_owned(), job_plan(scenario, &site).into_string())];
+    let draw = |language| (language, draw_site(scenario, &site, key, language));
+    TranslatedDrawings(Language::ALL.map(draw).into())
+}
+
+/// Draws a site. The language is that of the drawings' labels.
+fn draw_site(scenario: &Scenario, site: &Site, key: JobIdentity, _language: Language) -> JobDrawings {
+    let mut drawings = vec![(DrawingView::Above, job_plan(scenario, site).into_string())];
     for bridge in &scenario.bridges {
-        drawings.push((format!("{} from the side", bridge.name), job_side(scenario, &site, bridge).into_string()));
+        drawings.push((DrawingView::Side(bridge.name.clone()), job_side(scenario, site, bridge).into_string()));
     }
     if scenario.bridges.is_empty() {
-        drawings.push(("From the south".to_owned(), job_south(scenario, &site).into_string()));
+        drawings.push((DrawingView::South, job_south(scenario, site).into_string()));
     }
     JobDrawings { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
 }

@@ -10,8 +10,10 @@ use spandrel_training::web::tiles::{VehicleTile, tiles_page};
 
 /// Responds with the page.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let tile =
-        |live: &LiveVehicle| VehicleTile { address: live.vehicle.to_string(), drawings: lock(&live.known.drawings).clone() };
+    let tile = |live: &LiveVehicle| {
+        let drawings = lock(&live.known.drawings).for_language(request.visitor.language);
+        VehicleTile { address: live.vehicle.to_string(), drawings }
+    };
     let tiles: Vec<VehicleTile> = state.live.iter().map(tile).collect();
     Ok(WebResponse::page(tiles_page(&request.visitor, &tiles)))
 }

@@ -29,6 +29,8 @@ pub struct Visitor {
     pub token: String,
     /// Language of the pages.
     pub language: Language,
+    /// Path and query of the requested page, which the language form shows again; empty if the request was a change.
+    pub address: String,
 }
 
 impl Visitor {
@@ -67,7 +69,14 @@ mod tests {
     use super::*;
 
     fn visitor(name: Option<&str>, role: Role, open: bool) -> Visitor {
-        Visitor { name: name.map(str::to_owned), role, open, token: String::new(), language: Language::English }
+        Visitor {
+            name: name.map(str::to_owned),
+            role,
+            open,
+            token: String::new(),
+            language: Language::English,
+            address: String::new(),
+        }
     }
 
     #[test]

@@ -1,42 +1,49 @@
 //! Assignments on the pages of trainees and classes, and the page that assigns a job.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{counted, page, table, token};
+use super::layout::{ELEMENT, page, table, token, with_element};
 use crate::assignment::{AssignedJob, Assignment, AssignmentCounts, AssignmentState, AssignmentTarget};
 use maud::{Markup, html};
 use spandrel_model::calendar::day;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Renders a trainee's assignments: the pending ones, then the others in a section that opens.
 #[must_use]
 pub fn trainee_assignments(visitor: &Visitor, trainee: &str, jobs: &[AssignedJob]) -> Markup {
+    let language = visitor.language;
     let (pending, done): (Vec<&AssignedJob>, Vec<&AssignedJob>) = jobs.iter().partition(|job| job.state.is_pending());
     html! {
-        @if pending.is_empty() { p.calm { "No open assignments." } }
-        @else { (job_table(visitor, trainee, &counted(pending.len(), "open assignment", "open assignments"), &pending)) }
+        @if pending.is_empty() { p.calm { (text!(language, "people-no-open")) } }
+        @else { (job_table(visitor, trainee, &text!(language, "people-open-count", count = pending.len()), &pending)) }
         @if !done.is_empty() {
-            details { summary { "Done (" (done.len()) ")" } (job_table(visitor, trainee, "Finished assignments", &done)) }
+            details { summary { (text!(language, "people-done-count", count = done.len())) } (job_table(visitor, trainee, &text!(language, "people-finished"), &done)) }
         }
         @if visitor.satisfies(AccessLevel::Instructor) {
-            ul.actions { li { a.button href={ "/assign?trainee=" (trainee) } { "Assign a job to " (trainee) } } }
+            ul.actions { li { a.button href={ "/assign?trainee=" (trainee) } { (text!(language, "people-assign-to", name = trainee)) } } }
         }
     }
 }
 
 fn job_table(visitor: &Visitor, trainee: &str, caption: &str, jobs: &[&AssignedJob]) -> Markup {
-    let instructor = visitor.satisfies(AccessLevel::Instructor);
-    let mut heads = vec![("Job", false), ("Due", false), ("State", false), ("Assigned to", false), ("To fly it", false)];
+    let (language, instructor) = (visitor.language, visitor.satisfies(AccessLevel::Instructor));
+    let mut heads = vec![
+        (text!(language, "people-job"), false),
+        (text!(language, "people-due"), false),
+        (text!(language, "people-state"), false),
+        (text!(language, "people-assigned-to"), false),
+        (text!(language, "people-to-fly"), false),
+    ];
     if instructor {
-        heads.push(("Change", false));
+        heads.push((text!(language, "people-change"), false));
     }
     let rows = html! {
         @for job in jobs {
             @let assignment = &job.assignment;
             tr {
-                th scope="row" { (job_name(assignment)) }
+                th scope="row" { (job_name(language, assignment)) }
                 td { (day(assignment.due_unix_us)) }
-                td { (state(&job.state)) }
-                td { (target(visitor, assignment)) @if !assignment.assigned_by.is_empty() { ", by " (assignment.assigned_by) } }
+                td { (state(language, &job.state)) }
+                td { (target(visitor, assignment)) }
                 td { @if job.state.is_pending() { code { (assignment.command(trainee)) } } @else { "–" } }
                 @if instructor { td { (remove(visitor, assignment)) } }
             }
@@ -46,40 +53,41 @@ fn job_table(visitor: &Visitor, trainee: &str, caption: &str, jobs: &[&AssignedJ
 }
 
 /// Renders the scenario with a link, and the form or level.
-fn job_name(assignment: &Assignment) -> Markup {
-    html! {
-        a href={ "/scenarios/" (assignment.scenario) } { (assignment.scenario) }
-        @if let Some(variant) = &assignment.variant { (variant_words(variant)) }
+fn job_name(language: Language, assignment: &Assignment) -> Markup {
+    let job = html! { a href={ "/scenarios/" (assignment.scenario) } { (assignment.scenario) } };
+    match assignment.variant.as_deref() {
+        // Levels are numbers.
+        Some(level) if level.bytes().all(|byte| byte.is_ascii_digit()) => {
+            with_element(&text!(language, "people-job-level-or-harder", job = ELEMENT, level = level), &job)
+        }
+        Some(form) => with_element(&text!(language, "people-job-form", job = ELEMENT, form = form), &job),
+        None => job,
     }
 }
 
-/// Describes a form or level: levels are numbers.
-fn variant_words(variant: &str) -> String {
-    if variant.bytes().all(|byte| byte.is_ascii_digit()) {
-        format!(", level {variant} or harder")
-    } else {
-        format!(", form {variant}")
-    }
-}
-
-fn state(state: &AssignmentState) -> Markup {
+fn state(language: Language, state: &AssignmentState) -> Markup {
     html! {
         @match state {
-            AssignmentState::Open => (state.words(Language::English)),
-            AssignmentState::Overdue => b.due.overdue { (state.words(Language::English)) },
-            AssignmentState::Done { session, .. } => a href={ "/sessions/" (session) } { (state.words(Language::English)) },
+            AssignmentState::Open => (state.words(language)),
+            AssignmentState::Overdue => b.due.overdue { (state.words(language)) },
+            AssignmentState::Done { session, .. } => a href={ "/sessions/" (session) } { (state.words(language)) },
         }
     }
 }
 
+/// Renders for whom the assignment is, and who assigned it.
 fn target(visitor: &Visitor, assignment: &Assignment) -> Markup {
-    html! {
-        @match &assignment.target {
-            AssignmentTarget::Trainee(name) => (name),
-            AssignmentTarget::Class(name) => {
-                @if visitor.satisfies(AccessLevel::Instructor) { a href={ "/classes/" (name) } { "class " (name) } } @else { "class " (name) }
-            }
+    let language = visitor.language;
+    let target = match &assignment.target {
+        AssignmentTarget::Trainee(name) => html! { (name) },
+        AssignmentTarget::Class(name) => {
+            let words = text!(language, "people-target-class", name = name.as_str());
+            html! { @if visitor.satisfies(AccessLevel::Instructor) { a href={ "/classes/" (name) } { (words) } } @else { (words) } }
         }
+    };
+    match assignment.assigned_by.as_str() {
+        "" => target,
+        by => with_element(&text!(language, "people-assigned-by", target = ELEMENT, instructor = by), &target),
     }
 }
 
@@ -87,21 +95,21 @@ fn remove(visitor: &Visitor, assignment: &Assignment) -> Markup {
     html! {
         form method="post" action={ "/assignments/" (assignment.id) "/remove" } {
             (token(visitor))
-            button type="submit" aria-label={ "Remove assignment " (assignment.job()) } { "Remove" }
+            button type="submit" aria-label=(text!(visitor.language, "people-remove-assignment", job = assignment.job())) { (text!(visitor.language, "people-remove")) }
         }
     }
 }
 
 /// Renders a trainee's pending assignments as a short list.
-pub(super) fn pending_list(jobs: &[AssignedJob]) -> Markup {
+pub(super) fn pending_list(language: Language, jobs: &[AssignedJob]) -> Markup {
     let pending: Vec<&AssignedJob> = jobs.iter().filter(|job| job.state.is_pending()).collect();
     html! {
-        @if pending.is_empty() { "none" }
+        @if pending.is_empty() { (text!(language, "people-none")) }
         @for job in pending {
             div { (job.assignment.job()) ", "
                 @match job.state {
-                    AssignmentState::Overdue => b class="due overdue" { "overdue since " (day(job.assignment.due_unix_us)) },
-                    AssignmentState::Open | AssignmentState::Done { .. } => { "due " (day(job.assignment.due_unix_us)) }
+                    AssignmentState::Overdue => b class="due overdue" { (text!(language, "people-overdue-since", day = day(job.assignment.due_unix_us))) },
+                    AssignmentState::Open | AssignmentState::Done { .. } => (text!(language, "people-due-on", day = day(job.assignment.due_unix_us))),
                 }
             }
         }
@@ -110,11 +118,19 @@ pub(super) fn pending_list(jobs: &[AssignedJob]) -> Markup {
 
 /// Renders a class's assignments with the number of trainees by state.
 pub(super) fn class_assignments(visitor: &Visitor, assignments: &[(Assignment, AssignmentCounts)]) -> Markup {
-    let heads = [("Job", false), ("Due", false), ("Done", true), ("Open", true), ("Overdue", true), ("Change", false)];
+    let language = visitor.language;
+    let heads = [
+        (text!(language, "people-job"), false),
+        (text!(language, "people-due"), false),
+        (text!(language, "people-done"), true),
+        (text!(language, "people-open"), true),
+        (text!(language, "people-overdue"), true),
+        (text!(language, "people-change"), false),
+    ];
     let rows = html! {
         @for (assignment, counts) in assignments {
             tr {
-                th scope="row" { (job_name(assignment)) }
+                th scope="row" { (job_name(language, assignment)) }
                 td { (day(assignment.due_unix_us)) }
                 td.number { (counts.done) }
                 td.number { (counts.open) }
@@ -123,18 +139,18 @@ pub(super) fn class_assignments(visitor: &Visitor, assignments: &[(Assignment, A
             }
         }
     };
-    table(&counted(assignments.len(), "assignment", "assignments"), &heads, &rows)
+    table(&text!(language, "people-assignment-count", count = assignments.len()), &heads, &rows)
 }
 
 /// Renders a link that opens the page for assigning this job to a trainee.
-pub(super) fn assign_link(trainee: &str, scenario: &str, variant: Option<&str>) -> Markup {
+pub(super) fn assign_link(language: Language, trainee: &str, scenario: &str, variant: Option<&str>) -> Markup {
     let mut query = form_urlencoded::Serializer::new(String::new());
     query.append_pair("trainee", trainee).append_pair("scenario", scenario);
     if let Some(variant) = variant {
         query.append_pair("variant", variant);
     }
-    let label = format!("Assign {scenario} to {trainee}");
-    html! { a href={ "/assign?" (query.finish()) } aria-label=(label) { "Assign" } }
+    let label = text!(language, "people-assign-job-to", job = scenario, name = trainee);
+    html! { a href={ "/assign?" (query.finish()) } aria-label=(label) { (text!(language, "people-assign")) } }
 }
 
 /// A job that can be assigned.
@@ -148,13 +164,14 @@ pub struct JobChoice {
 
 impl JobChoice {
     /// Returns the name with the forms or levels, such as `drill-gap (levels 1 to 9)`.
-    fn label(&self) -> String {
+    fn label(&self, language: Language) -> String {
+        let name = self.name.as_str();
         let is_level = |variant: &String| variant.bytes().all(|byte| byte.is_ascii_digit());
         match (self.variants.first(), self.variants.last()) {
             (Some(first), Some(last)) if self.variants.iter().all(is_level) => {
-                format!("{} (levels {first} to {last})", self.name)
+                text!(language, "people-choice-levels", job = name, first = first.as_str(), last = last.as_str())
             }
-            (Some(_), Some(_)) => format!("{} (forms {})", self.name, self.variants.join(", ")),
+            (Some(_), Some(_)) => text!(language, "people-choice-forms", job = name, forms = self.variants.join(", ")),
             (_, _) => self.name.clone(),
         }
     }
@@ -178,34 +195,39 @@ pub struct AssignPage<'a> {
 /// Renders the page that assigns a job.
 #[must_use]
 pub fn assign_page(visitor: &Visitor, about: &AssignPage<'_>) -> Markup {
+    let language = visitor.language;
     let (kind, name, at) = match about.target {
-        AssignmentTarget::Trainee(name) => ("trainee", name, "/trainees"),
-        AssignmentTarget::Class(name) => ("class", name, "/classes"),
+        AssignmentTarget::Trainee(name) => ("trainee", name.as_str(), "/trainees"),
+        AssignmentTarget::Class(name) => ("class", name.as_str(), "/classes"),
+    };
+    let title = match about.target {
+        AssignmentTarget::Trainee(_) => text!(language, "people-assign-title-trainee", name = name),
+        AssignmentTarget::Class(_) => text!(language, "people-assign-title-class", name = name),
     };
     let body = html! {
         section {
-            p { "The assignment is done after the first complete flight of the job that starts after you assign it." }
+            p { (text!(language, "people-assign-note")) }
             form.stacked method="post" action="/assign" {
                 (token(visitor))
                 input type="hidden" name=(kind) value=(name);
-                label { "Job"
+                label { (text!(language, "people-job"))
                     select name="scenario" required {
-                        @for job in about.jobs { option value=(job.name) selected[about.scenario == Some(job.name.as_str())] { (job.label()) } }
+                        @for job in about.jobs { option value=(job.name) selected[about.scenario == Some(job.name.as_str())] { (job.label(language)) } }
                     }
                 }
-                label { "Level or form (optional)" input name="variant" value=[about.variant] maxlength="8" autocomplete="off" aria-describedby="variant-note"; }
-                p.note id="variant-note" { "A harder level counts as well. Without a level or form, any counts." }
-                label { "Due (end of the day, UTC)" input type="date" name="due" required min=(about.due.1) value=(about.due.0); }
-                button type="submit" { "Assign" }
+                label { (text!(language, "people-assign-variant")) input name="variant" value=[about.variant] maxlength="8" autocomplete="off" aria-describedby="variant-note"; }
+                p.note id="variant-note" { (text!(language, "people-assign-variant-note")) }
+                label { (text!(language, "people-assign-due")) input type="date" name="due" required min=(about.due.1) value=(about.due.0); }
+                button type="submit" { (text!(language, "people-assign")) }
             }
         }
     };
-    page(visitor, at, &format!("Assign a job to {kind} {name}"), &body)
+    page(visitor, at, &title, &body)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, administrator_with, check, check_translated};
     use super::*;
     use crate::trainee::Role;
 
@@ -258,9 +280,28 @@ mod tests {
         assert!(text.contains("(levels 1 to 3)") && text.contains("(forms A, B, H)"), "{text}");
         assert!(text.contains("min=\"2026-11-25\" value=\"2026-12-02\""), "{text}");
         assert!(
-            assign_link("anna", "drill-gap", Some("6"))
+            assign_link(Language::English, "anna", "drill-gap", Some("6"))
                 .into_string()
                 .contains("trainee=anna&amp;scenario=drill-gap&amp;variant=6")
         );
+    }
+
+    #[test]
+    fn exact_assignments_are_translated() {
+        let done = |late| AssignmentState::Done { session: "7".into(), late };
+        let states = [AssignmentState::Overdue, AssignmentState::Open, done(false), done(true)];
+        let jobs: Vec<AssignedJob> =
+            states.into_iter().zip(["6", "B", "6", "6"]).map(|(state, form)| job(Some(form), state)).collect();
+        let visitor = administrator_with(Language::Pseudo);
+        let names = ["script", "alert", "train", "two", "spandrel"];
+        let text = trainee_assignments(&visitor, "7", &jobs).into_string();
+        check_translated(&text.replace(&maud::html! { (HOSTILE_NAME) }.into_string(), "7"), &names);
+        let (target, choice) =
+            (AssignmentTarget::Trainee("7".into()), JobChoice { name: "8".into(), variants: vec!["1".into()] });
+        let about =
+            AssignPage { target: &target, jobs: &[choice], scenario: None, variant: None, due: ("2026-12-02", "2026-11-25") };
+        check_translated(&assign_page(&visitor, &about).into_string(), &[]);
+        let german = assign_page(&administrator_with(Language::German), &about).into_string();
+        assert!(german.contains("Trainee 7 einen Auftrag zuweisen") && german.contains("8 (Stufen 1 bis 1)"), "{german}");
     }
 }

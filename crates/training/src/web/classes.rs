@@ -2,14 +2,14 @@
 
 use super::access::Visitor;
 use super::assignments::{assign_link, class_assignments, pending_list};
-use super::layout::{counted, page, section, table, token};
+use super::layout::{ELEMENT, page, section, table, token, with_element};
 use crate::assignment::{AssignedJob, Assignment, AssignmentCounts};
 use crate::plan::PlanStep;
 use crate::record::{SessionListEntry, SessionOutcome};
 use crate::training_class::TrainingClass;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Maximum number of trainees that can be added at once.
 pub const MAX_NEW_MEMBERS: usize = 100;
@@ -17,6 +17,7 @@ pub const MAX_NEW_MEMBERS: usize = 100;
 /// Renders the list of classes.
 #[must_use]
 pub fn class_list(visitor: &Visitor, classes: &[TrainingClass]) -> Markup {
+    let language = visitor.language;
     let rows = html! {
         @for class in classes {
             tr {
@@ -26,21 +27,26 @@ pub fn class_list(visitor: &Visitor, classes: &[TrainingClass]) -> Markup {
             }
         }
     };
+    let heads = [
+        (text!(language, "people-class"), false),
+        (text!(language, "people-trainees"), true),
+        (text!(language, "people-members"), false),
+    ];
     let body = html! {
         section {
-            @if classes.is_empty() { p.calm { "No classes yet." } }
-            @else { (table(&counted(classes.len(), "class", "classes"), &[("Class", false), ("Trainees", true), ("Members", false)], &rows)) }
+            @if classes.is_empty() { p.calm { (text!(language, "people-no-classes")) } }
+            @else { (table(&text!(language, "people-class-count", count = classes.len()), &heads, &rows)) }
         }
-        (section("new", "New class", &html! {
+        (section("new", &text!(language, "people-new-class"), &html! {
             form.stacked method="post" action="/classes" {
                 (token(visitor))
-                label { "Name" input name="name" required maxlength="32" autocomplete="off" autocapitalize="none" placeholder="spring-2027"; }
-                p.note { "Letters, digits, - and _. A trainee may be in several classes." }
-                button type="submit" { "Create class" }
+                label { (text!(language, "people-name")) input name="name" required maxlength="32" autocomplete="off" autocapitalize="none" placeholder="spring-2027"; }
+                p.note { (text!(language, "people-new-class-note")) }
+                button type="submit" { (text!(language, "people-create-class")) }
             }
         }))
     };
-    page(visitor, "/classes", "Classes", &body)
+    page(visitor, "/classes", &text!(language, "people-classes"), &body)
 }
 
 /// A member of a class.
@@ -70,44 +76,46 @@ pub struct ClassPage<'a> {
 /// Renders a class's page.
 #[must_use]
 pub fn class_page(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
+    let language = visitor.language;
     let body = html! {
-        (section("members", "Trainees", &html! {
-            @if class.members.is_empty() { p.calm { "No trainees in this class yet." } } @else { (members(visitor, class)) }
+        (section("members", &text!(language, "people-trainees"), &html! {
+            @if class.members.is_empty() { p.calm { (text!(language, "people-no-members")) } } @else { (members(visitor, class)) }
         }))
-        (section("assignments", "Assignments", &html! {
-            @if class.assignments.is_empty() { p.calm { "No jobs assigned to this class." } } @else { (class_assignments(visitor, class.assignments)) }
-            ul.actions { li { a.button href={ "/assign?class=" (class.name) } { "Assign a job to this class" } } }
+        (section("assignments", &text!(language, "people-assignments"), &html! {
+            @if class.assignments.is_empty() { p.calm { (text!(language, "people-no-class-jobs")) } } @else { (class_assignments(visitor, class.assignments)) }
+            ul.actions { li { a.button href={ "/assign?class=" (class.name) } { (text!(language, "people-assign-to-class")) } } }
         }))
-        (section("add", "Add trainees", &html! {
+        (section("add", &text!(language, "people-add-trainees"), &html! {
             form.stacked method="post" action={ "/classes/" (class.name) "/members" } {
                 (token(visitor))
-                label { "Pseudonyms, separated by spaces or commas" textarea name="trainees" rows="3" required autocapitalize="none" spellcheck="false" {} }
-                p.note { "You can add trainees before their first flight." }
-                button type="submit" { "Add to class" }
+                label { (text!(language, "people-add-pseudonyms")) textarea name="trainees" rows="3" required autocapitalize="none" spellcheck="false" {} }
+                p.note { (text!(language, "people-add-note")) }
+                button type="submit" { (text!(language, "people-add-button")) }
             }
         }))
-        (section("delete", "Delete", &html! {
+        (section("delete", &text!(language, "people-delete"), &html! {
             details {
-                summary { "Delete this class" }
+                summary { (text!(language, "people-delete-this-class")) }
                 form.stacked method="post" action={ "/classes/" (class.name) "/remove" } {
                     (token(visitor))
-                    p { "This deletes the class and its assignments. The trainees and their sessions remain." }
-                    button.danger type="submit" { "Delete class" }
+                    p { (text!(language, "people-delete-note")) }
+                    button.danger type="submit" { (text!(language, "people-delete-class")) }
                 }
             }
         }))
     };
-    page(visitor, "/classes", &format!("Class {}", class.name), &body)
+    page(visitor, "/classes", &text!(language, "people-class-title", name = class.name), &body)
 }
 
 fn members(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
+    let language = visitor.language;
     let heads = [
-        ("Trainee", false),
-        ("Last session", false),
-        ("Certified", false),
-        ("Recommended next", false),
-        ("Open assignments", false),
-        ("Change", false),
+        (text!(language, "people-head-trainee"), false),
+        (text!(language, "people-head-last"), false),
+        (text!(language, "people-head-certified"), false),
+        (text!(language, "people-head-next"), false),
+        (text!(language, "people-head-open"), false),
+        (text!(language, "people-head-change"), false),
     ];
     let rows = html! {
         @for member in class.members {
@@ -116,37 +124,42 @@ fn members(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
                 @match &member.last {
                     Some(last) => {
                         td.when { a href={ "/sessions/" (last.id) } { (minute(last.started_unix_us)) } br; (last.scenario) }
-                        td { (last.verdict(Language::English)) }
+                        td { (last.verdict(language)) }
                     }
-                    None => { td { "not flown yet" } td { "–" } }
+                    None => { td { (text!(language, "people-not-flown")) } td { "–" } }
                 }
-                td { @match &member.next { Some(step) => (next_step(&member.trainee, step)), None => "–" } }
-                td { (pending_list(&member.jobs)) }
+                td { @match &member.next { Some(step) => (next_step(language, &member.trainee, step)), None => "–" } }
+                td { (pending_list(language, &member.jobs)) }
                 td {
                     form method="post" action={ "/classes/" (class.name) "/members/remove" } {
                         (token(visitor))
                         input type="hidden" name="trainee" value=(member.trainee);
-                        button type="submit" aria-label={ "Remove " (member.trainee) " from this class" } { "Remove" }
+                        button type="submit" aria-label=(text!(language, "people-remove-member", name = member.trainee.as_str())) { (text!(language, "people-remove")) }
                     }
                 }
             }
         }
     };
-    table(&counted(class.members.len(), "trainee", "trainees"), &heads, &rows)
+    table(&text!(language, "people-trainee-count", count = class.members.len()), &heads, &rows)
 }
 
 /// Renders a recommended job with a link that assigns it.
-fn next_step(trainee: &str, step: &PlanStep) -> Markup {
+fn next_step(language: Language, trainee: &str, step: &PlanStep) -> Markup {
     let level = step.level.as_ref().map(|advice| advice.level.to_string());
+    let job = html! { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } };
     html! {
-        a href={ "/scenarios/" (step.scenario) } { (step.scenario) } @if let Some(level) = &level { ", level " (level) } br;
-        (assign_link(trainee, &step.scenario, level.as_deref()))
+        @match &level {
+            Some(level) => (with_element(&text!(language, "people-job-level", job = ELEMENT, level = level.as_str()), &job)),
+            None => (job),
+        }
+        br;
+        (assign_link(language, trainee, &step.scenario, level.as_deref()))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, administrator_with, check, check_translated};
     use super::*;
     use crate::assignment::{AssignmentState, AssignmentTarget};
 
@@ -180,5 +193,20 @@ mod tests {
         let overdue = text.matches("class=\"due overdue\"").count();
         assert_eq!(overdue, 1, "only the pending assignment of the first member: {text}");
         check(&class_page(&administrator(), &ClassPage { members: &[], assignments: &[], ..page }).into_string());
+    }
+
+    #[test]
+    fn exact_class_pages_are_translated() {
+        let visitor = administrator_with(Language::Pseudo);
+        let class = TrainingClass { name: "7".into(), members: vec!["8".into()] };
+        check_translated(&class_list(&visitor, &[class]).into_string(), &["spring"]);
+        check_translated(&class_list(&visitor, &[]).into_string(), &["spring"]);
+        let step = PlanStep { scenario: "9".into(), urgency: 0.0, reasons: Vec::new(), level: None };
+        let members = [ClassMember { trainee: "8".into(), last: None, next: Some(step), jobs: Vec::new() }];
+        let page = ClassPage { name: "7", members: &members, assignments: &[] };
+        check_translated(&class_page(&visitor, &page).into_string(), &[]);
+        check_translated(&class_page(&visitor, &ClassPage { members: &[], ..page }).into_string(), &[]);
+        let german = class_page(&administrator_with(Language::German), &page).into_string();
+        assert!(german.contains("<h1>Klasse 7</h1>") && german.contains("<caption>1 Trainee</caption>"), "{german}");
     }
 }

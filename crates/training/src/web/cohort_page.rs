@@ -6,7 +6,7 @@ use crate::cohort::Cohort;
 use crate::record::{IncompletePolicy, excluded_sessions_note};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
-use spandrel_text::Language;
+use spandrel_text::text;
 
 /// The form's selection.
 #[derive(Debug, Clone, Copy)]
@@ -26,30 +26,31 @@ pub struct CohortPageSelection<'a> {
 /// Renders the page; without sessions, only the form and a note.
 #[must_use]
 pub fn cohort_page(visitor: &Visitor, selection: &CohortPageSelection<'_>, cohort: Option<&Cohort>) -> Markup {
+    let language = visitor.language;
     let body = html! {
         section {
             form.inline method="get" action="/cohort" {
                 fieldset {
-                    legend { "Scenarios to include" }
+                    legend { (text!(language, "people-cohort-scenarios")) }
                     @for name in selection.flown_scenarios {
                         label { input type="checkbox" name="scenario" value=(name) checked[selection.scenarios.contains(name)]; " " (name) }
                     }
                 }
-                label { "Repetitions " input type="number" name="repetitions" min="1" max="100" value=(selection.repetitions); }
-                label { input type="checkbox" name="incomplete" value="1" checked[selection.incomplete == IncompletePolicy::Include]; " Include incomplete sessions" }
-                button type="submit" { "Show" }
-                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(selection)) } { "Download as offline page" } }
+                label { (text!(language, "people-cohort-repetitions")) " " input type="number" name="repetitions" min="1" max="100" value=(selection.repetitions); }
+                label { input type="checkbox" name="incomplete" value="1" checked[selection.incomplete == IncompletePolicy::Include]; " " (text!(language, "people-include-incomplete")) }
+                button type="submit" { (text!(language, "people-cohort-show")) }
+                @if cohort.is_some() { a href={ "/cohort/report.html?" (query(selection)) } { (text!(language, "people-cohort-download")) } }
             }
             @match cohort {
                 Some(cohort) => (summary_lines(cohort)),
-                None => p.calm { "No sessions yet." @if let Some(words) = excluded_sessions_note(selection.left_out, Language::English) { " " (words) "." } },
+                None => p.calm { (text!(language, "people-no-sessions")) @if let Some(words) = excluded_sessions_note(selection.left_out, language) { " " (words) "." } },
             }
         }
         @if let Some(cohort) = cohort {
             @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(selection)))) { (section(id, name, &body)) }
         }
     };
-    page(visitor, "/cohort", "Cohort", &body)
+    page(visitor, "/cohort", &text!(language, "people-cohort"), &body)
 }
 
 fn query(selection: &CohortPageSelection<'_>) -> String {
@@ -64,7 +65,7 @@ fn query(selection: &CohortPageSelection<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, administrator_with, check, check_translated};
     use super::*;
     use crate::cohort::{Selection, cohort};
     use crate::testing::perfect_record;
@@ -89,6 +90,9 @@ mod tests {
         assert!(text.contains("href=\"/cohort/tables/t_tests.csv?scenario="), "{text}");
         assert!(text.contains("2 trainees, 2 sessions") && text.contains("class=\"histogram\""), "{text}");
         assert!(cohort_page(&administrator(), &selection, None).into_string().contains("No sessions yet"));
+        let visitor = administrator_with(spandrel_text::Language::Pseudo);
+        let nothing = CohortPageSelection { flown_scenarios: &[], scenarios: &[], ..selection };
+        check_translated(&cohort_page(&visitor, &nothing, None).into_string(), &[]);
         let selection = CohortPageSelection { incomplete: IncompletePolicy::Include, ..selection };
         let text = cohort_page(&administrator(), &selection, Some(&cohort)).into_string();
         assert!(text.contains("incomplete=1") && text.contains("value=\"1\" checked"), "{text}");

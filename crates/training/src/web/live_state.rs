@@ -1,6 +1,7 @@
 //! State of a flight in progress for the instructor's live page: processes telemetry and returns a JSON snapshot.
 //! Performs no I/O. Uses only data available to every subscriber of the payload port.
 
+use super::live_steps::step_texts;
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -229,7 +230,8 @@ impl LiveFlightState {
         }
     }
 
-    /// Returns the current state for the page's script. `heard` indicates whether telemetry was received recently.
+    /// Returns the current state for the page's script. `heard` indicates whether telemetry was received recently. All pages get the
+    /// same state, so the next step is in all languages, by their tags.
     #[must_use]
     pub fn to_json(&self, heard: bool) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
@@ -260,7 +262,7 @@ impl LiveFlightState {
             "armed": self.armed,
             "frozen": self.is_frozen,
             "task": task,
-            "step": guidance.map(|guidance| guidance.words()),
+            "step": guidance.as_ref().map(step_texts),
             "progress": guidance.and_then(|guidance| guidance.progress),
             "cues": self.displayed_cues(),
             "last_cue": self.last_cue.as_ref().map(|(t_s, words)| json!({ "t_s": t_s, "words": words })),
@@ -348,7 +350,8 @@ mod tests {
         };
         feed_message(&mut live_state, &guidance.message(2_000_000));
         let moment = live_state.to_json(true);
-        assert_eq!((&moment["step"], &moment["progress"]), (&json!("Task 3: follow the path"), &json!(0.5)));
+        assert_eq!((&moment["step"]["en"], &moment["progress"]), (&json!("Task 3: follow the path"), &json!(0.5)));
+        assert_eq!(moment["step"]["de"], "Aufgabe 3: der Bahn folgen");
     }
 
     #[test]

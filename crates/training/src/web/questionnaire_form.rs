@@ -9,6 +9,7 @@ use crate::questionnaire::{
     TlxScale, Wording,
 };
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Prefix of NASA-TLX form fields.
 const TLX_FIELD_PREFIX: &str = "tlx.";
@@ -30,38 +31,37 @@ pub struct FormContext<'a> {
     pub saved: bool,
 }
 
-/// Invalid form value, with the field and the allowed values.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{field} = {value}: invalid answer (allowed: {allowed})")]
-pub struct InvalidAnswer {
-    /// Form field name.
-    pub field: String,
-    /// Submitted value.
-    pub value: String,
-    /// Range of allowed values, as text.
-    pub allowed: String,
-}
-
 /// Merges a form's answers into the existing ones and returns their number. Ignores fields that are not questions, such
 /// as the token.
 ///
 /// # Errors
-/// Fails on the first invalid answer; the caller should then save nothing.
-pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: &[u32]) -> Result<usize, InvalidAnswer> {
+/// Fails on the first invalid answer, with a message in the language; the caller should then save nothing.
+pub fn parse_answers(
+    answers: &mut Answers,
+    fields: &[(String, String)],
+    tasks: &[u32],
+    language: Language,
+) -> Result<usize, String> {
     let items = QuestionnaireItem::all(tasks);
     let mut taken = 0;
     for (field, value) in fields {
         if let Some(item) = QuestionnaireItem::from_key(field).filter(|item| items.contains(item)) {
-            let allowed = || format!("{STRONGLY_AGREE} to {STRONGLY_DISAGREE}");
-            answers
-                .given
-                .insert(item, parse_number(field, value, |v| (STRONGLY_AGREE..=STRONGLY_DISAGREE).contains(&v), allowed)?);
+            let (least, most) = (STRONGLY_AGREE, STRONGLY_DISAGREE);
+            let given = value.parse().ok().filter(|given| (least..=most).contains(given)).ok_or_else(|| {
+                text!(language, "people-answer-invalid", field = short(field), value = short(value), least = least, most = most)
+            })?;
+            answers.given.insert(item, given);
         } else if let Some(scale) = field.strip_prefix(TLX_FIELD_PREFIX).and_then(TlxScale::from_key) {
             if value.is_empty() {
                 continue;
             }
-            let allowed = || format!("0 to {TLX_MAX} in steps of {TLX_STEP}");
-            answers.tlx.insert(scale, parse_number(field, value, |v| v <= TLX_MAX && v.is_multiple_of(TLX_STEP), allowed)?);
+            let is_step = |given: &u8| *given <= TLX_MAX && given.is_multiple_of(TLX_STEP);
+            let given = value.parse().ok().filter(is_step).ok_or_else(|| {
+                let (field, value) = (short(field), short(value));
+                let (most, step) = (TLX_MAX, TLX_STEP);
+                text!(language, "people-answer-invalid-step", field = field, value = value, least = 0, most = most, step = step)
+            })?;
+            answers.tlx.insert(scale, given);
         } else {
             continue;
         }
@@ -70,10 +70,9 @@ pub fn parse_answers(answers: &mut Answers, fields: &[(String, String)], tasks: 
     Ok(taken)
 }
 
-fn parse_number(field: &str, value: &str, fits: impl Fn(u8) -> bool, allowed: impl Fn() -> String) -> Result<u8, InvalidAnswer> {
-    let short = |text: &str| text.chars().filter(|c| !c.is_control()).take(60).collect();
-    let wrong = || InvalidAnswer { field: short(field), value: short(value), allowed: allowed() };
-    value.parse().ok().filter(|value| fits(*value)).ok_or_else(wrong)
+/// Returns the beginning of a submitted text for a message.
+fn short(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).take(60).collect()
 }
 
 /// Renders the questionnaire page.
@@ -196,17 +195,17 @@ mod tests {
             ("tlx.effort", "35"),
             ("tlx.frustration", ""),
         ]);
-        assert_eq!(parse_answers(&mut answers, &given, &[1, 2]), Ok(3));
+        assert_eq!(parse_answers(&mut answers, &given, &[1, 2], Language::English), Ok(3));
         assert_eq!((answers.given.len(), answers.tlx[&TlxScale::Effort]), (2, 35));
         assert_eq!(
-            parse_answers(&mut answers, &fields(&[("task_3.performance", "1")]), &[1, 2]),
+            parse_answers(&mut answers, &fields(&[("task_3.performance", "1")]), &[1, 2], Language::English),
             Ok(0),
             "this session has no such task"
         );
         for (field, value, allowed) in
             [("frustration", "6", "1 to 5"), ("feedback", "<b>", "1 to 5"), ("tlx.effort", "33", "0 to 100 in steps of 5")]
         {
-            let wrong = parse_answers(&mut answers, &fields(&[(field, value)]), &[1]).unwrap_err().to_string();
+            let wrong = parse_answers(&mut answers, &fields(&[(field, value)]), &[1], Language::English).unwrap_err();
             assert_eq!(wrong, format!("{field} = {value}: invalid answer (allowed: {allowed})"));
         }
     }

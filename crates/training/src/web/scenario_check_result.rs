@@ -1,6 +1,5 @@
 //! Checks the text in the scenario editor: applies the edits, lists all problems and draws the preview.
 
-use super::layout::counted;
 use super::scenario_fields::{fields, input_texts};
 use super::scenario_form::ScenarioForm;
 use crate::report::plots::job::{editor_plan, job_side, job_south};
@@ -11,6 +10,7 @@ use serde_json::{Value, json};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::site::Site;
 use spandrel_model::toml::{Problem, split_displayed};
+use spandrel_text::{Language, text};
 
 /// Result of a check.
 pub struct CheckedScenario {
@@ -28,13 +28,13 @@ pub struct CheckedScenario {
 
 /// Checks a text. `file` is the name in messages. Uploaded scenarios can't refer to other files.
 #[must_use]
-pub fn check_text(file: &str, text: String, options: &CheckOptions<'_>) -> CheckedScenario {
+pub fn check_text(file: &str, text: String, options: &CheckOptions<'_>, language: Language) -> CheckedScenario {
     let mut findings = Findings::default();
     let preview = {
         let source = ScenarioText { file, text: &text, siblings: &no_siblings };
         match scenario::read(file, &text, &no_siblings) {
             Ok(scenario) => {
-                let preview = preview(&scenario, options);
+                let preview = preview(&scenario, options, language);
                 check_scenario(&source, &scenario, options, &mut findings);
                 check_forms(&source, None, options, &mut findings);
                 check_levels(&source, None, options, &mut findings);
@@ -47,8 +47,7 @@ pub fn check_text(file: &str, text: String, options: &CheckOptions<'_>) -> Check
         }
     };
     if !(options.may_continue)() {
-        let words = "The check took too long and was stopped. Check the file with spandrel check.";
-        findings.warnings.push(format!("{file}: {words}"));
+        findings.warnings.push(text!(language, "editor-check-too-long", file = file));
     }
     let form = ScenarioForm::read(&text);
     CheckedScenario { text, form, findings, preview, rejected: None }
@@ -62,23 +61,25 @@ pub fn no_siblings(_: &str) -> Result<String, String> {
     Err("an uploaded scenario cannot refer to other files".to_owned())
 }
 
-fn preview(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Markup> {
+fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) -> Option<Markup> {
     if !(options.may_continue)() {
         return None;
     }
     let site = Site::without_defects(scenario);
     let scroll = |label: &str, drawing: &Markup| html! { div.scroll tabindex="0" role="region" aria-label=(label) { (drawing) } };
+    let south = text!(language, "editor-south-caption");
+    let side = |bridge: &str| text!(language, "editor-side-caption", bridge = bridge);
     let sides = scenario.bridges.iter().take_while(|_| (options.may_continue)());
     Some(html! {
-        figure { (site_picture(scenario, &site)) figcaption { "The site with the tasks' paths and the pad" } }
-        figure data-plan { (editor_plan(scenario, &site)) figcaption { "Site plan, north up" } }
+        figure { (site_picture(scenario, &site)) figcaption { (text!(language, "editor-picture-caption")) } }
+        figure data-plan { (editor_plan(scenario, &site)) figcaption { (text!(language, "editor-plan-caption")) } }
         @if scenario.bridges.is_empty() {
-            figure.wide { (scroll("View from the south", &job_south(scenario, &site))) figcaption { "View from the south" } }
+            figure.wide { (scroll(&south, &job_south(scenario, &site))) figcaption { (south) } }
         }
         @for bridge in sides {
             figure.wide {
-                (scroll(&format!("Side view of {}", bridge.name), &job_side(scenario, &site, bridge)))
-                figcaption { "Side view of " (bridge.name) }
+                (scroll(&side(&bridge.name), &job_side(scenario, &site, bridge)))
+                figcaption { (side(&bridge.name)) }
             }
         }
     })
@@ -87,20 +88,20 @@ fn preview(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Markup> {
 impl CheckedScenario {
     /// Returns the answer for the page's script. `shape` is the shape of the form that the page shows.
     #[must_use]
-    pub fn json(&self, shape: &str) -> Value {
+    pub fn json(&self, language: Language, shape: &str) -> Value {
         let (shown, _) = split_displayed(&self.findings.problems);
         let problems: Vec<Value> = shown.iter().map(|problem| self.problem_json(problem)).collect();
         let own_shape = self.form.as_ref().map(form_shape);
         let fresh = self.form.as_ref().filter(|_| own_shape.as_deref() != Some(shape));
         json!({
             "text": self.text,
-            "status": self.status(),
+            "status": self.status(language),
             "problems": problems,
             "warnings": self.findings.warnings,
             "notes": self.findings.notes,
-            "findings": self.findings_list().into_string(),
+            "findings": self.findings_list(language).into_string(),
             "shape": own_shape,
-            "form": fresh.map(|form| fields(form).into_string()),
+            "form": fresh.map(|form| fields(language, form).into_string()),
             "values": self.form.as_ref().map(input_texts),
             "preview": self.preview.as_ref().map(|preview| preview.clone().into_string()),
             "rejected": self.rejected,
@@ -122,35 +123,35 @@ impl CheckedScenario {
 
     /// Returns a sentence with the number of problems and warnings.
     #[must_use]
-    pub fn status(&self) -> String {
-        let warnings = match self.findings.warnings.len() {
-            0 => String::new(),
-            many => format!(", {}", counted(many, "warning", "warnings")),
-        };
-        match self.findings.problems.len() {
-            0 => format!("No problems{warnings}."),
-            many => format!("{}{warnings}.", counted(many, "problem", "problems")),
+    pub fn status(&self, language: Language) -> String {
+        let problems = text!(language, "editor-problem-count", count = self.findings.problems.len());
+        let warnings = text!(language, "editor-warning-count", count = self.findings.warnings.len());
+        match (self.findings.problems.len(), self.findings.warnings.len()) {
+            (0, 0) => text!(language, "editor-problems-none"),
+            (0, _) => text!(language, "editor-problems-none-warnings", warnings = warnings),
+            (_, 0) => text!(language, "editor-problems-only", problems = problems),
+            (_, _) => text!(language, "editor-problems-warnings", problems = problems, warnings = warnings),
         }
     }
 
-    /// Renders the lists of problems, warnings and notes.
+    /// Renders the lists of problems, warnings and notes, which are in English like all messages about files.
     #[must_use]
-    pub fn findings_list(&self) -> Markup {
+    pub fn findings_list(&self, language: Language) -> Markup {
         let Findings { problems, warnings, notes } = &self.findings;
         let (shown, more) = split_displayed(problems);
         html! {
             @if !problems.is_empty() {
                 ul.problems {
-                    @for problem in shown { li { (self.listed(problem)) } }
-                    @if more > 0 { li { "and " (more) " more problems" } }
+                    @for problem in shown { li { (self.listed(language, problem)) } }
+                    @if more > 0 { li { (text!(language, "editor-more-problems", count = more)) } }
                 }
             }
-            @if !warnings.is_empty() { ul.warnings { @for warning in warnings { li { "Warning: " (warning) } } } }
-            @if !notes.is_empty() { details.notes id="check-notes" { summary { "Notes (" (notes.len()) ")" } ul { @for note in notes { li { (note) } } } } }
+            @if !warnings.is_empty() { ul.warnings { @for warning in warnings { li { (text!(language, "editor-warning")) " " span lang="en" { (warning) } } } } }
+            @if !notes.is_empty() { details.notes id="check-notes" { summary { (text!(language, "editor-notes", count = notes.len())) } ul lang="en" { @for note in notes { li { (note) } } } } }
         }
     }
 
-    fn listed(&self, problem: &Problem) -> Markup {
+    fn listed(&self, language: Language, problem: &Problem) -> Markup {
         let element = self.form.as_ref().and_then(|form| form.element_for(problem));
         html! {
             @match element {
@@ -158,8 +159,8 @@ impl CheckedScenario {
                 None => code { (problem.location) },
             }
             @if !problem.value.is_empty() { " = " (problem.value) }
-            ": " (beside_field(problem)) " "
-            button.line type="button" data-line=(problem.line) { "Line " (problem.line) }
+            ": " span lang="en" { (beside_field(problem)) } " "
+            button.line type="button" data-line=(problem.line) { (text!(language, "editor-line", line = problem.line)) }
         }
     }
 }
@@ -192,7 +193,8 @@ mod tests {
 
     fn checked(text: &str, may_continue: &dyn Fn() -> bool) -> CheckedScenario {
         let aircraft = vehicle::read("phantom2.toml", PHANTOM2).unwrap();
-        check_text("practice.toml", text.to_owned(), &CheckOptions { aircraft: &aircraft, may_continue })
+        let options = CheckOptions { aircraft: &aircraft, may_continue };
+        check_text("practice.toml", text.to_owned(), &options, Language::English)
     }
 
     fn set(location: &str, text: &str) -> Edit {
@@ -202,31 +204,34 @@ mod tests {
     #[test]
     fn exact_a_valid_scenario_has_a_preview_and_notes() {
         let checked = checked(PRACTICE, &|| true);
-        assert_eq!((checked.findings.problems.len(), checked.status().as_str()), (0, "No problems."));
-        let answer = checked.json("");
+        assert_eq!((checked.findings.problems.len(), checked.status(Language::English).as_str()), (0, "No problems."));
+        let answer = checked.json(Language::English, "");
         assert_eq!(answer["text"], PRACTICE);
         assert!(answer["notes"].as_array().unwrap().len() > 2);
         let preview = answer["preview"].as_str().unwrap();
         assert!(preview.contains("data-plan") && preview.contains("image/png") && preview.contains("Side view of suspension"));
         assert!(answer["form"].is_string());
-        assert!(checked.json(answer["shape"].as_str().unwrap())["form"].is_null(), "the page has this form already");
+        assert!(
+            checked.json(Language::English, answer["shape"].as_str().unwrap())["form"].is_null(),
+            "the page has this form already"
+        );
     }
 
     #[test]
     fn exact_problems_name_field_line_and_allowed_range() {
         let text = apply(PRACTICE, &[set("wind.from_deg", "400"), set("tasks[3].name", HOSTILE_NAME)]).unwrap();
         let checked = checked(&text, &|| true);
-        let answer = checked.json("");
+        let answer = checked.json(Language::English, "");
         let line = 1 + text.lines().position(|line| line.starts_with("from_deg")).unwrap();
         let problem = &answer["problems"][0];
         assert_eq!((problem["line"].as_u64(), problem["element"].as_str()), (Some(line as u64), Some("field-wind-from_deg")));
         assert_eq!(problem["text"], "out of range (allowed: 0 to 360)");
         assert!(answer["preview"].is_null() && answer["values"]["field-wind-from_deg"] == "400");
         assert!(!answer["form"].as_str().unwrap().contains("<script>"));
-        assert_eq!(checked.status(), "1 problem.");
+        assert_eq!(checked.status(Language::English), "1 problem.");
         let syntax = super::tests::checked("name = ", &|| true);
-        assert!(syntax.form.is_none() && syntax.json("")["values"].is_null());
-        let list = syntax.findings_list().into_string();
+        assert!(syntax.form.is_none() && syntax.json(Language::English, "")["values"].is_null());
+        let list = syntax.findings_list(Language::English).into_string();
         assert!(list.contains("data-line=\"1\"") && list.contains("syntax"), "{list}");
     }
 
@@ -237,7 +242,12 @@ mod tests {
             "kind = \"free\"\npoints_m = [[0, 0, 34.5], [10, 0, 34.5]]",
         );
         let checked = checked(&text, &|| true);
-        assert_eq!(checked.json("")["problems"][0]["element"], "field-tasks-3", "{:?}", checked.findings.problems);
+        assert_eq!(
+            checked.json(Language::English, "")["problems"][0]["element"],
+            "field-tasks-3",
+            "{:?}",
+            checked.findings.problems
+        );
         assert!(checked.preview.is_some(), "the preview shows the path");
     }
 
@@ -245,5 +255,18 @@ mod tests {
     fn exact_a_check_without_time_ends_with_a_warning() {
         let checked = checked(PRACTICE, &|| false);
         assert!(checked.preview.is_none() && checked.findings.warnings[0].contains("took too long"));
+    }
+
+    #[test]
+    fn exact_sentences_around_messages_are_translated() {
+        let text = apply(PRACTICE, &[set("wind.from_deg", "400")]).unwrap();
+        let wrong = checked(&text, &|| true);
+        assert_eq!(wrong.status(Language::German), "1 Problem.");
+        let list = wrong.findings_list(Language::German).into_string();
+        assert!(list.contains("<span lang=\"en\">out of range (allowed: 0 to 360)</span>") && list.contains(">Zeile "), "{list}");
+        assert_eq!(checked(PRACTICE, &|| true).status(Language::Spanish), "Sin problemas.");
+        let stopped = checked(PRACTICE, &|| false);
+        assert_eq!(stopped.status(Language::English), "No problems, 1 warning.");
+        assert_eq!(stopped.status(Language::German), "Keine Probleme, 1 Warnung.");
     }
 }

@@ -1,18 +1,17 @@
 //! Renders the form of the scenario editor. The fields have no names: a script sends each change to the server, which edits the
 //! text. Without the script, only the text is edited.
 
-use super::scenario_form::{Control, Field, FieldGroup, FormSection, ScenarioForm, element_id, label, section_id};
+use super::scenario_form::{Control, Field, FieldGroup, FormSection, ScenarioForm, element_id, section_id};
+use super::scenario_labels::label;
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};
 use spandrel_model::toml::DocumentedKey;
-
-/// Labels of the parts of a position.
-const PARTS: [&str; 3] = ["East", "North", "Up"];
+use spandrel_text::{Language, text};
 
 /// Renders all sections.
 #[must_use]
-pub fn fields(form: &ScenarioForm) -> Markup {
-    html! { @for section in &form.sections { (form_section(section)) } }
+pub fn fields(language: Language, form: &ScenarioForm) -> Markup {
+    html! { @for section in &form.sections { (form_section(language, section)) } }
 }
 
 /// Returns the texts of all input elements by their IDs.
@@ -32,81 +31,106 @@ pub fn input_texts(form: &ScenarioForm) -> Map<String, Value> {
     texts
 }
 
-fn form_section(section: &FormSection) -> Markup {
+/// Returns the heading of a section with this ID.
+fn heading(language: Language, id: &str) -> String {
+    match id {
+        "job" => text!(language, "editor-section-job"),
+        "place" => text!(language, "editor-section-place"),
+        "bridges" => text!(language, "editor-section-bridges"),
+        "tasks" => text!(language, "editor-section-tasks"),
+        "defects" => text!(language, "editor-section-defects"),
+        "traffic" => text!(language, "editor-section-traffic"),
+        "wind" => text!(language, "editor-section-wind"),
+        "gusts" => text!(language, "editor-section-gusts"),
+        "light" => text!(language, "editor-section-light"),
+        _ => text!(language, "editor-section-rules"),
+    }
+}
+
+fn form_section(language: Language, section: &FormSection) -> Markup {
     let id = section_id(section.id);
     let count = section.groups.len();
+    let mut heading = heading(language, section.id);
+    if section.repeated.is_some() {
+        heading = text!(language, "editor-section-count", section = heading, count = count);
+    }
     html! {
         details.form-section id=(id) {
-            summary { h2 { (section.heading) @if section.repeated.is_some() { " (" (count) ")" } } }
-            p.field-problem id={ (id) "-problem" } {}
-            (all(&section.main, &section.more, &id))
-            @for (k, group) in section.groups.iter().enumerate() { (field_group(group, k, count)) }
+            summary data-check=(check_this(language)) { h2 { (heading) } }
+            p.field-problem id={ (id) "-problem" } lang="en" {}
+            (all(language, &section.main, &section.more, &id))
+            @for (k, group) in section.groups.iter().enumerate() { (field_group(language, group, k, count)) }
             @if let Some(repeated) = section.repeated {
-                button type="button" data-edit=(json!({ "add": repeated })) { (add_label(repeated)) }
+                button type="button" data-edit=(json!({ "add": repeated })) { (add_label(language, repeated)) }
             }
         }
     }
 }
 
-fn add_label(repeated: &str) -> &'static str {
+/// Returns the words beside the heading of a section or group with a problem. The style sheet shows them.
+fn check_this(language: Language) -> String {
+    text!(language, "editor-check-this")
+}
+
+fn add_label(language: Language, repeated: &str) -> String {
     match repeated {
-        "tasks" => "Add a task",
-        "bridges" => "Add a bridge",
-        _ => "Add a gust",
+        "tasks" => text!(language, "editor-add-task"),
+        "bridges" => text!(language, "editor-add-bridge"),
+        _ => text!(language, "editor-add-gust"),
     }
 }
 
-fn all(main: &[Field], more: &[Field], id: &str) -> Markup {
+fn all(language: Language, main: &[Field], more: &[Field], id: &str) -> Markup {
     html! {
-        div.fields { @for field in main { (one_field(field)) } }
+        div.fields { @for field in main { (one_field(language, field)) } }
         @if !more.is_empty() {
             details.more id={ (id) "-more" } {
-                summary { "More keys (" (more.len()) ")" }
-                div.fields { @for field in more { (one_field(field)) } }
+                summary data-check=(check_this(language)) { (text!(language, "editor-more-keys", count = more.len())) }
+                div.fields { @for field in more { (one_field(language, field)) } }
             }
         }
     }
 }
 
-fn field_group(group: &FieldGroup, k: usize, count: usize) -> Markup {
+fn field_group(language: Language, group: &FieldGroup, k: usize, count: usize) -> Markup {
     let id = element_id(&group.location);
     let at = &group.location;
     let can_move = at.starts_with("tasks[");
-    let named = |verb: &str| format!("{verb} {} {}", k + 1, group.name);
+    let (number, name) = (k + 1, group.name.as_str());
     html! {
         details.group id=(id) {
-            summary { (k + 1) " · " (group.name) }
-            p.field-problem id={ (id) "-problem" } {}
-            (all(&group.main, &group.more, &id))
+            summary data-check=(check_this(language)) { (number) " · " (name) }
+            p.field-problem id={ (id) "-problem" } lang="en" {}
+            (all(language, &group.main, &group.more, &id))
             p.row {
                 @if can_move && k > 0 {
-                    button type="button" data-edit=(json!({ "move": at, "up": true })) aria-label=(named("Move up:")) { "Move up" }
+                    button type="button" data-edit=(json!({ "move": at, "up": true })) aria-label=(text!(language, "editor-move-up-group", number = number, name = name)) { (text!(language, "editor-move-up")) }
                 }
                 @if can_move && k + 1 < count {
-                    button type="button" data-edit=(json!({ "move": at, "up": false })) aria-label=(named("Move down:")) { "Move down" }
+                    button type="button" data-edit=(json!({ "move": at, "up": false })) aria-label=(text!(language, "editor-move-down-group", number = number, name = name)) { (text!(language, "editor-move-down")) }
                 }
-                button type="button" data-edit=(json!({ "remove": at })) aria-label=(named("Remove:")) { "Remove" }
+                button type="button" data-edit=(json!({ "remove": at })) aria-label=(text!(language, "editor-remove-group", number = number, name = name)) { (text!(language, "editor-remove")) }
             }
         }
     }
 }
 
-fn one_field(field: &Field) -> Markup {
+fn one_field(language: Language, field: &Field) -> Markup {
     let id = element_id(&field.location);
     html! {
         @if field.control == Control::Position {
-            (position(field, &id))
+            (position(language, field, &id))
         } @else {
             div.field {
-                label for=(id) { (label(&field.location)) }
-                (input(field, &id))
-                (notes(field, &id))
+                label for=(id) { (label(language, &field.location)) }
+                (input(language, field, &id))
+                (notes(language, field, &id))
             }
         }
     }
 }
 
-fn input(field: &Field, id: &str) -> Markup {
+fn input(language: Language, field: &Field, id: &str) -> Markup {
     let described_by = format!("{id}-problem {id}-note");
     let at = &field.location;
     let default = &field.description.documented.default;
@@ -115,7 +139,7 @@ fn input(field: &Field, id: &str) -> Markup {
     match &field.control {
         Control::Choice(words) => html! {
             select id=(id) data-field=(at) aria-describedby=(described_by) {
-                @if optional || field.value.is_empty() { option value="" selected[field.value.is_empty()] { (no_choice(optional, hint)) } }
+                @if optional || field.value.is_empty() { option value="" selected[field.value.is_empty()] { (no_choice(language, optional, hint)) } }
                 @for word in words { option value=(word) selected[field.value == *word] { (word) } }
                 @if !field.value.is_empty() && !words.contains(&field.value) { option value=(field.value) selected { (field.value) } }
             }
@@ -132,26 +156,29 @@ fn input(field: &Field, id: &str) -> Markup {
     }
 }
 
-fn no_choice(optional: bool, default: &str) -> String {
+fn no_choice(language: Language, optional: bool, default: &str) -> String {
     match (optional, default) {
-        (false, _) => "Choose".to_owned(),
-        (true, "") => "Not set".to_owned(),
-        (true, default) => format!("Default: {default}"),
+        (false, _) => text!(language, "editor-choose"),
+        (true, "") => text!(language, "editor-not-set"),
+        (true, default) => text!(language, "editor-default-choice", value = default),
     }
 }
 
-fn position(field: &Field, id: &str) -> Markup {
-    let parts = position_parts(&field.value);
+fn position(language: Language, field: &Field, id: &str) -> Markup {
+    let labels = [text!(language, "editor-east"), text!(language, "editor-north"), text!(language, "editor-up")];
+    let parts = labels.into_iter().zip(position_parts(&field.value));
+    let legend = label(language, &field.location);
+    let place_field = text!(language, "editor-place-on-plan-field", field = legend.as_str());
     html! {
         fieldset.field.position id=(id) tabindex="-1" {
-            legend { (label(&field.location)) }
+            legend { (legend) }
             div.row {
-                @for (k, part) in parts.iter().enumerate() {
-                    label { (PARTS[k]) input id={ (id) "-part-" (k) } data-field=(field.location) data-part=(k) inputmode="decimal" autocomplete="off" aria-describedby={ (id) "-problem" } value=(part); }
+                @for (k, (part_label, part)) in parts.enumerate() {
+                    label { (part_label) input id={ (id) "-part-" (k) } data-field=(field.location) data-part=(k) inputmode="decimal" autocomplete="off" aria-describedby={ (id) "-problem" } value=(part); }
                 }
-                button type="button" data-place=(field.location) aria-label={ "Place on the plan: " (label(&field.location)) } { "Place on the plan" }
+                button type="button" data-place=(field.location) aria-label=(place_field) { (text!(language, "editor-place-on-plan")) }
             }
-            (notes(field, id))
+            (notes(language, field, id))
         }
     }
 }
@@ -163,22 +190,23 @@ fn position_parts(value: &str) -> [String; 3] {
     std::array::from_fn(|_| parts.next().unwrap_or_default())
 }
 
-fn notes(field: &Field, id: &str) -> Markup {
+/// Renders the meaning of the key, which is in English, and its allowed values.
+fn notes(language: Language, field: &Field, id: &str) -> Markup {
     let DocumentedKey { allowed, default } = &field.description.documented;
     html! {
-        p.field-problem id={ (id) "-problem" } {}
+        p.field-problem id={ (id) "-problem" } lang="en" {}
         p.note id={ (id) "-note" } {
-            (with_code(&field.description.meaning))
+            span lang="en" { (with_code(&field.description.meaning)) }
             span.allowed {
-                @if !["text", "list of texts"].contains(&allowed.as_str()) { " Allowed: " (allowed) "." }
-                @if default != "none" { " " (default_words(default)) }
+                @if !["text", "list of texts"].contains(&allowed.as_str()) { " " (text!(language, "editor-allowed", allowed = allowed.as_str())) }
+                @if default != "none" { " " (default_words(language, default)) }
             }
         }
     }
 }
 
-fn default_words(default: &str) -> String {
-    if default == "required" { "Required.".to_owned() } else { format!("Default: {default}.") }
+fn default_words(language: Language, default: &str) -> String {
+    if default == "required" { text!(language, "editor-required") } else { text!(language, "editor-default", value = default) }
 }
 
 /// Renders Markdown of the documentation: words in backticks as code, without emphasis.
@@ -199,7 +227,7 @@ mod tests {
 
     #[test]
     fn exact_fields_show_value_meaning_and_allowed_range() {
-        let text = fields(&ScenarioForm::read(PRACTICE).unwrap()).into_string();
+        let text = fields(Language::English, &ScenarioForm::read(PRACTICE).unwrap()).into_string();
         assert!(text.contains("id=\"field-wind-from_deg\"") && text.contains("value=\"200.0\""));
         assert!(text.contains("Direction that the wind blows from") && text.contains("Allowed: 0 to 360. Default: 0."), "{text}");
         assert!(text.contains("<option value=\"light\" selected"), "{text}");
@@ -209,6 +237,14 @@ mod tests {
         let label_count = text.matches("<label").count() + text.matches("<legend").count();
         let input_count = text.matches("data-field").count();
         assert!(label_count >= input_count, "every input has a label");
+    }
+
+    #[test]
+    fn exact_german_labels_are_around_english_meanings() {
+        let text = fields(Language::German, &ScenarioForm::read(PRACTICE).unwrap()).into_string();
+        assert!(text.contains("Aufgaben (4)") && text.contains("Aufgabe hinzufügen") && text.contains(">Abstand (m)<"), "{text}");
+        assert!(text.contains("Zulässig: 0 to 360. Vorgabe: 0.") && text.contains("data-check=\"bitte prüfen\""), "{text}");
+        assert!(text.contains("<span lang=\"en\">Direction that the wind blows from"), "{text}");
     }
 
     #[test]
@@ -224,7 +260,7 @@ mod tests {
     fn exact_hostile_values_are_escaped() {
         let set = |location: &str| Edit::Set { location: location.into(), text: HOSTILE_NAME.into() };
         let edits = ["title", "tasks[0].name", "bridges[0].name", "wind.level", "ground_team.pad_m"].map(set);
-        let text = fields(&ScenarioForm::read(&apply(PRACTICE, &edits).unwrap()).unwrap()).into_string();
+        let text = fields(Language::English, &ScenarioForm::read(&apply(PRACTICE, &edits).unwrap()).unwrap()).into_string();
         assert!(!text.contains("<script>") && !text.contains("\"'&\""), "{text}");
     }
 }

@@ -1,5 +1,5 @@
-//! The form of the scenario editor: which keys it shows, in groups. Labels, meanings and allowed values come from the
-//! documentation of the keys ([`key_descriptions`]).
+//! The form of the scenario editor: which keys it shows, in groups. Meanings and allowed values come from the documentation of the
+//! keys ([`key_descriptions`]).
 
 use spandrel_model::key_table::KeyDescription;
 use spandrel_model::scenario::values::{KIND_KEYS, ScenarioValues, describe, key_descriptions, without_indices};
@@ -11,7 +11,6 @@ const MAX_GROUPS: usize = 64;
 /// A group of keys: those that most jobs need, and the tables whose other keys are under "More keys".
 struct Layout {
     id: &'static str,
-    heading: &'static str,
     /// Location of the repeated table with one group of fields for each table; empty if there is none.
     repeated: &'static str,
     main: &'static [&'static str],
@@ -19,10 +18,10 @@ struct Layout {
 }
 
 const LAYOUT: &[Layout] = &[
-    Layout { id: "job", heading: "Job", repeated: "", main: &["name", "title", "briefing"], tables: &[""] },
+    Layout { id: "job", repeated: "", main: &["name", "title", "briefing"], tables: &[""] },
     Layout {
         id: "place",
-        heading: "Place",
+
         repeated: "",
         main: &[
             "origin.latitude_deg",
@@ -39,14 +38,14 @@ const LAYOUT: &[Layout] = &[
     },
     Layout {
         id: "bridges",
-        heading: "Bridges",
+
         repeated: "bridges",
         main: &["bridges[].name", "bridges[].type", "bridges[].centre_m", "bridges[].heading_deg"],
         tables: &["bridges[]", "bridges[].arch", "bridges[].suspension"],
     },
     Layout {
         id: "tasks",
-        heading: "Tasks",
+
         repeated: "tasks",
         main: &[
             "tasks[].name",
@@ -60,28 +59,28 @@ const LAYOUT: &[Layout] = &[
     },
     Layout {
         id: "defects",
-        heading: "Defects",
+
         repeated: "",
         main: &["defects.count", "defects.size_factor", "defects.detection_pct", "defects.lines"],
         tables: &["defects"],
     },
     Layout {
         id: "traffic",
-        heading: "Traffic",
+
         repeated: "",
         main: &["traffic.cars", "traffic.trucks", "traffic.pedestrians", "traffic.car_speed_m_s"],
         tables: &["traffic"],
     },
     Layout {
         id: "wind",
-        heading: "Wind",
+
         repeated: "",
         main: &["wind.level", "wind.speed_m_s", "wind.from_deg", "wind.turbulence"],
         tables: &["wind"],
     },
     Layout {
         id: "gusts",
-        heading: "Gusts and changes of the wind",
+
         repeated: "wind.events",
         main: &[
             "wind.events[].kind",
@@ -94,10 +93,10 @@ const LAYOUT: &[Layout] = &[
         ],
         tables: &[],
     },
-    Layout { id: "light", heading: "Light", repeated: "", main: &["light.start_utc", "light.cloud_cover"], tables: &["light"] },
+    Layout { id: "light", repeated: "", main: &["light.start_utc", "light.cloud_cover"], tables: &["light"] },
     Layout {
         id: "rules",
-        heading: "Rules and scoring",
+
         repeated: "",
         main: &[
             "rules.after_crash",
@@ -158,8 +157,6 @@ pub struct FieldGroup {
 pub struct FormSection {
     /// Identifier in the page.
     pub id: &'static str,
-    /// Heading.
-    pub heading: &'static str,
     /// Location of the repeated table whose tables are the groups, if any.
     pub repeated: Option<&'static str>,
     /// Fields that most jobs need.
@@ -224,45 +221,8 @@ pub fn section_id(id: &str) -> String {
     format!("section-{id}")
 }
 
-/// Returns the label of a key, made from its name: `stand_off_m` becomes `Stand off (m)`.
-#[must_use]
-pub fn label(location: &str) -> String {
-    const UNITS: [(&str, &str); 13] = [
-        ("_m_s", "m/s"),
-        ("_mph", "mph"),
-        ("_deg", "°"),
-        ("_pct", "%"),
-        ("_min", "min"),
-        ("_utc", "UTC"),
-        ("_mm", "mm"),
-        ("_px", "px"),
-        ("_hz", "Hz"),
-        ("_m", "m"),
-        ("_s", "s"),
-        ("_n", "N"),
-        ("_kg", "kg"),
-    ];
-    let key = location.rsplit('.').next().unwrap_or_default();
-    let (name, unit) = UNITS
-        .iter()
-        .find_map(|(end, unit)| Some((key.strip_suffix(end).filter(|name| !name.is_empty())?, *unit)))
-        .unwrap_or((key, ""));
-    let words = name.replace('_', " ").replace("centre", "center").replace("gnss", "GNSS");
-    let mut letters = words.chars();
-    let first = letters.next().map(|c| c.to_ascii_uppercase()).into_iter();
-    let words: String = first.chain(letters).collect();
-    if unit.is_empty() { words } else { format!("{words} ({unit})") }
-}
-
 fn section(layout: &'static Layout, values: &ScenarioValues) -> FormSection {
-    let mut section = FormSection {
-        id: layout.id,
-        heading: layout.heading,
-        repeated: None,
-        main: Vec::new(),
-        more: Vec::new(),
-        groups: Vec::new(),
-    };
+    let mut section = FormSection { id: layout.id, repeated: None, main: Vec::new(), more: Vec::new(), groups: Vec::new() };
     if layout.repeated.is_empty() {
         (section.main, section.more) = fields(layout, "", values);
     } else {
@@ -444,19 +404,5 @@ mod tests {
     fn exact_the_number_of_groups_is_limited() {
         let form = form(&"[[tasks]]\nname = \"a\"\n".repeat(1_000));
         assert_eq!(form.sections.iter().map(|section| section.groups.len()).sum::<usize>(), MAX_GROUPS);
-    }
-
-    #[test]
-    fn exact_labels_are_made_from_keys() {
-        for (location, expected) in [
-            ("tasks[2].stand_off_m", "Stand off (m)"),
-            ("bridges[0].centre_m", "Center (m)"),
-            ("wind.speed_m_s", "Speed (m/s)"),
-            ("scoring.time_best_min", "Time best (min)"),
-            ("rules.gnss_shadow", "GNSS shadow"),
-            ("name", "Name"),
-        ] {
-            assert_eq!(label(location), expected);
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{message, message_lines, page, section, table, token};
+use super::layout::{ELEMENT, Notice, message, page, section, table, token, with_element};
 use crate::briefing::Briefing;
 use crate::report::formatting;
 use crate::report::page::briefing_contents;
@@ -9,6 +9,7 @@ use crate::report::plots::job::job_plan;
 use maud::{Markup, html};
 use spandrel_model::scenario::{Difficulty, Scenario};
 use spandrel_model::site::Site;
+use spandrel_text::{Language, text};
 
 /// An entry in the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,54 +24,75 @@ pub struct ScenarioEntry {
 
 /// Renders the scenario list with the result of an upload, if any.
 #[must_use]
-pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<(&str, &str)>) -> Markup {
+pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<Notice<'_>>) -> Markup {
+    let language = visitor.language;
     let rows = html! {
         @for one in named {
             tr {
                 th scope="row" { a href={ "/scenarios/" (one.name) } { (one.name) } }
                 td { (one.title) }
-                td { (if one.uploaded { "uploaded" } else { "shipped" }) }
+                td { @if one.uploaded { (text!(language, "editor-uploaded")) } @else { (text!(language, "editor-shipped")) } }
             }
         }
     };
+    let heads = [
+        (text!(language, "editor-name"), false),
+        (text!(language, "editor-title"), false),
+        (text!(language, "editor-source"), false),
+    ];
     let body = html! {
-        @if let Some((kind, words)) = notice { (message_lines(kind, words)) }
-        @if visitor.satisfies(AccessLevel::Instructor) { p { a.button href="/scenarios/new" { "New scenario" } } }
-        section { (table(&format!("{} scenarios", named.len()), &[("Name", false), ("Title", false), ("Source", false)], &rows)) }
-        @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", "Upload a scenario", &upload(visitor))) }
+        @if let Some(notice) = notice { (notice.render()) }
+        @if visitor.satisfies(AccessLevel::Instructor) { p { a.button href="/scenarios/new" { (text!(language, "editor-new-scenario")) } } }
+        section { (table(&text!(language, "editor-scenario-count", count = named.len()), &heads, &rows)) }
+        @if visitor.satisfies(AccessLevel::Instructor) { (section("upload", &text!(language, "editor-upload-scenario"), &upload(visitor))) }
     };
-    page(visitor, "/scenarios", "Scenarios", &body)
+    page(visitor, "/scenarios", &text!(language, "editor-scenarios"), &body)
 }
 
 fn upload(visitor: &Visitor) -> Markup {
     html! {
-        p { "One self-contained TOML file. It is validated before it is saved, and all errors are listed." }
+        p { (text!(visitor.language, "editor-upload-scenario-note")) }
         form.stacked method="post" action="/scenarios" enctype="multipart/form-data" {
             (token(visitor))
-            label { "File" input type="file" name="file" accept=".toml" required; }
-            button type="submit" { "Validate and save" }
+            label { (text!(visitor.language, "editor-file")) input type="file" name="file" accept=".toml" required; }
+            button type="submit" { (text!(visitor.language, "web-validate-and-save")) }
         }
     }
 }
 
 /// Describes the ends of the difficulty levels and the standard level.
-fn levels(difficulty: &Difficulty) -> String {
-    let (standard, last) = (difficulty.standard, difficulty.levels());
-    let at = |level: u8| difficulty.settings_at(level);
-    format!(
-        "{last} levels. Level 1: {}. Level {standard}, the standard level: {}. Level {last}: {}.",
-        at(1),
-        at(standard),
-        at(last)
-    )
+fn levels(language: Language, difficulty: &Difficulty) -> String {
+    let (standard, levels) = (difficulty.standard, difficulty.levels());
+    let [first, middle, last] = [1, standard, levels].map(|level| difficulty.settings_at(level).to_string());
+    text!(language, "editor-levels", levels = levels, first = first, standard = standard, middle = middle, last = last)
 }
 
-fn edit_link(named: &ScenarioEntry) -> Markup {
+/// Renders the summary of a scenario.
+fn facts(language: Language, scenario: &Scenario) -> Markup {
+    let (scoring, traffic, wind) = (&scenario.scoring, &scenario.traffic, &scenario.wind);
+    let (cars, trucks, pedestrians) = (traffic.cars, traffic.trucks, traffic.pedestrians);
+    let (speed, from) = (formatting::number(wind.speed_m_s, 1), formatting::number(wind.from_deg, 0));
+    let (best, most) = (formatting::duration(scoring.time_best_s), formatting::duration(scoring.time_max_s));
+    html! {
+        dl.facts {
+            dt { (text!(language, "editor-bridges")) } dd { (scenario.bridges.len()) }
+            dt { (text!(language, "editor-tasks")) } dd { (scenario.tasks.len()) }
+            dt { (text!(language, "editor-defects-to-find")) } dd { (scenario.defects.count) }
+            dt { (text!(language, "editor-traffic")) } dd { (text!(language, "editor-traffic-text", cars = cars, trucks = trucks, pedestrians = pedestrians)) }
+            dt { (text!(language, "editor-wind")) } dd { (text!(language, "editor-wind-text", speed = speed, from = from)) }
+            dt { (text!(language, "editor-speed-limit")) } dd { (scoring.speed_limit_unit.format_limit(scoring.speed_limit_m_s)) }
+            dt { (text!(language, "editor-time")) } dd { (text!(language, "editor-time-text", best = best, most = most)) }
+            @if let Some(difficulty) = &scenario.difficulty { dt { (text!(language, "editor-difficulty")) } dd { (levels(language, difficulty)) } }
+        }
+    }
+}
+
+fn edit_link(language: Language, named: &ScenarioEntry) -> Markup {
     html! {
         @if named.uploaded {
-            a.button href={ "/scenarios/" (named.name) "/edit" } { "Edit" }
+            a.button href={ "/scenarios/" (named.name) "/edit" } { (text!(language, "editor-edit")) }
         } @else {
-            a.button href={ "/scenarios/new?base=" (named.name) } { "Make a copy to edit" }
+            a.button href={ "/scenarios/new?base=" (named.name) } { (text!(language, "editor-copy")) }
         }
     }
 }
@@ -79,19 +101,9 @@ fn edit_link(named: &ScenarioEntry) -> Markup {
 /// defects.
 #[must_use]
 pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
-    let s = &scenario.scoring;
-    let facts = html! {
-        dl.facts {
-            dt { "Bridges" } dd { (scenario.bridges.len()) }
-            dt { "Tasks" } dd { (scenario.tasks.len()) }
-            dt { "Defects to find" } dd { (scenario.defects.count) }
-            dt { "Traffic" } dd { (scenario.traffic.cars) " cars, " (scenario.traffic.trucks) " trucks, " (scenario.traffic.pedestrians) " pedestrians" }
-            dt { "Wind" } dd { (formatting::number(scenario.wind.speed_m_s, 1)) " m/s from " (formatting::number(scenario.wind.from_deg, 0)) "°" }
-            dt { "Speed limit" } dd { (s.speed_limit_unit.format_limit(s.speed_limit_m_s)) }
-            dt { "Time" } dd { "full score up to " (formatting::duration(s.time_best_s)) ", at most " (formatting::duration(s.time_max_s)) }
-            @if let Some(difficulty) = &scenario.difficulty { dt { "Difficulty" } dd { (levels(difficulty)) } }
-        }
-    };
+    let language = visitor.language;
+    let heads = [(text!(language, "editor-task"), false), (text!(language, "editor-tolerance"), true)];
+    let briefing = html! { a href={ "/scenarios/" (named.name) "/briefing" } { (text!(language, "editor-briefing")) } };
     let rows = html! {
         @for task in &scenario.tasks {
             tr { th scope="row" { (task.id) " · " (task.name) } td.number { (formatting::number(task.threshold_m, 1)) } }
@@ -99,28 +111,28 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     };
     let body = html! {
         p.lead { (scenario.title) }
-        p { a href={ "/scenarios/" (named.name) "/briefing" } { "Briefing" } ": tasks in order, hazards, what counts, and the site check, to read before the flight or to print." }
-        @if visitor.satisfies(AccessLevel::Instructor) { p { (edit_link(named)) } }
-        (section("facts", "Summary", &facts))
+        p { (with_element(&text!(language, "editor-briefing-link", briefing = ELEMENT), &briefing)) }
+        @if visitor.satisfies(AccessLevel::Instructor) { p { (edit_link(language, named)) } }
+        (section("facts", &text!(language, "editor-summary"), &facts(language, scenario)))
         @if !scenario.tasks.is_empty() {
-            (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance (m)", true)], &rows)))
+            (section("tasks", &text!(language, "editor-tasks"), &table(&text!(language, "editor-tolerances"), &heads, &rows)))
         }
-        (section("site", "Site plan", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
-        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
-            details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
+        (section("site", &text!(language, "editor-site-plan"), &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-drawing")) { (job_plan(scenario, site)) } } }))
+        @if visitor.satisfies(AccessLevel::Instructor) { (section("file", &text!(language, "editor-file"), &html! {
+            details { summary { (text!(language, "editor-show")) } div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-file-contents")) { pre { code { (text) } } } }
             @if named.uploaded {
-                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { "Delete this scenario" } }
+                form method="post" action={ "/scenarios/" (named.name) "/remove" } { (token(visitor)) button.danger type="submit" { (text!(language, "editor-delete-scenario")) } }
             }
         })) }
     };
-    page(visitor, "/scenarios", &format!("Scenario {}", named.name), &body)
+    page(visitor, "/scenarios", &text!(language, "editor-scenario-title", name = named.name.as_str()), &body)
 }
 
 /// Renders the briefing for a scenario.
 #[must_use]
 pub fn briefing_page(visitor: &Visitor, briefing: &Briefing, scenario: &Scenario, site: &Site) -> Markup {
     let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site)) };
-    page(visitor, "/scenarios", &format!("Briefing {}", briefing.job), &body)
+    page(visitor, "/scenarios", &text!(visitor.language, "editor-briefing-title", name = briefing.job.as_str()), &body)
 }
 
 /// Reason why a recording was not imported.
@@ -145,39 +157,42 @@ pub fn recorded(
     vehicles: &[String],
     notice: Option<UploadMessage<'_>>,
 ) -> Markup {
+    let language = visitor.language;
+    let imported = |id: &str, trainee: &str| html! { a href={ "/sessions/" (id) } { (text!(language, "editor-imported-session", name = trainee)) } };
     let body = html! {
         @match notice {
             None => {},
             Some(UploadMessage::Invalid(words)) => (message("bad", words)),
             Some(UploadMessage::AlreadyImported { id, trainee }) => p.message.good role="status" {
-                "This recording was already imported as " a href={ "/sessions/" (id) } { "a session by " (trainee) } ". No changes were made."
+                (with_element(&text!(language, "editor-imported", session = ELEMENT), &imported(id, trainee)))
             },
         }
         section.narrow {
-            p { "Choose a .tlog file recorded by a ground station or the monitor. It must include the simulator's truth messages. The flight is scored before it is saved." }
+            p { (text!(language, "editor-import-note")) }
             form.stacked method="post" action="/upload" enctype="multipart/form-data" {
                 (token(visitor))
-                label { "Trainee" input name="trainee" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocapitalize="none"; }
-                label { "Scenario" select name="scenario" { @for one in scenarios { option value=(one.name) { (one.name) } } } }
-                label { "Aircraft" select name="vehicle" { @for one in vehicles { option value=(one) { (one) } } } }
-                label { "Recording" input type="file" name="file" accept=".tlog" required; }
-                button type="submit" { "Import" }
+                label { (text!(language, "editor-import-trainee")) input name="trainee" required maxlength="32" pattern="[A-Za-z0-9][A-Za-z0-9_\\-]*" autocapitalize="none"; }
+                label { (text!(language, "editor-import-scenario")) select name="scenario" { @for one in scenarios { option value=(one.name) { (one.name) } } } }
+                label { (text!(language, "editor-import-aircraft")) select name="vehicle" { @for one in vehicles { option value=(one) { (one) } } } }
+                label { (text!(language, "editor-import-recording")) input type="file" name="file" accept=".tlog" required; }
+                button type="submit" { (text!(language, "editor-import-button")) }
             }
         }
     };
-    page(visitor, "/sessions", "Import flight", &body)
+    page(visitor, "/sessions", &text!(language, "editor-import-title"), &body)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, administrator_with, check, check_translated};
     use super::*;
     use crate::trainee::Role;
 
     #[test]
     fn exact_only_instructors_can_upload_and_file_contents_are_escaped() {
         let named = [ScenarioEntry { name: HOSTILE_NAME.into(), title: HOSTILE_NAME.into(), uploaded: true }];
-        let text = list(&administrator(), &named, Some(("bad", HOSTILE_NAME))).into_string();
+        let text =
+            list(&administrator(), &named, Some(Notice { kind: "bad", text: HOSTILE_NAME, details: HOSTILE_NAME })).into_string();
         check(&text);
         assert!(text.contains("type=\"file\""));
         let trainee = Visitor { role: Role::Trainee, ..administrator() };
@@ -188,5 +203,26 @@ mod tests {
         let there = recorded(&administrator(), &named, &[], Some(UploadMessage::AlreadyImported { id: "s-1", trainee: "anna" }))
             .into_string();
         assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session by anna"), "{there}");
+    }
+
+    #[test]
+    fn exact_scenario_pages_are_translated() {
+        let visitor = administrator_with(Language::Pseudo);
+        let entry = |uploaded| ScenarioEntry { name: "7".into(), title: "8".into(), uploaded };
+        check_translated(&list(&visitor, &[entry(true), entry(false)], None).into_string(), &["TOML"]);
+        let told = [None, Some(UploadMessage::AlreadyImported { id: "1", trainee: "2" })];
+        for told in told {
+            check_translated(&recorded(&visitor, &[entry(true)], &["9".into()], told).into_string(), &["tlog"]);
+        }
+        let mut scenario =
+            spandrel_model::scenario::read("job.toml", spandrel_model::shipped::PRACTICE, &|_| Err(String::new())).unwrap();
+        (scenario.title, scenario.tasks) = ("8".into(), Vec::new());
+        let site = Site::without_defects(&scenario);
+        for entry in [entry(true), entry(false)] {
+            let page = scenario_page(&visitor, &entry, &scenario, &site, "9").into_string();
+            check_translated(&page, &["mph"]);
+            let german = scenario_page(&administrator_with(Language::German), &entry, &scenario, &site, "9").into_string();
+            assert!(german.contains("Zu findende Schäden") && german.contains("<h1>Szenario 7</h1>"), "{german}");
+        }
     }
 }

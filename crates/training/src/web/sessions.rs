@@ -2,7 +2,7 @@
 
 use super::access::{AccessLevel, Visitor};
 use super::assets;
-use super::layout::{page, page_navigation, page_with_script, section, table, token};
+use super::layout::{ELEMENT, page, page_navigation, page_with_script, section, table, token, with_element};
 use super::rubric::MAX_NAME_LEN;
 use super::standing::SessionStanding;
 use crate::advice::SessionAdvice;
@@ -14,7 +14,7 @@ use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// One page of the session list.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +34,7 @@ pub struct SessionList<'a> {
 /// Renders one page of the session list.
 #[must_use]
 pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
+    let language = visitor.language;
     let address = match listing.trainee {
         Some(trainee) => format!("/sessions?trainee={trainee}&"),
         None => "/sessions?".to_owned(),
@@ -43,39 +44,39 @@ pub fn list(visitor: &Visitor, listing: &SessionList<'_>) -> Markup {
             div.tools {
                 @if visitor.satisfies(AccessLevel::Instructor) {
                     form.inline method="get" action="/sessions" {
-                        label { "Trainee " input name="trainee" value=[listing.trainee] maxlength="32" autocapitalize="none"; }
-                        button type="submit" { "Show" }
-                        @if listing.trainee.is_some() { a href="/sessions" { "Show all" } }
+                        label { (text!(language, "sessions-trainee")) " " input name="trainee" value=[listing.trainee] maxlength="32" autocapitalize="none"; }
+                        button type="submit" { (text!(language, "sessions-show")) }
+                        @if listing.trainee.is_some() { a href="/sessions" { (text!(language, "sessions-show-all")) } }
                     }
-                    a href="/upload" { "Import flight" }
+                    a href="/upload" { (text!(language, "sessions-import")) }
                 } @else if let Some(name) = &visitor.name {
-                    a href={ "/trainees/" (name) } { "My progress and plan" }
+                    a href={ "/trainees/" (name) } { (text!(language, "sessions-my-progress")) }
                 }
             }
             @if listing.lines.is_empty() {
-                p.calm { "No sessions yet. Flights appear here after they end." }
+                p.calm { (text!(language, "sessions-none")) }
             } @else {
-                (lines(visitor, &format!("{} sessions, newest first", listing.count), listing.lines))
-                (page_navigation(&address, listing.page, listing.last))
+                (lines(visitor, &text!(language, "sessions-count", count = listing.count), listing.lines))
+                (page_navigation(language, &address, listing.page, listing.last))
             }
         }
     };
-    page(visitor, "/sessions", "Sessions", &body)
+    page(visitor, "/sessions", &text!(language, "sessions-title"), &body)
 }
 
 /// Renders a table of sessions.
 #[must_use]
 pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Markup {
-    let all = visitor.satisfies(AccessLevel::Instructor);
+    let (language, all) = (visitor.language, visitor.satisfies(AccessLevel::Instructor));
     // The columns that fit on a phone without scrolling come first: date, trainee, score.
     let mut heads = vec![
-        ("Started", false),
-        ("Trainee", false),
-        ("Overall", true),
-        ("Certified", false),
-        ("Scenario", false),
-        ("Purpose", false),
-        ("End", false),
+        (text!(language, "sessions-started"), false),
+        (text!(language, "sessions-trainee"), false),
+        (text!(language, "sessions-overall"), true),
+        (text!(language, "sessions-certified"), false),
+        (text!(language, "sessions-scenario"), false),
+        (text!(language, "sessions-purpose"), false),
+        (text!(language, "sessions-end"), false),
     ];
     if !all {
         heads.remove(1);
@@ -88,16 +89,31 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
                 tr {
                     th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
-                    @if one.is_complete() { td.number { (formatting::number(one.overall, 1)) " of " (formatting::number(one.overall_max, 0)) } }
-                    @else { td { (one.completion_summary(Language::English)) } }
-                    td { (one.verdict(Language::English)) }
+                    @if one.is_complete() { td.number { (text!(language, "sessions-overall-of", score = formatting::number(one.overall, 1), most = formatting::number(one.overall_max, 0))) } }
+                    @else { td { (one.completion_summary(language)) } }
+                    td { (one.verdict(language)) }
                     td { (one.scenario) }
                     td { (one.purpose.as_deref().unwrap_or("–")) }
-                    td { (one.end_reason.replace('_', " ")) }
+                    td { (end_text(language, &one.end_reason)) }
                 }
             }
         },
     )
+}
+
+/// Returns why a session ended, from the word in the session's record.
+fn end_text(language: Language, end_reason: &str) -> String {
+    match end_reason {
+        "landed" => text!(language, "sessions-end-landed"),
+        "battery" => text!(language, "sessions-end-battery"),
+        "time_limit" => text!(language, "sessions-end-time-limit"),
+        "person" => text!(language, "sessions-end-person"),
+        "vehicle" => text!(language, "sessions-end-vehicle"),
+        "crash" => text!(language, "sessions-end-crash"),
+        "abort" => text!(language, "sessions-end-abort"),
+        "restart" => text!(language, "sessions-end-restart"),
+        other => other.replace('_', " "),
+    }
 }
 
 /// Session page data that is not part of the session record.
@@ -122,55 +138,64 @@ pub struct SessionPageData<'a> {
 /// Renders a session's page.
 #[must_use]
 pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
+    let language = visitor.language;
+    let (time, end) = (formatting::duration(record.seconds), end_text(language, &record.end_reason));
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
             @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
-            "flight time " (formatting::duration(record.seconds)) ", ended: " (record.end_reason.replace('_', " "))
+            (text!(language, "sessions-flight-time", time = time, end = end))
         }
-        (section("better", "Do better", &to_do_better(record, page_data)))
-        (actions(record, page_data))
+        (section("better", &text!(language, "sessions-better"), &to_do_better(language, record, page_data)))
+        (actions(language, record, page_data))
         @if page_data.folder && (!page_data.marks.is_empty() || visitor.satisfies(AccessLevel::Instructor)) {
-            (section("marks", "Marks", &timeline_marks(visitor, record, page_data.marks)))
+            (section("marks", &text!(language, "sessions-marks"), &timeline_marks(visitor, record, page_data.marks)))
         }
-        @if page_data.video { (section("video", "Video", &video(record, page_data))) }
-        @if !page_data.pictures.is_empty() { (section("pictures", "Photographs", &photographs(record, page_data.pictures))) }
-        (section("scores", "Scores", &scores(record)))
-        @if let Some(certification) = &record.certification { (section("certification", "Certification", &requirements(certification))) }
-        @if !record.tasks.is_empty() { (section("tasks", "Tasks", &tasks(record))) }
-        @if !record.defects.is_empty() { (section("defects", "Defects", &defects(record))) }
-        (section("compare", "Compare with", &compare(record, page_data.others)))
+        @if page_data.video { (section("video", &text!(language, "sessions-video"), &video(language, record, page_data))) }
+        @if !page_data.pictures.is_empty() { (section("pictures", &text!(language, "sessions-pictures"), &photographs(language, record, page_data.pictures))) }
+        (section("scores", &text!(language, "sessions-scores"), &scores(language, record)))
+        @if let Some(certification) = &record.certification { (section("certification", &text!(language, "sessions-certification"), &requirements(language, certification))) }
+        @if !record.tasks.is_empty() { (section("tasks", &text!(language, "sessions-tasks"), &tasks(language, record))) }
+        @if !record.defects.is_empty() { (section("defects", &text!(language, "sessions-defects"), &defects(language, record))) }
+        (section("compare", &text!(language, "sessions-compare-with"), &compare(language, record, page_data.others)))
     };
     let script = page_data.video.then_some(assets::SESSION_NAME);
-    page_with_script(visitor, "/sessions", &format!("Session: {}", record.scenario_with_level()), script, &body)
+    let title = text!(language, "sessions-page", scenario = record.scenario_with_level());
+    page_with_script(visitor, "/sessions", &title, script, &body)
 }
 
 /// Renders the outcome, the things to do better with links to their moments in the report, and the next flight.
-fn to_do_better(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
+fn to_do_better(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     html! {
-        p { b { (record.completion_summary(Language::English)) ". " (record.verdict(Language::English)) "." } }
-        @if let Some(standing) = &page_data.standing { p { (standing_text(standing, record.scores.overall_max)) } }
+        p { b { (record.completion_summary(language)) ". " (record.verdict(language)) "." } }
+        @if let Some(standing) = &page_data.standing { p { (standing_text(language, standing, record.scores.overall_max)) } }
         @if let Some(advice) = page_data.advice {
             @if let Some(note) = &advice.note { p { (note) } }
             ol.advice {
                 @for point in &advice.points {
                     li { (point.words) " "
-                        @if page_data.folder { (moment_link(record, point.t_s, &format!("Show {}", formatting::clock(point.t_s)))) } }
+                        @if page_data.folder { (moment_link(record, point.t_s, &text!(language, "sessions-show-moment", time = formatting::clock(point.t_s)))) } }
                 }
             }
             @if let Some(next) = &advice.next {
-                p { "Next flight: " b { (next.scenario) } ", " code { (next.command) } ". "
-                    a href={ "/trainees/" (record.trainee) } { "Training plan" } }
+                p { (next_flight(language, &next.scenario, &next.command)) " "
+                    a href={ "/trainees/" (record.trainee) } { (text!(language, "sessions-plan")) } }
             }
         }
     }
 }
 
+fn next_flight(language: Language, scenario: &str, command: &str) -> Markup {
+    let sentence = text!(language, "sessions-next-flight", scenario = ELEMENT, command = ELEMENT);
+    let (before, after) = sentence.split_at(sentence.find(ELEMENT).map_or(0, |at| at + ELEMENT.len()));
+    html! { (with_element(before, &html! { b { (scenario) } })) (with_element(after, &html! { code { (command) } })) }
+}
+
 /// Renders the instructor's marks with links to their moments in the report, and the form that adds one.
 fn timeline_marks(visitor: &Visitor, record: &SessionRecord, marks: &[TimelineMark]) -> Markup {
-    let instructor = visitor.satisfies(AccessLevel::Instructor);
+    let (language, instructor) = (visitor.language, visitor.satisfies(AccessLevel::Instructor));
     html! {
-        @if marks.is_empty() { p.calm { "No marks yet. Marks appear on the timeline of the report; they do not change scores." } }
+        @if marks.is_empty() { p.calm { (text!(language, "sessions-no-marks")) } }
         ol.marks {
             @for mark in marks {
                 li { (moment_link(record, mark.t_s, &formatting::clock(mark.t_s))) " " (mark.text) @if !mark.by.is_empty() { span.note { " (" (mark.by) ")" } }
@@ -178,7 +203,7 @@ fn timeline_marks(visitor: &Visitor, record: &SessionRecord, marks: &[TimelineMa
                         form.inline method="post" action={ "/sessions/" (record.id) "/marks/remove" } {
                             (token(visitor))
                             input type="hidden" name="mark" value=(mark.added_unix_us);
-                            button type="submit" aria-label={ "Remove the mark at " (formatting::clock(mark.t_s)) } { "Remove" }
+                            button type="submit" aria-label=(text!(language, "sessions-remove-mark-at", time = formatting::clock(mark.t_s))) { (text!(language, "sessions-remove-mark")) }
                         }
                     }
                 }
@@ -187,10 +212,10 @@ fn timeline_marks(visitor: &Visitor, record: &SessionRecord, marks: &[TimelineMa
         @if instructor {
             form.stacked method="post" action={ "/sessions/" (record.id) "/marks" } {
                 (token(visitor))
-                label { "Time on the report's slider (minutes:seconds)" input name="time" required pattern="[0-9]+(:[0-5][0-9])?" maxlength="10" autocomplete="off" placeholder="1:25"; }
-                label { "Text" input name="text" required maxlength=(MAX_TEXT_LEN) autocomplete="off"; }
-                @if visitor.name.is_none() { label { "Your name" input name="by" required maxlength=(MAX_NAME_LEN) autocomplete="name"; } }
-                button type="submit" { "Add mark" }
+                label { (text!(language, "sessions-mark-time")) input name="time" required pattern="[0-9]+(:[0-5][0-9])?" maxlength="10" autocomplete="off" placeholder="1:25"; }
+                label { (text!(language, "sessions-mark-text")) input name="text" required maxlength=(MAX_TEXT_LEN) autocomplete="off"; }
+                @if visitor.name.is_none() { label { (text!(language, "sessions-your-name")) input name="by" required maxlength=(MAX_NAME_LEN) autocomplete="name"; } }
+                button type="submit" { (text!(language, "sessions-add-mark")) }
             }
         }
     }
@@ -202,14 +227,14 @@ fn moment_link(record: &SessionRecord, t_s: f64, label: &str) -> Markup {
 }
 
 /// Renders the camera's video with buttons for the moments of the advice and the marks.
-fn video(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
+fn video(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     let advice = page_data.advice.into_iter().flat_map(|advice| &advice.points).map(|point| (point.t_s, point.words.as_str()));
     let marks = page_data.marks.iter().map(|mark| (mark.t_s, mark.text.as_str()));
     let mut moments: Vec<(f64, &str)> = advice.chain(marks).collect();
     moments.sort_by(|a, b| a.0.total_cmp(&b.0));
     html! {
         video.flight src={ "/sessions/" (record.id) "/video.mp4" } controls muted playsinline preload="metadata" {
-            track kind="chapters" src={ "/sessions/" (record.id) "/video.vtt" } srclang="en" label="Photographs";
+            track kind="chapters" src={ "/sessions/" (record.id) "/video.vtt" } srclang="en" label=(text!(language, "sessions-pictures"));
         }
         @if !moments.is_empty() {
             ol.moments hidden id="video-moments" {
@@ -222,12 +247,12 @@ fn video(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
 }
 
 /// Renders the photographs with links to their assessment in the report.
-fn photographs(record: &SessionRecord, pictures: &[u32]) -> Markup {
+fn photographs(language: Language, record: &SessionRecord, pictures: &[u32]) -> Markup {
     html! {
         ul.photographs {
             @for (k, file) in pictures.iter().enumerate() {
                 li { a href={ "/sessions/" (record.id) "/report#picture-" (k + 1) } {
-                    img src={ "/sessions/" (record.id) "/pictures/" (file) ".jpg" } alt={ "Picture " (k + 1) } loading="lazy";
+                    img src={ "/sessions/" (record.id) "/pictures/" (file) ".jpg" } alt=(text!(language, "sessions-picture", number = k + 1)) loading="lazy";
                 } }
             }
         }
@@ -235,69 +260,69 @@ fn photographs(record: &SessionRecord, pictures: &[u32]) -> Markup {
 }
 
 /// Describes how a session compares with the trainee's other sessions on the job.
-fn standing_text(standing: &SessionStanding, most: f64) -> String {
+fn standing_text(language: Language, standing: &SessionStanding, most: f64) -> String {
     let best = if standing.is_best {
-        "This is the personal best on this job.".to_owned()
+        text!(language, "sessions-standing-best")
     } else {
-        format!("Personal best on this job: {} of {}.", formatting::number(standing.best, 0), formatting::number(most, 0))
+        let (best, most) = (formatting::number(standing.best, 0), formatting::number(most, 0));
+        text!(language, "sessions-standing-other", best = best, most = most)
     };
-    let points = |change: f64| formatting::number(change.abs(), 0);
-    match standing.change {
-        Some(change) if points(change) == "0" => format!("{best} Change since last time: none."),
-        Some(change) => {
-            format!("{best} Change since last time: {} points {}.", points(change), if change > 0.0 { "up" } else { "down" })
-        }
-        None => best,
-    }
+    let change = standing.change.map(|change| (change, formatting::number(change.abs(), 0)));
+    let change = match change {
+        Some((_, points)) if points == "0" => text!(language, "sessions-standing-same"),
+        Some((change, points)) if change > 0.0 => text!(language, "sessions-standing-up", points = points),
+        Some((_, points)) => text!(language, "sessions-standing-down", points = points),
+        None => return best,
+    };
+    format!("{best} {change}")
 }
 
-fn actions(record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
+fn actions(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     let tasks: Vec<u32> = record.tasks.iter().map(|task| task.id).collect();
     let all = QuestionnaireItem::all(&tasks).len();
     let answered = record.answers.as_ref().map_or(0, |answers| all - answers.open(&tasks).len());
     html! {
         @if page_data.folder {
             ul.actions {
-                li { a.button href={ "/sessions/" (record.id) "/report" } { "Open the report" } }
+                li { a.button href={ "/sessions/" (record.id) "/report" } { (text!(language, "sessions-report")) } }
                 li { a.button href={ "/sessions/" (record.id) "/questions" } {
-                    @if answered == 0 { "Answer the questionnaire" }
-                    @else if answered < all { "Continue the questionnaire (" (answered) " of " (all) ")" }
-                    @else { "View the questionnaire (all " (all) " answered)" }
+                    @if answered == 0 { (text!(language, "sessions-questions-answer")) }
+                    @else if answered < all { (text!(language, "sessions-questions-continue", answered = answered, all = all)) }
+                    @else { (text!(language, "sessions-questions-view", all = all)) }
                 } }
-                li { a href={ "/sessions/" (record.id) "/frames.csv" } { "Frames (CSV)" } }
-                li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { "Telemetry (tlog)" } }
+                li { a href={ "/sessions/" (record.id) "/frames.csv" } { (text!(language, "sessions-frames")) } }
+                li { a href={ "/sessions/" (record.id) "/telemetry.tlog" } { (text!(language, "sessions-telemetry")) } }
             }
         } @else {
-            p.note { "The session folder is not on this machine, so the report, questionnaire and downloads are unavailable." }
+            p.note { (text!(language, "sessions-no-folder")) }
         }
     }
 }
 
 /// Returns the four scores by name, 0 to 100.
-#[must_use]
-pub fn scores_by_name(record: &SessionRecord) -> [(&'static str, Option<f64>); 4] {
+fn scores_by_name(language: Language, record: &SessionRecord) -> [(String, Option<f64>); 4] {
     let scores = &record.scores;
     [
-        ("Conformity", scores.conformity),
-        ("Efficiency", Some(scores.efficiency)),
-        ("Safety", Some(scores.safety)),
-        ("Accuracy", scores.accuracy),
+        (text!(language, "sessions-conformity"), scores.conformity),
+        (text!(language, "sessions-efficiency"), Some(scores.efficiency)),
+        (text!(language, "sessions-safety"), Some(scores.safety)),
+        (text!(language, "sessions-accuracy"), scores.accuracy),
     ]
 }
 
-fn scores(record: &SessionRecord) -> Markup {
+fn scores(language: Language, record: &SessionRecord) -> Markup {
     let spokes: Vec<RadarAxis> =
-        scores_by_name(record).into_iter().map(|(name, value)| RadarAxis { name, values: vec![value] }).collect();
+        scores_by_name(language, record).into_iter().map(|(name, value)| RadarAxis { name, values: vec![value] }).collect();
     html! {
-        p { b { (record.completion_summary(Language::English)) ". " (record.verdict(Language::English)) "." } @if !record.is_complete() { " The scores below cover only the part that was flown." } }
+        p { b { (record.completion_summary(language)) ". " (record.verdict(language)) "." } @if !record.is_complete() { " " (text!(language, "sessions-partial")) } }
         div.split {
-            figure { figcaption { "The four scores, 0 at the center, 100 at the edge" } (radar(&spokes, "Radar chart of the four scores")) }
+            figure { figcaption { (text!(language, "sessions-radar-caption")) } (radar(&spokes, &text!(language, "sessions-radar"))) }
             div.cards {
                 @if record.is_complete() {
-                    div.card { h3 { "Overall" } p.figure { (formatting::number(record.scores.overall, 0)) span.of { " of " (formatting::number(record.scores.overall_max, 0)) } } }
+                    div.card { h3 { (text!(language, "sessions-overall")) } p.figure { (formatting::number(record.scores.overall, 0)) span.of { " " (text!(language, "sessions-of-most", most = formatting::number(record.scores.overall_max, 0))) } } }
                 }
-                @for (name, value) in scores_by_name(record) {
-                    div.card { h3 { (name) } p.figure { @if let Some(value) = value { (formatting::number(value, 0)) } @else { "n/a" } } }
+                @for (name, value) in scores_by_name(language, record) {
+                    div.card { h3 { (name) } p.figure { @if let Some(value) = value { (formatting::number(value, 0)) } @else { (text!(language, "sessions-not-available")) } } }
                 }
             }
         }
@@ -305,98 +330,112 @@ fn scores(record: &SessionRecord) -> Markup {
 }
 
 /// Renders every requirement of the certification profile with its limit and the value reached.
-fn requirements(certification: &CertificationRecord) -> Markup {
+fn requirements(language: Language, certification: &CertificationRecord) -> Markup {
     table(
-        "Requirements",
-        &[("Requirement", false), ("Reached", true), ("Needed", true), ("Met", false)],
+        &text!(language, "sessions-requirements"),
+        &[
+            (text!(language, "sessions-requirement"), false),
+            (text!(language, "sessions-reached"), true),
+            (text!(language, "sessions-needed"), true),
+            (text!(language, "sessions-met"), false),
+        ],
         &html! {
             @for one in &certification.requirements {
                 tr {
-                    th scope="row" { (one.name) }
-                    td.number { (one.reached_text(Language::English)) }
-                    td.number { (one.limit_text(Language::English)) }
-                    td { @if one.met { "yes" } @else { b { "no" } } }
+                    th scope="row" { (one.title(language)) }
+                    td.number { (one.reached_text(language)) }
+                    td.number { (one.limit_text(language)) }
+                    td { @if one.met { (text!(language, "sessions-yes")) } @else { b { (text!(language, "sessions-no")) } } }
                 }
             }
         },
     )
 }
 
-fn tasks(record: &SessionRecord) -> Markup {
+fn tasks(language: Language, record: &SessionRecord) -> Markup {
     let row = |task: &TaskRecord| ShareRow {
         name: format!("{} · {}", task.id, task.name),
         bars: vec![("b-on", task.on_path)],
-        placeholder: (!task.attempted).then_some("not attempted"),
+        placeholder: (!task.attempted).then(|| text!(language, "sessions-not-attempted")),
     };
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
+    let by_task = text!(language, "sessions-on-path-by-task");
     html! {
         div.split {
-            figure { figcaption { "On-path share by task" } (shares(&rows, "On-path share by task")) }
+            figure { figcaption { (by_task) } (shares(&rows, &by_task)) }
             (table(
-                "Task results",
-                &[("Task", false), ("Path flown", false), ("On-path share (%)", true), ("Speeding time (s)", true), ("Crashes", true), ("Defects found", true)],
+                &text!(language, "sessions-task-results"),
+                &[
+                    (text!(language, "sessions-task"), false),
+                    (text!(language, "sessions-path-flown"), false),
+                    (text!(language, "sessions-on-path"), true),
+                    (text!(language, "sessions-speeding"), true),
+                    (text!(language, "sessions-crashes"), true),
+                    (text!(language, "sessions-defects-found"), true),
+                ],
                 &html! {
                     @for task in &record.tasks {
                         tr {
                             th scope="row" { (task.id) " · " (task.name) }
-                            td { (task_completion_text(record, task)) }
+                            td { (task_completion_text(language, record, task)) }
                             td.number { (formatting::number(100.0 * task.on_path, 0)) }
                             td.number { (formatting::number(task.speeding_s, 1)) }
                             td.number { (task.crashes.total()) }
-                            td.number { (task.defects_found) " of " (task.defects_placed) }
+                            td.number { (text!(language, "sessions-found-of", found = task.defects_found, placed = task.defects_placed)) }
                         }
                     }
                 },
             ))
         }
-        @if record.crashes_outside.total() > 0 { p.note { (record.crashes_outside.total()) " crashes outside the tasks." } }
+        @if record.crashes_outside.total() > 0 { p.note { (text!(language, "sessions-crashes-outside", count = record.crashes_outside.total())) } }
     }
 }
 
 /// Describes a task's completion.
-fn task_completion_text(record: &SessionRecord, task: &TaskRecord) -> String {
+fn task_completion_text(language: Language, record: &SessionRecord, task: &TaskRecord) -> String {
     let done_share = record.completion.map_or(0.0, |completion| completion.done_share);
     task.state
         .zip(task.covered)
-        .map_or_else(|| "unknown".to_owned(), |(state, covered)| state.description(covered, done_share, Language::English))
+        .map_or_else(|| text!(language, "sessions-unknown"), |(state, covered)| state.description(covered, done_share, language))
 }
 
-fn defects(record: &SessionRecord) -> Markup {
+fn defects(language: Language, record: &SessionRecord) -> Markup {
+    let found = record.defects.iter().filter(|d| d.found).count();
+    let (placed, hits, pictures) = (record.defects.len(), record.hits, record.snapshots);
     table(
-        &format!(
-            "{} of {} found; {} of {} pictures showed a new defect",
-            record.defects.iter().filter(|d| d.found).count(),
-            record.defects.len(),
-            record.hits,
-            record.snapshots
-        ),
-        &[("Defect", false), ("Task", true), ("Found", false), ("Why the best picture did not count", false)],
+        &text!(language, "sessions-defects-caption", found = found, placed = placed, hits = hits, pictures = pictures),
+        &[
+            (text!(language, "sessions-defect"), false),
+            (text!(language, "sessions-task"), true),
+            (text!(language, "sessions-found"), false),
+            (text!(language, "sessions-why-not"), false),
+        ],
         &html! {
             @for defect in &record.defects {
                 tr {
                     th scope="row" { (defect.id) " · " (defect.kind_name) }
                     td.number { @if let Some(task) = defect.task { (task) } }
-                    td { @if defect.found { "yes" } @else { "no" } }
-                    td { @if !defect.found { @if defect.lacked.is_empty() { "no picture taken nearby" } @else { (defect.lacked.join(", ")) } } }
+                    td { @if defect.found { (text!(language, "sessions-yes")) } @else { (text!(language, "sessions-no")) } }
+                    td { @if !defect.found { @if defect.lacked.is_empty() { (text!(language, "sessions-no-picture")) } @else { (defect.lacked.join(", ")) } } }
                 }
             }
         },
     )
 }
 
-fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
+fn compare(language: Language, record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
     html! {
         @if others.is_empty() {
-            p.calm { "This trainee has no other sessions yet." }
+            p.calm { (text!(language, "sessions-no-others")) }
         } @else {
             form.inline method="get" action="/compare" {
                 input type="hidden" name="first" value=(record.id);
-                label { "Other session "
+                label { (text!(language, "sessions-other")) " "
                     select name="second" {
-                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " @if one.is_complete() { (formatting::number(one.overall, 0)) } @else { "incomplete" } } }
+                        @for one in others { option value=(one.id) { (minute(one.started_unix_us)) ", " (one.scenario) ", " @if one.is_complete() { (formatting::number(one.overall, 0)) } @else { (text!(language, "sessions-incomplete")) } } }
                     }
                 }
-                button type="submit" { "Compare" }
+                button type="submit" { (text!(language, "sessions-compare")) }
             }
         }
     }
@@ -404,7 +443,7 @@ fn compare(record: &SessionRecord, others: &[SessionListEntry]) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, administrator_with, check, check_translated};
     use super::*;
     use crate::advice::{AdvicePoint, NextFlight};
     use crate::testing::{aborted_record, perfect_record};
@@ -519,6 +558,30 @@ mod tests {
             session(&administrator(), &perfect_record("anna", 1), &page_data(true, &[]))
                 .into_string()
                 .contains("<h3>Overall</h3>")
+        );
+    }
+
+    /// Texts of the monitor, which has catalogs of its own.
+    const NAMES: [&str; 1] = ["anna"];
+
+    #[test]
+    fn exact_session_pages_are_translated() {
+        let visitor = administrator_with(Language::Pseudo);
+        let listing = SessionList { lines: &[], trainee: Some("anna"), page: 1, last: 9, count: 401 };
+        check_translated(&list(&visitor, &listing).into_string(), &NAMES);
+        for end in ["landed", "battery", "time_limit", "person", "vehicle", "crash", "abort", "restart"] {
+            let english = end_text(Language::English, end);
+            assert_eq!(english, end.replace('_', " "));
+            assert_ne!(end_text(Language::Pseudo, end), english);
+        }
+        let german = administrator_with(Language::German);
+        let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
+        assert!(text.contains("Bericht öffnen") && text.contains("Wegtreue") && text.contains("Anteil auf der Bahn"), "{text}");
+        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0) };
+        let told = standing_text(Language::German, &standing, 400.0);
+        assert_eq!(
+            told,
+            "Persönliche Bestleistung bei diesem Auftrag: 350 von 400. Änderung seit dem letzten Mal: 30 Punkte mehr."
         );
     }
 

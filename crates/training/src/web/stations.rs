@@ -50,7 +50,7 @@ fn station_table(language: Language, about: &StationsPage<'_>) -> Markup {
         text!(language, "stations-flight"),
         text!(language, "stations-order"),
     ];
-    let heads: Vec<(&str, bool)> = heads.iter().map(|head| (head.as_str(), false)).collect();
+    let heads = heads.map(|head| (head, false));
     let rows = html! {
         @for (name, station) in &about.stations {
             tr {

@@ -2,11 +2,11 @@
 
 use super::access::{AccessLevel, Visitor};
 use super::assignments::trainee_assignments;
-use super::layout::{page, section, table, token};
+use super::layout::{ELEMENT, page, role_text, section, table, token, with_element};
 use super::sessions::lines;
 use crate::assignment::AssignedJob;
 use crate::cohort::{JobReliability, MeasureReliability, by_job, reliability_of};
-use crate::plan::{MeasureChange, TrainingPlan};
+use crate::plan::{DrillProgress, MeasureChange, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
 use crate::report::formatting;
 use crate::report::page::progress::job_progress;
@@ -14,7 +14,7 @@ use crate::report::page::within_error;
 use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Prefix of the fields that contain the values from when the page was opened, used to detect conflicting edits.
 pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
@@ -22,26 +22,44 @@ pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
 /// Renders the list of trainees.
 #[must_use]
 pub fn trainee_list(visitor: &Visitor, people: &[Trainee]) -> Markup {
+    let language = visitor.language;
+    let experience = |given: &Option<String>| given.as_deref().map(|level| experience_text(language, level)).unwrap_or_default();
     let rows = html! {
         @for one in people {
             tr {
                 th scope="row" { a href={ "/trainees/" (one.pseudonym) } { (one.pseudonym) } }
-                td { (one.role.word()) }
+                td { (role_text(language, one.role)) }
                 td { (one.age_band.as_deref().unwrap_or_default()) }
-                td { (one.drone_experience.as_deref().unwrap_or_default()) }
-                td { (one.gaming_experience.as_deref().unwrap_or_default()) }
+                td { (experience(&one.drone_experience)) }
+                td { (experience(&one.gaming_experience)) }
             }
         }
     };
-    let heads = [("Pseudonym", false), ("Role", false), ("Age", false), ("Drones", false), ("Games", false)];
+    let heads = [
+        (text!(language, "people-pseudonym"), false),
+        (text!(language, "people-role"), false),
+        (text!(language, "people-age"), false),
+        (text!(language, "people-drones"), false),
+        (text!(language, "people-games"), false),
+    ];
     let body = html! {
         section {
-            @if people.is_empty() { p.calm { "No trainees yet. Trainees appear here after their first flight." } }
-            @else { (table(&format!("{} users", people.len()), &heads, &rows)) }
-            ul.actions { li { a href="/plan-rules" { "Training plan rules" } } li { a href="/rubric" { "Rubric" } } }
+            @if people.is_empty() { p.calm { (text!(language, "people-no-trainees")) } }
+            @else { (table(&text!(language, "people-users", count = people.len()), &heads, &rows)) }
+            ul.actions { li { a href="/plan-rules" { (text!(language, "people-plan-rules")) } } li { a href="/rubric" { (text!(language, "people-rubric")) } } }
         }
     };
-    page(visitor, "/trainees", "Trainees", &body)
+    page(visitor, "/trainees", &text!(language, "people-trainees"), &body)
+}
+
+/// Returns a level of experience, one of [`EXPERIENCE_LEVELS`], as text.
+fn experience_text(language: Language, level: &str) -> String {
+    match level {
+        "none" => text!(language, "people-experience-none"),
+        "some" => text!(language, "people-experience-some"),
+        "regular" => text!(language, "people-experience-regular"),
+        other => other.to_owned(),
+    }
 }
 
 /// Contents of a trainee's page.
@@ -70,29 +88,29 @@ pub struct TraineeProfile<'a> {
 /// Renders a trainee's page.
 #[must_use]
 pub fn trainee_page(visitor: &Visitor, profile: &TraineeProfile<'_>) -> Markup {
-    let name = &profile.person.pseudonym;
+    let (language, name) = (visitor.language, profile.person.pseudonym.as_str());
     let body = html! {
         @if !profile.classes.is_empty() { p.lead { (class_names(visitor, profile.classes)) } }
-        (section("assignments", "Assignments", &trainee_assignments(visitor, name, profile.jobs)))
-        @if let Some(plan) = profile.plan { (section("plan", "Next flights", &next(plan, profile))) }
-        @if !profile.records.is_empty() { (section("progress", "Progress", &progress(name, profile))) }
-        (section("sessions", "Sessions", &html! {
-            @if profile.listed.is_empty() { p.calm { "No sessions yet." } }
-            @else { (lines(visitor, &format!("{} sessions, newest first", profile.listed.len()), profile.listed)) }
+        (section("assignments", &text!(language, "people-assignments"), &trainee_assignments(visitor, name, profile.jobs)))
+        @if let Some(plan) = profile.plan { (section("plan", &text!(language, "people-next-flights"), &next(language, plan, profile))) }
+        @if !profile.records.is_empty() { (section("progress", &text!(language, "people-progress"), &progress(language, name, profile))) }
+        (section("sessions", &text!(language, "people-sessions"), &html! {
+            @if profile.listed.is_empty() { p.calm { (text!(language, "people-no-sessions")) } }
+            @else { (lines(visitor, &text!(language, "sessions-count", count = profile.listed.len()), profile.listed)) }
         }))
-        (section("rubric", "Rubric", &html! { p { a href={ "/trainees/" (name) "/rubric" } { (profile.rubric) } } }))
-        (section("details", "Details", &details(visitor, profile.person)))
-        (section("data", "Data", &html! {
-            p { a href={ "/trainees/" (name) "/export.json" } { "Download all data for " (name) } }
+        (section("rubric", &text!(language, "people-rubric"), &html! { p { a href={ "/trainees/" (name) "/rubric" } { (profile.rubric) } } }))
+        (section("details", &text!(language, "people-details"), &details(visitor, profile.person)))
+        (section("data", &text!(language, "people-data"), &html! {
+            p { a href={ "/trainees/" (name) "/export.json" } { (text!(language, "people-download", name = name)) } }
             @if visitor.satisfies(AccessLevel::Administrator) { (erase(visitor, name)) }
         }))
     };
-    page(visitor, "/trainees", &format!("Trainee {name}"), &body)
+    page(visitor, "/trainees", &text!(language, "people-trainee", name = name), &body)
 }
 
 fn class_names(visitor: &Visitor, classes: &[String]) -> Markup {
     html! {
-        (if classes.len() == 1 { "Class: " } else { "Classes: " })
+        (text!(visitor.language, "people-of-classes", count = classes.len())) " "
         @for (k, name) in classes.iter().enumerate() {
             @if k > 0 { ", " }
             @if visitor.satisfies(AccessLevel::Instructor) { a href={ "/classes/" (name) } { (name) } } @else { (name) }
@@ -100,31 +118,51 @@ fn class_names(visitor: &Visitor, classes: &[String]) -> Markup {
     }
 }
 
-fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
+fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
     let told = |change: &&MeasureChange| change.better.is_some();
+    let (from, until) = (minute(plan.from_unix_us), minute(plan.until_unix_us));
     html! {
-        p { "Fly between " (minute(plan.from_unix_us)) " and " (minute(plan.until_unix_us)) "." @if plan.overdue { " " b { "It has been a long time since the last flight, and skills fade without practice." } } }
+        p { (text!(language, "people-plan-between", from = from, until = until)) @if plan.overdue { " " b { (text!(language, "people-plan-overdue")) } } }
         ol.steps {
             @for step in &plan.steps {
-                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } @if let Some(level) = &step.level { p { (level.words) } } ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } } }
+                li { b { a href={ "/scenarios/" (step.scenario) } { (step.scenario) } } @if let Some(level) = &step.level { p { (level.words) } } ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { (text!(language, "people-plan-consequence", reason = reason.words.as_str())) } @else { (reason.words) } } } } }
             }
         }
         @if let Some(note) = &plan.note { p.note { (note) } }
         @if !plan.drills.is_empty() {
-            h3 { "Drills" }
-            ul { @for drill in &plan.drills { li { (drill.scenario) ": " (drill.words(Language::English)) @if let Some(next) = &drill.next_level { "; next level: " (next.level) } "." } } }
+            h3 { (text!(language, "people-plan-drills")) }
+            ul { @for drill in &plan.drills { li { (drill_line(language, drill)) } } }
         }
-        @if let Some(words) = excluded_sessions_note(plan.left_out, Language::English) { p.note { (words) "." } }
+        @if let Some(words) = excluded_sessions_note(plan.left_out, language) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
-            h3 { "Changes" }
-            p.note { "Compared with " a href={ "/sessions/" (changes.since) } { "the previous session on the same job" } "." }
+            h3 { (text!(language, "people-changes")) }
+            @let previous = html! { a href={ "/sessions/" (changes.since) } { (text!(language, "people-changes-session")) } };
+            p.note { (with_element(&text!(language, "people-changes-compared", session = ELEMENT), &previous)) }
             @let known = reliability_of_session(profile, &changes.since);
             ul {
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) @if change_is_within_error(change, known) { " (" (within_error::words(true)) ")" } }
+                    li { (change_line(language, change)) @if change_is_within_error(change, known) { " (" (within_error::words(true)) ")" } }
                 }
             }
         }
+    }
+}
+
+fn drill_line(language: Language, drill: &DrillProgress) -> String {
+    let (name, progress) = (drill.scenario.as_str(), drill.words(language));
+    match &drill.next_level {
+        Some(next) => text!(language, "people-plan-drill-next", drill = name, progress = progress, level = next.level),
+        None => text!(language, "people-plan-drill", drill = name, progress = progress),
+    }
+}
+
+fn change_line(language: Language, change: &MeasureChange) -> String {
+    let (before, now) = (formatting::number(change.before, 1), formatting::number(change.now, 1));
+    let what = change.what.as_str();
+    if change.better == Some(true) {
+        text!(language, "people-change-better", what = what, before = before, now = now)
+    } else {
+        text!(language, "people-change-worse", what = what, before = before, now = now)
     }
 }
 
@@ -139,57 +177,59 @@ fn change_is_within_error(change: &MeasureChange, known: &[MeasureReliability]) 
 }
 
 /// Renders progress separately for each job because practice on one says little about another.
-fn progress(name: &str, profile: &TraineeProfile<'_>) -> Markup {
+fn progress(language: Language, name: &str, profile: &TraineeProfile<'_>) -> Markup {
     let (records, incomplete) = (profile.records, profile.incomplete);
     let unfinished = records.iter().filter(|record| !record.is_complete()).count();
     html! {
         @if unfinished > 0 { p {
             @match incomplete {
-                IncompletePolicy::Exclude => a href={ "/trainees/" (name) "?incomplete=1" } { "Include incomplete sessions" },
-                IncompletePolicy::Include => a href={ "/trainees/" (name) } { "Exclude incomplete sessions" },
+                IncompletePolicy::Exclude => a href={ "/trainees/" (name) "?incomplete=1" } { (text!(language, "people-include-incomplete")) },
+                IncompletePolicy::Include => a href={ "/trainees/" (name) } { (text!(language, "people-exclude-incomplete")) },
             }
         } }
         @for job in by_job(records, incomplete, profile.reliability) {
-            @let times = job.progress.repetitions.len();
-            h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
+            @let sessions = text!(language, "people-job-sessions", count = job.progress.repetitions.len());
+            h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (sessions) }
             (job_progress(&job))
         }
     }
 }
 
 fn details(visitor: &Visitor, person: &Trainee) -> Markup {
-    let choice = |name: &str, label: &str, given: Option<&str>, all: &[&str]| {
+    let language = visitor.language;
+    let choice = |name: &str, label: String, given: Option<&str>, all: &[&str]| {
         html! {
             input type="hidden" name={ (ORIGINAL_VALUE_PREFIX) (name) } value=(given.unwrap_or_default());
             label { (label)
                 select name=(name) {
-                    option value="" selected[given.is_none()] { "not specified" }
-                    @for one in all { option value=(one) selected[given == Some(one)] { (one) } }
+                    option value="" selected[given.is_none()] { (text!(language, "people-not-specified")) }
+                    @for one in all { option value=(one) selected[given == Some(one)] { (experience_text(language, one)) } }
                 }
             }
         }
     };
     html! {
-        p { "Role: " (person.role.word()) ". The following information is optional and used only for the study." }
+        p { (text!(language, "people-details-note", role = role_text(language, person.role))) }
         form.stacked method="post" action={ "/trainees/" (person.pseudonym) "/details" } {
             (token(visitor))
-            (choice("age_band", "Age (years)", person.age_band.as_deref(), AGE_BANDS))
-            (choice("drone_experience", "Experience with drones", person.drone_experience.as_deref(), EXPERIENCE_LEVELS))
-            (choice("gaming_experience", "Experience with video games", person.gaming_experience.as_deref(), EXPERIENCE_LEVELS))
-            button type="submit" { "Save" }
+            (choice("age_band", text!(language, "people-age-years"), person.age_band.as_deref(), AGE_BANDS))
+            (choice("drone_experience", text!(language, "people-drone-experience"), person.drone_experience.as_deref(), EXPERIENCE_LEVELS))
+            (choice("gaming_experience", text!(language, "people-gaming-experience"), person.gaming_experience.as_deref(), EXPERIENCE_LEVELS))
+            button type="submit" { (text!(language, "people-save")) }
         }
     }
 }
 
 fn erase(visitor: &Visitor, name: &str) -> Markup {
+    let language = visitor.language;
     html! {
         details {
-            summary { "Erase" }
+            summary { (text!(language, "people-erase")) }
             form.stacked method="post" action={ "/trainees/" (name) "/erase" } {
                 (token(visitor))
-                p { "This erases " (name) " and all their sessions, answers and session folders. This cannot be undone." }
-                label { "Enter the pseudonym to confirm" input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
-                button.danger type="submit" { "Erase permanently" }
+                p { (text!(language, "people-erase-note", name = name)) }
+                label { (text!(language, "people-erase-again")) input name="again" required maxlength="32" autocomplete="off" autocapitalize="none"; }
+                button.danger type="submit" { (text!(language, "people-erase-button")) }
             }
         }
     }
@@ -197,7 +237,7 @@ fn erase(visitor: &Visitor, name: &str) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::tests::{HOSTILE_NAME, administrator, check};
+    use super::super::layout::tests::{HOSTILE_NAME, administrator, administrator_with, check, check_translated};
     use super::*;
     use crate::plan::{DEFAULT_RULES, plan, read_rules};
     use crate::testing::{aborted_record, perfect_record};
@@ -244,6 +284,33 @@ mod tests {
         let instructor = Visitor { role: Role::Instructor, ..administrator() };
         assert!(!trainee_page(&instructor, &profile).into_string().contains("Erase permanently"));
         check(&trainee_list(&administrator(), &[person]).into_string());
+    }
+
+    #[test]
+    fn exact_trainee_pages_are_translated() {
+        let levels = [Some("none".to_owned()), Some("some".to_owned()), Some("regular".to_owned())];
+        let person = |level: &Option<String>| Trainee {
+            drone_experience: level.clone(),
+            gaming_experience: level.clone(),
+            ..Trainee::new("anna")
+        };
+        let people: Vec<Trainee> = levels.iter().map(person).collect();
+        let visitor = administrator_with(Language::Pseudo);
+        check_translated(&trainee_list(&visitor, &people).into_string(), &["anna"]);
+        let profile = TraineeProfile {
+            person: &people[0],
+            records: &[],
+            listed: &[],
+            jobs: &[],
+            classes: &["7".to_owned()],
+            rubric: "7",
+            plan: None,
+            incomplete: IncompletePolicy::Exclude,
+            reliability: &JobReliability::new(),
+        };
+        check_translated(&trainee_page(&visitor, &profile).into_string(), &["anna"]);
+        let german = trainee_page(&administrator_with(Language::German), &profile).into_string();
+        assert!(german.contains("Klasse: ") && german.contains("Erfahrung mit Drohnen"), "{german}");
     }
 
     #[test]

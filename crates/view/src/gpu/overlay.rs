@@ -56,8 +56,7 @@ impl Overlay {
         let size = egui::vec2(size_px.0 as f32, size_px.1 as f32);
         let rect = Rect::from_min_size(Pos2::ZERO, size);
         let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
-        let mut output =
-            self.context.run_ui(input, |ui| contents(&ui.ctx().layer_painter(egui::LayerId::background()), rect));
+        let mut output = self.context.run_ui(input, |ui| contents(&ui.ctx().layer_painter(egui::LayerId::background()), rect));
         let mut changes = std::mem::take(&mut output.textures_delta);
         for (id, deltas) in &changes.set {
             for delta in deltas {

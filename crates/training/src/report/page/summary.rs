@@ -60,7 +60,7 @@ pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
     let spokes: Vec<RadarAxis> = scores_by_name(scores)
         .iter()
-        .map(|(name, score)| RadarAxis { name, values: vec![score.map(|score| score.pct)] })
+        .map(|(name, score)| RadarAxis { name: (*name).to_owned(), values: vec![score.map(|score| score.pct)] })
         .collect();
     html! {
         p { (review.assessment.completion.headline(Language::English)) "." @if !review.assessment.completion.complete { " The scores below cover only the part that was flown." } }

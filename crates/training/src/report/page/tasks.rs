@@ -50,7 +50,7 @@ fn rows(review: &Review) -> Vec<ShareRow> {
         ShareRow {
             name: format!("{} · {}", task.id, review.scenario.tasks[k].name),
             bars: vec![("b-on", task.on_path), ("b-speeding", share(facts.speeding_s))],
-            placeholder: (!task.attempted).then_some("not attempted"),
+            placeholder: (!task.attempted).then(|| "not attempted".to_owned()),
         }
     };
     review.assessment.tasks.iter().enumerate().map(row).collect()

@@ -13,7 +13,7 @@ const RADIUS: f64 = 118.0;
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarAxis {
     /// Score name.
-    pub name: &'static str,
+    pub name: String,
     /// Value for each session, 0 to 100; `None` if the score does not apply.
     pub values: Vec<Option<f64>>,
 }
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn exact_radar_polygon_skips_missing_scores() {
-        let spoke = |name, value| RadarAxis { name, values: vec![value] };
+        let spoke = |name: &str, value| RadarAxis { name: name.to_owned(), values: vec![value] };
         let figure = radar(&[spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)], "t");
         let figure = figure.into_string();
         assert!(figure.contains("d=\"M210 68L269 186L210 186Z\""), "{figure}");

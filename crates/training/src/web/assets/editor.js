@@ -12,6 +12,7 @@ const findings = document.getElementById("findings");
 const preview = document.getElementById("preview");
 const stale = document.getElementById("stale");
 const placingStatus = document.getElementById("placing");
+const texts = JSON.parse(editor.dataset.texts);
 
 // Text of the saved file; null if it was never saved.
 const saved = editor.dataset.unsaved === "true" ? null : area.defaultValue;
@@ -69,7 +70,7 @@ async function checkAll() {
       // Fields keep their values. A change of the form's structure is repeated with its button.
       edits = [...sent.edits, ...edits].filter((edit) => edit.set !== undefined);
       focusNext = null;
-      say(status, `Not checked: ${error.message}. Your changes are kept on this page.`);
+      say(status, error.words ?? texts.not_checked.replace("{reason}", error.message));
       return false;
     }
   }
@@ -79,7 +80,10 @@ async function checkAll() {
 async function ask({ text, edits: list }) {
   const body = new URLSearchParams({ token: form.elements.token.value, opened: form.elements.opened.value, text, edits: JSON.stringify(list), shape });
   const answer = await fetch("/scenario-editor/check", { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
-  if (!answer.ok) throw new Error(answer.status ? `HTTP status ${answer.status}` : "login required");
+  if (!answer.ok) {
+    const words = answer.status ? texts.not_checked_status.replace("{status}", answer.status) : texts.not_checked_login;
+    throw Object.assign(new Error(words), { words });
+  }
   return answer.json();
 }
 
@@ -248,12 +252,12 @@ function startPlacing(button) {
   const plan = preview.querySelector("[data-plan]");
   if (plan === null) {
     placing = null;
-    say(placingStatus, "There is no plan yet: the scenario must be valid first.");
+    say(placingStatus, texts.no_plan);
     return;
   }
   preview.classList.add("placing");
   plan.scrollIntoView({ block: "nearest" });
-  say(placingStatus, "Click the site plan to set east and north, or press Escape.");
+  say(placingStatus, texts.place);
 }
 
 function stopPlacing() {
@@ -300,7 +304,7 @@ form.addEventListener("submit", (event) => {
 });
 
 async function download() {
-  if (edits.length > 0 && !(await checkNow())) say(status, `${status.textContent} Downloaded without the latest changes in the form.`);
+  if (edits.length > 0 && !(await checkNow())) say(status, texts.downloaded.replace("{status}", status.textContent));
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([area.value], { type: "application/toml" }));
   link.download = `${document.getElementById("field-name")?.value || "scenario"}.toml`;

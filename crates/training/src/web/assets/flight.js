@@ -5,9 +5,9 @@ const camera = root.querySelector("[data-camera]");
 const EVERY_MS = 1000;
 
 function show({ flying, picture }) {
-  if (!flying) state.textContent = "No flight in progress. This page updates when your flight starts.";
-  else if (picture === null) state.textContent = "Flight in progress. The camera image is available only in the simulator window.";
-  else state.textContent = "Flight in progress.";
+  if (!flying) state.textContent = texts.none;
+  else if (picture === null) state.textContent = texts.window;
+  else state.textContent = texts.flying;
   showPicture(camera, picture, "/flight/camera.jpg?");
 }
 
@@ -17,10 +17,10 @@ async function look() {
     if (!document.hidden) {
       const answer = await fetch("/flight/now.json", { redirect: "manual" });
       if (answer.ok) show(await answer.json());
-      else state.textContent = `Not connected: ${answer.status ? `HTTP status ${answer.status}` : "please log in"}`;
+      else state.textContent = answer.status ? texts.status.replace("{status}", answer.status) : texts.login;
     }
   } catch (error) {
-    state.textContent = "Not connected";
+    state.textContent = texts.not_connected;
   }
   setTimeout(look, EVERY_MS);
 }

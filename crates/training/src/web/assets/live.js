@@ -54,6 +54,8 @@ function tell(words) {
     const item = document.createElement("li");
     item.className = one.kind;
     item.textContent = `${clock(one.t_s)} ${one.words}`;
+    // Messages and cues of the vehicle are in English.
+    item.lang = "en";
     list.prepend(item);
   }
   while (list.children.length > 60) list.lastChild.remove();
@@ -66,6 +68,7 @@ function cues(names) {
   list.replaceChildren(...names.map((name) => {
     const item = document.createElement("li");
     item.textContent = name;
+    item.lang = "en";
     return item;
   }));
 }
@@ -82,16 +85,16 @@ function show(now) {
     root.classList.add("live");
     move(now.place);
   }
-  put("task", now.task ?? "off path");
-  put("step", now.step ?? "–");
+  put("task", now.task ?? texts.off_path);
+  put("step", stepText(now) ?? "–");
   put("progress", now.progress === null ? "–" : `${Math.floor(100 * now.progress)}%`);
   put("time", clock(now.t_s));
   put("speed", number(now.speed_m_s, 1, "m/s"));
   put("height", number(now.height_m, 1, "m"));
   put("clearance", number(now.clearance_m, 1, "m"));
   put("battery", number(now.battery_pct, 0, "%"));
-  put("traffic", now.traffic);
-  put("contact", now.contact);
+  put("traffic", texts[`traffic_${now.traffic}`]);
+  put("contact", texts[`contact_${now.contact}`]);
   showPicture(root.querySelector("[data-camera]"), now.picture, `/live/camera.jpg?vehicle=${root.dataset.vehicle}&`);
   cues(now.cues);
   tell(now.words);
@@ -102,7 +105,7 @@ if ("live" in root.dataset) {
   const source = new EventSource(`/live/stream?vehicle=${root.dataset.vehicle}`);
   source.onmessage = (event) => show(JSON.parse(event.data));
   source.onerror = () => {
-    state.textContent = "Not connected";
+    state.textContent = texts.not_connected;
     state.classList.remove("on");
   };
 }
@@ -115,10 +118,10 @@ for (const form of root.querySelectorAll("form[data-act]")) {
       // A redirect leads to the login page; the action was not performed.
       const answer = await fetch(form.action, { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
       if (answer.ok) form.querySelector("input[name=text]")?.form.reset();
-      else state.textContent = `Failed: ${answer.status ? `HTTP status ${answer.status}` : "please log in"}`;
+      else state.textContent = answer.status ? texts.failed_status.replace("{status}", answer.status) : texts.failed_login;
     } catch (error) {
       console.error(error);
-      state.textContent = "Failed: no response from the server";
+      state.textContent = texts.failed_silent;
     }
   });
 }

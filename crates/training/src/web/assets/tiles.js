@@ -11,16 +11,18 @@ function put(tile, key, value) {
 function showCue(tile, now) {
   const at = tile.querySelector("[data-cue]");
   at.classList.toggle("on", now.cues.length > 0);
+  // Cues of the vehicle are in English.
+  at.lang = now.last_cue === null ? language : "en";
   if (now.cues.length > 0) at.textContent = now.cues.join(" · ");
-  else at.textContent = now.last_cue === null ? "none yet" : `${clock(now.last_cue.t_s)} ${now.last_cue.words}`;
+  else at.textContent = now.last_cue === null ? texts.tile_no_cue : `${clock(now.last_cue.t_s)} ${now.last_cue.words}`;
 }
 
 function show(tile, now) {
-  put(tile, "who", now.trainee ?? `Vehicle ${tile.dataset.tile}`);
+  put(tile, "who", now.trainee ?? texts.tile_vehicle.replace("{number}", tile.dataset.tile));
   const state = tile.querySelector("[data-state]");
   state.textContent = flightState(now);
   state.classList.toggle("on", now.heard);
-  put(tile, "task", now.step ?? now.task ?? "off path");
+  put(tile, "task", stepText(now) ?? now.task ?? texts.off_path);
   put(tile, "time", clock(now.t_s));
   put(tile, "battery", number(now.battery_pct, 0, "%"));
   showCue(tile, now);
@@ -55,11 +57,11 @@ async function look() {
         }
         tiles.forEach((tile, k) => { if (vehicles[k]) show(tile, vehicles[k]); });
       } else {
-        disconnected(answer.status ? `HTTP status ${answer.status}` : "please log in");
+        disconnected(answer.status ? texts.tile_status.replace("{status}", answer.status) : texts.tile_login);
       }
     }
   } catch (error) {
-    disconnected("not connected");
+    disconnected(texts.tile_not_connected);
   }
   setTimeout(look, EVERY_MS);
 }

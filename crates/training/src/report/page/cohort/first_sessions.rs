@@ -50,7 +50,7 @@ fn individual_results(cohort: &Cohort) -> Markup {
                 .zip(["dot-1", "dot-2", "dot-3", "dot-4"].iter().cycle())
                 .map(|(task, class)| (*class, task.on_path))
                 .collect(),
-            placeholder: one.tasks.is_empty().then_some("no tasks"),
+            placeholder: one.tasks.is_empty().then(|| "no tasks".to_owned()),
         })
         .collect();
     let key: Vec<(&str, String)> = cohort

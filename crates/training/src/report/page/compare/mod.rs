@@ -25,7 +25,7 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
     let named = both.map(|review| summary::scores_by_name(&review.assessment.scores));
     let spokes: Vec<RadarAxis> = (0..4)
         .map(|k| RadarAxis {
-            name: named[0][k].0,
+            name: named[0][k].0.to_owned(),
             values: named.iter().map(|scores| scores[k].1.map(|score| score.pct)).collect(),
         })
         .collect();

@@ -1,0 +1,106 @@
+sessions-title = Sesiones
+sessions-trainee = Alumno/a
+sessions-show = Mostrar
+sessions-show-all = Mostrar todas
+sessions-import = Importar vuelo
+sessions-my-progress = Mi progreso y plan
+sessions-none = Aún no hay sesiones. Los vuelos aparecen aquí cuando terminan.
+sessions-count =
+    { $count ->
+        [one] { $count } sesión, las más recientes primero
+       *[other] { $count } sesiones, las más recientes primero
+    }
+sessions-started = Inicio
+sessions-overall = Total
+sessions-overall-of = { $score } de { $most }
+sessions-certified = Certificado
+sessions-scenario = Escenario
+sessions-purpose = Propósito
+sessions-end = Fin
+sessions-end-landed = aterrizaje
+sessions-end-battery = batería
+sessions-end-time-limit = límite de tiempo
+sessions-end-person = persona
+sessions-end-vehicle = vehículo
+sessions-end-crash = colisión
+sessions-end-abort = interrupción
+sessions-end-restart = reinicio
+
+sessions-page = Sesión: { $scenario }
+sessions-flight-time = tiempo de vuelo { $time }, fin: { $end }
+sessions-better = Para mejorar
+sessions-marks = Marcas
+sessions-video = Video
+sessions-pictures = Fotografías
+sessions-scores = Puntuaciones
+sessions-certification = Certificación
+sessions-tasks = Tareas
+sessions-defects = Defectos
+sessions-compare-with = Comparar con
+sessions-show-moment = Mostrar { $time }
+sessions-next-flight = Próximo vuelo: { $scenario }, { $command }.
+sessions-plan = Plan de entrenamiento
+sessions-no-marks = Aún no hay marcas. Las marcas aparecen en la línea de tiempo del informe; no cambian la puntuación.
+sessions-remove-mark = Quitar
+sessions-remove-mark-at = Quitar la marca de { $time }
+sessions-mark-time = Tiempo en el control deslizante del informe (minutos:segundos)
+sessions-mark-text = Texto
+sessions-your-name = Su nombre
+sessions-add-mark = Agregar marca
+sessions-mark-time-invalid = time = { $value }: tiempo no válido (permitido: de 0:00 a { $end }, minutos y segundos)
+sessions-too-many-marks = Ya hay { $most } marcas: quite una primero.
+sessions-picture = Imagen { $number }
+sessions-standing-best = Esta es la mejor marca personal en este trabajo.
+sessions-standing-other = Mejor marca personal en este trabajo: { $best } de { $most }.
+sessions-standing-same = Cambio desde la última vez: ninguno.
+sessions-standing-up = Cambio desde la última vez: { $points } puntos más.
+sessions-standing-down = Cambio desde la última vez: { $points } puntos menos.
+sessions-report = Abrir el informe
+sessions-questions-answer = Responder el cuestionario
+sessions-questions-continue = Continuar el cuestionario ({ $answered } de { $all })
+sessions-questions-view = Ver el cuestionario ({ $all } respondidas, todas)
+sessions-frames = Fotogramas (CSV)
+sessions-telemetry = Telemetría (tlog)
+sessions-no-folder = La carpeta de la sesión no está en este equipo; por eso, el informe, el cuestionario y las descargas no están disponibles.
+sessions-conformity = Conformidad
+sessions-efficiency = Eficiencia
+sessions-safety = Seguridad
+sessions-accuracy = Exactitud
+sessions-partial = Las puntuaciones siguientes abarcan solo la parte volada.
+sessions-radar-caption = Las cuatro puntuaciones, 0 en el centro, 100 en el borde
+sessions-radar = Gráfico radial de las cuatro puntuaciones
+sessions-of-most = de { $most }
+sessions-not-available = n/d
+sessions-requirements = Requisitos
+sessions-requirement = Requisito
+sessions-reached = Alcanzado
+sessions-needed = Necesario
+sessions-met = Cumplido
+sessions-yes = sí
+sessions-no = no
+sessions-not-attempted = no se intentó
+sessions-on-path-by-task = Parte en la trayectoria por tarea
+sessions-task-results = Resultados de las tareas
+sessions-task = Tarea
+sessions-path-flown = Trayectoria volada
+sessions-on-path = Parte en la trayectoria (%)
+sessions-speeding = Tiempo con exceso de velocidad (s)
+sessions-crashes = Colisiones
+sessions-defects-found = Defectos encontrados
+sessions-found-of = { $found } de { $placed }
+sessions-crashes-outside =
+    { $count ->
+        [one] { $count } colisión fuera de las tareas.
+       *[other] { $count } colisiones fuera de las tareas.
+    }
+sessions-unknown = desconocido
+sessions-defects-caption = { $found } de { $placed } encontrados; { $hits } de { $pictures } imágenes mostraron un defecto nuevo
+sessions-defect = Defecto
+sessions-found = Encontrado
+sessions-why-not = Por qué la mejor imagen no contó
+sessions-no-picture = no se tomó ninguna imagen cerca
+sessions-no-others = Este alumno o alumna aún no tiene otras sesiones.
+sessions-other = Otra sesión
+sessions-incomplete = incompleta
+sessions-compare = Comparar
+sessions-compare-missing = { $field }: falta (se requiere un identificador de sesión)

@@ -1,0 +1,98 @@
+//! The next step of a flight in progress, in all languages.
+
+use serde_json::{Map, Value};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+use spandrel_text::{Language, text};
+
+/// Smallest turn that is worth mentioning, deg, as in the text messages of the vehicle.
+const MIN_TURN_DEG: f64 = 5.0;
+/// Smallest height difference that is worth mentioning, m, as in the text messages of the vehicle.
+const MIN_HEIGHT_M: f64 = 1.0;
+
+/// Returns the step in each language, by the language's tag.
+pub(super) fn step_texts(guidance: &Guidance) -> Value {
+    let texts = Language::ALL.map(|language| (language.tag().to_owned(), step_text(language, guidance).into()));
+    Value::Object(Map::from_iter(texts))
+}
+
+fn step_text(language: Language, guidance: &Guidance) -> String {
+    let way = guidance.way.map(|way| way_text(language, &way));
+    let of_task = |step: String| match guidance.task {
+        Some(task) => text!(language, "live-step-of-task", task = task, step = step),
+        None => step,
+    };
+    match (guidance.step, way) {
+        (GuidanceStep::TakeOff, _) => text!(language, "live-step-take-off"),
+        (GuidanceStep::FlyToTask, Some(way)) => of_task(way),
+        (GuidanceStep::FlyToTask, None) => of_task(text!(language, "live-step-fly-to-path")),
+        (GuidanceStep::FollowPath, _) => of_task(text!(language, "live-step-follow-path")),
+        (GuidanceStep::FlyHome, Some(way)) => text!(language, "live-step-fly-home-way", way = way),
+        (GuidanceStep::FlyHome, None) => text!(language, "live-step-fly-home"),
+        (GuidanceStep::Land, _) => text!(language, "live-step-land"),
+        (GuidanceStep::Over, _) => text!(language, "live-step-over"),
+        (GuidanceStep::HoldPosition, _) => of_task(text!(language, "live-step-hold")),
+    }
+}
+
+fn way_text(language: Language, way: &WayTo) -> String {
+    let turn_deg = way.bearing_rad.to_degrees();
+    let (distance, angle) = (format!("{:.0}", way.distance_m), format!("{:.0}", turn_deg.abs()));
+    let horizontal = if turn_deg.abs() < MIN_TURN_DEG {
+        text!(language, "live-way-ahead", distance = distance)
+    } else if turn_deg.abs() > 180.0 - MIN_TURN_DEG {
+        text!(language, "live-way-behind", distance = distance)
+    } else if turn_deg < 0.0 {
+        text!(language, "live-way-left", distance = distance, angle = angle)
+    } else {
+        text!(language, "live-way-right", distance = distance, angle = angle)
+    };
+    let height = format!("{:.0}", way.up_m.abs());
+    if way.up_m.abs() < MIN_HEIGHT_M {
+        horizontal
+    } else if way.up_m < 0.0 {
+        text!(language, "live-way-down", way = horizontal, height = height)
+    } else {
+        text!(language, "live-way-up", way = horizontal, height = height)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEPS: [GuidanceStep; 7] = [
+        GuidanceStep::TakeOff,
+        GuidanceStep::FlyToTask,
+        GuidanceStep::FollowPath,
+        GuidanceStep::FlyHome,
+        GuidanceStep::Land,
+        GuidanceStep::Over,
+        GuidanceStep::HoldPosition,
+    ];
+
+    #[test]
+    fn exact_english_steps_are_those_of_the_text_messages() {
+        let way = |bearing_rad, up_m| Some(WayTo { distance_m: 140.4, bearing_rad, up_m });
+        let ways = [None, way(0.01, 0.5), way(-0.5, 12.0), way(0.5, -12.0), way(3.14, 0.0)];
+        for (step, way) in STEPS.into_iter().flat_map(|step| ways.map(|way| (step, way))) {
+            for task in [None, Some(2)] {
+                let guidance = Guidance {
+                    step,
+                    task,
+                    way,
+                    progress: None,
+                    tasks_done: 1,
+                    tasks: 4,
+                    deviation: None,
+                    stand_off: None,
+                    flown_s: 75.0,
+                    needed_s: 480.0,
+                };
+                assert_eq!(step_text(Language::English, &guidance), guidance.words());
+                let german = step_text(Language::German, &guidance);
+                assert_ne!(german, guidance.words());
+                assert_eq!(step_texts(&guidance)["de"], german);
+            }
+        }
+    }
+}
