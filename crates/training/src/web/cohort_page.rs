@@ -6,6 +6,7 @@ use crate::cohort::Cohort;
 use crate::record::{IncompletePolicy, excluded_sessions_note};
 use crate::report::page::cohort::{TableLinks, sections, summary_lines};
 use maud::{Markup, html};
+use spandrel_text::Language;
 
 /// The form's selection.
 #[derive(Debug, Clone, Copy)]
@@ -40,12 +41,12 @@ pub fn cohort_page(visitor: &Visitor, selection: &CohortPageSelection<'_>, cohor
                 @if cohort.is_some() { a href={ "/cohort/report.html?" (query(selection)) } { "Download as offline page" } }
             }
             @match cohort {
-                Some(cohort) => (summary_lines(cohort)),
+                Some(cohort) => (summary_lines(cohort, Language::English)),
                 None => p.calm { "No sessions yet." @if let Some(words) = excluded_sessions_note(selection.left_out) { " " (words) "." } },
             }
         }
         @if let Some(cohort) = cohort {
-            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(selection)))) { (section(id, name, &body)) }
+            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(selection))), Language::English) { (section(id, &name, &body)) }
         }
     };
     page(visitor, "/cohort", "Cohort", &body)

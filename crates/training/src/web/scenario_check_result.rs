@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::site::Site;
 use spandrel_model::toml::{Problem, split_displayed};
+use spandrel_text::Language;
 
 /// Result of a check.
 pub struct CheckedScenario {
@@ -70,14 +71,14 @@ fn preview(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Markup> {
     let scroll = |label: &str, drawing: &Markup| html! { div.scroll tabindex="0" role="region" aria-label=(label) { (drawing) } };
     let sides = scenario.bridges.iter().take_while(|_| (options.may_continue)());
     Some(html! {
-        figure { (site_picture(scenario, &site)) figcaption { "The site with the tasks' paths and the pad" } }
-        figure data-plan { (editor_plan(scenario, &site)) figcaption { "Site plan, north up" } }
+        figure { (site_picture(scenario, &site, Language::English)) figcaption { "The site with the tasks' paths and the pad" } }
+        figure data-plan { (editor_plan(scenario, &site, Language::English)) figcaption { "Site plan, north up" } }
         @if scenario.bridges.is_empty() {
-            figure.wide { (scroll("View from the south", &job_south(scenario, &site))) figcaption { "View from the south" } }
+            figure.wide { (scroll("View from the south", &job_south(scenario, &site, Language::English))) figcaption { "View from the south" } }
         }
         @for bridge in sides {
             figure.wide {
-                (scroll(&format!("Side view of {}", bridge.name), &job_side(scenario, &site, bridge)))
+                (scroll(&format!("Side view of {}", bridge.name), &job_side(scenario, &site, bridge, Language::English)))
                 figcaption { "Side view of " (bridge.name) }
             }
         }

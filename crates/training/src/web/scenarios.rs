@@ -9,6 +9,7 @@ use crate::report::plots::job::job_plan;
 use maud::{Markup, html};
 use spandrel_model::scenario::{Difficulty, Scenario};
 use spandrel_model::site::Site;
+use spandrel_text::Language;
 
 /// An entry in the scenario list.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -105,7 +106,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         @if !scenario.tasks.is_empty() {
             (section("tasks", "Tasks", &table("Tasks and path tolerances", &[("Task", false), ("Path tolerance (m)", true)], &rows)))
         }
-        (section("site", "Site plan", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site)) } } }))
+        (section("site", "Site plan", &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label="Drawing" { (job_plan(scenario, site, Language::English)) } } }))
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", "File", &html! {
             details { summary { "Show" } div.scroll tabindex="0" role="region" aria-label="File contents" { pre { code { (text) } } } }
             @if named.uploaded {
@@ -119,7 +120,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
 /// Renders the briefing for a scenario.
 #[must_use]
 pub fn briefing_page(visitor: &Visitor, briefing: &Briefing, scenario: &Scenario, site: &Site) -> Markup {
-    let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site)) };
+    let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site, Language::English)) };
     page(visitor, "/scenarios", &format!("Briefing {}", briefing.job), &body)
 }
 

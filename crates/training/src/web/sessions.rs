@@ -14,6 +14,7 @@ use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
+use spandrel_text::Language;
 
 /// One page of the session list.
 #[derive(Debug, Clone, Copy)]
@@ -285,12 +286,14 @@ pub fn scores_by_name(record: &SessionRecord) -> [(&'static str, Option<f64>); 4
 }
 
 fn scores(record: &SessionRecord) -> Markup {
-    let spokes: Vec<RadarAxis> =
-        scores_by_name(record).into_iter().map(|(name, value)| RadarAxis { name, values: vec![value] }).collect();
+    let spokes: Vec<RadarAxis> = scores_by_name(record)
+        .into_iter()
+        .map(|(name, value)| RadarAxis { name: name.to_owned(), values: vec![value] })
+        .collect();
     html! {
         p { b { (record.completion_summary()) ". " (record.verdict()) "." } @if !record.is_complete() { " The scores below cover only the part that was flown." } }
         div.split {
-            figure { figcaption { "The four scores, 0 at the center, 100 at the edge" } (radar(&spokes, "Radar chart of the four scores")) }
+            figure { figcaption { "The four scores, 0 at the center, 100 at the edge" } (radar(&spokes, "Radar chart of the four scores", Language::English)) }
             div.cards {
                 @if record.is_complete() {
                     div.card { h3 { "Overall" } p.figure { (formatting::number(record.scores.overall, 0)) span.of { " of " (formatting::number(record.scores.overall_max, 0)) } } }
@@ -325,7 +328,7 @@ fn tasks(record: &SessionRecord) -> Markup {
     let row = |task: &TaskRecord| ShareRow {
         name: format!("{} · {}", task.id, task.name),
         bars: vec![("b-on", task.on_path)],
-        placeholder: (!task.attempted).then_some("not attempted"),
+        placeholder: (!task.attempted).then(|| "not attempted".to_owned()),
     };
     let rows: Vec<ShareRow> = record.tasks.iter().map(row).collect();
     html! {

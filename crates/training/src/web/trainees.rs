@@ -14,6 +14,7 @@ use crate::report::page::within_error;
 use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
+use spandrel_text::Language;
 
 /// Prefix of the fields that contain the values from when the page was opened, used to detect conflicting edits.
 pub const ORIGINAL_VALUE_PREFIX: &str = "before_";
@@ -120,7 +121,7 @@ fn next(plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
             @let known = reliability_of_session(profile, &changes.since);
             ul {
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) @if change_is_within_error(change, known) { " (" (within_error::words(true)) ")" } }
+                    li { (change.what) ": " (formatting::number(change.before, 1)) " → " (formatting::number(change.now, 1)) ", " (if change.better == Some(true) { "better" } else { "worse" }) @if change_is_within_error(change, known) { " (" (within_error::words(true, Language::English)) ")" } }
                 }
             }
         }
@@ -151,7 +152,7 @@ fn progress(name: &str, profile: &TraineeProfile<'_>) -> Markup {
         @for job in by_job(records, incomplete, profile.reliability) {
             @let times = job.progress.repetitions.len();
             h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (times) @if times == 1 { " session" } @else { " sessions" } }
-            (job_progress(&job))
+            (job_progress(&job, Language::English))
         }
     }
 }

@@ -17,7 +17,7 @@ pub struct ShareRow {
     /// CSS class and fraction (0 to 1) of each bar, from top to bottom.
     pub bars: Vec<(&'static str, f64)>,
     /// Text shown in place of the bars, such as "not attempted".
-    pub placeholder: Option<&'static str>,
+    pub placeholder: Option<String>,
 }
 
 /// Returns the length of the bar for `share` on an axis that ends at `full`, in drawing units.
@@ -42,7 +42,7 @@ pub fn shares(rows: &[ShareRow], title: &str) -> Markup {
         &html! {
             @for (row, top) in rows.iter().zip(&places) {
                 text.label x=(coord(LEFT_X)) y=(coord(top + 14.0)) { (row.name) }
-                @if let Some(words) = row.placeholder {
+                @if let Some(words) = &row.placeholder {
                     text.tick x=(coord(LEFT_X)) y=(coord(top + 22.0 + 11.0)) { (words) }
                 } @else {
                     @for (k, (class, share)) in row.bars.iter().enumerate() {
