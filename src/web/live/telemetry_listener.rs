@@ -13,6 +13,7 @@ use spandrel_mavlink::dialect::{MavAutopilot, MavMessage};
 use spandrel_mavlink::station;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_text::Language;
 use spandrel_training::report::plots::job::{job_plan, job_side, job_south};
 use spandrel_training::web::live::JobDrawings;
 use spandrel_training::web::live_state::{JobIdentity, LiveFlightState};
@@ -214,12 +215,13 @@ impl LiveListener {
 
 fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> JobDrawings {
     let site = Site::build(scenario, key.seed);
-    let mut drawings = vec![("From above, north up".to_owned(), job_plan(scenario, &site).into_string())];
+    let mut drawings = vec![("From above, north up".to_owned(), job_plan(scenario, &site, Language::English).into_string())];
     for bridge in &scenario.bridges {
-        drawings.push((format!("{} from the side", bridge.name), job_side(scenario, &site, bridge).into_string()));
+        drawings
+            .push((format!("{} from the side", bridge.name), job_side(scenario, &site, bridge, Language::English).into_string()));
     }
     if scenario.bridges.is_empty() {
-        drawings.push(("From the south".to_owned(), job_south(scenario, &site).into_string()));
+        drawings.push(("From the south".to_owned(), job_south(scenario, &site, Language::English).into_string()));
     }
     JobDrawings { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
 }
