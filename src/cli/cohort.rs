@@ -180,7 +180,7 @@ fn summary_text(cohort: &Cohort) -> String {
             shown(p.map(|p| p.two)),
             shown(t.effect_size_dz),
             shown(one.p_holm.map(|p| p.two)),
-            one.within_error.map_or("unknown", words),
+            one.within_error.map_or_else(|| "unknown".to_owned(), |within| words(within, Language::English)),
         );
     }
     for one in &cohort.homogeneity {

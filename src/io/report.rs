@@ -41,7 +41,8 @@ pub fn write(session: &Path, language: Language) -> Result<SessionAdvice, AppErr
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the file cannot be written.
 pub fn write_translation(session: &Path, language: Language) -> Result<(), AppError> {
-    Ok(replace(&translation_path(session, language), page::session(&review(session, language)?).as_bytes())?)
+    let review = review(session, language)?;
+    replace(&translation_path(session, language), page::session(&review).as_bytes())
 }
 
 /// Returns the path of a session's report in another language than `report.html`.

@@ -64,6 +64,7 @@ report-measure-flight-time = Flugzeit
 report-measure-crashes = Kollisionen
 report-unit-points = Punkte
 report-measure-with-unit = { $measure } ({ $unit })
+report-percent = { $value } %
 
 ## Column headings of several tables
 
@@ -376,7 +377,7 @@ report-cue-crash = Kollision
 report-cue-too-close = zu nah
 report-cue-speeding = zu schnell
 report-cue-stand-off = Abstand
-report-cue-off-path = neben der Bahn
+report-cue-off-path = Abweichung
 report-cue-battery-yellow = Akku gelb
 report-cue-battery-red = Akku rot
 report-feedback-none = Es gab keine Rückmeldungen.
@@ -511,7 +512,3 @@ report-scorm-result = { $points } von 100. { $verdict }
 report-scorm-missing = Kein Lernmanagementsystem gefunden.
 report-scorm-sent = Ergebnis an das Lernmanagementsystem gesendet.
 report-scorm-refused = Das Lernmanagementsystem hat das Ergebnis nicht angenommen.
-
-## Words
-
-report-percent = { $value } %

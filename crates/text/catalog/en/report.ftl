@@ -64,6 +64,7 @@ report-measure-flight-time = flight time
 report-measure-crashes = crashes
 report-unit-points = points
 report-measure-with-unit = { $measure } ({ $unit })
+report-percent = { $value }%
 
 ## Column headings of several tables
 
@@ -507,7 +508,3 @@ report-scorm-result = { $points } of 100. { $verdict }
 report-scorm-missing = No learning management system found.
 report-scorm-sent = Result sent to the learning management system.
 report-scorm-refused = The learning management system did not accept the result.
-
-## Words
-
-report-percent = { $value }%

@@ -64,6 +64,7 @@ report-measure-flight-time = tiempo de vuelo
 report-measure-crashes = colisiones
 report-unit-points = puntos
 report-measure-with-unit = { $measure } ({ $unit })
+report-percent = { $value } %
 
 ## Column headings of several tables
 
@@ -389,12 +390,12 @@ report-flight-caption = datos de vuelo, cada pocos segundos
 ## Feedback
 
 report-cue-crash = colisión
-report-cue-too-close = demasiado cerca
-report-cue-speeding = exceso de velocidad
+report-cue-too-close = muy cerca
+report-cue-speeding = muy rápido
 report-cue-stand-off = distancia
-report-cue-off-path = fuera de trayectoria
-report-cue-battery-yellow = batería amarilla
-report-cue-battery-red = batería roja
+report-cue-off-path = desvío
+report-cue-battery-yellow = bat. amarilla
+report-cue-battery-red = bat. roja
 report-feedback-none = No hubo avisos.
 report-feedback-region = Resumen de los avisos
 report-feedback-figure = Tiempo desde el aviso hasta el primer movimiento de las palancas; cada punto es un aviso; la barra marca la mediana
@@ -527,7 +528,3 @@ report-scorm-result = { $points } de 100. { $verdict }
 report-scorm-missing = No se encontró ningún sistema de gestión del aprendizaje.
 report-scorm-sent = Resultado enviado al sistema de gestión del aprendizaje.
 report-scorm-refused = El sistema de gestión del aprendizaje no aceptó el resultado.
-
-## Words
-
-report-percent = { $value } %
