@@ -42,7 +42,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let site = Site::without_defects(&scenario);
     let briefing = Briefing::new(&scenario, &vehicle, &site, Language::English);
     match (&args.html, args.json) {
-        (Some(file), _) => files::write(file, page::briefing(&briefing, &scenario, &site).as_bytes()),
+        (Some(file), _) => files::write(file, page::briefing(&briefing, &scenario, &site, Language::English).as_bytes()),
         (None, true) => files::write("-", json_text(&briefing).as_bytes()),
         (None, false) => files::write("-", text::render(&briefing).as_bytes()),
     }

@@ -4,6 +4,7 @@ use super::records::RecordsArgs;
 use crate::cli::invocation::typed;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
+use crate::io::system_language::system_language;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
@@ -96,7 +97,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     if let Some(target) = &args.report {
-        files::write(target, page::cohort(&cohort).as_bytes())?;
+        files::write(target, page::cohort(&cohort, system_language()).as_bytes())?;
     }
     match &args.json {
         Some(target) => files::write(target, json_text(&cohort).as_bytes()),
@@ -142,7 +143,7 @@ fn reliability_text(cohort: &Cohort) -> String {
         let _ = writeln!(
             out,
             "{:<22}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
-            measure_name(&one.measure, one.unit),
+            measure_name(&one.measure, one.unit, Language::English),
             one.at_ceiling.map_or("-".to_owned(), |share| format!("{:.0}%", 100.0 * share)),
             known.map_or("-".to_owned(), |one| one.n.to_string()),
             shown(known.map(|one| one.icc_2_1), 2),
@@ -179,7 +180,7 @@ fn summary_text(cohort: &Cohort) -> String {
             shown(p.map(|p| p.two)),
             shown(t.effect_size_dz),
             shown(one.p_holm.map(|p| p.two)),
-            one.within_error.map_or("unknown", words),
+            one.within_error.map_or_else(|| "unknown".to_owned(), |within| words(within, Language::English)),
         );
     }
     for one in &cohort.homogeneity {
@@ -206,7 +207,7 @@ fn summary_text(cohort: &Cohort) -> String {
             one.means.len(),
             one.people,
             one.curve.exponent,
-            one.within_error.map_or(String::new(), |within| format!(", {}", words(within)))
+            one.within_error.map_or(String::new(), |within| format!(", {}", words(within, Language::English)))
         );
     }
     let contradictions = &cohort.self_rating.contradictions;

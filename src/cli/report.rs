@@ -4,8 +4,10 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
 use crate::io::report::{self, address, comparison_page, review};
+use crate::io::system_language::system_language;
 use crate::records::read_json_lines;
 use spandrel_monitor::folder::REPORT;
+use spandrel_text::Language;
 use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::page;
@@ -23,6 +25,7 @@ Examples:
   spandrel report sessions/20260801T...                      write report.html into the session folder
   spandrel report sessions/20260801T... --out anna.html      write it to another file; '-' for standard output
   spandrel report sessions/first sessions/second --out c.html    compare two sessions
+  spandrel report sessions/20260801T... --language de        write the report in German
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -39,6 +42,14 @@ pub struct Args {
     /// of the measures
     #[arg(long, value_name = "FILE", requires = "other")]
     records: Option<PathBuf>,
+    /// Language of the report: en, de or es [default: the operating system's language]
+    #[arg(long, value_name = "LANGUAGE", value_parser = parse_language)]
+    language: Option<Language>,
+}
+
+/// Parses a language tag.
+fn parse_language(tag: &str) -> Result<Language, String> {
+    Language::from_tag(tag).ok_or_else(|| "unknown (allowed: en, de, es)".to_owned())
 }
 
 /// Runs the subcommand.
@@ -47,11 +58,12 @@ pub struct Args {
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
+    let language = args.language.unwrap_or_else(system_language);
     let text = match (&args.other, &args.out) {
-        (Some(other), _) => comparison_page(&args.session, other, |scenario| reliability(args, scenario))?,
-        (None, Some(_)) => page::session(&review(&args.session)?),
+        (Some(other), _) => comparison_page(&args.session, other, language, |scenario| reliability(args, scenario))?,
+        (None, Some(_)) => page::session(&review(&args.session, language)?),
         (None, None) => {
-            report::write(&args.session)?;
+            report::write(&args.session, language)?;
             progress.finish();
             println!("report        {}", address(&args.session.join(REPORT)));
             return Ok(());

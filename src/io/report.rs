@@ -4,11 +4,11 @@ use super::clock;
 use super::marks::valid_marks;
 use super::replace::replace;
 use super::session_folder::StoredSession;
-use super::system_language::system_language;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::export::json_text;
 use spandrel_monitor::folder::{ADVICE, REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, VIDEO, sha256_hex};
+use spandrel_text::Language;
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::cohort::MeasureReliability;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
@@ -19,16 +19,35 @@ const MAX_PICTURE_BYTES: u64 = 400_000;
 /// Maximum total size of the photographs on a page, bytes; keeps the page under 10 MB.
 const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
-/// Writes the report and the advice into a session folder, and returns the advice.
+/// Writes the report and the advice into a session folder, removes the report's translations, which are outdated, and returns
+/// the advice.
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or a file cannot be written.
-pub fn write(session: &Path) -> Result<SessionAdvice, AppError> {
-    let review = review(session)?;
+pub fn write(session: &Path, language: Language) -> Result<SessionAdvice, AppError> {
+    let review = review(session, language)?;
+    for other in Language::ALL {
+        // Most sessions have no translations.
+        std::fs::remove_file(translation_path(session, other)).ok();
+    }
     // The report comes last: a session with a report is complete.
     replace(&session.join(ADVICE), json_text(&review.advice).as_bytes())?;
     replace(&session.join(REPORT), page::session(&review).as_bytes())?;
     Ok(review.advice)
+}
+
+/// Writes the report in another language beside the session's report.
+///
+/// # Errors
+/// Returns an error if files are invalid, the session has no data to report, or the file cannot be written.
+pub fn write_translation(session: &Path, language: Language) -> Result<(), AppError> {
+    let review = review(session, language)?;
+    replace(&translation_path(session, language), page::session(&review).as_bytes())
+}
+
+/// Returns the path of a session's report in another language than `report.html`.
+pub fn translation_path(session: &Path, language: Language) -> PathBuf {
+    session.join(REPORT).with_extension(format!("{}.html", language.tag()))
 }
 
 /// Returns the advice that was written with a session's report; `None` if there is none, or if another version wrote it.
@@ -40,8 +59,8 @@ pub fn saved_advice(session: &Path) -> Option<SessionAdvice> {
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
-pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> {
-    let mut review = review(session)?;
+pub fn package(session: &Path, language: Language) -> Result<Vec<(&'static str, String)>, AppError> {
+    let mut review = review(session, language)?;
     // The package contains no video.
     review.metadata.video = None;
     Ok(scorm::files(&review, &page::session(&review)))
@@ -55,9 +74,10 @@ pub fn package(session: &Path) -> Result<Vec<(&'static str, String)>, AppError> 
 pub fn comparison_page(
     first: &Path,
     second: &Path,
+    language: Language,
     reliability: impl FnOnce(&str) -> Result<Vec<MeasureReliability>, AppError>,
 ) -> Result<String, AppError> {
-    let (first, second) = (review(first)?, review(second)?);
+    let (first, second) = (review(first, language)?, review(second, language)?);
     let reliability = reliability(&first.scenario.name)?;
     Ok(page::comparison(&first, &second, &reliability))
 }
@@ -68,8 +88,8 @@ pub fn comparison_page(
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
-    // No photographs are included, because the caller is about to render them.
-    Ok(review_with_pictures(session, Vec::new())?.pictures)
+    // No photographs are included, because the caller is about to render them. The pictures have no texts.
+    Ok(review_with_pictures(session, Language::default(), Vec::new())?.pictures)
 }
 
 /// Returns the maximum size of each photograph in bytes for a page with `count` photographs.
@@ -97,13 +117,13 @@ pub fn address(path: &Path) -> String {
 ///
 /// # Errors
 /// Returns an error if files are invalid, or the session has no data to report.
-pub fn review(session: &Path) -> Result<Review, AppError> {
-    review_with_pictures(session, photographs(&session.join(SNAPSHOTS)))
+pub fn review(session: &Path, language: Language) -> Result<Review, AppError> {
+    review_with_pictures(session, language, photographs(&session.join(SNAPSHOTS)))
 }
 
-fn review_with_pictures(session: &Path, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
+fn review_with_pictures(session: &Path, language: Language, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
     let stored = StoredSession::read(session)?;
-    let about = SessionMetadata { pictures, ..session_facts(session, &stored)? };
+    let about = SessionMetadata { language, pictures, ..session_facts(session, &stored)? };
     let review = Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about);
     review.map_err(|error| review_error(&error))
 }
@@ -123,7 +143,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
     let name =
         std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
     Ok(SessionMetadata {
-        language: system_language(),
+        language: Language::default(),
         trainee: stored.trainee.clone(),
         started_unix_us: stored.started_unix_us,
         purpose: stored.purpose.clone(),
@@ -229,6 +249,11 @@ mod tests {
     #[cfg(feature = "view")]
     fn exact_photographs_share_the_size_limit() {
         assert_eq!([0, 1, 10, 100].map(max_picture_bytes), [400_000, 400_000, 400_000, 40_000]);
+    }
+
+    #[test]
+    fn exact_translations_lie_beside_the_report() {
+        assert_eq!(translation_path(Path::new("a.b"), Language::German), Path::new("a.b/report.de.html"));
     }
 
     #[test]

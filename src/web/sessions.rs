@@ -10,7 +10,7 @@ use crate::io::session_folder::StoredSession;
 use crate::io::trainee_id::TraineeId;
 use spandrel_monitor::export;
 use spandrel_monitor::folder::{REPORT, SNAPSHOTS, TELEMETRY, VIDEO};
-use spandrel_text::text;
+use spandrel_text::{Language, text};
 use spandrel_training::marks::marks_key;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
@@ -86,27 +86,52 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     Ok(WebResponse::page(pages::session(&request.visitor, &record, &about)))
 }
 
-/// Responds with a session's report under the report's own policy. Creates the report again if it is missing, another version
-/// wrote it, or the instructor's marks have changed.
+/// Responds with a session's report in the visitor's language, under the report's own policy. Creates the report again if it is
+/// missing, another version wrote it, or the instructor's marks have changed. `report.html` keeps its language.
 pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let folder = folder(state, request, request.path_param("id"))?;
     let policy = assets::page_policy();
-    let path = folder.join(REPORT);
-    let marks = marks_key(&valid_marks(&folder));
-    let found = std::fs::read(&path).ok().filter(|page| is_current(page, &policy, marks.as_deref()));
-    let page = match found {
+    let (path, marks) = (folder.join(REPORT), marks_key(&valid_marks(&folder)));
+    let is_current = |page: &[u8]| is_current(page, &policy, marks.as_deref());
+    let language = request.visitor.language;
+    let written = std::fs::read(&path).ok();
+    let written_language = written.as_deref().and_then(page_language).unwrap_or(language);
+    let page = match written.filter(|page| is_current(page)) {
         Some(page) => page,
         None => {
-            report::write(&folder)?;
-            std::fs::read(&path).map_err(|error| WebError::Failed(format!("{}: {error}", path.display())))?
+            report::write(&folder, written_language)?;
+            bytes(&path)?
         }
     };
+    let page = if written_language == language { page } else { translated_report(&folder, language, is_current)? };
     Ok(WebResponse::sandboxed_page(page, &policy))
+}
+
+/// Returns a session's report in another language than `report.html`.
+fn translated_report(folder: &Path, language: Language, is_current: impl Fn(&[u8]) -> bool) -> Result<Vec<u8>, WebError> {
+    let path = report::translation_path(folder, language);
+    if let Some(page) = std::fs::read(&path).ok().filter(|page| is_current(page)) {
+        return Ok(page);
+    }
+    report::write_translation(folder, language)?;
+    bytes(&path)
+}
+
+/// Returns the first part of a page, which contains its `head` element.
+fn head(page: &[u8]) -> String {
+    String::from_utf8_lossy(&page[..page.len().min(2_000)]).into_owned()
+}
+
+/// Returns the language of a page.
+fn page_language(page: &[u8]) -> Option<Language> {
+    let head = head(page);
+    let (_, rest) = head.split_once("<html lang=\"")?;
+    Language::from_tag(rest.split('"').next()?)
 }
 
 /// Returns true if the page's `head` element contains this version's policy and the key of these marks.
 fn is_current(page: &[u8], policy: &str, marks: Option<&str>) -> bool {
-    let head = String::from_utf8_lossy(&page[..page.len().min(2_000)]);
+    let head = head(page);
     let escaped = maud::html! { (policy) }.into_string();
     let has_marks = match marks {
         Some(key) => head.contains(&format!("name=\"{MARKS_META_NAME}\" content=\"{key}\"")),
@@ -123,7 +148,7 @@ pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
         folder(state, request, id)
     };
     let reliability = |scenario: &str| state.figures.reliability(scenario, IncompletePolicy::Exclude);
-    let page = report::comparison_page(&folder("first")?, &folder("second")?, reliability)?;
+    let page = report::comparison_page(&folder("first")?, &folder("second")?, request.visitor.language, reliability)?;
     Ok(WebResponse::sandboxed_page(page.into_bytes(), &assets::page_policy()))
 }
 
@@ -160,5 +185,12 @@ mod tests {
         assert!(!is_current(b"", policy, None));
         assert!(!is_current(bare, policy, Some("12ab")) && !is_current(marked, policy, Some("12cd")));
         assert!(!is_current(marked, policy, None), "all marks were removed");
+    }
+
+    #[test]
+    fn exact_language_of_a_report_is_read_from_the_page() {
+        assert_eq!(page_language(b"<!DOCTYPE html><html lang=\"de\"><head>"), Some(Language::German));
+        assert_eq!(page_language(b"<!DOCTYPE html><html lang=\"fr\">"), None);
+        assert_eq!(page_language(b""), None);
     }
 }

@@ -172,5 +172,5 @@ pub fn cohort_report(state: &ServerState, request: &WebRequest) -> HandlerResult
     let figured = state.figures.get(&selection_from_query(request)?)?;
     let nothing = || WebError::BadRequest(text!(request.visitor.language, "people-cohort-nothing"));
     let cohort = figured.non_empty_cohort().ok_or_else(nothing)?;
-    Ok(WebResponse::sandboxed_page(report::cohort(cohort).into_bytes(), &assets::page_policy()))
+    Ok(WebResponse::sandboxed_page(report::cohort(cohort, request.visitor.language).into_bytes(), &assets::page_policy()))
 }

@@ -54,6 +54,12 @@ pub fn translated(stored: &str, language: Language) -> String {
     TEXTS.iter().find_map(known).unwrap_or_else(|| stored.to_owned())
 }
 
+/// Returns stored English texts in a language.
+#[must_use]
+pub fn all_translated(stored: &[String], language: Language) -> Vec<String> {
+    stored.iter().map(|one| translated(one, language)).collect()
+}
+
 /// Returns the parts of a text at the marks of a pattern; `None` if the rest differs.
 fn values<'a>(stored: &'a str, pattern: &str) -> Option<Vec<&'a str>> {
     let mut words = pattern.split(MARK).peekable();

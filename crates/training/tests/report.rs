@@ -10,6 +10,7 @@ use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
+use spandrel_text::Language;
 use spandrel_training::cohort::{Selection, cohort};
 use spandrel_training::marks::{TimelineMark, marks_key};
 use spandrel_training::record::IncompletePolicy;
@@ -116,8 +117,12 @@ fn exact_review_contains_scorer_assessment() {
     assert_eq!(verdicts, each.iter().map(|picture| picture.hit).collect::<Vec<_>>());
     let found = review.defects.iter().filter(|outcome| outcome.found_by.is_some()).count();
     assert_eq!(found, assessed_session.assessment.snapshots.defects_found);
-    let missed: Vec<String> =
-        review.defects.iter().filter(|outcome| outcome.found_by.is_none()).map(|outcome| outcome.description()).collect();
+    let missed: Vec<String> = review
+        .defects
+        .iter()
+        .filter(|outcome| outcome.found_by.is_none())
+        .map(|outcome| outcome.description(Language::English))
+        .collect();
     assert!(
         missed.iter().all(|words| !words.is_empty())
             && review.defects.iter().all(|f| f.found_by.is_some() != f.best_approach.is_some())
@@ -312,4 +317,78 @@ fn exact_longest_flight_report_is_below_ten_megabytes() {
     assert!(review.pictures.len() >= 100, "{}", review.pictures.len());
     let size = page::session(&review).len();
     assert!(size < MAX_PAGE_BYTES, "{size}");
+}
+
+/// Returns the texts of all elements with a tag, without the tags inside.
+fn element_texts(page: &str, tag: &str) -> Vec<String> {
+    let (start, end) = (format!("<{tag}"), format!("</{tag}>"));
+    let elements = page.split(&start).skip(1).filter(|rest| rest.starts_with([' ', '>']));
+    let body = |rest: &str| {
+        let element = rest.split(&end).next().unwrap_or_default();
+        let pieces = element.split('<').map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text));
+        pieces.collect::<String>()
+    };
+    elements.map(body).collect()
+}
+
+/// Letters that the pseudo language does not change.
+const UNCHANGED_LETTERS: &str = "mqvxMQVX";
+
+/// Returns true for letters that do not occur in texts of the pseudo language.
+fn is_plain(letter: char) -> bool {
+    letter.is_ascii_alphabetic() && !UNCHANGED_LETTERS.contains(letter)
+}
+
+/// Returns the downloads of a page.
+fn downloads(page: &str) -> Vec<&str> {
+    page.split("href=\"data:text/csv").skip(1).map(|rest| rest.split('"').next().unwrap_or_default()).collect()
+}
+
+#[test]
+fn exact_report_is_in_its_language_and_downloads_are_in_english() {
+    let mut review = review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges());
+    let english = without_assets(&page::session(&review));
+    review.metadata.language = Language::German;
+    let german = without_assets(&page::session(&review));
+    for words in [
+        "<html lang=\"de\">",
+        "<title>Sitzungsbericht: anna",
+        ">Besser machen</h2>",
+        "Von oben, Norden oben",
+        "zwischen den Aufgaben",
+        "Tabelle: Wertungen",
+        "\"play\":\"Abspielen\"",
+    ] {
+        assert!(german.contains(words) && !english.contains(words), "{words}");
+    }
+    assert_eq!(downloads(&german), downloads(&english));
+    review.metadata.language = Language::Spanish;
+    let spanish = without_assets(&page::session(&review));
+    assert!(spanish.contains("<html lang=\"es\">") && spanish.contains(">Qué mejorar</h2>"));
+    let comparison = without_assets(&page::comparison(&review, &review, &[]));
+    assert!(comparison.contains("Comparación de sesiones") && comparison.contains("\"notFlying\":\"sin volar\""));
+}
+
+#[test]
+fn exact_labels_of_a_report_are_in_the_catalog() {
+    let mut review = review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges());
+    review.metadata.language = Language::Pseudo;
+    let session = without_assets(&page::session(&review));
+    let comparison = without_assets(&page::comparison(&review, short_review(), &[]));
+    // Names of the site and of tasks are the scenario's.
+    let names = review.scenario.bridges.iter().map(|bridge| bridge.name.clone());
+    let names: Vec<String> = names.chain(review.scenario.tasks.iter().map(|task| task.name.clone())).collect();
+    for (page, tags) in [
+        (session, ["h2", "h3", "caption", "summary", "figcaption", "legend", "button", "dt", "nav"].as_slice()),
+        (comparison, ["h2", "caption", "summary", "option", "label"].as_slice()),
+    ] {
+        for tag in tags {
+            let texts = element_texts(&page, tag);
+            assert!(!texts.is_empty(), "{tag}");
+            for text in texts {
+                let rest = names.iter().fold(text.clone(), |rest, name| rest.replace(name.as_str(), ""));
+                assert!(!rest.contains(is_plain), "{tag}: {text}");
+            }
+        }
+    }
 }

@@ -8,8 +8,10 @@ use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
+use crate::io::system_language::system_language;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::folder::VIDEO;
+use spandrel_text::Language;
 use spandrel_training::report::pictures::ReviewedPicture;
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::exposure::ExposureMeter;
@@ -58,7 +60,7 @@ fn render_for_report(args: &Args) -> Result<(), AppError> {
     }
     // The report's times count from lift-off.
     render(args, &session.join(VIDEO), |recorded| Ok(recorded.scored_span()))?;
-    report::write(session)?;
+    report::write(session, system_language())?;
     Ok(())
 }
 
@@ -148,9 +150,15 @@ fn chapters(taken: &[ReviewedPicture], (from, to): (SimTime, SimTime), picture_s
                 end if end > picture.time => (end - from).s(),
                 _ => (picture.time - from).s() + picture_s,
             },
-            title: format!("Picture {}: {} ({})", picture.number, picture.verdict.name(), picture.reason),
+            title: chapter_title(picture),
         })
         .collect()
+}
+
+/// Returns a chapter's title. It is in English, as are all files that other programs read.
+fn chapter_title(picture: &ReviewedPicture) -> String {
+    let (verdict, reason) = (picture.verdict.name(Language::English), picture.reason.words(Language::English));
+    format!("Picture {}: {verdict} ({reason})", picture.number)
 }
 
 /// A video file. It has a temporary name until it is complete, so an existing video is not replaced before then.

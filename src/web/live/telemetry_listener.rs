@@ -232,13 +232,13 @@ fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> TranslatedDrawings {
 }
 
 /// Draws a site. The language is that of the drawings' labels.
-fn draw_site(scenario: &Scenario, site: &Site, key: JobIdentity, _language: Language) -> JobDrawings {
-    let mut drawings = vec![(DrawingView::Above, job_plan(scenario, site).into_string())];
+fn draw_site(scenario: &Scenario, site: &Site, key: JobIdentity, language: Language) -> JobDrawings {
+    let mut drawings = vec![(DrawingView::Above, job_plan(scenario, site, language).into_string())];
     for bridge in &scenario.bridges {
-        drawings.push((DrawingView::Side(bridge.name.clone()), job_side(scenario, site, bridge).into_string()));
+        drawings.push((DrawingView::Side(bridge.name.clone()), job_side(scenario, site, bridge, language).into_string()));
     }
     if scenario.bridges.is_empty() {
-        drawings.push((DrawingView::South, job_south(scenario, site).into_string()));
+        drawings.push((DrawingView::South, job_south(scenario, site, language).into_string()));
     }
     JobDrawings { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
 }

@@ -2,6 +2,7 @@
 
 use super::context::ReviewContext;
 use super::formatting;
+use super::pictures::failed_conditions;
 use crate::advice::MissedDefect;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
@@ -11,6 +12,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
+use spandrel_text::{Language, text};
 
 /// Sampling interval for finding views of a defect in the flight.
 const SAMPLE_INTERVAL: SimTime = SimTime::from_ms(500);
@@ -44,23 +46,27 @@ pub struct BestApproach {
 impl DefectOutcome {
     /// Describes the outcome for the report.
     #[must_use]
-    pub fn description(&self) -> String {
-        let Some(best_approach) = &self.best_approach else {
-            return self.found_by.map_or_else(|| "found".into(), |number| format!("found by picture {number}"));
+    pub fn description(&self, language: Language) -> String {
+        let Some(approach) = &self.best_approach else {
+            return match self.found_by {
+                Some(picture) => text!(language, "report-defects-found-by", picture = picture),
+                None => text!(language, "report-defects-found-plain"),
+            };
         };
-        let (nearest_m, nearest_s) = best_approach.nearest;
-        match &best_approach.best {
-            Some((t_s, view)) if view.hit => format!(
-                "clearly visible for {} s, first at {}, but not photographed",
-                formatting::number(best_approach.in_view_s, 1),
-                formatting::clock(*t_s)
-            ),
-            Some((t_s, view)) => format!("best seen at {}, but {}", formatting::clock(*t_s), view.reasons().join("; ")),
-            None => format!(
-                "never in the camera's view; the drone came within {} m at {}",
-                formatting::number(nearest_m, 1),
-                formatting::clock(nearest_s)
-            ),
+        let moment = formatting::clock(approach.moment_s());
+        match &approach.best {
+            Some((_, view)) if view.hit => {
+                let seconds = formatting::number(approach.in_view_s, 1);
+                text!(language, "report-defects-in-view", seconds = seconds, moment = moment)
+            }
+            Some((_, view)) => {
+                let reasons = failed_conditions(view, language).join("; ");
+                text!(language, "report-defects-best-seen", moment = moment, reasons = reasons)
+            }
+            None => {
+                let distance = formatting::number(approach.nearest.0, 1);
+                text!(language, "report-defects-never", distance = distance, moment = moment)
+            }
         }
     }
 

@@ -10,6 +10,7 @@ use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput};
+use spandrel_text::{Language, text};
 use std::ops::ControlFlow;
 
 /// Minimum stick movement after the cue that counts as a reaction, full travel = 1 (estimate: larger than hand tremor,
@@ -34,10 +35,27 @@ pub const KINDS: [CueKind; 7] = [
 pub struct CueKind {
     /// The cue's bit in the `cues` value.
     pub bit: i32,
-    /// Name shown in the report.
+    /// Name that identifies the kind.
     pub name: &'static str,
     /// Whether a stick reaction is expected.
     pub expects_reaction: bool,
+}
+
+impl CueKind {
+    /// Returns the name shown in the report.
+    #[must_use]
+    pub fn label(&self, language: Language) -> String {
+        match self.bit {
+            cue::CRASH => text!(language, "report-cue-crash"),
+            cue::TOO_CLOSE => text!(language, "report-cue-too-close"),
+            cue::SPEEDING => text!(language, "report-cue-speeding"),
+            cue::STAND_OFF => text!(language, "report-cue-stand-off"),
+            cue::OFF_PATH => text!(language, "report-cue-off-path"),
+            cue::BATTERY_YELLOW => text!(language, "report-cue-battery-yellow"),
+            cue::BATTERY_RED => text!(language, "report-cue-battery-red"),
+            _ => self.name.to_owned(),
+        }
+    }
 }
 
 /// An interval during which a cue was on.
@@ -170,6 +188,14 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_every_kind_has_a_label() {
+        for kind in KINDS {
+            assert_eq!(kind.label(Language::English), kind.name);
+            assert_ne!(kind.label(Language::German), kind.name);
+        }
+    }
 
     #[test]
     fn exact_median_handles_odd_even_and_empty_lists() {

@@ -5,6 +5,7 @@ pub use crate::time_text::{clock, duration, parse_clock};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
 use spandrel_monitor::session::EndReason;
+use spandrel_text::{Language, text};
 
 /// Formats a number with `digits` decimal places. Returns a dash if it is not finite.
 #[must_use]
@@ -19,42 +20,55 @@ pub fn number(value: f64, digits: usize) -> String {
 
 /// Returns the display name of an end reason.
 #[must_use]
-pub fn end_reason_label(reason: EndReason) -> &'static str {
+pub fn end_reason_label(reason: EndReason, language: Language) -> String {
     match reason {
-        EndReason::Landed => "landed near the ground team",
-        EndReason::Battery => "battery empty",
-        EndReason::TimeLimit => "time limit",
-        EndReason::Person => "hit a person",
-        EndReason::Vehicle => "hit a vehicle",
-        EndReason::Crash => "crashed",
-        EndReason::Abort => "ended early",
-        EndReason::Restart => "simulator restarted",
+        EndReason::Landed => text!(language, "report-end-landed"),
+        EndReason::Battery => text!(language, "report-end-battery"),
+        EndReason::TimeLimit => text!(language, "report-end-time-limit"),
+        EndReason::Person => text!(language, "report-end-person"),
+        EndReason::Vehicle => text!(language, "report-end-vehicle"),
+        EndReason::Crash => text!(language, "report-end-crash"),
+        EndReason::Abort => text!(language, "report-end-abort"),
+        EndReason::Restart => text!(language, "report-end-restart"),
     }
 }
 
 /// Returns the display name of a contact kind.
 #[must_use]
-pub fn contact_label(with: ContactKind) -> &'static str {
+pub fn contact_label(with: ContactKind, language: Language) -> String {
     match with {
-        ContactKind::None => "nothing",
-        ContactKind::Bridge => "bridge",
-        ContactKind::Terrain => "ground",
-        ContactKind::Water => "water",
-        ContactKind::Vehicle => "vehicle",
-        ContactKind::Person => "person",
-        ContactKind::Other => "other",
+        ContactKind::None => text!(language, "report-contact-none"),
+        ContactKind::Bridge => text!(language, "report-contact-bridge"),
+        ContactKind::Terrain => text!(language, "report-contact-ground"),
+        ContactKind::Water => text!(language, "report-contact-water"),
+        ContactKind::Vehicle => text!(language, "report-contact-vehicle"),
+        ContactKind::Person => text!(language, "report-contact-person"),
+        ContactKind::Other => text!(language, "report-contact-other"),
     }
 }
 
 /// Returns the display name of a control source.
 #[must_use]
-pub fn control_source_label(by: Option<ControlSource>) -> &'static str {
+pub fn control_source_label(by: Option<ControlSource>, language: Language) -> String {
     match by {
-        Some(ControlSource::Pilot) => "pilot",
-        Some(ControlSource::Mission) => "mission",
-        Some(ControlSource::Script) => "script",
-        Some(ControlSource::Autopilot) => "autopilot",
-        None => "unknown",
+        Some(ControlSource::Pilot) => text!(language, "report-control-pilot"),
+        Some(ControlSource::Mission) => text!(language, "report-control-mission"),
+        Some(ControlSource::Script) => text!(language, "report-control-script"),
+        Some(ControlSource::Autopilot) => text!(language, "report-control-autopilot"),
+        None => text!(language, "report-control-unknown"),
+    }
+}
+
+/// Returns the display name of a score, such as `conformity`; a name that is not a score's stays as it is.
+#[must_use]
+pub fn score_label(score: &str, language: Language) -> String {
+    match score {
+        "conformity" => text!(language, "report-score-conformity"),
+        "efficiency" => text!(language, "report-score-efficiency"),
+        "safety" => text!(language, "report-score-safety"),
+        "accuracy" => text!(language, "report-score-accuracy"),
+        "overall" => text!(language, "report-score-overall"),
+        other => other.to_owned(),
     }
 }
 

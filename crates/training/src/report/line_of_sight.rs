@@ -6,6 +6,7 @@ use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_text::{Language, text};
 
 /// Time between two checks, s.
 const CHECK_INTERVAL_S: f64 = 0.5;
@@ -62,13 +63,14 @@ impl OutOfSight {
 
     /// Returns the measurement as a sentence; `None` if the drone was always in sight.
     #[must_use]
-    pub fn sentence(&self) -> Option<String> {
+    pub fn sentence(&self, language: Language) -> Option<String> {
         (self.total_s >= MIN_SHOWN_S).then(|| {
-            format!(
-                "Out of the inspector's sight for {}; longest for {}, from {}.",
-                formatting::duration(self.total_s),
-                formatting::duration(self.longest_s),
-                formatting::clock(self.longest_from_s)
+            text!(
+                language,
+                "report-out-of-sight",
+                total = formatting::duration(self.total_s),
+                longest = formatting::duration(self.longest_s),
+                from = formatting::clock(self.longest_from_s)
             )
         })
     }
@@ -88,8 +90,11 @@ mod tests {
         let checks = [(0.0, false), (1.0, true), (2.0, true), (3.0, false), (4.0, true), (7.0, true), (9.0, false)];
         let found = OutOfSight::of_checks(&checks);
         assert_eq!(found, OutOfSight { total_s: 7.0, longest_s: 5.0, longest_from_s: 4.0 });
-        assert_eq!(found.sentence().as_deref(), Some("Out of the inspector's sight for 7 s; longest for 5 s, from 0:04."));
-        assert_eq!(OutOfSight::of_checks(&[(0.0, true)]).sentence(), None);
+        assert_eq!(
+            found.sentence(Language::English).as_deref(),
+            Some("Out of the inspector's sight for 7 s; longest for 5 s, from 0:04.")
+        );
+        assert_eq!(OutOfSight::of_checks(&[(0.0, true)]).sentence(Language::English), None);
     }
 
     #[test]

@@ -3,13 +3,15 @@
 use super::context::ReviewContext;
 use super::task_proximity::TaskProximityStep;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::site::visibility::{lamp_lux, required_illuminance_lux};
+use spandrel_model::numbers::{format_limit, format_with_limit};
+use spandrel_model::site::visibility::{MAX_INCIDENCE_RAD, MIN_EXTENT_PX, MIN_LINE_WIDTH_PX, lamp_lux, required_illuminance_lux};
 use spandrel_model::site::{CameraPose, DefectView, ObjectId, Surface};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Camera;
 use spandrel_monitor::assessment::Assessment;
 use spandrel_monitor::measures::attention;
 use spandrel_monitor::measures::image_quality::exposure_s;
+use spandrel_text::{Language, text};
 
 /// Maximum distance of the object in a picture's center, m; anything farther counts as sky.
 const MAX_TARGET_DISTANCE_M: f64 = 120.0;
@@ -37,14 +39,27 @@ impl PictureVerdict {
 
     /// Returns the name shown in the report.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> String {
         match self {
-            Self::Hit => "hit",
-            Self::Repeat => "repeat",
-            Self::TooDark => "too dark",
-            Self::TooFar => "too far",
-            Self::TooOblique => "too oblique",
-            Self::NoDefect => "false",
+            Self::Hit => text!(language, "report-verdict-hit"),
+            Self::Repeat => text!(language, "report-verdict-repeat"),
+            Self::TooDark => text!(language, "report-verdict-too-dark"),
+            Self::TooFar => text!(language, "report-verdict-too-far"),
+            Self::TooOblique => text!(language, "report-verdict-too-oblique"),
+            Self::NoDefect => text!(language, "report-verdict-false"),
+        }
+    }
+
+    /// Returns the number of pictures with this verdict, as text.
+    #[must_use]
+    pub fn count_text(self, count: usize, language: Language) -> String {
+        match self {
+            Self::Hit => text!(language, "report-pictures-count-hit", count = count),
+            Self::Repeat => text!(language, "report-pictures-count-repeat", count = count),
+            Self::TooDark => text!(language, "report-pictures-count-too-dark", count = count),
+            Self::TooFar => text!(language, "report-pictures-count-too-far", count = count),
+            Self::TooOblique => text!(language, "report-pictures-count-too-oblique", count = count),
+            Self::NoDefect => text!(language, "report-pictures-count-false", count = count),
         }
     }
 
@@ -57,6 +72,78 @@ impl PictureVerdict {
             Self::TooDark | Self::TooFar | Self::TooOblique => "v-near",
             Self::NoDefect => "v-false",
         }
+    }
+}
+
+/// Reason for a verdict.
+#[derive(Debug, Clone, PartialEq)]
+pub enum VerdictReason {
+    /// The picture is the first to show these defects.
+    First(Vec<u32>),
+    /// Earlier pictures show the same defects.
+    Again(Vec<u32>),
+    /// The view of the defect that is closest to a hit does not meet all conditions.
+    Failing(Box<DefectView>),
+    /// No defect is visible; contains a defect that is hidden, if there is one.
+    NoDefect(Option<u32>),
+}
+
+impl VerdictReason {
+    /// Returns the reason as a phrase.
+    #[must_use]
+    pub fn words(&self, language: Language) -> String {
+        let list = |ids: &[u32]| ids.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        match self {
+            Self::First(ids) => text!(language, "report-reason-first", defects = list(ids)),
+            Self::Again(ids) => text!(language, "report-reason-again", defects = list(ids)),
+            Self::Failing(view) => {
+                let reasons = failed_conditions(view, language).join("; ");
+                text!(language, "report-reason-failing", defect = view.defect_id, reasons = reasons)
+            }
+            Self::NoDefect(None) => text!(language, "report-reason-none"),
+            Self::NoDefect(Some(id)) => text!(language, "report-reason-occluded", defect = *id),
+        }
+    }
+}
+
+/// Returns the conditions of a hit that a view does not meet, each as a phrase.
+#[must_use]
+pub fn failed_conditions(view: &DefectView, language: Language) -> Vec<String> {
+    let words = [
+        text!(language, "report-reason-not-central"),
+        text!(language, "report-reason-hidden"),
+        text!(
+            language,
+            "report-reason-oblique",
+            angle = format_with_limit(view.incidence_rad.to_degrees(), MAX_INCIDENCE_RAD.to_degrees(), 0),
+            limit = format_limit(MAX_INCIDENCE_RAD.to_degrees())
+        ),
+        text!(
+            language,
+            "report-reason-small",
+            extent = format_with_limit(view.extent_px, MIN_EXTENT_PX, 1),
+            limit = format_limit(MIN_EXTENT_PX)
+        ),
+        text!(
+            language,
+            "report-reason-thin",
+            width = format_with_limit(view.width_px, MIN_LINE_WIDTH_PX, 2),
+            limit = format_limit(MIN_LINE_WIDTH_PX)
+        ),
+        too_dark(view, language),
+    ];
+    words.into_iter().zip(view.conditions()).filter_map(|(word, holds)| (!holds).then_some(word)).collect()
+}
+
+fn too_dark(view: &DefectView, language: Language) -> String {
+    // The required illuminance is displayed as an integer unless the measured value is between the rounded and the exact limit.
+    let whole = view.required_illuminance_lux.round();
+    let required_lux = if view.illuminance_lux < whole { whole } else { view.required_illuminance_lux };
+    let (illuminance, limit) = (format_with_limit(view.illuminance_lux, required_lux, 0), format_limit(required_lux));
+    if view.lamp_on {
+        text!(language, "report-reason-dark-lamp-on", illuminance = illuminance, limit = limit)
+    } else {
+        text!(language, "report-reason-dark-lamp-off", illuminance = illuminance, limit = limit)
     }
 }
 
@@ -99,8 +186,8 @@ pub struct ReviewedPicture {
     pub camera: Camera,
     /// Whether the picture counts as a hit and, if not, why.
     pub verdict: PictureVerdict,
-    /// Reason for the verdict, as a phrase.
-    pub reason: String,
+    /// Reason for the verdict.
+    pub reason: VerdictReason,
     /// IDs of the defects first shown in this picture.
     pub found: Vec<u32>,
     /// Defects in the central part of the image, including those that do not count.
@@ -150,20 +237,18 @@ pub fn evaluate_pictures(
 
 /// Returns the verdict on a picture and the reason, given the defects that it is the first to show (`found`) and those in view.
 #[must_use]
-pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) {
-    let list = |ids: &[u32]| ids.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, VerdictReason) {
     if !found.is_empty() {
-        return (PictureVerdict::Hit, format!("shows defect {} for the first time", list(found)));
+        return (PictureVerdict::Hit, VerdictReason::First(found.to_vec()));
     }
     let again: Vec<u32> = views.iter().filter(|view| view.hit).map(|view| view.defect_id).collect();
     if !again.is_empty() {
-        return (PictureVerdict::Repeat, format!("defect {} was already photographed", list(&again)));
+        return (PictureVerdict::Repeat, VerdictReason::Again(again));
     }
     let failing = |view: &&DefectView| view.conditions().iter().filter(|holds| !**holds).count();
     let nearest = views.iter().filter(|view| view.unoccluded).min_by_key(failing);
     let Some(view) = nearest else {
-        let behind = views.first().map(|view| format!(" (defect {} is occluded)", view.defect_id));
-        return (PictureVerdict::NoDefect, format!("no defect visible{}", behind.unwrap_or_default()));
+        return (PictureVerdict::NoDefect, VerdictReason::NoDefect(views.first().map(|view| view.defect_id)));
     };
     let [_, _, square, large, wide, lit] = view.conditions();
     let verdict = if !square {
@@ -175,7 +260,7 @@ pub fn verdict(found: &[u32], views: &[DefectView]) -> (PictureVerdict, String) 
     } else {
         PictureVerdict::NoDefect
     };
-    (verdict, format!("defect {} is {}", view.defect_id, view.reasons().join("; ")))
+    (verdict, VerdictReason::Failing(Box::new(*view)))
 }
 
 fn target(
@@ -240,10 +325,20 @@ mod tests {
         ];
         for (case, expected, word) in cases {
             let (got, reason) = verdict(&[], &[case]);
+            let reason = reason.words(Language::English);
             assert_eq!(got, expected, "{reason}");
             assert!(reason.contains(word), "{reason}");
         }
-        assert_eq!(verdict(&[], &[]), (PictureVerdict::NoDefect, "no defect visible".into()));
+        assert_eq!(verdict(&[], &[]), (PictureVerdict::NoDefect, VerdictReason::NoDefect(None)));
+    }
+
+    #[test]
+    fn exact_failed_conditions_read_as_in_the_other_outputs() {
+        let dark = DefectView { illuminance_lux: 10.0, extent_px: 9.99, line: true, width_px: 0.2, ..view() };
+        for view in [dark, DefectView { unoccluded: false, incidence_rad: 1.2, lamp_on: true, ..dark }] {
+            assert_eq!(failed_conditions(&view, Language::English), view.reasons());
+        }
+        assert!(failed_conditions(&dark, Language::German).join(" ").contains("Scheinwerfer aus"));
     }
 
     #[test]

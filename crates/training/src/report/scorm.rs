@@ -7,7 +7,7 @@ use maud::{DOCTYPE, PreEscaped, html};
 use serde_json::{Value, json};
 use spandrel_monitor::Assessment;
 use spandrel_monitor::score::completion::verdict;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Script that reads the result from the page and reports it to the LMS.
 const SCRIPT: &str = include_str!("assets/scorm.js");
@@ -51,13 +51,13 @@ fn title(review: &Review) -> String {
 }
 
 /// Returns the result as SCORM data and as text. An incomplete session has no score, because a partial sum would be misleading.
-fn result(assessment: &Assessment) -> (Value, String) {
+fn result(assessment: &Assessment, language: Language) -> (Value, String) {
     let (scores, certification) = (&assessment.scores, &assessment.certification);
     let time = scorm_timespan(assessment.end.seconds);
-    let verdict = verdict(certification.passed, &certification.unmet, Language::English);
+    let verdict = verdict(certification.passed, &certification.unmet, language);
     if !assessment.completion.complete {
         let result = json!({ "cmi.core.lesson_status": "incomplete", "cmi.core.session_time": time });
-        return (result, format!("{}. {verdict}", assessment.completion.headline(Language::English)));
+        return (result, format!("{}. {verdict}", assessment.completion.headline(language)));
     }
     let pct = if scores.overall_max > 0.0 { 100.0 * scores.overall / scores.overall_max } else { 0.0 };
     let result = json!({
@@ -67,23 +67,33 @@ fn result(assessment: &Assessment) -> (Value, String) {
         "cmi.core.lesson_status": if certification.passed { "passed" } else { "failed" },
         "cmi.core.session_time": time,
     });
-    (result, format!("{} of 100. {verdict}", formatting::number(pct, 0)))
+    (result, text!(language, "report-scorm-result", points = formatting::number(pct, 0), verdict = verdict))
+}
+
+/// Returns the texts that the package's script shows.
+fn texts(language: Language) -> Value {
+    json!({
+        "missing": text!(language, "report-scorm-missing"),
+        "sent": text!(language, "report-scorm-sent"),
+        "refused": text!(language, "report-scorm-refused"),
+    })
 }
 
 fn index(review: &Review) -> String {
-    let (result, words) = result(&review.assessment);
+    let language = review.metadata.language;
+    let (result, words) = result(&review.assessment, language);
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(language.tag()) {
             head {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'self'; style-src 'unsafe-inline'; frame-src 'self'";
                 title { (title(review)) }
                 style { "body{margin:0;font:16px system-ui,sans-serif}p{margin:.5rem 1rem}iframe{border:0;width:100%;height:calc(100vh - 3rem)}" }
             }
-            body data-result=(result) {
+            body data-result=(result) data-texts=(texts(language)) {
                 p role="status" id="told" { (words) ". " }
-                iframe src="report.html" title="Session report" {}
+                iframe src="report.html" title=(text!(language, "report-kicker")) {}
                 script src="scorm.js" {}
             }
         }

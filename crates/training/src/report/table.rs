@@ -2,6 +2,7 @@
 
 use super::formatting;
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// A cell of a data table.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,36 +69,42 @@ impl TableCell {
     }
 }
 
-/// A table that can be shown and downloaded as CSV.
+/// A table that can be shown and downloaded as CSV. The page shows it in the reader's language; the download is in English, so
+/// that programs can read it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// CSV file name without extension.
     pub name: &'static str,
     /// Caption shown above the table.
-    pub caption: &'static str,
+    pub caption: String,
     /// Column headings, as displayed.
-    pub columns: Vec<&'static str>,
+    pub columns: Vec<String>,
     /// Rows; each has one cell per column.
     pub rows: Vec<Vec<TableCell>>,
 }
 
-impl Table {
-    /// Renders the table collapsed, below its figure.
-    #[must_use]
-    pub fn folded(&self) -> Markup {
-        html! {
-            details.numbers {
-                summary { "Table: " (self.caption) }
-                (self.shown())
-            }
+/// Renders a table collapsed, below its figure. `table` returns it in a language.
+#[must_use]
+pub fn folded(language: Language, table: impl Fn(Language) -> Table) -> Markup {
+    let shown_table = table(language);
+    html! {
+        details.numbers {
+            summary { (text!(language, "report-table", caption = shown_table.caption.as_str())) }
+            (shown_table.with_download(language, &table(Language::English)))
         }
     }
+}
 
-    /// Renders the table with its download link.
-    #[must_use]
-    pub fn shown(&self) -> Markup {
+/// Renders a table with its download link. `table` returns it in a language.
+#[must_use]
+pub fn shown(language: Language, table: impl Fn(Language) -> Table) -> Markup {
+    table(language).with_download(language, &table(Language::English))
+}
+
+impl Table {
+    fn with_download(&self, language: Language, english: &Self) -> Markup {
         html! {
-            div.scroll tabindex="0" role="region" aria-label={ "Table: " (self.caption) } {
+            div.scroll tabindex="0" role="region" aria-label=(text!(language, "report-table", caption = self.caption.as_str())) {
                 table {
                     caption { (self.caption) }
                     thead { tr { @for column in &self.columns { th scope="col" { (column) } } } }
@@ -113,14 +120,14 @@ impl Table {
                     }
                 }
             }
-            p.download { (download(&format!("{}.csv", self.name), &self.csv(), "Download as CSV")) }
+            p.download { (download(&format!("{}.csv", self.name), &english.csv(), &text!(language, "report-table-download"))) }
         }
     }
 
     /// Returns the table as CSV with a header line and full-precision numbers.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut csv = self.columns.iter().map(|column| TableCell::from(*column).field()).collect::<Vec<_>>().join(",");
+        let mut csv = self.columns.iter().map(|column| TableCell::from(column.as_str()).field()).collect::<Vec<_>>().join(",");
         csv.push('\n');
         for row in &self.rows {
             csv.push_str(&row.iter().map(TableCell::field).collect::<Vec<_>>().join(","));
@@ -151,12 +158,16 @@ mod tests {
 
     fn table(text: &str) -> Table {
         let rows = vec![vec![text.into(), TableCell::Number(1.0 / 3.0, 2), TableCell::Clock(61.5)]];
-        Table { name: "t", caption: "a table", columns: vec!["words", "x, m", "time"], rows }
+        Table { name: "t", caption: "a table".into(), columns: ["words", "x, m", "time"].map(str::to_owned).to_vec(), rows }
+    }
+
+    fn page(text: &str) -> String {
+        shown(Language::English, |_| table(text)).into_string()
     }
 
     #[test]
     fn exact_table_is_rounded_on_page_and_exact_in_csv() {
-        let page = table("a").shown().into_string();
+        let page = page("a");
         assert!(page.contains("0.33") && page.contains("1:02"), "{page}");
         assert_eq!(table("a").csv(), "words,\"x, m\",time\na,0.3333333333333333,61.5\n");
         assert!(page.contains("data:text/csv;charset=utf-8,words%2C%22x%2C%20m%22"), "{page}");
@@ -165,8 +176,18 @@ mod tests {
     #[test]
     fn exact_text_is_escaped_in_html_and_csv() {
         let evil = "=1+\"<script>alert(1)</script>\"";
-        let page = table(evil).shown().into_string();
+        let page = page(evil);
         assert!(!page.contains("<script"), "{page}");
         assert!(table(evil).csv().contains("\"'=1+\"\"<script>"), "{}", table(evil).csv());
+    }
+
+    #[test]
+    fn exact_page_is_translated_and_download_is_in_english() {
+        let in_language = |language| Table { caption: text!(language, "report-column-score"), ..table("a") };
+        let page = folded(Language::German, in_language).into_string();
+        assert!(page.contains("<summary>Tabelle: Wertung</summary>") && page.contains("Als CSV herunterladen"), "{page}");
+        let words = |language| Table { columns: vec![text!(language, "report-column-score")], rows: Vec::new(), ..table("a") };
+        let page = shown(Language::German, words).into_string();
+        assert!(page.contains("charset=utf-8,score%0A") && page.contains(">Wertung</th>"), "{page}");
     }
 }

@@ -42,12 +42,12 @@ pub fn cohort_page(visitor: &Visitor, selection: &CohortPageSelection<'_>, cohor
                 @if cohort.is_some() { a href={ "/cohort/report.html?" (query(selection)) } { (text!(language, "people-cohort-download")) } }
             }
             @match cohort {
-                Some(cohort) => (summary_lines(cohort)),
+                Some(cohort) => (summary_lines(cohort, language)),
                 None => p.calm { (text!(language, "people-no-sessions")) @if let Some(words) = excluded_sessions_note(selection.left_out, language) { " " (words) "." } },
             }
         }
         @if let Some(cohort) = cohort {
-            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(selection)))) { (section(id, name, &body)) }
+            @for (id, name, body) in sections(cohort, TableLinks::Served("/cohort/tables/", &format!("?{}", query(selection))), language) { (section(id, &name, &body)) }
         }
     };
     page(visitor, "/cohort", &text!(language, "people-cohort"), &body)

@@ -71,14 +71,14 @@ fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) 
     let side = |bridge: &str| text!(language, "editor-side-caption", bridge = bridge);
     let sides = scenario.bridges.iter().take_while(|_| (options.may_continue)());
     Some(html! {
-        figure { (site_picture(scenario, &site)) figcaption { (text!(language, "editor-picture-caption")) } }
-        figure data-plan { (editor_plan(scenario, &site)) figcaption { (text!(language, "editor-plan-caption")) } }
+        figure { (site_picture(scenario, &site, language)) figcaption { (text!(language, "editor-picture-caption")) } }
+        figure data-plan { (editor_plan(scenario, &site, language)) figcaption { (text!(language, "editor-plan-caption")) } }
         @if scenario.bridges.is_empty() {
-            figure.wide { (scroll(&south, &job_south(scenario, &site))) figcaption { (south) } }
+            figure.wide { (scroll(&south, &job_south(scenario, &site, language))) figcaption { (south) } }
         }
         @for bridge in sides {
             figure.wide {
-                (scroll(&side(&bridge.name), &job_side(scenario, &site, bridge)))
+                (scroll(&side(&bridge.name), &job_side(scenario, &site, bridge, language)))
                 figcaption { (side(&bridge.name)) }
             }
         }

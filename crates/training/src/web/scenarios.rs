@@ -117,7 +117,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         @if !scenario.tasks.is_empty() {
             (section("tasks", &text!(language, "editor-tasks"), &table(&text!(language, "editor-tolerances"), &heads, &rows)))
         }
-        (section("site", &text!(language, "editor-site-plan"), &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-drawing")) { (job_plan(scenario, site)) } } }))
+        (section("site", &text!(language, "editor-site-plan"), &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-drawing")) { (job_plan(scenario, site, language)) } } }))
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", &text!(language, "editor-file"), &html! {
             details { summary { (text!(language, "editor-show")) } div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-file-contents")) { pre { code { (text) } } } }
             @if named.uploaded {
@@ -131,7 +131,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
 /// Renders the briefing for a scenario.
 #[must_use]
 pub fn briefing_page(visitor: &Visitor, briefing: &Briefing, scenario: &Scenario, site: &Site) -> Markup {
-    let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site)) };
+    let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site, visitor.language)) };
     page(visitor, "/scenarios", &text!(visitor.language, "editor-briefing-title", name = briefing.job.as_str()), &body)
 }
 

@@ -14,6 +14,7 @@ use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
+use spandrel_monitor::stored_text::all_translated;
 use spandrel_text::{Language, text};
 
 /// One page of the session list.
@@ -316,7 +317,7 @@ fn scores(language: Language, record: &SessionRecord) -> Markup {
     html! {
         p { b { (record.completion_summary(language)) ". " (record.verdict(language)) "." } @if !record.is_complete() { " " (text!(language, "sessions-partial")) } }
         div.split {
-            figure { figcaption { (text!(language, "sessions-radar-caption")) } (radar(&spokes, &text!(language, "sessions-radar"))) }
+            figure { figcaption { (text!(language, "sessions-radar-caption")) } (radar(&spokes, &text!(language, "sessions-radar"), language)) }
             div.cards {
                 @if record.is_complete() {
                     div.card { h3 { (text!(language, "sessions-overall")) } p.figure { (formatting::number(record.scores.overall, 0)) span.of { " " (text!(language, "sessions-of-most", most = formatting::number(record.scores.overall_max, 0))) } } }
@@ -413,10 +414,10 @@ fn defects(language: Language, record: &SessionRecord) -> Markup {
         &html! {
             @for defect in &record.defects {
                 tr {
-                    th scope="row" { (defect.id) " · " (defect.kind_name) }
+                    th scope="row" { (defect.id) " · " (defect.kind_title(language)) }
                     td.number { @if let Some(task) = defect.task { (task) } }
                     td { @if defect.found { (text!(language, "sessions-yes")) } @else { (text!(language, "sessions-no")) } }
-                    td { @if !defect.found { @if defect.lacked.is_empty() { (text!(language, "sessions-no-picture")) } @else { (defect.lacked.join(", ")) } } }
+                    td { @if !defect.found { @if defect.lacked.is_empty() { (text!(language, "sessions-no-picture")) } @else { (all_translated(&defect.lacked, language).join(", ")) } } }
                 }
             }
         },

@@ -141,7 +141,7 @@ fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -
             @let known = reliability_of_session(profile, &changes.since);
             ul {
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change_line(language, change)) @if change_is_within_error(change, known) { " (" (within_error::words(true)) ")" } }
+                    li { (change_line(language, change)) @if change_is_within_error(change, known) { " (" (within_error::words(true, language)) ")" } }
                 }
             }
         }
@@ -190,7 +190,7 @@ fn progress(language: Language, name: &str, profile: &TraineeProfile<'_>) -> Mar
         @for job in by_job(records, incomplete, profile.reliability) {
             @let sessions = text!(language, "people-job-sessions", count = job.progress.repetitions.len());
             h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (sessions) }
-            (job_progress(&job))
+            (job_progress(&job, language))
         }
     }
 }

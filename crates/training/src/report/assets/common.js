@@ -35,14 +35,14 @@ const Flight = (function () {
     node.setAttribute('transform', 'translate(' + x.toFixed(1) + ' ' + y.toFixed(1) + ')');
   }
 
-  // Play/pause control for a slider. `advance` moves the slider by the given number of seconds and returns `false` once
+  // Play/pause control for a slider. `texts` contains the button's labels. `advance` moves the slider by the given number of seconds and returns `false` once
   // it reaches the end.
-  function player(button, begin, advance) {
+  function player(button, texts, begin, advance) {
     let timer = null;
     function stop() {
       if (timer !== null) cancelAnimationFrame(timer);
       timer = null;
-      button.textContent = 'Play';
+      button.textContent = texts.play;
       button.setAttribute('aria-pressed', 'false');
     }
     button.addEventListener('click', () => {
@@ -56,7 +56,7 @@ const Flight = (function () {
         if (!more) { stop(); return; }
         timer = requestAnimationFrame(step);
       };
-      button.textContent = 'Pause';
+      button.textContent = texts.pause;
       button.setAttribute('aria-pressed', 'true');
       timer = requestAnimationFrame(step);
     });

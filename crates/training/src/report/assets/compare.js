@@ -5,7 +5,7 @@
   const block = byId('comparison-data');
   if (!block) return;
   const data = JSON.parse(block.textContent);
-  const flights = data.flights;
+  const { flights, texts } = data;
   if (flights.some((flight) => flight.series.t.length === 0)) return;
   // Step of the slider and of the charts, s.
   const STEP = 0.2;
@@ -25,7 +25,7 @@
 
   const value = { speed: [1, 'm/s'], distance: [1, 'm'], clearance: [1, 'm'], battery: [0, '%'] };
   function words(k, key, i) {
-    if (i === null) return key === 'task' ? 'not flying' : '–';
+    if (i === null) return key === 'task' ? texts.notFlying : '–';
     const series = flights[k].series;
     if (key === 'task') return series.task[i] === null ? '–' : flights[k].tasks[series.task[i]];
     return number(series[key][i], value[key][0], value[key][1]);
@@ -41,7 +41,8 @@
     }
     slider.value = String(now);
     byId('moment-text').textContent = clock(t);
-    const spoken = flights.map((_, k) => 'session ' + (k + 1) + ' ' + words(k, 'task', at[k]));
+    // Names may contain a dollar sign, which has a meaning in replacement texts.
+    const spoken = flights.map((_, k) => texts.slider.replace('%session', String(k + 1)).replace('%task', () => words(k, 'task', at[k])));
     slider.setAttribute('aria-valuetext', clock(t) + ', ' + spoken.join(', '));
     for (const cell of all('[data-now]')) {
       const k = Number(cell.dataset.flight);
@@ -74,7 +75,7 @@
   }
 
   let t = 0;
-  const stop = Flight.player(byId('play'), () => {
+  const stop = Flight.player(byId('play'), texts, () => {
     if (now >= times.length - 1) show(0);
     t = times[now];
   }, (seconds) => {

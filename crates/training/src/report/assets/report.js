@@ -7,6 +7,7 @@
   if (!block) return;
   const data = JSON.parse(block.textContent);
   const s = data.series;
+  const texts = data.texts;
   const count = s.t.length;
   if (count === 0) return;
   const end = s.t[count - 1];
@@ -14,7 +15,9 @@
   const listeners = [];
 
   const taskName = (i) => (s.task[i] === null ? '–' : data.tasks[s.task[i]].id + ' · ' + data.tasks[s.task[i]].name);
-  const pathWords = (i) => ['between tasks', 'off path', 'on path'][s.state[i]];
+  const pathWords = (i) => texts.states[s.state[i]];
+  // Names may contain a dollar sign, which has a meaning in replacement texts.
+  const sliderWords = (i) => texts.slider.replace('%moment', clock(s.t[i])).replace('%path', pathWords(i)).replace('%task', () => taskName(i));
 
   // Slider.
   const slider = byId('moment');
@@ -36,7 +39,7 @@
       cursor.setAttribute('transform', 'translate(' + (left + (right - left) * (end > 0 ? s.t[now] / end : 0)).toFixed(1) + ' 0)');
     }
     slider.value = String(now);
-    slider.setAttribute('aria-valuetext', clock(s.t[now]) + ', task ' + taskName(now) + ', ' + pathWords(now));
+    slider.setAttribute('aria-valuetext', sliderWords(now));
     byId('moment-text').textContent = clock(s.t[now]);
     for (const key of Object.keys(readout)) byId('now-' + key).textContent = readout[key](now);
     byId('now-task').title = taskName(now);
@@ -87,7 +90,7 @@
   }
 
   let t = 0;
-  const stop = Flight.player(byId('play'), () => {
+  const stop = Flight.player(byId('play'), texts, () => {
     if (video) video.pause();
     if (now >= count - 1) show(0);
     t = s.t[now];
@@ -119,15 +122,16 @@
   listeners.push(curves.follow);
   Flight.whenColorsChange(() => { curves.draw(); if (model) model.paint(); });
 
-  // Creates the CSV file of the time series in the browser and offers it as a download.
+  // Creates the CSV file of the time series in the browser and offers it as a download. The file is in English.
   const csv = byId('series-csv');
   csv.hidden = false;
   csv.addEventListener('click', () => {
     const names = Object.keys(s);
     const heads = { t: 't_s', e: 'east_m', n: 'north_m', u: 'up_m', speed: 'speed_m_s', distance: 'distance_m', clearance: 'clearance_m', battery: 'battery_pct', task: 'task', state: 'path' };
+    const states = ['between tasks', 'off path', 'on path'];
     const cell = (name, i) => {
       if (name === 'task') return s.task[i] === null ? '' : data.tasks[s.task[i]].id;
-      if (name === 'state') return pathWords(i);
+      if (name === 'state') return states[s.state[i]];
       return s[name][i] ?? '';
     };
     const lines = s.t.map((_, i) => names.map((name) => cell(name, i)).join(','));
@@ -182,7 +186,7 @@
     const canvas = renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', '3D model of the site and the flight path. Arrow keys rotate it; plus and minus zoom.');
+    canvas.setAttribute('aria-label', texts.model);
     host.appendChild(canvas);
     const sun = new T.DirectionalLight(0xffffff, 1.6);
     sun.position.set(-0.5, 1, 0.7);

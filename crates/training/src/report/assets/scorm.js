@@ -1,6 +1,7 @@
 // Reports the result to a learning management system through the SCORM 1.2 API of a parent or opener window.
 "use strict";
 const told = document.getElementById("told");
+const texts = JSON.parse(document.body.dataset.texts);
 
 function within(from) {
   let at = from;
@@ -14,12 +15,12 @@ function within(from) {
 
 const api = within(window) || (window.opener ? within(window.opener) : null);
 if (api === null) {
-  told.append("No learning management system found.");
+  told.append(texts.missing);
 } else {
   const ok = (answer) => String(answer) === "true";
   let done = ok(api.LMSInitialize(""));
   for (const [name, value] of Object.entries(JSON.parse(document.body.dataset.result))) done = ok(api.LMSSetValue(name, value)) && done;
   done = ok(api.LMSCommit("")) && done;
-  told.append(done ? "Result sent to the learning management system." : "The learning management system did not accept the result.");
+  told.append(done ? texts.sent : texts.refused);
   window.addEventListener("pagehide", () => api.LMSFinish(""));
 }

@@ -1,5 +1,7 @@
 //! Possible outcomes of surface coverage.
 
+use spandrel_text::{Language, text};
+
 /// Coverage outcome of a surface patch, from worst to best. If several pictures show the patch, the best one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SurfaceOutcome {
@@ -36,16 +38,16 @@ impl SurfaceOutcome {
 
     /// Returns the name shown in the report.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(self, language: Language) -> String {
         match self {
-            Self::Shown => "captured well",
-            Self::Blurred => "blurred",
-            Self::DarkLampOn => "too dark, lamp on",
-            Self::DarkLampOff => "too dark, lamp off",
-            Self::TooOblique => "too oblique",
-            Self::TooFar => "too far",
-            Self::NotPhotographed => "in view, not photographed",
-            Self::NeverInView => "never in view",
+            Self::Shown => text!(language, "report-coverage-shown"),
+            Self::Blurred => text!(language, "report-coverage-blurred"),
+            Self::DarkLampOn => text!(language, "report-coverage-dark-on"),
+            Self::DarkLampOff => text!(language, "report-coverage-dark-off"),
+            Self::TooOblique => text!(language, "report-coverage-oblique"),
+            Self::TooFar => text!(language, "report-coverage-far"),
+            Self::NotPhotographed => text!(language, "report-coverage-unpictured"),
+            Self::NeverInView => text!(language, "report-coverage-unseen"),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::report::Review;
 use crate::report::formatting;
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use maud::{Markup, html};
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::elements::Element;
@@ -10,97 +10,125 @@ use spandrel_monitor::score::certification::TaskVisits;
 use spandrel_monitor::score::certification::contacts::MergedCrash;
 use spandrel_monitor::score::certification::pictures::GradedPicture;
 use spandrel_monitor::score::completion::verdict;
-use spandrel_text::Language;
+use spandrel_monitor::stored_text::all_translated;
+use spandrel_text::{Language, text};
 
 /// Renders the "Certification" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let c = &review.assessment.certification;
+    let language = review.metadata.language;
     html! {
-        p { "The certification profile adds pass/fail requirements that close loopholes in the four TASBID scores. "
-            b { @if c.passed { "All requirements met." } @else { (verdict(false, &c.unmet, Language::English)) "." } } }
+        p { (text!(language, "report-certification-intro")) " "
+            b { @if c.passed { (text!(language, "report-certification-passed")) } @else { (verdict(false, &c.unmet, language)) "." } } }
         ul.gates {
             @for requirement in &c.requirements {
-                li { span class={ "badge " (if requirement.met { "v-hit" } else { "v-false" }) } { (if requirement.met { "met" } else { "not met" }) }
-                    " " (requirement.name) ": " (requirement.reached_text(Language::English)) " (" (requirement.limit_text(Language::English)) ")" }
+                li { span class={ "badge " (if requirement.met { "v-hit" } else { "v-false" }) } { (met_label(requirement.met, language)) }
+                    " " (requirement.title(language)) ": " (requirement.reached_text(language)) " (" (requirement.limit_text(language)) ")" }
             }
         }
-        @if !c.unmet.is_empty() { p { "Not met: " (c.unmet.join("; ")) "." } }
-        p { "Closer than " (formatting::number(review.scenario.scoring.clearance_m, 1)) " m to a surface for " (formatting::number(c.exposure_s, 1))
-            " s; " (c.crash_onsets) " contacts (" (c.crashes.len()) " after merging those less than a second apart); "
-            (formatting::number(c.battery_at_end_pct, 0)) "% battery remaining at the end; flight time " (formatting::duration(c.time.flown_s))
-            " (this job needs " (formatting::duration(c.time.needed_s)) "). " (too_fine(review)) }
-        (scores_table(review).folded())
-        (visits_table(review).folded())
-        (crashes_table(review).folded())
-        (pictures_table(review).folded())
-        (detection_table(review).folded())
+        @if !c.unmet.is_empty() { p { (text!(language, "report-certification-unmet", requirements = all_translated(&c.unmet, language).join("; "))) } }
+        p { (measures(review)) " " (too_fine(review)) }
+        (folded(language, |language| scores_table(review, language)))
+        (folded(language, |language| visits_table(review, language)))
+        (folded(language, |language| crashes_table(review, language)))
+        (folded(language, |language| pictures_table(review, language)))
+        (folded(language, |language| detection_table(review, language)))
     }
+}
+
+fn met_label(met: bool, language: Language) -> String {
+    if met { text!(language, "report-certification-met") } else { text!(language, "report-certification-not-met") }
+}
+
+/// Returns the measures that no requirement shows.
+fn measures(review: &Review) -> String {
+    let c = &review.assessment.certification;
+    text!(
+        review.metadata.language,
+        "report-certification-exposure",
+        limit = formatting::number(review.scenario.scoring.clearance_m, 1),
+        exposure = formatting::number(c.exposure_s, 1),
+        contacts = c.crash_onsets,
+        merged = c.crashes.len(),
+        battery = formatting::number(c.battery_at_end_pct, 0),
+        time = formatting::duration(c.time.flown_s),
+        needed = formatting::duration(c.time.needed_s)
+    )
 }
 
 /// Returns a note about the defects that are too fine for the aircraft's camera; empty if there are none.
 fn too_fine(review: &Review) -> String {
     match review.assessment.certification.accuracy.defects.iter().filter(|defect| !defect.gradable).count() {
         0 => String::new(),
-        1 => "1 defect is too fine for this camera and does not count toward the accuracy.".to_owned(),
-        many => format!("{many} defects are too fine for this camera and do not count toward the accuracy."),
+        count => text!(review.metadata.language, "report-certification-too-fine", count = count),
     }
 }
 
-fn scores_table(review: &Review) -> Table {
+fn scores_table(review: &Review, language: Language) -> Table {
     let scores = &review.assessment.certification.scores;
     let row =
-        |name: &str, value: Option<f64>| vec![name.into(), value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1))];
+        |name: String, value: Option<f64>| vec![name.into(), value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1))];
     Table {
         name: "certification-scores",
-        caption: "certification scores",
-        columns: vec!["score", "points"],
+        caption: text!(language, "report-certification-scores-caption"),
+        columns: vec![text!(language, "report-column-score"), text!(language, "report-column-points")],
         rows: vec![
-            row("conformity", scores.conformity),
-            row("precision", scores.precision),
-            row("safety", Some(scores.safety)),
-            row("accuracy", scores.accuracy),
-            row("efficiency", Some(scores.efficiency)),
-            row("sum", Some(scores.sum)),
+            row(text!(language, "report-score-conformity"), scores.conformity),
+            row(text!(language, "report-score-precision"), scores.precision),
+            row(text!(language, "report-score-safety"), Some(scores.safety)),
+            row(text!(language, "report-score-accuracy"), scores.accuracy),
+            row(text!(language, "report-score-efficiency"), Some(scores.efficiency)),
+            row(text!(language, "report-score-sum"), Some(scores.sum)),
         ],
     }
 }
 
-fn crashes_table(review: &Review) -> Table {
+fn crashes_table(review: &Review, language: Language) -> Table {
     let row = |crash: &MergedCrash| {
         vec![
             TableCell::Number(crash.t_s, 1),
-            crash.with.label().into(),
+            formatting::contact_label(crash.with, language).into(),
             TableCell::Number(crash.speed_m_s, 2),
             TableCell::Number(crash.loss, 1),
         ]
     };
     Table {
         name: "merged-contacts",
-        caption: "merged contacts",
-        columns: vec!["time (s)", "with", "speed (m/s)", "points lost"],
+        caption: text!(language, "report-certification-contacts-caption"),
+        columns: vec![
+            text!(language, "report-column-time-s"),
+            text!(language, "report-column-with"),
+            text!(language, "report-column-speed"),
+            text!(language, "report-column-points-lost"),
+        ],
         rows: review.assessment.certification.crashes.iter().map(row).collect(),
     }
 }
 
-fn pictures_table(review: &Review) -> Table {
+fn pictures_table(review: &Review, language: Language) -> Table {
     let row = |picture: &GradedPicture| {
         let result = match (picture.hit, picture.counted) {
-            (true, _) => "hit",
-            (false, true) => "no hit",
-            (false, false) => "not counted",
+            (true, _) => text!(language, "report-certification-hit"),
+            (false, true) => text!(language, "report-certification-no-hit"),
+            (false, false) => text!(language, "report-certification-not-counted"),
         };
         let defects = picture.found.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-        vec![picture.frame.into(), result.into(), defects.into(), picture.fails.join("; ").into()]
+        vec![picture.frame.into(), result.into(), defects.into(), all_translated(&picture.fails, language).join("; ").into()]
     };
     Table {
         name: "picture-quality",
-        caption: "pictures by image quality",
-        columns: vec!["frame", "result", "new defects", "why defects in the picture did not count"],
+        caption: text!(language, "report-certification-pictures-caption"),
+        columns: vec![
+            text!(language, "report-column-frame"),
+            text!(language, "report-column-result"),
+            text!(language, "report-column-new-defects"),
+            text!(language, "report-column-fails"),
+        ],
         rows: review.assessment.certification.accuracy.pictures.iter().map(row).collect(),
     }
 }
 
-fn visits_table(review: &Review) -> Table {
+fn visits_table(review: &Review, language: Language) -> Table {
     let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
     let row = |task: &TaskVisits| {
         vec![
@@ -117,23 +145,23 @@ fn visits_table(review: &Review) -> Table {
     };
     Table {
         name: "visits",
-        caption: "task visits",
+        caption: text!(language, "report-certification-visits-caption"),
         columns: vec![
-            "task",
-            "visits",
-            "path flown (%)",
-            "on-path share (%)",
-            "speeding loss",
-            "RMS distance / threshold",
-            "RMS speed above limit / limit",
-            "RMS framing error (deg)",
-            "too close (% of time)",
+            text!(language, "report-column-task"),
+            text!(language, "report-column-visits"),
+            text!(language, "report-column-path-flown"),
+            text!(language, "report-column-on-path-share"),
+            text!(language, "report-column-speeding-loss"),
+            text!(language, "report-column-rms-distance"),
+            text!(language, "report-column-rms-speed"),
+            text!(language, "report-column-rms-framing"),
+            text!(language, "report-column-too-close-share"),
         ],
         rows: review.assessment.certification.tasks.iter().map(row).collect(),
     }
 }
 
-fn detection_table(review: &Review) -> Table {
+fn detection_table(review: &Review, language: Language) -> Table {
     let mut rows = Vec::new();
     let mut put = |by: &str, name: String, found: usize, placed: usize| {
         rows.push(vec![by.into(), name.into(), found.into(), placed.into()]);
@@ -148,13 +176,20 @@ fn detection_table(review: &Review) -> Table {
         }
     };
     let element = |number: u32| Element::from_number(number as u16);
-    tell("element", &|defect| defect.element.number().into(), &|k| format!("{k} {}", element(k).name()));
-    tell("kind", &|defect| defect.kind, &|k| defect_name(k).to_owned());
-    tell("condition state", &|defect| u32::from(defect.condition_state), &|k| k.to_string());
+    tell(&text!(language, "report-column-element"), &|defect| defect.element.number().into(), &|k| {
+        format!("{k} {}", element(k).name())
+    });
+    tell(&text!(language, "report-column-kind"), &|defect| defect.kind, &|k| defect_name(k).to_owned());
+    tell(&text!(language, "report-column-condition-state"), &|defect| u32::from(defect.condition_state), &|k| k.to_string());
     Table {
         name: "detection",
-        caption: "defects found by element, kind and condition state",
-        columns: vec!["grouped by", "value", "found", "placed"],
+        caption: text!(language, "report-certification-detection-caption"),
+        columns: vec![
+            text!(language, "report-column-grouped-by"),
+            text!(language, "report-column-value"),
+            text!(language, "report-column-found"),
+            text!(language, "report-column-placed"),
+        ],
         rows,
     }
 }

@@ -1,14 +1,15 @@
 //! Surface coverage by element: the area that the pictures capture well, and the reasons why the rest does not count.
 
-use super::figure::{figure, legend};
+use super::figure::{SLOT, figure, filled, legend};
 use crate::report::Review;
 use crate::report::coverage::{ElementSurface, MAX_MOTION_BLUR_PX, REQUIRED_GSD_M, SurfaceCoverage, SurfaceOutcome, reach_m};
 use crate::report::formatting;
 use crate::report::plots::bars::{StackedBar, stacked_bars};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
+use spandrel_text::{Language, text};
 
 /// Maximum number of reasons named in the summary.
 const MAX_REASONS: usize = 3;
@@ -18,43 +19,61 @@ const MIN_REASON_SHARE: f64 = 0.01;
 /// Renders the "Coverage" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let total = review.coverage.total();
+    let language = review.metadata.language;
     if total.inspectable_m2 <= 0.0 {
-        return html! { p.calm { "No bridge surface can be inspected from the reference paths; all surfaces are beyond the camera's range." } };
+        return html! { p.calm { (text!(language, "report-coverage-none")) } };
     }
-    let share = |area: f64| formatting::number(100.0 * area / total.inspectable_m2, 0);
     let key: Vec<(&str, String)> =
-        SurfaceOutcome::ALL.map(|surface_outcome| (surface_outcome.class(), surface_outcome.name().to_owned())).to_vec();
+        SurfaceOutcome::ALL.map(|surface_outcome| (surface_outcome.class(), surface_outcome.name(language))).to_vec();
     html! {
-        p { "The pictures capture " b { (share(total.area_m2(SurfaceOutcome::Shown))) "%" } " of the inspectable bridge surface well ("
-            (formatting::number(total.inspectable_m2, 0)) " m² can be inspected from the reference paths)." @if let Some(why) = reasons_not_captured(&total) { " The rest: " (why) "." } }
-        p.note { "A surface is inspectable if it is visible from at least one point of a reference path at " (formatting::number(1000.0 * REQUIRED_GSD_M, 2))
-            " mm per pixel or finer (at this resolution, a 1.27 mm crack, the limit between condition states 2 and 3, covers half a pixel; this camera achieves it from up to "
-            (formatting::number(reach_m(&review.vehicle.camera), 1)) " m away) and at an angle of at most "
-            (formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0)) "° from the surface normal. It is captured well if a picture meets both limits, has enough light (including lamp light) for an exposure within the camera's limits, and has at most "
-            (formatting::number(MAX_MOTION_BLUR_PX, 0)) " px of motion blur. If several pictures show the same patch of surface, the best one counts." }
-        (figure("Coverage of each element's inspectable surface", &html! {
+        p { (summary(&total, language))
+            @if let Some(why) = reasons_not_captured(&total, language) { " " (text!(language, "report-coverage-rest", reasons = why)) } }
+        p.note { (criteria(review)) }
+        (figure(&text!(language, "report-coverage-figure"), &html! {
             (legend(&key))
             div.split {
                 // Distributes the rows between two columns of about equal length.
                 @let rows = rows(&review.coverage);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
-                (stacked_bars(left, "Surface coverage by element"))
-                @if !right.is_empty() { (stacked_bars(right, "Surface coverage by element, continued")) }
+                (stacked_bars(left, &text!(language, "report-coverage-bars")))
+                @if !right.is_empty() { (stacked_bars(right, &text!(language, "report-coverage-bars-continued"))) }
             }
         }))
-        (table(&review.coverage).folded())
+        (folded(language, |language| table(&review.coverage, language)))
     }
 }
 
+fn summary(total: &ElementSurface, language: Language) -> Markup {
+    let share = formatting::number(100.0 * total.area_m2(SurfaceOutcome::Shown) / total.inspectable_m2, 0);
+    let area = formatting::number(total.inspectable_m2, 0);
+    let share = text!(language, "report-percent", value = share);
+    filled(&text!(language, "report-coverage-summary", share = SLOT, area = area), &html! { b { (share) } })
+}
+
+/// Explains when a surface is inspectable and captured well.
+fn criteria(review: &Review) -> String {
+    text!(
+        review.metadata.language,
+        "report-coverage-note",
+        pixel = formatting::number(1000.0 * REQUIRED_GSD_M, 2),
+        reach = formatting::number(reach_m(&review.vehicle.camera), 1),
+        angle = formatting::number(MAX_INCIDENCE_RAD.to_degrees(), 0),
+        blur = formatting::number(MAX_MOTION_BLUR_PX, 0)
+    )
+}
+
 /// Returns the main reasons why surface is not captured well; `None` if each affects less than [`MIN_REASON_SHARE`].
-fn reasons_not_captured(total: &ElementSurface) -> Option<String> {
+fn reasons_not_captured(total: &ElementSurface, language: Language) -> Option<String> {
     let share = |outcome: &SurfaceOutcome| total.area_m2(*outcome) / total.inspectable_m2;
     let mut rest: Vec<SurfaceOutcome> = SurfaceOutcome::ALL
         .into_iter()
         .filter(|surface_outcome| *surface_outcome != SurfaceOutcome::Shown && share(surface_outcome) >= MIN_REASON_SHARE)
         .collect();
     rest.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let words = |outcome: &SurfaceOutcome| format!("{}% {}", formatting::number(100.0 * share(outcome), 0), outcome.name());
+    let words = |outcome: &SurfaceOutcome| {
+        let share = formatting::number(100.0 * share(outcome), 0);
+        text!(language, "report-coverage-reason", share = share, outcome = outcome.name(language))
+    };
     let words: Vec<String> = rest.iter().take(MAX_REASONS).map(words).collect();
     (!words.is_empty()).then(|| words.join("; "))
 }
@@ -69,7 +88,7 @@ fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
     coverage.elements.iter().map(row).collect()
 }
 
-fn table(coverage: &SurfaceCoverage) -> Table {
+fn table(coverage: &SurfaceCoverage, language: Language) -> Table {
     let row = |element: &ElementSurface, [number, name]: [TableCell; 2]| {
         let mut row = vec![number, name, TableCell::Number(element.inspectable_m2, 1)];
         row.extend(SurfaceOutcome::ALL.map(|surface_outcome| TableCell::Number(element.area_m2(surface_outcome), 1)));
@@ -86,28 +105,20 @@ fn table(coverage: &SurfaceCoverage) -> Table {
         .iter()
         .map(|(element, surface)| row(surface, [u32::from(element.number()).into(), element.name().into()]))
         .collect();
-    rows.push(row(&coverage.total(), ["all".into(), TableCell::Empty]));
-    let mut columns = vec!["element", "name", "inspectable area (m²)"];
+    rows.push(row(&coverage.total(), [text!(language, "report-coverage-all").into(), TableCell::Empty]));
+    let mut columns = vec![
+        text!(language, "report-column-element"),
+        text!(language, "report-column-name"),
+        text!(language, "report-column-inspectable"),
+    ];
+    columns.extend(SurfaceOutcome::ALL.map(|outcome| text!(language, "report-column-area", outcome = outcome.name(language))));
     columns.extend([
-        "captured well (m²)",
-        "blurred (m²)",
-        "too dark, lamp on (m²)",
-        "too dark, lamp off (m²)",
-        "too oblique (m²)",
-        "too far (m²)",
-        "in view, not photographed (m²)",
-        "never in view (m²)",
-        "pixel size (mm)",
-        "angle from normal (deg)",
-        "illuminance (lx)",
-        "motion blur (px)",
+        text!(language, "report-column-pixel-size"),
+        text!(language, "report-column-angle"),
+        text!(language, "report-column-illuminance"),
+        text!(language, "report-column-blur"),
     ]);
-    Table {
-        name: "coverage",
-        caption: "surface coverage; pixel size, angle, light and blur are averages over pictures that meet the required resolution and angle",
-        columns,
-        rows,
-    }
+    Table { name: "coverage", caption: text!(language, "report-coverage-caption"), columns, rows }
 }
 
 #[cfg(test)]
@@ -126,10 +137,11 @@ mod tests {
         ] {
             element.area_by_outcome_m2.insert(surface_outcome, area_m2);
         }
-        assert_eq!(reasons_not_captured(&element).unwrap(), "35% too dark, lamp off; 20% blurred; 5% too far");
-        let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() });
+        let reasons = reasons_not_captured(&element, Language::English).unwrap();
+        assert_eq!(reasons, "35% too dark, lamp off; 20% blurred; 5% too far");
+        let table = table(&SurfaceCoverage { elements: [(Element::RcBoxGirder, element)].into() }, Language::English);
         for (k, surface_outcome) in SurfaceOutcome::ALL.iter().enumerate() {
-            assert_eq!(table.columns[3 + k], format!("{} (m²)", surface_outcome.name()));
+            assert_eq!(table.columns[3 + k], format!("{} (m²)", surface_outcome.name(Language::English)));
         }
         assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
         assert_eq!(table.rows[1][6], TableCell::Number(35.0, 1), "the total of a single element equals that element");
@@ -138,6 +150,6 @@ mod tests {
             area_by_outcome_m2: [(SurfaceOutcome::Shown, 1.0)].into(),
             ..ElementSurface::default()
         };
-        assert_eq!(reasons_not_captured(&all), None);
+        assert_eq!(reasons_not_captured(&all, Language::English), None);
     }
 }

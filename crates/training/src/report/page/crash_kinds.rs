@@ -1,22 +1,29 @@
 //! Kinds of crashes, as grouped in multi-session figures.
 
 use crate::record::Crashes;
+use spandrel_text::{Language, text};
 
-/// CSS class and name of each kind. People and vehicles share one kind because hitting either ends a session.
-pub const KINDS: [(&str, &str); 5] = [
-    ("k-bridge", "bridge"),
-    ("k-terrain", "ground"),
-    ("k-water", "water"),
-    ("k-other", "other"),
-    ("k-grave", "person or vehicle"),
-];
+/// CSS class of each kind. People and vehicles share one kind because hitting either ends a session.
+const CLASSES: [&str; 5] = ["k-bridge", "k-terrain", "k-water", "k-other", "k-grave"];
 
-/// Returns the number of crashes of each kind, in the order of [`KINDS`].
+/// Returns the CSS class and name of each kind.
+pub fn kinds(language: Language) -> [(&'static str, String); 5] {
+    let [bridge, terrain, water, other, grave] = CLASSES;
+    [
+        (bridge, text!(language, "report-contact-bridge")),
+        (terrain, text!(language, "report-contact-ground")),
+        (water, text!(language, "report-contact-water")),
+        (other, text!(language, "report-contact-other")),
+        (grave, text!(language, "report-contact-grave")),
+    ]
+}
+
+/// Returns the number of crashes of each kind, in the order of [`kinds`].
 pub fn crash_counts(crashes: &Crashes) -> [usize; 5] {
     [crashes.bridge, crashes.terrain, crashes.water, crashes.other, crashes.person + crashes.vehicle]
 }
 
 /// Returns the CSS class and number of crashes of each kind.
 pub fn segments(crashes: &Crashes) -> Vec<(&'static str, usize)> {
-    KINDS.iter().zip(crash_counts(crashes)).map(|((class, _), count)| (*class, count)).collect()
+    CLASSES.into_iter().zip(crash_counts(crashes)).collect()
 }

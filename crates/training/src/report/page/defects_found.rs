@@ -9,40 +9,46 @@ use crate::report::defects::DefectOutcome;
 use crate::report::formatting;
 use crate::report::plots::map;
 use crate::report::sketch::{SketchExposure, Sketcher};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use maud::{Markup, html};
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::outline::ParallelView;
+use spandrel_text::{Language, text};
 
 /// Renders the "Defects" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
+    let language = review.metadata.language;
     if review.defects.is_empty() {
-        return html! { p.calm { "This job has no defects." } };
+        return html! { p.calm { (text!(language, "report-defects-none")) } };
     }
     let missed: Vec<&DefectOutcome> = review.defects.iter().filter(|defect_outcome| defect_outcome.found_by.is_none()).collect();
+    let (found, placed) = (review.defects.len() - missed.len(), review.defects.len());
     html! {
-        p { (review.defects.len() - missed.len()) " of " (review.defects.len()) " defects were found." }
+        p { (text!(language, "report-defects-count", found = found, placed = placed)) }
         ul.legend {
-            li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { circle.found r="8" {} } "found" }
-            li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { path.missed d="M0 -8L8 0L0 8L-8 0Z" {} } "missed" }
+            li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { circle.found r="8" {} } (text!(language, "report-defects-found")) }
+            li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { path.missed d="M0 -8L8 0L0 8L-8 0Z" {} } (text!(language, "report-defects-missed")) }
         }
         @for bridge in &review.scenario.bridges {
             @if review.defects.iter().any(|defect_outcome| defect_outcome.defect.member.starts_with(&format!("{}/", bridge.name))) { (drawings(review, bridge)) }
         }
         @if !missed.is_empty() {
-            h3 { "Missed defects" }
-            p.note { "Each drawing shows the defect from 4 m away, viewed head-on with the lamp on." }
+            h3 { (text!(language, "report-defects-missed-head")) }
+            p.note { (text!(language, "report-defects-drawn")) }
             ul.gallery { @for defect_outcome in &missed { (card(review, defect_outcome, sketcher)) } }
         }
-        (table(review).folded())
+        (folded(language, |language| table(review, language)))
     }
 }
 
 fn drawings(review: &Review, bridge: &Bridge) -> Markup {
-    let scroll = |title: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label={ "Defects: " (title) } { (body) } };
-    let side = format!("Side view of bridge '{}'", bridge.name);
-    let under = format!("Top view of bridge '{}'", bridge.name);
+    let language = review.metadata.language;
+    let scroll = |title: &str, body: &Markup| {
+        html! { div.scroll.wide tabindex="0" role="region" aria-label=(text!(language, "report-defects-drawing", title = title)) { (body) } }
+    };
+    let side = text!(language, "report-defects-side", bridge = bridge.name.as_str());
+    let under = text!(language, "report-defects-top", bridge = bridge.name.as_str());
     let above = ParallelView { right: ParallelView::side(bridge).right, up: ParallelView::side(bridge).toward_viewer() * -1.0 };
     html! {
         (figure(&side, &scroll(&side, &map::findings(review, bridge, ParallelView::side(bridge), &side))))
@@ -51,32 +57,45 @@ fn drawings(review: &Review, bridge: &Bridge) -> Markup {
 }
 
 fn card(review: &Review, outcome: &DefectOutcome, sketcher: &Sketcher) -> Markup {
-    let defect = &outcome.defect;
+    let (defect, language) = (&outcome.defect, review.metadata.language);
     let marks =
         [DefectMark { id: defect.id, at_m: defect.position_m, length_m: defect.length_m, class: "missed", hidden: false }];
-    let alt = format!("Defect {}, seen from 4 m away", defect.id);
+    let alt = text!(language, "report-defects-alt", defect = defect.id);
+    let kind = text!(language, "report-defects-kind", kind = defect_name(defect.kind), state = defect.condition_state);
+    let (member, element) = (defect.member.as_str(), defect.element.name());
+    let place = text!(language, "report-defects-place", member = member, element = element, size = size(outcome, language));
+    let description = text!(language, "report-defects-outcome", outcome = outcome.description(language));
     let exposure = SketchExposure { light: 1.0, by_lamp: true };
     html! {
         li.shot {
             (frame(sketcher, (&outcome.reference_view(), &review.vehicle.camera), exposure, &marks, &alt))
-            p { span.badge.v-false { "missed" } " " b { "Defect " (defect.id) } ", " (defect_name(defect.kind)) ", condition state " (defect.condition_state) }
-            p { "On " (defect.member) " (" (defect.element.name()) "), " (size(outcome)) "." }
-            p.note { "It was " (outcome.description()) "." @if let Some(approach) = &outcome.best_approach { " " (moment::labeled(approach.moment_s(), &format!("Show {}", formatting::clock(approach.moment_s())))) } }
+            p { span.badge.v-false { (text!(language, "report-defects-missed")) } " " b { (text!(language, "report-defects-number", defect = defect.id)) } ", " (kind) }
+            p { (place) }
+            p.note { (description) @if let Some(approach) = &outcome.best_approach { " " (moment::shown(approach.moment_s(), language)) } }
         }
     }
 }
 
-fn size(outcome: &DefectOutcome) -> String {
+fn size(outcome: &DefectOutcome, language: Language) -> String {
     let defect = &outcome.defect;
-    let long = formatting::number(100.0 * defect.length_m, 0);
+    let length = formatting::number(100.0 * defect.length_m, 0);
     if defect.line {
-        format!("{long} cm long, {} mm wide", formatting::number(1000.0 * defect.width_m, 2))
+        let width = formatting::number(1000.0 * defect.width_m, 2);
+        text!(language, "report-defects-size-line", length = length, width = width)
     } else {
-        format!("{long} by {} cm", formatting::number(100.0 * defect.width_m, 0))
+        let width = formatting::number(100.0 * defect.width_m, 0);
+        text!(language, "report-defects-size-area", length = length, width = width)
     }
 }
 
-fn table(review: &Review) -> Table {
+fn found_label(outcome: &DefectOutcome, language: Language) -> String {
+    match outcome.found_by {
+        Some(picture) => text!(language, "report-defects-picture", picture = picture),
+        None => text!(language, "report-defects-missed"),
+    }
+}
+
+fn table(review: &Review, language: Language) -> Table {
     let row = |outcome: &DefectOutcome| {
         let defect = &outcome.defect;
         let [east, north, up] = defect.position_m.array();
@@ -94,31 +113,31 @@ fn table(review: &Review) -> Table {
             TableCell::Number(east, 2),
             TableCell::Number(north, 2),
             TableCell::Number(up, 2),
-            outcome.found_by.map_or("missed".into(), |number| format!("picture {number}")).into(),
+            found_label(outcome, language).into(),
             number(best_approach.map(|c| c.in_view_s), 1),
             number(best_approach.map(|c| c.nearest.0), 1),
-            outcome.description().into(),
+            outcome.description(language).into(),
         ]
     };
     Table {
         name: "defects",
-        caption: "defects",
+        caption: text!(language, "report-defects-caption"),
         columns: vec![
-            "defect",
-            "kind",
-            "condition state",
-            "element",
-            "element name",
-            "member",
-            "length (mm)",
-            "width (mm)",
-            "east (m)",
-            "north (m)",
-            "height (m)",
-            "found",
-            "time clearly visible (s)",
-            "closest approach (m)",
-            "outcome",
+            text!(language, "report-column-defect"),
+            text!(language, "report-column-kind"),
+            text!(language, "report-column-condition-state"),
+            text!(language, "report-column-element"),
+            text!(language, "report-column-element-name"),
+            text!(language, "report-column-member"),
+            text!(language, "report-column-length-mm"),
+            text!(language, "report-column-width-mm"),
+            text!(language, "report-column-east"),
+            text!(language, "report-column-north"),
+            text!(language, "report-column-height"),
+            text!(language, "report-column-found"),
+            text!(language, "report-column-visible-time"),
+            text!(language, "report-column-closest"),
+            text!(language, "report-column-outcome"),
         ],
         rows: review.defects.iter().map(row).collect(),
     }

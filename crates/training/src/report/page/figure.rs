@@ -2,6 +2,15 @@
 
 use maud::{Markup, html};
 
+/// Stands in a text for a part of the page: bold text, a link or code.
+pub(super) const SLOT: &str = "\u{fffc}";
+
+/// Renders a text with a part in its [`SLOT`].
+pub(super) fn filled(text: &str, part: &Markup) -> Markup {
+    let (before, after) = text.split_once(SLOT).unwrap_or((text, ""));
+    html! { (before) (part) (after) }
+}
+
 /// Wraps wide content in a horizontally scrollable box that also accepts keyboard focus.
 pub(super) fn scrolling(label: &str, body: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="region" aria-label=(label) { (body) } }

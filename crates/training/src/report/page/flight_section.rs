@@ -1,48 +1,58 @@
 //! The flight on the site, its timeline and charts, linked by a slider.
 
-use super::figure::{figure, legend, scrolling};
+use super::figure::{SLOT, figure, filled, legend, scrolling};
 use super::moment;
 use crate::marks::TimelineMark;
-use crate::report::feedback::KINDS;
+use crate::report::feedback::{CueEpisode, KINDS};
 use crate::report::plots::timeline::{TimelineRow, strips};
 use crate::report::plots::{colors, map};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use crate::report::{Review, formatting};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
-/// ID, title and data columns of each chart.
-const CHARTS: [(&str, &str, &str); 5] = [
-    ("speed", "Speed (m/s)", "speed"),
-    ("distance", "Distance to the current task's path (m)", "distance"),
-    ("clearance", "Clearance to the nearest surface (m)", "clearance"),
-    ("battery", "Battery (%)", "battery"),
-    ("sticks", "Stick positions (full travel = 1)", "fb rl ud rt"),
-];
+/// ID and data columns of each chart.
+const CHARTS: [(&str, &str); 5] =
+    [("speed", "speed"), ("distance", "distance"), ("clearance", "clearance"), ("battery", "battery"), ("sticks", "fb rl ud rt")];
+
+/// Returns a chart's title.
+pub(super) fn chart_title(id: &str, language: Language) -> String {
+    match id {
+        "speed" => text!(language, "report-chart-speed"),
+        "distance" => text!(language, "report-chart-distance"),
+        "clearance" => text!(language, "report-chart-clearance"),
+        "battery" => text!(language, "report-chart-battery"),
+        _ => text!(language, "report-chart-sticks"),
+    }
+}
 
 /// Renders the "Flight" section of a session report.
 pub fn section(review: &Review) -> Markup {
+    let language = review.metadata.language;
+    let timeline = strips(&rows(review), end_s(review), &text!(language, "report-flight-timeline-title"));
     html! {
         (controls(review))
         (video(review))
-        (marks_legend())
+        (marks_legend(language))
         (drawings(review))
-        (figure("Session timeline", &html! {
-            (legend(&timeline_legend()))
-            (scrolling("Timeline", &strips(&rows(review), end_s(review), "Control source, tasks, feedback, pictures and gaps over time")))
+        (figure(&text!(language, "report-flight-timeline"), &html! {
+            (legend(&timeline_legend(language)))
+            (scrolling(&text!(language, "report-flight-timeline-region"), &timeline))
         }))
         (instructor_marks(review))
         div.charts {
-            @for (id, title, columns) in CHARTS {
+            @for (id, columns) in CHARTS {
+                @let title = chart_title(id, language);
                 figure {
-                    figcaption { (title) @if id == "sticks" { (stick_legend()) } }
-                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label={ (title) " over time; see the table below for the values" } {}
+                    figcaption { (title) @if id == "sticks" { (stick_legend(language)) } }
+                    div.chart id={ "chart-" (id) } data-columns=(columns) role="img" aria-label=(text!(language, "report-chart-label", title = title.as_str())) {}
                 }
             }
         }
-        p.note { "Drag across a chart to zoom in. Double-click to reset the zoom. Click to move the slider." }
-        (series_table(review).folded())
-        p.download { button type="button" id="series-csv" hidden { "Download time series as CSV" } " "
-            span.note { "To export every frame: " code { "spandrel export SESSION --frames frames.csv" } } }
+        p.note { (text!(language, "report-flight-zoom")) }
+        (folded(language, |language| series_table(review, language)))
+        p.download { button type="button" id="series-csv" hidden { (text!(language, "report-flight-series")) } " "
+            span.note { (text!(language, "report-flight-export")) " " code { "spandrel export SESSION --frames frames.csv" } } }
     }
 }
 
@@ -55,154 +65,178 @@ fn instructor_marks(review: &Review) -> Markup {
     let marks = &review.metadata.marks;
     html! {
         @if !marks.is_empty() {
-            h3 { "Instructor's marks" }
+            h3 { (text!(review.metadata.language, "report-flight-marks")) }
             ol.marks { @for mark in marks { li { (moment::link(mark.t_s)) " " (mark.text) @if !mark.by.is_empty() { span.note { " (" (mark.by) ")" } } } } }
         }
     }
 }
 
 /// Renders the play button, the slider and its readout.
-pub(super) fn slider() -> Markup {
+pub(super) fn slider(language: Language) -> Markup {
     html! {
-        button type="button" id="play" aria-pressed="false" { "Play" }
-        label for="moment" { "Time" }
+        button type="button" id="play" aria-pressed="false" { (text!(language, "report-flight-play")) }
+        label for="moment" { (text!(language, "report-flight-time-label")) }
         input type="range" id="moment" min="0" max="0" value="0" step="1";
         output id="moment-text" for="moment" { "0:00" }
     }
 }
 
+/// Returns the name of a value at the selected time.
+pub(super) fn readout_name(id: &str, language: Language) -> String {
+    match id {
+        "task" => text!(language, "report-readout-task"),
+        "state" => text!(language, "report-readout-path"),
+        "distance" => text!(language, "report-readout-distance"),
+        "speed" => text!(language, "report-readout-speed"),
+        "clearance" => text!(language, "report-readout-clearance"),
+        _ => text!(language, "report-readout-battery"),
+    }
+}
+
 /// Renders the slider, the values at the selected time, and the color selection.
 fn controls(review: &Review) -> Markup {
+    let language = review.metadata.language;
+    let limit_m_s = review.scenario.scoring.speed_limit_m_s;
+    let key = |k: usize| -> Vec<(&str, String)> {
+        colors::classes(k).iter().copied().zip(colors::legend(k, limit_m_s, language)).collect()
+    };
     html! {
         div.controls id="controls" {
-            div.run hidden id="run" { (slider()) }
+            div.run hidden id="run" { (slider(language)) }
             dl.readout hidden id="readout" aria-live="off" {
-                @for (id, name) in [("task", "Task"), ("state", "Path"), ("distance", "Distance"), ("speed", "Speed"), ("clearance", "Clearance"), ("battery", "Battery")] {
-                    div { dt { (name) } dd id={ "now-" (id) } { "–" } }
+                @for id in ["task", "state", "distance", "speed", "clearance", "battery"] {
+                    div { dt { (readout_name(id, language)) } dd id={ "now-" (id) } { "–" } }
                 }
             }
             fieldset.switch {
-                legend { "Color flight path by" }
-                @for (k, (name, class)) in colors::COLOR_MODES.iter().enumerate() {
-                    label { input type="radio" name="coloring" value=(class) id=(class) checked[k == 0]; (name) }
+                legend { (text!(language, "report-flight-color")) }
+                @for (k, class) in colors::COLOR_MODES.iter().enumerate() {
+                    label { input type="radio" name="coloring" value=(class) id=(class) checked[k == 0]; (colors::mode_name(k, language)) }
                 }
             }
-            @for (k, (_, class)) in colors::COLOR_MODES.iter().enumerate() {
-                div class={ "key " (class) } {
-                    (legend(&colors::classes(k).iter().copied().zip(colors::legend(k, review.scenario.scoring.speed_limit_m_s)).collect::<Vec<_>>()))
-                }
-            }
+            @for (k, class) in colors::COLOR_MODES.iter().enumerate() { div class={ "key " (class) } { (legend(&key(k))) } }
         }
     }
 }
 
 /// Renders the video beside the report. The slider moves it, and while it plays, it moves the slider.
 fn video(review: &Review) -> Markup {
+    let language = review.metadata.language;
+    let missing = text!(language, "report-flight-video-missing", file = SLOT);
     html! {
         @if let Some(file) = review.metadata.video {
             figure.video id="video-figure" {
-                figcaption { "Camera view" }
+                figcaption { (text!(language, "report-flight-video")) }
                 video id="video" src=(file) controls muted playsinline preload="metadata" {}
-                p.note id="video-missing" hidden { "The video cannot be loaded from here. It is also on the session's page and in the session folder (" code { (file) } ")." }
+                p.note id="video-missing" hidden { (filled(&missing, &html! { code { (file) } })) }
             }
         }
     }
 }
 
-fn marks_legend() -> Markup {
+fn marks_legend(language: Language) -> Markup {
     html! {
             ul.legend {
-                li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { path.reference-key d="M0 7H14" {} } "reference path" }
-                li { svg.swatch viewBox="-7 -7 14 14" aria-hidden="true" { g.crash { path d="M-5 -5L5 5M5 -5L-5 5" {} } } "contact" }
-                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-hit { circle r="8" {} } } "picture: hit" }
-                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-repeat { circle r="8" {} } } "repeat" }
-                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-near { circle r="8" {} } } "near miss" }
-                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-false { circle r="8" {} } } "false" }
+                li { svg.swatch viewBox="0 0 14 14" aria-hidden="true" { path.reference-key d="M0 7H14" {} } (text!(language, "report-flight-reference")) }
+                li { svg.swatch viewBox="-7 -7 14 14" aria-hidden="true" { g.crash { path d="M-5 -5L5 5M5 -5L-5 5" {} } } (text!(language, "report-flight-contact")) }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-hit { circle r="8" {} } } (text!(language, "report-flight-picture-hit")) }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-repeat { circle r="8" {} } } (text!(language, "report-verdict-repeat")) }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-near { circle r="8" {} } } (text!(language, "report-verdict-near")) }
+                li { svg.swatch viewBox="-9 -9 18 18" aria-hidden="true" { g.picture.v-false { circle r="8" {} } } (text!(language, "report-verdict-false")) }
             }
     }
 }
 
 fn drawings(review: &Review) -> Markup {
     let scroll = |label: &str, body: &Markup| html! { div.scroll.wide tabindex="0" role="region" aria-label=(label) { (body) } };
+    let language = review.metadata.language;
     html! {
-        (figure("From above, north up", &scroll("Plan", &map::plan(review))))
+        (figure(&text!(language, "report-flight-plan"), &scroll(&text!(language, "report-flight-plan-region"), &map::plan(review))))
         @if review.scenario.bridges.is_empty() {
-            (figure("View from the south", &scroll("Elevation", &map::south_elevation(review))))
+            (figure(&text!(language, "report-flight-south"), &scroll(&text!(language, "report-flight-elevation-region"), &map::south_elevation(review))))
         }
         @for bridge in &review.scenario.bridges {
-            @let title = format!("Side view of bridge '{}', with the nearby flight path", bridge.name);
+            @let title = text!(language, "report-flight-side", bridge = bridge.name.as_str());
             (figure(&title, &scroll(&title, &map::elevation(review, bridge))))
         }
         figure.model id="model" {
-            figcaption { "3D view " button type="button" id="model-open" hidden { "Rotate" } }
-            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label="3D view of the flight" { (map::oblique(review)) }
+            figcaption { (text!(language, "report-flight-3d")) " " button type="button" id="model-open" hidden { (text!(language, "report-flight-rotate")) } }
+            div.scroll.wide id="model-still" tabindex="0" role="region" aria-label=(text!(language, "report-flight-3d-region")) { (map::oblique(review)) }
             div id="model-live" hidden {}
-            p.note id="model-note" hidden { "Drag or use the arrow keys to rotate. Use the + and − keys or the mouse wheel to zoom." }
+            p.note id="model-note" hidden { (text!(language, "report-flight-3d-note")) }
         }
     }
 }
 
-fn timeline_legend() -> Vec<(&'static str, String)> {
+fn timeline_legend(language: Language) -> Vec<(&'static str, String)> {
     vec![
-        ("h-pilot", "flown by the pilot".into()),
-        ("h-other", "flown by mission, script or autopilot".into()),
-        ("w-task", "task".into()),
-        ("cue", "cue".into()),
-        ("gap", "no telemetry".into()),
+        ("h-pilot", text!(language, "report-timeline-pilot")),
+        ("h-other", text!(language, "report-timeline-other")),
+        ("w-task", text!(language, "report-timeline-task")),
+        ("cue", text!(language, "report-timeline-cue")),
+        ("gap", text!(language, "report-timeline-gap")),
     ]
 }
 
-fn stick_legend() -> Markup {
-    legend(&[("s-fb", "forward".into()), ("s-rl", "right".into()), ("s-ud", "up".into()), ("s-rt", "turn clockwise".into())])
+fn stick_legend(language: Language) -> Markup {
+    legend(&[
+        ("s-fb", text!(language, "report-stick-forward")),
+        ("s-rl", text!(language, "report-stick-right")),
+        ("s-ud", text!(language, "report-stick-up")),
+        ("s-rt", text!(language, "report-stick-turn-clockwise")),
+    ])
 }
 
 fn rows(review: &Review) -> Vec<TimelineRow> {
+    let language = review.metadata.language;
     let mut rows = vec![control_intervals(review)];
     for (k, window) in review.on_path.windows.iter().enumerate() {
         let stretch =
             window.map(|w| ("w-task".to_owned(), review.t_s(w.first), review.t_s(w.last), review.scenario.tasks[k].name.clone()));
         rows.push(TimelineRow {
-            name: format!("task {}", review.scenario.tasks[k].id),
+            name: text!(language, "report-task", task = review.scenario.tasks[k].id),
             intervals: stretch.into_iter().collect(),
             marks: Vec::new(),
         });
     }
     for (kind, about) in KINDS.iter().enumerate() {
         let mine = review.feedback.episodes.iter().filter(|episode| episode.kind == kind);
-        let intervals: Vec<_> = mine
-            .map(|e| {
-                (
-                    "cue".to_owned(),
-                    e.from_s,
-                    e.to_s,
-                    format!("{} from {} to {}", about.name, formatting::clock(e.from_s), formatting::clock(e.to_s)),
-                )
-            })
-            .collect();
+        let name = about.label(language);
+        let interval = |e: &CueEpisode| {
+            let (from, to) = (formatting::clock(e.from_s), formatting::clock(e.to_s));
+            let words = text!(language, "report-timeline-episode", cue = name.as_str(), from = from, to = to);
+            ("cue".to_owned(), e.from_s, e.to_s, words)
+        };
+        let intervals: Vec<_> = mine.map(interval).collect();
         if !intervals.is_empty() {
-            rows.push(TimelineRow { name: about.name.to_owned(), intervals, marks: Vec::new() });
+            rows.push(TimelineRow { name, intervals, marks: Vec::new() });
         }
     }
     let picture = |p: &crate::report::pictures::ReviewedPicture| {
-        (format!("picture-dot {}", p.verdict.class()), p.t_s, format!("picture {}: {}", p.number, p.verdict.name()))
+        let words = text!(language, "report-timeline-picture", picture = p.number, verdict = p.verdict.name(language));
+        (format!("picture-dot {}", p.verdict.class()), p.t_s, words)
     };
     rows.push(TimelineRow {
-        name: "pictures".into(),
+        name: text!(language, "report-timeline-pictures"),
         intervals: Vec::new(),
         marks: review.pictures.iter().map(picture).collect(),
     });
     if !review.feedback.notes.is_empty() {
-        let note = |(t_s, text): &(f64, String)| ("note-dot".to_owned(), *t_s, format!("note: {text}"));
+        let note = |(t_s, note): &(f64, String)| {
+            ("note-dot".to_owned(), *t_s, text!(language, "report-timeline-note", note = note.as_str()))
+        };
         rows.push(TimelineRow {
-            name: "notes".into(),
+            name: text!(language, "report-timeline-notes"),
             intervals: Vec::new(),
             marks: review.feedback.notes.iter().map(note).collect(),
         });
     }
     if !review.metadata.marks.is_empty() {
-        let mark = |mark: &TimelineMark| ("mark-dot".to_owned(), mark.t_s, format!("mark: {}", mark.text));
+        let mark = |mark: &TimelineMark| {
+            ("mark-dot".to_owned(), mark.t_s, text!(language, "report-timeline-mark", mark = mark.text.as_str()))
+        };
         rows.push(TimelineRow {
-            name: "marks".into(),
+            name: text!(language, "report-timeline-marks"),
             intervals: Vec::new(),
             marks: review.metadata.marks.iter().map(mark).collect(),
         });
@@ -212,13 +246,14 @@ fn rows(review: &Review) -> Vec<TimelineRow> {
 }
 
 fn control_intervals(review: &Review) -> TimelineRow {
+    let language = review.metadata.language;
     let stretch = |s: &spandrel_monitor::assessment::ControlInterval| {
         let class = if s.by == Some(spandrel_mavlink::contract::modes::ControlSource::Pilot) { "h-pilot" } else { "h-other" };
         let t_s = |frame: u32| review.t_s((frame as usize).saturating_sub(1));
-        (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), formatting::control_source_label(s.by).to_owned())
+        (class.to_owned(), t_s(s.from_frame), t_s(s.to_frame), formatting::control_source_label(s.by, language))
     };
     TimelineRow {
-        name: "flown by".into(),
+        name: text!(language, "report-timeline-flown-by"),
         intervals: review.assessment.flown_by.iter().map(stretch).collect(),
         marks: Vec::new(),
     }
@@ -226,6 +261,7 @@ fn control_intervals(review: &Review) -> TimelineRow {
 
 /// Returns the periods without telemetry, in which frames are interpolated or missing.
 fn gaps(review: &Review) -> TimelineRow {
+    let language = review.metadata.language;
     let mut intervals: Vec<(String, f64, f64, String)> = Vec::new();
     let mut open: Option<usize> = None;
     for (i, frame) in review.frames.iter().enumerate() {
@@ -234,18 +270,29 @@ fn gaps(review: &Review) -> TimelineRow {
             None if gap => open = Some(i),
             Some(from) if !gap => {
                 let seconds = formatting::number(review.t_s(i) - review.t_s(from), 1);
-                intervals.push(("gap".into(), review.t_s(from), review.t_s(i), format!("no telemetry for {seconds} s")));
+                let words = text!(language, "report-timeline-gap-for", seconds = seconds);
+                intervals.push(("gap".into(), review.t_s(from), review.t_s(i), words));
                 open = None;
             }
             None | Some(_) => {}
         }
     }
-    intervals.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), "no telemetry until the end".into())));
-    TimelineRow { name: "gaps".into(), intervals, marks: Vec::new() }
+    let to_end = text!(language, "report-timeline-gap-to-end");
+    intervals.extend(open.map(|from| ("gap".into(), review.t_s(from), end_s(review), to_end)));
+    TimelineRow { name: text!(language, "report-timeline-gaps"), intervals, marks: Vec::new() }
+}
+
+/// Returns whether the drone is inside a task and on its path, as text.
+fn path_state(inside: bool, on: bool, language: Language) -> String {
+    match (inside, on) {
+        (_, true) => text!(language, "report-on-path"),
+        (true, false) => text!(language, "report-off-path"),
+        (false, false) => text!(language, "report-between-tasks"),
+    }
 }
 
 /// Returns the charts' data as a table with one row every few seconds.
-fn series_table(review: &Review) -> Table {
+fn series_table(review: &Review, language: Language) -> Table {
     let every_s = (end_s(review) / 60.0 / 5.0).ceil().max(1.0) * 5.0;
     let stride = (every_s * review.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
     let known = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
@@ -254,14 +301,7 @@ fn series_table(review: &Review) -> Table {
         vec![
             TableCell::Clock(review.t_s(i)),
             step.task.map_or(TableCell::Empty, |task| review.scenario.tasks[task].id.into()),
-            if step.on {
-                "on path"
-            } else if step.inside {
-                "off path"
-            } else {
-                "between tasks"
-            }
-            .into(),
+            path_state(step.inside, step.on, language).into(),
             known(step.distance_m, 2),
             TableCell::Number(frame.speed_m_s(), 2),
             known(frame.clearance_m, 2),
@@ -274,19 +314,19 @@ fn series_table(review: &Review) -> Table {
     };
     Table {
         name: "flight",
-        caption: "flight data, sampled every few seconds",
+        caption: text!(language, "report-flight-caption"),
         columns: vec![
-            "time",
-            "task",
-            "path",
-            "distance (m)",
-            "speed (m/s)",
-            "clearance (m)",
-            "battery (%)",
-            "forward",
-            "right",
-            "up",
-            "turn",
+            text!(language, "report-column-time"),
+            text!(language, "report-column-task"),
+            text!(language, "report-column-path"),
+            text!(language, "report-column-distance"),
+            text!(language, "report-column-speed"),
+            text!(language, "report-column-clearance"),
+            text!(language, "report-column-battery"),
+            text!(language, "report-stick-forward"),
+            text!(language, "report-stick-right"),
+            text!(language, "report-stick-up"),
+            text!(language, "report-stick-turn"),
         ],
         rows: review.frames.iter().enumerate().step_by(stride).map(row).collect(),
     }

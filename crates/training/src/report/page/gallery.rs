@@ -1,6 +1,7 @@
 //! The trainee's pictures and their verdicts. Shows the photograph if the session contains it; otherwise, a drawing of
 //! the camera's view.
 
+use super::figure::{SLOT, filled};
 use super::moment;
 use crate::report::Review;
 use crate::report::assets::base64;
@@ -9,12 +10,13 @@ use crate::report::formatting;
 use crate::report::pictures::{PictureVerdict, ReviewedPicture};
 use crate::report::plots::coord;
 use crate::report::sketch::{SketchExposure, Sketcher, WIDTH_PX};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use crate::words::capitalized;
 use maud::{Markup, html};
 use spandrel_model::site::CameraPose;
 use spandrel_model::site::visibility::CENTRAL_FRACTION;
 use spandrel_model::vehicle::Camera;
+use spandrel_text::{Language, text};
 
 /// Prepares the site for all drawings, lit by the sun at mid-flight.
 pub fn sketcher(review: &Review) -> Sketcher {
@@ -24,38 +26,42 @@ pub fn sketcher(review: &Review) -> Sketcher {
 
 /// Renders the "Pictures" section of a session report.
 pub fn section(review: &Review, sketcher: &Sketcher) -> Markup {
+    let language = review.metadata.language;
     html! {
-        @if review.pictures.is_empty() { p.calm { "No pictures were taken." } } @else {
+        @if review.pictures.is_empty() { p.calm { (text!(language, "report-pictures-none")) } } @else {
             p { (verdict_counts(review)) }
-            @if review.metadata.pictures.is_empty() {
-                p.note { "The session contains no photographs, so each view is drawn from the bridge geometry. Only defects inside the dashed frame count." }
-            }
+            @if review.metadata.pictures.is_empty() { p.note { (text!(language, "report-pictures-drawn")) } }
             ul.gallery { @for picture in &review.pictures { (card(review, picture, sketcher)) } }
         }
-        (table(review).folded())
+        (folded(language, |language| table(review, language)))
     }
 }
 
 fn verdict_counts(review: &Review) -> String {
+    let language = review.metadata.language;
     let count = |verdict: PictureVerdict| review.pictures.iter().filter(|picture| picture.verdict == verdict).count();
     let parts: Vec<String> = PictureVerdict::ALL
         .iter()
-        .map(|v| (count(*v), v.name()))
-        .filter(|(n, _)| *n > 0)
-        .map(|(n, name)| format!("{n} {name}"))
+        .map(|verdict| (verdict, count(*verdict)))
+        .filter(|(_, count)| *count > 0)
+        .map(|(verdict, count)| verdict.count_text(count, language))
         .collect();
-    format!("{} pictures: {}.", review.pictures.len(), parts.join(", "))
+    text!(language, "report-pictures-count", count = review.pictures.len(), verdicts = parts.join(", "))
 }
 
 fn card(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Markup {
+    let language = review.metadata.language;
+    let moment = match picture.task {
+        Some(task) => text!(language, "report-picture-at-task", moment = SLOT, task = review.scenario.tasks[task].id),
+        None => text!(language, "report-picture-at", moment = SLOT),
+    };
     html! {
         li.shot id=(anchor(picture)) {
             (image(review, picture, sketcher))
-            p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name()) } " "
-                b { "Picture " (picture.number) } " at " (moment::link(picture.t_s))
-                @if let Some(task) = picture.task { ", task " (review.scenario.tasks[task].id) } }
-            p { (capitalized(&picture.reason)) "." }
-            p.note { (target(picture)) }
+            p { span class={ "badge " (picture.verdict.class()) } { (picture.verdict.name(language)) } " "
+                b { (text!(language, "report-picture-number", picture = picture.number)) } " " (filled(&moment, &moment::link(picture.t_s))) }
+            p { (capitalized(&picture.reason.words(language))) "." }
+            p.note { (target(picture, language)) }
         }
     }
 }
@@ -65,24 +71,28 @@ pub fn anchor(picture: &ReviewedPicture) -> String {
     format!("picture-{}", picture.number)
 }
 
-fn target(picture: &ReviewedPicture) -> String {
-    let lamp = if picture.pose.lamp_on { "lamp on" } else { "lamp off" };
+fn target(picture: &ReviewedPicture, language: Language) -> String {
+    let lamp =
+        if picture.pose.lamp_on { text!(language, "report-picture-lamp-on") } else { text!(language, "report-picture-lamp-off") };
     match &picture.target {
-        None => format!("Center: sky, {lamp}"),
-        Some(t) => format!(
-            "Center: {}, {} m away, {}° from the surface normal, {} mm per pixel, {} lx ({lamp}), motion blur {} px",
-            t.name,
-            formatting::number(t.distance_m, 1),
-            formatting::number(t.incidence_rad.to_degrees(), 0),
-            formatting::number(1000.0 * t.gsd_m, 1),
-            formatting::number(t.lux, 0),
-            formatting::number(t.blur_px, 1),
+        None => text!(language, "report-picture-sky", lamp = lamp),
+        Some(t) => text!(
+            language,
+            "report-picture-center",
+            name = t.name.as_str(),
+            distance = formatting::number(t.distance_m, 1),
+            angle = formatting::number(t.incidence_rad.to_degrees(), 0),
+            pixel = formatting::number(1000.0 * t.gsd_m, 1),
+            illuminance = formatting::number(t.lux, 0),
+            lamp = lamp,
+            blur = formatting::number(t.blur_px, 1)
         ),
     }
 }
 
 fn image(review: &Review, picture: &ReviewedPicture, sketcher: &Sketcher) -> Markup {
-    let words = format!("Picture {}: {}", picture.number, picture.reason);
+    let language = review.metadata.language;
+    let words = text!(language, "report-picture-alt", picture = picture.number, reason = picture.reason.words(language));
     let index = u32::try_from(picture.index).ok();
     let photograph = review.metadata.pictures.iter().find(|(number, _)| Some(*number) == index);
     let marks = marks(review, picture);
@@ -183,7 +193,8 @@ fn rings((pose, camera): (&CameraPose, &Camera), marks: &[DefectMark]) -> Markup
     }
 }
 
-fn table(review: &Review) -> Table {
+fn table(review: &Review, language: Language) -> Table {
+    let lamp = |on: bool| if on { text!(language, "report-pictures-on") } else { text!(language, "report-pictures-off") };
     let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
     let row = |picture: &ReviewedPicture| {
         let t = picture.target.as_ref();
@@ -192,36 +203,36 @@ fn table(review: &Review) -> Table {
             TableCell::Clock(picture.t_s),
             picture.frame.into(),
             picture.task.map_or(TableCell::Empty, |task| review.scenario.tasks[task].id.into()),
-            picture.verdict.name().into(),
-            picture.reason.clone().into(),
-            t.map_or("sky".into(), |t| t.name.clone()).into(),
+            picture.verdict.name(language).into(),
+            picture.reason.words(language).into(),
+            t.map_or_else(|| text!(language, "report-pictures-sky"), |t| t.name.clone()).into(),
             number(t.map(|t| t.distance_m), 2),
             number(t.map(|t| t.incidence_rad.to_degrees()), 0),
             number(t.map(|t| 1000.0 * t.gsd_m), 2),
             number(t.map(|t| t.lux), 0),
             number(t.map(|t| t.required_illuminance_lux), 0),
             number(t.map(|t| t.blur_px), 2),
-            if picture.pose.lamp_on { "on" } else { "off" }.into(),
+            lamp(picture.pose.lamp_on).into(),
         ]
     };
     Table {
         name: "pictures",
-        caption: "pictures",
+        caption: text!(language, "report-pictures-caption"),
         columns: vec![
-            "picture",
-            "time",
-            "frame",
-            "task",
-            "verdict",
-            "reason",
-            "image center",
-            "distance (m)",
-            "angle from normal (deg)",
-            "pixel size (mm)",
-            "illuminance (lx)",
-            "required illuminance (lx)",
-            "motion blur (px)",
-            "lamp",
+            text!(language, "report-column-picture"),
+            text!(language, "report-column-time"),
+            text!(language, "report-column-frame"),
+            text!(language, "report-column-task"),
+            text!(language, "report-column-verdict"),
+            text!(language, "report-column-reason"),
+            text!(language, "report-column-image-center"),
+            text!(language, "report-column-distance"),
+            text!(language, "report-column-angle"),
+            text!(language, "report-column-pixel-size"),
+            text!(language, "report-column-illuminance"),
+            text!(language, "report-column-required-illuminance"),
+            text!(language, "report-column-blur"),
+            text!(language, "report-column-lamp"),
         ],
         rows: review.pictures.iter().map(row).collect(),
     }

@@ -29,6 +29,7 @@ use super::Review;
 use super::assets;
 use crate::marks::marks_key;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use spandrel_text::{Language, text};
 
 /// Name of the element that contains the key of the instructor's marks, [`marks_key`].
 pub const MARKS_META_NAME: &str = "spandrel-marks";
@@ -36,28 +37,32 @@ pub const MARKS_META_NAME: &str = "spandrel-marks";
 /// Renders a session's report page.
 #[must_use]
 pub fn session(review: &Review) -> String {
-    let title = format!("Session report: {}, {}", review.metadata.trainee, review.metadata.started_utc);
+    let metadata = &review.metadata;
+    let language = metadata.language;
+    let (trainee, started) = (metadata.trainee.as_str(), metadata.started_utc.as_str());
+    let title = text!(language, "report-title", trainee = trainee, started = started);
     let sketcher = gallery::sketcher(review);
     let sections = [
-        ("better", "Do better", to_do_better::section(review)),
-        ("scores", "Scores", summary::scores(review)),
-        ("tasks", "Tasks", tasks::section(review)),
-        ("next", "Next", next_steps::section(review)),
-        ("flight", "Flight", flight_section::section(review)),
-        ("pictures", "Pictures", gallery::section(review, &sketcher)),
-        ("defects", "Defects", defects_found::section(review, &sketcher)),
-        ("feedback", "Feedback", feedback::section(review)),
-        ("coverage", "Coverage", coverage::section(review)),
-        ("certification", "Certification", certification::section(review)),
-        ("record", "Record", record::section(review)),
+        ("better", text!(language, "report-section-better"), to_do_better::section(review)),
+        ("scores", text!(language, "report-section-scores"), summary::scores(review)),
+        ("tasks", text!(language, "report-section-tasks"), tasks::section(review)),
+        ("next", text!(language, "report-section-next"), next_steps::section(review)),
+        ("flight", text!(language, "report-section-flight"), flight_section::section(review)),
+        ("pictures", text!(language, "report-section-pictures"), gallery::section(review, &sketcher)),
+        ("defects", text!(language, "report-section-defects"), defects_found::section(review, &sketcher)),
+        ("feedback", text!(language, "report-section-feedback"), feedback::section(review)),
+        ("coverage", text!(language, "report-section-coverage"), coverage::section(review)),
+        ("certification", text!(language, "report-section-certification"), certification::section(review)),
+        ("record", text!(language, "report-section-record"), record::section(review)),
     ];
     let data = series::data(review);
     document(
+        language,
         &title,
         &PageScripts::Session { data, marks: marks_key(&review.metadata.marks) },
         &html! {
             (summary::header(review))
-            nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
+            nav aria-label=(text!(language, "report-sections")) { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
             main {
                 @for (id, name, body) in &sections {
                     section id=(id) aria-labelledby={ (id) "-head" } { h2 id={ (id) "-head" } { (name) } (body) }
@@ -84,10 +89,10 @@ enum PageScripts {
 
 /// Renders a complete document: content security policy, styles, body, data and scripts. Styles and scripts are part of
 /// Spandrel or a library and contain no user input.
-fn document(title: &str, moves: &PageScripts, body: &Markup) -> String {
+fn document(language: Language, title: &str, moves: &PageScripts, body: &Markup) -> String {
     html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(language.tag()) {
             head {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy" content=(assets::page_policy());

@@ -1,30 +1,41 @@
 //! Recommended next scenarios, based on this session only.
 
-use crate::plan::PlanStep;
+use super::figure::{SLOT, filled};
+use crate::plan::{PlanReason, PlanStep};
 use crate::report::Review;
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Renders the "Next" section of a session report.
 pub fn section(review: &Review) -> Markup {
+    let language = review.metadata.language;
+    let note = text!(language, "report-next-note", command = SLOT);
     html! {
-        p.note { "Based on this session only. For a plan based on all of a trainee's sessions, run " code { "spandrel plan" } "." }
+        p.note { (filled(&note, &html! { code { "spandrel plan" } })) }
         ol.steps {
             @for step in &review.next {
                 li {
                     b { (step.scenario) }
                     @if let Some(level) = &step.level { p { (level.words) } }
-                    ul { @for reason in &step.reasons { li { @if reason.consequence_of.is_some() { "Consequence: " } (reason.words) } } }
+                    ul { @for reason in &step.reasons { li { (reason_words(reason, language)) } } }
                 }
             }
         }
-        (table(&review.next).folded())
+        (folded(language, |language| table(&review.next, language)))
     }
 }
 
-fn table(steps: &[PlanStep]) -> Table {
+fn reason_words(reason: &PlanReason, language: Language) -> String {
+    match reason.consequence_of {
+        Some(_) => text!(language, "report-next-consequence", reason = reason.words.as_str()),
+        None => reason.words.clone(),
+    }
+}
+
+fn table(steps: &[PlanStep], language: Language) -> Table {
     let rows = steps.iter().flat_map(|step| step.reasons.iter().map(move |reason| (step, reason)));
-    let row = |(step, reason): (&PlanStep, &crate::plan::PlanReason)| {
+    let row = |(step, reason): (&PlanStep, &PlanReason)| {
         vec![
             step.scenario.clone().into(),
             step.level.as_ref().map(|level| level.level.to_string()).unwrap_or_default().into(),
@@ -38,8 +49,17 @@ fn table(steps: &[PlanStep]) -> Table {
     };
     Table {
         name: "next",
-        caption: "recommended scenarios",
-        columns: vec!["scenario", "level", "rule", "consequence of", "measured", "limit", "urgency", "reason"],
+        caption: text!(language, "report-next-caption"),
+        columns: vec![
+            text!(language, "report-column-scenario"),
+            text!(language, "report-column-level"),
+            text!(language, "report-column-rule"),
+            text!(language, "report-column-consequence-of"),
+            text!(language, "report-column-measured"),
+            text!(language, "report-column-limit"),
+            text!(language, "report-column-urgency"),
+            text!(language, "report-column-reason"),
+        ],
         rows: rows.map(row).collect(),
     }
 }

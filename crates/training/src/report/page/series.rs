@@ -8,6 +8,7 @@ use crate::report::plots::colors::CLEARANCE_LIMITS_M;
 use serde_json::{Value, json};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_text::{Language, text};
 
 /// Maximum sampling rate of the time series, Hz.
 const MAX_SAMPLE_RATE_HZ: f64 = 10.0;
@@ -35,8 +36,34 @@ pub fn data(review: &Review) -> String {
             "found": defect_outcome.found_by.is_some() })).collect::<Vec<_>>(),
         "mesh": mesh(&mesh::mesh(review.site.members())),
         "ground": ground(review),
+        "texts": texts(review.metadata.language),
     });
     escape_json(&block.to_string())
+}
+
+/// Returns the texts that the session report's script shows. It replaces `%moment`, `%task` and `%path`.
+fn texts(language: Language) -> Value {
+    json!({
+        "play": text!(language, "report-flight-play"),
+        "pause": text!(language, "report-flight-pause"),
+        "states": [
+            text!(language, "report-between-tasks"),
+            text!(language, "report-off-path"),
+            text!(language, "report-on-path"),
+        ],
+        "slider": text!(language, "report-flight-slider", moment = "%moment", task = "%task", path = "%path"),
+        "model": text!(language, "report-flight-3d-label"),
+    })
+}
+
+/// Returns the texts that the comparison's script shows. It replaces `%session` and `%task`.
+fn comparison_texts(language: Language) -> Value {
+    json!({
+        "play": text!(language, "report-flight-play"),
+        "pause": text!(language, "report-flight-pause"),
+        "notFlying": text!(language, "compare-not-flying"),
+        "slider": text!(language, "compare-slider", session = "%session", task = "%task"),
+    })
 }
 
 /// Returns a comparison's data block as JSON: the time series of both flights and the events that can be used to align
@@ -52,6 +79,7 @@ pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> St
     let block = json!({
         "flights": [flight(0), flight(1)],
         "limits": { "speed": scenario.scoring.speed_limit_m_s, "close": scenario.feedback.too_close_m },
+        "texts": comparison_texts(both[0].metadata.language),
     });
     escape_json(&block.to_string())
 }
@@ -68,11 +96,13 @@ pub struct AlignmentEvent {
 /// Returns lift-off and, if both flights are from the same job, the start of each task that both entered.
 #[must_use]
 pub fn alignment_events(both: [&Review; 2], same_job: bool) -> Vec<AlignmentEvent> {
-    let mut found = vec![AlignmentEvent { name: "lift-off".into(), at_s: [0.0, 0.0] }];
+    let language = both[0].metadata.language;
+    let mut found = vec![AlignmentEvent { name: text!(language, "compare-lift-off"), at_s: [0.0, 0.0] }];
     let tasks = both[0].scenario.tasks.iter().enumerate().filter(|_| same_job);
     found.extend(tasks.filter_map(|(k, task)| {
         let entry_s = |review: &Review| review.on_path.windows.get(k).copied().flatten().map(|window| review.t_s(window.first));
-        Some(AlignmentEvent { name: format!("start of task {}", task.id), at_s: [entry_s(both[0])?, entry_s(both[1])?] })
+        let name = text!(language, "compare-start-of-task", task = task.id);
+        Some(AlignmentEvent { name, at_s: [entry_s(both[0])?, entry_s(both[1])?] })
     }));
     found
 }

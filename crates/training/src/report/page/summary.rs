@@ -4,12 +4,13 @@ use super::figure::figure;
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::plots::radar::{RadarAxis, radar};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
+use crate::words::capitalized;
 use maud::{Markup, html};
 use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Renders the trainee, job, date and overall score.
 pub fn header(review: &Review) -> Markup {
@@ -17,32 +18,45 @@ pub fn header(review: &Review) -> Markup {
     let end = &review.assessment.end;
     let certification = &review.assessment.certification;
     let telemetry = &review.assessment.telemetry;
+    let language = review.metadata.language;
+    let (duration, reason) = (formatting::duration(end.seconds), formatting::end_reason_label(end.reason, language));
     html! {
-        a.skip href="#better" { "Skip to what to do better" }
+        a.skip href="#better" { (text!(language, "report-skip")) }
         header {
             div {
-                p.kicker { "Session report" }
+                p.kicker { (text!(language, "report-kicker")) }
                 h1 { (review.scenario.title) }
                 p {
                     b { (review.metadata.trainee) } " · " (utc(&review.metadata.started_utc)) " · " (review.vehicle.name)
-                    @if let Some(purpose) = &review.metadata.purpose { " · " (purpose) }
-                    @if let Some(difficulty) = &review.scenario.difficulty { " · level " (difficulty.level) " of " (difficulty.levels()) }
+                    @if let Some(purpose) = &review.metadata.purpose { " · " (purpose_label(purpose, language)) }
+                    @if let Some(difficulty) = &review.scenario.difficulty {
+                        " · " (text!(language, "report-level", level = difficulty.level, levels = difficulty.levels()))
+                    }
                 }
-                p { "Flight time " (formatting::duration(end.seconds)) ", " (formatting::end_reason_label(end.reason)) "." @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
-                @if let Some(words) = review.assessment.practice_aids.words(Language::English) { p { "This session was " (words) ". It counts as practice: it is neither certified nor compared with others." } }
-                @if let Some(words) = review.out_of_sight.sentence() { p { (words) } }
+                p { (text!(language, "report-flight-time", duration = duration, end = reason)) @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
+                @if let Some(aids) = review.assessment.practice_aids.words(language) { p { (text!(language, "report-practice-aids", aids = aids)) } }
+                @if let Some(words) = review.out_of_sight.sentence(language) { p { (words) } }
             }
             div.overall {
                 @if review.assessment.completion.complete {
-                    p.figure { (formatting::number(scores.overall, 0)) span.of { " of " (formatting::number(scores.overall_max, 0)) } }
-                    p { "overall" }
-                    p { (review.assessment.completion.headline(Language::English)) }
+                    p.figure { (formatting::number(scores.overall, 0)) span.of { " " (text!(language, "report-of-max", max = formatting::number(scores.overall_max, 0))) } }
+                    p { (formatting::score_label("overall", language)) }
+                    p { (review.assessment.completion.headline(language)) }
                 } @else {
-                    p.headline { (review.assessment.completion.headline(Language::English)) }
+                    p.headline { (review.assessment.completion.headline(language)) }
                 }
-                p { (verdict(certification.passed, &certification.unmet, Language::English)) }
+                p { (verdict(certification.passed, &certification.unmet, language)) }
             }
         }
+    }
+}
+
+/// Returns the display name of a session's purpose.
+pub fn purpose_label(purpose: &str, language: Language) -> String {
+    match purpose {
+        "practice" => text!(language, "report-purpose-practice"),
+        "assessment" => text!(language, "report-purpose-assessment"),
+        other => other.to_owned(),
     }
 }
 
@@ -52,92 +66,107 @@ fn utc(text: &str) -> String {
 }
 
 fn telemetry_summary(review: &Review) -> String {
-    format!("The telemetry covers {}% of the session.", formatting::number(100.0 * review.assessment.telemetry.covered, 1))
+    let share = formatting::number(100.0 * review.assessment.telemetry.covered, 1);
+    text!(review.metadata.language, "report-telemetry-covers", share = share)
 }
 
 /// Renders the radar chart, the score cards and their table.
 pub fn scores(review: &Review) -> Markup {
     let scores = &review.assessment.scores;
+    let language = review.metadata.language;
     let spokes: Vec<RadarAxis> = scores_by_name(scores)
         .iter()
-        .map(|(name, score)| RadarAxis { name: (*name).to_owned(), values: vec![score.map(|score| score.pct)] })
+        .map(|(name, score)| RadarAxis { name: score_title(name, language), values: vec![score.map(|score| score.pct)] })
         .collect();
+    let chart = radar(&spokes, &text!(language, "report-scores-radar"), language);
     html! {
-        p { (review.assessment.completion.headline(Language::English)) "." @if !review.assessment.completion.complete { " The scores below cover only the part that was flown." } }
+        p { (review.assessment.completion.headline(language)) "." @if !review.assessment.completion.complete { " " (text!(language, "report-scores-part")) } }
         div.split {
-            (figure("The four scores, 0 at the center, 100 at the edge", &radar(&spokes, "Radar chart of the four scores")))
+            (figure(&text!(language, "report-scores-figure"), &chart))
             div.cards {
                 @for (name, score) in scores_by_name(scores) {
                     div.card {
-                        h3 { (name) }
-                        p.figure { @if let Some(score) = score { (formatting::number(score.pct, 0)) } @else { "n/a" } }
+                        h3 { (score_title(name, language)) }
+                        p.figure { @if let Some(score) = score { (formatting::number(score.pct, 0)) } @else { (text!(language, "plot-not-applicable")) } }
                         p { (score_explanation(review, name)) }
                     }
                 }
             }
         }
-        (table(review).folded())
+        (folded(language, |language| table(review, language)))
     }
 }
 
 /// Returns the names and values of the four scores, in chart order.
 pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
     [
-        ("Conformity", scores.conformity),
-        ("Efficiency", Some(scores.efficiency)),
-        ("Safety", Some(scores.safety)),
-        ("Accuracy", scores.accuracy),
+        ("conformity", scores.conformity),
+        ("efficiency", Some(scores.efficiency)),
+        ("safety", Some(scores.safety)),
+        ("accuracy", scores.accuracy),
     ]
 }
 
+/// Returns the display name of a score for headings.
+pub fn score_title(score: &str, language: Language) -> String {
+    capitalized(&formatting::score_label(score, language))
+}
+
 fn score_explanation(review: &Review, name: &str) -> String {
-    let assessment = &review.assessment;
     match name {
-        "Conformity" => conformity(review),
-        "Efficiency" => {
-            let best = formatting::duration(review.scenario.scoring.time_best_s);
-            if assessment.end.battery_failed {
-                "did not land near the ground team before the battery or time ran out".into()
-            } else {
-                format!("flight time {}; full score up to {best}", formatting::duration(assessment.end.seconds))
-            }
-        }
-        "Safety" => {
-            let crashes = &assessment.crashes;
-            match (crashes.person + crashes.vehicle, crashes.other) {
-                (0, 0) => "no contacts".into(),
-                (0, 1) => "1 contact, 3 points lost".into(),
-                (0, other) => format!("{other} contacts, 3 points lost each"),
-                _ => "a person or vehicle was hit: 0 points".into(),
-            }
-        }
-        _ if assessment.scores.accuracy.is_none() => "no defects in this job".into(),
-        _ => {
-            let s = &assessment.snapshots;
-            format!(
-                "{} of {} defects found; {} of {} pictures showed a new defect",
-                s.defects_found, s.defects_placed, s.hits, s.taken
-            )
-        }
+        "conformity" => conformity(review),
+        "efficiency" => efficiency(review),
+        "safety" => safety(review),
+        _ => accuracy(review),
     }
 }
 
 fn conformity(review: &Review) -> String {
-    let tasks = &review.assessment.tasks;
-    let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else { return "no tasks in this job".into() };
+    let (tasks, language) = (&review.assessment.tasks, review.metadata.language);
+    let Some(worst) = tasks.iter().min_by(|a, b| a.on_path.total_cmp(&b.on_path)) else {
+        return text!(language, "report-explain-no-tasks");
+    };
     let skipped = tasks.iter().filter(|task| !task.attempted).count();
     if skipped == tasks.len() {
-        return "no tasks attempted (the TASBID formula gives 50 points)".into();
+        return text!(language, "report-explain-none-attempted");
     }
     if skipped > 0 {
-        return format!("{skipped} of {} tasks not attempted", tasks.len());
+        return text!(language, "report-explain-skipped", skipped = skipped, tasks = tasks.len());
     }
-    let speeding: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
-    let lowest = formatting::number(100.0 * worst.on_path, 0);
-    format!("lowest on-path share: {lowest}% (task {}); speeding for {} s", worst.id, formatting::number(speeding, 0))
+    let speeding_s: f64 = review.tasks.iter().map(|task| task.speeding_s).sum();
+    let share = formatting::number(100.0 * worst.on_path, 0);
+    let speeding = formatting::number(speeding_s, 0);
+    text!(language, "report-explain-lowest", share = share, task = worst.id, speeding = speeding)
 }
 
-fn table(review: &Review) -> Table {
+fn efficiency(review: &Review) -> String {
+    let (end, language) = (&review.assessment.end, review.metadata.language);
+    if end.battery_failed {
+        return text!(language, "report-explain-battery-failed");
+    }
+    let best = formatting::duration(review.scenario.scoring.time_best_s);
+    text!(language, "report-explain-time", time = formatting::duration(end.seconds), best = best)
+}
+
+fn safety(review: &Review) -> String {
+    let (crashes, language) = (&review.assessment.crashes, review.metadata.language);
+    match (crashes.person + crashes.vehicle, crashes.other) {
+        (0, 0) => text!(language, "report-explain-no-contacts"),
+        (0, other) => text!(language, "report-explain-contacts", count = other),
+        _ => text!(language, "report-explain-grave"),
+    }
+}
+
+fn accuracy(review: &Review) -> String {
+    let (pictures, language) = (&review.assessment.snapshots, review.metadata.language);
+    if review.assessment.scores.accuracy.is_none() {
+        return text!(language, "report-explain-no-defects");
+    }
+    let (found, placed) = (pictures.defects_found, pictures.defects_placed);
+    text!(language, "report-explain-defects", found = found, placed = placed, hits = pictures.hits, taken = pictures.taken)
+}
+
+fn table(review: &Review, language: Language) -> Table {
     let scores = &review.assessment.scores;
     let certification = &review.assessment.certification.scores;
     let number = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
@@ -146,16 +175,26 @@ fn table(review: &Review) -> Table {
         .iter()
         .zip(beside)
         .map(|((name, score), beside)| {
-            vec![(*name).into(), number(score.map(|s| s.raw)), number(score.map(|s| s.pct)), number(beside)]
+            vec![score_title(name, language).into(), number(score.map(|s| s.raw)), number(score.map(|s| s.pct)), number(beside)]
         })
         .collect();
     if review.assessment.completion.complete {
-        rows.push(vec!["Overall".into(), TableCell::Empty, TableCell::Number(scores.overall, 2), TableCell::Empty]);
+        rows.push(vec![
+            score_title("overall", language).into(),
+            TableCell::Empty,
+            TableCell::Number(scores.overall, 2),
+            TableCell::Empty,
+        ]);
     }
     Table {
         name: "scores",
-        caption: "scores",
-        columns: vec!["score", "raw", "score (of 100)", "certification profile (of 100)"],
+        caption: text!(language, "report-scores-caption"),
+        columns: vec![
+            text!(language, "report-column-score"),
+            text!(language, "report-column-raw"),
+            text!(language, "report-column-score-of-100"),
+            text!(language, "report-column-certification-of-100"),
+        ],
         rows,
     }
 }

@@ -4,11 +4,11 @@ use super::figure::{figure, legend};
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::plots::bars::{self, CountRow, ShareRow};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded};
 use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Object hit and CSS class, in the order of the bars.
 const KINDS: [(ContactKind, &str); 6] = [
@@ -23,23 +23,24 @@ const KINDS: [(ContactKind, &str); 6] = [
 /// Renders the "Tasks" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let done_share = review.assessment.completion.done_share;
+    let language = review.metadata.language;
     html! {
         div.split {
-            (figure("Share of each task's time spent on the path and over the speed limit", &html! {
-                (legend(&[("b-on", "on the path".into()), ("b-speeding", "over the speed limit".into())]))
-                (bars::shares(&rows(review), "On-path share and speeding by task"))
+            (figure(&text!(language, "report-tasks-shares"), &html! {
+                (legend(&[("b-on", text!(language, "report-tasks-on-path")), ("b-speeding", text!(language, "report-tasks-speeding"))]))
+                (bars::shares(&rows(review), &text!(language, "report-tasks-shares-title")))
             }))
-            (figure("Contacts by task and object", &html! {
+            (figure(&text!(language, "report-tasks-contacts"), &html! {
                 (legend(&contact_kinds(review)))
-                @if review.crashes.is_empty() { p.calm { "No contacts." } }
-                @else { (bars::counts(&counts(review), "Contacts by task and kind")) }
+                @if review.crashes.is_empty() { p.calm { (text!(language, "report-tasks-no-contacts")) } }
+                @else { (bars::counts(&counts(review), &text!(language, "report-tasks-contacts-title"))) }
             }))
         }
         ul { @for (k, task) in review.assessment.tasks.iter().enumerate() {
-            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.description(task.covered, done_share, Language::English)) }
+            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.description(task.covered, done_share, language)) }
         } }
-        (task_table(review).folded())
-        (crash_table(review).folded())
+        (folded(language, |language| task_table(review, language)))
+        (folded(language, |language| crash_table(review, language)))
     }
 }
 
@@ -50,17 +51,17 @@ fn rows(review: &Review) -> Vec<ShareRow> {
         ShareRow {
             name: format!("{} · {}", task.id, review.scenario.tasks[k].name),
             bars: vec![("b-on", task.on_path), ("b-speeding", share(facts.speeding_s))],
-            placeholder: (!task.attempted).then(|| "not attempted".to_owned()),
+            placeholder: (!task.attempted).then(|| text!(review.metadata.language, "report-not-attempted")),
         }
     };
     review.assessment.tasks.iter().enumerate().map(row).collect()
 }
 
-fn state(task: &spandrel_monitor::assessment::TaskResult) -> &'static str {
+fn state(task: &spandrel_monitor::assessment::TaskResult, language: Language) -> String {
     match task.state {
-        TaskState::Done => "done",
-        TaskState::Part => "partly flown",
-        TaskState::NotAttempted => "not attempted",
+        TaskState::Done => text!(language, "report-tasks-done"),
+        TaskState::Part => text!(language, "report-tasks-part"),
+        TaskState::NotAttempted => text!(language, "report-not-attempted"),
     }
 }
 
@@ -72,7 +73,7 @@ fn counts(review: &Review) -> Vec<CountRow> {
     let tasks = (0..review.scenario.tasks.len()).map(Some).chain([None]);
     let name = |task: Option<usize>| match task {
         Some(k) => format!("{} · {}", review.scenario.tasks[k].id, review.scenario.tasks[k].name),
-        None => "between tasks".into(),
+        None => text!(review.metadata.language, "report-between-tasks"),
     };
     tasks
         .map(|task| CountRow { name: name(task), kinds: KINDS.map(|(kind, class)| (class, of(review, task, kind))).to_vec() })
@@ -84,18 +85,18 @@ fn contact_kinds(review: &Review) -> Vec<(&'static str, String)> {
     KINDS
         .iter()
         .filter(|(kind, _)| present(*kind))
-        .map(|(kind, class)| (*class, formatting::contact_label(*kind).to_owned()))
+        .map(|(kind, class)| (*class, formatting::contact_label(*kind, review.metadata.language)))
         .collect()
 }
 
-fn task_table(review: &Review) -> Table {
+fn task_table(review: &Review, language: Language) -> Table {
     let number = |value: f64, digits: usize| TableCell::Number(value, digits);
     let row = |(k, task): (usize, &spandrel_monitor::assessment::TaskResult)| {
         let facts = &review.tasks[k];
         vec![
             task.id.into(),
             review.scenario.tasks[k].name.clone().into(),
-            state(task).into(),
+            state(task, language).into(),
             number(100.0 * task.covered, 1),
             number(facts.time_s, 1),
             number(100.0 * task.on_path, 1),
@@ -110,33 +111,41 @@ fn task_table(review: &Review) -> Table {
     };
     Table {
         name: "tasks",
-        caption: "tasks",
+        caption: text!(language, "report-tasks-caption"),
         columns: vec![
-            "task",
-            "name",
-            "state",
-            "path flown (%)",
-            "time (s)",
-            "on-path share (%)",
-            "time off path (s)",
-            "speeding time (s)",
-            "speeding loss",
-            "mean distance (m)",
-            "maximum distance (m)",
-            "maximum speed (m/s)",
-            "minimum clearance (m)",
+            text!(language, "report-column-task"),
+            text!(language, "report-column-name"),
+            text!(language, "report-column-state"),
+            text!(language, "report-column-path-flown"),
+            text!(language, "report-column-time-s"),
+            text!(language, "report-column-on-path-share"),
+            text!(language, "report-column-off-path-time"),
+            text!(language, "report-column-speeding-time"),
+            text!(language, "report-column-speeding-loss"),
+            text!(language, "report-column-mean-distance"),
+            text!(language, "report-column-max-distance"),
+            text!(language, "report-column-max-speed"),
+            text!(language, "report-column-min-clearance"),
         ],
         rows: review.assessment.tasks.iter().enumerate().map(row).collect(),
     }
 }
 
-fn crash_table(review: &Review) -> Table {
+/// Returns the name of the task being flown, if any.
+pub fn task_label(task: Option<usize>, review: &Review, language: Language) -> String {
+    match task {
+        Some(k) => text!(language, "report-task", task = review.scenario.tasks[k].id),
+        None => text!(language, "report-between-tasks"),
+    }
+}
+
+fn crash_table(review: &Review, language: Language) -> Table {
     let row = |crash: &spandrel_monitor::measures::crash::Crash| {
         let [east, north, up] = review.frames[crash.frame].position_m.array();
         vec![
             TableCell::Clock(review.t_s(crash.frame)),
-            crash.task.map_or("between tasks".into(), |k| format!("task {}", review.scenario.tasks[k].id)).into(),
-            formatting::contact_label(crash.with).into(),
+            task_label(crash.task, review, language).into(),
+            formatting::contact_label(crash.with, language).into(),
             TableCell::Number(crash.speed_m_s, 2),
             TableCell::Number(east, 2),
             TableCell::Number(north, 2),
@@ -145,8 +154,16 @@ fn crash_table(review: &Review) -> Table {
     };
     Table {
         name: "contacts",
-        caption: "contacts",
-        columns: vec!["time", "task", "with", "speed (m/s)", "east (m)", "north (m)", "height (m)"],
+        caption: text!(language, "report-tasks-contacts-caption"),
+        columns: vec![
+            text!(language, "report-column-time"),
+            text!(language, "report-column-task"),
+            text!(language, "report-column-with"),
+            text!(language, "report-column-speed"),
+            text!(language, "report-column-east"),
+            text!(language, "report-column-north"),
+            text!(language, "report-column-height"),
+        ],
         rows: review.crashes.iter().map(row).collect(),
     }
 }

@@ -2,9 +2,10 @@
 
 use super::{gallery, moment};
 use crate::advice::{AdvicePoint, SessionAdvice};
+use crate::report::Review;
 use crate::report::pictures::ReviewedPicture;
-use crate::report::{Review, formatting};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Maximum time between a moment and the picture that shows it, s (estimate: at inspection speed, the drone still faces the
 /// same surface).
@@ -19,17 +20,18 @@ pub fn section(review: &Review) -> Markup {
         } @else {
             ol.advice { @for point in &advice.points { (item(review, point)) } }
         }
-        (next(advice))
+        (next(advice, review.metadata.language))
     }
 }
 
 fn item(review: &Review, point: &AdvicePoint) -> Markup {
+    let language = review.metadata.language;
     html! {
         li {
             b { (point.words) }
-            p { (moment::labeled(point.t_s, &format!("Show {}", formatting::clock(point.t_s))))
-                @if let Some(picture) = picture_near(review, point.t_s) { " · " a href={ "#" (gallery::anchor(picture)) } { "picture " (picture.number) } }
-                " · practice " b.drill { (point.drill) } }
+            p { (moment::shown(point.t_s, language))
+                @if let Some(picture) = picture_near(review, point.t_s) { " · " a href={ "#" (gallery::anchor(picture)) } { (text!(language, "report-better-picture", picture = picture.number)) } }
+                " · " (text!(language, "report-better-practice")) " " b.drill { (point.drill) } }
         }
     }
 }
@@ -41,10 +43,10 @@ fn picture_near(review: &Review, t_s: f64) -> Option<&ReviewedPicture> {
     near.min_by(|a, b| age_s(a).total_cmp(&age_s(b)))
 }
 
-fn next(advice: &SessionAdvice) -> Markup {
+fn next(advice: &SessionAdvice, language: Language) -> Markup {
     html! {
         @if let Some(next) = &advice.next {
-            p.next-flight { "Next flight: " b { (next.scenario) } br; code { (next.command) } }
+            p.next-flight { (text!(language, "report-better-next")) " " b { (next.scenario) } br; code { (next.command) } }
         }
     }
 }

@@ -1,21 +1,29 @@
 //! Labels for changes: within the error of the measure, or beyond it.
 
+use crate::report::formatting::score_label;
 use crate::report::table::TableCell;
+use spandrel_text::{Language, text};
 
 /// Returns a table cell with the label of a change; empty if the measure's error is unknown.
-pub fn label(within_error: Option<bool>) -> TableCell {
-    within_error.map_or(TableCell::Empty, |within| words(within).into())
+pub fn label(within_error: Option<bool>, language: Language) -> TableCell {
+    within_error.map_or(TableCell::Empty, |within| words(within, language).into())
 }
 
 /// Returns the label of a change.
 #[must_use]
-pub fn words(within_error: bool) -> &'static str {
-    if within_error { "within error" } else { "beyond error" }
+pub fn words(within_error: bool, language: Language) -> String {
+    if within_error { text!(language, "report-within-error") } else { text!(language, "report-beyond-error") }
 }
 
 /// Returns a measure's name with its unit, as in "flight time (s)".
 #[must_use]
-pub fn measure_name(measure: &str, unit: &str) -> String {
-    let name = measure.replace('_', " ");
-    if unit.is_empty() { name } else { format!("{name} ({unit})") }
+pub fn measure_name(measure: &str, unit: &str, language: Language) -> String {
+    let measure = match measure {
+        "certification_sum" => text!(language, "report-measure-certification-sum"),
+        "flight_time" => text!(language, "report-measure-flight-time"),
+        "crashes" => text!(language, "report-measure-crashes"),
+        score => score_label(score, language),
+    };
+    let unit = if unit == "points" { text!(language, "report-unit-points") } else { unit.to_owned() };
+    if unit.is_empty() { measure } else { text!(language, "report-measure-with-unit", measure = measure, unit = unit) }
 }

@@ -4,6 +4,7 @@ use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use crate::statistics::BoxPlot;
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 const LEFT_X: f64 = 40.0;
 const TOP_Y: f64 = 10.0;
@@ -29,7 +30,7 @@ pub fn y_of(value: f64, (low, high): (f64, f64)) -> f64 {
 
 /// Draws box plots on a vertical scale from 0 to `max_value`.
 #[must_use]
-pub fn boxes(named: &[NamedBox<'_>], max_value: f64, title: &str) -> Markup {
+pub fn boxes(named: &[NamedBox<'_>], max_value: f64, title: &str, language: Language) -> Markup {
     // Sets a minimum width so that a few boxes are not enlarged.
     let width = LEFT_X + BOX_SPACING * named.len().max(5) as f64 + 10.0;
     let y = |value: f64| y_of(value, (0.0, max_value));
@@ -51,7 +52,7 @@ pub fn boxes(named: &[NamedBox<'_>], max_value: f64, title: &str) -> Markup {
                     (line(&[(x - 7.0, y(b.low_whisker)), (x + 7.0, y(b.low_whisker))], false))
                 } {}
                 rect.box x=(coord(x - HALF_BOX_WIDTH)) y=(coord(y(b.q3))) width=(coord(2.0 * HALF_BOX_WIDTH)) height=(coord((y(b.q1) - y(b.q3)).max(1.0))) {
-                    title { (one.name) ": median " (formatting::number(b.median, 1)) ", quartiles " (formatting::number(b.q1, 1)) " to " (formatting::number(b.q3, 1)) ", " (b.n) " trainees" }
+                    title { (box_text(one, language)) }
                 }
                 path.median d=(line(&[(x - HALF_BOX_WIDTH, y(b.median)), (x + HALF_BOX_WIDTH, y(b.median))], false)) {}
                 path.mean d=(line(&[(x - 4.0, y(b.mean) - 4.0), (x + 4.0, y(b.mean) + 4.0)], false)) {}
@@ -60,6 +61,19 @@ pub fn boxes(named: &[NamedBox<'_>], max_value: f64, title: &str) -> Markup {
                 text.tick x=(coord(x)) y=(coord(BOTTOM_Y + 18.0)) text-anchor="middle" { (one.name) }
             }
         },
+    )
+}
+
+fn box_text(one: &NamedBox<'_>, language: Language) -> String {
+    let plot = one.plot;
+    text!(
+        language,
+        "plot-box",
+        name = one.name.as_str(),
+        median = formatting::number(plot.median, 1),
+        low = formatting::number(plot.q1, 1),
+        high = formatting::number(plot.q3, 1),
+        trainees = plot.n
     )
 }
 
@@ -80,7 +94,7 @@ mod tests {
         assert_eq!([0.0, 50.0, 100.0].map(|value| y_of(value, (0.0, 100.0))), [190.0, 100.0, 10.0]);
         let plot = box_plot(&[50.0, 50.0, 50.0, 60.0, 70.0, 70.0, 70.0, 0.0]).unwrap();
         assert_eq!((plot.q1, plot.median, plot.q3, plot.outliers.len()), (50.0, 55.0, 70.0, 1));
-        let figure = boxes(&[NamedBox { name: "<1>".into(), plot: &plot }], 100.0, "t").into_string();
+        let figure = boxes(&[NamedBox { name: "<1>".into(), plot: &plot }], 100.0, "t", Language::English).into_string();
         assert!(figure.contains("class=\"box\" x=\"53\" y=\"64\" width=\"30\" height=\"36\""), "{figure}");
         assert_eq!(outlier_positions(&[1.0, 1.4, 3.0], |value| value), ["1", "3"]);
         assert!(figure.contains("cy=\"190\"") && figure.contains("&lt;1&gt;"), "{figure}");

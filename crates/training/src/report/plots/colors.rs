@@ -6,12 +6,23 @@ use crate::report::Review;
 use crate::report::formatting;
 use spandrel_mavlink::contract::continuity::is_jump;
 use spandrel_mavlink::telemetry::Frame;
+use spandrel_text::{Language, text};
 
 /// Limits of the clearance colors, m, ascending.
 pub const CLEARANCE_LIMITS_M: [f64; 3] = [1.0, 2.5, 5.0];
 
-/// Color modes of the flight path: selection label and CSS class of the layer.
-pub const COLOR_MODES: [(&str, &str); 3] = [("on path", "by-path"), ("speed", "by-speed"), ("clearance", "by-clearance")];
+/// Color modes of the flight path: CSS class of each mode's layer.
+pub const COLOR_MODES: [&str; 3] = ["by-path", "by-speed", "by-clearance"];
+
+/// Returns the selection label of a color mode.
+#[must_use]
+pub fn mode_name(layer: usize, language: Language) -> String {
+    match layer {
+        0 => text!(language, "plot-color-path"),
+        1 => text!(language, "plot-color-speed"),
+        _ => text!(language, "plot-color-clearance"),
+    }
+}
 
 /// Returns the flight path in one color mode: the CSS class and path data of each color, in class order.
 pub(super) fn track(review: &Review, map: &PlotMap, layer: usize, shown: &dyn Fn(&Frame) -> bool) -> Vec<(&'static str, String)> {
@@ -83,28 +94,33 @@ pub fn classes(layer: usize) -> &'static [&'static str] {
 
 /// Returns the legend of a color mode, in class order.
 #[must_use]
-pub fn legend(layer: usize, limit_m_s: f64) -> Vec<String> {
-    let speed = |share: f64| formatting::number(share * limit_m_s, 1);
+pub fn legend(layer: usize, limit_m_s: f64, language: Language) -> Vec<String> {
     match layer {
-        0 => vec!["between tasks".into(), "on the path".into(), "off path during a task".into()],
-        1 => vec![
-            format!("up to {} m/s", speed(0.25)),
-            format!("up to {} m/s", speed(0.5)),
-            format!("up to {} m/s", speed(0.75)),
-            format!("up to {} m/s", speed(1.0)),
-            format!("over the limit of {} m/s", formatting::number(limit_m_s, 2)),
+        0 => vec![
+            text!(language, "plot-legend-between"),
+            text!(language, "plot-legend-on-path"),
+            text!(language, "plot-legend-off-path"),
         ],
-        _ => {
-            let [a, b, c] = CLEARANCE_LIMITS_M.map(|limit| formatting::number(limit, 1));
-            vec![
-                "nothing nearby".into(),
-                format!("over {c} m"),
-                format!("{b} to {c} m"),
-                format!("{a} to {b} m"),
-                format!("under {a} m"),
-            ]
-        }
+        1 => speed_legend(limit_m_s, language),
+        _ => clearance_legend(language),
     }
+}
+
+fn speed_legend(limit_m_s: f64, language: Language) -> Vec<String> {
+    let up_to = |share: f64| text!(language, "plot-legend-speed", speed = formatting::number(share * limit_m_s, 1));
+    let over = text!(language, "plot-legend-speeding", speed = formatting::number(limit_m_s, 2));
+    [0.25, 0.5, 0.75, 1.0].map(up_to).into_iter().chain([over]).collect()
+}
+
+fn clearance_legend(language: Language) -> Vec<String> {
+    let [a, b, c] = CLEARANCE_LIMITS_M.map(|limit| formatting::number(limit, 1));
+    vec![
+        text!(language, "plot-legend-far"),
+        text!(language, "plot-legend-over", limit = c.as_str()),
+        text!(language, "plot-legend-range", low = b.as_str(), high = c.as_str()),
+        text!(language, "plot-legend-range", low = a.as_str(), high = b.as_str()),
+        text!(language, "plot-legend-under", limit = a.as_str()),
+    ]
 }
 
 /// Returns the index into [`classes`] of a frame's color.
@@ -139,7 +155,7 @@ mod tests {
         assert_eq!([0.0, 1.0, 1.1, 3.0, 4.0, 4.1].map(|v| speed_class(v, 4.0)), [0, 0, 1, 2, 3, 4]);
         assert_eq!([0.2, 1.0, 2.5, 5.0, 9.0].map(clearance_class), [4, 3, 2, 1, 1]);
         for layer in 0..3 {
-            assert_eq!(classes(layer).len(), legend(layer, 4.0).len());
+            assert_eq!(classes(layer).len(), legend(layer, 4.0, Language::English).len());
         }
     }
 }

@@ -9,6 +9,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
 use spandrel_model::site::Site;
 use spandrel_model::site::outline::ParallelView;
+use spandrel_text::{Language, text};
 
 /// Margin beyond each end of a bridge in its side view, m.
 const END_MARGIN_M: f64 = 25.0;
@@ -20,14 +21,14 @@ const EDITOR_MARGIN_M: f64 = 50.0;
 
 /// Draws the plan view with north up.
 #[must_use]
-pub fn job_plan(scenario: &Scenario, site: &Site) -> Markup {
+pub fn job_plan(scenario: &Scenario, site: &Site, language: Language) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &extent(scenario, site));
-    plan(scenario, site, &map, &html! {})
+    plan(scenario, site, &map, &html! {}, language)
 }
 
 /// Draws the plan view for the scenario editor: with a margin, the inspector and the truck.
 #[must_use]
-pub fn editor_plan(scenario: &Scenario, site: &Site) -> Markup {
+pub fn editor_plan(scenario: &Scenario, site: &Site, language: Language) -> Markup {
     let team = &scenario.ground_team;
     let mut points = extent(scenario, site);
     points.extend([team.inspector_m, team.truck_m]);
@@ -38,26 +39,26 @@ pub fn editor_plan(scenario: &Scenario, site: &Site) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &corners);
     let place = |(x, y): (f64, f64)| format!("translate({} {})", coord(x), coord(y));
     let marks = html! {
-        g.crew transform=(place(map.at(team.inspector_m))) { circle r="4" {} text.tick x="-2" y="20" { "inspector" } }
-        g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="-7" y="-10" { "truck" } }
-        g.crew transform=(place(map.at(team.pad_m))) { text.tick x="11" y="4" { "pad" } }
+        g.crew transform=(place(map.at(team.inspector_m))) { circle r="4" {} text.tick x="-2" y="20" { (text!(language, "plot-inspector")) } }
+        g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="-7" y="-10" { (text!(language, "plot-truck")) } }
+        g.crew transform=(place(map.at(team.pad_m))) { text.tick x="11" y="4" { (text!(language, "plot-pad")) } }
     };
-    plan(scenario, site, &map, &marks)
+    plan(scenario, site, &map, &marks, language)
 }
 
-fn plan(scenario: &Scenario, site: &Site, map: &PlotMap, marks: &Markup) -> Markup {
+fn plan(scenario: &Scenario, site: &Site, map: &PlotMap, marks: &Markup, language: Language) -> Markup {
     svg_figure(
         map.size,
-        "Job site from above, north up",
+        &text!(language, "plot-job-plan"),
         "map",
         &html! {
             (lake(scenario, site, map))
             (structure(site, map, None))
-            (reference_paths(scenario, map, None))
+            (reference_paths(scenario, map, None, language))
             (task_numbers(scenario, map, None))
-            (pad(scenario, map))
+            (pad(scenario, map, language))
             (marks)
-            (north(map))
+            (north(map, language))
             (drone(map, None))
             (scale(map))
         },
@@ -66,7 +67,7 @@ fn plan(scenario: &Scenario, site: &Site, map: &PlotMap, marks: &Markup) -> Mark
 
 /// Draws the side view of one bridge.
 #[must_use]
-pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
+pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge, language: Language) -> Markup {
     let view = ParallelView::side(bridge);
     let water_m = scenario.terrain.water_level_m;
     let prefix = format!("{}/", bridge.name);
@@ -81,7 +82,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
         points.push(Vec3::new(end.east(), end.north(), top_m + TOP_MARGIN_M));
     }
     let map = PlotMap::around(view, &points);
-    let title = format!("Side view of bridge '{}'", bridge.name);
+    let title = text!(language, "plot-job-side", bridge = bridge.name.as_str());
     svg_figure(
         map.size,
         &title,
@@ -89,7 +90,7 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
         &html! {
             (ground(scenario, site, &map, bridge))
             (structure(site, &map, Some(&prefix)))
-            (reference_paths(scenario, &map, Some(&bridge.name)))
+            (reference_paths(scenario, &map, Some(&bridge.name), language))
             (task_numbers(scenario, &map, Some(&bridge.name)))
             (drone(&map, Some(bridge)))
             (scale(&map))
@@ -99,14 +100,21 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge) -> Markup {
 
 /// Draws a job without bridges from the south.
 #[must_use]
-pub fn job_south(scenario: &Scenario, site: &Site) -> Markup {
+pub fn job_south(scenario: &Scenario, site: &Site, language: Language) -> Markup {
     let pad_m = scenario.ground_team.pad_m;
     let mut points = extent(scenario, site);
     points.push(Vec3::new(pad_m.east() - END_MARGIN_M, pad_m.north(), pad_m.up()));
     points.push(Vec3::new(pad_m.east() + END_MARGIN_M, pad_m.north(), pad_m.up() + TOP_MARGIN_M));
     let map = PlotMap::around(ParallelView::from_south(), &points);
-    let body = html! { (structure(site, &map, None)) (reference_paths(scenario, &map, None)) (task_numbers(scenario, &map, None)) (pad(scenario, &map)) (drone(&map, None)) (scale(&map)) };
-    svg_figure(map.size, "Job site viewed from the south", "map", &body)
+    let body = html! {
+        (structure(site, &map, None))
+        (reference_paths(scenario, &map, None, language))
+        (task_numbers(scenario, &map, None))
+        (pad(scenario, &map, language))
+        (drone(&map, None))
+        (scale(&map))
+    };
+    svg_figure(map.size, &text!(language, "plot-job-south"), "map", &body)
 }
 
 /// Draws the drone and its trail, which a script updates. They are hidden until the script runs and, in a bridge's side
@@ -132,19 +140,20 @@ mod tests {
     #[test]
     fn exact_job_drawings_contain_members_paths_and_drone() {
         let (scenario, site) = job(include_str!("../../../../../scenarios/two-bridges.toml"));
-        let plan = job_plan(&scenario, &site).into_string();
+        let language = Language::English;
+        let plan = job_plan(&scenario, &site, language).into_string();
         assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));
         assert_eq!(plan.matches("class=\"start\"").count(), 4, "each path has its number");
         assert!(plan.contains("class=\"lake\"") && plan.contains("class=\"structure\""));
-        let wide = editor_plan(&scenario, &site).into_string();
+        let wide = editor_plan(&scenario, &site, language).into_string();
         assert!(wide.contains("inspector") && wide.contains("truck") && wide.contains("data-matrix") && wide != plan);
         for bridge in &scenario.bridges {
-            let side = job_side(&scenario, &site, bridge).into_string();
+            let side = job_side(&scenario, &site, bridge, language).into_string();
             assert!(side.contains("class=\"ground\"") && side.contains("data-matrix"));
             assert_eq!(side.matches("data-near=").count(), 2, "the drone and trail are limited to this bridge");
             assert!(side.matches("reference path of task").count() < 4, "only the paths at this bridge are drawn");
         }
         let (scenario, site) = job(include_str!("../../../../../scenarios/drill-hover.toml"));
-        assert!(job_south(&scenario, &site).into_string().contains("data-matrix"));
+        assert!(job_south(&scenario, &site, language).into_string().contains("data-matrix"));
     }
 }

@@ -4,6 +4,7 @@ use super::{coord, line, svg_figure, ticks};
 use crate::report::formatting;
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 const SIZE: (f64, f64) = (312.0, 170.0);
 const LEFT_X: f64 = 34.0;
@@ -41,8 +42,9 @@ pub fn place(repetition: f64, count: usize, value: f64, max_value: f64) -> (f64,
 
 /// Draws a dot for each repetition, the curve, and a ring for the prediction of the next repetition.
 #[must_use]
-pub fn practice(chart: &PracticeChart<'_>, title: &str) -> Markup {
+pub fn practice(chart: &PracticeChart<'_>, title: &str, language: Language) -> Markup {
     let (count, max_value) = (chart.values.len(), chart.max_value);
+    let predicted = formatting::number(chart.curve.next.min(max_value), 1);
     let at = |repetition: f64, value: f64| place(repetition, count, value, max_value);
     let along = |curve: &LearningCurve, last: usize| {
         let steps =
@@ -70,7 +72,7 @@ pub fn practice(chart: &PracticeChart<'_>, title: &str) -> Markup {
                 circle.dot-1 cx=(coord(x)) cy=(coord(y)) r="4" {}
             }
             @let (x, y) = at((count + 1) as f64, chart.curve.next);
-            circle.expected cx=(coord(x)) cy=(coord(y)) r="4" { title { "predicted next: " (formatting::number(chart.curve.next.min(max_value), 1)) } }
+            circle.expected cx=(coord(x)) cy=(coord(y)) r="4" { title { (text!(language, "plot-predicted", value = predicted)) } }
         },
     )
 }
@@ -89,7 +91,7 @@ mod tests {
         let curve = learning_curve(&values).unwrap();
         assert!(curve.next > 100.0, "{curve:?}");
         let chart = PracticeChart { values: &values, curve: &curve, others: &[curve], max_value: 100.0 };
-        let figure = practice(&chart, "<t>").into_string();
+        let figure = practice(&chart, "<t>", Language::English).into_string();
         assert_eq!((figure.matches("class=\"dot-1\"").count(), figure.matches("one-of-many").count()), (5, 1));
         assert!(figure.contains("class=\"expected\" cx=\"290\" cy=\"8\"") && figure.contains("&lt;t&gt;"), "{figure}");
     }

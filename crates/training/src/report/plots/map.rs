@@ -14,6 +14,8 @@ use spandrel_model::math;
 use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
 use spandrel_model::site::outline::{ParallelView, outlines};
+use spandrel_monitor::measures::crash::Crash;
+use spandrel_text::{Language, text};
 
 /// Minimum size of a shape, in drawing units; smaller shapes are omitted.
 const MIN_SHAPE_SIZE: f64 = 1.6;
@@ -31,9 +33,9 @@ pub fn plan(review: &Review) -> Markup {
         (lake(&review.scenario, &review.site, &map))
         (structure(&review.site, &map, None))
         (job(review, &map, None, &all))
-        (north(&map))
+        (north(&map, review.metadata.language))
     };
-    svg_figure(map.size, "Flight from above, north up", "map", &body)
+    svg_figure(map.size, &text!(review.metadata.language, "plot-flight-plan"), "map", &body)
 }
 
 /// Draws the oblique view of a flight.
@@ -43,7 +45,7 @@ pub fn oblique(review: &Review) -> Markup {
     let all = |_: &Frame| true;
     svg_figure(
         map.size,
-        "Oblique view of the flight, looking north",
+        &text!(review.metadata.language, "plot-flight-oblique"),
         "map",
         &html! {
             (structure(&review.site, &map, None))
@@ -58,7 +60,7 @@ pub fn elevation(review: &Review, bridge: &Bridge) -> Markup {
     let near = is_near_bridge(bridge);
     let map = side_view_map(&review.scenario, &review.site, bridge, review.frames.iter().filter(|frame| near(frame)));
     let prefix = format!("{}/", bridge.name);
-    let title = format!("Side view of the flight at bridge '{}'", bridge.name);
+    let title = text!(review.metadata.language, "plot-flight-side", bridge = bridge.name.as_str());
     svg_figure(
         map.size,
         &title,
@@ -117,7 +119,7 @@ pub fn south_elevation(review: &Review) -> Markup {
     let all = |_: &Frame| true;
     svg_figure(
         map.size,
-        "Flight viewed from the south",
+        &text!(review.metadata.language, "plot-flight-south"),
         "map",
         &html! { (structure(&review.site, &map, None)) (job(review, &map, None, &all)) },
     )
@@ -126,7 +128,7 @@ pub fn south_elevation(review: &Review) -> Markup {
 /// Draws one bridge with its found and missed defects.
 #[must_use]
 pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &str) -> Markup {
-    let prefix = format!("{}/", bridge.name);
+    let (prefix, language) = (format!("{}/", bridge.name), review.metadata.language);
     let water_m = review.scenario.terrain.water_level_m;
     let members = review.site.members().iter().filter(|member| member.name.starts_with(&prefix));
     let points: Vec<Vec3<Enu>> = members.flat_map(|member| member.solid.vertices_m.iter().copied()).collect();
@@ -141,7 +143,7 @@ pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &st
             @for defect_outcome in mine {
                 @let (x, y) = map.at(defect_outcome.defect.position_m);
                 g transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
-                    title { "defect " (defect_outcome.defect.id) ": " (defect_outcome.description()) }
+                    title { (text!(language, "plot-defect", defect = defect_outcome.defect.id, outcome = defect_outcome.description(language))) }
                     @if defect_outcome.found_by.is_some() { circle.found r="9" {} } @else { path.missed d="M0 -12L12 0L0 12L-12 0Z" {} }
                     text.mark y="4" text-anchor="middle" { (defect_outcome.defect.id) }
                 }
@@ -181,8 +183,8 @@ pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Mar
 /// Draws the reference paths (of one bridge or of all bridges), the flight path, marks, drone and scale.
 fn job(review: &Review, map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     html! {
-        (reference_paths(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str())))
-        @for (layer, (_, class)) in COLOR_MODES.iter().enumerate() {
+        (reference_paths(&review.scenario, map, bridge.map(|bridge| bridge.name.as_str()), review.metadata.language))
+        @for (layer, class) in COLOR_MODES.iter().enumerate() {
             g class={ "flown " (class) } {
                 @for (color, data) in track(review, map, layer, shown) { path class=(color) d=(data) {} }
             }
@@ -230,13 +232,13 @@ fn start_direction_deg(task: &Task, map: &PlotMap, start: (f64, f64)) -> Option<
 }
 
 /// Draws the reference paths of one bridge or of all bridges.
-pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>) -> Markup {
+pub(super) fn reference_paths(scenario: &Scenario, map: &PlotMap, bridge: Option<&str>, language: Language) -> Markup {
     let reference = |task: &Task| {
         let points: Vec<(f64, f64)> = task.path_m.iter().map(|point| map.at(*point)).collect();
         line(&simplify_polyline(&points, TRACK_TOLERANCE), task.closed)
     };
     html! {
-        g.reference { @for task in tasks_at(scenario, bridge) { path d=(reference(task)) { title { "reference path of task " (task.id) } } } }
+        g.reference { @for task in tasks_at(scenario, bridge) { path d=(reference(task)) { title { (text!(language, "plot-reference", task = task.id)) } } } }
     }
 }
 
@@ -245,12 +247,17 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
         let (x, y) = map.at(point);
         format!("translate({} {})", coord(x), coord(y))
     };
+    let language = review.metadata.language;
+    let crash_title = |crash: &Crash| {
+        let (object, moment) = (formatting::contact_label(crash.with, language), formatting::clock(review.t_s(crash.frame)));
+        text!(language, "plot-crash", object = object, moment = moment)
+    };
     html! {
-        (pad(&review.scenario, map))
+        (pad(&review.scenario, map, language))
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             g.crash transform=(place(review.frames[crash.frame].position_m)) {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
-                title { "crash with " (formatting::contact_label(crash.with)) " at " (formatting::clock(review.t_s(crash.frame))) }
+                title { (crash_title(crash)) }
             }
         }
         @for picture in &review.pictures {
@@ -261,7 +268,7 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
                         circle r="8.5" {}
                         text.mark y="3.8" text-anchor="middle" { (picture.number) }
                     }
-                    title { "picture " (picture.number) ": " (picture.verdict.name()) }
+                    title { (text!(language, "plot-picture", picture = picture.number, verdict = picture.verdict.name(language))) }
                 }
             }
         }
@@ -269,16 +276,16 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
 }
 
 /// Draws a square at the landing pad.
-pub(super) fn pad(scenario: &Scenario, map: &PlotMap) -> Markup {
+pub(super) fn pad(scenario: &Scenario, map: &PlotMap, language: Language) -> Markup {
     let (x, y) = map.at(scenario.ground_team.pad_m);
-    html! { g.pad transform={ "translate(" (coord(x)) " " (coord(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { "pad" } } }
+    html! { g.pad transform={ "translate(" (coord(x)) " " (coord(y)) ")" } { path d="M-6 -6H6V6H-6Z" {} title { (text!(language, "plot-pad")) } } }
 }
 
-pub(super) fn north(map: &PlotMap) -> Markup {
+pub(super) fn north(map: &PlotMap, language: Language) -> Markup {
     html! {
         g.north transform={ "translate(" (coord(map.size.0 - 24.0)) " 34)" } {
             path d="M0 -18L7 6L0 1L-7 6Z" {}
-            text.tick y="22" text-anchor="middle" { "N" }
+            text.tick y="22" text-anchor="middle" { (text!(language, "plot-north")) }
         }
     }
 }

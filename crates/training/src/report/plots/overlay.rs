@@ -13,6 +13,8 @@ use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::outline::ParallelView;
+use spandrel_monitor::measures::crash::Crash;
+use spandrel_text::text;
 
 /// Draws the plan view with north up.
 #[must_use]
@@ -20,13 +22,13 @@ pub fn plan(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::plan(), &both.map(bounding_points).concat());
     svg_figure(
         map.size,
-        "Both flights from above, north up",
+        &text!(both[0].metadata.language, "plot-both-plan"),
         "map",
         &html! {
             (lake(&both[0].scenario, &both[0].site, &map))
             (structure(&both[0].site, &map, None))
             (flights(both, &map, None, &|_| true))
-            (north(&map))
+            (north(&map, both[0].metadata.language))
         },
     )
 }
@@ -40,7 +42,7 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
     let map = side_view_map(&first.scenario, &first.site, bridge, flown);
     svg_figure(
         map.size,
-        &format!("Side view of both flights at bridge '{}'", bridge.name),
+        &text!(first.metadata.language, "plot-both-side", bridge = bridge.name.as_str()),
         "map",
         &html! {
             (ground(&first.scenario, &first.site, &map, bridge))
@@ -55,16 +57,17 @@ pub fn elevation(both: [&Review; 2], bridge: &Bridge) -> Markup {
 pub fn from_south(both: [&Review; 2]) -> Markup {
     let map = PlotMap::around(ParallelView::from_south(), &both.map(bounding_points).concat());
     let body = html! { (structure(&both[0].site, &map, None)) (flights(both, &map, None, &|_| true)) };
-    svg_figure(map.size, "Both flights viewed from the south", "map", &body)
+    svg_figure(map.size, &text!(both[0].metadata.language, "plot-both-south"), "map", &body)
 }
 
 fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    let language = both[0].metadata.language;
     html! {
-        (reference_paths(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str())))
+        (reference_paths(&both[0].scenario, map, bridge.map(|bridge| bridge.name.as_str()), language))
         @for (k, review) in both.into_iter().enumerate() {
-            path class={ "overlaid line-" (k + 1) } d=(plain_color(review, map, shown)) { title { "session " (k + 1) } }
+            path class={ "overlaid line-" (k + 1) } d=(plain_color(review, map, shown)) { title { (text!(language, "plot-session", session = k + 1)) } }
         }
-        (pad(&both[0].scenario, map))
+        (pad(&both[0].scenario, map, language))
         @for (k, review) in both.into_iter().enumerate() { (crashes(k, review, map, shown)) }
         @for k in 0..2 {
             g class={ "drone drone-" (k + 1) } data-flight=(k) data-matrix=(map.matrix()) data-near=[bridge.map(near_bridge_data)] {
@@ -77,12 +80,17 @@ fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &d
 }
 
 fn crashes(k: usize, review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Markup {
+    let language = review.metadata.language;
+    let title = |crash: &Crash| {
+        let (object, moment) = (formatting::contact_label(crash.with, language), formatting::clock(review.t_s(crash.frame)));
+        text!(language, "plot-session-crash", session = k + 1, object = object, moment = moment)
+    };
     html! {
         @for crash in review.crashes.iter().filter(|crash| shown(&review.frames[crash.frame])) {
             @let (x, y) = map.at(review.frames[crash.frame].position_m);
             g class={ "crash of-" (k + 1) } transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
                 path d="M-5 -5L5 5M5 -5L-5 5" {}
-                title { "session " (k + 1) ": crash with " (formatting::contact_label(crash.with)) " at " (formatting::clock(review.t_s(crash.frame))) }
+                title { (title(crash)) }
             }
         }
     }

@@ -3,6 +3,7 @@
 
 use super::{coord, line, svg_figure};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 const SIZE: (f64, f64) = (854.0, 268.0);
 /// Width and height of a box, in drawing units.
@@ -39,7 +40,7 @@ pub struct PathEffects {
 
 /// Draws the path diagram.
 #[must_use]
-pub fn model(effects: &PathEffects, title: &str) -> Markup {
+pub fn model(effects: &PathEffects, title: &str, language: Language) -> Markup {
     let middle = MIDDLE_ROW_Y + 0.5 * BOX_SIZE.1;
     let (from, to) = (DEMAND_X + BOX_SIZE.0, STRAIN_X);
     let crossing = 0.5 * (from + to);
@@ -48,10 +49,7 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
         title,
         "model-drawing",
         &html! {
-            (labeled_box((DEMAND_X, MIDDLE_ROW_Y), "Demand", "mental, physical"))
-            (labeled_box((STRAIN_X, MIDDLE_ROW_Y), "Strain", "pressure, frustration"))
-            (labeled_box((PERFORMANCE_X, MIDDLE_ROW_Y), "Performance", "overall score (%)"))
-            (labeled_box(FEEDBACK_POSITION, "Feedback", "helpfulness"))
+            (boxes(language))
             (arrow(&[(from, middle), (to, middle)], &effects.on_strain))
             (effect_text((crossing, middle + 24.0), &effects.on_strain))
             (arrow(&[(STRAIN_X + BOX_SIZE.0, middle), (PERFORMANCE_X, middle)], &effects.on_performance))
@@ -63,6 +61,21 @@ pub fn model(effects: &PathEffects, title: &str) -> Markup {
             (effect_text((0.5 * SIZE.0, low + 20.0), &effects.direct))
         },
     )
+}
+
+/// Draws the four variables with their parts.
+fn boxes(language: Language) -> Markup {
+    let (demand, demand_parts) = (text!(language, "plot-model-demand"), text!(language, "plot-model-demand-parts"));
+    let (strain, strain_parts) = (text!(language, "plot-model-strain"), text!(language, "plot-model-strain-parts"));
+    let performance = text!(language, "plot-model-performance");
+    let performance_parts = text!(language, "plot-model-performance-parts");
+    let (feedback, feedback_parts) = (text!(language, "plot-model-feedback"), text!(language, "plot-model-feedback-parts"));
+    html! {
+        (labeled_box((DEMAND_X, MIDDLE_ROW_Y), &demand, &demand_parts))
+        (labeled_box((STRAIN_X, MIDDLE_ROW_Y), &strain, &strain_parts))
+        (labeled_box((PERFORMANCE_X, MIDDLE_ROW_Y), &performance, &performance_parts))
+        (labeled_box(FEEDBACK_POSITION, &feedback, &feedback_parts))
+    }
 }
 
 fn labeled_box((x, y): (f64, f64), name: &str, what: &str) -> Markup {
@@ -113,7 +126,7 @@ mod tests {
             direct: effect("c", true),
             moderation: effect("d", false),
         };
-        let figure = model(&effects, "t").into_string();
+        let figure = model(&effects, "t", Language::English).into_string();
         assert_eq!((figure.matches("may-be-none").count(), figure.matches("arrow-head").count()), (2, 4));
         assert!(figure.contains("0.7 &lt;a&gt;"), "{figure}");
     }

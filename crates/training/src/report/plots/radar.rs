@@ -4,6 +4,7 @@ use super::{coord, line, svg_figure};
 use crate::report::formatting;
 use maud::{Markup, html};
 use spandrel_model::math;
+use spandrel_text::{Language, text};
 
 const SIZE: (f64, f64) = (420.0, 360.0);
 const CENTER: (f64, f64) = (210.0, 186.0);
@@ -29,8 +30,12 @@ pub fn place(k: usize, count: usize, pct: f64) -> (f64, f64) {
 
 /// Draws one or more sessions in the same chart.
 #[must_use]
-pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
+pub fn radar(spokes: &[RadarAxis], title: &str, language: Language) -> Markup {
     let count = spokes.len();
+    let value = |value: &Option<f64>| match value {
+        Some(pct) => formatting::number(*pct, 0),
+        None => text!(language, "plot-not-applicable"),
+    };
     let at = |k: usize, pct: f64| {
         let (x, y) = place(k, count, pct);
         (CENTER.0 + x, CENTER.1 + y)
@@ -56,7 +61,7 @@ pub fn radar(spokes: &[RadarAxis], title: &str) -> Markup {
                 @let (lx, ly) = label(at(k, 114.0));
                 text.label x=(coord(lx)) y=(coord(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
                 text.value x=(coord(lx)) y=(coord(ly + 22.0)) text-anchor=(anchor(lx)) {
-                    (spoke.values.iter().map(|value| value.map_or("n/a".into(), |pct| formatting::number(pct, 0))).collect::<Vec<_>>().join(" / "))
+                    (spoke.values.iter().map(value).collect::<Vec<_>>().join(" / "))
                 }
             }
             @for session in 0..sessions {
@@ -104,9 +109,9 @@ mod tests {
 
     #[test]
     fn exact_radar_polygon_skips_missing_scores() {
-        let spoke = |name: &str, value| RadarAxis { name: name.to_owned(), values: vec![value] };
-        let figure = radar(&[spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)], "t");
-        let figure = figure.into_string();
+        let spoke = |name: &str, value| RadarAxis { name: name.into(), values: vec![value] };
+        let spokes = [spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)];
+        let figure = radar(&spokes, "t", Language::English).into_string();
         assert!(figure.contains("d=\"M210 68L269 186L210 186Z\""), "{figure}");
         assert!(figure.contains("n/a"));
         assert_eq!(figure.matches("<circle").count(), 3);

@@ -10,6 +10,7 @@ use spandrel_model::scenario::{Scenario, Task};
 use spandrel_model::site::outline::ParallelView;
 use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
+use spandrel_text::{Language, text};
 
 /// Height of the picture, px.
 const HEIGHT_PX: usize = 225;
@@ -28,7 +29,7 @@ const PATH_TOLERANCE_PX: f64 = 0.2;
 
 /// Draws the picture. If it cannot be encoded, only the paths are drawn.
 #[must_use]
-pub fn site_picture(scenario: &Scenario, site: &Site) -> Markup {
+pub fn site_picture(scenario: &Scenario, site: &Site, language: Language) -> Markup {
     let viewer = Viewer::of(scenario, site);
     let lens = SketchLens {
         height_px: HEIGHT_PX,
@@ -41,12 +42,13 @@ pub fn site_picture(scenario: &Scenario, site: &Site) -> Markup {
     let light = SketchExposure { light: 1.0, by_lamp: false };
     let picture = Sketcher::new(site, scenario, SimTime::ZERO).png_with_lens(&viewer.pose, &lens, light);
     let (x, y) = viewer.pixel(scenario.ground_team.pad_m);
+    let title = text!(language, "plot-site-picture");
     html! {
-        svg.map.site-picture viewBox={ "0 0 " (WIDTH_PX) " " (HEIGHT_PX) } role="img" aria-label="Picture of the site" {
-            title { "Picture of the site" }
+        svg.map.site-picture viewBox={ "0 0 " (WIDTH_PX) " " (HEIGHT_PX) } role="img" aria-label=(title) {
+            title { (title) }
             @if let Ok(png) = picture { image width=(WIDTH_PX) height=(HEIGHT_PX) href={ "data:image/png;base64," (base64(&png)) } {} }
-            g.reference { @for task in &scenario.tasks { path d=(path(task, &viewer)) { title { "reference path of task " (task.id) } } } }
-            g.pad transform={ "translate(" (coord(x)) " " (coord(y)) ")" } { path d="M-3 -3H3V3H-3Z" {} title { "pad" } }
+            g.reference { @for task in &scenario.tasks { path d=(path(task, &viewer)) { title { (text!(language, "plot-reference", task = task.id)) } } } }
+            g.pad transform={ "translate(" (coord(x)) " " (coord(y)) ")" } { path d="M-3 -3H3V3H-3Z" {} title { (text!(language, "plot-pad")) } }
         }
     }
 }
@@ -115,7 +117,7 @@ mod tests {
                 let (x, y) = viewer.pixel(point);
                 assert!((0.0..=WIDTH_PX as f64).contains(&x) && (0.0..=HEIGHT_PX as f64).contains(&y), "{name}: {x} {y}");
             }
-            let text = site_picture(&scenario, &site).into_string();
+            let text = site_picture(&scenario, &site, Language::English).into_string();
             assert!(text.contains("data:image/png;base64,"), "{name}");
             assert_eq!(text.matches("reference path").count(), scenario.tasks.len(), "{name}");
         }

@@ -5,41 +5,56 @@ use crate::cohort::{Cohort, IndirectEffect, MediationModel, RECOMMENDED_TRAINEES
 use crate::report::formatting;
 use crate::report::plots::intervals::{IntervalEstimate, intervals};
 use crate::report::plots::path_diagram::{PathEffect, PathEffects, model};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded, shown};
 use crate::statistics::{Coefficient, Regression};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Renders the section on the causal model.
-pub fn causal(cohort: &Cohort) -> Markup {
+pub fn causal(cohort: &Cohort, language: Language) -> Markup {
     html! {
-        p { "Does demand increase strain, does strain reduce performance, and does in-flight feedback weaken the effect of demand on strain? Estimated from the first sessions of all trainees who answered the questionnaire." }
+        p { (text!(language, "cohort-causal-intro")) }
         @match &cohort.causal {
-            Some(model) => (model_section(model)),
-            None => p.caution { "No estimate available: too few trainees answered the questionnaire, or their answers do not vary. At least " (RECOMMENDED_TRAINEES) " trainees with complete answers are recommended." },
+            Some(model) => (model_section(model, language)),
+            None => p.caution { (text!(language, "cohort-causal-none", count = RECOMMENDED_TRAINEES)) },
         }
     }
 }
 
-fn model_section(model_: &MediationModel) -> Markup {
+fn model_section(model_: &MediationModel, language: Language) -> Markup {
+    let diagram = model(&effects(model_), &text!(language, "cohort-causal-diagram-title"), language);
+    let axis = text!(language, "cohort-causal-indirect-axis");
+    let indirect = intervals(&indirect(model_, language), &axis, &text!(language, "cohort-causal-indirect-title"));
     html! {
         @if model_.n < RECOMMENDED_TRAINEES {
-            p.caution { b { (model_.n) " trainees with complete answers." } " With fewer than " (RECOMMENDED_TRAINEES) ", the model can miss medium effects. It describes these trainees only and does not generalize." }
+            p.caution {
+                b { (text!(language, "cohort-causal-count", count = model_.n)) } " "
+                (text!(language, "cohort-causal-caution", recommended = RECOMMENDED_TRAINEES))
+            }
         }
-        (figure("Path diagram; dashed arrows mark effects whose 95% confidence interval includes zero", &scrolling("Causal model", &model(&effects(model_), "Demand, strain, performance and feedback"))))
-        p.note { "Demand, strain and feedback are rated from 1 to 5; performance is the overall score as a percentage of the maximum." }
-        (figure("Indirect effect of one unit of demand on performance via strain, by feedback helpfulness, with 95% confidence intervals", &scrolling("Indirect effects", &intervals(&indirect(model_), "% of overall score per unit of demand", "Indirect effect of demand by feedback helpfulness"))))
-        (effects_table(model_).shown())
-        (coefficients(model_).folded())
+        (figure(&text!(language, "cohort-causal-diagram"), &scrolling(&text!(language, "cohort-causal-diagram-region"), &diagram)))
+        p.note { (text!(language, "cohort-causal-scales")) }
+        (figure(&text!(language, "cohort-causal-indirect"), &scrolling(&text!(language, "cohort-causal-indirect-region"), &indirect)))
+        (shown(language, |language| effects_table(model_, language)))
+        (folded(language, |language| coefficients(model_, language)))
     }
 }
 
-fn feedback_level_name(at: usize) -> &'static str {
-    ["low feedback", "mean feedback", "high feedback"].get(at).copied().unwrap_or_default()
+fn feedback_level_name(at: usize, language: Language) -> String {
+    match at {
+        0 => text!(language, "cohort-causal-low"),
+        1 => text!(language, "cohort-causal-mean"),
+        _ => text!(language, "cohort-causal-high"),
+    }
 }
 
-fn indirect(model: &MediationModel) -> Vec<IntervalEstimate> {
+fn indirect(model: &MediationModel, language: Language) -> Vec<IntervalEstimate> {
+    let name = |k: usize, feedback: f64| {
+        let level = feedback_level_name(k, language);
+        text!(language, "cohort-causal-level", level = level, feedback = formatting::number(feedback, 1))
+    };
     let estimate = |(k, one): (usize, &IndirectEffect)| IntervalEstimate {
-        name: format!("{} ({})", feedback_level_name(k), formatting::number(one.feedback, 1)),
+        name: name(k, one.feedback),
         value: one.effect,
         interval: one.interval_95,
     };
@@ -67,28 +82,47 @@ fn effect(regression: &Regression, name: &str) -> PathEffect {
     }
 }
 
-fn effects_table(model: &MediationModel) -> Table {
+fn effects_table(model: &MediationModel, language: Language) -> Table {
     let ends = |one: &IndirectEffect, k: usize| one.interval_95.map_or(TableCell::Empty, |ends| TableCell::Number(ends[k], 2));
-    let row = |name: &str, one: &IndirectEffect| {
+    let row = |name: String, one: &IndirectEffect| {
         vec![name.into(), TableCell::Number(one.feedback, 2), TableCell::Number(one.effect, 2), ends(one, 0), ends(one, 1)]
     };
     let mut rows: Vec<Vec<TableCell>> =
-        model.indirect.iter().enumerate().map(|(k, one)| row(feedback_level_name(k), one)).collect();
-    rows.push(row("moderation: change in effect per unit of feedback", &model.moderation));
+        model.indirect.iter().enumerate().map(|(k, one)| row(feedback_level_name(k, language), one)).collect();
+    rows.push(row(text!(language, "cohort-causal-moderation"), &model.moderation));
     Table {
         name: "indirect_effects",
-        caption: "indirect effect of demand on performance via strain, with bootstrap confidence intervals",
-        columns: vec!["feedback level", "feedback", "effect (%)", "95% CI lower bound", "95% CI upper bound"],
+        caption: text!(language, "cohort-causal-effects-caption"),
+        columns: vec![
+            text!(language, "cohort-column-feedback-level"),
+            text!(language, "cohort-column-feedback"),
+            text!(language, "cohort-column-effect"),
+            text!(language, "cohort-column-ci-lower"),
+            text!(language, "cohort-column-ci-upper"),
+        ],
         rows,
     }
 }
 
-fn coefficients(model: &MediationModel) -> Table {
+/// Returns the display name of a variable in the regressions.
+fn term_label(term: &str, language: Language) -> String {
+    match term {
+        "intercept" => text!(language, "cohort-term-intercept"),
+        "demand" => text!(language, "cohort-term-demand"),
+        "strain" => text!(language, "cohort-term-strain"),
+        "feedback" => text!(language, "cohort-column-feedback"),
+        "demand x feedback" => text!(language, "cohort-term-interaction"),
+        "performance" => text!(language, "cohort-term-performance"),
+        other => other.to_owned(),
+    }
+}
+
+fn coefficients(model: &MediationModel, language: Language) -> Table {
     let maybe = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
     let row = |of: &'static str, one: &Coefficient| {
         vec![
-            of.into(),
-            one.name.clone().into(),
+            term_label(of, language).into(),
+            term_label(&one.name, language).into(),
             TableCell::Number(one.estimate, 3),
             TableCell::Number(one.standard_error, 3),
             maybe(one.t, 2),
@@ -102,8 +136,17 @@ fn coefficients(model: &MediationModel) -> Table {
     };
     Table {
         name: "causal_model",
-        caption: "coefficients of the two regressions",
-        columns: vec!["outcome", "term", "estimate", "standard error", "t", "p", "95% CI lower bound", "95% CI upper bound"],
+        caption: text!(language, "cohort-causal-coefficients-caption"),
+        columns: vec![
+            text!(language, "cohort-column-outcome"),
+            text!(language, "cohort-column-term"),
+            text!(language, "cohort-column-estimate"),
+            text!(language, "cohort-column-standard-error"),
+            "t".to_owned(),
+            "p".to_owned(),
+            text!(language, "cohort-column-ci-lower"),
+            text!(language, "cohort-column-ci-upper"),
+        ],
         rows: [of("strain", &model.strain), of("performance", &model.performance)].concat(),
     }
 }

@@ -1,44 +1,63 @@
 //! Scores of the first sessions: distributions, trainees and tasks, crashes.
 
-use super::super::crash_kinds::{KINDS, crash_counts, segments};
+use super::super::crash_kinds::{crash_counts, kinds, segments};
 use super::super::figure::{figure, legend};
 use super::lists_individuals::lists_individuals;
 use super::pooled;
 use crate::cohort::Cohort;
+use crate::report::formatting::score_label;
 use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
 use crate::report::plots::histogram::histogram;
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, shown};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Renders the score distributions.
-pub fn distributions(cohort: &Cohort) -> Markup {
+pub fn distributions(cohort: &Cohort, language: Language) -> Markup {
+    html! {
+        div.trio {
+            @for one in &cohort.distributions {
+                @let score = score_label(&one.score, language);
+                @let title = text!(language, "cohort-histogram", score = score.as_str());
+                (figure(&score, &histogram(&one.histogram, one.summary.mean, &title, language)))
+            }
+        }
+        (shown(language, |language| distribution_table(cohort, language)))
+    }
+}
+
+fn distribution_table(cohort: &Cohort, language: Language) -> Table {
     let rows = cohort.distributions.iter().map(|one| {
         let s = &one.summary;
         let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
         let numbers = [s.min, s.q1, s.median, s.q3, s.max].map(|value| TableCell::Number(value, 1));
-        let mut row = vec![one.score.clone().into(), s.n.into(), TableCell::Number(s.mean, 2), maybe(s.sd)];
+        let score = score_label(&one.score, language);
+        let mut row = vec![score.into(), s.n.into(), TableCell::Number(s.mean, 2), maybe(s.sd)];
         row.extend(numbers);
         row.push(maybe(s.skewness));
         row
     });
-    let columns = vec!["score", "n", "mean", "sd", "min", "q1", "median", "q3", "max", "skewness"];
-    let table = Table { name: "distributions", caption: "first sessions", columns, rows: rows.collect() };
-    html! {
-        div.trio {
-            @for one in &cohort.distributions {
-                (figure(&one.score, &histogram(&one.histogram, one.summary.mean, &format!("Histogram of {}; the line marks the mean", one.score))))
-            }
-        }
-        (table.shown())
-    }
+    let columns = vec![
+        text!(language, "report-column-score"),
+        "n".to_owned(),
+        text!(language, "cohort-column-mean"),
+        text!(language, "cohort-column-sd"),
+        text!(language, "cohort-column-min"),
+        "q1".to_owned(),
+        text!(language, "cohort-column-median"),
+        "q3".to_owned(),
+        text!(language, "cohort-column-max"),
+        text!(language, "cohort-column-skewness"),
+    ];
+    Table { name: "distributions", caption: text!(language, "cohort-first-caption"), columns, rows: rows.collect() }
 }
 
 /// Renders each trainee's scores and tasks, or distributions if there are too many trainees to list.
-pub fn people(cohort: &Cohort) -> Markup {
-    if lists_individuals(cohort) { individual_results(cohort) } else { pooled::tasks(cohort) }
+pub fn people(cohort: &Cohort, language: Language) -> Markup {
+    if lists_individuals(cohort) { individual_results(cohort, language) } else { pooled::tasks(cohort, language) }
 }
 
-fn individual_results(cohort: &Cohort) -> Markup {
+fn individual_results(cohort: &Cohort, language: Language) -> Markup {
     let rows: Vec<ShareRow> = cohort
         .individuals
         .iter()
@@ -50,7 +69,7 @@ fn individual_results(cohort: &Cohort) -> Markup {
                 .zip(["dot-1", "dot-2", "dot-3", "dot-4"].iter().cycle())
                 .map(|(task, class)| (*class, task.on_path))
                 .collect(),
-            placeholder: one.tasks.is_empty().then(|| "no tasks".to_owned()),
+            placeholder: one.tasks.is_empty().then(|| text!(language, "cohort-no-tasks")),
         })
         .collect();
     let key: Vec<(&str, String)> = cohort
@@ -64,8 +83,18 @@ fn individual_results(cohort: &Cohort) -> Markup {
                 .collect()
         })
         .unwrap_or_default();
+    let title = text!(language, "cohort-shares");
+    html! {
+        (shown(language, |language| individual_table(cohort, language)))
+        details.numbers { summary { (title) }
+            (figure(&text!(language, "cohort-shares-figure"), &html! { (legend(&key)) (shares(&rows, &title)) }))
+        }
+    }
+}
+
+fn individual_table(cohort: &Cohort, language: Language) -> Table {
     let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1));
-    let table = cohort.individuals.iter().map(|one| {
+    let rows = cohort.individuals.iter().map(|one| {
         vec![
             one.trainee.clone().into(),
             maybe(one.conformity),
@@ -76,37 +105,35 @@ fn individual_results(cohort: &Cohort) -> Markup {
             TableCell::Clock(one.seconds),
         ]
     });
-    let columns = vec!["trainee", "conformity", "efficiency", "safety", "accuracy", "overall", "flight time"];
-    let table = Table { name: "individuals", caption: "first session of each trainee", columns, rows: table.collect() };
-    html! {
-        (table.shown())
-        details.numbers { summary { "On-path share by trainee and task" }
-            (figure("Share of time on the path", &html! { (legend(&key)) (shares(&rows, "On-path share by trainee and task")) }))
-        }
-    }
+    let mut columns = vec![text!(language, "cohort-column-trainee")];
+    columns.extend(["conformity", "efficiency", "safety", "accuracy", "overall"].map(|score| score_label(score, language)));
+    columns.push(text!(language, "report-column-flight-time"));
+    Table { name: "individuals", caption: text!(language, "cohort-individuals-caption"), columns, rows: rows.collect() }
 }
 
 /// Renders crashes by kind, task and trainee.
-pub fn crashes(cohort: &Cohort) -> Markup {
+pub fn crashes(cohort: &Cohort, language: Language) -> Markup {
     let table = &cohort.crashes;
-    let key: Vec<(&str, String)> = KINDS
-        .iter()
+    let key: Vec<(&str, String)> = kinds(language)
+        .into_iter()
         .zip(crash_counts(&table.by_kind))
-        .map(|((class, name), count)| (*class, format!("{name}: {count}")))
+        .map(|((class, name), count)| (class, format!("{name}: {count}")))
         .collect();
-    let names = table.tasks.iter().map(|id| format!("task {id}")).chain(["outside".to_owned()]);
+    let outside = text!(language, "cohort-crashes-outside");
+    let names = table.tasks.iter().map(|id| text!(language, "report-task", task = *id)).chain([outside]);
     let by_task: Vec<CountRow> =
         names.zip(&table.by_task).map(|(name, count)| CountRow { name, kinds: vec![("k-bridge", *count)] }).collect();
-    let all = CountRow { name: "all".into(), kinds: segments(&table.by_kind) };
+    let all = CountRow { name: text!(language, "cohort-crashes-all"), kinds: segments(&table.by_kind) };
+    let by_trainee = text!(language, "cohort-crashes-by-trainee-title");
     html! {
-        p { (table.total) " crashes in the first sessions." }
+        p { (text!(language, "cohort-crashes-count", count = table.total)) }
         div.split {
-            (figure("By object", &html! { (legend(&key)) (counts(&[all], "Crashes by kind")) }))
-            (figure("By task", &counts(&by_task, "Crashes by task")))
+            (figure(&text!(language, "cohort-crashes-by-object"), &html! { (legend(&key)) (counts(&[all], &text!(language, "cohort-crashes-by-kind-title"))) }))
+            (figure(&text!(language, "cohort-crashes-by-task"), &counts(&by_task, &text!(language, "cohort-crashes-by-task-title"))))
         }
         @if lists_individuals(cohort) {
-            details.numbers { summary { "By trainee" } (figure("Crashes by trainee", &counts(&counts_by_trainee(cohort), "Crashes by trainee"))) }
-        } @else { (pooled::crashes(cohort)) }
+            details.numbers { summary { (text!(language, "cohort-crashes-by-trainee")) } (figure(&by_trainee, &counts(&counts_by_trainee(cohort), &by_trainee))) }
+        } @else { (pooled::crashes(cohort, language)) }
     }
 }
 

@@ -4,10 +4,12 @@ use super::super::figure::{figure, legend};
 use super::super::progress::{max_value, progress_figures, too_few_repetitions};
 use super::super::within_error;
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
+use crate::report::formatting::score_label;
 use crate::report::plots::learning_curve::{PracticeChart, practice};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, shown};
 use crate::statistics::LearningCurve;
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Maximum number of individual curves drawn behind the group's curve; readers could not tell more of them apart.
 const MAX_INDIVIDUAL_CURVES: usize = 40;
@@ -15,32 +17,30 @@ const MAX_INDIVIDUAL_CURVES: usize = 40;
 const MAX_INDIVIDUAL_TRAINEES: usize = 24;
 
 /// Renders the group's curves, or the reason why there are none.
-pub fn curves(cohort: &Cohort) -> Markup {
+pub fn curves(cohort: &Cohort, language: Language) -> Markup {
     let key = [
-        ("dot-1", "mean".to_owned()),
-        ("fitted-key", "curve fitted to the means".into()),
-        ("one-of-many-key", "one trainee".into()),
+        ("dot-1", text!(language, "cohort-learning-mean")),
+        ("fitted-key", text!(language, "cohort-learning-fitted")),
+        ("one-of-many-key", text!(language, "cohort-learning-one")),
     ];
     html! {
         @if cohort.learning.is_empty() {
-            p.calm { (too_few_repetitions()) " No trainee has flown that many yet." }
+            p.calm { (too_few_repetitions(language)) " " (text!(language, "cohort-learning-none")) }
         } @else {
             (legend(&key))
             div.trio {
                 @for one in &cohort.learning {
                     @let others = individual_curves(cohort, &one.score);
                     @let chart = PracticeChart { values: &one.means, curve: &one.curve, others: &others, max_value: max_value(&one.score) };
-                    (figure(&format!("{}, {}", one.score, people(one.people)), &practice(&chart, &format!("Learning curve of {}", one.score))))
+                    @let score = score_label(&one.score, language);
+                    @let caption = text!(language, "cohort-learning-figure", score = score.as_str(), count = one.people);
+                    (figure(&caption, &practice(&chart, &text!(language, "report-progress-curve", score = score.as_str()), language)))
                 }
             }
-            p.note { "Each curve is a fit of the power law of practice. The ring marks the prediction for the next repetition. The group curve is flatter than the individual trainees' curves." }
-            (numbers(&cohort.learning).shown())
+            p.note { (text!(language, "cohort-learning-note")) }
+            (shown(language, |language| numbers(&cohort.learning, language)))
         }
     }
-}
-
-fn people(count: usize) -> String {
-    if count == 1 { "one trainee".to_owned() } else { format!("{count} trainees") }
 }
 
 fn individual_curves(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
@@ -54,11 +54,11 @@ fn individual_curves(cohort: &Cohort, score: &str) -> Vec<LearningCurve> {
     if all.len() > MAX_INDIVIDUAL_CURVES { Vec::new() } else { all }
 }
 
-fn numbers(curves: &[GroupCurve]) -> Table {
+fn numbers(curves: &[GroupCurve], language: Language) -> Table {
     let row = |one: &GroupCurve| {
         let c = &one.curve;
         vec![
-            one.score.clone().into(),
+            score_label(&one.score, language).into(),
             one.people.into(),
             c.n.into(),
             TableCell::Number(one.means.first().copied().unwrap_or_default(), 1),
@@ -66,36 +66,39 @@ fn numbers(curves: &[GroupCurve]) -> Table {
             TableCell::Number(c.exponent, 3),
             c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2)),
             TableCell::Number(c.next.min(max_value(&one.score)), 1),
-            within_error::label(one.within_error),
+            within_error::label(one.within_error, language),
         ]
     };
     Table {
         name: "learning_of_the_group",
-        caption: "group learning curves, fitted to the means",
+        caption: text!(language, "cohort-learning-caption"),
         columns: vec![
-            "score",
-            "trainees",
-            "repetitions",
-            "first mean",
-            "last mean",
-            "exponent",
-            "R²",
-            "next",
-            "measurement error",
+            text!(language, "report-column-score"),
+            text!(language, "cohort-column-trainees"),
+            text!(language, "report-column-repetitions"),
+            text!(language, "cohort-column-first-mean"),
+            text!(language, "cohort-column-last-mean"),
+            text!(language, "report-column-exponent"),
+            "R²".to_owned(),
+            text!(language, "report-column-next"),
+            text!(language, "report-column-measurement-error"),
         ],
         rows: curves.iter().map(row).collect(),
     }
 }
 
 /// Renders each trainee with more than one session.
-pub fn individual_results(cohort: &Cohort) -> Markup {
+pub fn individual_results(cohort: &Cohort, language: Language) -> Markup {
     let repeated: Vec<&TraineeProgress> = repeat_trainees(cohort).collect();
     html! {
         @if repeated.len() > MAX_INDIVIDUAL_TRAINEES {
-            p.calm { (repeated.len()) " trainees flew more than once. Above " (MAX_INDIVIDUAL_TRAINEES) ", trainees are not shown individually; see progress.csv." }
+            p.calm { (text!(language, "cohort-individual-too-many", count = repeated.len(), limit = MAX_INDIVIDUAL_TRAINEES)) }
         } @else {
             @for one in repeated {
-                details.numbers { summary { (one.trainee) ", " (one.repetitions.len()) " times" } (progress_figures(one, &tasks(cohort, one))) }
+                details.numbers {
+                    summary { (text!(language, "cohort-individual", trainee = one.trainee.as_str(), count = one.repetitions.len())) }
+                    (progress_figures(one, &tasks(cohort, one), language))
+                }
             }
         }
     }

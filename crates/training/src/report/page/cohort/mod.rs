@@ -12,13 +12,14 @@ mod repetitions;
 
 pub use lists_individuals::MAX_LISTED_TRAINEES;
 
+use super::figure::{SLOT, filled};
 use super::{PageScripts, document};
 use crate::cohort::{Cohort, TABLES, tables};
 use crate::record::excluded_sessions_note;
 use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Where the table files are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,14 +32,16 @@ pub enum TableLinks<'a> {
 
 /// Renders the standalone offline page.
 #[must_use]
-pub fn cohort(cohort: &Cohort) -> String {
-    let sections = sections(cohort, TableLinks::Embedded);
+pub fn cohort(cohort: &Cohort, language: Language) -> String {
+    let sections = sections(cohort, TableLinks::Embedded, language);
+    let title = text!(language, "cohort-title");
     document(
-        "Cohort report",
+        language,
+        &title,
         &PageScripts::None,
         &html! {
-            header { div { p.kicker { "Cohort report" } h1 { (cohort.scenarios.join(", ")) } (summary_lines(cohort)) } }
-            nav aria-label="Sections" { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
+            header { div { p.kicker { (title) } h1 { (cohort.scenarios.join(", ")) } (summary_lines(cohort, language)) } }
+            nav aria-label=(text!(language, "cohort-sections")) { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
             main {
                 @for (id, name, body) in &sections {
                     section id=(id) aria-labelledby={ (id) "-head" } { h2 id={ (id) "-head" } { (name) } (body) }
@@ -50,42 +53,47 @@ pub fn cohort(cohort: &Cohort) -> String {
 
 /// Renders the numbers of trainees and sessions.
 #[must_use]
-pub fn summary_lines(cohort: &Cohort) -> Markup {
+pub fn summary_lines(cohort: &Cohort, language: Language) -> Markup {
+    let scenarios = cohort.scenarios.join(", ");
+    let group = || text!(language, "cohort-group", trainees = cohort.group.len(), repetitions = cohort.repetitions);
     html! {
-        p { (cohort.trainees) " trainees, " (cohort.sessions) " sessions of " (cohort.scenarios.join(", ")) ". "
-            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (cohort.group.len()) " trainees flew " (cohort.repetitions) " or more times." }
-            @if let Some(words) = excluded_sessions_note(cohort.left_out, Language::English) { " " (words) "." } }
+        p { (text!(language, "cohort-summary", trainees = cohort.trainees, sessions = cohort.sessions, scenarios = scenarios)) " "
+            @if !cohort.group.is_empty() && cohort.repetitions > 1 { (group()) }
+            @if let Some(words) = excluded_sessions_note(cohort.left_out, language) { " " (words) "." } }
     }
 }
 
 /// Returns the ID, name and body of each section, omitting empty sections.
 #[must_use]
-pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>) -> Vec<(&'static str, &'static str, Markup)> {
+pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>, language: Language) -> Vec<(&'static str, String, Markup)> {
     let mut sections = Vec::new();
+    let mut add = |id: &'static str, name: String, body: Markup| sections.push((id, name, body));
     if !cohort.warnings.is_empty() {
-        sections.push(("mind", "Limitations", html! { ul { @for words in &cohort.warnings { li { (words) } } } }));
+        let body = html! { ul { @for words in &cohort.warnings { li { (words) } } } };
+        add("mind", text!(language, "cohort-section-limitations"), body);
     }
-    sections.push(("distributions", "Scores of the first sessions", first_sessions::distributions(cohort)));
-    sections.push(("people", "Scores by trainee and task", first_sessions::people(cohort)));
-    sections.push(("crashes", "Crashes", first_sessions::crashes(cohort)));
-    sections.push(("reliability", "Reliability of the measures", reliability::reliability(cohort)));
+    let name = text!(language, "cohort-section-distributions");
+    add("distributions", name, first_sessions::distributions(cohort, language));
+    add("people", text!(language, "cohort-section-people"), first_sessions::people(cohort, language));
+    add("crashes", text!(language, "cohort-section-crashes"), first_sessions::crashes(cohort, language));
+    add("reliability", text!(language, "cohort-section-reliability"), reliability::reliability(cohort, language));
     if !cohort.boxes.is_empty() && cohort.repetitions > 1 {
-        sections.push(("repetitions", "Repetitions", repetitions::repetitions(cohort)));
+        add("repetitions", text!(language, "cohort-section-repetitions"), repetitions::repetitions(cohort, language));
     }
     if learning::repeat_trainees(cohort).next().is_some() {
-        sections.push(("learning", "Learning curves", learning::curves(cohort)));
-        sections.push(("one-by-one", "Individual progress", learning::individual_results(cohort)));
+        add("learning", text!(language, "cohort-section-learning"), learning::curves(cohort, language));
+        add("one-by-one", text!(language, "cohort-section-individual"), learning::individual_results(cohort, language));
     }
     if !cohort.likert.is_empty() {
-        sections.push(("answers", "Answers", answers::answers(cohort)));
+        add("answers", text!(language, "cohort-section-answers"), answers::answers(cohort, language));
     }
     if !cohort.self_rating.people.is_empty() {
-        sections.push(("self-rating", "Self-rating vs. measured score", answers::self_rating(cohort)));
+        add("self-rating", text!(language, "cohort-section-self-rating"), answers::self_rating(cohort, language));
     }
     if !cohort.likert.is_empty() {
-        sections.push(("causal", "Demand, strain, performance", causal::causal(cohort)));
+        add("causal", text!(language, "cohort-section-causal"), causal::causal(cohort, language));
     }
-    sections.push(("files", "Table downloads", files(cohort, files_at)));
+    add("files", text!(language, "cohort-section-files"), files(cohort, files_at, language));
     sections
 }
 
@@ -100,17 +108,18 @@ const TABLES_BY_TRAINEE: [&str; 7] = [
     "learning_curves.csv",
 ];
 
-fn files(cohort: &Cohort, at: TableLinks<'_>) -> Markup {
+fn files(cohort: &Cohort, at: TableLinks<'_>, language: Language) -> Markup {
     match at {
         TableLinks::Served(address, query) => html! {
             ul.actions { @for name in TABLES { li { a href={ (address) (name) (query) } { (name) } } } }
         },
         TableLinks::Embedded => {
             let inside = |name: &str| lists_individuals(cohort) || !TABLES_BY_TRAINEE.contains(&name);
+            let note = text!(language, "cohort-files-note", command = SLOT, files = TABLES_BY_TRAINEE.join(", "));
             html! {
                 ul.actions { @for (name, csv) in tables(cohort).into_iter().filter(|(name, _)| inside(name)) { li { (download(name, &csv, name)) } } }
                 @if !lists_individuals(cohort) {
-                    p.note { "Tables with one row per trainee are not embedded because they would make this page too large. " code { "spandrel cohort --csv FOLDER" } " writes " (TABLES_BY_TRAINEE.join(", ")) "." }
+                    p.note { (filled(&note, &html! { code { "spandrel cohort --csv FOLDER" } })) }
                 }
             }
         }
@@ -141,7 +150,7 @@ mod tests {
     #[test]
     fn exact_cohort_page_shows_all_figures_and_escapes_names() {
         let cohort = of(&group(), &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude });
-        let page = super::cohort(&cohort);
+        let page = super::cohort(&cohort, Language::English);
         assert!(!page.contains("<script>alert") && page.contains("&lt;script&gt;"));
         for figure in
             ["class=\"histogram\"", "class=\"boxes\"", "class=\"likert\"", "Crashes by kind", "t_tests.csv", "8 crashes"]
@@ -157,7 +166,8 @@ mod tests {
         records.iter_mut().for_each(|record| record.answers = None);
         let cohort =
             of(&records[..1], &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
-        let ids: Vec<&str> = sections(&cohort, TableLinks::Embedded).into_iter().map(|(id, _, _)| id).collect();
+        let ids: Vec<&str> =
+            sections(&cohort, TableLinks::Embedded, Language::English).into_iter().map(|(id, _, _)| id).collect();
         assert!(!ids.contains(&"answers") && !ids.contains(&"repetitions") && ids.contains(&"files"), "{ids:?}");
         assert!(!ids.contains(&"causal") && !ids.contains(&"learning"), "{ids:?}");
     }
@@ -165,10 +175,8 @@ mod tests {
     #[test]
     fn exact_causal_model_is_drawn_or_explained() {
         // All test answers are identical, so the model cannot be estimated.
-        let page = super::cohort(&of(
-            &group(),
-            &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude },
-        ));
+        let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
+        let page = super::cohort(&of(&group(), &selection), Language::English);
         assert!(page.contains("No estimate available") && !page.contains("class=\"model-drawing\""));
         let mut records: Vec<SessionRecord> = (0..20).map(|person| perfect_record(&format!("t{person}"), 1)).collect();
         let mut chance = spandrel_model::random::RandomStream::new(3, "made-up answers");
@@ -180,7 +188,7 @@ mod tests {
         }
         let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
         assert!(cohort.causal.is_some(), "{:?}", cohort.warnings);
-        let page = super::cohort(&cohort);
+        let page = super::cohort(&cohort, Language::English);
         assert!(page.contains("class=\"model-drawing\"") && page.contains("With fewer than 78"), "no warning");
         assert_eq!(page.matches("class=\"intervals\"").count(), 1);
         assert!(!page.contains("NaN"));
@@ -191,10 +199,8 @@ mod tests {
         let flown = |times: usize| {
             let records: Vec<SessionRecord> =
                 (1..=times).flat_map(|k| [perfect_record("anna", k), perfect_record("ben", k)]).collect();
-            super::cohort(&of(
-                &records,
-                &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude },
-            ))
+            let selection = Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude };
+            super::cohort(&of(&records, &selection), Language::English)
         };
         let (three, four) = (flown(3), flown(4));
         assert!(three.contains("requires 4 repetitions") && !three.contains("class=\"practice\""));
@@ -209,19 +215,45 @@ mod tests {
                 (0..count).flat_map(|k| [perfect_record(&format!("p{k}"), 1), perfect_record(&format!("p{k}"), 2)]).collect();
             of(&records, &Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude })
         };
-        let few = super::cohort(&people(MAX_LISTED_TRAINEES));
+        let page = |count: usize| super::cohort(&people(count), Language::English);
+        let few = page(MAX_LISTED_TRAINEES);
         assert!(few.contains("By trainee") && few.contains("individuals.csv\" href") && few.contains(">p59<"));
-        let (some, many) = (super::cohort(&people(MAX_LISTED_TRAINEES + 1)), super::cohort(&people(20 * MAX_LISTED_TRAINEES)));
+        let (some, many) = (page(MAX_LISTED_TRAINEES + 1), page(20 * MAX_LISTED_TRAINEES));
         assert!(!some.contains("By trainee") && !some.contains(">p59<") && some.contains("61 trainees are too many to list"));
         assert!(!some.contains("individuals.csv\" href") && some.contains("t_tests.csv\" href"));
         assert!(some.contains("Histogram of crashes per trainee") && some.contains("On-path share by task"));
         assert!(many.len() < some.len() + 2_000, "{} and {} bytes", some.len(), many.len());
         // On the server, every file has a link.
         let cohort = people(MAX_LISTED_TRAINEES + 1);
-        let (_, _, files) = sections(&cohort, TableLinks::Served("/cohort/", "?repetitions=2")).pop().unwrap();
+        let links = TableLinks::Served("/cohort/", "?repetitions=2");
+        let (_, _, files) = sections(&cohort, links, Language::English).pop().unwrap();
         let files = files.into_string();
         let names: Vec<&str> = tables(&cohort).into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, TABLES);
         assert!(names.iter().all(|name| files.contains(&format!("href=\"/cohort/{name}?repetitions=2\""))));
+    }
+
+    #[test]
+    fn exact_page_is_in_its_language_and_downloads_are_in_english() {
+        let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
+        let cohort = of(&group(), &selection);
+        let page = |language: Language| super::cohort(&cohort, language);
+        let (english, german) = (page(Language::English), page(Language::German));
+        for words in ["<html lang=\"de\">", "Wertungen der ersten Sitzungen", "7 Trainees", "Kollisionen nach Art", "Wegtreue"] {
+            assert!(german.contains(words) && !english.contains(words), "{words}");
+        }
+        let downloads = |page: &str| -> Vec<String> {
+            page.split("href=\"data:").skip(1).map(|rest| rest.split('"').next().unwrap_or_default().to_owned()).collect()
+        };
+        assert_eq!(downloads(&german), downloads(&english));
+        let pseudo = page(Language::Pseudo);
+        let heading = |rest: &str| rest.split('<').next().unwrap_or_default().to_owned();
+        for start in ["<caption>", "<figcaption>", "<th scope=\"col\">"] {
+            for text in pseudo.split(start).skip(1).map(heading) {
+                // Symbols and some letters stay.
+                let plain = |letter: char| letter.is_ascii_alphabetic() && !"mqvxMQVX".contains(letter);
+                assert!(!text.contains(plain) || text.len() < 9, "{start} {text}");
+            }
+        }
     }
 }

@@ -4,67 +4,89 @@ use super::super::figure::figure;
 use crate::cohort::{Cohort, SelfRatingPair};
 use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::plots::histogram::histogram;
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, folded, shown};
 use crate::statistics::{BoxPlot, HistogramBin, box_plot};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Maximum number of bins in the crash histogram; beyond it, each bin covers several counts.
 const MAX_BINS: usize = 20;
 
-fn too_many_trainees_note(cohort: &Cohort, file: &str) -> Markup {
-    html! { p.note { (cohort.trainees) " trainees are too many to list. The figures show distributions; for individual data, see " (file) "." } }
+fn too_many_trainees_note(cohort: &Cohort, file: &str, language: Language) -> Markup {
+    html! { p.note { (text!(language, "cohort-pooled-note", count = cohort.trainees, file = file)) } }
 }
 
 /// A labeled box plot.
 type LabeledBox = (String, BoxPlot);
 
-fn draw_boxes(of: &[LabeledBox], max_value: f64, title: &str) -> Markup {
+fn draw_boxes(of: &[LabeledBox], max_value: f64, title: &str, language: Language) -> Markup {
     let named: Vec<NamedBox<'_>> = of.iter().map(|(name, plot)| NamedBox { name: name.clone(), plot }).collect();
-    boxes(&named, max_value, title)
+    boxes(&named, max_value, title, language)
 }
 
-fn table(name: &'static str, caption: &'static str, head: &'static str, of: &[LabeledBox]) -> Table {
+/// Returns a table of boxes; `head` is the heading of the first column.
+fn table(name: &'static str, (caption, head): (String, String), of: &[LabeledBox], language: Language) -> Table {
     let row = |(name, b): &LabeledBox| {
         let figures = [b.mean, b.low_whisker, b.q1, b.median, b.q3, b.high_whisker].map(|value| TableCell::Number(value, 1));
         [vec![name.clone().into(), b.n.into()], figures.to_vec()].concat()
     };
-    let columns = vec![head, "n", "mean", "low whisker", "q1", "median", "q3", "high whisker"];
+    let columns = vec![
+        head,
+        "n".to_owned(),
+        text!(language, "cohort-column-mean"),
+        text!(language, "cohort-column-low-whisker"),
+        "q1".to_owned(),
+        text!(language, "cohort-column-median"),
+        "q3".to_owned(),
+        text!(language, "cohort-column-high-whisker"),
+    ];
     Table { name, caption, columns, rows: of.iter().map(row).collect() }
 }
 
 /// Renders on-path shares by task.
-pub fn tasks(cohort: &Cohort) -> Markup {
+pub fn tasks(cohort: &Cohort, language: Language) -> Markup {
     let shares = |id: u32| -> Vec<f64> {
         let tasks = cohort.individuals.iter().flat_map(|one| &one.tasks);
         tasks.filter(|task| task.id == id && task.attempted).map(|task| 100.0 * task.on_path).collect()
     };
-    let of = |id: &u32| Some((format!("task {id}"), box_plot(&shares(*id)).ok()?));
-    let all: Vec<LabeledBox> = cohort.crashes.tasks.iter().filter_map(of).collect();
+    let by_task = |language: Language| -> Vec<LabeledBox> {
+        let of = |id: &u32| Some((text!(language, "report-task", task = *id), box_plot(&shares(*id)).ok()?));
+        cohort.crashes.tasks.iter().filter_map(of).collect()
+    };
+    let all = by_task(language);
+    let table = |language: Language| {
+        let texts = (text!(language, "cohort-pooled-tasks-caption"), text!(language, "report-column-task"));
+        table("on_path_by_task", texts, &by_task(language), language)
+    };
     html! {
-        (too_many_trainees_note(cohort, "individuals.csv"))
+        (too_many_trainees_note(cohort, "individuals.csv", language))
         @if !all.is_empty() {
-            (figure("On-path share by task (%)", &draw_boxes(&all, 100.0, "On-path share by task")))
-            (table("on_path_by_task", "on-path share by task, %, only for trainees who attempted the task", "task", &all).shown())
+            (figure(&text!(language, "cohort-pooled-tasks"), &draw_boxes(&all, 100.0, &text!(language, "cohort-pooled-tasks-title"), language)))
+            (shown(language, table))
         }
     }
 }
 
 /// Renders the number of crashes per trainee.
-pub fn crashes(cohort: &Cohort) -> Markup {
+pub fn crashes(cohort: &Cohort, language: Language) -> Markup {
     let counts: Vec<usize> = cohort.crashes.rows.iter().map(|row| row.total).collect();
     let bins = bins(&counts);
     let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
     let row = |bin: &HistogramBin| vec![TableCell::Number(bin.from, 0), TableCell::Number(bin.to - 1.0, 0), bin.count.into()];
-    let columns = vec!["crashes, from", "to", "trainees"];
-    let table = Table {
+    let table = |language: Language| Table {
         name: "crashes_by_person",
-        caption: "trainees by number of crashes",
-        columns,
+        caption: text!(language, "cohort-pooled-crashes-caption"),
+        columns: vec![
+            text!(language, "cohort-column-crashes-from"),
+            text!(language, "cohort-column-crashes-to"),
+            text!(language, "cohort-column-trainees"),
+        ],
         rows: bins.iter().map(row).collect(),
     };
+    let chart = histogram(&bins, mean, &text!(language, "cohort-pooled-crashes-title"), language);
     html! {
-        (figure("Trainees by number of crashes; the line marks the mean", &histogram(&bins, mean, "Histogram of crashes per trainee")))
-        (table.folded())
+        (figure(&text!(language, "cohort-pooled-crashes"), &chart))
+        (folded(language, table))
     }
 }
 
@@ -80,20 +102,24 @@ fn bins(counts: &[usize]) -> Vec<HistogramBin> {
 }
 
 /// Renders measured scores grouped by self-rating, which is rounded to an integer.
-pub fn self_rating(cohort: &Cohort) -> Markup {
+pub fn self_rating(cohort: &Cohort, language: Language) -> Markup {
     let rated = |rating: usize| {
         let people = cohort.self_rating.people.iter();
         let near = |one: &&SelfRatingPair| one.self_rating.round() == rating as f64;
         box_plot(&people.filter(near).map(|one| one.measured_pct).collect::<Vec<f64>>()).ok()
     };
     let all: Vec<LabeledBox> = (1..=5).filter_map(|rating| Some((rating.to_string(), rated(rating)?))).collect();
+    let table = |language: Language| {
+        let texts = (text!(language, "cohort-pooled-rating-caption"), text!(language, "cohort-column-self-rating"));
+        table("measured_by_self_rating", texts, &all, language)
+    };
     html! {
-        (too_many_trainees_note(cohort, "self_rating.csv"))
+        (too_many_trainees_note(cohort, "self_rating.csv", language))
         @if !all.is_empty() {
-            (figure("Overall score (% of maximum) by self-rating (5 is best)", &draw_boxes(&all, 100.0, "Measured score by self-rating")))
-            (table("measured_by_self_rating", "measured score by self-rating (%)", "self-rating", &all).shown())
+            (figure(&text!(language, "cohort-pooled-rating"), &draw_boxes(&all, 100.0, &text!(language, "cohort-pooled-rating-title"), language)))
+            (shown(language, table))
         }
-        p { (cohort.self_rating.contradictions.len()) " contradictions are listed in contradictions.csv." }
+        p { (text!(language, "cohort-pooled-contradictions", count = cohort.self_rating.contradictions.len())) }
     }
 }
 

@@ -2,28 +2,28 @@
 
 use super::super::within_error::measure_name;
 use crate::cohort::{Cohort, MeasureReliability};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, shown};
 use maud::{Markup, html};
+use spandrel_text::{Language, text};
 
 /// Renders the table, with an explanation of its columns.
-pub fn reliability(cohort: &Cohort) -> Markup {
+pub fn reliability(cohort: &Cohort, language: Language) -> Markup {
     let known = cohort.reliability.iter().any(|one| one.reliability.is_some());
     html! {
-        (table(&cohort.reliability).shown())
-        @if known {
-            p.note { "Estimated from the first " (cohort.repetitions) " sessions of each trainee who flew that often. ICC(2,1) measures agreement between sessions, and ICC(3,1) measures whether the order of the trainees stays the same. A change that is smaller than the minimal detectable change is within the error of the measure. For the mean of n trainees, this limit is smaller by the square root of n." }
-        } @else {
-            p.note { "The error of a measure can be estimated only if at least two trainees flew the job more than once." }
+        (shown(language, |language| table(&cohort.reliability, language)))
+        p.note {
+            @if known { (text!(language, "cohort-reliability-known", repetitions = cohort.repetitions)) }
+            @else { (text!(language, "cohort-reliability-unknown")) }
         }
     }
 }
 
-fn table(all: &[MeasureReliability]) -> Table {
+fn table(all: &[MeasureReliability], language: Language) -> Table {
     let maybe = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
     let row = |one: &MeasureReliability| {
         let known = one.reliability;
         vec![
-            measure_name(&one.measure, one.unit).into(),
+            measure_name(&one.measure, one.unit, language).into(),
             one.sessions.into(),
             maybe(one.at_ceiling.map(|share| 100.0 * share), 0),
             known.map_or(TableCell::Empty, |one| one.n.into()),
@@ -34,14 +34,15 @@ fn table(all: &[MeasureReliability]) -> Table {
         ]
     };
     let columns = vec![
-        "measure",
-        "sessions",
-        "at the ceiling (%)",
-        "trainees with repetitions",
-        "ICC(2,1)",
-        "ICC(3,1)",
-        "standard error",
-        "minimal detectable change",
+        text!(language, "cohort-column-measure"),
+        text!(language, "cohort-column-sessions"),
+        text!(language, "cohort-column-ceiling"),
+        text!(language, "cohort-column-trainees-repeating"),
+        "ICC(2,1)".to_owned(),
+        "ICC(3,1)".to_owned(),
+        text!(language, "cohort-column-standard-error"),
+        text!(language, "report-column-minimal-change"),
     ];
-    Table { name: "reliability", caption: "reliability of the measures", columns, rows: all.iter().map(row).collect() }
+    let caption = text!(language, "cohort-reliability-caption");
+    Table { name: "reliability", caption, columns, rows: all.iter().map(row).collect() }
 }

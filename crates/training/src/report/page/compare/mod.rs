@@ -7,12 +7,14 @@ use super::{PageScripts, document, series, summary, within_error};
 use crate::cohort::{MeasureReliability, reliability_of};
 use crate::report::Review;
 use crate::report::coverage::SurfaceOutcome;
+use crate::report::feedback::KINDS;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
-use crate::report::table::{Table, TableCell};
+use crate::report::table::{Table, TableCell, shown};
 use maud::{Markup, html};
+use spandrel_mavlink::contract::cue;
 use spandrel_monitor::score::completion::verdict;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Placeholder for values whose reliability is not estimated.
 const NO_MEASURE: &str = "";
@@ -22,45 +24,50 @@ const NO_MEASURE: &str = "";
 #[must_use]
 pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliability]) -> String {
     let both = [first, second];
+    let language = first.metadata.language;
     let named = both.map(|review| summary::scores_by_name(&review.assessment.scores));
     let spokes: Vec<RadarAxis> = (0..4)
         .map(|k| RadarAxis {
-            name: named[0][k].0.to_owned(),
+            name: summary::score_title(named[0][k].0, language),
             values: named.iter().map(|scores| scores[k].1.map(|score| score.pct)).collect(),
         })
         .collect();
     let same = first.scenario.tasks.len() == second.scenario.tasks.len() && first.scenario.crc == second.scenario.crc;
     let alignment_events = series::alignment_events(both, same);
     let key = [("dot-1", format!("1: {}", session_label(first))), ("dot-2", format!("2: {}", session_label(second)))];
+    let chart = radar(&spokes, &text!(language, "compare-scores-radar"), language);
+    let labeled = if same { reliability } else { &[] };
+    let title = text!(language, "compare-title");
     document(
-        "Session comparison",
+        language,
+        &title,
         &PageScripts::Comparison(series::comparison(both, &alignment_events)),
         &html! {
             header {
                 div {
-                    p.kicker { "Session comparison" }
+                    p.kicker { (title) }
                     h1 { (first.scenario.title) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline(Language::English)) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet, Language::English)) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline(language)) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet, language)) } }
                 }
             }
             main {
-                @if !same { p.note { "These sessions are from different jobs, so their scores are only roughly comparable." } }
+                @if !same { p.note { (text!(language, "compare-other-jobs")) } }
                 section aria-labelledby="scores-head" {
-                    h2 id="scores-head" { "Scores" }
+                    h2 id="scores-head" { (text!(language, "compare-scores")) }
                     div.split {
-                        (figure("The four scores, first vs. second session", &html! { (legend(&key)) (radar(&spokes, "Radar chart of both sessions")) }))
-                        (table(first, second, if same { reliability } else { &[] }).shown())
+                        (figure(&text!(language, "compare-scores-figure"), &html! { (legend(&key)) (chart) }))
+                        (shown(language, |language| table(both, labeled, language)))
                     }
-                    (error_note(same, reliability))
+                    (error_note(same, reliability, language))
                 }
                 section aria-labelledby="flight-head" {
-                    h2 id="flight-head" { "Flights" }
+                    h2 id="flight-head" { (text!(language, "compare-flights")) }
                     (charts::section(both, same, &alignment_events, &key))
                 }
                 @if same {
                     section aria-labelledby="tasks-head" {
-                        h2 id="tasks-head" { "Tasks" }
-                        (figure("On-path share by task", &html! { (legend(&key)) (shares(&rows(first, second), "On-path share by task, both sessions")) }))
+                        h2 id="tasks-head" { (text!(language, "compare-tasks")) }
+                        (figure(&text!(language, "compare-tasks-figure"), &html! { (legend(&key)) (shares(&rows(first, second), &text!(language, "compare-tasks-title"))) }))
                     }
                 }
             }
@@ -69,13 +76,13 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
 }
 
 /// Explains the labels, or why there are none.
-fn error_note(same_job: bool, reliability: &[MeasureReliability]) -> Markup {
+fn error_note(same_job: bool, reliability: &[MeasureReliability], language: Language) -> Markup {
     let known = reliability.iter().any(|one| one.reliability.is_some());
     html! {
         @if same_job && known {
-            p.note { "A change is within error if it is smaller than the minimal detectable change of its measure, estimated from all trainees who flew this job more than once." }
+            p.note { (text!(language, "compare-error-known")) }
         } @else if same_job {
-            p.note { "The changes are not labeled, because the error of the measures is unknown: it is estimated from the records of at least two trainees who flew this job more than once." }
+            p.note { (text!(language, "compare-error-unknown")) }
         }
     }
 }
@@ -95,53 +102,56 @@ fn rows(first: &Review, second: &Review) -> Vec<ShareRow> {
         .collect()
 }
 
-fn table(first: &Review, second: &Review, reliability: &[MeasureReliability]) -> Table {
+fn table(both: [&Review; 2], reliability: &[MeasureReliability], language: Language) -> Table {
     let mut rows = Vec::new();
-    let mut put = |name: &str, measure: &str, digits: usize, values: [Option<f64>; 2]| {
+    let mut put = |name: String, measure: &str, digits: usize, values: [Option<f64>; 2]| {
         let number = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         let change = match values {
             [Some(a), Some(b)] => Some(b - a),
             _ => None,
         };
         let known = change.zip(reliability_of(reliability, measure));
-        let label = within_error::label(known.and_then(|(change, known)| known.is_within_error(change)));
+        let label = within_error::label(known.and_then(|(change, known)| known.is_within_error(change)), language);
         rows.push(vec![name.into(), number(values[0]), number(values[1]), number(change), label]);
     };
-    let both = [first, second];
     let [ours, theirs] = both.map(|review| summary::scores_by_name(&review.assessment.scores));
     for ((name, a), (_, b)) in ours.into_iter().zip(theirs) {
-        put(name, &name.to_lowercase(), 1, [a, b].map(|score| score.map(|score| score.pct)));
+        put(summary::score_title(name, language), name, 1, [a, b].map(|score| score.map(|score| score.pct)));
     }
-    put(
-        "Overall",
-        "overall",
-        1,
-        both.map(|review| review.assessment.completion.complete.then_some(review.assessment.scores.overall)),
-    );
-    put("Certification sum", "certification_sum", 1, both.map(|review| Some(review.assessment.certification.scores.sum)));
-    put("Path flown (%)", NO_MEASURE, 0, both.map(|review| Some(100.0 * review.assessment.completion.path_share)));
-    put("Flight time (s)", "flight_time", 0, both.map(|review| Some(review.assessment.end.seconds)));
-    put("Contacts", "crashes", 0, both.map(|review| Some(review.crashes.len() as f64)));
-    put("Pictures", NO_MEASURE, 0, both.map(|review| Some(review.pictures.len() as f64)));
-    put("Defects found", NO_MEASURE, 0, both.map(|review| Some(review.assessment.snapshots.defects_found as f64)));
-    put("Cues", NO_MEASURE, 0, both.map(|review| Some(review.feedback.episodes.len() as f64)));
-    put("Time too close or off path (s)", NO_MEASURE, 1, both.map(|review| Some(warning_duration_s(review))));
-    put(
-        "Surface captured well (m²)",
-        NO_MEASURE,
-        0,
-        both.map(|review| Some(review.coverage.total().area_m2(SurfaceOutcome::Shown))),
-    );
+    let overall = |review: &Review| review.assessment.completion.complete.then_some(review.assessment.scores.overall);
+    put(text!(language, "compare-measure-overall"), "overall", 1, both.map(overall));
+    let mut put_known = |name: String, measure: &str, digits: usize, value: &dyn Fn(&Review) -> f64| {
+        put(name, measure, digits, both.map(|review| Some(value(review))));
+    };
+    let name = text!(language, "compare-measure-certification");
+    put_known(name, "certification_sum", 1, &|review| review.assessment.certification.scores.sum);
+    let name = text!(language, "compare-measure-path");
+    put_known(name, NO_MEASURE, 0, &|review| 100.0 * review.assessment.completion.path_share);
+    put_known(text!(language, "compare-measure-time"), "flight_time", 0, &|review| review.assessment.end.seconds);
+    put_known(text!(language, "compare-measure-contacts"), "crashes", 0, &|review| review.crashes.len() as f64);
+    put_known(text!(language, "compare-measure-pictures"), NO_MEASURE, 0, &|review| review.pictures.len() as f64);
+    let name = text!(language, "compare-measure-defects");
+    put_known(name, NO_MEASURE, 0, &|review| review.assessment.snapshots.defects_found as f64);
+    put_known(text!(language, "compare-measure-cues"), NO_MEASURE, 0, &|review| review.feedback.episodes.len() as f64);
+    put_known(text!(language, "compare-measure-warned"), NO_MEASURE, 1, &warning_duration_s);
+    let name = text!(language, "compare-measure-surface");
+    put_known(name, NO_MEASURE, 0, &|review| review.coverage.total().area_m2(SurfaceOutcome::Shown));
     Table {
         name: "comparison",
-        caption: "results of both sessions",
-        columns: vec!["measure", "first", "second", "change", "measurement error"],
+        caption: text!(language, "compare-caption"),
+        columns: vec![
+            text!(language, "compare-column-measure"),
+            text!(language, "compare-column-first"),
+            text!(language, "compare-column-second"),
+            text!(language, "report-column-change"),
+            text!(language, "report-column-measurement-error"),
+        ],
         rows,
     }
 }
 
 /// Returns the total duration of the "too close" and "off path" cues in seconds.
 fn warning_duration_s(review: &Review) -> f64 {
-    let wanted = |kind: usize| matches!(crate::report::feedback::KINDS[kind].name, "too close" | "off path");
+    let wanted = |kind: usize| matches!(KINDS[kind].bit, cue::TOO_CLOSE | cue::OFF_PATH);
     review.feedback.episodes.iter().filter(|e| wanted(e.kind)).map(|e| e.to_s - e.from_s).sum()
 }

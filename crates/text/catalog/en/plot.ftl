@@ -1,0 +1,58 @@
+## Plots
+
+plot-not-applicable = n/a
+
+## Site drawings
+
+plot-flight-plan = Flight from above, north up
+plot-flight-oblique = Oblique view of the flight, looking north
+plot-flight-side = Side view of the flight at bridge '{ $bridge }'
+plot-flight-south = Flight viewed from the south
+plot-defect = defect { $defect }: { $outcome }
+plot-reference = reference path of task { $task }
+plot-crash = crash with { $object } at { $moment }
+plot-session-crash = session { $session }: crash with { $object } at { $moment }
+plot-session = session { $session }
+plot-picture = picture { $picture }: { $verdict }
+plot-pad = pad
+plot-inspector = inspector
+plot-truck = truck
+plot-north = N
+plot-both-plan = Both flights from above, north up
+plot-both-side = Side view of both flights at bridge '{ $bridge }'
+plot-both-south = Both flights viewed from the south
+plot-job-plan = Job site from above, north up
+plot-job-side = Side view of bridge '{ $bridge }'
+plot-job-south = Job site viewed from the south
+plot-site-picture = Picture of the site
+plot-color-path = on path
+plot-color-speed = speed
+plot-color-clearance = clearance
+plot-legend-between = between tasks
+plot-legend-on-path = on the path
+plot-legend-off-path = off path during a task
+plot-legend-speed = up to { $speed } m/s
+plot-legend-speeding = over the limit of { $speed } m/s
+plot-legend-far = nothing nearby
+plot-legend-over = over { $limit } m
+plot-legend-range = { $low } to { $high } m
+plot-legend-under = under { $limit } m
+
+## Statistics
+
+plot-box =
+    { $name }: median { $median }, quartiles { $low } to { $high }, { $trainees ->
+        [one] { $trainees } trainee
+       *[other] { $trainees } trainees
+    }
+plot-bin = { $count } from { $low } to { $high }
+plot-mean = mean { $mean }
+plot-predicted = predicted next: { $value }
+plot-model-demand = Demand
+plot-model-demand-parts = mental, physical
+plot-model-strain = Strain
+plot-model-strain-parts = pressure, frustration
+plot-model-performance = Performance
+plot-model-performance-parts = overall score (%)
+plot-model-feedback = Feedback
+plot-model-feedback-parts = helpfulness
