@@ -4,6 +4,7 @@
 use super::window_settings::sound_settings;
 use crate::io::clock::Stopwatch;
 use spandrel_clients::rc::keyboard::SoundPreferences;
+use spandrel_text::Language;
 use spandrel_view::sound::{FlightSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, spoken};
 use std::io::Write;
 use std::process::{Child, Command, Stdio};
@@ -15,8 +16,8 @@ const PLAYERS: [(&str, &[&str]); 2] = [
     ("pacat", &["--playback", "--raw", "--format=s16le", "--channels=1", "--rate=24000", "--latency-msec=60"]),
     ("aplay", &["-q", "-t", "raw", "-f", "S16_LE", "-c", "1", "-r", "24000", "--buffer-time=120000"]),
 ];
-/// Programs that speak their last argument.
-const SPEECH_PROGRAMS: [&str; 2] = ["spd-say", "espeak-ng"];
+/// Programs that speak their last argument, with their options for a language tag.
+const SPEECH_PROGRAMS: [(&str, &str); 2] = [("spd-say", "-l"), ("espeak-ng", "-v")];
 /// Number of samples per chunk (10 ms).
 const SAMPLES_PER_CHUNK: usize = SAMPLE_RATE_HZ as usize / 100;
 /// Playback lead time (estimate). A longer time delays the sound; a shorter time causes dropouts on a busy machine.
@@ -145,6 +146,14 @@ fn next_chunk(sound: &mut FlightSound) -> Vec<u8> {
     samples.iter().flat_map(|sample| ((sample * f32::from(i16::MAX)) as i16).to_le_bytes()).collect()
 }
 
+/// Returns the language tag of the voice.
+const fn voice(language: Language) -> &'static str {
+    match language {
+        Language::English | Language::Pseudo => Language::English.tag(),
+        Language::German | Language::Spanish => language.tag(),
+    }
+}
+
 /// Speaks new warnings, one at a time.
 #[derive(Default)]
 struct SpeechVoice {
@@ -157,18 +166,25 @@ struct SpeechVoice {
 impl SpeechVoice {
     fn update_inputs(&mut self, (now, settings): &Inputs) {
         let cues = if now.silent { 0 } else { now.cues };
-        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts, now.units);
+        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts, now.style);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, settings.speech && !self.is_missing, busy) else { return };
-        let started = SPEECH_PROGRAMS.iter().find_map(|name| {
+        let started = SPEECH_PROGRAMS.iter().find_map(|(name, option)| {
             let mut command = Command::new(name);
-            command.arg(&words).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
+            command
+                .args([option, voice(now.style.language)])
+                .arg(&words)
+                .stdin(Stdio::null())
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .spawn()
+                .ok()
         });
         if started.is_none() {
             self.is_missing = true;
             tracing::warn!(
                 "no spoken warnings: none of {} is installed (on Debian and Ubuntu, run apt-get install espeak-ng)",
-                SPEECH_PROGRAMS.join(", ")
+                SPEECH_PROGRAMS.map(|(name, _)| name).join(", ")
             );
         }
         self.speaking = started;

@@ -20,6 +20,8 @@ const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 const REMARK_DURATION: SimTime = SimTime::from_ms(8_000);
 /// Age at which distances of obstacles are out of date.
 const OBSTACLE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
+/// Name of the flight mode before it has been received.
+pub const UNKNOWN_MODE: &str = "no mode";
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
 
@@ -124,7 +126,7 @@ impl Feed {
     /// Returns the name of the flight mode.
     #[must_use]
     pub fn mode(&self) -> &str {
-        self.mode.as_deref().unwrap_or("no mode")
+        self.mode.as_deref().unwrap_or(UNKNOWN_MODE)
     }
 
     /// Returns the satellite navigation status, if it has been received.

@@ -11,6 +11,7 @@ mod map;
 mod marker;
 mod messages;
 mod metrics;
+mod monitor_texts;
 #[cfg(test)]
 mod overlap;
 mod pane;
@@ -27,6 +28,7 @@ pub(crate) mod text_metrics;
 pub use instruments::{SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
+pub use monitor_texts::{Warning, message_words};
 pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, WayBack};
 pub use status::LINK_TIMEOUT_S;
 pub use style::{DisplayStyle, DisplayUnits, TextScale};
