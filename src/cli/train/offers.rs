@@ -482,6 +482,22 @@ mod tests {
     }
 
     #[test]
+    fn exact_offers_and_results_are_in_the_language_of_the_window() {
+        let folder = tempfile::tempdir().unwrap();
+        let offers = |language| flight_options(&folder.path().join("none-yet"), &choice(), None, language);
+        let kind = |language| {
+            let offers = offers(language);
+            offers.scenarios.into_iter().find(|job| job.name == "drill-hover").map(|job| job.kind).unwrap_or_default()
+        };
+        assert!(kind(Language::German).starts_with("1 Aufgabe") && kind(Language::Spanish).starts_with("1 tarea"));
+        let text = r#"{"end": {"reason": "landed", "seconds": 750.9}}"#;
+        std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
+        let why = |language| flight_summary(folder.path(), None, None, language).why;
+        assert_eq!(why(Language::German), "gelandet nach 12 min 30 s Flug");
+        assert_eq!(why(Language::Spanish), "aterrizó tras 12 min 30 s de vuelo");
+    }
+
+    #[test]
     fn regress_incomplete_sessions_have_no_total() {
         let folder = tempfile::tempdir().unwrap();
         let text = r#"{"scores": {"conformity": {"raw": 0.0, "pct": 50.0}, "efficiency": {"raw": 100.0, "pct": 100.0},

@@ -668,9 +668,26 @@ mod tests {
 
     #[test]
     fn exact_every_function_has_a_title_of_its_own() {
-        let titles: std::collections::BTreeSet<String> =
-            KeyBindings::functions(Language::English).map(|(_, title)| title).collect();
-        assert_eq!(titles.len(), every_name().count());
-        assert!(titles.iter().all(|title| !title.is_empty() && !title.contains('_')), "{titles:?}");
+        for language in Language::ALL.into_iter().chain([Language::Pseudo]) {
+            let titles: std::collections::BTreeSet<String> = KeyBindings::functions(language).map(|(_, title)| title).collect();
+            assert_eq!(titles.len(), every_name().count(), "{language:?}");
+            assert!(titles.iter().all(|title| !title.is_empty() && !title.contains('_')), "{titles:?}");
+        }
+    }
+
+    #[test]
+    fn exact_functions_and_keys_are_translated() {
+        let keys = KeyBindings::default();
+        let help = keys.help(Language::German);
+        assert!(
+            help.contains(&("Bild auf".into(), "Gimbal hoch".into())) && help.contains(&("W".into(), "hoch".into())),
+            "{help:?}"
+        );
+        assert!(keys.help(Language::English).contains(&("Page up".into(), "gimbal up".into())));
+        assert_eq!(keys.label("restart", Language::Spanish), "Retroceso");
+        let english: Vec<String> = KeyBindings::functions(Language::English).map(|(_, title)| title).collect();
+        for (title, pseudo) in english.iter().zip(KeyBindings::functions(Language::Pseudo)) {
+            assert!(title.len() < pseudo.1.len() && *title != pseudo.1, "{title}: {}", pseudo.1);
+        }
     }
 }

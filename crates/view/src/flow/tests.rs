@@ -566,9 +566,7 @@ fn prop_words_stay_apart_and_in_the_window_at_any_text_size() {
     let mut problems = Vec::new();
     for (name, flow) in every_page() {
         // Labels on the tutorial's pictures and the numbers of the display in them may cover each other.
-        if name.starts_with("tutorial") {
-            continue;
-        }
+        let may_overlap = name.starts_with("tutorial");
         for (style, aspect) in tested_styles().into_iter().flat_map(|style| ASPECTS.map(|aspect| (style, aspect))) {
             let flow = styled(&flow, style);
             let texts = text_places(&flow.sheet(aspect), aspect);
@@ -577,7 +575,7 @@ fn prop_words_stay_apart_and_in_the_window_at_any_text_size() {
                 if place[0] < -0.005 || place[2] > aspect + 0.005 {
                     problems.push(format!("{what}: '{words}' at {place:?} leaves the window"));
                 }
-                for (other, over) in &texts[..k] {
+                for (other, over) in texts[..k].iter().filter(|_| !may_overlap) {
                     let gaps = [place[0] - other[2], other[0] - place[2], place[1] - other[3], other[1] - place[3]];
                     if gaps.iter().all(|gap| *gap < -1e-3) {
                         problems.push(format!("{what}: '{words}' overlaps '{over}'"));
@@ -656,8 +654,12 @@ fn exact_all_texts_of_the_pages_are_in_the_catalog() {
         for line in words(&styled(&flow, pseudo)).lines() {
             // Names of keys stand in angle brackets, "Position" is the name of a flight mode; some letters have no accented form.
             let own = line.split('<').map(|part| part.split_once('>').map_or(part, |(_, rest)| rest)).collect::<String>();
-            let letters =
-                own.replace("Position", "").chars().filter(|sign| sign.is_ascii_lowercase() && !"mqvx".contains(*sign)).count();
+            let letters = own
+                .replace("Position", "")
+                .replace("mph", "")
+                .chars()
+                .filter(|sign| sign.is_ascii_lowercase() && !"mqvx".contains(*sign))
+                .count();
             assert!(letters <= 3, "{name}: '{line}' is not in the catalog");
         }
     }

@@ -116,6 +116,8 @@ fn label(pen: &mut PageWriter, frame: PictureFrame, words: String, from: (f64, f
     let unit = frame.font / SMALL_TEXT_SIZE;
     let half = 0.5 * text_width(&words, frame.font) + 0.012 * unit;
     let (x, y) = frame.at(from.0, from.1);
+    // A long label stays on the page.
+    let x = x.min(pen.width - half).max(half);
     let (tx, ty) = frame.at(to.0, to.1);
     // The arrow starts on the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * unit * (ty - y).signum()) };
