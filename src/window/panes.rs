@@ -14,7 +14,7 @@ use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
 use spandrel_view::flow::KeyNames;
 use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
-use spandrel_view::hud::lesson_panel::how_to;
+use spandrel_view::hud::lesson_words::how_to;
 use spandrel_view::hud::{self, DisplayStyle, DrawItem, Hud};
 use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::live::LiveMoment;

@@ -1,6 +1,6 @@
 //! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues, and texts.
 
-use super::hud::GnssStatus;
+use super::hud::{GnssStatus, UNKNOWN_MODE};
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::cue::CueTexts;
@@ -20,8 +20,6 @@ const CUE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
 const REMARK_DURATION: SimTime = SimTime::from_ms(8_000);
 /// Age at which distances of obstacles are out of date.
 const OBSTACLE_TIMEOUT: SimTime = SimTime::from_ms(1_500);
-/// Name of the flight mode before it has been received.
-pub const UNKNOWN_MODE: &str = "no mode";
 /// Duration of the shutter indicator after a picture.
 const SHUTTER_INDICATOR_DURATION: SimTime = SimTime::from_ms(300);
 

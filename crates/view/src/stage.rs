@@ -4,7 +4,7 @@ use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::ghost::GhostView;
-use super::hud::lesson_panel::how_to;
+use super::hud::lesson_words::how_to;
 use super::hud::{DisplayStyle, DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};

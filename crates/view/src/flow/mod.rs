@@ -33,10 +33,10 @@ pub use tutorial::PICTURES;
 use crate::arrange::ViewLayout;
 use crate::hud::ScreenPoint;
 use crate::path_guide::PathAids;
+use page::PendingOperation;
 use pipe::{
     FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, Purpose, SchoolPage, ToWindow,
 };
-use press::PendingOperation;
 use spandrel_text::{Language, text};
 use std::collections::{BTreeSet, VecDeque};
 

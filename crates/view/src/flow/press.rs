@@ -1,37 +1,17 @@
 //! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
+use super::page::PendingOperation;
 use super::pipe::{FlightChoice, FlightOptions, FlightSummary, FlownBy, FromWindow, NextJob, Purpose, SchoolRequest};
 use super::settings::SettingChange;
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
-use spandrel_text::{Language, text};
+use spandrel_text::text;
 
 /// Maximum length of a pseudonym.
 const MAX_NAME_LENGTH: usize = 32;
 /// Step sizes of the dead band and expo.
 const DEAD_BAND_STEP: f64 = 0.01;
 const EXPO_STEP: f64 = 0.1;
-
-/// What the window waits for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum PendingOperation {
-    /// The simulator starts.
-    Simulator,
-    /// The flight is scored.
-    Scoring,
-    /// The pictures of the defect school are rendered.
-    Pictures,
-}
-
-impl PendingOperation {
-    pub(super) fn title(self, language: Language) -> String {
-        match self {
-            Self::Simulator => text!(language, "window-waiting-simulator"),
-            Self::Scoring => text!(language, "window-waiting-scoring"),
-            Self::Pictures => text!(language, "window-waiting-pictures"),
-        }
-    }
-}
 
 impl WindowFlow {
     /// Handles a key press or click.

@@ -1,75 +1,20 @@
 //! The current step of a lesson, in place of the task panel: what to do, how, how much of it is done, and what went wrong.
 
+use super::lesson_words::{instruction, title};
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::monitor_texts::remark_words;
 use super::pane::Pane;
 use super::state::{Hud, LessonDisplay};
-use super::style::DisplayUnits;
 use super::task_panel::{LINE_HEIGHT, PADDING, PanelDetail, WIDTH, height_words, way_items};
 use super::text_metrics::{text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign};
-use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
-use spandrel_text::{Language, text};
+use spandrel_text::text;
 
 /// Largest number of lines for what to do, how, and what went wrong; in the full and in the brief panel.
 const MAX_LINES: [usize; 3] = [2, 3, 2];
 const BRIEF_MAX_LINES: [usize; 3] = [2, 0, 1];
 /// Height of the progress bar.
 const BAR_HEIGHT: f64 = 0.012;
-
-/// Returns how a step is done. `key` returns the name of a binding's key.
-#[must_use]
-pub fn how_to(task: LessonTask, language: Language, key: &dyn Fn(&str) -> String) -> String {
-    match task {
-        LessonTask::Arm => text!(language, "flight-how-arm", arm = key("arm")),
-        LessonTask::TakeOff => text!(language, "flight-how-take-off", take_off = key("take_off"), up = key("up")),
-        LessonTask::Hover => text!(language, "flight-how-hover"),
-        LessonTask::Turn => text!(language, "flight-how-turn", turn_left = key("turn_left"), turn_right = key("turn_right")),
-        LessonTask::FlyPath => text!(
-            language,
-            "flight-how-fly-path",
-            forward = key("forward"),
-            left = key("left"),
-            back = key("back"),
-            right = key("right"),
-            up = key("up"),
-            down = key("down")
-        ),
-        LessonTask::StopAt => text!(language, "flight-how-stop-at"),
-        LessonTask::TiltCamera => {
-            text!(language, "flight-how-tilt-camera", gimbal_up = key("gimbal_up"), gimbal_down = key("gimbal_down"))
-        }
-        LessonTask::Lamp => text!(language, "flight-how-lamp", lamp = key("lamp")),
-        LessonTask::Photograph => text!(language, "flight-how-photograph", snapshot = key("snapshot")),
-        LessonTask::FlyHome => text!(language, "flight-how-fly-home"),
-        LessonTask::Land => text!(language, "flight-how-land", land = key("land"), down = key("down")),
-        LessonTask::Done => text!(language, "flight-how-done"),
-    }
-}
-
-/// Returns what the trainee does in a step.
-#[must_use]
-pub fn instruction(status: &LessonStatus, units: DisplayUnits, language: Language) -> String {
-    let target = status.target.unwrap_or_default();
-    let height = || units.length(target.round(), 0);
-    let time = || format!("{target:.0} s");
-    let angle = || format!("{:.0}°", target.abs().to_degrees());
-    match status.task {
-        LessonTask::Arm => text!(language, "flight-lesson-arm"),
-        LessonTask::TakeOff => text!(language, "flight-lesson-take-off", height = height()),
-        LessonTask::Hover => text!(language, "flight-lesson-hover", time = time()),
-        LessonTask::Turn => text!(language, "flight-lesson-turn", angle = angle()),
-        LessonTask::FlyPath => text!(language, "flight-lesson-fly-path"),
-        LessonTask::StopAt => text!(language, "flight-lesson-stop-at", time = time()),
-        LessonTask::TiltCamera if target < 0.0 => text!(language, "flight-lesson-tilt-down", angle = angle()),
-        LessonTask::TiltCamera => text!(language, "flight-lesson-tilt-up", angle = angle()),
-        LessonTask::Lamp => text!(language, "flight-lesson-lamp"),
-        LessonTask::Photograph => text!(language, "flight-lesson-photograph"),
-        LessonTask::FlyHome => text!(language, "flight-lesson-fly-home"),
-        LessonTask::Land => text!(language, "flight-lesson-land"),
-        LessonTask::Done => text!(language, "flight-lesson-done"),
-    }
-}
 
 /// Returns the panel with its upper edge at `top`; empty without a lesson.
 pub(super) fn lesson_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64)) -> Vec<DrawItem> {
@@ -113,14 +58,6 @@ pub(super) fn lesson_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f
         items.push(pane.fill(&rectangle((from, bar), (width, BAR_HEIGHT)), HudColor::Green));
     }
     items
-}
-
-fn title(status: &LessonStatus, language: Language) -> String {
-    if status.is_done() {
-        text!(language, "flight-lesson-complete")
-    } else {
-        text!(language, "flight-lesson-step", step = status.step, steps = status.steps)
-    }
 }
 
 fn rectangle((x, y): (f64, f64), (width, height): (f64, f64)) -> [(f64, f64); 4] {

@@ -6,7 +6,8 @@ mod battery;
 mod icons;
 pub mod instruments;
 pub mod layout;
-pub mod lesson_panel;
+mod lesson_panel;
+pub mod lesson_words;
 mod map;
 mod marker;
 mod messages;
@@ -29,7 +30,7 @@ pub use instruments::{SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub use monitor_texts::{Warning, message_words};
-pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, WayBack};
+pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
 pub use status::LINK_TIMEOUT_S;
 pub use style::{DisplayStyle, DisplayUnits, TextScale};
 

@@ -1,6 +1,6 @@
 //! The monitor's texts in the language of the window. On the wire, they are in English; unknown texts stay as they are.
 
-use super::lesson_panel::instruction;
+use super::lesson_words::instruction;
 use super::style::DisplayUnits;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::contract::lesson::{self, LessonStatus, LessonTask};

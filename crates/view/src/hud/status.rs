@@ -2,9 +2,8 @@
 
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
-use super::state::{GnssStatus, Hud};
+use super::state::{GnssStatus, Hud, UNKNOWN_MODE};
 use super::{DrawItem, HudColor, TextAlign, battery, speed};
-use crate::feed::UNKNOWN_MODE;
 use spandrel_text::{Language, text};
 
 /// Minimum telemetry age for the link to count as lost, s.
