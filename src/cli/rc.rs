@@ -13,6 +13,7 @@ use spandrel_clients::rc::keyboard::KeyboardState;
 use spandrel_clients::rc::wizard::CalibrationWizard;
 use spandrel_clients::rc::{ControllerProfile, StickMode};
 use spandrel_model::time::SimTime;
+use spandrel_text::Language;
 use std::io::BufRead;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
@@ -197,7 +198,7 @@ fn fly(
     // A recording starts at the first contact with the vehicle.
     let (mut begin, mut told) = (None, false);
     if let StickSource::Keyboard { board, .. } = pilot {
-        link.set_arm_key(&board.keys().label("arm"));
+        link.set_arm_key(&board.keys().label("arm", Language::English));
     }
     while !stop.is_requested() {
         if let Some(NetEvent::Datagram { from, bytes, .. }) = hub.next(MAX_DATAGRAM_WAIT)
@@ -270,7 +271,7 @@ fn run_wizard(
         if let Some(profile) = wizard.profile() {
             return Ok(profile);
         }
-        let prompt = wizard.prompt();
+        let prompt = wizard.prompt(Language::English);
         if prompt != told {
             print_line(&prompt);
             told = prompt;

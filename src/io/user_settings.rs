@@ -159,7 +159,7 @@ mod tests {
     /// Returns settings that differ from the defaults in everything, `k` selects among the values.
     fn settings(k: usize) -> UserSettings {
         let mut keys = KeyBindings::default();
-        let names: Vec<&str> = KeyBindings::functions().map(|(name, _)| name).collect();
+        let names: Vec<&str> = KeyBindings::functions(Language::English).map(|(name, _)| name).collect();
         keys.rebind(names[k % names.len()], ["x", "ü", "\"", "space"][k % 4]);
         keys.sounds = SoundPreferences {
             on: k.is_multiple_of(2),

@@ -16,6 +16,7 @@ use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
 use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
+use spandrel_text::text;
 use spandrel_view::arrange::{ViewKind, WindowShape};
 use spandrel_view::flow::pipe::FromWindow;
 use spandrel_view::flow::{Page, WindowFlow};
@@ -258,9 +259,19 @@ impl Cockpit {
     /// Shows or hides the ghost of an earlier flight.
     fn toggle_ghost(&mut self) {
         let Some(ghost) = self.flow.ghost() else { return self.flow.explain_missing_ghost() };
-        let words = format!("Ghost: {}.", ghost.words);
+        let language = self.flow.language();
+        let words = text!(language, "window-flight-ghost", words = ghost.words.as_str());
         self.ghost = !self.ghost;
-        self.flow.show_notice(if self.ghost { words } else { "Ghost hidden.".to_owned() });
+        self.flow.show_notice(if self.ghost { words } else { text!(language, "window-flight-ghost-hidden") });
+    }
+
+    /// Tells `train` and the pilot thread the language of the window.
+    pub(super) fn announce_language(&self) {
+        let language = self.settings.language();
+        if let Some(train_pipe) = &self.threads.train_pipe {
+            train_pipe.send(&FromWindow::Language { tag: language.tag().to_owned() });
+        }
+        self.send_to_pilot(PilotCommand::SetLanguage(language));
     }
 
     pub(super) fn send_to_pilot(&self, ask: PilotCommand) {
@@ -333,6 +344,7 @@ impl ApplicationHandler for Cockpit {
                 if let Some(train_pipe) = &self.threads.train_pipe {
                     train_pipe.send(&FromWindow::Ready);
                 }
+                self.announce_language();
             }
             Err(error) => {
                 self.failed = Some(error);

@@ -6,7 +6,11 @@ use spandrel_clients::rc::controller_link::ControllerLink;
 use spandrel_clients::rc::wizard::CalibrationWizard;
 use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
 use spandrel_model::time::SimTime;
+use spandrel_text::{Language, text};
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
+
+/// Error if there is no device, without the hint for the command line.
+const NO_DEVICE: &str = "no gamepad or transmitter is connected";
 
 /// Controller state.
 enum DeviceState {
@@ -28,7 +32,46 @@ pub struct ControllerSlot {
     /// Watches for another device while the current one is disconnected.
     replacement_watcher: Option<DeviceWatcher>,
     mode: StickMode,
-    note: String,
+    note: ControllerNote,
+    language: Language,
+}
+
+/// What the user is told about the controller.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum ControllerNote {
+    None,
+    /// Why there is no controller, in English.
+    NoDevice(String),
+    /// Where its profile is stored.
+    Profile(String),
+    NotCalibrated(String),
+    /// Why its profile cannot be used.
+    InvalidProfile(String),
+    Saved(String),
+    NotSaved(String),
+    Disabled(String),
+}
+
+impl ControllerNote {
+    fn words(&self, language: Language) -> String {
+        match self {
+            Self::None => String::new(),
+            Self::NoDevice(why) if why == NO_DEVICE => text!(language, "window-controls-note-none"),
+            Self::NoDevice(why) => sentence(why),
+            Self::Profile(file) => text!(language, "window-controls-note-profile", file = file.as_str()),
+            Self::NotCalibrated(name) => text!(language, "window-controls-note-not-calibrated", name = name.as_str()),
+            Self::InvalidProfile(why) => why.clone(),
+            Self::Saved(file) => text!(language, "window-controls-note-saved", file = file.as_str()),
+            Self::NotSaved(why) => text!(language, "window-controls-note-not-saved", error = why.as_str()),
+            Self::Disabled(why) => text!(language, "window-controls-note-disabled", error = why.as_str()),
+        }
+    }
+}
+
+/// Returns a reason as a sentence.
+fn sentence(why: &str) -> String {
+    let mut signs = why.chars();
+    signs.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), signs.as_str()))
 }
 
 impl ControllerSlot {
@@ -40,7 +83,8 @@ impl ControllerSlot {
             held: DeviceState::NoDevice(DeviceWatcher::default()),
             replacement_watcher: None,
             mode: StickMode::Two,
-            note: String::new(),
+            note: ControllerNote::None,
+            language: Language::default(),
         };
         desk.find_device();
         desk
@@ -55,8 +99,7 @@ impl ControllerSlot {
                 // The rest of the message applies only to the command line.
                 let why = error.to_string();
                 let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
-                let mut signs = why.chars();
-                self.note = signs.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), signs.as_str()));
+                self.note = ControllerNote::NoDevice(why.to_owned());
             }
         }
     }
@@ -94,13 +137,15 @@ impl ControllerSlot {
             Ok(Some(profile)) => {
                 self.mode = profile.mode;
                 let place = self.profiles.path(&device);
-                let note = place.map_or(String::new(), |path| format!("Profile: {}.", path.display()));
+                let note = place.map_or(ControllerNote::None, |path| ControllerNote::Profile(path.display().to_string()));
                 (DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))), note)
             }
             Ok(None) => {
-                (DeviceState::Uncalibrated(source, RawInput::default()), format!("'{}' is not calibrated yet.", device.name))
+                (DeviceState::Uncalibrated(source, RawInput::default()), ControllerNote::NotCalibrated(device.name.clone()))
             }
-            Err(error) => (DeviceState::Uncalibrated(source, RawInput::default()), error.to_string()),
+            Err(error) => {
+                (DeviceState::Uncalibrated(source, RawInput::default()), ControllerNote::InvalidProfile(error.to_string()))
+            }
         };
     }
 
@@ -131,14 +176,19 @@ impl ControllerSlot {
     /// Returns the reason why only the keyboard can fly the vehicle, or `None` if a controller can be used.
     pub fn keyboard_only_reason(&self) -> Option<String> {
         match self.name() {
-            Some(name) if self.lost() => Some(format!("'{name}' is not connected.")),
-            _ => (!self.is_calibrated()).then(|| self.note.clone()),
+            Some(name) if self.lost() => Some(text!(self.language, "window-controls-note-lost", name = name)),
+            _ => (!self.is_calibrated()).then(|| self.note()),
         }
     }
 
     /// Returns the location of the controller's profile, or the reason why there is no controller.
-    pub fn note(&self) -> &str {
-        &self.note
+    pub fn note(&self) -> String {
+        self.note.words(self.language)
+    }
+
+    /// Sets the language of the notes and of the wizard.
+    pub fn set_language(&mut self, language: Language) {
+        self.language = language;
     }
 
     /// Starts the calibration wizard. If the device is disconnected, searches for it first.
@@ -193,8 +243,8 @@ impl ControllerSlot {
 
     fn save_profile(&mut self, profile: &ControllerProfile) {
         self.note = match self.profiles.save(profile) {
-            Ok(path) => format!("Saved in {}.", path.display()),
-            Err(error) => format!("Not saved: {error}."),
+            Ok(path) => ControllerNote::Saved(path.display().to_string()),
+            Err(error) => ControllerNote::NotSaved(error.to_string()),
         };
     }
 
@@ -227,23 +277,24 @@ impl ControllerSlot {
     /// Disables the controller and stores the reason.
     pub fn disable(&mut self, why: &AppError) {
         self.held = DeviceState::NoDevice(DeviceWatcher::start());
-        self.note = format!("Controller disabled: {why}.");
+        self.note = ControllerNote::Disabled(why.to_string());
     }
 
-    /// Returns the status for the controller page; `keyboard` contains the stick positions from the keyboard.
-    pub fn controls(&self, keyboard: Sticks, keys: &str) -> ControllerStatus {
+    /// Returns the status for the controller page; `keyboard` contains the stick positions from the keyboard, `keys` the names of
+    /// its keys with what they do.
+    pub fn controls(&self, keyboard: Sticks, keys: Vec<(String, String)>) -> ControllerStatus {
         let plain = ControllerStatus {
             device: self.name().map(str::to_owned),
             lost: self.lost(),
             mode: self.mode.number(),
-            note: self.note.clone(),
-            keys: keys.to_owned(),
+            note: self.note(),
+            keys,
             ..ControllerStatus::default()
         };
         let from_rest = |(axis, value): (&u32, &f64)| (*axis, *value, (value.min(0.0), value.max(0.0)));
         match &self.held {
             DeviceState::Calibrating(_, wizard) => {
-                ControllerStatus { axes: wizard.axes().collect(), wizard: Some(wizard.prompt()), ..plain }
+                ControllerStatus { axes: wizard.axes().collect(), wizard: Some(wizard.prompt(self.language)), ..plain }
             }
             _ if plain.device.is_none() || plain.lost => ControllerStatus {
                 mode: 2,
@@ -289,7 +340,7 @@ mod tests {
     /// Creates a slot with a calibrated device that reports these events.
     fn held(events: &[(f64, DeviceEvent)]) -> ControllerSlot {
         let axis = |n: u32| AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.0, expo: 0.0 };
-        let ways = STICK_AXES.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let ways = STICK_AXES.iter().zip(0..).map(|((_, way), n)| (*way, axis(n))).collect();
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let lines = events.iter().map(|(s, event)| input_recording::line(SimTime::from_s(*s), *event));
         let text: Vec<String> = std::iter::once(input_recording::head(&device)).chain(lines).collect();
@@ -302,7 +353,8 @@ mod tests {
             held: DeviceState::Calibrated(Box::new(CalibratedController::new(source, profile))),
             replacement_watcher: None,
             mode: StickMode::Two,
-            note: String::new(),
+            note: ControllerNote::None,
+            language: Language::default(),
         }
     }
 
@@ -318,11 +370,11 @@ mod tests {
         assert!(poll_sticks(&mut desk, 0.5).is_some() && desk.keyboard_only_reason().is_none());
         assert_eq!(poll_sticks(&mut desk, 1.5), None);
         let keys = Sticks { up: 1.0, ..Sticks::default() };
-        let shown = desk.controls(keys, "");
+        let shown = desk.controls(keys, Vec::new());
         assert!(shown.lost && !shown.is_connected() && shown.sticks == StickMode::Two.physical_sticks(keys), "{shown:?}");
         assert_eq!(desk.keyboard_only_reason().as_deref(), Some("'Pad' is not connected."));
         assert_eq!(poll_sticks(&mut desk, 2.5), Some(Sticks::default()));
-        assert!(!desk.controls(keys, "").lost);
+        assert!(!desk.controls(keys, Vec::new()).lost);
     }
 
     #[test]
@@ -347,7 +399,7 @@ mod tests {
             let own = f64::from(n) / 10.0;
             AxisCalibration { axis: n, low: -1.0, centre: 0.0, high: 1.0, dead_band: own, expo: 2.0 * own }
         };
-        let ways = STICK_AXES.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let ways = STICK_AXES.iter().zip(0..).map(|((_, way), n)| (*way, axis(n))).collect();
         let device = Device { name: "Pad".into(), id: "1:2".into() };
         let before = ControllerProfile { device, mode: StickMode::Two, axes: ways, buttons: [].into() };
         let of = |profile: &ControllerProfile| profile.axes.values().map(|axis| (axis.dead_band, axis.expo)).collect::<Vec<_>>();

@@ -11,6 +11,7 @@ use crate::io::png::png;
 use serde_json::json;
 use spandrel_model::frames::Enu;
 use spandrel_model::pose::Pose;
+use spandrel_text::text;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
 use spandrel_view::flow::{Page, PageLayout, PictureSource, SettingChange, WindowRequest};
@@ -89,7 +90,7 @@ impl Cockpit {
             distance_m: (now.moment.drone.pose.position_m - team.inspector_m).norm(),
             cues: live.feed().cues(now.moment.at, false),
             cue_texts: live.feed().cue_texts().clone(),
-            units: self.flow.style().units,
+            style: self.flow.style(),
             silent: false,
         });
     }
@@ -118,13 +119,17 @@ impl Cockpit {
             WindowRequest::ChangeProfile(tune) => self.send_to_pilot(PilotCommand::ChangeProfile(tune)),
             WindowRequest::Open(address) => {
                 if let Err(error) = open::that_detached(&address) {
-                    self.flow.show_notice(format!("Cannot open a browser ({error}). Enter the address above in a browser."));
+                    let words = text!(self.flow.language(), "window-flight-no-browser", error = error.to_string());
+                    self.flow.show_notice(words);
                 }
             }
             WindowRequest::Sound(on) => {
                 let failed = self.settings.set_sound(on);
                 self.speaker.set_on(on);
-                self.flow.show_notice(failed.unwrap_or_else(|| if on { "Sound on." } else { "Sound off." }.to_owned()));
+                let language = self.flow.language();
+                let told =
+                    if on { text!(language, "window-flight-sound-on") } else { text!(language, "window-flight-sound-off") };
+                self.flow.show_notice(failed.unwrap_or(told));
             }
             WindowRequest::ChangeSetting(change) => self.change_setting(&change),
             WindowRequest::Close => self.stop.request(),
@@ -134,10 +139,14 @@ impl Cockpit {
 
     /// Applies a change to the settings everywhere.
     fn change_setting(&mut self, change: &SettingChange) {
+        let before = self.settings.language();
         let told = self.settings.apply(change);
         self.flow.update_settings(self.settings.status());
         self.speaker.set_preferences(self.keys().sounds);
         self.send_to_pilot(PilotCommand::SetKeys(self.keys().clone()));
+        if self.settings.language() != before {
+            self.announce_language();
+        }
         told.into_iter().for_each(|words| self.flow.show_notice(words));
     }
 
@@ -268,7 +277,7 @@ impl Cockpit {
     fn listen(&mut self, now: std::time::Duration) {
         while let Some(text) = self.threads.pilot.as_ref().and_then(PilotThread::poll_message) {
             tracing::info!("{text}");
-            self.notices.push((text, now));
+            self.notices.push((hud::message_words(&text, self.flow.language()), now));
         }
         if let Some(text) = self.flow.take_notice() {
             tracing::info!("{text}");
@@ -284,15 +293,15 @@ impl Cockpit {
         let most = if style.text_scale == TextScale::Normal { MAX_MESSAGES } else { 1 };
         let latest = self.notices.iter().skip(self.notices.len().saturating_sub(most));
         let is_frozen = moment.is_some_and(|moment| moment.hud.is_frozen);
-        let frozen = is_frozen.then(|| frozen(self.flow.key_names(), self.threads.pilot.is_some()));
+        let frozen = is_frozen.then(|| frozen(self.flow.key_names(), self.threads.pilot.is_some(), style.language));
         let lines: Vec<String> = frozen.into_iter().chain(latest.map(|(words, _)| style.units.words(words))).collect();
         let shows_help = style.text_scale == TextScale::Normal || lines.is_empty();
         WindowText {
-            waiting: waiting(&flight.scene, moment.is_some(), &flight.listener),
+            waiting: waiting(&flight.scene, moment.is_some(), &flight.listener, style.language),
             lines,
             help: match flight.first_frame_at {
                 Some(first) if shows_help && now.saturating_sub(first).as_secs_f64() < KEY_HELP_DURATION_S => {
-                    help(self.flow.key_names(), self.threads.pilot.is_some(), style.text_scale)
+                    help(self.flow.key_names(), self.threads.pilot.is_some(), style)
                 }
                 _ => String::new(),
             },

@@ -42,7 +42,7 @@ pub fn run(setup: WindowSetup) -> Result<(), AppError> {
     let stop = StopRequest::install(setup.leash && !led)?;
     let mut crew = WindowThreads { pilot: None, train_pipe: None, flight: None, stream: None };
     if led || setup.fly.is_some() {
-        crew.pilot = Some(PilotThread::start(config.listen, setup.device, setup.profiles, settings.current().keys.clone())?);
+        crew.pilot = Some(PilotThread::start(config.listen, setup.device, setup.profiles, settings.current())?);
     }
     let mut flow = if led {
         crew.train_pipe = Some(TrainPipe::listen(&stop));

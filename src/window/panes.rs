@@ -14,6 +14,7 @@ use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
 use spandrel_view::flow::KeyNames;
 use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
+use spandrel_view::hud::lesson_words::how_to;
 use spandrel_view::hud::{self, DisplayStyle, DrawItem, Hud};
 use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::live::LiveMoment;
@@ -95,7 +96,7 @@ pub struct ViewOptions<'a> {
     pub ghost: Option<Pose<Enu>>,
     /// Names of the keys.
     pub key_names: &'a KeyNames,
-    /// Units and text size.
+    /// Language, units and text size.
     pub style: DisplayStyle,
 }
 
@@ -150,7 +151,7 @@ impl ViewPanes {
         display.style = options.style;
         display.ghost = options.ghost;
         if let Some(lesson) = &mut display.lesson {
-            lesson.how = options.key_names.fill(&lesson.how);
+            lesson.how = how_to(lesson.status.task, options.style.language, &|binding| options.key_names.name(binding));
         }
         let mut shown = Vec::new();
         if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Instruments) {

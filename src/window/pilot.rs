@@ -5,10 +5,12 @@ use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
 use crate::io::controller::ProfileFolder;
 use crate::io::net::{NetEvent, SocketHub, SocketId};
+use crate::io::user_settings::UserSettings;
 use spandrel_clients::rc::controller_link::ControllerLink;
 use spandrel_clients::rc::keyboard::{KeyBindings, KeyboardState};
 use spandrel_clients::rc::{ControllerAction, Sticks};
 use spandrel_model::time::SimTime;
+use spandrel_text::{Language, text};
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
@@ -49,6 +51,8 @@ pub enum PilotCommand {
     ChangeProfile(ProfileChange),
     /// Use these keys.
     SetKeys(KeyBindings),
+    /// Use this language for messages.
+    SetLanguage(Language),
 }
 
 /// The window's handle to the pilot thread.
@@ -64,10 +68,16 @@ impl PilotThread {
     ///
     /// # Errors
     /// Returns an error if the socket cannot be opened, or a file is invalid.
-    pub fn start(listen: IpAddr, device: Option<String>, profiles: Option<PathBuf>, keys: KeyBindings) -> Result<Self, AppError> {
+    pub fn start(
+        listen: IpAddr,
+        device: Option<String>,
+        profiles: Option<PathBuf>,
+        settings: &UserSettings,
+    ) -> Result<Self, AppError> {
         let mut hub = SocketHub::new();
         let socket = hub.bind(listen, 0, "--listen")?;
         let profiles = ProfileFolder::at(profiles);
+        let (keys, language) = (settings.keys.clone(), settings.style.language);
         let (asks, asked) = channel();
         let (message_sender, told) = channel();
         let controls = Arc::new(Mutex::new(ControllerStatus::default()));
@@ -75,11 +85,11 @@ impl PilotThread {
         std::thread::spawn(move || {
             // The device is opened in the thread that uses it, because some systems do not allow moving devices between
             // threads.
-            let desk = ControllerSlot::new(device, profiles);
+            let mut desk = ControllerSlot::new(device, profiles);
             if let Some(why) = desk.keyboard_only_reason() {
                 tracing::info!("{why} Flying with the keyboard.");
             }
-            let words = keys.help_text();
+            desk.set_language(language);
             let board = KeyboardState::new(keys);
             let mut seat = PilotLoop {
                 hub,
@@ -92,7 +102,7 @@ impl PilotThread {
                 paused: false,
                 lost: false,
                 shown,
-                status_text: words,
+                language,
                 next: SimTime::ZERO,
             };
             seat.fly(&asked, &message_sender);
@@ -133,7 +143,7 @@ struct PilotLoop {
     paused: bool,
     lost: bool,
     shown: Arc<Mutex<ControllerStatus>>,
-    status_text: String,
+    language: Language,
     next: SimTime,
 }
 
@@ -156,9 +166,7 @@ impl PilotLoop {
             }
             if self.controller.open_new_device() {
                 self.lost = false;
-                let flies =
-                    if self.controller.is_calibrated() { "Use it to fly." } else { "Use the keyboard until it is calibrated." };
-                send_message(message_sender, format!("Controller connected. {} {flies}", self.controller.note()));
+                send_message(message_sender, self.connected_message());
             }
             let (sticks, news) = self.sticks(now);
             // On the ground, the controller page shows this message.
@@ -188,8 +196,24 @@ impl PilotLoop {
         while self.link.poll_message().is_some() {}
         if now >= self.next {
             self.next = now + STATUS_INTERVAL;
-            let controls = self.controller.controls(self.keyboard.sticks(now), &self.status_text);
+            let controls = self.controller.controls(self.keyboard.sticks(now), self.keyboard.keys().help(self.language));
             *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = controls;
+        }
+    }
+
+    /// Passes the language and the name of the arm key to the link.
+    fn update_link_texts(&mut self) {
+        self.link.set_language(self.language);
+        self.link.set_arm_key(&self.keyboard.keys().label("arm", self.language));
+    }
+
+    /// Returns the message about a controller that has just been connected.
+    fn connected_message(&self) -> String {
+        let (language, note) = (self.language, self.controller.note());
+        if self.controller.is_calibrated() {
+            text!(language, "window-controls-message-connected", note = note)
+        } else {
+            text!(language, "window-controls-message-connected-uncalibrated", note = note)
         }
     }
 
@@ -211,10 +235,10 @@ impl PilotLoop {
             PilotCommand::ReleaseKeys => self.keyboard.release_all(),
             PilotCommand::Fly(vehicle) => {
                 (self.vehicle, self.link, self.keyboard_in_use) = (Some(vehicle), ControllerLink::default(), false);
-                self.link.set_arm_key(&self.keyboard.keys().label("arm"));
+                self.update_link_texts();
                 self.paused = false;
                 if let Some(why) = self.controller.keyboard_only_reason() {
-                    send_message(message_sender, format!("{why} Use the keyboard."));
+                    send_message(message_sender, text!(self.language, "window-controls-message-keyboard", note = why));
                 }
             }
             PilotCommand::SetPaused(stands) => self.paused = stands,
@@ -225,9 +249,13 @@ impl PilotLoop {
             PilotCommand::Cancel => self.controller.cancel(),
             PilotCommand::ChangeProfile(tune) => self.controller.adjust_profile(tune),
             PilotCommand::SetKeys(keys) => {
-                self.status_text = keys.help_text();
-                self.link.set_arm_key(&keys.label("arm"));
                 self.keyboard = KeyboardState::new(keys);
+                self.update_link_texts();
+            }
+            PilotCommand::SetLanguage(language) => {
+                self.language = language;
+                self.controller.set_language(language);
+                self.update_link_texts();
             }
         }
     }
@@ -254,7 +282,7 @@ impl PilotLoop {
             Err(error) => {
                 tracing::warn!("controller disabled: {error}");
                 self.controller.disable(&error);
-                (None, Some(self.controller.note().to_owned()))
+                (None, Some(self.controller.note()))
             }
         }
     }
@@ -262,15 +290,18 @@ impl PilotLoop {
     /// Updates the controller's connection state. Returns a message if the state has changed.
     fn update_connection_state(&mut self, lost: bool) -> Option<String> {
         let before = std::mem::replace(&mut self.lost, lost);
-        let name = self.controller.name().unwrap_or("the controller");
+        let language = self.language;
+        let name = self.controller.name().map_or_else(|| text!(language, "window-controls-the-controller"), str::to_owned);
         match (before, lost) {
             (false, true) => {
                 // If the controller is disconnected, send no stick positions, even if keys were used before. The
                 // vehicle's failsafe is then active until the user presses a key again.
                 self.keyboard_in_use = false;
-                Some(format!("'{name}' disconnected: stick input centered, then stopped. Press a key to fly with the keyboard."))
+                Some(text!(language, "window-controls-message-disconnected", name = name))
             }
-            (true, false) if self.controller.is_calibrated() => Some(format!("'{name}' reconnected.")),
+            (true, false) if self.controller.is_calibrated() => {
+                Some(text!(language, "window-controls-message-reconnected", name = name))
+            }
             _ => None,
         }
     }

@@ -3,6 +3,7 @@
 use crate::io::user_settings::{SettingsFile, UserSettings};
 use spandrel_clients::rc::key;
 use spandrel_clients::rc::keyboard::{KeyBindings, Rebinding, SoundPreferences};
+use spandrel_text::{Language, text};
 use spandrel_view::flow::{KeyFunction, SettingChange, SettingsStatus};
 use spandrel_view::sound::SoundSettings;
 
@@ -50,6 +51,11 @@ impl WindowSettings {
         Self { file, current, stored, invalid, keys_file }
     }
 
+    /// Returns the language of the window.
+    pub fn language(&self) -> Language {
+        self.current.style.language
+    }
+
     /// Returns the settings in effect.
     pub fn current(&self) -> &UserSettings {
         &self.current
@@ -57,19 +63,20 @@ impl WindowSettings {
 
     /// Returns a message for the user about an invalid file.
     pub fn file_notice(&self) -> Option<String> {
-        self.invalid.as_ref().map(|why| format!("The default settings are used, because the settings file is invalid: {why}"))
+        let language = self.language();
+        self.invalid.as_ref().map(|why| text!(language, "window-settings-file-invalid", error = why.as_str()))
     }
 
     /// Returns the settings for the pages.
     pub fn status(&self) -> SettingsStatus {
-        let keys = &self.current.keys;
-        let function = |(binding, title)| KeyFunction { binding, title, key: keys.label(binding) };
+        let (keys, language) = (&self.current.keys, self.language());
+        let function = |(binding, title)| KeyFunction { binding, title, key: keys.label(binding, language) };
         SettingsStatus {
             style: self.current.style,
             quality: self.current.quality,
             is_sound_on: keys.sounds.on,
             sounds: sound_settings(keys.sounds),
-            keys: KeyBindings::functions().map(function).collect(),
+            keys: KeyBindings::functions(language).map(function).collect(),
             fixed_keys: self.keys_file.clone(),
         }
     }
@@ -113,9 +120,10 @@ impl WindowSettings {
     /// Saves the settings. Returns a message for the user if that fails.
     fn save(&self) -> Option<String> {
         if let Some(why) = &self.invalid {
-            return Some(format!("Not saved, because the settings file is invalid: {why}. Correct it, or restore all defaults."));
+            return Some(text!(self.language(), "window-settings-not-saved-invalid", error = why.as_str()));
         }
-        self.file.save(&self.stored).err().map(|error| format!("Not saved: {error}."))
+        let failed = self.file.save(&self.stored).err();
+        failed.map(|error| text!(self.language(), "window-settings-not-saved", error = error.to_string()))
     }
 }
 
@@ -139,30 +147,36 @@ fn change_settings(settings: &mut UserSettings, change: &SettingChange) -> Optio
                 volume: *volume,
             };
         }
-        SettingChange::Key(index, key) => return rebind(&mut settings.keys, *index, key),
+        SettingChange::Key(index, key) => return rebind(&mut settings.keys, *index, key, settings.style.language),
         SettingChange::RestoreKeys => {
             settings.keys.restore_keys();
-            return Some("All keys have their defaults.".to_owned());
+            return Some(text!(settings.style.language, "window-settings-keys-restored"));
         }
         SettingChange::RestoreAll => {
             *settings = UserSettings::of_system();
-            return Some("All settings have their defaults.".to_owned());
+            return Some(text!(settings.style.language, "window-settings-all-restored"));
         }
     }
     None
 }
 
-fn rebind(keys: &mut KeyBindings, index: usize, key: &str) -> Option<String> {
-    let (name, title) = KeyBindings::functions().nth(index)?;
-    let label = key::label(&key.to_lowercase());
+fn rebind(keys: &mut KeyBindings, index: usize, key: &str, language: Language) -> Option<String> {
+    let (name, title) = KeyBindings::functions(language).nth(index)?;
+    let label = key::label(&key.to_lowercase(), language);
     Some(match keys.rebind(name, key) {
-        Rebinding::Done => format!("{label}: {title}."),
+        Rebinding::Done => text!(language, "window-settings-key-set", key = label, function = title),
         Rebinding::Exchanged(other) => {
-            let other_title =
-                KeyBindings::functions().find(|(binding, _)| *binding == other).map_or(String::new(), |found| found.1);
-            format!("{label}: {title}. The key was taken: {other_title} now has {}.", keys.label(other))
+            let other_title = KeyBindings::functions(language).find(|(binding, _)| *binding == other);
+            text!(
+                language,
+                "window-settings-key-exchanged",
+                key = label,
+                function = title,
+                other = other_title.map_or(String::new(), |found| found.1),
+                other_key = keys.label(other, language)
+            )
         }
-        Rebinding::Refused => format!("'{key}' cannot be used (allowed: {}).", key::allowed()),
+        Rebinding::Refused => text!(language, "window-settings-key-refused", key = key, allowed = key::allowed(language)),
     })
 }
 
@@ -172,7 +186,7 @@ mod tests {
     use spandrel_view::hud::{DisplayStyle, DisplayUnits, TextScale};
 
     fn index(name: &str) -> usize {
-        KeyBindings::functions().position(|(binding, _)| binding == name).unwrap()
+        KeyBindings::functions(Language::English).position(|(binding, _)| binding == name).unwrap()
     }
 
     fn file(folder: &tempfile::TempDir) -> SettingsFile {

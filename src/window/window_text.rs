@@ -3,10 +3,11 @@
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
 use super::panes::PaneContent;
+use spandrel_text::{Language, text};
 use spandrel_view::arrange::TextAnchor;
 use spandrel_view::flow::KeyNames;
 use spandrel_view::gpu::paint;
-use spandrel_view::hud::TextScale;
+use spandrel_view::hud::{DisplayStyle, TextScale};
 
 /// The window's texts.
 #[derive(Default)]
@@ -20,41 +21,84 @@ pub struct WindowText {
 }
 
 /// Returns the status while the scene is not ready.
-pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener) -> String {
+pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener, language: Language) -> String {
     match scene {
         SceneLoading::Ready(_) => String::new(),
         SceneLoading::Building(step, _) => {
-            let (pct, what) = step.progress();
-            format!("Loading {what} ... {pct}%")
+            let (what, pct) = (step.title(language), step.progress_pct());
+            text!(language, "window-flight-loading", what = what, pct = pct)
         }
-        SceneLoading::Waiting if heard => "Connected to the vehicle. Waiting for the session's seed ...".to_owned(),
-        SceneLoading::Waiting => format!("Waiting for the vehicle at {} ...", listener.vehicle()),
+        SceneLoading::Waiting if heard => text!(language, "window-flight-waiting-seed"),
+        SceneLoading::Waiting => {
+            text!(language, "window-flight-waiting-vehicle", address = listener.vehicle().to_string())
+        }
     }
 }
 
-/// Help on all keys; `{binding}` stands for the name of a key.
-const VIEW_HELP: &str = "{swap} views    {map} map    {path} path    drag or {look_left} {look_right} look around    wheel zoom    \
-                         {follow} follow the drone";
-const FLIGHT_HELP: &str = "{arm} arm    {take_off} take off    {up} {down} up and down    {turn_left} {turn_right} turn    {forward} \
-                           {back} {left} {right} fly    {lamp} lamp    {snapshot} picture    {land} land\n{freeze} freeze    {rewind} rewind 10 s";
-/// Help where larger text leaves no room for all keys.
-const SHORT_HELP: &str = "{arm} arm    {take_off} take off    {pause} pause; see the keys there";
-const SHORT_VIEW_HELP: &str = "{swap} views    {map} map    {follow} follow the drone";
+/// Returns the key help. Where larger text leaves no room for all keys, there are only the most important ones.
+pub fn help(names: &KeyNames, flies: bool, style: DisplayStyle) -> String {
+    match (style.text_scale, flies) {
+        (TextScale::Normal, false) => view_help(names, style.language),
+        (TextScale::Normal, true) => format!("{}\n{}", view_help(names, style.language), flight_help(names, style.language)),
+        (TextScale::Larger | TextScale::Large | TextScale::Double, false) => text!(
+            style.language,
+            "window-flight-keys-short-view",
+            swap = names.name("swap"),
+            map = names.name("map"),
+            follow = names.name("follow")
+        ),
+        (TextScale::Larger | TextScale::Large | TextScale::Double, true) => text!(
+            style.language,
+            "window-flight-keys-short",
+            arm = names.name("arm"),
+            take_off = names.name("take_off"),
+            pause = names.name("pause")
+        ),
+    }
+}
 
-/// Returns the key help.
-pub fn help(names: &KeyNames, flies: bool, text_scale: TextScale) -> String {
-    let words = match (text_scale, flies) {
-        (TextScale::Normal, false) => VIEW_HELP.to_owned(),
-        (TextScale::Normal, true) => format!("{VIEW_HELP}\n{FLIGHT_HELP}"),
-        (TextScale::Larger | TextScale::Large | TextScale::Double, false) => SHORT_VIEW_HELP.to_owned(),
-        (TextScale::Larger | TextScale::Large | TextScale::Double, true) => SHORT_HELP.to_owned(),
-    };
-    names.fill(&words)
+fn view_help(names: &KeyNames, language: Language) -> String {
+    text!(
+        language,
+        "window-flight-keys-view",
+        swap = names.name("swap"),
+        map = names.name("map"),
+        path = names.name("path"),
+        look_left = names.name("look_left"),
+        look_right = names.name("look_right"),
+        follow = names.name("follow")
+    )
+}
+
+fn flight_help(names: &KeyNames, language: Language) -> String {
+    text!(
+        language,
+        "window-flight-keys-flight",
+        arm = names.name("arm"),
+        take_off = names.name("take_off"),
+        up = names.name("up"),
+        down = names.name("down"),
+        turn_left = names.name("turn_left"),
+        turn_right = names.name("turn_right"),
+        forward = names.name("forward"),
+        back = names.name("back"),
+        left = names.name("left"),
+        right = names.name("right"),
+        lamp = names.name("lamp"),
+        snapshot = names.name("snapshot"),
+        land = names.name("land"),
+        freeze = names.name("freeze"),
+        rewind = names.name("rewind")
+    )
 }
 
 /// Returns the text for a frozen flight: how to continue, if the window can fly the vehicle.
-pub fn frozen(names: &KeyNames, flies: bool) -> String {
-    if flies { names.fill("Frozen. {freeze}: continue    {rewind}: rewind 10 s") } else { "Frozen.".to_owned() }
+pub fn frozen(names: &KeyNames, flies: bool, language: Language) -> String {
+    if flies {
+        text!(language, "window-flight-frozen-keys", freeze = names.name("freeze"), rewind = names.name("rewind"))
+    } else {
+        text!(language, "window-flight-frozen")
+    }
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.

@@ -1,6 +1,6 @@
 //! Additional HUD inputs, decoded from the telemetry frames: flight mode, satellites, cues, and texts.
 
-use super::hud::GnssStatus;
+use super::hud::{GnssStatus, UNKNOWN_MODE};
 use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::cue::CueTexts;
@@ -124,7 +124,7 @@ impl Feed {
     /// Returns the name of the flight mode.
     #[must_use]
     pub fn mode(&self) -> &str {
-        self.mode.as_deref().unwrap_or("no mode")
+        self.mode.as_deref().unwrap_or(UNKNOWN_MODE)
     }
 
     /// Returns the satellite navigation status, if it has been received.

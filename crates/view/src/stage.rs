@@ -4,7 +4,7 @@ use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::ghost::GhostView;
-use super::hud::lesson_panel::how_to;
+use super::hud::lesson_words::how_to;
 use super::hud::{DisplayStyle, DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};
@@ -21,6 +21,7 @@ use spandrel_model::scenario::{LessonStep, Scenario};
 use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
+use spandrel_text::Language;
 
 /// Objects within this distance in front of the aircraft do not count as hiding it, m (about the aircraft's size).
 const DRONE_CLEARANCE_M: f64 = 0.5;
@@ -327,7 +328,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         pad_m,
         guidance: feed.guidance(at),
         lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
-            how: how_to(status.task).to_owned(),
+            how: how_to(status.task, Language::default(), &|binding| format!("{{{binding}}}")),
             remark: remark.map(str::to_owned),
             status,
         }),

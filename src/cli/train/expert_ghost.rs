@@ -7,6 +7,7 @@ use crate::io::stop::StopRequest;
 use spandrel_clients::pilot::Skill;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
+use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::GhostFlight;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,19 +24,21 @@ pub struct GhostJob {
     file: PathBuf,
     scenario: Scenario,
     vehicle: Vehicle,
+    language: Language,
 }
 
 impl GhostJob {
     /// Creates a job whose flight is stored below the sessions folder. `None` for a lesson, which has no tasks for the expert.
-    pub fn new(sessions: &Path, scenario: Scenario, vehicle: Vehicle) -> Option<Self> {
+    pub fn new(sessions: &Path, scenario: Scenario, vehicle: Vehicle, language: Language) -> Option<Self> {
         let name = format!("{}-{:08x}-{}.tlog", scenario.name, scenario.crc, vehicle.id);
         let file = sessions.join(FOLDER).join(name);
-        scenario.lesson.is_empty().then_some(Self { file, scenario, vehicle })
+        scenario.lesson.is_empty().then_some(Self { file, scenario, vehicle, language })
     }
 
     /// Returns the expert's flight, if it was flown earlier.
     pub fn flown(&self) -> Option<GhostFlight> {
-        self.file.is_file().then(|| GhostFlight { telemetry: self.file.clone(), words: "the expert's flight".to_owned() })
+        let words = || text!(self.language, "window-flight-ghost-of-expert");
+        self.file.is_file().then(|| GhostFlight { telemetry: self.file.clone(), words: words() })
     }
 
     /// Flies the job and stores the flight.
@@ -99,7 +102,7 @@ mod tests {
     fn flight_expert_flies_a_drill_once_and_the_flight_is_kept() {
         let sessions = tempfile::tempdir().unwrap();
         let (scenario, vehicle) = (files::scenario("drill-hover").unwrap().scenario, files::vehicle("phantom2").unwrap().vehicle);
-        let job = GhostJob::new(sessions.path(), scenario.clone(), vehicle.clone()).unwrap();
+        let job = GhostJob::new(sessions.path(), scenario.clone(), vehicle.clone(), Language::English).unwrap();
         assert_eq!(job.flown(), None);
         let flight = ExpertFlight::start(job.clone());
         let ghost = flight.result.recv().unwrap().unwrap();
@@ -109,6 +112,6 @@ mod tests {
         let flown = timeline.flight(0);
         assert!(flown.lift_off(scenario.ground_team.pad_m.up(), 0.3).is_some() && flown.truths.len() > 1_000);
         let lesson = files::scenario("first-flight").unwrap().scenario;
-        assert!(GhostJob::new(sessions.path(), lesson, vehicle).is_none());
+        assert!(GhostJob::new(sessions.path(), lesson, vehicle, Language::English).is_none());
     }
 }

@@ -13,6 +13,7 @@ use crate::io::files;
 use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
 use serde_json::Value;
+use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{FlightChoice, FlightStarted, FlownBy, FromWindow, GhostFlight, Purpose, ToWindow};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -68,10 +69,10 @@ impl FlightProcesses {
     ///
     /// # Errors
     /// Returns an error if files or ports are invalid.
-    pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level) -> Result<Self, AppError> {
+    pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level, language: Language) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
-        let (ghost, ghost_job) = ghost(args, choice);
+        let (ghost, ghost_job) = ghost(args, choice, language);
         let common = common_args(&job, log);
         let expert_args = expert_args(&common);
         let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
@@ -200,7 +201,7 @@ impl FlightProcesses {
     fn handle_window_message(&mut self, wish: &FromWindow, window: &mut WindowProcess) -> Option<FlightOutcome> {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
-            FromWindow::Ready => {}
+            FromWindow::Ready | FromWindow::Language { .. } => {}
             FromWindow::Showing => {
                 self.start_expert();
                 self.expert_flight = self.ghost_job.take().map(ExpertFlight::start);
@@ -212,10 +213,10 @@ impl FlightProcesses {
             FromWindow::Restart if practice => return Some(FlightOutcome::Restart),
             FromWindow::End => return Some(FlightOutcome::Over),
             FromWindow::Pause | FromWindow::Resume | FromWindow::Restart => {
-                window.send(&ToWindow::Refused { words: "Not available in an assessment.".into() });
+                window.send(&ToWindow::Refused { words: text!(window.language, "window-train-not-in-assessment") });
             }
             FromWindow::Chosen(_) | FromWindow::Again | FromWindow::Quit | FromWindow::School(_) => {
-                window.send(&ToWindow::Refused { words: "A flight is in progress: end it first.".into() });
+                window.send(&ToWindow::Refused { words: text!(window.language, "window-train-in-flight") });
             }
         }
         None
@@ -282,14 +283,14 @@ fn exited_normally(status: ExitStatus) -> bool {
 }
 
 /// Returns the flight that a ghost repeats in a practice or, if there is none, the job that the expert flies for it.
-fn ghost(args: &Args, choice: &FlightChoice) -> (Option<GhostFlight>, Option<GhostJob>) {
+fn ghost(args: &Args, choice: &FlightChoice, language: Language) -> (Option<GhostFlight>, Option<GhostJob>) {
     let practices = choice.purpose == Purpose::Practice && choice.by == FlownBy::Trainee;
     let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&args.vehicle).ok());
     let Some((scenario, vehicle)) = job else { return (None, None) };
-    if let Some(ghost) = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario.scenario) {
+    if let Some(ghost) = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario.scenario, language) {
         return (Some(ghost), None);
     }
-    let job = GhostJob::new(&args.sessions, scenario.scenario, vehicle.vehicle);
+    let job = GhostJob::new(&args.sessions, scenario.scenario, vehicle.vehicle, language);
     let flown = job.as_ref().and_then(GhostJob::flown);
     let open = job.filter(|_| flown.is_none());
     (flown, open)

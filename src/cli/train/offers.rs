@@ -14,9 +14,9 @@ use spandrel_model::site::Site;
 use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, verdict};
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 use spandrel_training::advice::SessionAdvice;
-use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text};
+use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text as briefing_text};
 use spandrel_view::flow::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, Purpose,
     SCORE_NAMES, TraineeSummary,
@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub const EXPERT_ID: &str = "synthetic-expert";
 
 /// Returns the choices that the start page offers.
-pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>) -> FlightOptions {
+pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>, language: Language) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().flat_map(scenarios_by_form).collect();
     names.extend(uploaded(&sessions.join(UPLOAD_FOLDER)).iter().map(|path| path.display().to_string()));
     if !names.contains(&choice.scenario) {
@@ -37,17 +37,15 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
     }
     let job = |name: String| {
         let scenario = files::scenario(&name).ok()?.scenario;
-        let form = scenario.form.as_ref().map(|form| format!(" (form {})", form.name));
-        let variant = form.or_else(|| level_title(&scenario)).unwrap_or_default();
         Some(JobOffer {
             name,
-            title: scenario.title.clone() + &variant,
-            kind: contents_summary(&scenario),
-            briefing: job_briefing(&scenario),
+            title: job_title(&scenario, language),
+            kind: contents_summary(&scenario, language),
+            briefing: job_briefing(&scenario, language),
         })
     };
     FlightOptions {
-        trainees: trainee_summaries(sessions),
+        trainees: trainee_summaries(sessions, language),
         lesson: job_named(FIRST_LESSON),
         scenarios: names.into_iter().filter_map(job).collect(),
         choice: choice.clone(),
@@ -59,10 +57,10 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>)
 const FIRST_LESSON: &str = "first-flight";
 
 /// Returns what the window's briefing page shows.
-fn job_briefing(scenario: &Scenario) -> JobBriefing {
-    let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario), Language::English);
+fn job_briefing(scenario: &Scenario, language: Language) -> JobBriefing {
+    let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario), language);
     let task = |task: &TaskBriefing| {
-        format!("{}  {}: {}, {}", task.id, task.name, task.place, text::task_numbers(task, Language::English))
+        format!("{}  {}: {}, {}", task.id, task.name, task.place, briefing_text::task_numbers(task, language))
     };
     JobBriefing {
         notes: scenario.briefing.clone(),
@@ -72,10 +70,19 @@ fn job_briefing(scenario: &Scenario) -> JobBriefing {
     }
 }
 
-/// Returns the words that distinguish a level other than the standard one.
-fn level_title(scenario: &Scenario) -> Option<String> {
-    let difficulty = scenario.difficulty.as_ref().filter(|one| one.level != one.standard)?;
-    Some(format!(" (level {} of {})", difficulty.level, difficulty.levels()))
+/// Returns the title with the words that distinguish a form, or a level other than the standard one.
+fn job_title(scenario: &Scenario, language: Language) -> String {
+    let title = scenario.title.as_str();
+    if let Some(form) = &scenario.form {
+        return text!(language, "window-train-form", title = title, form = form.name.as_str());
+    }
+    match scenario.difficulty.as_ref().filter(|one| one.level != one.standard) {
+        Some(difficulty) => {
+            let levels = difficulty.levels().to_string();
+            text!(language, "window-train-level", title = title, level = difficulty.level.to_string(), levels = levels)
+        }
+        None => title.to_owned(),
+    }
 }
 
 /// Returns a shipped scenario's forms as arguments; the scenario itself if it has no forms.
@@ -123,7 +130,7 @@ fn read_json(session: &Path, name: &str) -> Option<Value> {
 
 /// Returns the flight that a ghost repeats: the trainee's complete session of this job with the highest score or, without one, the
 /// synthetic expert's best one. A form or another seed only moves the defects, so the paths are the same.
-pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario) -> Option<GhostFlight> {
+pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario, language: Language) -> Option<GhostFlight> {
     let stored = stored_sessions(sessions);
     let level = scenario.difficulty.as_ref().map(|difficulty| difficulty.level);
     let flown = |who: &str| {
@@ -133,9 +140,10 @@ pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario) -> Op
     };
     let flight = |folder: &Path, words: String| GhostFlight { telemetry: folder.join(TELEMETRY), words };
     if let Some((folder, (overall, most))) = flown(trainee) {
-        return Some(flight(folder, format!("your best flight, {overall:.0} of {most:.0}")));
+        let (overall, most) = (format!("{overall:.0}"), format!("{most:.0}"));
+        return Some(flight(folder, text!(language, "window-flight-ghost-best", overall = overall, most = most)));
     }
-    flown(EXPERT_ID).map(|(folder, _)| flight(folder, "the expert's flight".to_owned()))
+    flown(EXPERT_ID).map(|(folder, _)| flight(folder, text!(language, "window-flight-ghost-of-expert")))
 }
 
 /// Returns the score of a session and the highest possible one, if it is a complete session of this job.
@@ -170,7 +178,7 @@ struct KnownSessions {
 }
 
 impl KnownSessions {
-    fn summary(self, name: String) -> TraineeSummary {
+    fn summary(self, name: String, language: Language) -> TraineeSummary {
         let latest = self.latest.map(|(_, folder)| folder);
         let advice = latest.as_deref().and_then(report::saved_advice);
         let lesson = latest.as_deref().and_then(LessonSession::unfinished);
@@ -180,7 +188,7 @@ impl KnownSessions {
             practices: self.practices,
             last: match &lesson {
                 Some(LessonSession { progress, .. }) => {
-                    Some(format!("{} of {} steps of the lesson.", progress.done, progress.steps))
+                    Some(text!(language, "window-train-lesson-progress", done = progress.done, steps = progress.steps))
                 }
                 None => advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
             },
@@ -233,7 +241,7 @@ fn next_job(advice: &SessionAdvice) -> Option<NextJob> {
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.
-fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
+fn trainee_summaries(sessions: &Path, language: Language) -> Vec<TraineeSummary> {
     let mut found: BTreeMap<String, KnownSessions> = BTreeMap::new();
     for StoredSessionFolder { trainee, started_unix_us, folder } in stored_sessions(sessions) {
         if trainee == EXPERT_ID {
@@ -246,33 +254,28 @@ fn trainee_summaries(sessions: &Path) -> Vec<TraineeSummary> {
             known.latest = Some((started_unix_us, folder));
         }
     }
-    found.into_iter().map(|(name, known)| known.summary(name)).collect()
+    found.into_iter().map(|(name, known)| known.summary(name, language)).collect()
 }
 
-fn contents_summary(scenario: &Scenario) -> String {
-    let some = |count: usize, one: &str, many: &str| match count {
-        1 => format!("1 {one}"),
-        n => format!("{n} {many}"),
-    };
-    let mut parts = vec![some(scenario.tasks.len(), "task", "tasks")];
+fn contents_summary(scenario: &Scenario, language: Language) -> String {
+    let mut parts = vec![text!(language, "window-train-tasks", count = scenario.tasks.len())];
     if !scenario.bridges.is_empty() {
-        parts.push(some(scenario.bridges.len(), "bridge", "bridges"));
+        parts.push(text!(language, "window-train-bridges", count = scenario.bridges.len()));
     }
     if scenario.defects.count > 0 {
-        parts.push(some(scenario.defects.count, "defect", "defects"));
+        parts.push(text!(language, "window-train-defects", count = scenario.defects.count));
     }
     parts.join(", ")
 }
 
 /// Returns a session's end page. `trouble` is the reason why scores are missing, if known.
-pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>) -> FlightSummary {
+pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>, language: Language) -> FlightSummary {
     let assessment = read_json(session, ASSESSMENT).unwrap_or_default();
     let advice = report::saved_advice(session);
     let lesson = LessonSession::read(session);
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
     let page = session.join(REPORT);
-    let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let completion = Completion::deserialize(&assessment["completion"]).ok();
     let complete = completion.is_none_or(|completion| completion.complete);
     let certification = &assessment["certification"];
@@ -280,10 +283,10 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
     FlightSummary {
         scores: SCORE_NAMES.map(one),
         overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
-        completion: completion.map(|completion| completion.headline(Language::English)),
+        completion: completion.map(|completion| completion.headline(language)),
         complete,
-        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet, Language::English)),
-        why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session)),
+        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet, language)),
+        why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session, language)),
         lesson: lesson.as_ref().map(|lesson| lesson.progress),
         next: match lesson.as_ref().filter(|lesson| !lesson.progress.is_complete()) {
             Some(lesson) => job_named(&lesson.scenario),
@@ -293,10 +296,16 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         // The sentence after a lesson is about its scores, which the page does not show.
         advice: advice.iter().filter(|_| lesson.is_none()).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
-        questionnaire: match web {
-            Some(web) => format!("{web}/sessions/{id}/questions"),
-            None => typed(&format!("spandrel questionnaire {}", session.display())).into_owned(),
-        },
+        questionnaire: questionnaire(session, web),
+    }
+}
+
+/// Returns the address of a session's questionnaire or, without a server, the command that starts it.
+pub fn questionnaire(session: &Path, web: Option<&str>) -> String {
+    let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    match web {
+        Some(web) => format!("{web}/sessions/{id}/questions"),
+        None => typed(&format!("spandrel questionnaire {}", session.display())).into_owned(),
     }
 }
 
@@ -305,12 +314,30 @@ pub fn watched(ended: FlightSummary, scenario: &str) -> FlightSummary {
     FlightSummary { watched: true, advice: Vec::new(), questionnaire: String::new(), next: job_named(scenario), ..ended }
 }
 
-fn end_reason_text(end: &Value, session: &Path) -> String {
+fn end_reason_text(end: &Value, session: &Path, language: Language) -> String {
     match (end["reason"].as_str(), end["seconds"].as_f64()) {
         (Some(reason), Some(seconds)) => {
-            format!("{reason} after {:.0} min {:.0} s of flight", (seconds / 60.0).floor(), (seconds % 60.0).floor())
+            let minutes = format!("{:.0}", (seconds / 60.0).floor());
+            let seconds = format!("{:.0}", (seconds % 60.0).floor());
+            let reason = reason_words(reason, language);
+            text!(language, "window-result-after", reason = reason, minutes = minutes, seconds = seconds)
         }
-        _ => format!("The session was not scored. The recorded data is in {}", session.display()),
+        _ => text!(language, "window-result-not-scored", folder = session.display().to_string()),
+    }
+}
+
+/// Returns the reason why a flight ended, by its name in files.
+fn reason_words(reason: &str, language: Language) -> String {
+    match reason {
+        "landed" => text!(language, "window-result-reason-landed"),
+        "battery" => text!(language, "window-result-reason-battery"),
+        "time_limit" => text!(language, "window-result-reason-time-limit"),
+        "person" => text!(language, "window-result-reason-person"),
+        "vehicle" => text!(language, "window-result-reason-vehicle"),
+        "crash" => text!(language, "window-result-reason-crash"),
+        "abort" => text!(language, "window-result-reason-abort"),
+        "restart" => text!(language, "window-result-reason-restart"),
+        other => other.to_owned(),
     }
 }
 
@@ -326,13 +353,13 @@ mod tests {
     #[test]
     fn exact_every_shipped_scenario_is_offered_with_its_contents() {
         let folder = tempfile::tempdir().unwrap();
-        let offers = flight_options(&folder.path().join("none-yet"), &choice(), None);
+        let offers = flight_options(&folder.path().join("none-yet"), &choice(), None, Language::English);
         assert_eq!(offers.trainees, []);
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
         assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
         let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
-        let offers = flight_options(&folder.path().join("none-yet"), &harder, None);
+        let offers = flight_options(&folder.path().join("none-yet"), &harder, None, Language::English);
         assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
     }
 
@@ -352,7 +379,7 @@ mod tests {
         }
         let person =
             |name: &str, sessions, practices| TraineeSummary { name: name.into(), sessions, practices, last: None, next: None };
-        assert_eq!(trainee_summaries(sessions.path()), [person("anna", 3, 1), person("bert", 1, 0)]);
+        assert_eq!(trainee_summaries(sessions.path(), Language::English), [person("anna", 3, 1), person("bert", 1, 0)]);
     }
 
     #[test]
@@ -365,10 +392,10 @@ mod tests {
         std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
         let step = |done: u32| serde_json::json!({ "t_s": 1.0, "event": "lesson_step", "done": done, "of": 11 }).to_string();
         std::fs::write(folder.join(EVENTS), format!("{}\n{}\n", step(1), step(2))).unwrap();
-        let summary = trainee_summaries(sessions.path()).remove(0);
+        let summary = trainee_summaries(sessions.path(), Language::English).remove(0);
         assert_eq!(summary.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
         assert_eq!(summary.last.as_deref(), Some("2 of 11 steps of the lesson."));
-        let ended = flight_summary(&folder, None, None);
+        let ended = flight_summary(&folder, None, None, Language::English);
         assert_eq!(ended.lesson, Some(LessonProgress { done: 2, steps: 11 }));
         assert_eq!(ended.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
         std::fs::write(folder.join(EVENTS), step(11)).unwrap();
@@ -389,7 +416,8 @@ mod tests {
             let assessment = serde_json::json!({ "completion": { "complete": complete }, "scores": scores });
             std::fs::write(folder.join(ASSESSMENT), assessment.to_string()).unwrap();
         };
-        let found = || recorded_ghost(sessions.path(), "anna", &job).map(|ghost| (ghost.telemetry, ghost.words));
+        let found =
+            || recorded_ghost(sessions.path(), "anna", &job, Language::English).map(|ghost| (ghost.telemetry, ghost.words));
         let at = |k: usize| sessions.path().join(k.to_string()).join(TELEMETRY);
         let level = job.difficulty.as_ref().unwrap().level;
         for (k, trainee, scenario, of_level, result) in [
@@ -438,7 +466,7 @@ mod tests {
     #[test]
     fn exact_end_page_shows_scores_and_file_locations() {
         let folder = tempfile::tempdir().unwrap();
-        let none = flight_summary(folder.path(), None, None);
+        let none = flight_summary(folder.path(), None, None, Language::English);
         assert!(none.overall.is_none() && none.report.is_none() && none.why.contains("not scored"), "{none:?}");
         assert!(none.questionnaire.starts_with("spandrel questionnaire "), "{none:?}");
         let text = r#"{"scores": {"conformity": {"raw": 62.0, "pct": 81.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
@@ -446,11 +474,27 @@ mod tests {
             "end": {"reason": "landed", "seconds": 750.9}}"#;
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
         std::fs::write(folder.path().join(REPORT), "page").unwrap();
-        let ended = flight_summary(folder.path(), Some("http://127.0.0.1:9"), None);
+        let ended = flight_summary(folder.path(), Some("http://127.0.0.1:9"), None, Language::English);
         assert_eq!(ended.why, "landed after 12 min 30 s of flight");
         assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
         assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));
         assert!(ended.questionnaire.starts_with("http://127.0.0.1:9/sessions/") && ended.questionnaire.ends_with("/questions"));
+    }
+
+    #[test]
+    fn exact_offers_and_results_are_in_the_language_of_the_window() {
+        let folder = tempfile::tempdir().unwrap();
+        let offers = |language| flight_options(&folder.path().join("none-yet"), &choice(), None, language);
+        let kind = |language| {
+            let offers = offers(language);
+            offers.scenarios.into_iter().find(|job| job.name == "drill-hover").map(|job| job.kind).unwrap_or_default()
+        };
+        assert!(kind(Language::German).starts_with("1 Aufgabe") && kind(Language::Spanish).starts_with("1 tarea"));
+        let text = r#"{"end": {"reason": "landed", "seconds": 750.9}}"#;
+        std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
+        let why = |language| flight_summary(folder.path(), None, None, language).why;
+        assert_eq!(why(Language::German), "gelandet nach 12 min 30 s Flug");
+        assert_eq!(why(Language::Spanish), "aterrizó tras 12 min 30 s de vuelo");
     }
 
     #[test]
@@ -462,7 +506,7 @@ mod tests {
             "certification": {"passed": false, "unmet": ["task 1 not attempted", "not landed at home"]},
             "end": {"reason": "abort", "seconds": 23.0}}"#;
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
-        let ended = flight_summary(folder.path(), None, None);
+        let ended = flight_summary(folder.path(), None, None, Language::English);
         assert_eq!((ended.overall, ended.complete), (None, false));
         assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0% of the path"));
         assert_eq!(ended.verdict.as_deref(), Some("Not certified: task 1 not attempted (and 1 more)"));

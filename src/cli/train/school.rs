@@ -3,6 +3,7 @@
 #[cfg(feature = "view")]
 mod classroom;
 
+use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest, ToWindow};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
@@ -12,6 +13,8 @@ use std::thread::JoinHandle;
 pub struct SchoolRoom {
     sessions: PathBuf,
     round: Option<RoundThread>,
+    /// Language of the round.
+    language: Language,
 }
 
 /// Channels to the thread.
@@ -35,13 +38,16 @@ impl Drop for RoundThread {
 impl SchoolRoom {
     /// Creates a school that stores its records in the sessions folder. It starts nothing.
     pub fn new(sessions: &Path) -> Self {
-        Self { sessions: sessions.to_path_buf(), round: None }
+        Self { sessions: sessions.to_path_buf(), round: None, language: Language::default() }
     }
 
-    /// Handles a request from the window.
-    pub fn handle(&mut self, request: SchoolRequest) {
+    /// Handles a request from the window. A round has the language in which it begins.
+    pub fn handle(&mut self, request: SchoolRequest, language: Language) {
         match request {
-            SchoolRequest::Begin(trainee) => self.round = Some(RoundThread::start(self.sessions.clone(), trainee)),
+            SchoolRequest::Begin(trainee) => {
+                self.language = language;
+                self.round = Some(RoundThread::start(self.sessions.clone(), trainee, language));
+            }
             SchoolRequest::Leave => self.round = None,
             SchoolRequest::Answer(_) | SchoolRequest::Continue => {
                 if let Some(requests) = self.round.as_ref().and_then(|round| round.requests.as_ref()) {
@@ -58,7 +64,7 @@ impl SchoolRoom {
             Ok(Ok(page)) => return Some(ToWindow::School(page)),
             Err(TryRecvError::Empty) => return None,
             Ok(Err(words)) => words,
-            Err(TryRecvError::Disconnected) => "the defect school has failed (see the message in the terminal)".to_owned(),
+            Err(TryRecvError::Disconnected) => text!(self.language, "window-school-failed"),
         };
         self.round = None;
         Some(ToWindow::Refused { words: message })
@@ -66,11 +72,11 @@ impl SchoolRoom {
 }
 
 impl RoundThread {
-    fn start(sessions: PathBuf, trainee: String) -> Self {
+    fn start(sessions: PathBuf, trainee: String, language: Language) -> Self {
         let (request_sender, requests) = channel();
         let (page_sender, pages) = channel();
         let thread = std::thread::spawn(move || {
-            if let Err(error) = teach(&sessions, &trainee, &requests, &page_sender) {
+            if let Err(error) = teach((&sessions, &trainee, language), &requests, &page_sender) {
                 tracing::warn!("defect school: {error}");
                 // The user may have left the school.
                 let _ = page_sender.send(Err(error));
@@ -82,16 +88,15 @@ impl RoundThread {
 
 /// Runs a round until it is over or the user leaves.
 fn teach(
-    sessions: &Path,
-    trainee: &str,
+    (sessions, trainee, language): (&Path, &str, Language),
     requests: &Receiver<SchoolRequest>,
     pages: &Sender<Result<SchoolPage, String>>,
 ) -> Result<(), String> {
     #[cfg(feature = "view")]
-    return classroom::run(sessions, trainee, requests, pages).map_err(|error| error.to_string());
+    return classroom::run((sessions, trainee, language), requests, pages).map_err(|error| error.to_string());
     #[cfg(not(feature = "view"))]
     {
         let _ = (sessions, trainee, requests, pages);
-        Err("this program was built without the window".to_owned())
+        Err(text!(language, "window-train-no-window"))
     }
 }

@@ -19,6 +19,7 @@ use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
+use spandrel_text::Language;
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, ToWindow};
 use std::net::SocketAddr;
 use std::path::Path;
@@ -44,6 +45,8 @@ pub struct TrainRun<'a> {
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
+    /// Language of the offers in the window.
+    offered_language: Option<Language>,
     pictures: PictureJobs,
     /// Processes of the last flight. Its vehicle stays connected until the next flight or the end of the run, so ground
     /// stations can download its logs.
@@ -74,6 +77,7 @@ impl<'a> TrainRun<'a> {
             closed: false,
             web: None,
             web_announced: false,
+            offered_language: None,
             pictures: PictureJobs::default(),
             vehicle: None,
             prompt: TerminalPrompt::default(),
@@ -166,6 +170,11 @@ impl<'a> TrainRun<'a> {
         self.web_announced && self.is_open()
     }
 
+    /// Returns the language of the texts for the window.
+    fn language(&self) -> Language {
+        self.window.as_ref().map_or(Language::default(), |window| window.language)
+    }
+
     fn send_to_window(&mut self, message: &ToWindow) {
         if let Some(window) = &mut self.window {
             window.send(message);
@@ -209,9 +218,11 @@ impl<'a> TrainRun<'a> {
 
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
-        let mut offers = offers::flight_options(&self.args.sessions, choice, web.as_deref());
+        let language = self.language();
+        let mut offers = offers::flight_options(&self.args.sessions, choice, web.as_deref(), language);
         assigned::put_first(&mut offers.trainees, &self.args.sessions);
         self.web_announced = true;
+        self.offered_language = Some(language);
         self.send_to_window(&ToWindow::Offers(offers));
     }
 
@@ -219,22 +230,27 @@ impl<'a> TrainRun<'a> {
     fn next_choice(&mut self, last: &FlightChoice) -> NextFlight {
         while let Some(window) = &mut self.window {
             while let Some(said) = window.receive() {
+                let language = window.language;
                 match said {
                     FromWindow::Again => return NextFlight::Fly(last.clone()),
                     FromWindow::Quit => return NextFlight::Leave,
-                    FromWindow::School(request) => self.school.handle(request),
+                    FromWindow::School(request) => self.school.handle(request, language),
                     FromWindow::Chosen(choice) => match validate_choice(&choice) {
                         Ok(()) => return NextFlight::Fly(choice),
                         Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
                     },
                     // Ignore late messages about a flight that has just ended.
                     FromWindow::Ready
+                    | FromWindow::Language { .. }
                     | FromWindow::Showing
                     | FromWindow::Pause
                     | FromWindow::Resume
                     | FromWindow::Restart
                     | FromWindow::End => {}
                 }
+            }
+            if self.offered_language.is_some_and(|offered| offered != self.language()) {
+                self.offer(last);
             }
             while let Some(message) = self.school.poll() {
                 self.send_to_window(&message);
@@ -285,10 +301,7 @@ impl<'a> TrainRun<'a> {
         }
         println!("{}", self.prompt.help_text());
         if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
-            println!(
-                "questionnaire {}",
-                offers::flight_summary(vehicle.session(), Some(web.server.address()), None).questionnaire
-            );
+            println!("questionnaire {}", offers::questionnaire(vehicle.session(), Some(web.server.address())));
         }
         while self.vehicle.is_some() && !self.stop.is_requested() {
             if let Some(choice) = self.ordered_flight() {
@@ -324,7 +337,7 @@ impl<'a> TrainRun<'a> {
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
             self.end_vehicle();
-            let mut flight = FlightProcesses::start(self.args, choice, self.log)?;
+            let mut flight = FlightProcesses::start(self.args, choice, self.log, self.language())?;
             self.serve(flight.port("payload_port"));
             if let Some(flying) = flight.started_message(self.args) {
                 self.send_to_window(&flying);
@@ -370,9 +383,10 @@ impl<'a> TrainRun<'a> {
         }
         if open {
             self.offer(choice);
+            let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());
             let trouble = result.as_ref().err().map(ToString::to_string);
-            let mut ended = offers::flight_summary(session, web, trouble);
+            let mut ended = offers::flight_summary(session, web, trouble, language);
             if choice.by == FlownBy::Expert {
                 ended = offers::watched(ended, &choice.scenario);
             }
@@ -417,7 +431,7 @@ impl<'a> TrainRun<'a> {
     /// questionnaire after the flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
-        let address = offers::flight_summary(session, Some(web.server.address()), None).questionnaire;
+        let address = offers::questionnaire(session, Some(web.server.address()));
         println!("questionnaire {address}   (available until you press Enter)");
         // Enter only stops the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {

@@ -5,6 +5,8 @@ use crate::io::addresses::PortChoice;
 use crate::io::children::{Child, software_renderer_threads};
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
+use crate::io::user_settings::SettingsFile;
+use spandrel_text::Language;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
 
@@ -21,6 +23,8 @@ pub struct WindowProcess {
     pub ready: bool,
     /// True if the user closed the window; false if it crashed.
     pub closed: bool,
+    /// Language of the texts that the window shows.
+    pub language: Language,
     is_flying: bool,
     bad_line_reported: bool,
 }
@@ -41,7 +45,15 @@ impl WindowProcess {
     }
 
     fn from_child(child: Child) -> Self {
-        Self { child, has_exited: false, ready: false, closed: false, is_flying: false, bad_line_reported: false }
+        Self {
+            child,
+            has_exited: false,
+            ready: false,
+            closed: false,
+            language: user_language(),
+            is_flying: false,
+            bad_line_reported: false,
+        }
     }
 
     /// Waits until the window is shown. Returns false if it fails or a stop is requested.
@@ -80,6 +92,9 @@ impl WindowProcess {
             match pipe::read(&line) {
                 Ok(message) => {
                     self.ready |= message == FromWindow::Ready;
+                    if let FromWindow::Language { tag } = &message {
+                        self.language = Language::from_tag(tag).unwrap_or(self.language);
+                    }
                     return Some(message);
                 }
                 Err(error) if !self.bad_line_reported => {
@@ -108,6 +123,11 @@ impl WindowProcess {
         self.has_exited = true;
         self.child.finish();
     }
+}
+
+/// Returns the language from the user's settings, which the window uses as well. Invalid settings are reported by the window.
+fn user_language() -> Language {
+    SettingsFile::of_user().load().map(|settings| settings.style.language).unwrap_or_default()
 }
 
 /// Returns the command-line arguments for the window process.

@@ -82,7 +82,7 @@ mod tests {
 
     fn profile(device: &Device) -> ControllerProfile {
         let axis = |axis| AxisCalibration { axis, low: -1.0, centre: 0.0, high: 1.0, dead_band: 0.05, expo: 0.3 };
-        let ways = STICK_AXES.iter().zip(0..).map(|((_, way, _), n)| (*way, axis(n))).collect();
+        let ways = STICK_AXES.iter().zip(0..).map(|((_, way), n)| (*way, axis(n))).collect();
         ControllerProfile { device: device.clone(), mode: StickMode::Four, axes: ways, buttons: [].into() }
     }
 

@@ -1,5 +1,7 @@
 //! Actions of buttons and keys.
 
+use spandrel_text::{Language, text};
+
 /// A controller action other than a stick movement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ControllerAction {
@@ -63,19 +65,45 @@ impl ControllerAction {
 
     /// Returns what the action does, for display.
     #[must_use]
-    pub fn title(self) -> String {
+    pub fn title(self, language: Language) -> String {
         match self {
-            Self::Snapshot => "photograph".to_owned(),
-            Self::Freeze => "freeze or continue".to_owned(),
-            Self::Rewind => "rewind 10 s".to_owned(),
-            Self::Return => "fly home and land".to_owned(),
-            Self::Hold => "hold the position".to_owned(),
-            Self::Position => "position mode".to_owned(),
-            Self::GimbalUp => "tilt the camera up".to_owned(),
-            Self::GimbalDown => "tilt the camera down".to_owned(),
-            Self::CameraZoomIn => "zoom the camera in".to_owned(),
-            Self::CameraZoomOut => "zoom the camera out".to_owned(),
-            Self::Lamp | Self::Arm | Self::Disarm | Self::TakeOff | Self::Land => self.name().replace('_', " "),
+            Self::Lamp => text!(language, "keys-lamp"),
+            Self::Snapshot => text!(language, "keys-snapshot"),
+            Self::Arm => text!(language, "keys-arm"),
+            Self::Disarm => text!(language, "keys-disarm"),
+            Self::TakeOff => text!(language, "keys-take-off"),
+            Self::Land => text!(language, "keys-land"),
+            Self::Return => text!(language, "keys-return"),
+            Self::Hold => text!(language, "keys-hold"),
+            Self::Position => text!(language, "keys-position"),
+            Self::GimbalUp => text!(language, "keys-gimbal-up"),
+            Self::GimbalDown => text!(language, "keys-gimbal-down"),
+            Self::CameraZoomIn => text!(language, "keys-camera-zoom-in"),
+            Self::CameraZoomOut => text!(language, "keys-camera-zoom-out"),
+            Self::Freeze => text!(language, "keys-freeze"),
+            Self::Rewind => text!(language, "keys-rewind"),
+        }
+    }
+
+    /// Returns the same in fewer words.
+    #[must_use]
+    pub fn short_title(self, language: Language) -> String {
+        match self {
+            Self::Lamp => text!(language, "keys-short-lamp"),
+            Self::Snapshot => text!(language, "keys-short-snapshot"),
+            Self::Arm => text!(language, "keys-short-arm"),
+            Self::Disarm => text!(language, "keys-short-disarm"),
+            Self::TakeOff => text!(language, "keys-short-take-off"),
+            Self::Land => text!(language, "keys-short-land"),
+            Self::Return => text!(language, "keys-short-return"),
+            Self::Hold => text!(language, "keys-short-hold"),
+            Self::Position => text!(language, "keys-short-position"),
+            Self::GimbalUp => text!(language, "keys-short-gimbal-up"),
+            Self::GimbalDown => text!(language, "keys-short-gimbal-down"),
+            Self::CameraZoomIn => text!(language, "keys-short-camera-zoom-in"),
+            Self::CameraZoomOut => text!(language, "keys-short-camera-zoom-out"),
+            Self::Freeze => text!(language, "keys-short-freeze"),
+            Self::Rewind => text!(language, "keys-short-rewind"),
         }
     }
 

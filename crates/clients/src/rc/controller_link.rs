@@ -12,6 +12,7 @@ use spandrel_mavlink::dialect::{
 };
 use spandrel_mavlink::station;
 use spandrel_model::time::SimTime;
+use spandrel_text::{Language, text};
 use std::collections::VecDeque;
 
 /// System ID of a second ground station, next to QGroundControl's 255.
@@ -34,7 +35,6 @@ const MAX_TRANSMISSIONS: u8 = 5;
 const REQUESTED_STREAMS: [(u32, f32); 2] = [(440, 5.0), (285, 5.0)];
 /// Retry interval for missing streams, s, in case an acknowledgment was lost or the vehicle restarted (estimate).
 const STREAM_RETRY_S: f64 = 5.0;
-const STREAM_REQUEST_NAME: &str = "lamp and gimbal telemetry";
 /// ZOOM_TYPE_STEP of CAMERA_ZOOM_TYPE: each press zooms the camera by one step.
 const ZOOM_STEP: f32 = 0.0;
 /// Gimbal step per button press, degrees.
@@ -63,7 +63,8 @@ pub struct LastReported {
 
 #[derive(Debug, Clone, PartialEq)]
 struct PendingCommand {
-    description: &'static str,
+    /// The user's action; `None` for a request of streams.
+    action: Option<ControllerAction>,
     command: COMMAND_LONG_DATA,
     sent: u8,
     next: SimTime,
@@ -90,7 +91,9 @@ pub struct ControllerLink {
     /// Whether the result of the stream requests has been reported.
     streams_reported: bool,
     pictures: u16,
-    arm_hint: String,
+    /// Name of the key that arms the motors.
+    arm_key: Option<String>,
+    language: Language,
 }
 
 impl Default for ControllerLink {
@@ -111,7 +114,8 @@ impl Default for ControllerLink {
             aim: None,
             streams_reported: false,
             pictures: 0,
-            arm_hint: String::new(),
+            arm_key: None,
+            language: Language::default(),
         }
     }
 }
@@ -183,12 +187,12 @@ impl ControllerLink {
                 // Updates the state immediately, because the next heartbeat may be a second away.
                 self.vehicle.armed = done.command.param1 == 1.0;
             }
-            let known = done.description == STREAM_REQUEST_NAME && std::mem::replace(&mut self.streams_reported, true);
+            let known = done.action.is_none() && std::mem::replace(&mut self.streams_reported, true);
             if result != MavResult::MAV_RESULT_ACCEPTED && !known {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
                     self.aim = None;
                 }
-                self.push_message(done.description, rejection_text(command, result));
+                self.push_message(done.action, rejection_text(command, result, self.language));
             }
         }
     }
@@ -196,27 +200,35 @@ impl ControllerLink {
     /// Requests an action from the vehicle. Queues a message if no vehicle is connected.
     pub fn request_action(&mut self, action: ControllerAction, now: SimTime) {
         let Some(system) = self.vehicle.system else {
-            return self.push_message(action.name(), "no vehicle connected");
+            return self.push_message(Some(action), text!(self.language, "keys-message-no-vehicle"));
         };
         if action == ControllerAction::TakeOff && !self.vehicle.armed && !self.is_arming() {
-            self.messages.push_back(format!("Arm the motors first{}", self.arm_hint));
+            self.messages.push_back(match &self.arm_key {
+                Some(key) => text!(self.language, "keys-message-arm-first-key", key = key.as_str()),
+                None => text!(self.language, "keys-message-arm-first"),
+            });
             return;
         }
         let (component, command, params) = self.command_for(action, now);
         let command = station::command(system, component, command, params);
         // A newer command of the same kind replaces the older one.
         self.pending.retain(|p| p.command.command != command.command);
-        self.pending.push(PendingCommand { description: action.name(), command, sent: 0, next: now });
+        self.pending.push(PendingCommand { action: Some(action), command, sent: 0, next: now });
     }
 
     /// Checks whether an arm command is awaiting acknowledgment.
     fn is_arming(&self) -> bool {
-        self.pending.iter().any(|p| p.description == ControllerAction::Arm.name())
+        self.pending.iter().any(|p| p.action == Some(ControllerAction::Arm))
     }
 
     /// Sets the name of the arm key for the hint that appears when the user requests takeoff while disarmed.
     pub fn set_arm_key(&mut self, key: &str) {
-        self.arm_hint = format!(" (key {key})");
+        self.arm_key = Some(key.to_owned());
+    }
+
+    /// Sets the language of the messages to the user.
+    pub fn set_language(&mut self, language: Language) {
+        self.language = language;
     }
 
     /// Requests the streams that button actions depend on when a vehicle connects, and again whenever they stop.
@@ -231,7 +243,7 @@ impl ControllerLink {
             let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
             let command = station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
             self.pending.retain(|p| p.command != command);
-            self.pending.push(PendingCommand { description: STREAM_REQUEST_NAME, command, sent: 0, next: now });
+            self.pending.push(PendingCommand { action: None, command, sent: 0, next: now });
         }
     }
 
@@ -325,8 +337,8 @@ impl ControllerLink {
             }
             if p.sent == MAX_TRANSMISSIONS {
                 // Stream requests are repeated anyway, and a vehicle that has responded before may simply be paused.
-                if p.description != STREAM_REQUEST_NAME || !std::mem::replace(&mut self.streams_reported, true) {
-                    self.push_message(p.description, "no response from vehicle");
+                if p.action.is_some() || !std::mem::replace(&mut self.streams_reported, true) {
+                    self.push_message(p.action, text!(self.language, "keys-message-no-response"));
                 }
                 return false;
             }
@@ -339,8 +351,10 @@ impl ControllerLink {
         self.pending = pending;
     }
 
-    fn push_message(&mut self, what: &str, words: &str) {
-        self.messages.push_back(format!("{}: {words}", what.replace('_', " ")));
+    fn push_message(&mut self, action: Option<ControllerAction>, result: String) {
+        let language = self.language;
+        let action = action.map_or_else(|| text!(language, "keys-message-telemetry"), |action| action.short_title(language));
+        self.messages.push_back(text!(language, "keys-message", action = action, result = result));
     }
 
     fn send(&mut self, message: &MavMessage) {
@@ -365,14 +379,14 @@ fn practice(request: PracticeRequest) -> (u8, MavCmd, [f32; 7]) {
     (AUTOPILOT_COMPONENT, command, params)
 }
 
-fn rejection_text(command: MavCmd, result: MavResult) -> &'static str {
+fn rejection_text(command: MavCmd, result: MavResult, language: Language) -> String {
     match (command, result) {
-        (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => "temporarily rejected",
-        (_, MavResult::MAV_RESULT_DENIED) => "denied",
-        (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED) => "this camera cannot zoom",
-        (_, MavResult::MAV_RESULT_UNSUPPORTED) => "not supported by this vehicle",
-        (_, MavResult::MAV_RESULT_CANCELLED) => "canceled",
-        _ => "failed",
+        (_, MavResult::MAV_RESULT_TEMPORARILY_REJECTED) => text!(language, "keys-message-temporarily-rejected"),
+        (_, MavResult::MAV_RESULT_DENIED) => text!(language, "keys-message-denied"),
+        (MavCmd::MAV_CMD_SET_CAMERA_ZOOM, MavResult::MAV_RESULT_UNSUPPORTED) => text!(language, "keys-message-no-zoom"),
+        (_, MavResult::MAV_RESULT_UNSUPPORTED) => text!(language, "keys-message-unsupported"),
+        (_, MavResult::MAV_RESULT_CANCELLED) => text!(language, "keys-message-canceled"),
+        _ => text!(language, "keys-message-failed"),
     }
 }
 

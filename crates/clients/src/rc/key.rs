@@ -1,5 +1,7 @@
 //! Key names for configuration files and for display.
 
+use spandrel_text::{Language, text};
+
 /// Names of non-character keys in configuration files.
 pub const SPECIAL_KEYS: [&str; 11] =
     ["up", "down", "left", "right", "space", "enter", "pageup", "pagedown", "tab", "escape", "backspace"];
@@ -16,17 +18,25 @@ pub fn is_valid_key(name: &str) -> bool {
 
 /// Returns the allowed key names, for error messages.
 #[must_use]
-pub fn allowed() -> String {
-    format!("one character, or {}", SPECIAL_KEYS.join(", "))
+pub fn allowed(language: Language) -> String {
+    text!(language, "keys-allowed", names = SPECIAL_KEYS.join(", "))
 }
 
 /// Returns the display name of a key.
 #[must_use]
-pub fn label(name: &str) -> String {
+pub fn label(name: &str, language: Language) -> String {
     match name {
-        "escape" => "Esc".to_owned(),
-        "pageup" => "Page up".to_owned(),
-        "pagedown" => "Page down".to_owned(),
+        "escape" => text!(language, "keys-key-escape"),
+        "pageup" => text!(language, "keys-key-page-up"),
+        "pagedown" => text!(language, "keys-key-page-down"),
+        "up" => text!(language, "keys-key-up"),
+        "down" => text!(language, "keys-key-down"),
+        "left" => text!(language, "keys-key-left"),
+        "right" => text!(language, "keys-key-right"),
+        "space" => text!(language, "keys-key-space"),
+        "enter" => text!(language, "keys-key-enter"),
+        "tab" => text!(language, "keys-key-tab"),
+        "backspace" => text!(language, "keys-key-backspace"),
         name => capitalized(name),
     }
 }
@@ -54,12 +64,14 @@ mod tests {
         for name in ["", " ", "\n", "\u{7}", "A", "f5", "shift", "Up", "ab", "page up", "esc"] {
             assert!(!is_valid_key(name), "{name:?}");
         }
-        assert!(allowed().contains("one character") && allowed().ends_with("backspace"));
+        let allowed = allowed(Language::English);
+        assert!(allowed.contains("one character") && allowed.ends_with("backspace"));
     }
 
     #[test]
     fn exact_key_labels_differ_from_key_names() {
-        let called = ["escape", "pageup", "pagedown", "up", "space", "backspace", "w", "ü", "ß", "[", "7", ""].map(label);
+        let called = ["escape", "pageup", "pagedown", "up", "space", "backspace", "w", "ü", "ß", "[", "7", ""];
+        let called = called.map(|name| label(name, Language::English));
         assert_eq!(called, ["Esc", "Page up", "Page down", "Up", "Space", "Backspace", "W", "Ü", "ß", "[", "7", ""]);
     }
 }

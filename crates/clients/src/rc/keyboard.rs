@@ -3,6 +3,7 @@
 use super::{ControllerAction, Sticks, key};
 use spandrel_model::time::SimTime;
 use spandrel_model::toml::{Problems, Reader, Section};
+use spandrel_text::{Language, text};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -38,16 +39,30 @@ pub enum StickDirection {
 
 impl StickDirection {
     /// Returns what the direction does, for display.
-    const fn title(self) -> &'static str {
+    fn title(self, language: Language) -> String {
         match self {
-            Self::Forward => "fly forward",
-            Self::Back => "fly back",
-            Self::Left => "fly left",
-            Self::Right => "fly right",
-            Self::Up => "climb",
-            Self::Down => "descend",
-            Self::TurnLeft => "turn left",
-            Self::TurnRight => "turn right",
+            Self::Forward => text!(language, "keys-forward"),
+            Self::Back => text!(language, "keys-back"),
+            Self::Left => text!(language, "keys-left"),
+            Self::Right => text!(language, "keys-right"),
+            Self::Up => text!(language, "keys-up"),
+            Self::Down => text!(language, "keys-down"),
+            Self::TurnLeft => text!(language, "keys-turn-left"),
+            Self::TurnRight => text!(language, "keys-turn-right"),
+        }
+    }
+
+    /// Returns the same in fewer words.
+    fn short_title(self, language: Language) -> String {
+        match self {
+            Self::Forward => text!(language, "keys-short-forward"),
+            Self::Back => text!(language, "keys-short-back"),
+            Self::Left => text!(language, "keys-short-left"),
+            Self::Right => text!(language, "keys-short-right"),
+            Self::Up => text!(language, "keys-short-up"),
+            Self::Down => text!(language, "keys-short-down"),
+            Self::TurnLeft => text!(language, "keys-short-turn-left"),
+            Self::TurnRight => text!(language, "keys-short-turn-right"),
         }
     }
 }
@@ -116,22 +131,22 @@ pub enum WindowAction {
 
 impl WindowAction {
     /// Returns what the action does, for display.
-    const fn title(self) -> &'static str {
+    fn title(self, language: Language) -> String {
         match self {
-            Self::Swap => "change the layout",
-            Self::Map => "map on or off",
-            Self::Path => "path on or off",
-            Self::Ghost => "ghost on or off",
-            Self::Follow => "follow the drone",
-            Self::LookLeft => "look left",
-            Self::LookRight => "look right",
-            Self::LookUp => "look up",
-            Self::LookDown => "look down",
-            Self::ZoomIn => "zoom your view in",
-            Self::ZoomOut => "zoom your view out",
-            Self::Pause => "pause",
-            Self::Restart => "restart",
-            Self::Sound => "sound on or off",
+            Self::Swap => text!(language, "keys-swap"),
+            Self::Map => text!(language, "keys-map"),
+            Self::Path => text!(language, "keys-path"),
+            Self::Ghost => text!(language, "keys-ghost"),
+            Self::Follow => text!(language, "keys-follow"),
+            Self::LookLeft => text!(language, "keys-look-left"),
+            Self::LookRight => text!(language, "keys-look-right"),
+            Self::LookUp => text!(language, "keys-look-up"),
+            Self::LookDown => text!(language, "keys-look-down"),
+            Self::ZoomIn => text!(language, "keys-zoom-in"),
+            Self::ZoomOut => text!(language, "keys-zoom-out"),
+            Self::Pause => text!(language, "keys-pause"),
+            Self::Restart => text!(language, "keys-restart"),
+            Self::Sound => text!(language, "keys-sound"),
         }
     }
 }
@@ -311,10 +326,10 @@ impl KeyBindings {
     }
 
     /// Returns every binding in the order of display: its name in configuration files, and what it does.
-    pub fn functions() -> impl Iterator<Item = (&'static str, String)> {
-        let sticks = STICK_BINDINGS.into_iter().map(|(name, push, _)| (name, push.title().to_owned()));
-        let actions = ACTION_BINDINGS.into_iter().map(|(action, _)| (action.name(), action.title()));
-        let wishes = WINDOW_BINDINGS.into_iter().map(|(name, wish, _)| (name, wish.title().to_owned()));
+    pub fn functions(language: Language) -> impl Iterator<Item = (&'static str, String)> {
+        let sticks = STICK_BINDINGS.into_iter().map(move |(name, push, _)| (name, push.title(language)));
+        let actions = ACTION_BINDINGS.into_iter().map(move |(action, _)| (action.name(), action.title(language)));
+        let wishes = WINDOW_BINDINGS.into_iter().map(move |(name, wish, _)| (name, wish.title(language)));
         sticks.chain(actions).chain(wishes)
     }
 
@@ -340,14 +355,14 @@ impl KeyBindings {
     /// Returns the display name of the key for a stick direction, vehicle action, or window action, given by its name
     /// in configuration files; empty if the name is unknown.
     #[must_use]
-    pub fn label(&self, name: &str) -> String {
-        self.of(name).map_or(String::new(), key::label)
+    pub fn label(&self, name: &str, language: Language) -> String {
+        self.of(name).map_or(String::new(), |key| key::label(key, language))
     }
 
     /// Returns the display name of every bound key, by the binding's name in configuration files.
     #[must_use]
-    pub fn labels(&self) -> BTreeMap<&'static str, String> {
-        every_name().map(|name| (name, self.label(name))).collect()
+    pub fn labels(&self, language: Language) -> BTreeMap<&'static str, String> {
+        every_name().map(|name| (name, self.label(name, language))).collect()
     }
 
     /// Returns the key for a stick direction, vehicle action, or window action, given by its name in configuration
@@ -362,7 +377,15 @@ impl KeyBindings {
         pushes.chain(wishes).chain(actions).next().map(String::as_str)
     }
 
-    /// Returns the bindings of sticks and vehicle actions as text, one per line.
+    /// Returns the display name of the key of each stick direction and vehicle action, with what it does in a few words.
+    #[must_use]
+    pub fn help(&self, language: Language) -> Vec<(String, String)> {
+        let pushes = self.stick_keys.iter().map(|(key, push)| (key::label(key, language), push.short_title(language)));
+        let actions = self.actions.iter().map(|(key, action)| (key::label(key, language), action.short_title(language)));
+        pushes.chain(actions).collect()
+    }
+
+    /// Returns the bindings of sticks and vehicle actions as text for a terminal, one per line.
     #[must_use]
     pub fn help_text(&self) -> String {
         let pushes = self
@@ -376,7 +399,10 @@ impl KeyBindings {
 
 /// Returns the name of every binding in configuration files.
 fn every_name() -> impl Iterator<Item = &'static str> {
-    KeyBindings::functions().map(|(name, _)| name)
+    let sticks = STICK_BINDINGS.into_iter().map(|(name, ..)| name);
+    let actions = ACTION_BINDINGS.into_iter().map(|(action, _)| action.name());
+    let wishes = WINDOW_BINDINGS.into_iter().map(|(name, ..)| name);
+    sticks.chain(actions).chain(wishes)
 }
 
 /// Exchanges what two keys do.
@@ -427,7 +453,7 @@ fn read_binding(
     }
     let key = r.text(s, name, Some(usual)).to_lowercase();
     if !key::is_valid_key(&key) {
-        r.add_problem(s, name, &key, &key::allowed(), "unknown key");
+        r.add_problem(s, name, &key, &key::allowed(Language::English), "unknown key");
     } else if let Some(before) = bound_keys.insert(key.clone(), name) {
         r.add_problem(s, name, &key, "an unused key", &format!("already bound to {before}"));
     }
@@ -507,9 +533,10 @@ mod tests {
     #[test]
     fn regress_key_files_of_earlier_versions_stay_valid() {
         let keys = KeyBindings::read("keys.toml", "format = 1\n[actions]\nlamp = \"x\"\n[window]\nmap = \"g\"\n").unwrap();
-        assert_eq!((keys.label("lamp").as_str(), keys.label("map").as_str()), ("X", "G"));
-        let functions: std::collections::BTreeSet<String> = KeyBindings::functions().map(|(name, _)| keys.label(name)).collect();
-        assert_eq!(functions.len(), KeyBindings::functions().count(), "every function has a key of its own");
+        assert_eq!((keys.label("lamp", Language::English).as_str(), keys.label("map", Language::English).as_str()), ("X", "G"));
+        let functions: std::collections::BTreeSet<String> =
+            KeyBindings::functions(Language::English).map(|(name, _)| keys.label(name, Language::English)).collect();
+        assert_eq!(functions.len(), KeyBindings::functions(Language::English).count(), "every function has a key of its own");
         let both = "format = 1\n[actions]\nlamp = \"x\"\nfreeze = \"x\"\n";
         assert!(KeyBindings::read("keys.toml", both).is_err(), "a conflict in the file is an error");
     }
@@ -593,11 +620,11 @@ mod tests {
     #[test]
     fn exact_every_binding_has_a_readable_key_label() {
         let (usual, every) = (KeyBindings::default(), STICK_BINDINGS.len() + ACTION_BINDINGS.len() + WINDOW_BINDINGS.len());
-        let labels = usual.labels();
+        let labels = usual.labels(Language::English);
         let keys: std::collections::BTreeSet<&str> = labels.keys().filter_map(|name| usual.of(name)).collect();
         assert_eq!((labels.len(), keys.len()), (every, every), "each binding must have its own key");
         assert!(keys.into_iter().all(key::is_valid_key));
-        let label = |name: &str| usual.label(name);
+        let label = |name: &str| usual.label(name, Language::English);
         assert_eq!([label("pause"), label("forward"), label("lamp"), label("camera_zoom_in")], ["Esc", "Up", "B", "]"]);
         assert_eq!(label("fly"), "");
         assert!(usual.is_stick("W") && usual.is_stick("up") && !usual.is_stick("b") && !usual.is_stick("tab"));
@@ -641,8 +668,26 @@ mod tests {
 
     #[test]
     fn exact_every_function_has_a_title_of_its_own() {
-        let titles: std::collections::BTreeSet<String> = KeyBindings::functions().map(|(_, title)| title).collect();
-        assert_eq!(titles.len(), every_name().count());
-        assert!(titles.iter().all(|title| !title.is_empty() && !title.contains('_')), "{titles:?}");
+        for language in Language::ALL.into_iter().chain([Language::Pseudo]) {
+            let titles: std::collections::BTreeSet<String> = KeyBindings::functions(language).map(|(_, title)| title).collect();
+            assert_eq!(titles.len(), every_name().count(), "{language:?}");
+            assert!(titles.iter().all(|title| !title.is_empty() && !title.contains('_')), "{titles:?}");
+        }
+    }
+
+    #[test]
+    fn exact_functions_and_keys_are_translated() {
+        let keys = KeyBindings::default();
+        let help = keys.help(Language::German);
+        assert!(
+            help.contains(&("Bild auf".into(), "Gimbal hoch".into())) && help.contains(&("W".into(), "hoch".into())),
+            "{help:?}"
+        );
+        assert!(keys.help(Language::English).contains(&("Page up".into(), "gimbal up".into())));
+        assert_eq!(keys.label("restart", Language::Spanish), "Retroceso");
+        let english: Vec<String> = KeyBindings::functions(Language::English).map(|(_, title)| title).collect();
+        for (title, pseudo) in english.iter().zip(KeyBindings::functions(Language::Pseudo)) {
+            assert!(title.len() < pseudo.1.len() && *title != pseudo.1, "{title}: {}", pseudo.1);
+        }
     }
 }

@@ -29,12 +29,12 @@ pub enum StickMotion {
     RightHorizontal,
 }
 
-/// All four axes, with their names in configuration files and in prompts.
-pub const STICK_AXES: [(&str, StickMotion, &str); 4] = [
-    ("left_vertical", StickMotion::LeftVertical, "the LEFT stick fully UP"),
-    ("left_horizontal", StickMotion::LeftHorizontal, "the LEFT stick fully to the RIGHT"),
-    ("right_vertical", StickMotion::RightVertical, "the RIGHT stick fully UP"),
-    ("right_horizontal", StickMotion::RightHorizontal, "the RIGHT stick fully to the RIGHT"),
+/// All four axes, with their names in configuration files.
+pub const STICK_AXES: [(&str, StickMotion); 4] = [
+    ("left_vertical", StickMotion::LeftVertical),
+    ("left_horizontal", StickMotion::LeftHorizontal),
+    ("right_vertical", StickMotion::RightVertical),
+    ("right_horizontal", StickMotion::RightHorizontal),
 ];
 
 /// Stick mode, numbered as on RC transmitters.
@@ -84,7 +84,7 @@ impl StickMode {
     /// Maps the positions of the physical sticks to stick inputs. Every mode is a permutation.
     #[must_use]
     pub fn sticks(self, read: impl Fn(StickMotion) -> f64) -> Sticks {
-        let [lv, lh, rv, rh] = STICK_AXES.map(|(_, way, _)| read(way));
+        let [lv, lh, rv, rh] = STICK_AXES.map(|(_, way)| read(way));
         match self {
             Self::One => Sticks { forward: lv, yaw: lh, up: rv, right: rh },
             Self::Two => Sticks { up: lv, yaw: lh, forward: rv, right: rh },
@@ -126,7 +126,7 @@ impl ControllerProfile {
             quoted(&self.device.id),
             self.mode.number(),
         );
-        for (name, way, _) in STICK_AXES {
+        for (name, way) in STICK_AXES {
             if let Some(a) = self.axes.get(&way) {
                 let _ = write!(
                     text,
@@ -173,11 +173,11 @@ fn read_profile(r: &mut Reader, root: &mut Section) -> ControllerProfile {
     let device = Device { name: r.text(root, "device", None), id: r.text(root, "id", None) };
     let mode = StickMode::from_number(r.integer(root, "stick_mode", (1, 4), Some(2))).unwrap_or(StickMode::Two);
     let mut ways: BTreeMap<StickMotion, AxisCalibration> = BTreeMap::new();
-    for (name, way, _) in STICK_AXES {
+    for (name, way) in STICK_AXES {
         let mut section = r.section(root, name);
         let axis = axis(r, &mut section);
         if let Some((other, _)) = ways.iter().find(|(_, known)| known.axis == axis.axis) {
-            let other = STICK_AXES.iter().find(|(_, way, _)| way == other).map_or("", |(name, ..)| name);
+            let other = STICK_AXES.iter().find(|(_, way)| way == other).map_or("", |(name, _)| name);
             r.add_problem(&section, "axis", &axis.axis.to_string(), "an unused axis", &format!("already used by {other}"));
         }
         r.finish(&section);
@@ -233,7 +233,7 @@ mod tests {
             axes: STICK_AXES
                 .iter()
                 .enumerate()
-                .map(|(k, (_, way, _))| (*way, axis(k as u32 + 3, if k == 1 { -1.0 } else { 1.0 })))
+                .map(|(k, (_, way))| (*way, axis(k as u32 + 3, if k == 1 { -1.0 } else { 1.0 })))
                 .collect(),
             buttons: [
                 (0, ControllerAction::Lamp),

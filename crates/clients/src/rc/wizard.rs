@@ -5,6 +5,7 @@ use super::axis::{AxisCalibration, MIN_ENDPOINT_DISTANCE};
 use super::profile::{ControllerProfile, DEFAULT_DEAD_BAND, DEFAULT_EXPO, STICK_AXES, StickMode, StickMotion};
 use super::{ControllerAction, Device, DeviceEvent, RawInput};
 use spandrel_model::time::SimTime;
+use spandrel_text::{Language, text};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Duration of the rest measurement (center and noise), s (estimate).
@@ -53,15 +54,37 @@ enum WizardStep {
 }
 
 /// Actions that the wizard assigns to buttons.
-const BUTTON_ACTIONS: [(ControllerAction, &str); 7] = [
-    (ControllerAction::Lamp, "the lamp"),
-    (ControllerAction::Snapshot, "a snapshot"),
-    (ControllerAction::Arm, "arming"),
-    (ControllerAction::TakeOff, "takeoff"),
-    (ControllerAction::Land, "landing"),
-    (ControllerAction::GimbalUp, "camera up"),
-    (ControllerAction::GimbalDown, "camera down"),
+const BUTTON_ACTIONS: [ControllerAction; 7] = [
+    ControllerAction::Lamp,
+    ControllerAction::Snapshot,
+    ControllerAction::Arm,
+    ControllerAction::TakeOff,
+    ControllerAction::Land,
+    ControllerAction::GimbalUp,
+    ControllerAction::GimbalDown,
 ];
+
+/// A remark about what the user did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum WizardNote {
+    ButtonTaken,
+    Disconnected,
+    FewAxes,
+    PartialRange,
+    AxisTaken,
+}
+
+impl WizardNote {
+    fn words(self, language: Language) -> String {
+        match self {
+            Self::ButtonTaken => text!(language, "keys-wizard-note-button-taken"),
+            Self::Disconnected => text!(language, "keys-wizard-note-disconnected"),
+            Self::FewAxes => text!(language, "keys-wizard-note-few-axes"),
+            Self::PartialRange => text!(language, "keys-wizard-note-range"),
+            Self::AxisTaken => text!(language, "keys-wizard-note-axis-taken"),
+        }
+    }
+}
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisStatistics {
@@ -118,7 +141,7 @@ pub struct CalibrationWizard {
     pushed: Option<(u32, bool)>,
     found: BTreeMap<StickMotion, (u32, bool)>,
     buttons: BTreeMap<u32, ControllerAction>,
-    note: Option<&'static str>,
+    note: Option<WizardNote>,
 }
 
 impl CalibrationWizard {
@@ -143,22 +166,21 @@ impl CalibrationWizard {
 
     /// Returns the current instruction to the user.
     #[must_use]
-    pub fn prompt(&self) -> String {
+    pub fn prompt(&self, language: Language) -> String {
         let asked = match self.step {
-            WizardStep::Release => "Release both sticks (center the throttle if it has no spring), then press Enter.".to_owned(),
-            WizardStep::Rest => "Do not touch the sticks ...".to_owned(),
-            WizardStep::Range => format!(
-                "Move both sticks through their full range, then press Enter. Axes found: {} (at least {} are needed).",
-                self.statistics.values().filter(|seen| is_fully_moved(seen)).count(),
-                STICK_AXES.len()
-            ),
-            WizardStep::Center(_) => "Center the sticks ...".to_owned(),
-            WizardStep::Push(k) => format!("Push {} and hold it there.", STICK_AXES[k].2),
-            WizardStep::Button(k) => format!("Press the button for {}, or Enter to skip.", BUTTON_ACTIONS[k].1),
-            WizardStep::Done => "Done.".to_owned(),
+            WizardStep::Release => text!(language, "keys-wizard-release"),
+            WizardStep::Rest => text!(language, "keys-wizard-rest"),
+            WizardStep::Range => {
+                let found = self.statistics.values().filter(|seen| is_fully_moved(seen)).count();
+                text!(language, "keys-wizard-range", found = found, needed = STICK_AXES.len())
+            }
+            WizardStep::Center(_) => text!(language, "keys-wizard-center"),
+            WizardStep::Push(k) => push_prompt(STICK_AXES[k].1, language),
+            WizardStep::Button(k) => button_prompt(BUTTON_ACTIONS[k], language),
+            WizardStep::Done => text!(language, "keys-wizard-done"),
         };
         match self.note {
-            Some(note) => format!("{note} {asked}"),
+            Some(note) => format!("{} {asked}", note.words(language)),
             None => asked,
         }
     }
@@ -185,14 +207,14 @@ impl CalibrationWizard {
         }
         if let (WizardStep::Button(k), DeviceEvent::Button { button, pressed: true }) = (self.step, event) {
             if let std::collections::btree_map::Entry::Vacant(free) = self.buttons.entry(button) {
-                free.insert(BUTTON_ACTIONS[k].0);
+                free.insert(BUTTON_ACTIONS[k]);
                 self.next_button(k);
             } else {
-                self.note = Some("That button is already assigned.");
+                self.note = Some(WizardNote::ButtonTaken);
             }
         }
         if event == DeviceEvent::Lost {
-            self.note = Some("Device disconnected. Reconnect it.");
+            self.note = Some(WizardNote::Disconnected);
             self.start_step(WizardStep::Release, now);
         }
     }
@@ -218,7 +240,7 @@ impl CalibrationWizard {
         self.fully_moved_axes = self.statistics.iter().filter(|(_, seen)| is_fully_moved(seen)).map(|(axis, _)| *axis).collect();
         self.found.clear();
         if self.fully_moved_axes.len() < STICK_AXES.len() {
-            self.note = Some("Fewer than four axes moved.");
+            self.note = Some(WizardNote::FewAxes);
         } else {
             self.start_step(WizardStep::Center(0), now);
         }
@@ -301,11 +323,11 @@ impl CalibrationWizard {
         }
         let Some((axis, up)) = self.pushed.filter(|_| (now - self.since).s() >= MIN_PUSH_DURATION_S) else { return };
         if !self.fully_moved_axes.contains(&axis) {
-            self.note = Some("You did not move that stick through its full range.");
+            self.note = Some(WizardNote::PartialRange);
             return self.start_step(WizardStep::Range, now);
         }
         if self.is_known(axis) {
-            self.note = Some("That axis is already assigned. Push a different one.");
+            self.note = Some(WizardNote::AxisTaken);
             return self.start_step(WizardStep::Center(k), now);
         }
         self.note = None;
@@ -368,6 +390,36 @@ impl CalibrationWizard {
             .filter_map(|(way, (axis, up))| Some((*way, axis_calibration(*axis, *up, self.statistics.get(axis)?))))
             .collect();
         Some(ControllerProfile { device: self.device.clone(), mode: self.mode, axes: ways, buttons: self.buttons.clone() })
+    }
+}
+
+fn push_prompt(motion: StickMotion, language: Language) -> String {
+    match motion {
+        StickMotion::LeftVertical => text!(language, "keys-wizard-push-left-vertical"),
+        StickMotion::LeftHorizontal => text!(language, "keys-wizard-push-left-horizontal"),
+        StickMotion::RightVertical => text!(language, "keys-wizard-push-right-vertical"),
+        StickMotion::RightHorizontal => text!(language, "keys-wizard-push-right-horizontal"),
+    }
+}
+
+/// Returns the request for a button. The wizard assigns only the [`BUTTON_ACTIONS`].
+fn button_prompt(action: ControllerAction, language: Language) -> String {
+    match action {
+        ControllerAction::Lamp => text!(language, "keys-wizard-button-lamp"),
+        ControllerAction::Snapshot => text!(language, "keys-wizard-button-snapshot"),
+        ControllerAction::Arm => text!(language, "keys-wizard-button-arm"),
+        ControllerAction::TakeOff => text!(language, "keys-wizard-button-take-off"),
+        ControllerAction::Land => text!(language, "keys-wizard-button-land"),
+        ControllerAction::GimbalUp => text!(language, "keys-wizard-button-gimbal-up"),
+        ControllerAction::GimbalDown => text!(language, "keys-wizard-button-gimbal-down"),
+        ControllerAction::Disarm
+        | ControllerAction::Return
+        | ControllerAction::Hold
+        | ControllerAction::Position
+        | ControllerAction::CameraZoomIn
+        | ControllerAction::CameraZoomOut
+        | ControllerAction::Freeze
+        | ControllerAction::Rewind => action.title(language),
     }
 }
 
@@ -469,7 +521,11 @@ mod tests {
         }
         person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
         person.wizard.handle(DeviceEvent::Button { button: 4, pressed: true }, person.now);
-        assert!(person.wizard.prompt().starts_with("That button is already assigned."), "{}", person.wizard.prompt());
+        assert!(
+            person.wizard.prompt(Language::English).starts_with("That button is already assigned."),
+            "{}",
+            person.wizard.prompt(Language::English)
+        );
         for _ in 1..BUTTON_ACTIONS.len() {
             assert_eq!(person.wizard.profile(), None);
             person.confirm();
@@ -495,16 +551,20 @@ mod tests {
         person.confirm();
         person.wait(2.0);
         person.confirm();
-        assert!(person.wizard.prompt().starts_with("Fewer than four axes moved."));
+        assert!(person.wizard.prompt(Language::English).starts_with("Fewer than four axes moved."));
         let mut person = SimulatedUser::new();
         person.jitter_axes();
         person.confirm();
         person.wait(0.4);
         person.hold(2, 0.9);
         person.hold(2, 0.9);
-        assert!(person.wizard.prompt().contains("axis is already assigned"), "{}", person.wizard.prompt());
+        assert!(
+            person.wizard.prompt(Language::English).contains("axis is already assigned"),
+            "{}",
+            person.wizard.prompt(Language::English)
+        );
         person.wizard.handle(DeviceEvent::Lost, person.now);
-        assert!(person.wizard.prompt().contains("Reconnect it"));
+        assert!(person.wizard.prompt(Language::English).contains("Reconnect it"));
     }
 
     /// Gamepad events as Linux reports them: no readings before something moves; triggers start at -1. Sticks 0, 1 and
@@ -573,14 +633,14 @@ mod tests {
         let (mut now, mut most_axes) = (SimTime::ZERO, None);
         while wizard.profile().is_none() && now < SimTime::from_s(30.0) {
             std::iter::from_fn(|| record.due(now)).for_each(|event| wizard.handle(event, now));
-            most_axes = most_axes.max(axes_found(&wizard.prompt()));
+            most_axes = most_axes.max(axes_found(&wizard.prompt(Language::English)));
             if enters.next_if(|at| *at <= now).is_some() {
                 wizard.confirm(now);
             }
             wizard.handle_timeout(now);
             now += SimTime::from_ms(5);
         }
-        let profile = wizard.profile().unwrap_or_else(|| panic!("calibration incomplete: {}", wizard.prompt()));
+        let profile = wizard.profile().unwrap_or_else(|| panic!("calibration incomplete: {}", wizard.prompt(Language::English)));
         assert_eq!(most_axes, Some(7), "the prompt must count the sticks, both triggers and the hat");
         let ways =
             [StickMotion::LeftVertical, StickMotion::LeftHorizontal, StickMotion::RightVertical, StickMotion::RightHorizontal];
@@ -599,7 +659,7 @@ mod tests {
         person.wait(0.4);
         person.axis(5, 1.0);
         person.wait(0.5);
-        let told = person.wizard.prompt();
+        let told = person.wizard.prompt(Language::English);
         assert!(told.starts_with("You did not move that stick through its full range. Move both sticks"), "{told}");
         for value in [-1.0, 0.0] {
             person.axis(5, value);
@@ -607,6 +667,10 @@ mod tests {
         person.confirm();
         person.wait(0.4);
         person.hold(2, 0.9);
-        assert!(person.wizard.prompt().contains("LEFT stick fully to the RIGHT"), "{}", person.wizard.prompt());
+        assert!(
+            person.wizard.prompt(Language::English).contains("LEFT stick fully to the RIGHT"),
+            "{}",
+            person.wizard.prompt(Language::English)
+        );
     }
 }

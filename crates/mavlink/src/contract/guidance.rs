@@ -65,6 +65,19 @@ pub struct WayTo {
     pub up_m: f64,
 }
 
+/// Direction of a place, as it is told to the pilot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TurnTo {
+    /// Straight ahead.
+    Ahead,
+    /// Behind the aircraft.
+    Behind,
+    /// To the left by this angle, deg.
+    Left(f64),
+    /// To the right by this angle, deg.
+    Right(f64),
+}
+
 /// The aircraft's position relative to the task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathDeviation {
@@ -194,14 +207,26 @@ impl WayTo {
         Self { distance_m, bearing_rad, up_m }
     }
 
+    /// Returns the direction as it is told to the pilot.
+    #[must_use]
+    pub fn turn(&self) -> TurnTo {
+        let turn_deg = self.bearing_rad.to_degrees();
+        match turn_deg.abs() {
+            small if small < MIN_TURN_DEG => TurnTo::Ahead,
+            large if large > 180.0 - MIN_TURN_DEG => TurnTo::Behind,
+            large if turn_deg < 0.0 => TurnTo::Left(large),
+            large => TurnTo::Right(large),
+        }
+    }
+
     /// Returns the way in words, such as "140 m, 30 deg left, 12 m up" or "60 m, behind you".
     #[must_use]
     pub fn words(&self) -> String {
-        let turn_deg = self.bearing_rad.to_degrees();
-        let turn = match turn_deg.abs() {
-            small if small < MIN_TURN_DEG => "ahead".to_owned(),
-            large if large > 180.0 - MIN_TURN_DEG => "behind you".to_owned(),
-            large => format!("{large:.0} deg {}", if turn_deg < 0.0 { "left" } else { "right" }),
+        let turn = match self.turn() {
+            TurnTo::Ahead => "ahead".to_owned(),
+            TurnTo::Behind => "behind you".to_owned(),
+            TurnTo::Left(turn_deg) => format!("{turn_deg:.0} deg left"),
+            TurnTo::Right(turn_deg) => format!("{turn_deg:.0} deg right"),
         };
         let height = match self.up_m.abs() {
             small if small < MIN_HEIGHT_M => String::new(),

@@ -4,6 +4,7 @@ use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{JobBriefing, JobOffer};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, wrap_text};
 use crate::hud::{HudColor, TextAlign};
+use spandrel_text::{Language, text};
 
 /// Left margin, and gap between the columns.
 const LEFT: f64 = 0.04;
@@ -18,20 +19,21 @@ const PARAGRAPH_GAP: f64 = 0.35;
 const HEADING_GAP: f64 = 0.6;
 
 /// Returns the menu rows.
-pub fn rows() -> Vec<MenuRow> {
+pub fn rows(language: Language) -> Vec<MenuRow> {
     vec![
-        MenuRow::button(MenuAction::Acknowledge, "I have read this and checked the site: fly"),
-        MenuRow::button(MenuAction::Back, "Back (Esc)"),
+        MenuRow::button(MenuAction::Acknowledge, text!(language, "window-briefing-acknowledge")),
+        MenuRow::button(MenuAction::Back, text!(language, "window-back")),
     ]
 }
 
 /// A block of the page: a heading and its paragraphs.
-type Block<'a> = (&'static str, &'a [String]);
+type Block<'a> = (String, &'a [String]);
 
 pub fn page(pen: &mut PageWriter, job: &JobOffer, rows: &[MenuRow], focus: usize) {
     let whole = pen.width - 2.0 * LEFT;
-    pen.title((LEFT, 0.08), whole, &format!("Briefing: {}", job.title));
-    let columns = columns(&job.briefing);
+    let language = pen.style().language;
+    pen.title((LEFT, 0.08), whole, &text!(language, "window-briefing-title", job = job.title.as_str()));
+    let columns = columns(&job.briefing, language);
     let width = if pen.is_narrow() { whole } else { 0.5 * (whole - COLUMN_GAP) };
     // A page that fits has its menu at the bottom; otherwise, it is scrolled.
     let fits = fitting_size(&columns, width).filter(|_| !pen.is_narrow() && pen.height >= 1.0);
@@ -44,9 +46,15 @@ pub fn page(pen: &mut PageWriter, job: &JobOffer, rows: &[MenuRow], focus: usize
     menu::draw(pen, (LEFT, menu_top), whole, rows, focus);
 }
 
-fn columns(briefing: &JobBriefing) -> [Vec<Block<'_>>; 2] {
-    let left: Vec<Block<'_>> = vec![("Site check", &briefing.site_check), ("Tasks, in this order", &briefing.tasks)];
-    let right: Vec<Block<'_>> = vec![("Hazards", &briefing.hazards), ("From your instructor", &briefing.notes)];
+fn columns(briefing: &JobBriefing, language: Language) -> [Vec<Block<'_>>; 2] {
+    let left: Vec<Block<'_>> = vec![
+        (text!(language, "window-briefing-site-check"), &briefing.site_check),
+        (text!(language, "window-briefing-tasks"), &briefing.tasks),
+    ];
+    let right: Vec<Block<'_>> = vec![
+        (text!(language, "window-briefing-hazards"), &briefing.hazards),
+        (text!(language, "window-briefing-notes"), &briefing.notes),
+    ];
     [left, right].map(|column| column.into_iter().filter(|(_, lines)| !lines.is_empty()).collect())
 }
 
@@ -67,7 +75,7 @@ fn draw_column(pen: &mut PageWriter, ((x, top), width): ((f64, f64), f64), colum
     let line = LINE_SPACING * size;
     let mut y = top + 0.5 * line;
     for (heading, paragraphs) in column {
-        pen.text((x, y), TextAlign::Left, size, HudColor::Yellow, *heading);
+        pen.text((x, y), TextAlign::Left, size, HudColor::Yellow, heading.clone());
         y += line;
         for words in *paragraphs {
             y = pen.lines((x, y), width, size, HudColor::White, words) + PARAGRAPH_GAP * line;

@@ -4,6 +4,7 @@
 use super::menu::{self, MenuRow};
 use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, fitted};
 use crate::hud::{HudColor, TextAlign};
+use spandrel_text::{Language, text};
 
 /// Current state of the controller.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,8 +29,8 @@ pub struct ControllerStatus {
     pub wizard: Option<String>,
     /// Note for the user, such as why there is no controller or where its profile is stored.
     pub note: String,
-    /// Key bindings, one per line.
-    pub keys: String,
+    /// Name of each key, with what it does in a few words.
+    pub keys: Vec<(String, String)>,
 }
 
 impl Default for ControllerStatus {
@@ -45,7 +46,7 @@ impl Default for ControllerStatus {
             axes: Vec::new(),
             wizard: None,
             note: String::new(),
-            keys: String::new(),
+            keys: Vec::new(),
         }
     }
 }
@@ -58,19 +59,20 @@ impl ControllerStatus {
     }
 
     /// Returns a line that describes the device and the active input.
-    fn status_line(&self) -> String {
-        match &self.device {
-            None => "No controller found. Use the keyboard.".to_owned(),
-            Some(name) if self.lost => format!("{name} not connected: using keyboard"),
-            Some(name) if self.calibrated => format!("{name}, calibrated"),
-            Some(name) => format!("{name}, not calibrated: using keyboard"),
+    fn status_line(&self, language: Language) -> String {
+        match self.device.as_deref() {
+            None => text!(language, "window-controls-none"),
+            Some(name) if self.lost => text!(language, "window-controls-lost", name = name),
+            Some(name) if self.calibrated => text!(language, "window-controls-calibrated", name = name),
+            Some(name) => text!(language, "window-controls-not-calibrated", name = name),
         }
     }
 }
 
 /// Returns the vertical and horizontal functions of the left and right stick in a mode.
-fn stick_functions(mode: i64) -> [(&'static str, &'static str); 2] {
-    let (pitch, throttle, roll, yaw) = ("forward, back", "up, down", "left, right", "turn");
+fn stick_functions(mode: i64, language: Language) -> [(String, String); 2] {
+    let (pitch, throttle) = (text!(language, "window-controls-pitch"), text!(language, "window-controls-throttle"));
+    let (roll, yaw) = (text!(language, "window-controls-roll"), text!(language, "window-controls-yaw"));
     match mode {
         1 => [(pitch, yaw), (throttle, roll)],
         3 => [(pitch, roll), (throttle, yaw)],
@@ -80,10 +82,10 @@ fn stick_functions(mode: i64) -> [(&'static str, &'static str); 2] {
 }
 
 pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow], focus: usize) {
-    let (left, narrow) = (0.04, pen.is_narrow());
+    let (left, narrow, language) = (0.04, pen.is_narrow(), pen.style().language);
     let half = if narrow { pen.width - 2.0 * left } else { 0.42 * pen.width };
-    pen.title((left, 0.08), pen.width - 2.0 * left, "Check the controller");
-    let mut y = pen.lines((left, 0.165), half, TEXT_SIZE, HudColor::Yellow, &controls.status_line());
+    pen.title((left, 0.08), pen.width - 2.0 * left, &text!(language, "window-controls-title"));
+    let mut y = pen.lines((left, 0.165), half, TEXT_SIZE, HudColor::Yellow, &controls.status_line(language));
     if let Some(prompt) = &controls.wizard {
         y = pen.lines((left, y + 0.02), half, 1.1 * TEXT_SIZE, HudColor::White, prompt) + 0.02;
     }
@@ -95,18 +97,11 @@ pub fn page(pen: &mut PageWriter, controls: &ControllerStatus, rows: &[MenuRow],
     let room = pen.width - x - if narrow { left } else { 0.02 };
     let below = sticks(pen, (x, top), room, controls);
     if shows_keys {
-        pen.lines(
-            (x, below),
-            room,
-            SMALL_TEXT_SIZE,
-            HudColor::White,
-            "Press the flight keys; the dots should follow. To continue, use Tab and Enter or the mouse.",
-        );
+        pen.lines((x, below), room, SMALL_TEXT_SIZE, HudColor::White, &text!(language, "window-controls-press-keys"));
     } else if controls.wizard.is_some() || !controls.calibrated {
         axes(pen, (x, below), room, &controls.axes);
     } else {
-        let words = "Move the sticks; the dots should follow, return to the center, and reach all edges.";
-        pen.lines((x, below), room, SMALL_TEXT_SIZE, HudColor::White, words);
+        pen.lines((x, below), room, SMALL_TEXT_SIZE, HudColor::White, &text!(language, "window-controls-move-sticks"));
     }
 }
 
@@ -121,8 +116,12 @@ fn sticks(pen: &mut PageWriter, (x, y): (f64, f64), room: f64, controls: &Contro
     let is_wide = side_by_side >= MIN_STICK_SIZE || !pen.is_narrow();
     let size = if is_wide { side_by_side } else { room }.min(0.36);
     let step = if is_wide { (size + 0.1, 0.0) } else { (0.0, size + 0.2) };
-    for (k, (up, across)) in stick_functions(controls.mode).into_iter().enumerate() {
-        let name = if k == 0 { "left stick" } else { "right stick" };
+    let language = pen.style().language;
+    for (k, (up, across)) in stick_functions(controls.mode, language).into_iter().enumerate() {
+        let name =
+            if k == 0 { text!(language, "window-controls-left-stick") } else { text!(language, "window-controls-right-stick") };
+        let up = text!(language, "window-controls-vertical", words = up);
+        let across = text!(language, "window-controls-horizontal", words = across);
         let (right, way) = (controls.sticks[2 * k + 1], controls.sticks[2 * k]);
         let place = (x + step.0 * k as f64, y + step.1 * k as f64);
         stick(pen, place, size, (right, way), [name, up, across]);
@@ -131,7 +130,7 @@ fn sticks(pen: &mut PageWriter, (x, y): (f64, f64), room: f64, controls: &Contro
 }
 
 /// Draws a square with a dot that follows the stick.
-fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [&str; 3]) {
+fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64, f64), [name, vertical, across]: [String; 3]) {
     const DOT_RADIUS: f64 = 0.018;
     let (mx, my, r) = (x + 0.5 * size, y + 0.5 * size, 0.5 * size);
     pen.panel((x, y), (size, size), HudColor::InputField);
@@ -146,8 +145,9 @@ fn stick(pen: &mut PageWriter, (x, y): (f64, f64), size: f64, (right, up): (f64,
         })
         .collect();
     pen.fill(&dot, HudColor::Yellow);
-    pen.text((mx, y - 0.035), TextAlign::Center, TEXT_SIZE, HudColor::White, name);
-    for (words, down) in [(format!("vertical: {vertical}"), 0.03), (format!("horizontal: {across}"), 0.07)] {
+    let name_size = fitted(&name, TEXT_SIZE, size + LABEL_OVERHANG);
+    pen.text((mx, y - 0.035), TextAlign::Center, name_size, HudColor::White, name);
+    for (words, down) in [(vertical, 0.03), (across, 0.07)] {
         let height = fitted(&words, SMALL_TEXT_SIZE, size + LABEL_OVERHANG);
         pen.text((mx, y + size + down), TextAlign::Center, height, HudColor::Gray, words);
     }
@@ -162,7 +162,8 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
     for (k, (axis, value, (low, high))) in all.iter().take(MAX_SHOWN_AXES).enumerate() {
         let y = y + 0.042 * k as f64;
         // On Linux, the upper half of the number is the event type; users know only the lower half, which starts at 0.
-        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, format!("axis {}", axis & 0xffff));
+        let name = text!(pen.style().language, "window-controls-axis", number = (axis & 0xffff).to_string());
+        pen.text((x, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, name);
         pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
         pen.fill(
             &[(at(*low), y), (at(*high), y), (at(*high), y + BAR_HEIGHT), (at(*low), y + BAR_HEIGHT)],
@@ -171,7 +172,8 @@ fn axes(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, all: &[(u32, f64, 
         pen.panel((at(*value) - 0.004, y - 0.004), (0.008, BAR_HEIGHT + 0.008), HudColor::Yellow);
     }
     if all.is_empty() {
-        pen.text((x, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, "No axis has moved yet.");
+        let words = text!(pen.style().language, "window-controls-no-axis");
+        pen.text((x, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, words);
     }
 }
 
@@ -180,20 +182,21 @@ const MIN_KEY_TEXT_SIZE: f64 = 0.02;
 
 /// Draws the key bindings in columns, each with the key and its function, and returns the y position below them. In a wide
 /// window, shrinks the text to fit.
-fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, text: &str) -> f64 {
+fn columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, keys: &[(String, String)]) -> f64 {
     const KEY_COLUMN_WIDTH: f64 = 0.17;
+    const KEY_GAP: f64 = 0.01;
     const MIN_WIDTH_OF_TWO: f64 = 0.7;
     let column_count = if pen.is_narrow() && width < MIN_WIDTH_OF_TWO { 1 } else { 2 };
-    let lines: Vec<&str> = text.lines().collect();
-    let rows = lines.len().div_ceil(column_count).max(1);
+    let rows = keys.len().div_ceil(column_count).max(1);
     let most = if pen.is_narrow() { f64::INFINITY } else { (pen.height - 0.015 - y) / rows as f64 };
     let step = (1.3 * SMALL_TEXT_SIZE).min(most.max(MIN_KEY_TEXT_SIZE * 1.3));
     let height = step / 1.3;
-    for (k, line) in lines.iter().enumerate() {
+    for (k, (key, duty)) in keys.iter().enumerate() {
         let place = (x + width / column_count as f64 * (k / rows) as f64, y + step * ((k % rows) as f64 + 0.5));
-        let (key, duty) = line.split_once(' ').unwrap_or((line, ""));
-        pen.text(place, TextAlign::Left, height, HudColor::Yellow, key);
-        pen.text((place.0 + KEY_COLUMN_WIDTH, place.1), TextAlign::Left, height, HudColor::White, duty.trim().replace('_', " "));
+        let room = width / column_count as f64 - KEY_COLUMN_WIDTH;
+        pen.text(place, TextAlign::Left, fitted(key, height, KEY_COLUMN_WIDTH - KEY_GAP), HudColor::Yellow, key.as_str());
+        let size = fitted(duty, height, room - KEY_GAP);
+        pen.text((place.0 + KEY_COLUMN_WIDTH, place.1), TextAlign::Left, size, HudColor::White, duty.as_str());
     }
     y + step * rows as f64
 }

@@ -123,12 +123,12 @@ impl MenuRow {
     }
 
     /// Creates a row with a choice of values.
-    pub fn choice(action: MenuAction, label: &str, value: impl Into<String>) -> Self {
-        Self { action, kind: RowKind::Choice, label: label.to_owned(), value: value.into() }
+    pub fn choice(action: MenuAction, label: impl Into<String>, value: impl Into<String>) -> Self {
+        Self { action, kind: RowKind::Choice, label: label.into(), value: value.into() }
     }
 
     /// Creates a row with a text value.
-    pub fn text_field(action: MenuAction, label: &str, value: impl Into<String>) -> Self {
+    pub fn text_field(action: MenuAction, label: impl Into<String>, value: impl Into<String>) -> Self {
         Self { kind: RowKind::TextField, ..Self::choice(action, label, value) }
     }
 }
@@ -169,6 +169,8 @@ struct RowShape {
     label: Vec<String>,
     label_size: f64,
     value: String,
+    /// Left edge of the value, from the row's left edge.
+    value_start: f64,
     /// Whether the value stands below the label.
     is_stacked: bool,
 }
@@ -178,9 +180,10 @@ impl RowShape {
         let value = if row.kind == RowKind::TextField && is_focused { format!("{}_", row.value) } else { row.value.clone() };
         let label_width = text_width(&row.label, TEXT_SIZE).max(1e-9);
         let whole = width - 2.0 * PADDING;
+        let value_start = value_start(width, label_width, &value);
         let (room, can_stack) = match row.kind {
             RowKind::Button => (whole, false),
-            RowKind::Choice | RowKind::TextField => (VALUE_START * width - PADDING, true),
+            RowKind::Choice | RowKind::TextField => (value_start - PADDING, true),
             RowKind::KeyBinding => (whole - PADDING - text_width(&value, TEXT_SIZE), true),
         };
         let is_stacked = can_stack && MIN_SHRINK * label_width > room;
@@ -190,8 +193,17 @@ impl RowShape {
         let label_size = if label.len() > 1 { TEXT_SIZE } else { TEXT_SIZE.min(TEXT_SIZE * room / label_width) };
         let lines = label.len() + usize::from(is_stacked);
         let height = ROW_HEIGHT + LINE_SPACING * TEXT_SIZE * (lines - 1) as f64;
-        Self { is_focused, height, label, label_size, value, is_stacked }
+        let value_start = if is_stacked { 0.0 } else { value_start };
+        Self { is_focused, height, label, label_size, value, value_start, is_stacked }
     }
+}
+
+/// Returns the left edge of a value: the usual one, or farther right if that leaves room for a long label and the value.
+fn value_start(width: f64, label_width: f64, value: &str) -> f64 {
+    let usual = VALUE_START * width;
+    let most = width - text_width(value, TEXT_SIZE) - 2.0 * ARROW_WIDTH;
+    let (shrunk, whole) = (MIN_SHRINK * label_width + PADDING, label_width + PADDING);
+    if shrunk > usual && shrunk <= most { whole.min(most) } else { usual }
 }
 
 fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow, (k, shape): (usize, &RowShape)) {
@@ -208,7 +220,7 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
         pen.text((x + PADDING, line(k)), TextAlign::Left, shape.label_size, color, words.clone());
     }
     let middle = if shape.is_stacked { line(shape.label.len()) } else { line(0) };
-    let from = if shape.is_stacked { x } else { x + VALUE_START * width };
+    let from = x + shape.value_start;
     match row.kind {
         RowKind::Button => {}
         RowKind::KeyBinding => {

@@ -33,9 +33,11 @@ pub use tutorial::PICTURES;
 use crate::arrange::ViewLayout;
 use crate::hud::ScreenPoint;
 use crate::path_guide::PathAids;
+use page::PendingOperation;
 use pipe::{
     FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, Purpose, SchoolPage, ToWindow,
 };
+use spandrel_text::{Language, text};
 use std::collections::{BTreeSet, VecDeque};
 
 /// State of the window.
@@ -56,7 +58,7 @@ pub struct WindowFlow {
     tutorial_done: BTreeSet<String>,
     names: KeyNames,
     /// The operation in progress.
-    waiting_for: &'static str,
+    waiting_for: PendingOperation,
     /// Layout of the views.
     pub arrangement: ViewLayout,
     /// Aspect ratio (width over height) of the flight's camera.
@@ -96,7 +98,7 @@ impl WindowFlow {
             notice: None,
             tutorial_done: BTreeSet::new(),
             names: KeyNames::default(),
-            waiting_for: "",
+            waiting_for: PendingOperation::Simulator,
             arrangement: ViewLayout::default(),
             camera_aspect: 4.0 / 3.0,
             restart_requested: false,
@@ -169,13 +171,20 @@ impl WindowFlow {
 
     /// Explains why there is no ghost.
     pub fn explain_missing_ghost(&mut self) {
+        let language = self.language();
         let words = match &self.flying {
-            Some(flying) if flying.choice.purpose == Purpose::Assessment => "No ghost in an assessment.",
-            Some(flying) if flying.choice.by == FlownBy::Expert => "No ghost while you watch the expert.",
-            Some(_) => "The ghost is not ready yet: an expert flies this job in the background. Try again in a minute.",
-            None => "No ghost without a session: start the flight with spandrel train.",
+            Some(flying) if flying.choice.purpose == Purpose::Assessment => text!(language, "window-flight-ghost-assessment"),
+            Some(flying) if flying.choice.by == FlownBy::Expert => text!(language, "window-flight-ghost-expert"),
+            Some(_) => text!(language, "window-flight-ghost-not-ready"),
+            None => text!(language, "window-flight-ghost-no-session"),
         };
-        self.show_notice(words.to_owned());
+        self.show_notice(words);
+    }
+
+    /// Returns the language of all texts.
+    #[must_use]
+    pub fn language(&self) -> Language {
+        self.style().language
     }
 
     /// Returns the display names of the keys.
@@ -321,7 +330,7 @@ impl WindowFlow {
                 self.restart_requested = true;
                 self.send(FromWindow::Pause);
             }
-            (Page::Flight, Some(_)) => self.notice = Some("An assessment cannot be restarted.".into()),
+            (Page::Flight, Some(_)) => self.notice = Some(text!(self.language(), "window-paused-no-restart")),
             (Page::Paused, _) => self.focus = 1,
             _ => {}
         }

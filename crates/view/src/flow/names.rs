@@ -13,9 +13,9 @@ impl KeyNames {
         Self(keys)
     }
 
-    /// Replaces each `{binding}` in a text with the name of its key; leaves unknown bindings unchanged.
+    /// Returns the name of a binding's key; for unknown bindings, the binding in braces.
     #[must_use]
-    pub fn fill(&self, words: &str) -> String {
-        self.0.iter().fold(words.to_owned(), |words, (duty, key)| words.replace(&format!("{{{duty}}}"), key))
+    pub fn name(&self, binding: &str) -> String {
+        self.0.get(binding).cloned().unwrap_or_else(|| format!("{{{binding}}}"))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::pipe::{FlightStarted, FromWindow};
 use super::settings::SettingChange;
+use spandrel_text::{Language, text};
 use std::path::PathBuf;
 
 /// A change to a setting of a controller profile.
@@ -77,6 +78,28 @@ pub enum Page {
     Results,
     /// The defect school.
     School,
+}
+
+/// What the window waits for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum PendingOperation {
+    /// The simulator starts.
+    Simulator,
+    /// The flight is scored.
+    Scoring,
+    /// The pictures of the defect school are rendered.
+    Pictures,
+}
+
+impl PendingOperation {
+    /// Returns what the waiting page says.
+    pub(super) fn title(self, language: Language) -> String {
+        match self {
+            Self::Simulator => text!(language, "window-waiting-simulator"),
+            Self::Scoring => text!(language, "window-waiting-scoring"),
+            Self::Pictures => text!(language, "window-waiting-pictures"),
+        }
+    }
 }
 
 /// A request to the program that hosts the window.

@@ -6,14 +6,20 @@ use super::sheet::{PageLayout, PageWriter, SMALL_TEXT_SIZE, TITLE_SIZE, fitted, 
 use super::{KeyPress, WindowFlow};
 use crate::arrange::WindowShape;
 use crate::hud::{HudColor, TextAlign};
+use spandrel_text::{Language, text};
 
-/// Title and text of the pause page.
-pub const PAUSE_TEXT: [&str; 2] = ["Paused", "The clock is stopped."];
-/// Title and text of the end confirmation.
-pub const END_TEXT: [&str; 2] = ["End the assessment?", "The clock is running. Tasks you don't fly count as not attempted."];
+/// Returns the title and the text of the pause page.
+pub fn pause_text(language: Language) -> [String; 2] {
+    [text!(language, "window-paused-title"), text!(language, "window-paused-text")]
+}
+
+/// Returns the title and the text of the end confirmation.
+pub fn end_text(language: Language) -> [String; 2] {
+    [text!(language, "window-paused-confirm-title"), text!(language, "window-paused-confirm-text")]
+}
 
 /// Draws the page over the flight, which stays visible.
-pub fn page(mut pen: PageWriter, [head, means]: &[&str; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
+pub fn page(mut pen: PageWriter, [head, means]: &[String; 2], rows: &[MenuRow], focus: usize) -> PageLayout {
     let width = 0.95_f64.min(pen.width - 0.04);
     let inside = (0.5 * (pen.width - width) + MARGIN, width - 2.0 * MARGIN);
     let mut draft = PageWriter::new(pen.window_aspect(), pen.style());
@@ -34,10 +40,11 @@ fn contents(
     [head, means]: [&str; 2],
     (rows, focus): (&[MenuRow], usize),
 ) -> f64 {
+    let language = pen.style().language;
     pen.title((left, top + 0.5 * TITLE_SIZE), width, head);
     let y = pen.lines((left, top + 0.11), width, SMALL_TEXT_SIZE, HudColor::Gray, means);
     let y = menu::draw(pen, (left, y + 0.01), width, rows, focus);
-    pen.lines((left, y + 0.025), width, SMALL_TEXT_SIZE, HudColor::Gray, "Up/down select, Enter confirm; or click.")
+    pen.lines((left, y + 0.025), width, SMALL_TEXT_SIZE, HudColor::Gray, &text!(language, "window-help-dialog"))
 }
 
 /// Draws the button that pauses a practice session or ends an assessment.
@@ -45,9 +52,10 @@ pub fn button(flow: &WindowFlow, mut pen: PageWriter) -> PageLayout {
     // The button is in the inspector's view, because the HUD covers the edges of the camera view.
     let (across, down) = flow.arrangement.button(WindowShape { window: pen.window_aspect(), camera: flow.camera_aspect });
     if let Some(flying) = &flow.flying {
+        let pause = flow.names.name("pause");
         let words = match flying.choice.purpose {
-            Purpose::Practice => flow.names.fill("Pause ({pause})"),
-            Purpose::Assessment => flow.names.fill("End ({pause})"),
+            Purpose::Practice => text!(flow.language(), "window-paused-pause-button", pause = pause),
+            Purpose::Assessment => text!(flow.language(), "window-paused-end-button", pause = pause),
         };
         let (middle, down) = pen.from_window((across, down));
         // The inspector's view, in whose middle the button is, may be narrow.

@@ -3,6 +3,7 @@
 use crate::path_guide::PathAids;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use spandrel_text::{Language, text};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -24,6 +25,15 @@ impl Purpose {
         match self {
             Self::Practice => "practice",
             Self::Assessment => "assessment",
+        }
+    }
+
+    /// Returns the name for display.
+    #[must_use]
+    pub fn title(self, language: Language) -> String {
+        match self {
+            Self::Practice => text!(language, "window-start-practice"),
+            Self::Assessment => text!(language, "window-start-assessment"),
         }
     }
 }
@@ -60,10 +70,11 @@ pub struct NextJob {
 impl NextJob {
     /// Returns the job with its reason, such as "Recommended: Drill: hover".
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn words(&self, language: Language) -> String {
+        let job = self.title.as_str();
         match &self.due {
-            Some(due) => format!("Assigned, due {due}: {}", self.title),
-            None => format!("Recommended: {}", self.title),
+            Some(due) => text!(language, "window-start-assigned", date = due.as_str(), job = job),
+            None => text!(language, "window-start-recommended", job = job),
         }
     }
 }
@@ -264,7 +275,7 @@ pub enum SchoolRequest {
     Leave,
 }
 
-/// Names of the four scores, in order.
+/// Names of the four scores in files, in order.
 pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
 /// Messages from `spandrel train` to its window.
@@ -299,6 +310,11 @@ pub enum ToWindow {
 pub enum FromWindow {
     /// The window is open.
     Ready,
+    /// Language of the texts that the window shows; sent after [`Self::Ready`] and at each change.
+    Language {
+        /// Language tag (BCP 47).
+        tag: String,
+    },
     /// The window shows the flight.
     Showing,
     /// Start this flight.
@@ -409,11 +425,17 @@ mod tests {
             assert!(!line.contains('\n'), "{line}");
             assert_eq!(read::<ToWindow>(&line), Ok(message));
         }
-        for message in
-            [FromWindow::Ready, FromWindow::Showing, FromWindow::Chosen(choice()), FromWindow::Restart, FromWindow::Quit]
-        {
+        for message in [
+            FromWindow::Ready,
+            FromWindow::Language { tag: "de".into() },
+            FromWindow::Showing,
+            FromWindow::Chosen(choice()),
+            FromWindow::Restart,
+            FromWindow::Quit,
+        ] {
             assert_eq!(read::<FromWindow>(&line(&message)), Ok(message));
         }
+        assert_eq!(line(&FromWindow::Language { tag: "es".into() }), r#"{"is":"language","tag":"es"}"#);
     }
 
     #[test]

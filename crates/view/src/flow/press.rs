@@ -1,13 +1,14 @@
 //! Handles key presses and clicks on a page.
 
 use super::menu::{MenuAction, MenuRow, RowKind};
+use super::page::PendingOperation;
 use super::pipe::{FlightChoice, FlightOptions, FlightSummary, FlownBy, FromWindow, NextJob, Purpose, SchoolRequest};
 use super::settings::SettingChange;
 use super::{ControllerStatus, KeyPress, Page, ProfileChange, WindowFlow, WindowRequest, tutorial};
+use spandrel_text::text;
 
 /// Maximum length of a pseudonym.
 const MAX_NAME_LENGTH: usize = 32;
-const STARTING_TEXT: &str = "Starting simulator ...";
 /// Step sizes of the dead band and expo.
 const DEAD_BAND_STEP: f64 = 0.01;
 const EXPO_STEP: f64 = 0.1;
@@ -56,9 +57,9 @@ impl WindowFlow {
     fn type_character(&mut self, sign: char) {
         let fits = sign.is_ascii_alphanumeric() || (!self.choice.trainee.is_empty() && (sign == '-' || sign == '_'));
         if !fits {
-            self.notice = Some("Use letters, digits, '-' and '_'; start with a letter or digit.".into());
+            self.notice = Some(text!(self.language(), "window-start-name-characters"));
         } else if self.choice.trainee.len() >= MAX_NAME_LENGTH {
-            self.notice = Some(format!("At most {MAX_NAME_LENGTH} characters."));
+            self.notice = Some(text!(self.language(), "window-start-name-length", count = MAX_NAME_LENGTH));
         } else {
             self.choice.trainee.push(sign);
         }
@@ -161,7 +162,7 @@ impl WindowFlow {
             MenuAction::CheckController | MenuAction::FlyNext | MenuAction::WatchExpert | MenuAction::School
                 if self.choice.trainee.is_empty() =>
             {
-                self.notice = Some("Enter a pseudonym first.".into());
+                self.notice = Some(text!(self.language(), "window-start-name-first"));
             }
             MenuAction::CheckController => self.show_page(Page::Controls),
             MenuAction::OpenTutorial => self.show_page(Page::Tutorial(0, false)),
@@ -189,22 +190,22 @@ impl WindowFlow {
             MenuAction::KeepFlying => self.show_page(Page::Flight),
             MenuAction::Resume => self.send(FromWindow::Resume),
             MenuAction::Restart => {
-                self.send_and_wait(STARTING_TEXT);
+                self.send_and_wait(PendingOperation::Simulator);
                 self.send(FromWindow::Restart);
             }
             MenuAction::End => {
-                self.send_and_wait("Scoring flight ...");
+                self.send_and_wait(PendingOperation::Scoring);
                 self.send(FromWindow::End);
             }
             MenuAction::FlyAgain => {
-                self.send_and_wait(STARTING_TEXT);
+                self.send_and_wait(PendingOperation::Simulator);
                 self.send(FromWindow::Again);
             }
             MenuAction::FlyNext => self.fly_next(),
             MenuAction::WatchExpert => {
                 let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
                 self.send(FromWindow::Chosen(choice));
-                self.wait(STARTING_TEXT);
+                self.wait(PendingOperation::Simulator);
             }
             MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
@@ -235,7 +236,7 @@ impl WindowFlow {
 
     fn begin_school(&mut self) {
         self.send(FromWindow::School(SchoolRequest::Begin(self.choice.trainee.clone())));
-        self.wait("Preparing pictures ...");
+        self.wait(PendingOperation::Pictures);
     }
 
     fn leave_school(&mut self) {
@@ -256,12 +257,12 @@ impl WindowFlow {
     }
 
     /// Disconnects from the flight and waits for the simulator.
-    fn send_and_wait(&mut self, awaited: &'static str) {
+    fn send_and_wait(&mut self, awaited: PendingOperation) {
         self.out.push_back(WindowRequest::LeaveFlight);
         self.wait(awaited);
     }
 
-    fn wait(&mut self, awaited: &'static str) {
+    fn wait(&mut self, awaited: PendingOperation) {
         self.waiting_for = awaited;
         self.show_page(Page::Waiting);
     }
@@ -277,7 +278,7 @@ impl WindowFlow {
 
     fn choose(&mut self) {
         self.send(FromWindow::Chosen(self.choice.clone()));
-        self.wait(STARTING_TEXT);
+        self.wait(PendingOperation::Simulator);
     }
 
     fn turn_tutorial_page(&mut self) {

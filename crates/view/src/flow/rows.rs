@@ -1,56 +1,60 @@
 //! Menu rows of each page.
 
 use super::menu::{MenuAction, MenuRow};
-use super::{Page, WindowFlow, briefing, school, summary, tutorial};
+use super::{Page, Setting, WindowFlow, briefing, school, summary, tutorial};
+use spandrel_text::{Language, text};
 
 impl WindowFlow {
     /// Returns the menu rows of the current page.
     #[must_use]
     pub fn rows(&self) -> Vec<MenuRow> {
+        let language = self.language();
         match self.page {
             Page::Opening | Page::Waiting | Page::Flight => Vec::new(),
             Page::Start => self.start_rows(),
             Page::Controls => self.controls_rows(),
             Page::Calibrating => {
                 vec![
-                    MenuRow::button(MenuAction::Confirm, "Continue (Enter)"),
-                    MenuRow::button(MenuAction::Cancel, "Cancel (Esc)"),
+                    MenuRow::button(MenuAction::Confirm, text!(language, "window-controls-continue")),
+                    MenuRow::button(MenuAction::Cancel, text!(language, "window-controls-cancel")),
                 ]
             }
-            Page::Tutorial(page, flight) => tutorial_rows(page, flight),
+            Page::Tutorial(page, flight) => tutorial_rows(page, flight, language),
             Page::Settings { .. } => self.settings_rows(),
             Page::Keys { .. } => self.key_rows(),
-            Page::Briefing => briefing::rows(),
+            Page::Briefing => briefing::rows(language),
             Page::Paused => vec![
-                MenuRow::button(MenuAction::Resume, "Resume (Esc)"),
-                MenuRow::button(MenuAction::Restart, "Restart"),
-                MenuRow::button(MenuAction::Settings, "Settings and keys"),
-                MenuRow::button(MenuAction::End, "End session"),
+                MenuRow::button(MenuAction::Resume, text!(language, "window-paused-resume")),
+                MenuRow::button(MenuAction::Restart, text!(language, "window-paused-restart")),
+                MenuRow::button(MenuAction::Settings, text!(language, "window-paused-settings")),
+                MenuRow::button(MenuAction::End, text!(language, "window-paused-end")),
             ],
             Page::ConfirmEnd => {
                 vec![
-                    MenuRow::button(MenuAction::KeepFlying, "Keep flying (Esc)"),
-                    MenuRow::button(MenuAction::End, "End and score flight"),
+                    MenuRow::button(MenuAction::KeepFlying, text!(language, "window-paused-keep-flying")),
+                    MenuRow::button(MenuAction::End, text!(language, "window-paused-score")),
                 ]
             }
-            Page::Results => summary::rows(self.ended.as_ref()),
-            Page::School => self.school.as_ref().map(school::rows).unwrap_or_default(),
+            Page::Results => summary::rows(self.ended.as_ref(), language),
+            Page::School => self.school.as_ref().map(|shown| school::rows(shown, language)).unwrap_or_default(),
         }
     }
 
     fn start_rows(&self) -> Vec<MenuRow> {
+        let language = self.language();
         let title = self.chosen_job().map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
-        let next = self.next_job().map(|next| MenuRow::button(MenuAction::FlyNext, next.words()));
+        let next = self.next_job().map(|next| MenuRow::button(MenuAction::FlyNext, next.words(language)));
         let rows = [
-            MenuRow::text_field(MenuAction::Trainee, "Trainee", self.choice.trainee.clone()),
-            MenuRow::choice(MenuAction::Scenario, "Job", title),
-            MenuRow::choice(MenuAction::Purpose, "Purpose", self.choice.purpose.word()),
-            MenuRow::button(MenuAction::CheckController, "Next: check controller"),
-            MenuRow::button(MenuAction::WatchExpert, "Watch an expert fly this job"),
-            MenuRow::button(MenuAction::OpenTutorial, "Read the tutorial"),
-            MenuRow::button(MenuAction::School, "Defect school: recognize defects in pictures"),
-            MenuRow::button(MenuAction::Settings, "Settings: keys, units, text size, sound"),
-            MenuRow::button(MenuAction::Quit, "Quit"),
+            MenuRow::text_field(MenuAction::Trainee, text!(language, "window-start-trainee"), self.choice.trainee.clone()),
+            MenuRow::choice(MenuAction::Scenario, text!(language, "window-start-job"), title),
+            MenuRow::choice(MenuAction::Purpose, text!(language, "window-start-purpose"), self.choice.purpose.title(language)),
+            MenuRow::button(MenuAction::CheckController, text!(language, "window-start-check-controller")),
+            MenuRow::button(MenuAction::WatchExpert, text!(language, "window-start-watch-expert")),
+            MenuRow::button(MenuAction::OpenTutorial, text!(language, "window-start-tutorial")),
+            MenuRow::button(MenuAction::School, text!(language, "window-start-school")),
+            MenuRow::button(MenuAction::Settings, text!(language, "window-start-settings")),
+            MenuRow::choice(MenuAction::Setting(Setting::Language), text!(language, "window-language"), language.name()),
+            MenuRow::button(MenuAction::Quit, text!(language, "window-start-quit")),
         ];
         // The trainee comes first, because the recommendation depends on it.
         let (who, rest) = rows.split_at(1);
@@ -58,34 +62,45 @@ impl WindowFlow {
     }
 
     fn controls_rows(&self) -> Vec<MenuRow> {
-        let controls = &self.controls;
-        let mut rows = vec![MenuRow::button(MenuAction::Fly, "Start flight")];
+        let (controls, language) = (&self.controls, self.language());
+        let mut rows = vec![MenuRow::button(MenuAction::Fly, text!(language, "window-controls-fly"))];
         if controls.is_connected() {
-            rows.push(MenuRow::button(MenuAction::Calibrate, if controls.calibrated { "Calibrate again" } else { "Calibrate" }));
-            rows.push(MenuRow::choice(MenuAction::Mode, "Stick mode", controls.mode.to_string()));
+            let calibrate = if controls.calibrated {
+                text!(language, "window-controls-calibrate-again")
+            } else {
+                text!(language, "window-controls-calibrate")
+            };
+            rows.push(MenuRow::button(MenuAction::Calibrate, calibrate));
+            rows.push(MenuRow::choice(MenuAction::Mode, text!(language, "window-controls-mode"), controls.mode.to_string()));
         } else {
-            rows.push(MenuRow::button(MenuAction::FindController, "Search for controller"));
+            rows.push(MenuRow::button(MenuAction::FindController, text!(language, "window-controls-search")));
         }
         if controls.is_connected() && controls.calibrated {
-            rows.push(MenuRow::choice(MenuAction::DeadBand, "Dead band", format!("{:.0}%", 100.0 * controls.dead_band)));
-            rows.push(MenuRow::choice(MenuAction::Expo, "Expo", format!("{:.1}", controls.expo)));
+            let dead_band = format!("{:.0}%", 100.0 * controls.dead_band);
+            rows.push(MenuRow::choice(MenuAction::DeadBand, text!(language, "window-controls-dead-band"), dead_band));
+            rows.push(MenuRow::choice(
+                MenuAction::Expo,
+                text!(language, "window-controls-expo"),
+                format!("{:.1}", controls.expo),
+            ));
         }
-        rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));
+        rows.push(MenuRow::button(MenuAction::Back, text!(language, "window-back")));
         rows
     }
 }
 
-fn tutorial_rows(page: usize, flight: bool) -> Vec<MenuRow> {
+fn tutorial_rows(page: usize, flight: bool, language: Language) -> Vec<MenuRow> {
     let last = page + 1 == tutorial::PAGE_COUNT;
     let next = match (last, flight) {
-        (false, _) => "Next page",
-        (true, true) => "Fly",
-        (true, false) => "Done",
+        (false, _) => text!(language, "tutorial-next"),
+        (true, true) => text!(language, "tutorial-fly"),
+        (true, false) => text!(language, "tutorial-done"),
     };
     let mut rows = vec![MenuRow::button(MenuAction::Next, next)];
-    rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));
+    rows.push(MenuRow::button(MenuAction::Back, text!(language, "window-back")));
     if !last {
-        rows.push(MenuRow::button(MenuAction::Skip, if flight { "Skip and fly" } else { "Skip" }));
+        let skip = if flight { text!(language, "tutorial-skip-and-fly") } else { text!(language, "tutorial-skip") };
+        rows.push(MenuRow::button(MenuAction::Skip, skip));
     }
     rows
 }

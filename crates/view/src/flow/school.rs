@@ -4,6 +4,7 @@ use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::SchoolPage;
 use super::sheet::{PageWriter, PictureSource, SMALL_TEXT_SIZE, TEXT_SIZE};
 use crate::hud::HudColor;
+use spandrel_text::{Language, text};
 
 /// Left margin.
 const LEFT: f64 = 0.04;
@@ -19,15 +20,16 @@ const BOTTOM: f64 = 0.04;
 const GAP: f64 = 0.012;
 
 /// Returns the menu rows: the answers, or what comes next.
-pub fn rows(shown: &SchoolPage) -> Vec<MenuRow> {
+pub fn rows(shown: &SchoolPage, language: Language) -> Vec<MenuRow> {
     let answers = shown.answers.iter().enumerate().map(|(k, words)| MenuRow::button(MenuAction::Answer(k), words.clone()));
     let mut rows: Vec<MenuRow> = answers.collect();
     if shown.over {
-        rows.push(MenuRow::button(MenuAction::School, "Another round"));
+        rows.push(MenuRow::button(MenuAction::School, text!(language, "window-school-another")));
     } else if rows.is_empty() {
-        rows.push(MenuRow::button(MenuAction::ContinueSchool, "Next picture"));
+        rows.push(MenuRow::button(MenuAction::ContinueSchool, text!(language, "window-school-next")));
     }
-    rows.push(MenuRow::button(MenuAction::LeaveSchool, if shown.over { "Back to the start page" } else { "Stop (Esc)" }));
+    let leave = if shown.over { text!(language, "window-school-start-page") } else { text!(language, "window-school-stop") };
+    rows.push(MenuRow::button(MenuAction::LeaveSchool, leave));
     rows
 }
 

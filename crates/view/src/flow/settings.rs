@@ -6,6 +6,8 @@ use crate::sound::SoundSettings;
 /// A setting with a choice of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Setting {
+    /// Language of all texts.
+    Language,
     /// Units of lengths and speeds.
     Units,
     /// Text size.

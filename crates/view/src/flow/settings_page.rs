@@ -2,11 +2,12 @@
 
 use super::menu::{self, MenuAction, MenuRow, RowKind};
 use super::settings::{KeyFunction, Setting, SettingChange, SettingsStatus};
-use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE};
+use super::sheet::{PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, fitted};
 use super::{KeyNames, Page, WindowFlow, WindowRequest};
 use crate::hud::{DisplayStyle, DisplayUnits, HudColor, TextAlign, TextScale};
 use crate::quality::PRESETS;
 use crate::sound::SoundSettings;
+use spandrel_text::{Language, text};
 
 /// Step of the volume.
 const VOLUME_STEP: f64 = 0.1;
@@ -21,7 +22,7 @@ impl WindowFlow {
         self.settings = settings;
     }
 
-    /// Returns the units and the text size.
+    /// Returns the language, the units and the text size.
     #[must_use]
     pub fn style(&self) -> DisplayStyle {
         self.settings.style
@@ -39,10 +40,10 @@ impl WindowFlow {
         let Some(index) = self.awaited_key else { return };
         match key {
             None => {
-                self.notice = Some("This key cannot be used. Press another one, or Esc to cancel.".to_owned());
+                self.notice = Some(text!(self.language(), "window-settings-key-unusable"));
                 return;
             }
-            Some("escape") => self.notice = Some("Nothing changed.".to_owned()),
+            Some("escape") => self.notice = Some(text!(self.language(), "window-settings-nothing-changed")),
             Some(key) => {
                 self.notice = None;
                 self.change(SettingChange::Key(index, key.to_owned()));
@@ -61,7 +62,7 @@ impl WindowFlow {
     /// Checks whether a file on the command line sets the keys, and tells the user if so.
     fn are_keys_fixed(&mut self) -> bool {
         let file = self.settings.fixed_keys.as_ref();
-        let words = file.map(|file| format!("The keys come from {file} (option --keys). Change them there."));
+        let words = file.map(|file| text!(self.language(), "window-settings-keys-fixed", file = file.as_str()));
         let are_fixed = words.is_some();
         if are_fixed {
             self.notice = words;
@@ -85,6 +86,7 @@ impl WindowFlow {
     pub(super) fn step_setting(&mut self, setting: Setting, on: bool) {
         let SettingsStatus { style, quality, sounds, .. } = self.settings;
         let change = match setting {
+            Setting::Language => SettingChange::Style(DisplayStyle { language: next_language(style.language, on), ..style }),
             Setting::Units => {
                 SettingChange::Style(DisplayStyle { units: neighbor(&DisplayUnits::ALL, style.units, on), ..style })
             }
@@ -112,84 +114,113 @@ impl WindowFlow {
     }
 
     /// Returns the rows of the settings page, each with an explanation.
-    fn explained_settings(&self) -> Vec<(MenuRow, &'static str)> {
-        let SettingsStatus { style, quality, sounds, .. } = &self.settings;
-        let on_off = |on: bool| if on { "on" } else { "off" }.to_owned();
-        let row = |setting: Setting, label: &str, value: String| MenuRow::choice(MenuAction::Setting(setting), label, value);
-        vec![
-            (MenuRow::button(MenuAction::Keys, "Keys"), "See which key does what, and choose other keys."),
+    fn explained_settings(&self) -> Vec<(MenuRow, String)> {
+        let language = self.language();
+        let SettingsStatus { style, quality, .. } = &self.settings;
+        let row = |setting: Setting, label: String, value: String| MenuRow::choice(MenuAction::Setting(setting), label, value);
+        let mut rows = vec![
             (
-                row(Setting::Units, "Units", style.units.title().to_owned()),
-                "Units on the screen. Reports and files always use metric units.",
+                row(Setting::Language, text!(language, "window-settings-language"), language.name()),
+                text!(language, "window-settings-language-about"),
             ),
             (
-                row(Setting::TextScale, "Text size", format!("{}%", style.text_scale.pct())),
-                "Size of all words and numbers. At large sizes, the flight display leaves out the less important values, and long \
-                 pages scroll with Page up, Page down or the mouse wheel.",
+                MenuRow::button(MenuAction::Keys, text!(language, "window-settings-keys")),
+                text!(language, "window-settings-keys-about"),
             ),
             (
-                row(Setting::Quality, "Picture", quality.unwrap_or("auto").to_owned()),
-                "Detail of the pictures. Auto is high with a graphics card and low without. A change takes effect in the next \
-                 flight.",
-            ),
-            (row(Setting::Sound, "Sound", on_off(self.sound)), "All sound on or off."),
-            (
-                row(Setting::Volume, "Volume", format!("{:.0}%", 100.0 * sounds.volume)),
-                "Volume of the propellers and the warning tones.",
+                row(Setting::Units, text!(language, "window-settings-units"), style.units.title(language)),
+                text!(language, "window-settings-units-about"),
             ),
             (
-                row(Setting::Propellers, "Propellers", on_off(sounds.propellers)),
-                "Propeller sound. It gets quieter as the drone flies away.",
+                row(Setting::TextScale, text!(language, "window-settings-text-size"), format!("{}%", style.text_scale.pct())),
+                text!(language, "window-settings-text-size-about"),
             ),
             (
-                row(Setting::WarningTones, "Warnings", on_off(sounds.warnings)),
-                "A tone for each warning. A warning is always on the screen as well.",
+                row(Setting::Quality, text!(language, "window-settings-picture"), quality_title(*quality, language)),
+                text!(language, "window-settings-picture-about"),
             ),
-            (row(Setting::Speech, "Speech", on_off(sounds.speech)), "Warnings are spoken, if spd-say or espeak-ng is installed."),
-            (MenuRow::button(MenuAction::RestoreSettings, "Restore all defaults"), "Resets all settings and keys."),
-            (MenuRow::button(MenuAction::Back, "Back (Esc)"), "All changes are saved."),
+        ];
+        rows.extend(self.explained_sounds());
+        rows.extend([
+            (
+                MenuRow::button(MenuAction::RestoreSettings, text!(language, "window-settings-restore")),
+                text!(language, "window-settings-restore-about"),
+            ),
+            (MenuRow::button(MenuAction::Back, text!(language, "window-back")), text!(language, "window-settings-back-about")),
+        ]);
+        rows
+    }
+
+    /// Returns the rows about sound, each with an explanation.
+    fn explained_sounds(&self) -> [(MenuRow, String); 5] {
+        let (language, sounds) = (self.language(), &self.settings.sounds);
+        let on_off = |on: bool| if on { text!(language, "window-on") } else { text!(language, "window-off") };
+        let row = |setting: Setting, label: String, value: String| MenuRow::choice(MenuAction::Setting(setting), label, value);
+        [
+            (
+                row(Setting::Sound, text!(language, "window-settings-sound"), on_off(self.sound)),
+                text!(language, "window-settings-sound-about"),
+            ),
+            (
+                row(Setting::Volume, text!(language, "window-settings-volume"), format!("{:.0}%", 100.0 * sounds.volume)),
+                text!(language, "window-settings-volume-about"),
+            ),
+            (
+                row(Setting::Propellers, text!(language, "window-settings-propellers"), on_off(sounds.propellers)),
+                text!(language, "window-settings-propellers-about"),
+            ),
+            (
+                row(Setting::WarningTones, text!(language, "window-settings-warnings"), on_off(sounds.warnings)),
+                text!(language, "window-settings-warnings-about"),
+            ),
+            (
+                row(Setting::Speech, text!(language, "window-settings-speech"), on_off(sounds.speech)),
+                text!(language, "window-settings-speech-about"),
+            ),
         ]
     }
 
     /// Returns the rows of the list of keys.
     pub(super) fn key_rows(&self) -> Vec<MenuRow> {
+        let language = self.language();
         let row = |(index, function): (usize, &KeyFunction)| {
             let awaited = self.awaited_key == Some(index);
-            let value = if awaited { "press a key".to_owned() } else { function.key.clone() };
-            MenuRow { kind: RowKind::KeyBinding, ..MenuRow::choice(MenuAction::Key(index), &function.title, value) }
+            let value = if awaited { text!(language, "window-settings-press-key") } else { function.key.clone() };
+            MenuRow { kind: RowKind::KeyBinding, ..MenuRow::choice(MenuAction::Key(index), function.title.clone(), value) }
         };
         let mut rows: Vec<MenuRow> = self.settings.keys.iter().enumerate().map(row).collect();
-        rows.push(MenuRow::button(MenuAction::RestoreKeys, "Restore default keys"));
-        rows.push(MenuRow::button(MenuAction::Back, "Back (Esc)"));
+        rows.push(MenuRow::button(MenuAction::RestoreKeys, text!(language, "window-settings-restore-keys")));
+        rows.push(MenuRow::button(MenuAction::Back, text!(language, "window-back")));
         rows
     }
 
     /// Draws the settings page.
     pub(super) fn draw_settings(&self, pen: &mut PageWriter, rows: &[MenuRow]) {
         let whole = pen.width - 2.0 * LEFT;
-        pen.title((LEFT, 0.08), whole, "Settings");
+        pen.title((LEFT, 0.08), whole, &text!(self.language(), "window-settings-title"));
         let width = if pen.is_narrow() { whole } else { 0.5 * pen.width };
-        let bottom = menu::draw(pen, (LEFT, 0.15), width, rows, self.focus);
-        let (x, y) = if pen.is_narrow() { (LEFT, bottom + 0.03) } else { (LEFT + width + 0.06, 0.17) };
+        let bottom = menu::draw(pen, (LEFT, 0.135), width, rows, self.focus);
+        let (x, y) = if pen.is_narrow() { (LEFT, bottom + 0.03) } else { (LEFT + width + 0.06, 0.155) };
         if let Some((row, explanation)) = self.explained_settings().into_iter().nth(self.focus) {
-            pen.text((x, y), TextAlign::Left, TEXT_SIZE, HudColor::Yellow, row.label);
             let width = pen.width - LEFT - x;
-            let y = pen.lines((x, y + 0.052), width, SMALL_TEXT_SIZE, HudColor::White, explanation);
-            let help = "Up/down select, left/right change, Enter confirm; or click.";
-            pen.lines((x, y + 0.03), width, SMALL_TEXT_SIZE, HudColor::Gray, help);
+            pen.text((x, y), TextAlign::Left, fitted(&row.label, TEXT_SIZE, width), HudColor::Yellow, row.label);
+            let y = pen.lines((x, y + 0.052), width, SMALL_TEXT_SIZE, HudColor::White, &explanation);
+            let help = text!(self.language(), "window-help");
+            pen.lines((x, y + 0.03), width, SMALL_TEXT_SIZE, HudColor::Gray, &help);
         }
     }
 
     /// Draws the list of keys.
     pub(super) fn draw_keys(&self, pen: &mut PageWriter, rows: &[MenuRow]) {
         let whole = pen.width - 2.0 * LEFT;
-        pen.title((LEFT, 0.06), whole, "Keys");
+        let language = self.language();
+        pen.title((LEFT, 0.06), whole, &text!(language, "window-settings-keys"));
         let help = if self.is_awaiting_key() {
-            "Press the new key. Esc cancels."
+            text!(language, "window-settings-keys-awaiting")
         } else {
-            "Enter or click a row, then press the new key. F11 always switches to full screen."
+            text!(language, "window-settings-keys-help")
         };
-        let y = pen.lines((LEFT, 0.13), whole, SMALL_TEXT_SIZE, HudColor::Gray, help);
+        let y = pen.lines((LEFT, 0.13), whole, SMALL_TEXT_SIZE, HudColor::Gray, &help);
         menu::draw_columns(pen, (LEFT, y - 0.012), whole, rows, self.focus);
     }
 
@@ -215,6 +246,26 @@ impl WindowFlow {
 
 fn quality_names() -> Vec<Option<&'static str>> {
     std::iter::once(None).chain(PRESETS.iter().map(|preset| Some(preset.name))).collect()
+}
+
+/// Returns the title of a quality preset, or of the automatic choice.
+fn quality_title(quality: Option<&str>, language: Language) -> String {
+    match quality {
+        None => text!(language, "window-settings-auto"),
+        Some("low") => text!(language, "window-settings-low"),
+        Some("medium") => text!(language, "window-settings-medium"),
+        Some("high") => text!(language, "window-settings-high"),
+        Some("ultra") => text!(language, "window-settings-ultra"),
+        Some(other) => other.to_owned(),
+    }
+}
+
+/// Returns the next or the previous language. After the last one comes the first one, so that users who cannot read the others
+/// find theirs with one key.
+fn next_language(language: Language, on: bool) -> Language {
+    let count = Language::ALL.len();
+    let at = Language::ALL.iter().position(|known| *known == language).unwrap_or_default();
+    Language::ALL[(at + if on { 1 } else { count - 1 }) % count]
 }
 
 /// Returns the value after or before one in a list, or the same at the end of the list.

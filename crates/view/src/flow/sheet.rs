@@ -3,7 +3,7 @@
 //! fractions of the width. With larger text, the unit is larger, so that the page is narrower and lower than the window.
 
 use super::KeyPress;
-pub use crate::hud::text_metrics::text_width;
+pub use crate::hud::text_metrics::{fitted, text_width};
 use crate::hud::{DisplayStyle, DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// Font size of titles, as a fraction of the window's height with normal text (the unit of all sizes in this module).
@@ -246,12 +246,6 @@ impl PageWriter {
     pub fn done(self) -> PageLayout {
         self.sheet
     }
-}
-
-/// Returns a font size at which a text fits into a width: the wanted one, or less.
-#[must_use]
-pub fn fitted(words: &str, size: f64, width: f64) -> f64 {
-    size.min(size * width / text_width(words, size).max(1e-9))
 }
 
 /// Wraps text at spaces and keeps its line breaks. Splits words that are wider than a line, such as addresses.

@@ -8,6 +8,7 @@ use super::sheet::{
 use super::{Page, WindowFlow, briefing, controls, menu, paused, school, summary, tutorial};
 use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use crate::job_picture;
+use spandrel_text::text;
 
 impl WindowFlow {
     /// Returns the page for a window with the given aspect ratio (width over height). During a flight, it contains only
@@ -54,8 +55,8 @@ impl WindowFlow {
         let rows = self.rows();
         let mut pen = PageWriter::new(aspect, self.style());
         match self.page {
-            Page::Paused => return paused::page(pen, &paused::PAUSE_TEXT, &rows, self.focus),
-            Page::ConfirmEnd => return paused::page(pen, &paused::END_TEXT, &rows, self.focus),
+            Page::Paused => return paused::page(pen, &paused::pause_text(self.language()), &rows, self.focus),
+            Page::ConfirmEnd => return paused::page(pen, &paused::end_text(self.language()), &rows, self.focus),
             Page::Start => self.start(&mut pen, &rows),
             Page::Controls | Page::Calibrating => controls::page(&mut pen, &self.controls, &rows, self.focus),
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
@@ -63,7 +64,7 @@ impl WindowFlow {
             Page::Keys { .. } => self.draw_keys(&mut pen, &rows),
             Page::Briefing => match self.chosen_job() {
                 Some(job) => briefing::page(&mut pen, job, &rows, self.focus),
-                None => waiting(&mut pen, self.waiting_for),
+                None => waiting(&mut pen, &self.waiting_for.title(self.language())),
             },
             Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
             Page::School => {
@@ -71,7 +72,7 @@ impl WindowFlow {
                     school::page(&mut pen, shown, &rows, self.focus);
                 }
             }
-            Page::Waiting => waiting(&mut pen, self.waiting_for),
+            Page::Waiting => waiting(&mut pen, &self.waiting_for.title(self.language())),
             Page::Opening | Page::Flight => waiting(&mut pen, "Spandrel"),
         }
         pen.done()
@@ -80,12 +81,12 @@ impl WindowFlow {
     fn start(&self, pen: &mut PageWriter, rows: &[menu::MenuRow]) {
         let (left, narrow) = (0.04, pen.is_narrow());
         let whole = pen.width - 2.0 * left;
-        pen.title((left, 0.08), whole, "Spandrel: inspect a bridge with a drone");
+        pen.title((left, 0.08), whole, &text!(self.language(), "window-start-title"));
         let half = if narrow { whole } else { 0.56 * pen.width };
-        let bottom = menu::draw(pen, (left, 0.17), half, rows, self.focus);
-        let help = "Up/down select, left/right change, Enter confirm; or click.";
-        let bottom = pen.lines((left, bottom + 0.03), half, SMALL_TEXT_SIZE, HudColor::Gray, help);
-        let (x, top) = if narrow { (left, bottom + 0.04) } else { (left + half + 0.06, 0.19) };
+        let bottom = menu::draw(pen, (left, 0.145), half, rows, self.focus);
+        let help = text!(self.language(), "window-help");
+        let bottom = pen.lines((left, bottom + 0.02), half, SMALL_TEXT_SIZE, HudColor::Gray, &help);
+        let (x, top) = if narrow { (left, bottom + 0.04) } else { (left + half + 0.06, 0.165) };
         let width = if narrow { whole } else { pen.width - half - left - 0.08 };
         self.explain_choice(pen, (x, top), width);
     }
@@ -94,15 +95,15 @@ impl WindowFlow {
     fn explain_choice(&self, pen: &mut PageWriter, (x, top): (f64, f64), width: f64) {
         let told = self.choice_explanation();
         let text_height = |words: &str| LINE_SPACING * SMALL_TEXT_SIZE * wrap_text(words, width, SMALL_TEXT_SIZE).len() as f64;
-        let texts: f64 = told.iter().map(|(_, words)| HEADING_HEIGHT + text_height(words) + BLOCK_GAP).sum();
+        let texts: f64 = told.iter().map(|(.., words)| HEADING_HEIGHT + text_height(words) + BLOCK_GAP).sum();
         // The picture takes the space that the texts leave.
         let room = pen.height - 0.03 - top - texts - BLOCK_GAP;
         let height = room.clamp(PICTURE_HEIGHTS.0, PICTURE_HEIGHTS.1).min(width / job_picture::ASPECT);
         let mut y = top;
-        for (head, words) in told {
-            pen.text((x, y), TextAlign::Left, fitted(head, TEXT_SIZE, width), HudColor::Yellow, head);
+        for (topic, head, words) in told {
+            pen.text((x, y), TextAlign::Left, fitted(&head, TEXT_SIZE, width), HudColor::Yellow, head);
             y = pen.lines((x, y + HEADING_HEIGHT), width, SMALL_TEXT_SIZE, HudColor::White, &words) + BLOCK_GAP;
-            if head == JOB_HEADING {
+            if topic == Topic::Job {
                 let place = (x, y - BLOCK_GAP - 0.3 * SMALL_TEXT_SIZE);
                 pen.picture_from(PictureSource::Job(self.choice.scenario.clone()), place, (height * job_picture::ASPECT, height));
                 y += height + BLOCK_GAP;
@@ -121,38 +122,53 @@ impl WindowFlow {
     }
 
     /// Returns a heading and an explanation for each selected value.
-    fn choice_explanation(&self) -> Vec<(&'static str, String)> {
-        let offers = self.offers.as_ref();
-        let person = self.trainee_summary();
-        let known = person.map_or(0, |person| person.sessions);
-        let who = match known {
-            _ if self.choice.trainee.is_empty() => "Enter a pseudonym, not a real name.".to_owned(),
-            0 => "No sessions yet.".to_owned(),
-            1 => "One session so far.".to_owned(),
-            n => format!("{n} sessions so far."),
-        };
-        let new = !self.choice.trainee.is_empty() && self.needs_tutorial();
-        let who = if new { format!("{who} Your first practice starts with a tutorial.") } else { who };
-        let who = match person.and_then(|person| person.last.as_ref()) {
-            Some(last) => format!("{who} Last flight: {last}"),
-            None => who,
-        };
-        let job = self.chosen_job();
-        let job = job.map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
+    fn choice_explanation(&self) -> Vec<(Topic, String, String)> {
+        let language = self.language();
+        let job = self.chosen_job().map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
         let purpose = match self.choice.purpose {
-            Purpose::Practice => "You can pause and restart; the map shows the paths.",
-            Purpose::Assessment => "One attempt: no pause, restart, or map.",
+            Purpose::Practice => text!(language, "window-start-about-practice"),
+            Purpose::Assessment => text!(language, "window-start-about-assessment"),
         };
-        let mut told = vec![("Trainee", who), (JOB_HEADING, job), ("Purpose", purpose.to_owned())];
-        if let Some(web) = offers.and_then(|o| o.web.as_ref()) {
-            told.push(("View sessions in browser", web.clone()));
+        let mut told = vec![
+            (Topic::Trainee, text!(language, "window-start-trainee"), self.about_trainee()),
+            (Topic::Job, text!(language, "window-start-job"), job),
+            (Topic::Purpose, text!(language, "window-start-purpose"), purpose),
+        ];
+        if let Some(web) = self.offers.as_ref().and_then(|offers| offers.web.as_ref()) {
+            told.push((Topic::Web, text!(language, "window-start-web"), web.clone()));
         }
         told
     }
+
+    /// Returns what is known about the selected trainee, as sentences.
+    fn about_trainee(&self) -> String {
+        let (language, person) = (self.language(), self.trainee_summary());
+        let sessions = person.map_or(0, |person| person.sessions);
+        let is_named = !self.choice.trainee.is_empty();
+        let mut sentences = vec![match sessions {
+            _ if !is_named => text!(language, "window-start-enter-name"),
+            0 => text!(language, "window-start-no-sessions"),
+            count => text!(language, "window-start-sessions", count = count),
+        }];
+        if is_named && self.needs_tutorial() {
+            sentences.push(text!(language, "window-start-tutorial-first"));
+        }
+        if let Some(last) = person.and_then(|person| person.last.as_ref()) {
+            sentences.push(text!(language, "window-start-last-flight", words = last.as_str()));
+        }
+        sentences.join(" ")
+    }
 }
 
-/// Heading of the job's description.
-const JOB_HEADING: &str = "Job";
+/// What an explanation on the start page is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Topic {
+    Trainee,
+    Job,
+    Purpose,
+    Web,
+}
+
 /// Height of a heading with its gap, and gap between two blocks.
 const HEADING_HEIGHT: f64 = 0.052;
 const BLOCK_GAP: f64 = 0.03;

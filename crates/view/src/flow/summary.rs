@@ -1,9 +1,10 @@
 //! Result page: what to do better, the four scores, links to the report and questionnaire, and the next steps.
 
 use super::menu::{self, MenuAction, MenuRow};
-use super::pipe::{FlightSummary, LessonProgress, SCORE_NAMES};
+use super::pipe::{FlightSummary, LessonProgress};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE};
 use crate::hud::{HudColor, TextAlign};
+use spandrel_text::{Language, text};
 
 /// Left margin.
 const LEFT: f64 = 0.04;
@@ -19,23 +20,39 @@ fn is_openable(address: &str) -> bool {
 }
 
 /// Returns the menu rows for a result.
-pub fn rows(ended: Option<&FlightSummary>) -> Vec<MenuRow> {
+pub fn rows(ended: Option<&FlightSummary>, language: Language) -> Vec<MenuRow> {
+    let watched = ended.is_some_and(|ended| ended.watched);
     let mut rows = Vec::new();
     if ended.is_some_and(|ended| ended.report.is_some()) {
-        rows.push(MenuRow::button(MenuAction::Report, "Open report"));
+        rows.push(MenuRow::button(MenuAction::Report, text!(language, "window-result-open-report")));
     }
     if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
-        rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, "Open questionnaire"));
+        rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, text!(language, "window-result-open-questionnaire")));
     }
     if let Some(next) = ended.and_then(|ended| ended.next.as_ref()) {
-        let verb = if ended.is_some_and(|ended| ended.watched) { "Fly it yourself" } else { "Fly next" };
-        rows.push(MenuRow::button(MenuAction::FlyNext, format!("{verb}: {}", next.title)));
+        let job = next.title.as_str();
+        let words = if watched {
+            text!(language, "window-result-fly-yourself", job = job)
+        } else {
+            text!(language, "window-result-fly-next", job = job)
+        };
+        rows.push(MenuRow::button(MenuAction::FlyNext, words));
     }
-    let again = if ended.is_some_and(|ended| ended.watched) { "Watch again" } else { "Fly again" };
+    let again = if watched { text!(language, "window-result-watch-again") } else { text!(language, "window-result-fly-again") };
     rows.push(MenuRow::button(MenuAction::FlyAgain, again));
-    rows.push(MenuRow::button(MenuAction::ChooseOther, "Choose another job"));
-    rows.push(MenuRow::button(MenuAction::Quit, "Quit"));
+    rows.push(MenuRow::button(MenuAction::ChooseOther, text!(language, "window-result-choose")));
+    rows.push(MenuRow::button(MenuAction::Quit, text!(language, "window-start-quit")));
     rows
+}
+
+/// Returns the names of the four scores, in the order of [`SCORE_NAMES`](super::pipe::SCORE_NAMES).
+fn score_titles(language: Language) -> [String; 4] {
+    [
+        text!(language, "window-result-conformity"),
+        text!(language, "window-result-efficiency"),
+        text!(language, "window-result-safety"),
+        text!(language, "window-result-accuracy"),
+    ]
 }
 
 pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow], focus: usize) {
@@ -55,22 +72,27 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
 
 /// Draws how much of the job was done and why the flight ended, and returns the y position below.
 fn headline(pen: &mut PageWriter, ended: &FlightSummary) -> f64 {
+    let language = pen.style().language;
     if let Some(lesson) = ended.lesson {
-        let title = if lesson.is_complete() { "Lesson done".to_owned() } else { lesson_title(lesson) };
+        let title = lesson_title(lesson, language);
         pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, &title);
         return pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &ended.why);
     }
     let (title, note) = match &ended.completion {
-        Some(words) if !ended.complete => (words.as_str(), format!("{}. The scores cover the part you flew.", ended.why)),
-        _ => ("Flight ended", ended.why.clone()),
+        Some(words) if !ended.complete => (words.clone(), text!(language, "window-result-part", why = ended.why.as_str())),
+        _ => (text!(language, "window-result-title"), ended.why.clone()),
     };
     // The headline's length depends on the job.
-    pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, title);
+    pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, &title);
     pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &note)
 }
 
-fn lesson_title(lesson: LessonProgress) -> String {
-    format!("{} of {} steps of the lesson done", lesson.done, lesson.steps)
+fn lesson_title(lesson: LessonProgress, language: Language) -> String {
+    if lesson.is_complete() {
+        text!(language, "window-result-lesson-done")
+    } else {
+        text!(language, "window-result-lesson-steps", done = lesson.done, steps = lesson.steps)
+    }
 }
 
 /// Draws the sentences on what to do better, and returns the y position below.
@@ -78,7 +100,13 @@ fn to_do_better(pen: &mut PageWriter, advice: &[String], top: f64) -> f64 {
     if advice.is_empty() {
         return top;
     }
-    pen.text((LEFT, top + 0.02), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, "Do better next time");
+    pen.text(
+        (LEFT, top + 0.02),
+        TextAlign::Left,
+        SMALL_TEXT_SIZE,
+        HudColor::Yellow,
+        text!(pen.style().language, "window-result-advice"),
+    );
     let indent = if advice.len() > 1 { 0.045 } else { 0.0 };
     let mut y = top + 0.07;
     for (k, words) in advice.iter().enumerate() {
@@ -93,13 +121,16 @@ fn to_do_better(pen: &mut PageWriter, advice: &[String], top: f64) -> f64 {
 /// Draws the four scores, their sum and the verdict, and returns the y position below.
 fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &FlightSummary) -> f64 {
     let spacing = if width < MIN_BAR_LINE_WIDTH { BAR_SPACING + NAME_HEIGHT } else { BAR_SPACING };
-    for (k, (name, score)) in SCORE_NAMES.iter().zip(&ended.scores).enumerate() {
+    let language = pen.style().language;
+    for (k, (name, score)) in score_titles(language).iter().zip(&ended.scores).enumerate() {
         bar(pen, (left, top + spacing * k as f64), width, name, score.map(|score| score.pct));
     }
-    let mut y = top + spacing * SCORE_NAMES.len() as f64 + 0.02;
+    let mut y = top + spacing * ended.scores.len() as f64 + 0.02;
     let overall = match ended.overall {
-        Some((sum, most)) => Some(format!("overall  {sum:.1} of {most:.0}")),
-        None => ended.scores.iter().all(Option::is_none).then(|| "no scores".to_owned()),
+        Some((sum, most)) => {
+            Some(text!(language, "window-result-overall", sum = format!("{sum:.1}"), most = format!("{most:.0}")))
+        }
+        None => ended.scores.iter().all(Option::is_none).then(|| text!(language, "window-result-no-scores")),
     };
     if let Some(words) = overall {
         pen.text((left, y), TextAlign::Left, TEXT_SIZE, HudColor::White, words);
@@ -114,13 +145,16 @@ fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &Fli
 /// Draws what no button opens, and returns the y position below.
 fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) -> f64 {
     let mut y = y;
-    let report = ended.report.is_none().then_some("not available");
-    let questionnaire = Some(ended.questionnaire.as_str()).filter(|address| !address.is_empty() && !is_openable(address));
-    for (name, words) in [("report", report), ("questionnaire", questionnaire)] {
+    let language = pen.style().language;
+    let report = ended.report.is_none().then(|| text!(language, "window-result-not-available"));
+    let questionnaire = Some(ended.questionnaire.clone()).filter(|address| !address.is_empty() && !is_openable(address));
+    let places =
+        [(text!(language, "window-result-report"), report), (text!(language, "window-result-questionnaire"), questionnaire)];
+    for (name, words) in places {
         let Some(words) = words else { continue };
         pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);
         let (indent, down) = if width < MIN_BAR_LINE_WIDTH { (0.0, LINE_SPACING * SMALL_TEXT_SIZE) } else { (0.24, 0.0) };
-        y = pen.lines((LEFT + indent, y + down), width - indent, SMALL_TEXT_SIZE, HudColor::White, words);
+        y = pen.lines((LEFT + indent, y + down), width - indent, SMALL_TEXT_SIZE, HudColor::White, &words);
     }
     y
 }
@@ -135,7 +169,8 @@ fn bar(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, name: &str, pct: Op
     let (from, full) = if is_narrow { (x, width - 0.16) } else { (x + 0.28, width - 0.44) };
     pen.panel((from, y), (full, BAR_HEIGHT), HudColor::InputField);
     let Some(pct) = pct else {
-        pen.text((from + 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, "not applicable");
+        let words = text!(pen.style().language, "window-result-not-applicable");
+        pen.text((from + 0.02, y + 0.5 * BAR_HEIGHT), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, words);
         return;
     };
     let long = full * (pct / 100.0).clamp(0.0, 1.0);

@@ -5,11 +5,12 @@ use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, text_width, wrap_text};
 use crate::hud::{
-    DisplayStyle, DisplayUnits, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TextAlign, instruments, layout,
+    DisplayStyle, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TextAlign, TextScale, instruments, layout,
 };
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
 use spandrel_model::speed_unit::SpeedUnit;
+use spandrel_text::{Language, text};
 
 /// Embedded JPEG pictures by name.
 pub const PICTURES: [(&str, &[u8]); 9] = [
@@ -27,52 +28,37 @@ pub const PICTURES: [(&str, &[u8]); 9] = [
 /// Aspect ratio of the large pictures.
 const PICTURE_ASPECT: f64 = 16.0 / 9.0;
 
-/// A page: title, function that draws the box on the left, and text on the right; `{binding}` is replaced by a key
-/// name.
-type TutorialPage = (&'static str, fn(&mut PageWriter, PictureFrame, &KeyNames), &'static str);
+/// A page: its title, the function that draws the box on the left, and the text on the right.
+struct TutorialPage {
+    title: String,
+    picture: fn(&mut PageWriter, PictureFrame, &KeyNames),
+    text: String,
+}
 
-const TUTORIAL_PAGES: [TutorialPage; PAGE_COUNT] = [
-    (
-        "the job",
-        job,
-        "You are standing on a hillside with a drone. Follow each task's path, photograph each defect once, then return and land on \
-         the pad.\n\nThe orange line shows an example flight; the red dots mark its photos.",
-    ),
-    (
-        "two views",
-        views,
-        "Your own view from the ground, and the drone camera's view, which is the larger one.\n\nPress {swap} to change the layout. \
-         Drag with the mouse to look around, scroll to zoom. Press {follow} to make your view follow the drone again.",
-    ),
-    (
-        "the display",
-        display,
-        "Stay below the speed limit during a task. The battery symbol turns from green to yellow (triangle) to red (flashing octagon): \
-         return before the battery is empty.\n\nAn assessment has no map.",
-    ),
-    (
-        "warnings",
-        warnings,
-        "Warnings appear at lower left, the most serious at the bottom. Each has its own shape and, with sound on, its own tone.\n\n\
-         Blue disc: return to the path.\nYellow triangle: slow down.\nOrange diamond: move away from the structure.\nRed octagon: \
-         you hit something.",
-    ),
-    (
-        "defects",
-        defects,
-        "The same defects at 1 m, 3 m, 8 m with one lens. A photo counts if the defect is inside the corner marks, lit, not \
-         seen edge-on, and, for a crack, at least half a pixel wide. Fly closer, or zoom ({camera_zoom_in}) if the camera can.\n\n\
-         Stains, form lines, sealed cracks, spider webs, and spray paint are not defects. Every photo without a new defect lowers \
-         your accuracy.",
-    ),
-    (
-        "light and scores",
-        light,
-        "Use the lamp ({lamp}) in dark places, as these pictures show.\n\nConformity: stay on the path and below the speed limit. \
-         Efficiency: return within 15 minutes. Safety: touch nothing; hitting a person or vehicle ends the session. Accuracy: \
-         photograph every defect once.",
-    ),
-];
+impl TutorialPage {
+    /// Returns the page with this number, from 0.
+    fn new(number: usize, language: Language, names: &KeyNames) -> Option<Self> {
+        let key = |binding: &str| names.name(binding);
+        let page = |title: String, picture, text: String| Self { title, picture, text };
+        Some(match number {
+            0 => page(text!(language, "tutorial-job-title"), job, text!(language, "tutorial-job-text")),
+            1 => page(
+                text!(language, "tutorial-views-title"),
+                views,
+                text!(language, "tutorial-views-text", swap = key("swap"), follow = key("follow")),
+            ),
+            2 => page(text!(language, "tutorial-display-title"), display, text!(language, "tutorial-display-text")),
+            3 => page(text!(language, "tutorial-warnings-title"), warnings, text!(language, "tutorial-warnings-text")),
+            4 => page(
+                text!(language, "tutorial-defects-title"),
+                defects,
+                text!(language, "tutorial-defects-text", camera_zoom_in = key("camera_zoom_in")),
+            ),
+            5 => page(text!(language, "tutorial-light-title"), light, text!(language, "tutorial-light-text", lamp = key("lamp"))),
+            _ => return None,
+        })
+    }
+}
 
 /// Number of pages.
 pub const PAGE_COUNT: usize = 6;
@@ -104,9 +90,11 @@ impl PictureFrame {
 }
 
 pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, names: &KeyNames) {
-    let Some((title, picture, words)) = TUTORIAL_PAGES.get(page) else { return };
+    let language = pen.style().language;
+    let Some(TutorialPage { title, picture, text: words }) = TutorialPage::new(page, language, names) else { return };
     let (left, narrow) = (0.04, pen.is_narrow());
-    pen.title((left, 0.07), pen.width - 2.0 * left, &format!("Tutorial {} of {PAGE_COUNT}: {title}", page + 1));
+    let title = text!(language, "tutorial-title", page = page + 1, pages = PAGE_COUNT, title = title);
+    pen.title((left, 0.07), pen.width - 2.0 * left, &title);
     let room = if narrow { pen.width - 2.0 * left } else { 0.60 * pen.width };
     let width = room.min(0.70 * PICTURE_ASPECT);
     let font = SMALL_TEXT_SIZE.min(MAX_FONT_RATIO * width);
@@ -114,7 +102,6 @@ pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, n
     picture(pen, frame, names);
     let (x, top) = if narrow { (left, pen.bottom().max(frame.y + frame.height) + 0.05) } else { (left + width + 0.06, 0.17) };
     let room = pen.width - x - if narrow { left } else { 0.03 };
-    let words = names.fill(words);
     let menu_top = pen.height - 0.03 - ROW_SPACING * rows.len() as f64;
     // Text beside the picture shrinks a little before the page is scrolled.
     let height = |size: f64| LINE_SPACING * size * wrap_text(&words, room, size).len() as f64;
@@ -125,10 +112,12 @@ pub fn page(pen: &mut PageWriter, page: usize, rows: &[MenuRow], focus: usize, n
 }
 
 /// Draws a label with an arrow; both positions are fractions of the frame.
-fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64), to: (f64, f64)) {
+fn label(pen: &mut PageWriter, frame: PictureFrame, words: String, from: (f64, f64), to: (f64, f64)) {
     let unit = frame.font / SMALL_TEXT_SIZE;
-    let half = 0.5 * text_width(words, frame.font) + 0.012 * unit;
+    let half = 0.5 * text_width(&words, frame.font) + 0.012 * unit;
     let (x, y) = frame.at(from.0, from.1);
+    // A long label stays on the page.
+    let x = x.min(pen.width - half).max(half);
     let (tx, ty) = frame.at(to.0, to.1);
     // The arrow starts on the side of the label that faces its target.
     let foot = if (tx - x).abs() > half { (x + half * (tx - x).signum(), y) } else { (x, y + 0.025 * unit * (ty - y).signum()) };
@@ -138,11 +127,12 @@ fn label(pen: &mut PageWriter, frame: PictureFrame, words: &str, from: (f64, f64
 }
 
 fn job(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
+    let language = pen.style().language;
     pen.picture("job", frame.at(0.0, 0.0), (frame.width, frame.height));
-    label(pen, frame, "take off and land here", (0.26, 0.86), (0.075, 0.62));
-    label(pen, frame, "suspension bridge", (0.62, 0.07), (0.55, 0.22));
-    label(pen, frame, "arch bridge", (0.80, 0.86), (0.72, 0.58));
-    label(pen, frame, "task 4: around the pier", (0.24, 0.07), (0.235, 0.355));
+    label(pen, frame, text!(language, "tutorial-job-pad"), (0.26, 0.86), (0.075, 0.62));
+    label(pen, frame, text!(language, "tutorial-job-suspension"), (0.62, 0.07), (0.55, 0.22));
+    label(pen, frame, text!(language, "tutorial-job-arch"), (0.80, 0.86), (0.72, 0.58));
+    label(pen, frame, text!(language, "tutorial-job-task"), (0.24, 0.07), (0.235, 0.355));
 }
 
 /// Width of the column with the trainee's own view and the instruments, as a fraction of the picture.
@@ -155,35 +145,30 @@ fn views(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     let below = frame.part((0.0, SIDE_SHARE), (SIDE_SHARE, 1.0 - 2.0 * SIDE_SHARE));
     pen.picture("inspector", own.at(0.0, 0.0), (own.width, own.height));
     pen.picture("camera", camera.at(0.0, 0.0), (camera.width, camera.height));
-    let display = example(0, pen.style().units);
+    let language = pen.style().language;
+    let display = example(0, pen.style());
     inset(pen, &layout(&display, PICTURE_ASPECT), camera);
     pen.panel(below.at(0.0, 0.0), (below.width, below.height), HudColor::PageBackground);
     // The unit is only a scale: the navigation display fills its area.
     let shape = (1_000.0 * below.width, 1_000.0 * below.height);
     inset(pen, &instruments(&display, &SiteOutline::empty(), shape), below);
-    label(pen, frame, "your own view", (0.48, 0.26), (0.28, 0.20));
-    label(pen, frame, "navigation display", (0.20, 0.84), (0.16, 0.62));
-    label(pen, frame, "the camera's view", (0.74, 0.84), (0.66, 0.60));
+    label(pen, frame, text!(language, "tutorial-views-own"), (0.48, 0.26), (0.28, 0.20));
+    label(pen, frame, text!(language, "tutorial-views-navigation"), (0.20, 0.84), (0.16, 0.62));
+    label(pen, frame, text!(language, "tutorial-views-camera"), (0.74, 0.84), (0.66, 0.60));
     let (x, y) = frame.at(0.0, 1.0);
-    pen.lines(
-        (x, y),
-        frame.width,
-        frame.font,
-        HudColor::Gray,
-        "The bracket in your view marks the drone and shows its distance. During practice, a map and a side profile of the bridge appear \
-         below the navigation display.",
-    );
+    pen.lines((x, y), frame.width, frame.font, HudColor::Gray, &text!(language, "tutorial-views-note"));
 }
 
 fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
-    inset(pen, &layout(&example(0, pen.style().units), PICTURE_ASPECT), frame);
+    let language = pen.style().language;
+    inset(pen, &layout(&example(0, pen.style()), PICTURE_ASPECT), frame);
     for (words, from, to) in [
-        ("speed and its limit", (0.20, 0.30), (0.08, 0.135)),
-        ("mode, satellites, link", (0.50, 0.20), (0.50, 0.075)),
-        ("battery", (0.70, 0.13), (0.84, 0.065)),
-        ("height, distance home, time left", (0.64, 0.38), (0.885, 0.25)),
-        ("keep defects inside these corners", (0.38, 0.80), (0.105, 0.895)),
+        (text!(language, "tutorial-display-speed"), (0.20, 0.30), (0.08, 0.135)),
+        (text!(language, "tutorial-display-status"), (0.50, 0.20), (0.50, 0.075)),
+        (text!(language, "tutorial-display-battery"), (0.70, 0.13), (0.84, 0.065)),
+        (text!(language, "tutorial-display-readouts"), (0.64, 0.38), (0.885, 0.25)),
+        (text!(language, "tutorial-display-corners"), (0.38, 0.80), (0.105, 0.895)),
     ] {
         label(pen, frame, words, from, to);
     }
@@ -191,25 +176,27 @@ fn display(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
 
 fn warnings(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
     pen.picture("camera", frame.at(0.0, 0.0), (frame.width, frame.height));
-    let texts = ["Crash: pier", "Too close: 1.2 m, limit 2.5 m", "Too fast: 12 mph, limit 10 mph", "Off path 3.4 m: left and up"];
+    let language = pen.style().language;
+    let crash = format!("Crash: {}", text!(language, "tutorial-warnings-object"));
+    let texts =
+        [crash.as_str(), "Too close: 1.2 m, limit 2.5 m", "Too fast: 12 mph, limit 10 mph", "Off path 3.4 m: left and up"];
     let cues = cue::CRASH | cue::TOO_CLOSE | cue::SPEEDING | cue::OFF_PATH;
-    let display = Hud {
-        cue_texts: texts.into_iter().collect(),
-        battery_pct: Some(24.0),
-        speed_m_s: 5.3,
-        ..example(cues, pen.style().units)
-    };
+    let display =
+        Hud { cue_texts: texts.into_iter().collect(), battery_pct: Some(24.0), speed_m_s: 5.3, ..example(cues, pen.style()) };
     inset(pen, &layout(&display, PICTURE_ASPECT), frame);
-    label(pen, frame, "warnings", (0.62, 0.68), (0.36, 0.80));
-    label(pen, frame, "low battery", (0.62, 0.22), (0.86, 0.085));
+    label(pen, frame, text!(language, "tutorial-warnings-warnings"), (0.62, 0.68), (0.36, 0.80));
+    label(pen, frame, text!(language, "tutorial-warnings-battery"), (0.62, 0.22), (0.86, 0.085));
 }
 
 fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
-    for (k, (name, words)) in
-        [("crack", "crack"), ("spall", "spall"), ("efflorescence", "efflorescence"), ("corrosion", "corrosion")]
-            .into_iter()
-            .enumerate()
-    {
+    let language = pen.style().language;
+    let kinds = [
+        ("crack", text!(language, "tutorial-defects-crack")),
+        ("spall", text!(language, "tutorial-defects-spall")),
+        ("efflorescence", text!(language, "tutorial-defects-efflorescence")),
+        ("corrosion", text!(language, "tutorial-defects-corrosion")),
+    ];
+    for (k, (name, words)) in kinds.into_iter().enumerate() {
         let strip = frame.part((0.0, 0.26 * k as f64), (1.0, 0.24));
         // The strips have an aspect ratio of 4.
         let width = (4.0 * strip.height).min(strip.width);
@@ -225,22 +212,41 @@ fn defects(pen: &mut PageWriter, frame: PictureFrame, _: &KeyNames) {
 }
 
 fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
+    let language = pen.style().language;
     let first = frame.part((0.0, 0.0), (0.49, 0.49));
     let second = frame.part((0.51, 0.0), (0.49, 0.49));
     pen.picture("dark", first.at(0.0, 0.0), (first.width, first.height));
     pen.picture("lamp", second.at(0.0, 0.0), (second.width, second.height));
-    label(pen, first, "without the lamp", (0.5, 1.14), (0.5, 0.85));
-    label(pen, second, "with the lamp", (0.3, 1.14), (0.38, 0.85));
-    label(pen, second, "fly closer to check this", (0.62, 0.68), (0.33, 0.33));
+    label(pen, first, text!(language, "tutorial-light-without"), (0.5, 1.14), (0.5, 0.85));
+    label(pen, second, text!(language, "tutorial-light-with"), (0.3, 1.14), (0.38, 0.85));
+    label(pen, second, text!(language, "tutorial-light-closer"), (0.62, 0.68), (0.33, 0.33));
     let (x, y) = frame.at(0.0, 0.72);
-    let words = "Release the sticks to hover. Keys: {arm} arm, {take_off} take off, {up} {down} up and down, {turn_left} \
-                 {turn_right} turn, {forward} {back} {left} {right} fly, {lamp} lamp, {snapshot} photograph, {gimbal_up} {gimbal_down} tilt \
-                 the camera, {land} land, {pause} pause.";
-    pen.lines((x, y), frame.width, frame.font, HudColor::Gray, &names.fill(words));
+    let key = |binding: &str| names.name(binding);
+    let words = text!(
+        language,
+        "tutorial-light-keys",
+        arm = key("arm"),
+        take_off = key("take_off"),
+        up = key("up"),
+        down = key("down"),
+        turn_left = key("turn_left"),
+        turn_right = key("turn_right"),
+        forward = key("forward"),
+        back = key("back"),
+        left = key("left"),
+        right = key("right"),
+        lamp = key("lamp"),
+        snapshot = key("snapshot"),
+        gimbal_up = key("gimbal_up"),
+        gimbal_down = key("gimbal_down"),
+        land = key("land"),
+        pause = key("pause"),
+    );
+    pen.lines((x, y), frame.width, frame.font, HudColor::Gray, &words);
 }
 
 /// Returns an example HUD in flight.
-fn example(cues: i32, units: DisplayUnits) -> Hud {
+fn example(cues: i32, style: DisplayStyle) -> Hud {
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 10.0 * spandrel_model::math::M_S_PER_MPH,
@@ -275,7 +281,7 @@ fn example(cues: i32, units: DisplayUnits) -> Hud {
         guidance: None,
         lesson: None,
         tracks: Vec::new(),
-        style: DisplayStyle { units, ..DisplayStyle::default() },
+        style: DisplayStyle { text_scale: TextScale::Normal, ..style },
     }
 }
 

@@ -4,11 +4,15 @@ use super::icons::IconShape;
 use super::metrics::{EDGE_MARGIN, MEDIUM_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
+use super::text_metrics::fitted;
 use super::{DrawItem, HudColor, TextAlign};
+use spandrel_text::text;
 
 /// Width and height of the panel.
 pub const PANEL_WIDTH: f64 = 0.27;
 pub const PANEL_HEIGHT: f64 = 0.075;
+/// Distance of the text from the edges.
+const PADDING: f64 = 0.016;
 /// Blink rate, Hz (noticeable, but well below rates that can trigger seizures).
 const BLINK_RATE_HZ: f64 = 2.0;
 
@@ -39,11 +43,13 @@ pub fn charge_style(hud: &Hud, pct: f64) -> ChargeStyle {
 pub fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let right = pane.width - EDGE_MARGIN;
     let (from, y) = (right - PANEL_WIDTH, EDGE_MARGIN + 0.5 * PANEL_HEIGHT);
-    let words_at = (right - 0.016, y);
+    let words_at = (right - PADDING, y);
     let mut items = vec![pane.panel((from, EDGE_MARGIN), (right, EDGE_MARGIN + PANEL_HEIGHT))];
     let Some(pct) = hud.battery_pct else {
         let place = (words_at.0, EDGE_MARGIN + 0.037);
-        items.push(pane.text(place, TextAlign::Right, MEDIUM_FONT_SIZE, HudColor::Gray, "no battery data"));
+        let words = text!(hud.style.language, "flight-battery-no-data");
+        let size = fitted(&words, MEDIUM_FONT_SIZE, PANEL_WIDTH - 2.0 * PADDING);
+        items.push(pane.text(place, TextAlign::Right, size, HudColor::Gray, words));
         return items;
     };
     let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);

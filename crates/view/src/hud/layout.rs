@@ -12,8 +12,9 @@ use super::state::Hud;
 use super::status::{alarm_line, status};
 use super::style::TextScale;
 use super::task_panel::{self, PanelDetail, task_panel};
-use super::{DrawItem, HudColor, ScreenPoint, TextAlign};
+use super::{DrawItem, HudColor, ScreenPoint};
 use spandrel_model::math;
+use spandrel_text::text;
 
 /// Smallest font size that is legible in flight, px (estimate: capitals 6.5 px high; the font size in a picture 360 px
 /// high is 9.7 px).
@@ -162,29 +163,50 @@ fn readouts(hud: &Hud, pane: Pane, count: usize) -> (Vec<DrawItem>, f64) {
     if count == 0 {
         return (Vec::new(), top - BLOCK_GAP);
     }
-    let left = hud.remaining_s.max(0.0);
-    let mut lines = vec![
-        ("height", hud.style.units.length(hud.height_m, 1)),
-        ("home", hud.style.units.length(hud.home_distance_m, 0)),
-        ("gimbal", format!("{:+.0}°", hud.gimbal_rad.to_degrees().round() + 0.0)),
-        ("time left", format!("{}:{:02}", (left / 60.0).floor(), (left % 60.0).floor())),
-        ("lamp", if hud.lamp { "on".into() } else { "off".into() }),
-        ("pictures", hud.pictures.to_string()),
-    ];
-    if hud.zoom > 1.01 {
-        lines.push(("zoom", format!("{:.1} x", hud.zoom)));
-    }
+    let mut lines = readout_lines(hud);
     lines.truncate(count);
     let step = 0.037;
     let from = right - 0.225;
     let bottom = top + step * lines.len() as f64 + 0.012;
     let mut items = vec![pane.panel((from, top), (right, bottom))];
-    for (k, (name, value)) in lines.into_iter().enumerate() {
+    for (k, Readout { name, value, color }) in lines.into_iter().enumerate() {
         let y = top + 0.006 + step * (k as f64 + 0.5);
-        let lit = name == "lamp" && hud.lamp;
-        items.push(pane.text((from + 0.012, y), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, name));
-        let color = if lit { HudColor::Yellow } else { HudColor::White };
-        items.push(pane.text((right - 0.012, y), TextAlign::Right, SMALL_FONT_SIZE, color, value));
+        items.extend(pane.name_and_value((from + 0.012, right - 0.012), y, SMALL_FONT_SIZE, (name, value, color)));
     }
     (items, bottom)
+}
+
+/// A line below the battery.
+struct Readout {
+    name: String,
+    value: String,
+    color: HudColor,
+}
+
+fn readout_lines(hud: &Hud) -> Vec<Readout> {
+    let (language, units) = (hud.style.language, hud.style.units);
+    let white = |name: String, value: String| Readout { name, value, color: HudColor::White };
+    let left = hud.remaining_s.max(0.0);
+    let mut lines = vec![
+        white(text!(language, "flight-readout-height"), units.length(hud.height_m, 1)),
+        white(text!(language, "flight-readout-home"), units.length(hud.home_distance_m, 0)),
+        white(text!(language, "flight-readout-gimbal"), format!("{:+.0}°", hud.gimbal_rad.to_degrees().round() + 0.0)),
+        white(text!(language, "flight-readout-time-left"), format!("{}:{:02}", (left / 60.0).floor(), (left % 60.0).floor())),
+        lamp_readout(hud),
+        white(text!(language, "flight-readout-pictures"), hud.pictures.to_string()),
+    ];
+    if hud.zoom > 1.01 {
+        lines.push(white(text!(language, "flight-readout-zoom"), format!("{:.1} x", hud.zoom)));
+    }
+    lines
+}
+
+fn lamp_readout(hud: &Hud) -> Readout {
+    let language = hud.style.language;
+    let (value, color) = if hud.lamp {
+        (text!(language, "flight-readout-lamp-on"), HudColor::Yellow)
+    } else {
+        (text!(language, "flight-readout-lamp-off"), HudColor::White)
+    };
+    Readout { name: text!(language, "flight-readout-lamp"), value, color }
 }

@@ -5,6 +5,7 @@ use super::state::Hud;
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
+use spandrel_text::text;
 
 /// Half the side length of the map.
 const HALF_SIZE: f64 = 0.135;
@@ -54,7 +55,13 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         items.push(pane.fill(&arrow(place(ghost.position_m), ghost.ned_from_frd.yaw_rad()), HudColor::Ghost));
     }
     items.push(pane.fill(&arrow(place(hud.position_m), hud.heading_rad), HudColor::Yellow));
-    items.push(pane.text((x, y - HALF_SIZE + 0.016), TextAlign::Center, FONT_SIZE, HudColor::Gray, "N"));
+    items.push(pane.text(
+        (x, y - HALF_SIZE + 0.016),
+        TextAlign::Center,
+        FONT_SIZE,
+        HudColor::Gray,
+        text!(hud.style.language, "flight-compass-north"),
+    ));
     items
 }
 

@@ -6,6 +6,7 @@ use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
+use spandrel_text::text;
 
 /// Minimum half-width of the bracket, as a fraction of the picture's height.
 const MIN_HALF_SIZE: f64 = 0.022;
@@ -45,7 +46,8 @@ pub fn marker((eye, aspect): (&PinholeCamera, f64), drone_m: Vec3<Enu>, hidden: 
         .flat_map(|(right, down)| corner(right, down))
         .map(|points| DrawItem::Line { points, width: 0.003, color })
         .collect();
-    let words = style.units.length(distance_m, 0) + if hidden { ", hidden" } else { "" };
+    let distance = style.units.length(distance_m, 0);
+    let words = if hidden { text!(style.language, "flight-marker-hidden", distance = distance) } else { distance };
     let scale = style.text_scale.factor();
     let font = FONT_SIZE * scale;
     // Below the bracket, and inside the picture.

@@ -2,6 +2,7 @@
 
 use super::icons::IconShape;
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, MEDIUM_FONT_SIZE};
+use super::monitor_texts::Warning;
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{text_width, wrap_text};
@@ -27,10 +28,8 @@ pub struct ActiveCue {
     pub shape: IconShape,
     /// Color of the icon and text.
     pub color: HudColor,
-    /// Name of the cue, in capitals.
-    pub name: String,
-    /// The rest of the monitor's text, such as ": fence" after "CRASH"; empty if there is no text.
-    pub detail: String,
+    /// The warning, with its name in capitals.
+    pub warning: Warning,
 }
 
 /// Returns the active cues, the most serious first.
@@ -44,8 +43,8 @@ pub fn warnings(hud: &Hud) -> Vec<ActiveCue> {
     ];
     let on = all.into_iter().filter(|(bit, ..)| cue::displayed(hud.cues) & bit != 0);
     let active = |(bit, shape, color)| {
-        let (bits, detail) = cue::of_text(hud.cue_texts.text(bit)?)?;
-        Some(ActiveCue { shape, color, name: cue::label(bits)?.to_uppercase(), detail: hud.style.units.words(detail) })
+        let Warning { name, words } = Warning::of_text(hud.cue_texts.text(bit)?, hud.style.language, |name| name.to_uppercase())?;
+        Some(ActiveCue { shape, color, warning: Warning { name, words: hud.style.units.words(&words) } })
     };
     on.filter_map(active).collect()
 }
@@ -63,9 +62,8 @@ pub fn messages(hud: &Hud, pane: Pane, limit: Option<f64>) -> Vec<DrawItem> {
     let room = (right - EDGE_MARGIN - ICON_INDENT - TEXT_MARGIN).max(0.0);
     let mut bottom = pane.height - EDGE_MARGIN;
     let mut items = Vec::new();
-    for ActiveCue { shape, color, name, detail } in warnings(hud) {
-        let words = name + &detail;
-        let lines = wrap_text(&words, MAX_LINES, |line| width(line) <= room);
+    for ActiveCue { shape, color, warning } in warnings(hud) {
+        let lines = wrap_text(&warning.words, MAX_LINES, |line| width(line) <= room);
         let top = bottom - MESSAGE_HEIGHT - LINE_HEIGHT * (lines.len() - 1) as f64;
         let wide = ICON_INDENT + lines.iter().map(|line| width(line)).fold(0.0, f64::max) + TEXT_MARGIN;
         items.push(pane.panel((EDGE_MARGIN, top), (EDGE_MARGIN + wide, bottom)));

@@ -6,11 +6,13 @@ mod battery;
 mod icons;
 pub mod instruments;
 pub mod layout;
-pub mod lesson_panel;
+mod lesson_panel;
+pub mod lesson_words;
 mod map;
 mod marker;
 mod messages;
 mod metrics;
+mod monitor_texts;
 #[cfg(test)]
 mod overlap;
 mod pane;
@@ -27,7 +29,8 @@ pub(crate) mod text_metrics;
 pub use instruments::{SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
-pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, WayBack};
+pub use monitor_texts::{Warning, message_words};
+pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
 pub use status::LINK_TIMEOUT_S;
 pub use style::{DisplayStyle, DisplayUnits, TextScale};
 

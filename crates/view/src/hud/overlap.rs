@@ -8,6 +8,7 @@ use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::pose::Pose;
+use spandrel_text::{Language, text};
 
 /// A rectangle: left, top, right, bottom, in units of the picture's height.
 type PictureRect = [f64; 4];
@@ -84,7 +85,8 @@ fn in_window(area: &PictureRect, lens: f64, window: f64) -> PictureRect {
 
 /// Checks whether the block is the map, whose paths and numbers may overlap.
 fn is_map(block: &DisplayBlock) -> bool {
-    block.texts.iter().any(|(_, words)| words == "N")
+    let north = [Language::English, Language::Pseudo].map(|language| text!(language, "flight-compass-north"));
+    block.texts.iter().any(|(_, words)| north.contains(words))
 }
 
 fn check_block(block: &DisplayBlock, what: &str) {
@@ -142,6 +144,57 @@ fn longest_lesson() -> LessonDisplay {
     let status = LessonStatus { task, step: 60, steps: 60, progress: 0.6, way, radius_m: Some(2.0), target: Some(120.0) };
     let remark = Some("too oblique: 88.8 deg, limit 60 deg, and more".to_owned());
     LessonDisplay { status, how: "Release the keys early: the drone needs room to stop. ".repeat(3), remark }
+}
+
+/// All languages, and the one with the longest texts.
+const LANGUAGES: [Language; 4] = [Language::English, Language::German, Language::Spanish, Language::Pseudo];
+
+/// Returns names of keys as long as those of the usual keys.
+fn key_name(binding: &str, language: Language) -> String {
+    let name = |german: &str, spanish: &str, english: &str| match language {
+        Language::German => german.to_owned(),
+        Language::Spanish => spanish.to_owned(),
+        Language::English | Language::Pseudo => english.to_owned(),
+    };
+    match binding {
+        "forward" => name("Auf", "Arriba", "Up"),
+        "back" => name("Ab", "Abajo", "Down"),
+        "left" => name("Links", "Izquierda", "Left"),
+        "right" => name("Rechts", "Derecha", "Right"),
+        "gimbal_up" => name("Bild auf", "Re Pág", "Page up"),
+        "gimbal_down" => name("Bild ab", "Av Pág", "Page down"),
+        _ => "W".to_owned(),
+    }
+}
+
+#[test]
+fn exact_steps_of_a_lesson_are_not_cut_in_any_language() {
+    for (task, language) in LessonTask::ALL.into_iter().flat_map(|task| LANGUAGES[..3].iter().map(move |one| (task, *one))) {
+        let lesson = longest_lesson();
+        let status = LessonStatus { task, target: Some(if task == LessonTask::Turn { 6.28 } else { 30.0 }), ..lesson.status };
+        let how = lesson_words::how_to(task, language, &|binding| key_name(binding, language));
+        let style = DisplayStyle { language, ..DisplayStyle::default() };
+        let items = layout(&Hud { lesson: Some(LessonDisplay { status, how, remark: None }), style, ..hud() }, 4.0 / 3.0);
+        for item in items {
+            let DrawItem::Text { words, .. } = item else { continue };
+            assert!(!words.contains('…'), "{language:?}: {words}");
+        }
+    }
+}
+
+#[test]
+fn prop_items_do_not_overlap_in_any_language() {
+    for (language, units) in LANGUAGES.into_iter().flat_map(|language| DisplayUnits::ALL.map(|units| (language, units))) {
+        let style = DisplayStyle { language, units, text_scale: TextScale::Normal };
+        for aspect in [0.7, 1.0, 1.2, 4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0, 2.6] {
+            for height_px in [81.0, 216.0, 360.0, 720.0] {
+                for (name, state) in states() {
+                    let items = layout_px(&Hud { style, ..state }, (aspect * height_px, height_px));
+                    check(items, aspect, &format!("{name}, {style:?}, aspect {aspect:.2}, {height_px} px high"));
+                }
+            }
+        }
+    }
 }
 
 /// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the

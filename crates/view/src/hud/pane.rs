@@ -2,6 +2,7 @@
 
 use super::icons::{self, IconShape};
 use super::style::TextScale;
+use super::text_metrics::fitted;
 use super::{DrawItem, HudColor, ScreenPoint, TextAlign, at};
 
 /// Minimum aspect ratio (width over height) for all blocks to fit at full size; in narrower pictures, everything scales
@@ -48,6 +49,21 @@ impl Pane {
     /// Returns a line of text.
     pub fn text(self, place: (f64, f64), side: TextAlign, size: f64, color: HudColor, words: impl Into<String>) -> DrawItem {
         DrawItem::Text { place: self.at(place), side, height: self.share(size), color, words: words.into() }
+    }
+
+    /// Returns a gray name at the left and a value at the right of a line, between two edges. They shrink to fit.
+    pub fn name_and_value(
+        self,
+        (from, to): (f64, f64),
+        y: f64,
+        size: f64,
+        (name, value, color): (String, String, HudColor),
+    ) -> [DrawItem; 2] {
+        let size = fitted(&format!("{name} {value}"), size, to - from);
+        [
+            self.text((from, y), TextAlign::Left, size, HudColor::Gray, name),
+            self.text((to, y), TextAlign::Right, size, color, value),
+        ]
     }
 
     /// Returns a filled convex polygon.

@@ -9,6 +9,7 @@ use super::state::Hud;
 use super::status::alarm;
 use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, TextAlign};
+use spandrel_text::text;
 
 /// Font size that is legible at a glance, px (estimate: capitals 8 px high).
 const LEGIBLE_FONT_SIZE_PX: f64 = 12.0;
@@ -41,17 +42,17 @@ pub fn essential_items(hud: &Hud, (width_px, height_px): (f64, f64)) -> Vec<Draw
         top += ROW_HEIGHT + BLOCK_GAP;
     }
     let rows = ((pane.height - EDGE_MARGIN - top + BLOCK_GAP) / (ROW_HEIGHT + BLOCK_GAP)).floor().max(0.0) as usize;
-    for (k, ActiveCue { shape, color, name, .. }) in warnings(hud).into_iter().take(rows).enumerate() {
+    for (k, ActiveCue { shape, color, warning }) in warnings(hud).into_iter().take(rows).enumerate() {
         let y = pane.height - EDGE_MARGIN - ROW_HEIGHT - (ROW_HEIGHT + BLOCK_GAP) * k as f64;
-        items.extend(block(pane, (EDGE_MARGIN, y), Some((shape, true)), color, &name));
+        items.extend(block(pane, (EDGE_MARGIN, y), Some((shape, true)), color, &warning.name));
     }
     items
 }
 
 fn battery(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let Some(pct) = hud.battery_pct else {
-        let words = "battery ?";
-        return block(pane, (pane.width - EDGE_MARGIN - width(words, false), EDGE_MARGIN), None, HudColor::Gray, words);
+        let words = text!(hud.style.language, "flight-battery-unknown");
+        return block(pane, (pane.width - EDGE_MARGIN - width(&words, false), EDGE_MARGIN), None, HudColor::Gray, &words);
     };
     let ChargeStyle { color, shape, blinked_off: dark } = charge_style(hud, pct);
     let words = format!("{pct:.0}%");

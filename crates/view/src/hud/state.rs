@@ -9,6 +9,9 @@ use spandrel_model::pose::Pose;
 use spandrel_model::scenario::{Scenario, Task};
 use spandrel_model::speed_unit::SpeedUnit;
 
+/// Name of the flight mode before it has been received.
+pub const UNKNOWN_MODE: &str = "no mode";
+
 /// GNSS fix and satellite count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GnssStatus {
@@ -102,7 +105,7 @@ pub struct Hud {
     pub height_m: f64,
     /// Horizontal distance from the pad, m.
     pub home_distance_m: f64,
-    /// Name of the flight mode.
+    /// Name of the flight mode, or [`UNKNOWN_MODE`].
     pub mode: String,
     /// Satellite navigation status.
     pub gnss: Option<GnssStatus>,

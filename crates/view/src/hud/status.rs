@@ -2,8 +2,9 @@
 
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
-use super::state::{GnssStatus, Hud};
+use super::state::{GnssStatus, Hud, UNKNOWN_MODE};
 use super::{DrawItem, HudColor, TextAlign, battery, speed};
+use spandrel_text::{Language, text};
 
 /// Minimum telemetry age for the link to count as lost, s.
 pub const LINK_TIMEOUT_S: f64 = 1.5;
@@ -13,12 +14,12 @@ const CHAR_WIDTH: f64 = 0.017;
 const PANEL_HEIGHT: f64 = 0.048;
 const LINE_HEIGHT: f64 = 0.037;
 
-fn satellites(gnss: GnssStatus) -> String {
+fn satellites(gnss: GnssStatus, language: Language) -> String {
     match (gnss.has_fix, gnss.known()) {
-        (true, Some(count)) => format!("GNSS {count}"),
-        (true, None) => "GNSS ok".into(),
-        (false, Some(count)) => format!("GNSS lost ({count})"),
-        (false, None) => "GNSS lost".into(),
+        (true, Some(count)) => text!(language, "flight-status-gnss-count", count = count),
+        (true, None) => text!(language, "flight-status-gnss-ok"),
+        (false, Some(count)) => text!(language, "flight-status-gnss-lost-count", count = count),
+        (false, None) => text!(language, "flight-status-gnss-lost"),
     }
 }
 
@@ -27,17 +28,24 @@ fn is_lost(hud: &Hud) -> bool {
 }
 
 fn link(hud: &Hud) -> String {
+    let language = hud.style.language;
     match (is_lost(hud), hud.is_frozen) {
-        (true, _) => format!("LINK LOST {:.0} s", hud.telemetry_age_s),
-        (false, true) => "FROZEN".into(),
-        (false, false) => "link ok".into(),
+        (true, _) => text!(language, "flight-status-link-lost", age = format!("{:.0} s", hud.telemetry_age_s)),
+        (false, true) => text!(language, "flight-status-frozen"),
+        (false, false) => text!(language, "flight-status-link-ok"),
     }
+}
+
+/// Returns the name of the flight mode. The autopilot's names stay in English, as in its documentation.
+fn mode(hud: &Hud) -> String {
+    if hud.mode == UNKNOWN_MODE { text!(hud.style.language, "flight-status-no-mode") } else { hud.mode.clone() }
 }
 
 /// Returns the active alarm, or a freeze, as a short line. While the link is lost, the satellite status is unknown, so only the link
 /// is reported.
 pub fn alarm(hud: &Hud) -> Option<String> {
-    if is_lost(hud) || hud.is_frozen { Some(link(hud)) } else { hud.gnss.filter(|gnss| !gnss.has_fix).map(satellites) }
+    let lost_fix = hud.gnss.filter(|gnss| !gnss.has_fix);
+    if is_lost(hud) || hud.is_frozen { Some(link(hud)) } else { lost_fix.map(|gnss| satellites(gnss, hud.style.language)) }
 }
 
 /// Returns the alarm, if there is one, below the speed. It replaces the status where that has no room.
@@ -59,7 +67,9 @@ pub fn alarm_line(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
 }
 
 pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
-    let place = format!("{}   {}", hud.mode, hud.gnss.map_or_else(|| "GNSS ?".to_owned(), satellites));
+    let language = hud.style.language;
+    let gnss = hud.gnss.map_or_else(|| text!(language, "flight-status-gnss-unknown"), |gnss| satellites(gnss, language));
+    let place = format!("{}   {gnss}", mode(hud));
     // Available width between speed and battery; the battery panel is the wider of the two.
     let room = pane.width - 2.0 * (EDGE_MARGIN + battery::PANEL_WIDTH + BLOCK_GAP);
     let width = |words: &str| CHAR_WIDTH * words.chars().count() as f64;

@@ -1,7 +1,7 @@
 //! How the window shows texts and values: units and text size.
 
 use spandrel_model::math::M_S_PER_MPH;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 
 /// Length of the international foot, m (exact).
 const M_PER_FT: f64 = 0.3048;
@@ -34,10 +34,10 @@ impl DisplayUnits {
 
     /// Returns the name for display.
     #[must_use]
-    pub const fn title(self) -> &'static str {
+    pub fn title(self, language: Language) -> String {
         match self {
-            Self::Metric => "metric (m, m/s)",
-            Self::UsCustomary => "U.S. (ft, mph)",
+            Self::Metric => text!(language, "window-settings-metric"),
+            Self::UsCustomary => text!(language, "window-settings-us"),
         }
     }
 
@@ -126,8 +126,8 @@ fn leading_number(text: &str) -> Option<&str> {
     text.get(..end).filter(|_| whole > 0)
 }
 
-/// Words that join two numbers with one unit.
-const JOINTS: [&str; 2] = [" to ", " ± "];
+/// Words of all languages that join two numbers with one unit.
+const JOINTS: [&str; 4] = [" to ", " ± ", " bis ", " a "];
 
 /// A number, or two with one unit, at the beginning of a text.
 struct Quantity<'a> {
@@ -251,6 +251,7 @@ mod tests {
             ("12 mph, 0.4 mm, 3 m², 5 m/s², 4 minutes, a4 m, 1.2.3 m", "12 mph, 0.4 mm, 3 m², 5 m/s², 4 minutes, a4 m, 1.2.3 m"),
             ("2 to 5 tasks, 30 m", "2 to 5 tasks, 98 ft"),
             ("take off to 2 m", "take off to 7 ft"),
+            ("12 bis 24 m, 12 a 24 m", "39 bis 79 ft, 39 a 79 ft"),
             ("Größe 1 m", "Größe 3 ft"),
             ("", ""),
         ] {

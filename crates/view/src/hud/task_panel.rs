@@ -4,11 +4,13 @@
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
-use super::style::DisplayUnits;
+use super::style::{DisplayStyle, DisplayUnits};
+use super::text_metrics::{fitted, text_width};
 use super::{DrawItem, HudColor, TextAlign};
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, TurnTo, WayTo};
 use spandrel_model::math;
 use spandrel_model::numbers::format_limit;
+use spandrel_text::{Language, text};
 
 /// Top of the panel with normal text: just above the map, below the status text of the window.
 pub(super) const TOP: f64 = 0.455;
@@ -48,8 +50,8 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
     // A lesson has a panel of its own.
     let Some(guidance) = hud.guidance.as_ref().filter(|_| hud.lesson.is_none()) else { return Vec::new() };
     let lines = match detail {
-        PanelDetail::Full => details(guidance, hud.style.units),
-        PanelDetail::Brief => details(guidance, hud.style.units).into_iter().take(usize::from(guidance.way.is_some())).collect(),
+        PanelDetail::Full => details(guidance, hud.style),
+        PanelDetail::Brief => details(guidance, hud.style).into_iter().take(usize::from(guidance.way.is_some())).collect(),
         PanelDetail::None => return Vec::new(),
     };
     let rows = 1 + usize::from(guidance.way.is_some()) + lines.len();
@@ -57,83 +59,110 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
     let middle = |row: usize| top + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
     let mut items = vec![pane.panel((left, top), (right, top + 2.0 * PADDING + LINE_HEIGHT * rows as f64))];
     let (from, to) = (left + PADDING, right - PADDING);
-    items.push(pane.text((from, middle(0)), TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, title(guidance)));
-    if let Some(progress) = guidance.progress {
-        let words = format!("{:.0}%", (100.0 * progress).floor());
-        items.push(pane.text((to, middle(0)), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, words));
+    let progress = guidance.progress.map(|progress| format!("{:.0}%", (100.0 * progress).floor())).unwrap_or_default();
+    let title = title(guidance, hud.style.language);
+    let room = to - from - text_width(&format!("{progress} "), SMALL_FONT_SIZE);
+    let size = fitted(&title, SMALL_FONT_SIZE, room);
+    items.push(pane.text((from, middle(0)), TextAlign::Left, size, HudColor::White, title));
+    if !progress.is_empty() {
+        items.push(pane.text((to, middle(0)), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, progress));
     }
     let mut row = 1;
     if let Some(way) = &guidance.way {
-        let words = WayTo { up_m: 0.0, ..*way };
-        items.extend(way_items(&words, hud.style.units, pane, (from, middle(row))));
+        items.extend(way_items(way, hud.style, pane, (from, to, middle(row))));
         row += 1;
     }
     for (k, PanelLine { name, color, value }) in lines.into_iter().enumerate() {
-        items.push(pane.text((from, middle(row + k)), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, name));
-        items.push(pane.text((to, middle(row + k)), TextAlign::Right, SMALL_FONT_SIZE, color, value));
+        items.extend(pane.name_and_value((from, to), middle(row + k), SMALL_FONT_SIZE, (name, value, color)));
     }
     items
 }
 
-fn title(guidance: &Guidance) -> String {
-    let task = guidance.task.map_or_else(String::new, |task| format!(" task {task} of {}", guidance.tasks));
-    match guidance.step {
-        GuidanceStep::TakeOff => "Take off".to_owned(),
-        GuidanceStep::FlyToTask => format!("Fly to{task}"),
-        GuidanceStep::FollowPath => format!("Inspect{task}"),
-        GuidanceStep::FlyHome => "Fly home".to_owned(),
-        GuidanceStep::Land => "Land on the pad".to_owned(),
-        GuidanceStep::Over => "Session over".to_owned(),
-        GuidanceStep::HoldPosition => format!("Hold position:{task}"),
+fn title(guidance: &Guidance, language: Language) -> String {
+    let tasks = guidance.tasks;
+    match (guidance.step, guidance.task) {
+        (GuidanceStep::TakeOff, _) => text!(language, "flight-step-take-off"),
+        (GuidanceStep::FlyToTask, Some(task)) => text!(language, "flight-step-fly-to-task", task = task, tasks = tasks),
+        (GuidanceStep::FlyToTask, None) => text!(language, "flight-step-fly-to"),
+        (GuidanceStep::FollowPath, Some(task)) => text!(language, "flight-step-inspect-task", task = task, tasks = tasks),
+        (GuidanceStep::FollowPath, None) => text!(language, "flight-step-inspect"),
+        (GuidanceStep::FlyHome, _) => text!(language, "flight-step-fly-home"),
+        (GuidanceStep::Land, _) => text!(language, "flight-step-land"),
+        (GuidanceStep::Over, _) => text!(language, "flight-step-over"),
+        (GuidanceStep::HoldPosition, Some(task)) => text!(language, "flight-step-hold-task", task = task, tasks = tasks),
+        (GuidanceStep::HoldPosition, None) => text!(language, "flight-step-hold"),
     }
 }
 
-/// Returns an arrow in the direction of a place, and the way in words. Unlike in a text message, there is a degree sign.
-pub(super) fn way_items(way: &WayTo, units: DisplayUnits, pane: Pane, (left, middle): (f64, f64)) -> [DrawItem; 2] {
-    let words = units.words(&way.words()).replace(" deg", "°");
+/// Returns an arrow in the direction of a place, and the way in words.
+pub(super) fn way_items(way: &WayTo, style: DisplayStyle, pane: Pane, (left, right, middle): (f64, f64, f64)) -> [DrawItem; 2] {
+    let (words, from) = (way_words(way, style), left + ARROW_COLUMN);
+    let size = fitted(&words, SMALL_FONT_SIZE, right - from);
     [
         pane.fill(&arrow((left + 0.5 * ARROW_COLUMN, middle), way.bearing_rad), HudColor::Yellow),
-        pane.text((left + ARROW_COLUMN, middle), TextAlign::Left, SMALL_FONT_SIZE, HudColor::White, words),
+        pane.text((from, middle), TextAlign::Left, size, HudColor::White, words),
     ]
 }
 
-fn details(guidance: &Guidance, units: DisplayUnits) -> Vec<PanelLine> {
-    let white = |name: &str, value: String| PanelLine { name: name.to_owned(), color: HudColor::White, value };
+/// Returns the horizontal way in words.
+fn way_words(way: &WayTo, style: DisplayStyle) -> String {
+    let (language, distance) = (style.language, style.units.length(way.distance_m.round(), 0));
+    let angle = |turn_deg: f64| format!("{turn_deg:.0}°");
+    match way.turn() {
+        TurnTo::Ahead => text!(language, "flight-way-ahead", distance = distance),
+        TurnTo::Behind => text!(language, "flight-way-behind", distance = distance),
+        TurnTo::Left(turn_deg) => text!(language, "flight-way-left", distance = distance, angle = angle(turn_deg)),
+        TurnTo::Right(turn_deg) => text!(language, "flight-way-right", distance = distance, angle = angle(turn_deg)),
+    }
+}
+
+fn details(guidance: &Guidance, style: DisplayStyle) -> Vec<PanelLine> {
+    let language = style.language;
+    let white = |name: String, value: String| PanelLine { name, color: HudColor::White, value };
     let mut lines = Vec::new();
     if let Some(way) = &guidance.way {
-        lines.push(white("height", height_words(way.up_m, units)));
+        lines.push(white(text!(language, "flight-panel-height"), height_words(way.up_m, style)));
     }
     if let Some(deviation) = &guidance.deviation {
-        lines.push(white("path", deviation_words(deviation, units)));
+        lines.push(white(text!(language, "flight-panel-path"), deviation_words(deviation, style)));
     }
     if let Some(reading) = &guidance.stand_off {
         let off = (reading.actual_m - reading.recommended_m).abs() > reading.tolerance_m;
         let color = if off { HudColor::Yellow } else { HudColor::White };
-        lines.push(PanelLine { name: "stand-off".to_owned(), color, value: stand_off_words(reading, units) });
+        let name = text!(language, "flight-panel-stand-off");
+        lines.push(PanelLine { name, color, value: stand_off_words(reading, style.units) });
     }
     let minutes = |seconds: f64| {
         let whole = seconds.max(0.0).round();
         format!("{:.0}:{:02.0}", (whole / 60.0).floor(), whole % 60.0)
     };
     if guidance.flown_s > 0.0 {
-        lines.push(white("time", format!("{} of {}", minutes(guidance.flown_s), minutes(guidance.needed_s))));
+        let (flown, needed) = (minutes(guidance.flown_s), minutes(guidance.needed_s));
+        let value = text!(language, "flight-panel-time-of", flown = flown, needed = needed);
+        lines.push(white(text!(language, "flight-panel-time"), value));
     }
     lines
 }
 
 /// Returns the height of the next place in words.
-pub(super) fn height_words(up_m: f64, units: DisplayUnits) -> String {
-    let meters = up_m.abs().round();
+pub(super) fn height_words(up_m: f64, style: DisplayStyle) -> String {
+    let (language, meters) = (style.language, up_m.abs().round());
+    let height = style.units.length(meters, 0);
     match up_m {
-        _ if meters < 1.0 => "level".to_owned(),
-        down if down < 0.0 => format!("{} down", units.length(meters, 0)),
-        _ => format!("{} up", units.length(meters, 0)),
+        _ if meters < 1.0 => text!(language, "flight-height-level"),
+        down if down < 0.0 => text!(language, "flight-height-down", height = height),
+        _ => text!(language, "flight-height-up", height = height),
     }
 }
 
-fn deviation_words(deviation: &PathDeviation, units: DisplayUnits) -> String {
-    let side = if deviation.above_m < 0.0 { "below" } else { "above" };
-    format!("{}, {} {side}", units.length(deviation.distance_m, 1), units.length(deviation.above_m.abs(), 1))
+fn deviation_words(deviation: &PathDeviation, style: DisplayStyle) -> String {
+    let (language, units) = (style.language, style.units);
+    let (distance, height) = (units.length(deviation.distance_m, 1), units.length(deviation.above_m.abs(), 1));
+    if deviation.above_m < 0.0 {
+        text!(language, "flight-deviation-below", distance = distance, height = height)
+    } else {
+        text!(language, "flight-deviation-above", distance = distance, height = height)
+    }
 }
 
 fn stand_off_words(reading: &StandOffReading, units: DisplayUnits) -> String {

@@ -5,6 +5,7 @@ use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::Vec3;
 use spandrel_model::speed_unit::SpeedUnit;
+use spandrel_text::Language;
 
 const WIDE_ASPECT: f64 = 16.0 / 9.0;
 /// All cues shown in the lower left corner.
@@ -194,6 +195,48 @@ fn exact_texts_are_correct_in_every_abnormal_state() {
     for (state, words) in states {
         assert_eq!(changed_texts(&state), words, "{state:?}");
     }
+}
+
+#[test]
+fn exact_the_display_is_translated() {
+    let everything = Hud {
+        cues: ALL_CUES,
+        cue_texts: ["Crash: bridge", "Too close: 1.2 m, limit 2.5 m"].into_iter().collect(),
+        zoom: 2.0,
+        lamp: true,
+        guidance: Some(Guidance {
+            step: GuidanceStep::FlyToTask,
+            task: Some(2),
+            way: Some(WayTo { distance_m: 6.2, bearing_rad: -0.5, up_m: 2.0 }),
+            progress: Some(0.357),
+            tasks_done: 1,
+            tasks: 4,
+            deviation: None,
+            stand_off: None,
+            flown_s: 75.0,
+            needed_s: 480.0,
+        }),
+        ..hud()
+    };
+    let in_language = |language| {
+        let style = DisplayStyle { language, ..DisplayStyle::default() };
+        texts(&Hud { style, ..everything.clone() }).into_iter().map(|(.., words)| words).collect::<Vec<_>>()
+    };
+    let german = in_language(Language::German);
+    for words in
+        ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", "Zu Aufgabe 2 von 4 fliegen", "6 m, 29° links", "Höhe", "ein"]
+    {
+        assert!(german.iter().any(|one| one == words), "{words}: {german:?}");
+    }
+    let spanish = in_language(Language::Spanish);
+    assert!(spanish.iter().any(|one| one == "Vuele a la tarea 2 de 4"), "{spanish:?}");
+    // Values with units, the name of the flight mode, and GNSS are not in the catalog; some letters have no accented form.
+    let is_plain = |words: &String| {
+        words.chars().filter(|sign| sign.is_ascii_lowercase() && !"mqvx".contains(*sign)).count() > 3
+            && !words.starts_with("Position")
+    };
+    let plain: Vec<String> = in_language(Language::Pseudo).into_iter().filter(is_plain).collect();
+    assert!(plain.is_empty(), "not in the catalog: {plain:?}");
 }
 
 #[test]

@@ -3,16 +3,79 @@
 /// Returns the width of a character as a fraction of the font size (egui's Ubuntu Light, by character class; slightly
 /// wide to prevent overflow).
 fn glyph_width(sign: char) -> f64 {
-    match sign {
+    match plain_letter(sign) {
         ' ' => 0.25,
         'm' | 'w' | 'M' | 'W' | '%' => 0.9,
-        'f' | 'i' | 'j' | 'l' | 'r' | 't' | '.' | ',' | ':' | '/' | '(' | ')' | '-' | '°' | '?' | '\'' => 0.38,
+        'f' | 'i' | 'j' | 'l' | 'r' | 't' | '.' | ',' | ':' | '/' | '(' | ')' | '-' | '°' | '?' | '\'' | '¿' | '¡' => 0.38,
         '0'..='9' => 0.57,
-        'A'..='Z' => 0.64,
+        'A'..='Z' | 'Þ' => 0.64,
+        'ß' | 'ð' | 'þ' | '„' | '“' | '”' | '«' | '»' | '±' | '–' => 0.58,
         sign if sign.is_ascii() => 0.58,
         // Characters of other scripts may be as wide as they are tall.
         _ => 1.0,
     }
+}
+
+/// Letters with accents (Latin-1 and Latin Extended-A), each group after its plain letter.
+const ACCENTED: [&str; 44] = [
+    "AÀÁÂÃÄÅĀĂĄ",
+    "aàáâãäåāăą",
+    "CÇĆĈĊČ",
+    "cçćĉċč",
+    "DĎĐÐ",
+    "dďđ",
+    "EÈÉÊËĒĔĖĘĚ",
+    "eèéêëēĕėęě",
+    "GĜĞĠĢ",
+    "gĝğġģ",
+    "HĤĦ",
+    "hĥħ",
+    "IÌÍÎÏĨĪĬĮİ",
+    "iìíîïĩīĭįı",
+    "JĴ",
+    "jĵ",
+    "KĶ",
+    "kķĸ",
+    "LĹĻĽĿŁ",
+    "lĺļľŀł",
+    "NÑŃŅŇŊ",
+    "nñńņňŋ",
+    "OÒÓÔÕÖØŌŎŐ",
+    "oòóôõöøōŏő",
+    "RŔŖŘ",
+    "rŕŗř",
+    "SŚŜŞŠ",
+    "sśŝşš",
+    "TŢŤŦ",
+    "tţťŧ",
+    "UÙÚÛÜŨŪŬŮŰŲ",
+    "uùúûüũūŭůűų",
+    "WŴ",
+    "wŵ",
+    "YÝŶŸ",
+    "yýÿŷ",
+    "ZŹŻŽ",
+    "zźżž",
+    "BƁ",
+    "bƀ",
+    "FƑ",
+    "fƒ",
+    "VṼ",
+    "vṽ",
+];
+
+/// Returns a letter without its accent, which does not change its width; other characters stay.
+fn plain_letter(sign: char) -> char {
+    if sign.is_ascii() {
+        return sign;
+    }
+    ACCENTED.iter().find(|group| group.contains(sign)).and_then(|group| group.chars().next()).unwrap_or(sign)
+}
+
+/// Returns a font size at which a text fits into a width: the wanted one, or less.
+#[must_use]
+pub fn fitted(words: &str, size: f64, width: f64) -> f64 {
+    size.min(size * width / text_width(words, size).max(1e-9))
 }
 
 /// Returns the approximate width of a line of text, in the same unit as the font size.
@@ -60,6 +123,16 @@ mod tests {
         assert_eq!(wrap_text("incomprehensible", 2, ten), ["incompreh…"]);
         assert_eq!(wrap_text("", 2, ten), [""]);
         assert_eq!(truncate_text("nothing fits", |_| false), "…");
+    }
+
+    #[test]
+    fn exact_accents_do_not_change_the_width() {
+        for (accented, plain) in
+            [("Höhe über Straße", "Hohe uber Strase"), ("¿Distancia más pequeña?", "?Distancia mas pequena?")]
+        {
+            assert_eq!(text_width(accented, 1.0), text_width(plain, 1.0), "{accented}");
+        }
+        assert_eq!(text_width("橋", 1.0), 1.0, "other scripts are wide");
     }
 
     #[test]

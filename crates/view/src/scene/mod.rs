@@ -27,6 +27,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::movers::MoverKind;
 use spandrel_model::site::{QueryTime, Site};
 use spandrel_model::vehicle::Vehicle;
+use spandrel_text::{Language, text};
 
 /// Models of moving objects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -77,17 +78,30 @@ pub enum LoadingStep {
 }
 
 impl LoadingStep {
-    /// Returns how much of the work is done before this step, %, and what the step loads. Lighting the bridges takes nine tenths
-    /// of the time on the processor (the paper's job at quality `low`); the graphics device's share is an estimate.
+    /// Returns how much of the work is done before this step, %. Lighting the bridges takes nine tenths of the time on the
+    /// processor (the paper's job at quality `low`); the graphics device's share is an estimate.
     #[must_use]
-    pub fn progress(self) -> (u32, &'static str) {
+    pub fn progress_pct(self) -> u32 {
         match self {
-            Self::Site => (0, "site and defects"),
-            Self::Bridges => (3, "bridges"),
-            Self::Ground => (60, "ground"),
-            Self::Plants => (64, "plants"),
-            Self::Water => (65, "water"),
-            Self::Upload => (66, "graphics"),
+            Self::Site => 0,
+            Self::Bridges => 3,
+            Self::Ground => 60,
+            Self::Plants => 64,
+            Self::Water => 65,
+            Self::Upload => 66,
+        }
+    }
+
+    /// Returns what the step loads.
+    #[must_use]
+    pub fn title(self, language: Language) -> String {
+        match self {
+            Self::Site => text!(language, "window-flight-loading-site"),
+            Self::Bridges => text!(language, "window-flight-loading-bridges"),
+            Self::Ground => text!(language, "window-flight-loading-ground"),
+            Self::Plants => text!(language, "window-flight-loading-plants"),
+            Self::Water => text!(language, "window-flight-loading-water"),
+            Self::Upload => text!(language, "window-flight-loading-graphics"),
         }
     }
 }

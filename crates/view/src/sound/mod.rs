@@ -10,7 +10,7 @@ pub use resampled::ResampledSound;
 pub use smoothing::SAMPLE_RATE_HZ;
 pub use warnings::spoken;
 
-use crate::hud::DisplayUnits;
+use crate::hud::DisplayStyle;
 use propellers::Propellers;
 use smoothing::SmoothedValue;
 use spandrel_mavlink::contract::cue::CueTexts;
@@ -50,8 +50,8 @@ pub struct SoundInputs {
     pub cues: i32,
     /// The monitor's texts for the active cues.
     pub cue_texts: CueTexts,
-    /// Units in which the texts are displayed and spoken.
-    pub units: DisplayUnits,
+    /// Language and units in which the texts are displayed and spoken.
+    pub style: DisplayStyle,
     /// Whether all sound is off, because it is muted or the flight is paused.
     pub silent: bool,
 }

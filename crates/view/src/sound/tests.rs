@@ -2,10 +2,11 @@
 
 use super::propellers::BLADES_PER_PROPELLER;
 use super::{FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
-use crate::hud::DisplayUnits;
+use crate::hud::DisplayStyle;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
+use spandrel_text::Language;
 
 fn sound_inputs(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
     SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, ..SoundInputs::default() }
@@ -83,7 +84,7 @@ fn exact_only_the_most_severe_warning_sounds_at_its_pitch() {
 #[test]
 fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
     let texts: CueTexts = ["Off path 3.4 m: left and up", "Too fast: 11 mph, limit 10 mph", "Battery 29%"].into_iter().collect();
-    let spoken = |before, now| super::spoken(before, now, &texts, DisplayUnits::Metric);
+    let spoken = |before, now| super::spoken(before, now, &texts, DisplayStyle::default());
     assert_eq!(spoken(0, cue::CRASH | cue::SPEEDING).as_deref(), Some("Crash"));
     let off = Some("Off path 3.4 meters: left and up");
     assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH).as_deref(), off);
@@ -92,6 +93,9 @@ fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
     assert_eq!(spoken(0, cue::STAND_OFF | cue::OFF_PATH).as_deref(), Some("Stand-off"), "not the off-path cue");
     assert_eq!(spoken(cue::STAND_OFF | cue::OFF_PATH, cue::OFF_PATH).as_deref(), off);
     assert_eq!(spoken(cue::CRASH | cue::SPEEDING, cue::SPEEDING), None);
+    let german = DisplayStyle { language: Language::German, ..DisplayStyle::default() };
+    let said = super::spoken(0, cue::SPEEDING, &texts, german);
+    assert_eq!(said.as_deref(), Some("Zu schnell: 11 Meilen pro Stunde, maximal 10 Meilen pro Stunde"));
 }
 
 #[test]
@@ -133,7 +137,7 @@ fn prop_sound_never_clips_or_clicks() {
                 distance_m: any(300.0) - 10.0,
                 cues: any(128.0) as i32,
                 cue_texts: CueTexts::default(),
-                units: DisplayUnits::Metric,
+                style: DisplayStyle::default(),
                 silent: any(1.0) < 0.2,
             });
             let mut out = vec![0.0_f32; 240 + any(2_000.0) as usize];

@@ -1,9 +1,10 @@
 //! Warning tones, distinguished by pitch and rhythm. Only the tone of the most serious warning sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
-use crate::hud::DisplayUnits;
+use crate::hud::{DisplayStyle, Warning};
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
+use spandrel_text::{Language, text};
 
 /// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.
 const FADE_DURATION_S: f64 = 0.008;
@@ -30,25 +31,33 @@ const TONES: [Tone; 6] = [
 /// Returns the spoken warning for the most serious cue that has just become active: the text that is displayed, with its
 /// units in words.
 #[must_use]
-pub fn spoken(before: i32, now: i32, texts: &CueTexts, units: DisplayUnits) -> Option<String> {
+pub fn spoken(before: i32, now: i32, texts: &CueTexts, style: DisplayStyle) -> Option<String> {
     let new = cue::displayed(now) & !cue::displayed(before);
     let tone = TONES.iter().find(|tone| new & tone.cue != 0)?;
-    texts.text(tone.cue).map(|text| units_in_words(&units.words(text)))
+    let warning = Warning::of_text(texts.text(tone.cue)?, style.language, |name| name)?;
+    Some(units_in_words(&style.units.words(&warning.words), style.language))
 }
 
-/// Units and how they are spoken.
-const SPOKEN_UNITS: [(&str, &str); 4] =
-    [("m", "meters"), ("ft", "feet"), ("mph", "miles per hour"), ("m/s", "meters per second")];
-
-fn units_in_words(text: &str) -> String {
+fn units_in_words(text: &str, language: Language) -> String {
     let spoken = |word: &str| {
         let (unit, mark) = word.strip_suffix([':', ',']).map_or((word, ""), |unit| (unit, &word[unit.len()..]));
-        match SPOKEN_UNITS.iter().find(|(symbol, _)| *symbol == unit) {
-            Some((_, words)) => format!("{words}{mark}"),
-            None => word.replace('%', " percent"),
+        match unit_in_words(unit, language) {
+            Some(words) => format!("{words}{mark}"),
+            None => word.replace('%', &format!(" {}", text!(language, "flight-spoken-percent"))),
         }
     };
     text.split(' ').map(spoken).collect::<Vec<_>>().join(" ")
+}
+
+/// Returns how a unit is spoken; `None` for other words.
+fn unit_in_words(unit: &str, language: Language) -> Option<String> {
+    Some(match unit {
+        "m" => text!(language, "flight-spoken-meters"),
+        "ft" => text!(language, "flight-spoken-feet"),
+        "mph" => text!(language, "flight-spoken-miles-per-hour"),
+        "m/s" => text!(language, "flight-spoken-meters-per-second"),
+        _ => return None,
+    })
 }
 
 /// Oscillator of the warning tones.

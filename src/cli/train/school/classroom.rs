@@ -10,7 +10,7 @@ use crate::io::{files, school_record};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 use spandrel_training::school::{
     CARDS_PER_ROUND, Question, Round, RoundSummary, SchoolPicture, SchoolRecord, Verdict, gallery, picture_camera,
     school_scenario,
@@ -35,8 +35,7 @@ const US_PER_S: u64 = 1_000_000;
 /// # Errors
 /// Returns an error if the record is invalid, a picture cannot be rendered, or a file cannot be written.
 pub fn run(
-    sessions: &Path,
-    trainee: &str,
+    (sessions, trainee, language): (&Path, &str, Language),
     requests: &Receiver<SchoolRequest>,
     pages: &Sender<Result<SchoolPage, String>>,
 ) -> Result<(), AppError> {
@@ -53,7 +52,7 @@ pub fn run(
     let folder = PictureFolder::create(sessions)?;
     school_record::create(sessions, trainee)?;
     let mut studio = Studio { scenario: &scenario, vehicle: &vehicle, drawing: &drawing, renderer: drawing.scene_renderer() };
-    let mut lesson = Lesson { round, record, sessions, trainee, folder, number: 0, picture: None };
+    let mut lesson = Lesson { round, record, sessions, trainee, folder, number: 0, picture: None, language };
     // The window has gone if a page cannot be sent.
     let mut page = Some(lesson.ask(&mut studio)?);
     while let Some(shown) = page.take() {
@@ -100,6 +99,7 @@ struct Lesson<'a> {
     /// Number of pictures so far.
     number: u32,
     picture: Option<String>,
+    language: Language,
 }
 
 impl Lesson<'_> {
@@ -107,20 +107,20 @@ impl Lesson<'_> {
     fn ask(&mut self, studio: &mut Studio) -> Result<SchoolPage, AppError> {
         let Some(question) = self.round.question() else {
             self.picture = None;
-            return Ok(summary_page(&self.round.summary(Language::English), self.record.mastered()));
+            return Ok(summary_page(&self.round.summary(self.language), self.record.mastered(), self.language));
         };
         self.number += 1;
         let path = self.folder.0.join(format!("{}.png", self.number));
         replace(&path, &studio.picture(&question.picture)?)?;
         self.picture = Some(path.display().to_string());
-        Ok(question_page(question, self.round.position(), self.picture.clone()))
+        Ok(question_page(question, self.round.position(), self.picture.clone(), self.language))
     }
 
     /// Returns the page with the verdict; `None` if there is nothing to answer.
     fn answer(&mut self, number: usize) -> Result<Option<SchoolPage>, AppError> {
-        let Some(verdict) = self.round.answer(number, &mut self.record, unix_s(), Language::English) else { return Ok(None) };
+        let Some(verdict) = self.round.answer(number, &mut self.record, unix_s(), self.language) else { return Ok(None) };
         school_record::save(self.sessions, self.trainee, &self.record)?;
-        Ok(Some(verdict_page(verdict, self.round.position(), self.picture.clone())))
+        Ok(Some(verdict_page(verdict, self.round.position(), self.picture.clone(), self.language)))
     }
 
     fn advance(&mut self, studio: &mut Studio) -> Result<SchoolPage, AppError> {
@@ -155,35 +155,34 @@ fn unix_s() -> u64 {
     unix_us() / US_PER_S
 }
 
-fn title((number, of): (usize, usize)) -> String {
-    format!("Defect school: picture {number} of {of}")
+fn title((number, count): (usize, usize), language: Language) -> String {
+    text!(language, "window-school-title", number = number, count = count)
 }
 
-fn question_page(question: &Question, position: (usize, usize), picture: Option<String>) -> SchoolPage {
-    let again = (question.misses > 0).then(|| "You missed one of this kind. Once more:".to_owned());
-    let answers = question.answers.iter().map(|answer| answer.words(Language::English)).collect();
-    let lines = again.into_iter().chain([question.words(Language::English), "What is in the middle?".to_owned()]).collect();
-    SchoolPage { picture, title: title(position), lines, answers, right: None, over: false }
+fn question_page(question: &Question, position: (usize, usize), picture: Option<String>, language: Language) -> SchoolPage {
+    let again = (question.misses > 0).then(|| text!(language, "window-school-again"));
+    let answers = question.answers.iter().map(|answer| answer.words(language)).collect();
+    let lines = again.into_iter().chain([question.words(language), text!(language, "window-school-question")]).collect();
+    SchoolPage { picture, title: title(position, language), lines, answers, right: None, over: false }
 }
 
-fn verdict_page(verdict: Verdict, position: (usize, usize), picture: Option<String>) -> SchoolPage {
+fn verdict_page(verdict: Verdict, position: (usize, usize), picture: Option<String>, language: Language) -> SchoolPage {
     let Verdict { right, words } = verdict;
-    SchoolPage { picture, title: title(position), lines: words, answers: Vec::new(), right: Some(right), over: false }
+    SchoolPage { picture, title: title(position, language), lines: words, answers: Vec::new(), right: Some(right), over: false }
 }
 
-fn summary_page(summary: &RoundSummary, mastered: usize) -> SchoolPage {
-    let mut lines = vec![format!("{} of {} right at the first attempt.", summary.right, summary.asked)];
+fn summary_page(summary: &RoundSummary, mastered: usize, language: Language) -> SchoolPage {
+    let mut lines = vec![text!(language, "window-school-right", right = summary.right, asked = summary.asked)];
     if !summary.missed.is_empty() {
-        lines.push(format!("Missed: {}. You will see them again soon.", summary.missed.join(", ")));
+        lines.push(text!(language, "window-school-missed", kinds = summary.missed.join(", ")));
     }
     if summary.asked < CARDS_PER_ROUND {
-        lines.push("There were no more pictures in this round.".to_owned());
+        lines.push(text!(language, "window-school-no-more"));
     }
-    let kinds = if mastered == 1 { "kind of picture" } else { "kinds of pictures" };
-    lines.push(format!("You know {mastered} {kinds} well: right at least four times in a row."));
+    lines.push(text!(language, "window-school-mastered", count = mastered));
     SchoolPage {
         picture: None,
-        title: "Defect school: round complete".to_owned(),
+        title: text!(language, "window-school-complete"),
         lines,
         answers: Vec::new(),
         right: None,

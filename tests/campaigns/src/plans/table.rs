@@ -2,6 +2,7 @@
 
 use crate::flight::{flight_id, fly};
 use crate::weaknesses::{NO_WEAKNESS, Weakness};
+use spandrel_text::Language;
 use spandrel_training::plan::{PlanRules, TrainingPlan, plan};
 use spandrel_training::record::SessionRecord;
 use std::fmt;
@@ -70,7 +71,7 @@ impl PlanTable {
         });
         let records = flown.into_inner().unwrap().into_iter().map(Option::unwrap);
         let of = |((weakness, seed), record): (&(&'static Weakness, u64), SessionRecord)| {
-            let plan = plan(std::slice::from_ref(&record), rules, record.started_unix_us).unwrap();
+            let plan = plan(std::slice::from_ref(&record), rules, record.started_unix_us, Language::English).unwrap();
             PlantedPlan { weakness, seed: *seed, plan }
         };
         let mut planted: Vec<PlantedPlan> = flights.iter().zip(records).map(of).collect();

@@ -2,7 +2,7 @@
 
 use super::super::pane::Pane;
 use super::super::state::Hud;
-use super::super::style::DisplayUnits;
+use super::super::style::DisplayStyle;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
@@ -11,6 +11,7 @@ use super::site_outline::{Point, SiteOutline};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::outline::GROUND_SAMPLE_SPACING_M;
+use spandrel_text::text;
 
 /// Largest share of the map's width for the scale.
 const MAX_SCALE_SHARE: f64 = 0.35;
@@ -36,7 +37,7 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     let drone = clamp_point(place(&scale, hud.position_m), area.inside(font));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 1.15 * font), HudColor::Black));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 0.85 * font), HudColor::Yellow));
-    items.extend(legend(hud.style.units, pane, area, (&scale, font)));
+    items.extend(legend(hud.style, pane, area, (&scale, font)));
     items
 }
 
@@ -99,7 +100,8 @@ fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
 }
 
 /// Returns the north arrow and the scale.
-fn legend(units: DisplayUnits, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
+fn legend(style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
+    let units = style.units;
     let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
     let lengths_m = SCALE_LENGTHS.map(|length| length * units.length_unit_m());
     let length_m = lengths_m.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(lengths_m[0]);
@@ -111,7 +113,13 @@ fn legend(units: DisplayUnits, pane: Pane, area: Area, (scale, font): (&DrawingS
         pane.line(&bar, 0.14 * font, HudColor::White),
         pane.text((left, bottom - 0.95 * font), TextAlign::Left, font, HudColor::White, units.length(length_m, 0)),
         pane.fill(&arrow((north.0, north.1 - 0.2 * font), 0.0, 0.7 * font), HudColor::White),
-        pane.text((north.0, north.1 + 1.1 * font), TextAlign::Center, font, HudColor::White, "N"),
+        pane.text(
+            (north.0, north.1 + 1.1 * font),
+            TextAlign::Center,
+            font,
+            HudColor::White,
+            text!(style.language, "flight-compass-north"),
+        ),
     ]
 }
 

@@ -9,6 +9,7 @@ use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::clip_at;
 use spandrel_model::math;
+use spandrel_text::text;
 
 type Point = (f64, f64);
 
@@ -40,7 +41,8 @@ struct Disc {
 
 pub(super) fn navigation(hud: &Hud, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     // In a wide area, the texts stand at the left of the disc, otherwise above and below it.
-    let beside = text_width("obstacle", font) + font <= 0.5 * (area.width - area.height);
+    let beside =
+        text_width(&text!(hud.style.language, "flight-instruments-obstacle"), font) + font <= 0.5 * (area.width - area.height);
     let wide = area.width >= MIN_WIDE_RATIO * area.height && (beside || hud.style.text_scale == TextScale::Normal);
     let height = if wide { area.height - 0.6 * font } else { area.height - 2.6 * font };
     let radius = 0.5 * area.width.min(height).max(1.0);
@@ -73,10 +75,14 @@ pub(super) fn navigation(hud: &Hud, pane: Pane, area: Area, font: f64) -> Vec<Dr
 
 /// Returns the distance of the nearest obstacle in words; `None` without range finders.
 fn obstacle_words(hud: &Hud) -> Option<[String; 2]> {
-    let obstacles = hud.obstacles.as_ref()?;
+    let (language, obstacles) = (hud.style.language, hud.obstacles.as_ref()?);
     let nearest_m = obstacles.sectors_m.iter().copied().fold(f64::INFINITY, f64::min);
-    let words = if nearest_m.is_finite() { hud.style.units.length(nearest_m, 1) } else { "none near".to_owned() };
-    Some(["obstacle".to_owned(), words])
+    let words = if nearest_m.is_finite() {
+        hud.style.units.length(nearest_m, 1)
+    } else {
+        text!(language, "flight-instruments-none-near")
+    };
+    Some([text!(language, "flight-instruments-obstacle"), words])
 }
 
 impl Disc {
@@ -118,7 +124,14 @@ impl Disc {
                 HudColor::Gray,
             ));
         }
-        for (letter, quarter) in [("N", 0.0), ("E", 1.0), ("S", 2.0), ("W", 3.0)] {
+        let language = hud.style.language;
+        let letters = [
+            (text!(language, "flight-compass-north"), 0.0),
+            (text!(language, "flight-compass-east"), 1.0),
+            (text!(language, "flight-compass-south"), 2.0),
+            (text!(language, "flight-compass-west"), 3.0),
+        ];
+        for (letter, quarter) in letters {
             let place = self.at(0.25 * math::TAU * quarter - hud.heading_rad, LETTER_RADIUS);
             let font = self.font.min(MAX_LETTER_RATIO * self.radius);
             items.push(self.pane.text(place, TextAlign::Center, font, HudColor::White, letter));

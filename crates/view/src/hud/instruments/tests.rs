@@ -10,6 +10,7 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
+use spandrel_text::Language;
 
 /// Tolerance for rounding errors, px.
 const TOLERANCE_PX: f64 = 1e-6;
@@ -74,6 +75,8 @@ fn prop_texts_do_not_overlap_and_everything_is_inside_in_any_window() {
     let styles = TextScale::ALL
         .into_iter()
         .flat_map(|text_scale| DisplayUnits::ALL.map(|units| DisplayStyle { units, text_scale, ..DisplayStyle::default() }));
+    let languages = [Language::German, Language::Spanish, Language::Pseudo];
+    let styles = styles.chain(languages.map(|language| DisplayStyle { language, ..DisplayStyle::default() }));
     for (window_px, style) in styles.flat_map(|style| windows.map(|window_px| (window_px, style))) {
         let shape = WindowShape { window: window_px.0 / window_px.1, camera: 4.0 / 3.0 };
         let places = ViewLayout::Camera.view_rects(shape);

@@ -1,0 +1,68 @@
+//! The steps of a lesson in words.
+
+use super::style::DisplayUnits;
+use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
+use spandrel_text::{Language, text};
+
+/// Returns how a step is done. `key` returns the name of a binding's key.
+#[must_use]
+pub fn how_to(task: LessonTask, language: Language, key: &dyn Fn(&str) -> String) -> String {
+    match task {
+        LessonTask::Arm => text!(language, "flight-how-arm", arm = key("arm")),
+        LessonTask::TakeOff => text!(language, "flight-how-take-off", take_off = key("take_off"), up = key("up")),
+        LessonTask::Hover => text!(language, "flight-how-hover"),
+        LessonTask::Turn => text!(language, "flight-how-turn", turn_left = key("turn_left"), turn_right = key("turn_right")),
+        LessonTask::FlyPath => text!(
+            language,
+            "flight-how-fly-path",
+            forward = key("forward"),
+            left = key("left"),
+            back = key("back"),
+            right = key("right"),
+            up = key("up"),
+            down = key("down")
+        ),
+        LessonTask::StopAt => text!(language, "flight-how-stop-at"),
+        LessonTask::TiltCamera => {
+            text!(language, "flight-how-tilt-camera", gimbal_up = key("gimbal_up"), gimbal_down = key("gimbal_down"))
+        }
+        LessonTask::Lamp => text!(language, "flight-how-lamp", lamp = key("lamp")),
+        LessonTask::Photograph => text!(language, "flight-how-photograph", snapshot = key("snapshot")),
+        LessonTask::FlyHome => text!(language, "flight-how-fly-home"),
+        LessonTask::Land => text!(language, "flight-how-land", land = key("land"), down = key("down")),
+        LessonTask::Done => text!(language, "flight-how-done"),
+    }
+}
+
+/// Returns what the trainee does in a step.
+#[must_use]
+pub fn instruction(status: &LessonStatus, units: DisplayUnits, language: Language) -> String {
+    let target = status.target.unwrap_or_default();
+    let height = || units.length(target.round(), 0);
+    let time = || format!("{target:.0} s");
+    let angle = || format!("{:.0}°", target.abs().to_degrees());
+    match status.task {
+        LessonTask::Arm => text!(language, "flight-lesson-arm"),
+        LessonTask::TakeOff => text!(language, "flight-lesson-take-off", height = height()),
+        LessonTask::Hover => text!(language, "flight-lesson-hover", time = time()),
+        LessonTask::Turn => text!(language, "flight-lesson-turn", angle = angle()),
+        LessonTask::FlyPath => text!(language, "flight-lesson-fly-path"),
+        LessonTask::StopAt => text!(language, "flight-lesson-stop-at", time = time()),
+        LessonTask::TiltCamera if target < 0.0 => text!(language, "flight-lesson-tilt-down", angle = angle()),
+        LessonTask::TiltCamera => text!(language, "flight-lesson-tilt-up", angle = angle()),
+        LessonTask::Lamp => text!(language, "flight-lesson-lamp"),
+        LessonTask::Photograph => text!(language, "flight-lesson-photograph"),
+        LessonTask::FlyHome => text!(language, "flight-lesson-fly-home"),
+        LessonTask::Land => text!(language, "flight-lesson-land"),
+        LessonTask::Done => text!(language, "flight-lesson-done"),
+    }
+}
+
+/// Returns the number of the step.
+pub(super) fn title(status: &LessonStatus, language: Language) -> String {
+    if status.is_done() {
+        text!(language, "flight-lesson-complete")
+    } else {
+        text!(language, "flight-lesson-step", step = status.step, steps = status.steps)
+    }
+}
