@@ -4,7 +4,7 @@ use super::records::RecordsArgs;
 use crate::cli::invocation::typed;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
-use crate::io::system_language::system_language;
+use crate::io::user_language::user_language;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
@@ -97,7 +97,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     if let Some(target) = &args.report {
-        files::write(target, page::cohort(&cohort, system_language()).as_bytes())?;
+        files::write(target, page::cohort(&cohort, user_language()).as_bytes())?;
     }
     match &args.json {
         Some(target) => files::write(target, json_text(&cohort).as_bytes()),

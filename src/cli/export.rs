@@ -8,7 +8,7 @@ use crate::io::progress::ProgressLog;
 use crate::io::report;
 use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
-use crate::io::system_language::system_language;
+use crate::io::user_language::user_language;
 use crate::records::read_session;
 use spandrel_clients::pilot::flight_plan;
 use spandrel_clients::pilot::goals::PlanningContext;
@@ -171,7 +171,7 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
     }
     if let Some(target) = &args.scorm {
         needed("--scorm")?;
-        files::write(target, &zip_files(&report::package(Path::new(&args.from), system_language())?)?)?;
+        files::write(target, &zip_files(&report::package(Path::new(&args.from), user_language())?)?)?;
     }
     Ok(())
 }

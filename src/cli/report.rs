@@ -4,7 +4,7 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
 use crate::io::report::{self, address, comparison_page, review};
-use crate::io::system_language::system_language;
+use crate::io::user_language::user_language;
 use crate::records::read_json_lines;
 use spandrel_monitor::folder::REPORT;
 use spandrel_text::Language;
@@ -58,7 +58,7 @@ fn parse_language(tag: &str) -> Result<Language, String> {
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
-    let language = args.language.unwrap_or_else(system_language);
+    let language = args.language.unwrap_or_else(user_language);
     let text = match (&args.other, &args.out) {
         (Some(other), _) => comparison_page(&args.session, other, language, |scenario| reliability(args, scenario))?,
         (None, Some(_)) => page::session(&review(&args.session, language)?),

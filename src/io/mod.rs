@@ -44,6 +44,7 @@ pub mod store;
 pub mod system_language;
 pub mod trainee_id;
 pub mod user_folder;
+pub mod user_language;
 #[cfg(feature = "view")]
 pub mod user_settings;
 pub mod vehicle_ports;

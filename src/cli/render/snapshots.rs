@@ -10,7 +10,7 @@ use crate::io::clock;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
-use crate::io::system_language::system_language;
+use crate::io::user_language::user_language;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::folder::{SMALL_SNAPSHOTS, SNAPSHOTS};
 use spandrel_training::report::pictures::ReviewedPicture;
@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     progress.finish();
-    report::write(&recorded.folder, system_language())?;
+    report::write(&recorded.folder, user_language())?;
     println!("pictures      {} in {}", taken.len(), folder.display());
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
-use crate::io::system_language::system_language;
+use crate::io::user_language::user_language;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::folder::VIDEO;
 use spandrel_text::Language;
@@ -60,7 +60,7 @@ fn render_for_report(args: &Args) -> Result<(), AppError> {
     }
     // The report's times count from lift-off.
     render(args, &session.join(VIDEO), |recorded| Ok(recorded.scored_span()))?;
-    report::write(session, system_language())?;
+    report::write(session, user_language())?;
     Ok(())
 }
 

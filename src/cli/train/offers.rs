@@ -17,6 +17,7 @@ use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_text::{Language, text};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text as briefing_text};
+use spandrel_training::terms::scenario_title;
 use spandrel_view::flow::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, Purpose,
     SCORE_NAMES, TraineeSummary,
@@ -72,7 +73,8 @@ fn job_briefing(scenario: &Scenario, language: Language) -> JobBriefing {
 
 /// Returns the title with the words that distinguish a form, or a level other than the standard one.
 fn job_title(scenario: &Scenario, language: Language) -> String {
-    let title = scenario.title.as_str();
+    let title = scenario_title(&scenario.name, &scenario.title, language);
+    let title = title.as_str();
     if let Some(form) = &scenario.form {
         return text!(language, "window-train-form", title = title, form = form.name.as_str());
     }

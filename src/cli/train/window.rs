@@ -5,7 +5,7 @@ use crate::io::addresses::PortChoice;
 use crate::io::children::{Child, software_renderer_threads};
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
-use crate::io::user_settings::SettingsFile;
+use crate::io::user_language::user_language;
 use spandrel_text::Language;
 use spandrel_view::flow::pipe::{self, FromWindow, ToWindow};
 use std::time::Duration;
@@ -123,11 +123,6 @@ impl WindowProcess {
         self.has_exited = true;
         self.child.finish();
     }
-}
-
-/// Returns the language from the user's settings, which the window uses as well. Invalid settings are reported by the window.
-fn user_language() -> Language {
-    SettingsFile::of_user().load().map(|settings| settings.style.language).unwrap_or_default()
 }
 
 /// Returns the command-line arguments for the window process.

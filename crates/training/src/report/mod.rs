@@ -26,6 +26,7 @@ use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, lesson_advice, 
 use crate::marks::TimelineMark;
 use crate::plan::{self, DEFAULT_RULES, PlanRules, PlanStep, read_rules};
 use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
+use crate::terms::{scenario_title, task_title};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
 use spandrel_mavlink::telemetry::{Frame, Timeline};
@@ -176,6 +177,19 @@ impl Review {
             frames,
             site,
         })
+    }
+
+    /// Returns the title of the job.
+    #[must_use]
+    pub fn title(&self, language: Language) -> String {
+        scenario_title(&self.scenario.name, &self.scenario.title, language)
+    }
+
+    /// Returns the name of the task with this index; empty if there is none.
+    #[must_use]
+    pub fn task_name(&self, task: usize, language: Language) -> String {
+        let task = self.scenario.tasks.get(task);
+        task.map_or_else(String::new, |task| task_title(&self.scenario.name, &task.name, language))
     }
 
     /// Returns the time of a frame in seconds since lift-off.

@@ -47,7 +47,7 @@ fn manifest(review: &Review) -> String {
 }
 
 fn title(review: &Review) -> String {
-    format!("{}, {}", review.scenario.title, review.metadata.started_utc)
+    format!("{}, {}", review.title(review.metadata.language), review.metadata.started_utc)
 }
 
 /// Returns the result as SCORM data and as text. An incomplete session has no score, because a partial sum would be misleading.

@@ -6,6 +6,7 @@ use crate::briefing::Briefing;
 use crate::report::formatting;
 use crate::report::page::briefing_contents;
 use crate::report::plots::job::job_plan;
+use crate::terms::{scenario_title, task_title};
 use maud::{Markup, html};
 use spandrel_model::scenario::{Difficulty, Scenario};
 use spandrel_model::site::Site;
@@ -106,11 +107,11 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     let briefing = html! { a href={ "/scenarios/" (named.name) "/briefing" } { (text!(language, "editor-briefing")) } };
     let rows = html! {
         @for task in &scenario.tasks {
-            tr { th scope="row" { (task.id) " · " (task.name) } td.number { (formatting::number(task.threshold_m, 1)) } }
+            tr { th scope="row" { (task.id) " · " (task_title(&scenario.name, &task.name, language)) } td.number { (formatting::number(task.threshold_m, 1)) } }
         }
     };
     let body = html! {
-        p.lead { (scenario.title) }
+        p.lead { (scenario_title(&scenario.name, &scenario.title, language)) }
         p { (with_element(&text!(language, "editor-briefing-link", briefing = ELEMENT), &briefing)) }
         @if visitor.satisfies(AccessLevel::Instructor) { p { (edit_link(language, named)) } }
         (section("facts", &text!(language, "editor-summary"), &facts(language, scenario)))

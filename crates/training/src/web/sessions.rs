@@ -12,6 +12,7 @@ use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, Sessi
 use crate::report::formatting;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
+use crate::terms::task_title;
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 use spandrel_monitor::stored_text::all_translated;
@@ -355,7 +356,7 @@ fn requirements(language: Language, certification: &CertificationRecord) -> Mark
 
 fn tasks(language: Language, record: &SessionRecord) -> Markup {
     let row = |task: &TaskRecord| ShareRow {
-        name: format!("{} · {}", task.id, task.name),
+        name: format!("{} · {}", task.id, task_title(&record.scenario, &task.name, language)),
         bars: vec![("b-on", task.on_path)],
         placeholder: (!task.attempted).then(|| text!(language, "sessions-not-attempted")),
     };
@@ -377,7 +378,7 @@ fn tasks(language: Language, record: &SessionRecord) -> Markup {
                 &html! {
                     @for task in &record.tasks {
                         tr {
-                            th scope="row" { (task.id) " · " (task.name) }
+                            th scope="row" { (task.id) " · " (task_title(&record.scenario, &task.name, language)) }
                             td { (task_completion_text(language, record, task)) }
                             td.number { (formatting::number(100.0 * task.on_path, 0)) }
                             td.number { (formatting::number(task.speeding_s, 1)) }

@@ -3,8 +3,8 @@
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms::{defect_title, element_title};
 use maud::{Markup, html};
-use spandrel_model::defect_codes::defect_name;
 use spandrel_model::elements::Element;
 use spandrel_monitor::score::certification::TaskVisits;
 use spandrel_monitor::score::certification::contacts::MergedCrash;
@@ -177,9 +177,9 @@ fn detection_table(review: &Review, language: Language) -> Table {
     };
     let element = |number: u32| Element::from_number(number as u16);
     tell(&text!(language, "report-column-element"), &|defect| defect.element.number().into(), &|k| {
-        format!("{k} {}", element(k).name())
+        format!("{k} {}", element_title(element(k), language))
     });
-    tell(&text!(language, "report-column-kind"), &|defect| defect.kind, &|k| defect_name(k).to_owned());
+    tell(&text!(language, "report-column-kind"), &|defect| defect.kind, &|k| defect_title(k, language));
     tell(&text!(language, "report-column-condition-state"), &|defect| u32::from(defect.condition_state), &|k| k.to_string());
     Table {
         name: "detection",

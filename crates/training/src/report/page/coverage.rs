@@ -6,6 +6,7 @@ use crate::report::coverage::{ElementSurface, MAX_MOTION_BLUR_PX, REQUIRED_GSD_M
 use crate::report::formatting;
 use crate::report::plots::bars::{StackedBar, stacked_bars};
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms::element_title;
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
@@ -33,7 +34,7 @@ pub fn section(review: &Review) -> Markup {
             (legend(&key))
             div.split {
                 // Distributes the rows between two columns of about equal length.
-                @let rows = rows(&review.coverage);
+                @let rows = rows(&review.coverage, language);
                 @let (left, right) = rows.split_at(rows.len().div_ceil(2));
                 (stacked_bars(left, &text!(language, "report-coverage-bars")))
                 @if !right.is_empty() { (stacked_bars(right, &text!(language, "report-coverage-bars-continued"))) }
@@ -78,9 +79,14 @@ fn reasons_not_captured(total: &ElementSurface, language: Language) -> Option<St
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-fn rows(coverage: &SurfaceCoverage) -> Vec<StackedBar> {
+fn rows(coverage: &SurfaceCoverage, language: Language) -> Vec<StackedBar> {
     let row = |(element, surface): (&Element, &ElementSurface)| StackedBar {
-        name: format!("{} · {} ({} m²)", element.number(), element.name(), formatting::number(surface.inspectable_m2, 0)),
+        name: format!(
+            "{} · {} ({} m²)",
+            element.number(),
+            element_title(*element, language),
+            formatting::number(surface.inspectable_m2, 0)
+        ),
         parts: SurfaceOutcome::ALL
             .map(|surface_outcome| (surface_outcome.class(), surface.area_m2(surface_outcome) / surface.inspectable_m2))
             .to_vec(),
@@ -103,7 +109,7 @@ fn table(coverage: &SurfaceCoverage, language: Language) -> Table {
     let mut rows: Vec<Vec<TableCell>> = coverage
         .elements
         .iter()
-        .map(|(element, surface)| row(surface, [u32::from(element.number()).into(), element.name().into()]))
+        .map(|(element, surface)| row(surface, [u32::from(element.number()).into(), element_title(*element, language).into()]))
         .collect();
     rows.push(row(&coverage.total(), [text!(language, "report-coverage-all").into(), TableCell::Empty]));
     let mut columns = vec![

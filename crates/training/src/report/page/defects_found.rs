@@ -10,8 +10,8 @@ use crate::report::formatting;
 use crate::report::plots::map;
 use crate::report::sketch::{SketchExposure, Sketcher};
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms::{defect_title, element_title};
 use maud::{Markup, html};
-use spandrel_model::defect_codes::defect_name;
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::outline::ParallelView;
 use spandrel_text::{Language, text};
@@ -61,8 +61,8 @@ fn card(review: &Review, outcome: &DefectOutcome, sketcher: &Sketcher) -> Markup
     let marks =
         [DefectMark { id: defect.id, at_m: defect.position_m, length_m: defect.length_m, class: "missed", hidden: false }];
     let alt = text!(language, "report-defects-alt", defect = defect.id);
-    let kind = text!(language, "report-defects-kind", kind = defect_name(defect.kind), state = defect.condition_state);
-    let (member, element) = (defect.member.as_str(), defect.element.name());
+    let kind = text!(language, "report-defects-kind", kind = defect_title(defect.kind, language), state = defect.condition_state);
+    let (member, element) = (defect.member.as_str(), element_title(defect.element, language));
     let place = text!(language, "report-defects-place", member = member, element = element, size = size(outcome, language));
     let description = text!(language, "report-defects-outcome", outcome = outcome.description(language));
     let exposure = SketchExposure { light: 1.0, by_lamp: true };
@@ -103,10 +103,10 @@ fn table(review: &Review, language: Language) -> Table {
         let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
         vec![
             defect.id.into(),
-            defect_name(defect.kind).into(),
+            defect_title(defect.kind, language).into(),
             u32::from(defect.condition_state).into(),
             u32::from(defect.element.number()).into(),
-            defect.element.name().into(),
+            element_title(defect.element, language).into(),
             defect.member.clone().into(),
             TableCell::Number(1000.0 * defect.length_m, 0),
             TableCell::Number(1000.0 * defect.width_m, 2),

@@ -192,7 +192,7 @@ fn rows(review: &Review) -> Vec<TimelineRow> {
     let mut rows = vec![control_intervals(review)];
     for (k, window) in review.on_path.windows.iter().enumerate() {
         let stretch =
-            window.map(|w| ("w-task".to_owned(), review.t_s(w.first), review.t_s(w.last), review.scenario.tasks[k].name.clone()));
+            window.map(|w| ("w-task".to_owned(), review.t_s(w.first), review.t_s(w.last), review.task_name(k, language)));
         rows.push(TimelineRow {
             name: text!(language, "report-task", task = review.scenario.tasks[k].id),
             intervals: stretch.into_iter().collect(),

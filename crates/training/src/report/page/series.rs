@@ -27,7 +27,7 @@ pub fn data(review: &Review) -> String {
         "series": series(review),
         "limits": { "speed": review.scenario.scoring.speed_limit_m_s, "close": review.scenario.feedback.too_close_m,
             "clearances": CLEARANCE_LIMITS_M },
-        "tasks": review.scenario.tasks.iter().map(|task| json!({ "id": task.id, "name": task.name, "within": task.threshold_m,
+        "tasks": review.scenario.tasks.iter().enumerate().map(|(k, task)| json!({ "id": task.id, "name": review.task_name(k, review.metadata.language), "within": task.threshold_m,
             "closed": task.closed, "path": task.path_m.iter().map(|p| place(*p)).collect::<Vec<_>>() })).collect::<Vec<_>>(),
         "pictures": review.pictures.iter().map(|picture| json!({ "number": picture.number, "t": round_to_digits(picture.t_s, 2),
             "at": place(picture.pose.position_m), "look": place(picture.pose.forward), "verdict": picture.verdict.class() })).collect::<Vec<_>>(),
@@ -72,7 +72,12 @@ fn comparison_texts(language: Language) -> Value {
 pub fn comparison(both: [&Review; 2], alignment_events: &[AlignmentEvent]) -> String {
     let flight = |k: usize| {
         let starts: Vec<f64> = alignment_events.iter().map(|line_up| line_up.at_s[k]).collect();
-        let tasks = both[k].scenario.tasks.iter().map(|task| format!("{} · {}", task.id, task.name));
+        let tasks = both[k]
+            .scenario
+            .tasks
+            .iter()
+            .enumerate()
+            .map(|(task, one)| format!("{} · {}", one.id, both[k].task_name(task, both[k].metadata.language)));
         json!({ "series": series(both[k]), "starts": starts, "tasks": tasks.collect::<Vec<_>>() })
     };
     let scenario = &both[0].scenario;

@@ -25,7 +25,7 @@ pub fn header(review: &Review) -> Markup {
         header {
             div {
                 p.kicker { (text!(language, "report-kicker")) }
-                h1 { (review.scenario.title) }
+                h1 { (review.title(language)) }
                 p {
                     b { (review.metadata.trainee) } " · " (utc(&review.metadata.started_utc)) " · " (review.vehicle.name)
                     @if let Some(purpose) = &review.metadata.purpose { " · " (purpose_label(purpose, language)) }

@@ -37,7 +37,7 @@ pub fn section(review: &Review) -> Markup {
             }))
         }
         ul { @for (k, task) in review.assessment.tasks.iter().enumerate() {
-            li { (task.id) " · " (review.scenario.tasks[k].name) ": " (task.state.description(task.covered, done_share, language)) }
+            li { (task.id) " · " (review.task_name(k, language)) ": " (task.state.description(task.covered, done_share, language)) }
         } }
         (folded(language, |language| task_table(review, language)))
         (folded(language, |language| crash_table(review, language)))
@@ -49,7 +49,7 @@ fn rows(review: &Review) -> Vec<ShareRow> {
         let facts = &review.tasks[k];
         let share = |seconds: f64| if facts.time_s > 0.0 { seconds / facts.time_s } else { 0.0 };
         ShareRow {
-            name: format!("{} · {}", task.id, review.scenario.tasks[k].name),
+            name: format!("{} · {}", task.id, review.task_name(k, review.metadata.language)),
             bars: vec![("b-on", task.on_path), ("b-speeding", share(facts.speeding_s))],
             placeholder: (!task.attempted).then(|| text!(review.metadata.language, "report-not-attempted")),
         }
@@ -72,7 +72,7 @@ fn of(review: &Review, task: Option<usize>, kind: ContactKind) -> usize {
 fn counts(review: &Review) -> Vec<CountRow> {
     let tasks = (0..review.scenario.tasks.len()).map(Some).chain([None]);
     let name = |task: Option<usize>| match task {
-        Some(k) => format!("{} · {}", review.scenario.tasks[k].id, review.scenario.tasks[k].name),
+        Some(k) => format!("{} · {}", review.scenario.tasks[k].id, review.task_name(k, review.metadata.language)),
         None => text!(review.metadata.language, "report-between-tasks"),
     };
     tasks
@@ -95,7 +95,7 @@ fn task_table(review: &Review, language: Language) -> Table {
         let facts = &review.tasks[k];
         vec![
             task.id.into(),
-            review.scenario.tasks[k].name.clone().into(),
+            review.task_name(k, language).into(),
             state(task, language).into(),
             number(100.0 * task.covered, 1),
             number(facts.time_s, 1),

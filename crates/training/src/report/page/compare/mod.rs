@@ -46,7 +46,7 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
             header {
                 div {
                     p.kicker { (title) }
-                    h1 { (first.scenario.title) }
+                    h1 { (first.title(language)) }
                     @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline(language)) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet, language)) } }
                 }
             }
@@ -95,7 +95,7 @@ fn rows(first: &Review, second: &Review) -> Vec<ShareRow> {
     let tasks = first.scenario.tasks.iter().enumerate();
     tasks
         .map(|(k, task)| ShareRow {
-            name: format!("{} · {}", task.id, task.name),
+            name: format!("{} · {}", task.id, first.task_name(k, first.metadata.language)),
             bars: vec![("dot-1", first.assessment.tasks[k].on_path), ("dot-2", second.assessment.tasks[k].on_path)],
             placeholder: None,
         })
