@@ -106,8 +106,8 @@ fn language_form(visitor: &Visitor, at: &str) -> Markup {
         form method="post" action="/language" {
             (token(visitor))
             input type="hidden" name="back" value=(back);
-            fieldset {
-                legend { (text!(visitor.language, "web-language")) }
+            div role="group" aria-labelledby="language-choice" {
+                span id="language-choice" { (text!(visitor.language, "web-language")) }
                 @for one in Language::ALL {
                     button type="submit" name="language" value=(one.tag()) lang=(one.tag()) aria-current=[(one == visitor.language).then_some("true")] { (one.name()) }
                 }

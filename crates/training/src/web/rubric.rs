@@ -222,7 +222,7 @@ mod tests {
             histories.into_iter().chain([vec![signed(SignOffAction::SignedOff, ""), signed(SignOffAction::Withdrawn, "9")]])
         {
             let about = RubricPage { trainee: "anna", rubric: &rubric, events: &events, problem: None };
-            check_translated(&rubric_page(&visitor, &about).into_string(), &["anna"]);
+            check_translated(&rubric_page(&visitor, &about).into_string(), &["anna", "UTC"]);
             let german = rubric_page(&administrator_with(Language::German), &about).into_string();
             assert!(german.contains("von 1 Kriterien bestätigt"), "{german}");
         }

@@ -221,7 +221,7 @@ mod tests {
         let site = Site::without_defects(&scenario);
         for entry in [entry(true), entry(false)] {
             let page = scenario_page(&visitor, &entry, &scenario, &site, "9").into_string();
-            check_translated(&page, &["mph"]);
+            check_translated(&page, &["mph", "min"]);
             let german = scenario_page(&administrator_with(Language::German), &entry, &scenario, &site, "9").into_string();
             assert!(german.contains("Zu findende Schäden") && german.contains("<h1>Szenario 7</h1>"), "{german}");
         }
