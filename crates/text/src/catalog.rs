@@ -1,7 +1,7 @@
 //! Formats messages with Fluent.
 
-use crate::Language;
-use crate::messages::FILES;
+use crate::language::Language;
+use crate::messages::{FILES, is_message};
 use crate::pseudo::pseudo;
 use fluent_bundle::concurrent::FluentBundle;
 use fluent_bundle::{FluentArgs, FluentResource};
@@ -43,6 +43,14 @@ pub fn message(language: Language, id: &str, variables: &[(&str, Value<'_>)]) ->
         Language::Pseudo => pseudo,
     };
     format(bundle, id, variables).or_else(|| format(english, id, variables)).unwrap_or_else(|| id.to_owned())
+}
+
+/// Returns the message with a name that is composed at run time, such as one for each bridge element; `None` if the English
+/// catalog does not have it. The message may ignore variables. For all other messages, use [`text!`](crate::text), which checks
+/// the names.
+#[must_use]
+pub fn find(language: Language, id: &str, variables: &[(&str, Value<'_>)]) -> Option<String> {
+    is_message(id).then(|| message(language, id, variables))
 }
 
 fn format(bundle: &Bundle, id: &str, variables: &[(&str, Value<'_>)]) -> Option<String> {

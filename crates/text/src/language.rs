@@ -1,6 +1,5 @@
 //! The product's languages.
 
-use crate::text;
 use unic_langid::LanguageIdentifier;
 
 /// A language of the product.
@@ -67,8 +66,13 @@ impl Language {
 
     /// Returns the language's name in the language itself.
     #[must_use]
-    pub fn name(self) -> String {
-        text!(self, "common-language-name")
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::German => "Deutsch",
+            Self::Spanish => "Español",
+            Self::Pseudo => "Ƥšéúđó",
+        }
     }
 
     /// Returns the identifier that selects the plural rules.
@@ -112,7 +116,6 @@ mod tests {
         for (locale, language) in known {
             assert_eq!(Language::from_locale(locale), language, "{locale}");
         }
-        assert_eq!(Language::ALL.map(Language::name), ["English", "Deutsch", "Español"]);
     }
 
     #[test]

@@ -17,7 +17,7 @@ mod language;
 mod messages;
 mod pseudo;
 
-pub use catalog::{Value, message};
+pub use catalog::{Value, find, message};
 pub use language::Language;
 pub use messages::check_message;
 

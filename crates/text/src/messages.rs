@@ -20,6 +20,11 @@ pub const fn check_message(id: &str, variables: &[&str]) {
     }
 }
 
+/// Checks whether a message exists.
+pub const fn is_message(id: &str) -> bool {
+    position(id).is_some()
+}
+
 /// Returns a message's index in the sorted list.
 const fn position(id: &str) -> Option<usize> {
     let (mut from, mut to) = (0, MESSAGES.len());

@@ -1,5 +1,7 @@
 //! The catalogs: every language has the messages of the English one, with the same variables.
 
+#![allow(clippy::unwrap_used, reason = "test code")]
+
 use fluent_syntax::ast::{CallArguments, Entry, Expression, InlineExpression, Pattern, PatternElement};
 use spandrel_text::{Language, text};
 use std::collections::{BTreeMap, BTreeSet};
@@ -95,6 +97,13 @@ fn exact_every_language_has_every_message_with_the_same_variables() {
                 assert_eq!(&own[file][id], variables, "{language:?}, {file}.ftl: variables of {id}");
             }
         }
+    }
+}
+
+#[test]
+fn exact_catalogs_are_in_their_language() {
+    for language in Language::ALL {
+        assert_eq!(text!(language, "common-language-name"), language.name());
     }
 }
 

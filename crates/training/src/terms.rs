@@ -4,86 +4,13 @@
 use spandrel_model::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, PSC_CRACK, REBAR, SPALL};
 use spandrel_model::elements::Element;
 use spandrel_model::shipped::SCENARIOS;
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, find, text};
 
 /// Returns the name of an element: the part, then its material.
 #[must_use]
 pub fn element_title(element: Element, language: Language) -> String {
-    match element {
-        Element::RcDeck => text!(language, "terms-element-12"),
-        Element::PscDeck => text!(language, "terms-element-13"),
-        Element::PscTopFlange => text!(language, "terms-element-15"),
-        Element::RcTopFlange => text!(language, "terms-element-16"),
-        Element::SteelOpenGridDeck => text!(language, "terms-element-28"),
-        Element::SteelFilledGridDeck => text!(language, "terms-element-29"),
-        Element::SteelOrthotropicDeck => text!(language, "terms-element-30"),
-        Element::TimberDeck => text!(language, "terms-element-31"),
-        Element::RcSlab => text!(language, "terms-element-38"),
-        Element::PscSlab => text!(language, "terms-element-39"),
-        Element::SteelBoxGirder => text!(language, "terms-element-102"),
-        Element::PscBoxGirder => text!(language, "terms-element-104"),
-        Element::RcBoxGirder => text!(language, "terms-element-105"),
-        Element::SteelGirder => text!(language, "terms-element-107"),
-        Element::PscGirder => text!(language, "terms-element-109"),
-        Element::RcGirder => text!(language, "terms-element-110"),
-        Element::SteelStringer => text!(language, "terms-element-113"),
-        Element::PscStringer => text!(language, "terms-element-115"),
-        Element::RcStringer => text!(language, "terms-element-116"),
-        Element::SteelTruss => text!(language, "terms-element-120"),
-        Element::SteelArch => text!(language, "terms-element-141"),
-        Element::OtherArch => text!(language, "terms-element-142"),
-        Element::PscArch => text!(language, "terms-element-143"),
-        Element::RcArch => text!(language, "terms-element-144"),
-        Element::MasonryArch => text!(language, "terms-element-145"),
-        Element::MainCable => text!(language, "terms-element-147"),
-        Element::Hanger => text!(language, "terms-element-148"),
-        Element::OtherSecondaryCable => text!(language, "terms-element-149"),
-        Element::SteelFloorBeam => text!(language, "terms-element-152"),
-        Element::PscFloorBeam => text!(language, "terms-element-154"),
-        Element::RcFloorBeam => text!(language, "terms-element-155"),
-        Element::Pin => text!(language, "terms-element-161"),
-        Element::GussetPlate => text!(language, "terms-element-162"),
-        Element::SteelColumn => text!(language, "terms-element-202"),
-        Element::PscColumn => text!(language, "terms-element-204"),
-        Element::RcColumn => text!(language, "terms-element-205"),
-        Element::SteelTower => text!(language, "terms-element-207"),
-        Element::RcPierWall => text!(language, "terms-element-210"),
-        Element::MasonryPierWall => text!(language, "terms-element-213"),
-        Element::RcAbutment => text!(language, "terms-element-215"),
-        Element::RcFooting => text!(language, "terms-element-220"),
-        Element::SteelPile => text!(language, "terms-element-225"),
-        Element::PscPile => text!(language, "terms-element-226"),
-        Element::RcPile => text!(language, "terms-element-227"),
-        Element::SteelPierCap => text!(language, "terms-element-231"),
-        Element::PscPierCap => text!(language, "terms-element-233"),
-        Element::RcPierCap => text!(language, "terms-element-234"),
-        Element::StripSealJoint => text!(language, "terms-element-300"),
-        Element::PourableJoint => text!(language, "terms-element-301"),
-        Element::CompressionJoint => text!(language, "terms-element-302"),
-        Element::SealedAssemblyJoint => text!(language, "terms-element-303"),
-        Element::OpenJoint => text!(language, "terms-element-304"),
-        Element::UnsealedAssemblyJoint => text!(language, "terms-element-305"),
-        Element::OtherJoint => text!(language, "terms-element-306"),
-        Element::ElastomericBearing => text!(language, "terms-element-310"),
-        Element::MovableBearing => text!(language, "terms-element-311"),
-        Element::EnclosedBearing => text!(language, "terms-element-312"),
-        Element::FixedBearing => text!(language, "terms-element-313"),
-        Element::PotBearing => text!(language, "terms-element-314"),
-        Element::DiskBearing => text!(language, "terms-element-315"),
-        Element::OtherBearing => text!(language, "terms-element-316"),
-        Element::PscApproachSlab => text!(language, "terms-element-320"),
-        Element::RcApproachSlab => text!(language, "terms-element-321"),
-        Element::MetalRailing => text!(language, "terms-element-330"),
-        Element::RcRailing => text!(language, "terms-element-331"),
-        Element::TimberRailing => text!(language, "terms-element-332"),
-        Element::OtherRailing => text!(language, "terms-element-333"),
-        Element::MasonryRailing => text!(language, "terms-element-334"),
-        Element::WearingSurface => text!(language, "terms-element-510"),
-        Element::SteelCoating => text!(language, "terms-element-515"),
-        Element::RebarProtection => text!(language, "terms-element-520"),
-        Element::ConcreteCoating => text!(language, "terms-element-521"),
-        Element::Unlisted(_) => text!(language, "terms-element-unlisted"),
-    }
+    find(language, &format!("terms-element-{}", element.number()), &[])
+        .unwrap_or_else(|| text!(language, "terms-element-unlisted"))
 }
 
 /// Returns the name of a defect with this AASHTO MBEI code.
@@ -165,23 +92,9 @@ pub fn end_reason_title(label: &str, language: Language) -> String {
 /// user's and stay as they are.
 #[must_use]
 pub fn scenario_title(name: &str, title: &str, language: Language) -> String {
-    match (name, title) {
-        ("drill-curve-under-arch", "Drill: curve under the arch") => text!(language, "job-drill-curve-under-arch"),
-        ("drill-framing", "Drill: framing") => text!(language, "job-drill-framing"),
-        ("drill-gap", "Drill: gap") => text!(language, "job-drill-gap"),
-        ("drill-hover", "Drill: hover") => text!(language, "job-drill-hover"),
-        ("drill-lamp", "Drill: lamp") => text!(language, "job-drill-lamp"),
-        ("drill-landing", "Drill: landing") => text!(language, "job-drill-landing"),
-        ("drill-orbit", "Drill: orbit") => text!(language, "job-drill-orbit"),
-        ("drill-search", "Drill: search") => text!(language, "job-drill-search"),
-        ("drill-stand-off", "Drill: stand-off") => text!(language, "job-drill-stand-off"),
-        ("drill-straight-line", "Drill: straight line") => text!(language, "job-drill-straight-line"),
-        ("first-flight", "Lesson: first flight") => text!(language, "job-first-flight"),
-        ("pilot-study", "Pilot study: slab side, arch bottom, interlayer, pier") => text!(language, "job-pilot-study"),
-        ("practice", "Practice at two bridges") => text!(language, "job-practice"),
-        ("two-bridges", "Two bridges: slab side, arch bottom, interlayer, pier") => text!(language, "job-two-bridges"),
-        _ => title.to_owned(),
-    }
+    let id = format!("job-{name}");
+    let is_shipped = find(Language::English, &id, &[]).as_deref() == Some(title);
+    find(language, &id, &[]).filter(|_| is_shipped).unwrap_or_else(|| title.to_owned())
 }
 
 /// Returns the name of a task from the name of its job and the task's name in the job's file. Names in files other than the

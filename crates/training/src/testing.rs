@@ -10,7 +10,7 @@ pub fn untranslated_word<'a>(pseudo: &'a str, kept: &[&str]) -> Option<&'a str> 
     let words = pseudo.split(|c: char| !c.is_alphanumeric());
     // The letter m has no accented form.
     let mut plain = words.filter(|word| word.chars().any(|c| c.is_ascii_alphabetic() && !"mM".contains(c)));
-    plain.find(|word| word.chars().all(|c| c.is_ascii()) && !kept.contains(word))
+    plain.find(|word| word.is_ascii() && !kept.contains(word))
 }
 
 /// Returns the record of a perfect flight on the TASBID job, with all 24 questions answered "agree".

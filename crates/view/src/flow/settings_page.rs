@@ -120,7 +120,7 @@ impl WindowFlow {
         let row = |setting: Setting, label: String, value: String| MenuRow::choice(MenuAction::Setting(setting), label, value);
         let mut rows = vec![
             (
-                row(Setting::Language, text!(language, "window-settings-language"), language.name()),
+                row(Setting::Language, text!(language, "window-settings-language"), language.name().to_owned()),
                 text!(language, "window-settings-language-about"),
             ),
             (

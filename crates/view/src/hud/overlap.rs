@@ -171,7 +171,7 @@ fn key_name(binding: &str, language: Language) -> String {
 fn exact_steps_of_a_lesson_are_not_cut_in_any_language() {
     for (task, language) in LessonTask::ALL.into_iter().flat_map(|task| LANGUAGES[..3].iter().map(move |one| (task, *one))) {
         let lesson = longest_lesson();
-        let status = LessonStatus { task, target: Some(if task == LessonTask::Turn { 6.28 } else { 30.0 }), ..lesson.status };
+        let status = LessonStatus { task, target: Some(if task == LessonTask::Turn { 6.2 } else { 30.0 }), ..lesson.status };
         let how = lesson_words::how_to(task, language, &|binding| key_name(binding, language));
         let style = DisplayStyle { language, ..DisplayStyle::default() };
         let items = layout(&Hud { lesson: Some(LessonDisplay { status, how, remark: None }), style, ..hud() }, 4.0 / 3.0);
