@@ -11,12 +11,16 @@ use crate::io::user_settings::SettingsFile;
 use crate::io::{controller, files};
 #[cfg(feature = "view")]
 use crate::window::{self, CaptureRequest, SettingsOverrides, WindowConfig, WindowSettings, WindowSetup};
+use spandrel_view::arrange::ViewLayout;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
 /// Maximum screenshot delay, s.
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
+
+/// Names of the layouts.
+const LAYOUTS: [&str; 4] = [ViewLayout::ALL[0].0, ViewLayout::ALL[1].0, ViewLayout::ALL[2].0, ViewLayout::ALL[3].0];
 
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
@@ -34,6 +38,7 @@ Examples:
   spandrel view --fly 127.0.0.1:18570                    fly it with the keyboard: W S A D, arrows, 1 to arm, T to take off
   spandrel view --stream 127.0.0.1:5600                  also show the camera's view in QGroundControl
   spandrel view --listen 0.0.0.0 --connect 192.168.1.20:14280 --quality low
+  spandrel view --layout inspector-only --second-screen  show only the inspector's view, on a second screen
   spandrel view --screenshot moment.png --after 10       save a picture of the window after 10 s and exit
 
 {EXIT_CODES}"))]
@@ -69,6 +74,12 @@ pub struct Args {
     /// Disable sound; the [sound] table in the key bindings file configures propellers, warnings, speech and volume
     #[arg(long)]
     no_sound: bool,
+    /// Layout of the views; Tab changes it
+    #[arg(long, value_name = "LAYOUT", default_value = "camera", value_parser = LAYOUTS)]
+    layout: String,
+    /// Fill another display than the primary one, if there is one
+    #[arg(long)]
+    second_screen: bool,
     /// Disable the map of the reference paths, for an assessment; M cannot show it
     #[arg(long)]
     no_map: bool,
@@ -111,6 +122,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let config = WindowConfig {
         listen: args.listen,
         size_px: parse_size(&args.size)?,
+        layout: ViewLayout::ALL
+            .into_iter()
+            .find(|(name, _)| *name == args.layout)
+            .map_or_else(ViewLayout::default, |(_, one)| one),
+        second_screen: args.second_screen,
         map: !args.no_map,
         picture: picture(args)?,
         camera_file: args.picture.clone(),

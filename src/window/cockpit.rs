@@ -338,7 +338,7 @@ impl ApplicationHandler for Cockpit {
         }
         let title =
             self.threads.flight.as_ref().map_or("Spandrel".to_owned(), |flight| format!("Spandrel: {}", flight.job.0.title));
-        match WindowSurface::open(events, &title, self.plan.size_px) {
+        match WindowSurface::open(events, &title, self.plan.size_px, self.plan.second_screen) {
             Ok(screen) => {
                 self.screen = Some(screen);
                 if let Some(train_pipe) = &self.threads.train_pipe {

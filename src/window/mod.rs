@@ -51,6 +51,7 @@ pub fn run(setup: WindowSetup) -> Result<(), AppError> {
         crew.flight = Some(FlightView::begin(config.listen, setup.connect, (setup.scenario, setup.vehicle), setup.seed)?);
         WindowFlow::watch_only()
     };
+    flow.arrangement = config.layout;
     flow.update_settings(settings.status());
     if let Some(words) = settings.file_notice() {
         flow.show_notice(words);

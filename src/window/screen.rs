@@ -6,7 +6,14 @@ use std::sync::Arc;
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
 use winit::event_loop::ActiveEventLoop;
-use winit::window::Window;
+use winit::monitor::MonitorHandle;
+use winit::window::{Fullscreen, Window};
+
+/// Returns a display other than the primary one.
+fn second_display(events: &ActiveEventLoop) -> Option<MonitorHandle> {
+    let first = events.primary_monitor().or_else(|| events.available_monitors().next());
+    events.available_monitors().find(|display| Some(display) != first.as_ref())
+}
 
 /// The window and its graphics device.
 pub struct WindowSurface {
@@ -23,18 +30,26 @@ pub struct WindowSurface {
 }
 
 impl WindowSurface {
-    /// Opens a window of this size in px, multiplied by the display's scale factor.
+    /// Opens a window of this size in px, multiplied by the display's scale factor, or a window that fills the second display, if
+    /// there is one.
     ///
     /// # Errors
     /// Returns an error if there is no display or no graphics device.
-    pub fn open(events: &ActiveEventLoop, title: &str, (width, height): (u32, u32)) -> Result<Self, AppError> {
+    pub fn open(
+        events: &ActiveEventLoop,
+        title: &str,
+        (width, height): (u32, u32),
+        second_screen: bool,
+    ) -> Result<Self, AppError> {
         // The window is never larger than the display, because its edges would then be hidden.
         let display = events.primary_monitor().or_else(|| events.available_monitors().next());
         let scale = display.as_ref().map_or(1.0, |display| display.scale_factor().max(1.0));
         let wanted = PhysicalSize::new((scale * f64::from(width)).round() as u32, (scale * f64::from(height)).round() as u32);
         let room = display.map(|display| display.size()).filter(|size| size.width > 0 && size.height > 0).unwrap_or(wanted);
         let size = PhysicalSize::new(wanted.width.min(room.width), wanted.height.min(room.height));
-        let attributes = Window::default_attributes().with_title(title).with_inner_size(size);
+        let second = if second_screen { second_display(events) } else { None };
+        let full_screen = second.map(|display| Fullscreen::Borderless(Some(display)));
+        let attributes = Window::default_attributes().with_title(title).with_inner_size(size).with_fullscreen(full_screen);
         let failed = |why: String| AppError::failed(format!("cannot open a window: {why}"));
         let window = Arc::new(events.create_window(attributes).map_err(|error| failed(error.to_string()))?);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());

@@ -3,6 +3,7 @@
 use super::window_settings::WindowSettings;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
+use spandrel_view::arrange::ViewLayout;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -14,6 +15,10 @@ pub struct WindowConfig {
     pub listen: IpAddr,
     /// Window width and height, px.
     pub size_px: (u32, u32),
+    /// Layout at startup.
+    pub layout: ViewLayout,
+    /// True to fill another display than the primary one, if there is one.
+    pub second_screen: bool,
     /// True if the map may be shown.
     pub map: bool,
     /// Screenshot to save before exiting, if any.

@@ -23,6 +23,8 @@ pub enum ViewLayout {
     Inspector,
     /// Side by side: inspector on the left, camera on the right, as in the TASBID paper.
     SideBySide,
+    /// Only the inspector's view, for a second screen.
+    InspectorOnly,
 }
 
 /// Aspect ratios (width over height) of the window and of the camera's picture.
@@ -145,13 +147,21 @@ impl WindowShape {
 }
 
 impl ViewLayout {
+    /// All layouts with their names on the command line.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("camera", Self::Camera),
+        ("inspector", Self::Inspector),
+        ("side-by-side", Self::SideBySide),
+        ("inspector-only", Self::InspectorOnly),
+    ];
+
     /// Returns the layout to which the Tab key switches next.
     #[must_use]
     pub fn next(self) -> Self {
         match self {
             Self::Camera => Self::Inspector,
             Self::Inspector => Self::SideBySide,
-            Self::SideBySide => Self::Camera,
+            Self::SideBySide | Self::InspectorOnly => Self::Camera,
         }
     }
 
@@ -181,7 +191,7 @@ impl ViewLayout {
                 }
             }
             // Left of the inset view.
-            Self::Inspector => {
+            Self::Inspector | Self::InspectorOnly => {
                 TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5 - 0.5 * INSET_SIZE, height: 0.9, extends_down: false }
             }
             Self::SideBySide => TextAnchor { left_edge: 0.0, edge: 1.0, width: 0.5, height: 0.9, extends_down: false },
@@ -196,7 +206,7 @@ impl ViewLayout {
                 let [_, inspector, _] = shape.with_instruments();
                 (inspector.left + 0.5 * inspector.width, inspector.top + BUTTON_DOWN)
             }
-            Self::Inspector => (0.5, 0.04),
+            Self::Inspector | Self::InspectorOnly => (0.5, 0.04),
             Self::SideBySide => (0.25, 0.04),
         }
     }
@@ -213,6 +223,7 @@ impl ViewLayout {
                 let inset = ViewRect { which: ViewKind::Camera, left, top, width: INSET_SIZE, height: INSET_SIZE };
                 vec![whole(ViewKind::Inspector), inset]
             }
+            Self::InspectorOnly => vec![whole(ViewKind::Inspector)],
             Self::SideBySide => vec![half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
         }
     }
@@ -273,6 +284,14 @@ mod tests {
             seen = seen.next();
         }
         assert_eq!(seen, ViewLayout::Camera);
+    }
+
+    #[test]
+    fn exact_second_screen_shows_only_the_inspectors_view_until_tab_is_pressed() {
+        let shape = WindowShape { window: 16.0 / 9.0, camera: 4.0 / 3.0 };
+        let places = ViewLayout::InspectorOnly.view_rects(shape);
+        assert!(matches!(places[..], [ViewRect { which: ViewKind::Inspector, width: 1.0, height: 1.0, .. }]), "{places:?}");
+        assert_eq!(ViewLayout::InspectorOnly.next(), ViewLayout::Camera);
     }
 
     #[test]

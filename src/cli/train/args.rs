@@ -82,6 +82,9 @@ pub struct Args {
     /// Render a video of the camera's view after each flight, for the report: on, off, or auto (only with a graphics card)
     #[arg(long, value_name = "MODE", default_value = "auto", conflicts_with = "no_view")]
     pub video: VideoMode,
+    /// Show the inspector's view in a second window as well, on a second display if there is one
+    #[arg(long, conflicts_with = "no_view")]
+    pub second_screen: bool,
     /// Disable sound in the window
     #[arg(long)]
     pub no_sound: bool,

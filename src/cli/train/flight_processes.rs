@@ -5,10 +5,10 @@ use super::connection_info::connection_instructions;
 use super::expert_ghost::{ExpertFlight, GhostJob};
 use super::offers;
 use super::window::WindowProcess;
-use crate::cli::args::common_args;
+use crate::cli::args::{JobArgs, common_args};
 use crate::cli::autopilot_args::AUTOPILOT_FOLDER;
 use crate::errors::AppError;
-use crate::io::children::{Child, early_exit};
+use crate::io::children::{Child, early_exit, software_renderer_threads};
 use crate::io::files;
 use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
@@ -31,6 +31,8 @@ const MAX_MONITOR_RESTARTS: u32 = 10;
 pub struct FlightProcesses {
     monitor: Child,
     sim: Child,
+    /// The window on the second screen.
+    second_window: Option<Child>,
     /// The synthetic expert, if the trainee watches.
     expert: Option<Child>,
     /// Arguments for starting it once the window shows the flight.
@@ -108,6 +110,7 @@ impl FlightProcesses {
         Ok(Self {
             monitor,
             sim,
+            second_window: None,
             expert: None,
             expert_args,
             ports,
@@ -122,6 +125,21 @@ impl FlightProcesses {
             monitor_restart_args,
             monitor_restarts: 0,
         })
+    }
+
+    /// Opens the window on the second screen. The flight goes on if that fails, or if the user closes it.
+    pub fn open_second_window(&mut self, args: &Args, log: tracing::Level) {
+        let Some(payload) = self.port("payload_port") else { return };
+        let seed = self.ports["seed"].as_u64().and_then(|seed| seed.try_into().ok());
+        let mut words = common_args(&JobArgs { seed, ..args.job(&self.choice.scenario) }, log);
+        words.extend(["--connect".to_owned(), payload.to_string()]);
+        words.extend(["--layout", "inspector-only", "--second-screen", "--no-sound"].map(str::to_owned));
+        words.extend(args.quality.iter().flat_map(|quality| ["--quality".to_owned(), quality.clone()]));
+        if self.choice.purpose == Purpose::Assessment {
+            words.push("--no-map".to_owned());
+        }
+        let opened = Child::start_with_env("view", &words, &[software_renderer_threads()]);
+        self.second_window = opened.inspect_err(|error| tracing::warn!("no window on the second screen: {error}")).ok();
     }
 
     /// Returns the session folder.
@@ -253,6 +271,8 @@ impl FlightProcesses {
 
     /// Stops the monitor, which then scores the session and completes its folder. The vehicle stays connected.
     pub fn end_session(&mut self) {
+        // The results are in the main window.
+        self.second_window = None;
         self.monitor.finish();
         if let Some(mut expert) = self.expert.take() {
             expert.finish();

@@ -343,6 +343,9 @@ impl<'a> TrainRun<'a> {
                 self.send_to_window(&flying);
             }
             let shown = self.has_display();
+            if self.args.second_screen && shown {
+                flight.open_second_window(self.args, self.log);
+            }
             let web = self.web.as_ref().map(|web| web.server.address());
             print!("{}", flight.connection_info(self.args, web, shown));
             let outcome = flight.wait(&mut self.window, &self.stop);

@@ -1,16 +1,15 @@
 //! Plays the sound of a flight, and speaks warnings.
 
+mod inputs;
 mod output;
 mod speech;
 
 use super::window_settings::sound_settings;
+use inputs::{Inputs, lock_inputs};
 use output::play;
 use spandrel_clients::rc::keyboard::SoundPreferences;
-use spandrel_view::sound::{SoundInputs, SoundSettings};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-/// Inputs of the sound thread.
-type Inputs = (SoundInputs, SoundSettings);
+use spandrel_view::sound::SoundInputs;
+use std::sync::{Arc, Mutex};
 
 /// The window's sound output. Its thread starts with the first sound.
 pub struct AudioOutput {
@@ -63,8 +62,4 @@ impl AudioOutput {
             std::thread::spawn(move || play(&heard));
         }
     }
-}
-
-fn lock_inputs(heard: &Mutex<Inputs>) -> MutexGuard<'_, Inputs> {
-    heard.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,6 +1,6 @@
 //! Speaks warnings with a system program.
 
-use super::Inputs;
+use super::inputs::Inputs;
 use spandrel_text::Language;
 use spandrel_view::sound::spoken;
 use std::process::{Child, Command, Stdio};

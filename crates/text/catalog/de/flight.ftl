@@ -29,6 +29,7 @@ flight-status-frozen = EINGEFROREN
 ## The next step of the job
 
 flight-step-take-off = Starten
+flight-step-return-to-task = Zurück zu Aufgabe { $task } von { $tasks }
 flight-step-fly-to-task = Zu Aufgabe { $task } von { $tasks } fliegen
 flight-step-fly-to = Zur Aufgabe fliegen
 flight-step-inspect-task = Aufgabe { $task } von { $tasks } prüfen

@@ -30,6 +30,7 @@ flight-status-frozen = FROZEN
 ## The next step of the job
 
 flight-step-take-off = Take off
+flight-step-return-to-task = Return to task { $task } of { $tasks }
 flight-step-fly-to-task = Fly to task { $task } of { $tasks }
 # Without a number; not sent by the monitor.
 flight-step-fly-to = Fly to

@@ -29,6 +29,7 @@ flight-status-frozen = CONGELADO
 ## The next step of the job
 
 flight-step-take-off = Despegue
+flight-step-return-to-task = Vuelva a la tarea { $task } de { $tasks }
 flight-step-fly-to-task = Vuele a la tarea { $task } de { $tasks }
 flight-step-fly-to = Vuele a la tarea
 flight-step-inspect-task = Inspeccione la tarea { $task } de { $tasks }

@@ -82,6 +82,10 @@ fn title(guidance: &Guidance, language: Language) -> String {
     let tasks = guidance.tasks;
     match (guidance.step, guidance.task) {
         (GuidanceStep::TakeOff, _) => text!(language, "flight-step-take-off"),
+        // The task was begun, and the drone has left its path.
+        (GuidanceStep::FlyToTask, Some(task)) if guidance.progress.is_some_and(|progress| progress > 0.0) => {
+            text!(language, "flight-step-return-to-task", task = task, tasks = tasks)
+        }
         (GuidanceStep::FlyToTask, Some(task)) => text!(language, "flight-step-fly-to-task", task = task, tasks = tasks),
         (GuidanceStep::FlyToTask, None) => text!(language, "flight-step-fly-to"),
         (GuidanceStep::FollowPath, Some(task)) => text!(language, "flight-step-inspect-task", task = task, tasks = tasks),
