@@ -16,7 +16,7 @@ use std::net::SocketAddr;
 use std::path::Path;
 
 /// Size of the committed pictures: small, because there are many.
-const COMMITTED_PX: (u32, u32) = (640, 360);
+const COMMITTED_PX: (u32, u32) = (400, 226);
 /// Sizes of the album's pictures.
 const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
 /// Number of pages of the tutorial.
