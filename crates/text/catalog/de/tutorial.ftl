@@ -11,7 +11,7 @@ tutorial-job-title = der Auftrag
 tutorial-job-text =
     Sie stehen mit einer Drohne an einem Hang. Folgen Sie der Bahn jeder Aufgabe, fotografieren Sie jeden Schaden einmal, kehren Sie dann zurück und landen Sie auf dem Landeplatz.
 
-    Die orange Linie zeigt einen Beispielflug; die roten Punkte sind seine Aufnahmeorte.
+    Die orange Linie zeigt einen Beispielflug, die roten Punkte seine Bilder.
 tutorial-job-pad = hier starten und landen
 tutorial-job-suspension = Hängebrücke
 tutorial-job-arch = Bogenbrücke
