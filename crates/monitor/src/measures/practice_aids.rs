@@ -76,6 +76,6 @@ mod tests {
             assert_eq!(PracticeAids::from_words(&aids.words(Language::English).unwrap_or_default()), aids);
         }
         let german = PracticeAids { freezes: 1, rewinds: 4 }.words(Language::German);
-        assert_eq!(german.as_deref(), Some("4-mal zurückgespult und einmal angehalten"));
+        assert_eq!(german.as_deref(), Some("4-mal zurückgespult und einmal eingefroren"));
     }
 }

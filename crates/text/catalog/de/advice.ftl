@@ -1,4 +1,4 @@
-advice-lesson = Die Punkte einer Lektion zählen nicht. Wenn Sie jeden Schritt erledigt haben, fliegen Sie die erste Übung.
+advice-lesson = Die Wertung einer Lektion zählt nicht. Wenn Sie jeden Schritt erledigt haben, fliegen Sie die erste Übung.
 advice-nothing-to-correct = Nichts zu verbessern: Fliegen Sie den nächsten Auftrag.
 advice-not-certified = Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: { $unmet }.
 advice-fly-again = Kein einzelner Fehler fällt auf: Fliegen Sie den Auftrag noch einmal.
@@ -15,8 +15,8 @@ advice-when = { $place ->
     }
 
 advice-off-path = Sie haben die Bahn verlassen, { $when }, bis zu { $most } m weit: Kehren Sie zurück, bevor Sie weiterfliegen.
-advice-drifted-up = Sie sind { $mean } m über die Bahn geraten, { $when }: Halten Sie die Höhe.
-advice-drifted-down = Sie sind { $mean } m unter die Bahn geraten, { $when }: Halten Sie die Höhe.
+advice-drifted-up = Sie sind im Mittel { $mean } m über die Bahn geraten, { $when }: Halten Sie die Höhe.
+advice-drifted-down = Sie sind im Mittel { $mean } m unter die Bahn geraten, { $when }: Halten Sie die Höhe.
 advice-beside-path = Sie sind { $mean } m neben der Bahn geflogen, { $when }: Fliegen Sie auf der Bahn selbst.
 advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
         [deck] von der Fahrbahntafel
@@ -36,13 +36,13 @@ advice-speeding = Sie sind{ $place ->
         [task] {" "}bei Aufgabe { $tasks }
         [tasks] {" "}bei den Aufgaben { $tasks }
        *[none] {""}
-    } bis zu { $most } m/s geflogen, { $when } über der Höchstgeschwindigkeit von { $limit } m/s: Fliegen Sie langsamer.
+    } bis zu { $most } m/s geflogen, { $when } über dem Tempolimit von { $limit } m/s: Fliegen Sie langsamer.
 advice-low-clearance = Sie waren weniger als { $limit } m vom Bauwerk entfernt, { $when }, im Minimum { $least } m: Halten Sie Abstand.
 advice-stick-reversals = Sie haben die Steuerknüppel{ $place ->
         [task] {" "}bei Aufgabe { $tasks }
         [tasks] {" "}bei den Aufgaben { $tasks }
        *[none] {""}
-    } bis zu { $most }-mal pro Minute umgesteuert, am häufigsten ab { $at }: Korrigieren Sie klein und sanft.
+    } bis zu { $most }-mal pro Minute umgesteuert, am häufigsten ab { $at }: Korrigieren Sie sanft und in kleinen Schritten.
 advice-yaw-reversals = Sie haben den Gierknüppel{ $place ->
         [task] {" "}bei Aufgabe { $tasks }
         [tasks] {" "}bei den Aufgaben { $tasks }
@@ -54,12 +54,17 @@ advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
         [arch] vom Bogen
         [pier] vom Pfeiler
        *[structure] vom Bauwerk
-    } weg, { $when }: Drehen Sie die Nase zur Oberfläche.
+    } weg, { $when }: Drehen Sie die Nase dorthin.
 advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.
 
 advice-crash-times = bei { $times }
-advice-crash-first-and-hardest = zuerst bei { $first }, am stärksten bei { $hardest } ({ $speed } m/s)
-advice-crash = Sie haben { $object ->
+advice-crash-first-and-hardest = zuerst bei { $first }, am heftigsten bei { $hardest } ({ $speed } m/s)
+advice-crash =
+    Sie haben { $count ->
+        [1] einmal
+        [2] zweimal
+       *[other] { $count }-mal
+    } { $object ->
         [bridge] die Brücke
         [terrain] den Boden
         [water] das Wasser
@@ -68,18 +73,14 @@ advice-crash = Sie haben { $object ->
         [other] ein Hindernis
         [none] nichts
        *[several] Hindernisse
-    }{ $place ->
-        [task] {" "}bei Aufgabe { $tasks }
-        [tasks] {" "}bei den Aufgaben { $tasks }
-        [between] {" "}zwischen den Aufgaben
+    } getroffen{ $place ->
+        [task] , bei Aufgabe { $tasks }
+        [tasks] , bei den Aufgaben { $tasks }
+        [between] , zwischen den Aufgaben
        *[none] {""}
-    } { $count ->
-        [1] einmal
-        [2] zweimal
-       *[other] { $count }-mal
-    } getroffen, { $when }: { $remedy ->
+    }, { $when }: { $remedy ->
         [altitude] Halten Sie die Höhe
-        [people] Bleiben Sie weg von Personen und Verkehr
+        [people] Halten Sie sich von Personen und Verkehr fern
        *[distance] Halten Sie Abstand
     }.
 
@@ -88,23 +89,23 @@ advice-missed-in-view = Sie haben { $missed } von { $all } { $kind ->
         [hidden] Schäden, die von der Bahn abgewandt sind,
         [cracks] Rissen
        *[all] Schäden
-    } nicht fotografiert; Schaden { $defect } war bei { $at } klar zu sehen: Halten Sie an und machen Sie ein Bild.
+    } nicht fotografiert; Schaden { $defect } war bei { $at } deutlich zu sehen: Halten Sie an und machen Sie ein Bild.
 advice-missed-nearest = Sie haben { $missed } von { $all } { $kind ->
         [severe] schweren Schäden
         [hidden] Schäden, die von der Bahn abgewandt sind,
         [cracks] Rissen
        *[all] Schäden
-    } nicht fotografiert; bei { $at } waren Sie einer Sicht auf Schaden { $defect } am nächsten: Suchen Sie dort langsam.
+    } nicht fotografiert; bei { $at } hätten Sie Schaden { $defect } am ehesten gesehen: Suchen Sie dort langsam.
 advice-passed-in-view = Sie sind an { $count ->
-        [one] einem klar sichtbaren Schaden
-       *[other] { $count } klar sichtbaren Schäden
-    } ohne Bild vorbeigeflogen, am längsten für { $seconds } s bei { $at }: Fliegen Sie dort langsamer oder näher.
+        [one] einem deutlich sichtbaren Schaden
+       *[other] { $count } deutlich sichtbaren Schäden
+    } ohne Bild vorbeigeflogen, am längsten { $seconds } s lang bei { $at }: Fliegen Sie dort langsamer oder näher.
 advice-picture-failed = { $count ->
         [one] Ihr Bild eines Schadens war
        *[other] Ihre Bilder von { $count } Schäden waren
     } { $why ->
         [dark] zu dunkel
-        [oblique] in zu flachem Winkel aufgenommen
+        [oblique] zu schräg aufgenommen
         [small] aus zu großer Entfernung aufgenommen
         [thin] für einen feinen Riss aus zu großer Entfernung aufgenommen
        *[other] ungenügend ({ $reason })
@@ -115,10 +116,11 @@ advice-picture-failed = { $count ->
         [thin] Fliegen Sie näher heran
        *[other] Beheben Sie das vor der Aufnahme
     }.
-advice-picture-poor = Ihre Bilder von { $count } der { $found } gefundenen Schäden sind { $why ->
+advice-picture-poor =
+    Bei { $count } der { $found } gefundenen Schäden ist Ihr Bild { $why ->
         [blur] durch Bewegung unscharf
-        [coarse] zu grob
-        [oblique] in zu flachem Winkel aufgenommen
+        [coarse] zu gering aufgelöst
+        [oblique] zu schräg aufgenommen
        *[other] nicht gut genug
     }, zuerst bei { $at }: { $why ->
         [blur] Halten Sie vor der Aufnahme an
@@ -126,8 +128,8 @@ advice-picture-poor = Ihre Bilder von { $count } der { $found } gefundenen Schä
         [oblique] Richten Sie die Nase gerade auf die Oberfläche
        *[other] Lesen Sie im Bericht, was bei jedem Bild fehlt
     }.
-advice-no-pictures = Sie haben keinen der { $count } Schäden fotografiert; die beste Gelegenheit war bei { $at }: Fotografieren Sie jeden Schaden.
-advice-pictures-of-nothing = { $count } Ihrer { $taken } Bilder zeigen keinen neuen Schaden, zuerst bei { $at }: Schauen Sie erst, dann machen Sie das Bild.
+advice-no-pictures = Sie haben keinen Schaden fotografiert (vorhanden: { $count }); die beste Gelegenheit war bei { $at }: Fotografieren Sie jeden Schaden.
+advice-pictures-of-nothing = Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, zuerst bei { $at }: Schauen Sie erst, dann machen Sie das Bild.
 
 advice-not-attempted = Sie haben { $place ->
         [task] Aufgabe { $tasks }
@@ -139,8 +141,8 @@ advice-not-covered = Sie haben nur { $shares } { $place ->
         [tasks] der Bahnen der Aufgaben { $tasks } geflogen und Aufgabe { $least }
        *[none] der Bahn geflogen und sie
     } bei { $at } verlassen: Fliegen Sie jede Bahn bis zum Ende.
-advice-overtime = Sie sind { $flown } geflogen, { $over } länger als für volle Punkte erlaubt; die Zeit war bei { $at } um: Planen Sie die Reihenfolge der Aufgaben.
+advice-overtime = Sie sind { $flown } geflogen, { $over } länger als für die volle Punktzahl erlaubt; die Zeit war bei { $at } um: Planen Sie die Reihenfolge der Aufgaben.
 advice-not-landed = Ihr Flug endete bei { $at }, { $away } m vom Landeplatz: Fliegen Sie zurück und landen Sie dort.
-advice-battery-low = Am Ende hatten Sie { $left }% Akku; die Reserve von { $reserve }% war bei { $at } erreicht: Kehren Sie früher um.
+advice-battery-low = Am Ende waren noch { $left }% Akku übrig; die Reserve von { $reserve }% war bei { $at } erreicht: Kehren Sie früher um.
 advice-time-up = Ihre Zeit war bei { $at } um, { $away } m vom Landeplatz: Kehren Sie früher um.
 advice-battery-empty = Ihr Akku war bei { $at } leer, { $away } m vom Landeplatz: Kehren Sie früher um.

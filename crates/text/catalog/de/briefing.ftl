@@ -9,12 +9,12 @@ briefing-traffic = Verkehr
 
 briefing-tasks-and-length = { $tasks }, { $length } m Bahn
 briefing-time-needed = etwa { $needed } min nötig, { $allowed } min erlaubt
-briefing-speed-limit = { $speed } m/s für die Prüfung, Grenze { $limit }
+briefing-speed-limit = { $speed } m/s für die Prüfung, Tempolimit { $limit }
 briefing-no-defects = keine
 briefing-defects-to-find = { $count } zu finden
 briefing-wind-from = { $wind } aus { $bearing }°
 briefing-calm = windstill
-briefing-clouds = { $share }% bewölkt
+briefing-clouds = zu { $share }% bewölkt
 briefing-cars = { $count ->
         [one] { $count } Pkw
        *[other] { $count } Pkw
@@ -61,7 +61,7 @@ briefing-stand-off = Abstand { $distance } ± { $tolerance } m
 briefing-within = höchstens { $distance } m neben der Bahn
 briefing-lamp-needed = Scheinwerfer nötig
 
-briefing-confined = Enger Raum: Bei Aufgabe { $task } kommt das Bauwerk der Bahn auf { $clearance } m nahe.
+briefing-confined = Enge: Bei Aufgabe { $task } ist die Bahn stellenweise nur { $clearance } m vom Bauwerk entfernt.
 briefing-darkness = Dunkelheit: Der Scheinwerfer ist bei { $count ->
         [one] Aufgabe { $tasks }
        *[other] den Aufgaben { $tasks }
@@ -69,24 +69,24 @@ briefing-darkness = Dunkelheit: Der Scheinwerfer ist bei { $count ->
 briefing-vehicles = Verkehr: { $count ->
         [one] { $count } Fahrzeug
        *[other] { $count } Fahrzeuge
-    } auf den Brücken. Bleiben Sie von der Fahrbahn weg.
+    } auf den Brücken. Halten Sie sich von der Fahrbahn fern.
 briefing-people = Personen: { $count ->
         [one] { $count } Fußgänger
        *[other] { $count } Fußgänger
     } auf den Gehwegen. Fliegen Sie nie über Personen.
-briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter der Fahrbahntafel kann die Position abdriften.
+briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter dem Überbau kann die Position abdriften.
 briefing-water = Wasser: Teile der Bahnen liegen über Wasser. Bei einer Notlandung dort geht das Fluggerät verloren.
 briefing-crash-ends = Eine Kollision beendet die Sitzung.
 briefing-wind-force = Wind: eine Kraft von { $force } N.{ $changes ->
-        [yes] {" "}Er ändert sich oder böt während des Flugs.
+        [yes] {" "}Er ändert sich während des Flugs oder ist böig.
        *[no] {""}
-    } Rechnen Sie damit, von der Bahn geschoben zu werden.
+    } Rechnen Sie damit, von der Bahn gedrückt zu werden.
 briefing-wind-speed = Wind: im Mittel { $speed } m/s.{ $changes ->
-        [yes] {" "}Er ändert sich oder böt während des Flugs.
+        [yes] {" "}Er ändert sich während des Flugs oder ist böig.
        *[no] {""}
-    } Rechnen Sie mit Turbulenz hinter Pfeilern und unter der Fahrbahntafel.
+    } Rechnen Sie mit Turbulenzen hinter Pfeilern und unter dem Überbau.
 
-briefing-conformity = Wegtreue: Bleiben Sie auf der Bahn und dort unter der Höchstgeschwindigkeit.
+briefing-conformity = Bahntreue: Bleiben Sie auf der Bahn und dort unter dem Tempolimit.
 briefing-efficiency = Effizienz: Landen Sie, bevor die Zeit um ist und bevor der Akku leer ist.
 briefing-safety = Sicherheit: Berühren Sie nichts. Wird eine Person oder ein Fahrzeug getroffen, endet die Sitzung.
 briefing-accuracy = Genauigkeit: Fotografieren Sie jeden Schaden einmal, nahe der Bildmitte, und sonst nichts.
@@ -94,4 +94,4 @@ briefing-to-be-certified = Für die Zertifizierung: { $requirement }.
 
 briefing-check-risk = Risiko: Ich kenne die Gefahren und breche ab, wenn jemand den Flugbereich betritt.
 briefing-check-battery = Akku: voll. Ich lande mit mindestens { $least }% und fliege bei der Akkuwarnung ({ $low }%) zurück.
-briefing-check-landing = Landeplatz: { $away } m vom Prüfer entfernt. Landungen im Umkreis von { $radius } m gelten als am Landeplatz.
+briefing-check-landing = Landeplatz: { $away } m vom Prüfer entfernt. Eine Landung im Umkreis von { $radius } m gilt als Landung am Landeplatz.

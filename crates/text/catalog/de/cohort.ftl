@@ -9,7 +9,7 @@ cohort-summary =
     }, { $sessions ->
         [one] { $sessions } Sitzung
        *[other] { $sessions } Sitzungen
-    } von { $scenarios }.
+    } mit { $scenarios }.
 cohort-group =
     { $trainees ->
         [one] { $trainees } Trainee flog
@@ -164,15 +164,15 @@ cohort-column-high-whisker = oberer Whisker
 
 cohort-boxes = Boxplots nach Wiederholung: { $score }
 cohort-boxes-note = Die Kästen zeigen die Quartile und den Median, die Kreuze den Mittelwert. Die Whisker reichen bis zu den äußersten Werten innerhalb von 1.5 Interquartilsabständen vom Kasten.
-cohort-versus = { $earlier } und { $later }
+cohort-versus = { $earlier } gegen { $later }
 cohort-tests-caption = gepaarte t-Tests (spätere minus frühere Wiederholung)
 cohort-column-pairs = Paare
-cohort-column-p-upper = p oberes
-cohort-column-p-lower = p unteres
+cohort-column-p-upper = p oberseitig
+cohort-column-p-lower = p unterseitig
 cohort-column-p-two = p zweiseitig
 cohort-column-p-holm = p zweiseitig, Holm
 cohort-column-beyond-error = Trainees außerhalb des Messfehlers
-cohort-homogeneity-caption = erste Sitzungen: Trainees mit Wiederholungen und alle anderen (niedrige / mittlere / hohe Wertungen)
+cohort-homogeneity-caption = erste Sitzungen: Trainees mit Wiederholungen gegen alle anderen (niedrige / mittlere / hohe Wertungen)
 cohort-column-with-repetitions = mit Wiederholungen
 cohort-column-others = andere
 cohort-column-chi-squared = Chi-Quadrat

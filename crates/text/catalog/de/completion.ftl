@@ -29,8 +29,8 @@ completion-rewound = { $rewinds ->
        *[other] { $rewinds }-mal zurückgespult
     }
 completion-frozen = { $freezes ->
-        [1] einmal angehalten
-        [2] zweimal angehalten
-       *[other] { $freezes }-mal angehalten
+        [1] einmal eingefroren
+        [2] zweimal eingefroren
+       *[other] { $freezes }-mal eingefroren
     }
 completion-rewound-and-frozen = { $rewound } und { $frozen }

@@ -11,7 +11,7 @@ flight-readout-time-left = Restzeit
 flight-readout-lamp = Licht
 flight-readout-lamp-on = ein
 flight-readout-lamp-off = aus
-flight-readout-pictures = Fotos
+flight-readout-pictures = Bilder
 flight-readout-zoom = Zoom
 
 ## Status
@@ -80,12 +80,12 @@ flight-how-stop-at = Lassen Sie die Tasten früh los: Die Drohne hat einen Brems
 flight-how-tilt-camera = Drücken Sie { $gimbal_up } oder { $gimbal_down }.
 flight-how-lamp = Drücken Sie { $lamp }.
 flight-how-photograph = Bringen Sie den Schaden zwischen die Eckmarken und drücken Sie { $snapshot }.
-flight-how-fly-home = Das weiße Quadrat am Kompass zeigt den Weg.
+flight-how-fly-home = Das weiße Quadrat im Kompass zeigt den Weg.
 flight-how-land = Drücken Sie { $land } über dem Landeplatz, oder halten Sie { $down }, bis die Motoren stehen.
 flight-how-done = Sie sind bereit für die erste Übung.
 flight-remark-motors-off = Die Motoren sind aus: erneut starten
 flight-remark-left-ring = Ring verlassen: { $time } bleiben
-flight-remark-no-defect = Kein Schaden im Foto
+flight-remark-no-defect = Kein Schaden im Bild
 flight-remark-not-central = nicht in den mittleren 80% des Bildes
 flight-remark-hidden = verdeckt
 flight-remark-oblique = zu schräg: { $angle }°, höchstens { $limit }°
@@ -104,7 +104,7 @@ flight-cue-off-path = Abweichung
 flight-cue-battery = Akku
 flight-warning-crash = { $name }: { $object }
 flight-warning-too-close = { $name }: { $distance }, mindestens { $limit }
-flight-warning-speeding = { $name }: { $speed }, maximal { $limit }
+flight-warning-speeding = { $name }: { $speed }, höchstens { $limit }
 flight-warning-stand-off-small = { $name } zu klein: { $distance }, empfohlen { $recommended }
 flight-warning-stand-off-large = { $name } zu groß: { $distance }, empfohlen { $recommended }
 flight-warning-off-path = { $name } { $distance }: { $direction }
@@ -140,7 +140,7 @@ flight-spoken-percent = Prozent
 ## Instruments and markers
 
 flight-instruments-obstacle = Hindernis
-flight-instruments-none-near = keins nah
+flight-instruments-none-near = keins nahe
 flight-compass-north = N
 flight-compass-east = O
 flight-compass-south = S

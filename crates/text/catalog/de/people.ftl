@@ -102,7 +102,7 @@ people-trainee-count =
        *[other] { $count } Trainees
     }
 people-job-level = { $job }, Stufe { $level }
-people-class-name = name = { $name }: ungültiger Name einer Klasse (zulässig: 1 bis 32 Buchstaben ohne Umlaute, Ziffern, „-“ oder „_“, am Anfang ein Buchstabe oder eine Ziffer)
+people-class-name = name = { $name }: ungültiger Klassenname (zulässig: 1 bis 32 Buchstaben ohne Umlaute, Ziffern, „-“ oder „_“, am Anfang ein Buchstabe oder eine Ziffer)
 people-class-exists = name = { $name }: Es gibt bereits eine Klasse mit diesem Namen.
 people-too-many-members =
     { $count ->
@@ -122,13 +122,13 @@ people-finished = Erledigte Aufträge
 people-assign-to = { $name } einen Auftrag zuweisen
 people-job = Auftrag
 people-due = Fällig
-people-state = Stand
+people-state = Status
 people-assigned-to = Zugewiesen an
 people-to-fly = Zum Fliegen
 people-change = Ändern
 people-assigned-by = { $target }, von { $instructor }
 people-job-level-or-harder = { $job }, Stufe { $level } oder schwerer
-people-job-form = { $job }, Form { $form }
+people-job-form = { $job }, Variante { $form }
 people-state-open = offen
 people-state-overdue = überfällig
 people-state-done = erledigt
@@ -149,16 +149,16 @@ people-assignment-count =
 people-assign = Zuweisen
 people-assign-job-to = { $job } an { $name } zuweisen
 people-choice-levels = { $job } (Stufen { $first } bis { $last })
-people-choice-forms = { $job } (Formen { $forms })
+people-choice-forms = { $job } (Varianten { $forms })
 people-assign-note = Die Zuweisung ist erledigt nach dem ersten vollständigen Flug des Auftrags, der nach der Zuweisung beginnt.
-people-assign-variant = Stufe oder Form (freiwillig)
-people-assign-variant-note = Eine schwerere Stufe zählt auch. Ohne Stufe oder Form zählt jede.
+people-assign-variant = Stufe oder Variante (optional)
+people-assign-variant-note = Eine schwerere Stufe zählt auch. Ohne Stufe oder Variante zählt jede.
 people-assign-due = Fällig (Ende des Tages, UTC)
 people-assign-title-trainee = Trainee { $name } einen Auftrag zuweisen
 people-assign-title-class = Klasse { $name } einen Auftrag zuweisen
 people-assign-one-target = Entweder ein Trainee oder eine Klasse ist erforderlich.
-people-assign-variant-unknown = variant = { $value }: unbekannte Stufe oder Form von { $job } (zulässig: { $allowed })
-people-assign-no-variants = variant = { $value }: unbekannte Stufe oder Form von { $job } (der Auftrag hat keine Stufen oder Formen)
+people-assign-variant-unknown = variant = { $value }: unbekannte Stufe oder Variante von { $job } (zulässig: { $allowed })
+people-assign-no-variants = variant = { $value }: unbekannte Stufe oder Variante von { $job } (der Auftrag hat keine Stufen oder Varianten)
 people-assign-due-invalid = due = { $value }: ungültiges Datum (zulässig: { $first } bis { $last })
 
 people-rubric-count = { $signed } von { $all } Kriterien bestätigt
@@ -172,7 +172,7 @@ people-signed-by = { $signed } am { $day } von { $instructor }
 people-signed-by-with-note = { $signed } am { $day } von { $instructor }: { $note }
 people-not-signed = Nicht bestätigt
 people-withdraw = Zurückziehen
-people-note-optional = Notiz (freiwillig)
+people-note-optional = Notiz (optional)
 people-sign = Bestätigen
 people-reason = Grund
 people-withdraw-sign-off = Bestätigung zurückziehen

@@ -27,7 +27,7 @@ report-end-battery = Akku leer
 report-end-time-limit = Zeitlimit erreicht
 report-end-person = Person getroffen
 report-end-vehicle = Fahrzeug getroffen
-report-end-crash = abgestürzt
+report-end-crash = nach Kollision beendet
 report-end-abort = vorzeitig beendet
 report-end-restart = Simulator neu gestartet
 report-contact-none = nichts
@@ -45,7 +45,7 @@ report-control-autopilot = Autopilot
 report-control-unknown = unbekannt
 report-purpose-practice = Übungsflug
 report-purpose-assessment = Bewertungsflug
-report-score-conformity = Wegtreue
+report-score-conformity = Bahntreue
 report-score-efficiency = Effizienz
 report-score-safety = Sicherheit
 report-score-accuracy = Genauigkeit
@@ -64,7 +64,7 @@ report-measure-flight-time = Flugzeit
 report-measure-crashes = Kollisionen
 report-unit-points = Punkte
 report-measure-with-unit = { $measure } ({ $unit })
-report-percent = { $value } %
+report-percent = { $value }%
 
 ## Column headings of several tables
 
@@ -110,10 +110,10 @@ report-column-blur = Bewegungsunschärfe (px)
 report-skip = Zum Abschnitt „Besser machen“ springen
 report-level = Stufe { $level } von { $levels }
 report-flight-time = Flugzeit { $duration }, { $end }.
-report-telemetry-covers = Die Telemetrie deckt { $share } % der Sitzung ab.
+report-telemetry-covers = Die Telemetrie deckt { $share }% der Sitzung ab.
 report-practice-aids = Diese Sitzung wurde { $aids }. Sie zählt als Übungsflug: Sie wird weder zertifiziert noch mit anderen verglichen.
 report-of-max = von { $max }
-report-out-of-sight = Für { $total } außer Sicht der prüfenden Person, davon am längsten für { $longest } ab { $from }.
+report-out-of-sight = Für { $total } außer Sicht des Prüfers, davon am längsten für { $longest } ab { $from }.
 
 ## Scores
 
@@ -138,7 +138,7 @@ report-explain-defects = { $found } von { $placed } Schäden gefunden; { $hits }
 report-explain-no-tasks = keine Aufgaben in diesem Auftrag
 report-explain-none-attempted = keine Aufgabe begonnen (die TASBID-Formel ergibt 50 Punkte)
 report-explain-skipped = { $skipped } von { $tasks } Aufgaben nicht begonnen
-report-explain-lowest = geringster Anteil auf der Bahn: { $share } % (Aufgabe { $task }); { $speeding } s zu schnell
+report-explain-lowest = geringster Anteil auf der Bahn: { $share }% (Aufgabe { $task }); { $speeding } s zu schnell
 
 ## Do better
 
@@ -170,7 +170,7 @@ report-certification-exposure =
     Näher als { $limit } m an einer Oberfläche für { $exposure } s; { $contacts ->
         [one] { $contacts } Berührung
        *[other] { $contacts } Berührungen
-    } ({ $merged } nach Zusammenfassen der Berührungen im Abstand von weniger als einer Sekunde); am Ende { $battery } % Akku; Flugzeit { $time } (dieser Auftrag braucht { $needed }).
+    } ({ $merged } nach Zusammenfassen der Berührungen innerhalb von weniger als einer Sekunde); am Ende { $battery }% Akku; Flugzeit { $time } (dieser Auftrag braucht { $needed }).
 report-certification-too-fine =
     { $count ->
         [one] 1 Schaden ist zu fein für diese Kamera und zählt nicht für die Genauigkeit.
@@ -222,8 +222,8 @@ report-column-min-clearance = kleinster Abstand zum Bauwerk (m)
 report-defects-none = Dieser Auftrag hat keine Schäden.
 report-defects-count = { $found } von { $placed } Schäden wurden gefunden.
 report-defects-found = gefunden
-report-defects-missed = übersehen
-report-defects-missed-head = Übersehene Schäden
+report-defects-missed = nicht gefunden
+report-defects-missed-head = Nicht gefundene Schäden
 report-defects-drawn = Jede Zeichnung zeigt den Schaden aus 4 m Entfernung, frontal und mit Scheinwerfer.
 report-defects-drawing = Schäden: { $title }
 report-defects-side = Seitenansicht der Brücke „{ $bridge }“
@@ -244,7 +244,7 @@ report-defects-never = nie von der Kamera erfasst; die Drohne kam bei { $moment 
 report-defects-caption = Schäden
 report-column-defect = Schaden
 report-column-element-name = Bauteilname
-report-column-member = Glied
+report-column-member = Einzelbauteil
 report-column-length-mm = Länge (mm)
 report-column-width-mm = Breite (mm)
 report-column-visible-time = Zeit deutlich sichtbar (s)
@@ -282,13 +282,13 @@ report-reason-again = Schaden { $defects } wurde schon fotografiert
 report-reason-none = kein Schaden sichtbar
 report-reason-occluded = kein Schaden sichtbar (Schaden { $defect } ist verdeckt)
 report-reason-failing = Schaden { $defect } ist { $reasons }
-report-reason-not-central = nicht in den mittleren 80 % des Bildes
-report-reason-hidden = hinter etwas verdeckt
-report-reason-oblique = zu schräg: { $angle } Grad, Grenze { $limit } Grad
+report-reason-not-central = nicht in den mittleren 80% des Bildes
+report-reason-hidden = verdeckt
+report-reason-oblique = zu schräg: { $angle }°, höchstens { $limit }°
 report-reason-small = zu klein: { $extent } px, mindestens { $limit } px
 report-reason-thin = als Linie zu dünn: { $width } px, mindestens { $limit } px
-report-reason-dark-lamp-on = zu dunkel: Scheinwerfer an, { $illuminance } lx von nötigen { $limit } lx
-report-reason-dark-lamp-off = zu dunkel: Scheinwerfer aus, { $illuminance } lx von nötigen { $limit } lx
+report-reason-dark-lamp-on = zu dunkel: Scheinwerfer an, { $illuminance } lx, nötig { $limit } lx
+report-reason-dark-lamp-off = zu dunkel: Scheinwerfer aus, { $illuminance } lx, nötig { $limit } lx
 report-picture-number = Bild { $picture }
 report-picture-at = bei { $moment }
 report-picture-at-task = bei { $moment }, Aufgabe { $task }
@@ -346,7 +346,7 @@ report-flight-3d = 3D-Ansicht
 report-flight-rotate = Drehen
 report-flight-3d-region = 3D-Ansicht des Flugs
 report-flight-3d-note = Ziehen Sie oder drehen Sie mit den Pfeiltasten. Vergrößern Sie mit den Tasten + und − oder dem Mausrad.
-report-flight-3d-label = 3D-Modell des Geländes und des Flugwegs. Pfeiltasten drehen es, Plus und Minus vergrößern und verkleinern.
+report-flight-3d-label = 3D-Modell des Einsatzorts und des Flugwegs. Pfeiltasten drehen es, Plus und Minus vergrößern und verkleinern.
 report-flight-slider = { $moment }, Aufgabe { $task }, { $path }
 report-timeline-pilot = von Hand geflogen
 report-timeline-other = von Mission, Skript oder Autopilot geflogen
@@ -385,7 +385,7 @@ report-feedback-region = Übersicht der Rückmeldungen
 report-feedback-figure = Zeit von der Warnung bis zur ersten Knüppelbewegung; jeder Punkt ist eine Warnung; der Strich zeigt den Median
 report-feedback-reactions-region = Reaktionszeiten
 report-feedback-reactions = Reaktionszeiten nach Warnung
-report-feedback-note = Eine Reaktion ist eine Knüppelbewegung um mindestens 10 % des vollen Ausschlags innerhalb von 5 s nach der Warnung. Wurde ein Knüppel schon bewegt, kann das zufällig als Reaktion zählen.
+report-feedback-note = Eine Reaktion ist eine Knüppelbewegung um mindestens 10% des vollen Ausschlags innerhalb von 5 s nach der Warnung. Wurde ein Knüppel schon bewegt, kann das zufällig als Reaktion zählen.
 report-feedback-answers = { $answers } von { $count }
 report-feedback-caption = gezeigte Rückmeldungen
 report-feedback-texts-caption = gesendete Meldungen
@@ -414,7 +414,7 @@ report-coverage-unseen = nie im Blick
 report-coverage-none = Von den Sollbahnen aus lässt sich keine Brückenoberfläche prüfen; alle Oberflächen liegen außerhalb der Reichweite der Kamera.
 report-coverage-summary = Die Bilder erfassen { $share } der prüfbaren Brückenoberfläche gut ({ $area } m² lassen sich von den Sollbahnen aus prüfen).
 report-coverage-rest = Der Rest: { $reasons }.
-report-coverage-reason = { $share } % { $outcome }
+report-coverage-reason = { $share }% { $outcome }
 report-coverage-note = Eine Oberfläche ist prüfbar, wenn sie von mindestens einem Punkt einer Sollbahn mit { $pixel } mm pro Pixel oder feiner (bei dieser Auflösung bedeckt ein 1.27 mm breiter Riss, die Grenze zwischen den Zustandsstufen 2 und 3, ein halbes Pixel; diese Kamera erreicht sie aus bis zu { $reach } m Entfernung) und in einem Winkel von höchstens { $angle }° zur Flächennormalen sichtbar ist. Sie ist gut erfasst, wenn ein Bild beide Grenzen einhält, genug Licht (einschließlich Scheinwerfer) für eine Belichtung innerhalb der Grenzen der Kamera hat und höchstens { $blur } px Bewegungsunschärfe aufweist. Zeigen mehrere Bilder dieselbe Stelle, zählt das beste.
 report-coverage-figure = Abdeckung der prüfbaren Oberfläche jedes Bauteils
 report-coverage-bars = Abdeckung der Oberfläche nach Bauteil
@@ -429,7 +429,7 @@ report-column-area = { $outcome } (m²)
 report-record-frames-note = In Lücken über 1 s wiederholen fehlende Datensätze die letzte bekannte Position und werden dort gewertet.
 report-record-files-note = Dieser Bericht wird aus der Telemetrie, der Szenariodatei und der Fluggerätedatei berechnet. Dieselben drei Dateien ergeben immer denselben Bericht.
 report-record-no-gaps = Die Telemetrie hat keine Lücken über 0.2 s.
-report-record-gaps = Telemetrielücken über 0.2 s: { $gaps }. Interpolierte Datensätze: { $interpolated }. Fehlende Datensätze: { $missing }. Die Telemetrie deckt { $share } % der Sitzung ab.
+report-record-gaps = Telemetrielücken über 0.2 s: { $gaps }. Interpolierte Datensätze: { $interpolated }. Fehlende Datensätze: { $missing }. Die Telemetrie deckt { $share }% der Sitzung ab.
 report-record-control-caption = Steuerung im Zeitverlauf
 report-record-caption = Sitzungsdaten
 report-column-from = von
@@ -458,13 +458,13 @@ report-record-reordered = Pakete in falscher Reihenfolge
 
 report-briefing-title = Einweisung: { $title }
 report-briefing-lead = Einweisung zum Auftrag { $job }
-report-briefing-notes = Von Ihrer Ausbildungsleitung
-report-briefing-site = Gelände
+report-briefing-notes = Von Ihrem Ausbilder
+report-briefing-site = Einsatzort
 report-briefing-tasks = Aufgaben in dieser Reihenfolge
 report-briefing-conditions = Bedingungen
 report-briefing-hazards = Gefahren
 report-briefing-counts = Was zählt
-report-briefing-check = Geländekontrolle vor dem Start
+report-briefing-check = Kontrolle des Einsatzorts vor dem Start
 report-briefing-above = Von oben, Norden oben
 report-briefing-side = Brücke „{ $bridge }“ von der Seite
 report-briefing-south = Von Süden
@@ -490,7 +490,7 @@ report-progress-crashes-none = Keine.
 report-progress-crashes-title = Kollisionen nach Art und Wiederholung
 report-progress-curves = Lernkurven
 report-progress-curve = Lernkurve: { $score }
-report-progress-curves-note = Jede Kurve ist eine Anpassung des Potenzgesetzes der Übung an die Wiederholungen. Der Ring zeigt die Vorhersage für die nächste Wiederholung; sie kann über der höchsten Punktzahl liegen.
+report-progress-curves-note = Jede Kurve ist eine Anpassung des Potenzgesetzes der Übung an die Wiederholungen. Der Ring zeigt die Vorhersage für die nächste Wiederholung; sie kann über der höchsten Wertung liegen.
 report-progress-curves-caption = Lernkurven (Wertung = erste Wertung × Wiederholung ^ Exponent)
 report-progress-changes-caption = Änderungen seit der vorherigen Wiederholung
 report-progress-caption = Wertungen, Zeit und Kollisionen nach Wiederholung

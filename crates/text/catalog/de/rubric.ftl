@@ -1,19 +1,19 @@
 rubric-preparation = Bereitet den Flug vor
-rubric-preparation-text = Liest das Briefing, nennt die Gefahren (Wind, Verkehr, Licht), bestätigt die Prüfung des Einsatzorts und weiß, wo bei einem Problem zu landen ist.
+rubric-preparation-text = Liest die Einweisung, nennt die Gefahren (Wind, Verkehr, Licht), bestätigt die Kontrolle des Einsatzorts und weiß, wo bei einem Problem zu landen ist.
 rubric-control = Beherrscht das Fluggerät
-rubric-control-text = Startet, schwebt, dreht und landet am Landeplatz ruhig und ohne Hilfe, auch mit der Nase zum Piloten.
+rubric-control-text = Startet, schwebt, dreht und landet am Landeplatz ruhig und ohne Hilfe, auch mit der Nase zum Fernpiloten.
 rubric-path = Fliegt die Bahn
-rubric-path-text = Fliegt die ganze Bahn jeder Aufgabe innerhalb der Toleranz und unter der Höchstgeschwindigkeit und findet nach dem Verlassen zurück.
+rubric-path-text = Fliegt die ganze Bahn jeder Aufgabe innerhalb der Toleranz und unter dem Tempolimit und findet nach dem Verlassen zurück.
 rubric-clearance = Hält Abstand
 rubric-clearance-text = Hält den empfohlenen Abstand ein und kommt Bauwerk, Personen und Fahrzeugen nie näher als erlaubt. Reagiert sofort auf Warnungen.
 rubric-pictures = Macht Bilder, die zählen
 rubric-pictures-text = Nimmt den Schaden scharf, nah genug und frontal genug auf, um ihn zu messen, und nutzt im Dunkeln den Scheinwerfer.
 rubric-defects = Findet Schäden
-rubric-defects-text = Sucht jedes Bauteil systematisch ab, unterscheidet Schäden von Oberflächenspuren und nennt Bauteil und Zustand.
+rubric-defects-text = Sucht jedes Bauteil systematisch ab, unterscheidet Schäden von Oberflächenspuren und nennt Bauteil und Zustandsstufe.
 rubric-battery = Teilt Zeit und Akku ein
 rubric-battery-text = Plant die Reihenfolge der Aufgaben, behält den Akku im Blick und ist mit Reserve und in der erlaubten Zeit zurück.
 rubric-failures = Meistert Ausfälle
 rubric-failures-text = Bleibt ruhig und behält die Kontrolle, wenn Satellitennavigation oder Kompass ausfällt oder die Orientierung verloren geht, und bricht rechtzeitig ab.
 
 rubric-signed-off = bestätigt
-rubric-withdrawn = zurückgenommen
+rubric-withdrawn = zurückgezogen

@@ -1,5 +1,5 @@
 school-nothing = Von hier ist kein Schaden zu sehen
-school-question = { $element }, Bauteil { $number }. Die Mitte eines Fotos in voller Auflösung, aus { $distance } m mit eingeschaltetem Scheinwerfer aufgenommen.
+school-question = { $element }, Bauteil { $number }. Die Mitte eines Bildes in voller Auflösung, aus { $distance } m mit eingeschaltetem Scheinwerfer aufgenommen.
 school-right = Richtig.
 school-wrong = Falsch. Nicht zutreffend: { $defect }.
 school-wrong-nothing = Falsch: Da ist ein Schaden.

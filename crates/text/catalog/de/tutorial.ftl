@@ -11,7 +11,7 @@ tutorial-job-title = der Auftrag
 tutorial-job-text =
     Sie stehen mit einer Drohne an einem Hang. Folgen Sie der Bahn jeder Aufgabe, fotografieren Sie jeden Schaden einmal, kehren Sie dann zurück und landen Sie auf dem Landeplatz.
 
-    Die orange Linie zeigt einen Beispielflug; die roten Punkte sind seine Fotos.
+    Die orange Linie zeigt einen Beispielflug, die roten Punkte seine Bilder.
 tutorial-job-pad = hier starten und landen
 tutorial-job-suspension = Hängebrücke
 tutorial-job-arch = Bogenbrücke
@@ -60,21 +60,21 @@ tutorial-warnings-object = Pfeiler
 
 tutorial-defects-title = Schäden
 tutorial-defects-text =
-    Dieselben Schäden aus 1 m, 3 m, 8 m mit einem Objektiv. Ein Foto zählt, wenn der Schaden innerhalb der Eckmarken liegt, beleuchtet ist, nicht zu schräg gesehen wird und ein Riss mindestens ein halbes Pixel breit ist. Fliegen Sie näher heran, oder zoomen Sie ({ $camera_zoom_in }), falls die Kamera das kann.
+    Dieselben Schäden aus 1 m, 3 m, 8 m mit einem Objektiv. Ein Bild zählt, wenn der Schaden innerhalb der Eckmarken liegt, beleuchtet ist, nicht zu schräg gesehen wird und ein Riss mindestens ein halbes Pixel breit ist. Fliegen Sie näher heran, oder zoomen Sie ({ $camera_zoom_in }), falls die Kamera das kann.
 
-    Flecken, Schalungsfugen, verpresste Risse, Spinnweben und Graffiti sind keine Schäden. Jedes Foto ohne neuen Schaden senkt Ihre Genauigkeit.
+    Flecken, Schalungsfugen, verpresste Risse, Spinnweben und Graffiti sind keine Schäden. Jedes Bild ohne neuen Schaden senkt Ihre Genauigkeit.
 tutorial-defects-crack = Riss
 tutorial-defects-spall = Abplatzung
-tutorial-defects-efflorescence = Ausblühung
+tutorial-defects-efflorescence = Aussinterung
 tutorial-defects-corrosion = Korrosion
 
 ## Light and scores
 
-tutorial-light-title = Licht und Punkte
+tutorial-light-title = Licht und Wertung
 tutorial-light-text =
     Benutzen Sie an dunklen Stellen den Scheinwerfer ({ $lamp }), wie diese Bilder zeigen.
 
-    Wegtreue: auf der Bahn und unter dem Tempolimit bleiben. Effizienz: innerhalb von 15 Minuten zurückkehren. Sicherheit: nichts berühren; eine Kollision mit Personen oder Fahrzeugen beendet die Sitzung. Genauigkeit: jeden Schaden einmal fotografieren.
+    Bahntreue: auf der Bahn und unter dem Tempolimit bleiben. Effizienz: innerhalb von 15 Minuten zurückkehren. Sicherheit: nichts berühren; eine Kollision mit Personen oder Fahrzeugen beendet die Sitzung. Genauigkeit: jeden Schaden einmal fotografieren.
 tutorial-light-without = ohne Scheinwerfer
 tutorial-light-with = mit Scheinwerfer
 tutorial-light-closer = zum Prüfen näher heran

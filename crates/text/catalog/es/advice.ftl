@@ -1,8 +1,8 @@
-advice-lesson = La puntuación de una lección no importa. Cuando haya completado todos los pasos, vuele el primer ejercicio.
-advice-nothing-to-correct = Nada que corregir: vuele el siguiente trabajo.
+advice-lesson = La puntuación de una lección no importa. Cuando haya completado todos los pasos, haga el primer ejercicio.
+advice-nothing-to-correct = Nada que corregir: haga el siguiente trabajo.
 advice-not-certified = No destaca ningún error, pero todavía no obtiene la certificación: { $unmet }.
-advice-fly-again = No destaca ningún error: vuele otra vez el trabajo.
-advice-not-finished = No destaca ningún error, pero el trabajo no está terminado: vuélelo hasta el final.
+advice-fly-again = No destaca ningún error: repita el trabajo.
+advice-not-finished = No destaca ningún error, pero el trabajo no está terminado: complételo.
 
 advice-and = { $first } y { $last }
 advice-when = { $place ->
@@ -32,12 +32,12 @@ advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
     } { $when }: aléjese.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
 advice-too-low = Voló { $mean } m por debajo de la trayectoria { $when }: ascienda hasta ella.
-advice-speeding = Voló hasta a { $most } m/s{ $place ->
+advice-speeding = Alcanzó { $most } m/s{ $place ->
         [task] {" "}en la tarea { $tasks }
         [tasks] {" "}en las tareas { $tasks }
        *[none] {""}
     }, por encima del límite de { $limit } m/s { $when }: reduzca la velocidad.
-advice-low-clearance = Estuvo a menos de { $limit } m de la estructura { $when }, a { $least } m como mínimo: mantenga la distancia.
+advice-low-clearance = Estuvo a menos de { $limit } m de la estructura { $when }, a { $least } m en el punto más cercano: mantenga la distancia.
 advice-stick-reversals = Invirtió el movimiento de las palancas hasta { $most } veces por minuto{ $place ->
         [task] {" "}en la tarea { $tasks }
         [tasks] {" "}en las tareas { $tasks }
@@ -49,22 +49,22 @@ advice-yaw-reversals = Invirtió el movimiento de la palanca de guiñada hasta {
        *[none] {""}
     }, sobre todo desde { $at }: mantenga el rumbo.
 
-advice-framing = Su cámara apuntó hasta { $most } grados fuera { $surface ->
+advice-framing = Su cámara se apartó hasta { $most } grados { $surface ->
         [deck] del tablero
         [arch] del arco
         [pier] de la pila
        *[structure] de la estructura
     } { $when }: gire la nariz hacia la superficie.
-advice-lamp-off = Su foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.
+advice-lamp-off = El foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.
 
-advice-crash-times = en { $times }
-advice-crash-first-and-hardest = la primera vez en { $first }, la más fuerte en { $hardest } ({ $speed } m/s)
-advice-crash = Golpeó { $object ->
+advice-crash-times = a los { $times }
+advice-crash-first-and-hardest = la primera vez a los { $first }, la más fuerte a los { $hardest } ({ $speed } m/s)
+advice-crash = Chocó con { $object ->
         [bridge] el puente
         [terrain] el suelo
         [water] el agua
         [vehicle] un vehículo
-        [person] a una persona
+        [person] una persona
         [other] un obstáculo
         [none] nada
        *[several] obstáculos
@@ -88,59 +88,59 @@ advice-missed-in-view = Omitió { $missed } de { $all } { $kind ->
         [hidden] defectos que no dan hacia la trayectoria
         [cracks] fisuras
        *[all] defectos
-    }; el defecto { $defect } se veía con claridad en { $at }: deténgase y tome una imagen.
+    }; el defecto { $defect } se veía con claridad a los { $at }: deténgase y tome una foto.
 advice-missed-nearest = Omitió { $missed } de { $all } { $kind ->
         [severe] defectos graves
         [hidden] defectos que no dan hacia la trayectoria
         [cracks] fisuras
        *[all] defectos
-    }; en { $at } estuvo más cerca de ver el defecto { $defect }: busque allí despacio.
+    }; a los { $at } estuvo más cerca de ver el defecto { $defect }: busque allí despacio.
 advice-passed-in-view = Pasó junto a { $count ->
         [one] un defecto
        *[other] { $count } defectos
-    } a plena vista sin tomar una imagen, el más largo durante { $seconds } s en { $at }: vuele allí más despacio o más cerca.
+    } a plena vista sin tomar una foto, el más largo durante { $seconds } s a los { $at }: vuele allí más despacio o más cerca.
 advice-picture-failed = { $count ->
-        [one] Su imagen de un defecto no sirve
-       *[other] Sus imágenes de { $count } defectos no sirven
+        [one] Su foto de un defecto no sirve
+       *[other] Sus fotos de { $count } defectos no sirven
     } ({ $why ->
         [dark] demasiado oscuro
-        [oblique] ángulo demasiado plano
+        [oblique] ángulo demasiado oblicuo
         [small] demasiado lejos
         [thin] demasiado lejos para una fisura fina
        *[other] { $reason }
-    }), la primera en { $at }: { $why ->
+    }), la primera a los { $at }: { $why ->
         [dark] encienda el foco
         [oblique] apunte la nariz de frente a la superficie
         [small] acérquese
         [thin] acérquese
-       *[other] corríjalo antes de tomar la imagen
+       *[other] corríjalo antes de tomar la foto
     }.
-advice-picture-poor = Sus imágenes de { $count } de los { $found } defectos que encontró { $why ->
+advice-picture-poor = Sus fotos de { $count } de los { $found } defectos que encontró { $why ->
         [blur] están movidas
         [coarse] tienen muy poca resolución
-        [oblique] se tomaron en un ángulo demasiado plano
+        [oblique] se tomaron en un ángulo demasiado oblicuo
        *[other] no son lo bastante buenas
-    }, la primera en { $at }: { $why ->
-        [blur] deténgase antes de tomar la imagen
+    }, la primera a los { $at }: { $why ->
+        [blur] deténgase antes de tomar la foto
         [coarse] acérquese
         [oblique] apunte la nariz de frente a la superficie
        *[other] consulte lo que el informe dice de cada una
     }.
-advice-no-pictures = No tomó ninguna imagen de los { $count } defectos; su mejor oportunidad fue en { $at }: fotografíe cada defecto.
-advice-pictures-of-nothing = { $count } de sus { $taken } imágenes no muestran ningún defecto nuevo, la primera en { $at }: mire primero y luego tome la imagen.
+advice-no-pictures = No tomó ninguna foto de los { $count } defectos; su mejor oportunidad fue a los { $at }: fotografíe cada defecto.
+advice-pictures-of-nothing = { $count } de sus { $taken } fotos no muestran ningún defecto nuevo, la primera a los { $at }: mire primero y luego tome la foto.
 
 advice-not-attempted = No voló { $place ->
         [task] la tarea { $tasks }
         [tasks] las tareas { $tasks }
        *[none] la tarea
-    }: el vuelo terminó en { $at }.
-advice-not-covered = Voló solo { $shares } { $place ->
+    }: el vuelo terminó a los { $at }.
+advice-not-covered = Recorrió solo { $shares } { $place ->
         [task] de la trayectoria de la tarea { $tasks } y la dejó
         [tasks] de las trayectorias de las tareas { $tasks } y dejó la tarea { $least }
        *[none] de la trayectoria y la dejó
-    } en { $at }: vuele cada trayectoria hasta el final.
-advice-overtime = Voló durante { $flown }, { $over } más de lo que permite la puntuación completa; el tiempo se cumplió en { $at }: planifique el orden de las tareas.
-advice-not-landed = Su vuelo terminó en { $at }, a { $away } m de la plataforma de aterrizaje: regrese y aterrice en ella.
-advice-battery-low = Terminó con { $left }% de batería; la reserva de { $reserve }% se alcanzó en { $at }: regrese antes.
-advice-time-up = Su tiempo se agotó en { $at }, a { $away } m de la plataforma de aterrizaje: regrese antes.
-advice-battery-empty = Su batería se agotó en { $at }, a { $away } m de la plataforma de aterrizaje: regrese antes.
+    } a los { $at }: recorra cada trayectoria hasta el final.
+advice-overtime = Voló durante { $flown }, { $over } más de lo que permite la puntuación completa; el tiempo se cumplió a los { $at }: planifique el orden de las tareas.
+advice-not-landed = Su vuelo terminó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese y aterrice en ella.
+advice-battery-low = Terminó con { $left }% de batería; la reserva de { $reserve }% se alcanzó a los { $at }: regrese antes.
+advice-time-up = Su tiempo se agotó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese antes.
+advice-battery-empty = Su batería se agotó a los { $at }, a { $away } m de la plataforma de aterrizaje: regrese antes.

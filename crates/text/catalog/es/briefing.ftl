@@ -88,8 +88,8 @@ briefing-wind-speed = Viento: { $speed } m/s en promedio.{ $changes ->
 
 briefing-conformity = Conformidad: manténgase en la trayectoria y, mientras esté en ella, por debajo del límite de velocidad.
 briefing-efficiency = Eficiencia: aterrice antes de que se acabe el tiempo y antes de que se agote la batería.
-briefing-safety = Seguridad: no toque nada. Golpear a una persona o un vehículo termina la sesión.
-briefing-accuracy = Exactitud: fotografíe cada defecto una vez, cerca del centro de la imagen, y nada más.
+briefing-safety = Seguridad: no toque nada. Una colisión con una persona o un vehículo termina la sesión.
+briefing-accuracy = Exactitud: fotografíe cada defecto una vez, cerca del centro de la foto, y nada más.
 briefing-to-be-certified = Para la certificación: { $requirement }.
 
 briefing-check-risk = Riesgo: conozco los peligros y me detengo si alguien entra en el área de vuelo.

@@ -1,6 +1,6 @@
 certification-tasks-done = tareas terminadas
 certification-landed-at-home = aterrizaje en la base
-certification-person-or-vehicle-hits = personas y vehículos golpeados
+certification-person-or-vehicle-hits = colisiones con personas o vehículos
 certification-battery = batería al aterrizar
 certification-contacts = contactos
 certification-contact-speed = contacto más rápido
@@ -8,7 +8,7 @@ certification-conformity = conformidad
 certification-precision = precisión
 certification-safety = seguridad
 certification-accuracy = exactitud
-certification-practice-aids = congelaciones y rebobinados
+certification-practice-aids = veces que se congeló o rebobinó
 
 certification-at-least = al menos { $limit }
 certification-at-most = como máximo { $limit }
@@ -18,8 +18,8 @@ certification-no = no
 certification-does-not-apply = no se aplica
 certification-no-evidence = sin datos
 
-certification-unmet-practice = { $aids }, por lo que fue una práctica
-certification-unmet-hit = se golpeó a una persona o un vehículo
+certification-unmet-practice = sesión { $aids }, por lo que fue una práctica
+certification-unmet-hit = colisión con una persona o un vehículo
 certification-unmet-task-part = tarea { $task } no terminada: { $share }% de su trayectoria, se requiere { $needed }%
 certification-unmet-task-not-attempted = tarea { $task } no iniciada
 certification-unmet-landing = no se aterrizó en la base
@@ -54,9 +54,9 @@ certification-picture-line-too-thin = línea demasiado fina: { $value } px, al m
 certification-picture-dark-lamp-on = demasiado oscuro: foco encendido, { $value } lx de { $limit } lx necesarios
 certification-picture-dark-lamp-off = demasiado oscuro: foco apagado, { $value } lx de { $limit } lx necesarios
 
-certification-job-tasks = cada tarea volada en al menos { $share }% de su trayectoria
-certification-job-landing = aterrizaje en la base con al menos { $battery }% de batería, sin golpear a personas ni vehículos
+certification-job-tasks = cada tarea recorrida en al menos { $share }% de su trayectoria
+certification-job-landing = aterrizaje en la base con al menos { $battery }% de batería, sin colisiones con personas ni vehículos
 certification-job-aids = sin congelar ni rebobinar, que son ayudas de práctica
 certification-job-contacts = como máximo { $contacts } contactos, ninguno a más de { $speed } m/s
 certification-job-scores = conformidad de al menos { $conformity }, precisión { $precision }, seguridad { $safety }, exactitud { $accuracy }
-certification-job-pictures = imágenes con un máximo de { $resolution } mm/px ({ $width } del ancho en una fisura), { $blur } px de desenfoque por movimiento y { $incidence }° de incidencia
+certification-job-pictures = fotos con un máximo de { $resolution } mm/px ({ $width } del ancho en una fisura), { $blur } px de desenfoque por movimiento y { $incidence }° de incidencia

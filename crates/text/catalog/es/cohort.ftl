@@ -4,7 +4,7 @@ cohort-title = Informe de la cohorte
 cohort-sections = Secciones
 cohort-summary =
     { $trainees ->
-        [one] { $trainees } alumno/a
+        [one] { $trainees } alumno
        *[other] { $trainees } alumnos
     }, { $sessions ->
         [one] { $sessions } sesión
@@ -12,12 +12,12 @@ cohort-summary =
     } de { $scenarios }.
 cohort-group =
     { $trainees ->
-        [one] { $trainees } alumno/a voló
+        [one] { $trainees } alumno voló
        *[other] { $trainees } alumnos volaron
     } { $repetitions } o más veces.
 cohort-section-limitations = Limitaciones
 cohort-section-distributions = Puntuaciones de las primeras sesiones
-cohort-section-people = Puntuaciones por alumno/a y tarea
+cohort-section-people = Puntuaciones por alumno y tarea
 cohort-section-crashes = Colisiones
 cohort-section-reliability = Fiabilidad de las medidas
 cohort-section-repetitions = Repeticiones
@@ -42,13 +42,13 @@ cohort-answers-later = Alumnos con sesiones repetidas: repetición { $repetition
 cohort-answers-later-title = Respuestas de la repetición { $repetition }
 cohort-self-rating-correlation =
     Correlación de Spearman entre la autoevaluación y la puntuación total: { $correlation }, { $trainees ->
-        [one] { $trainees } alumno/a
+        [one] { $trainees } alumno
        *[other] { $trainees } alumnos
     }.
 cohort-self-rating-caption = autoevaluación y puntuación medida
 cohort-column-self-rating-scale = autoevaluación (1 a 5)
 cohort-column-measured = puntuación medida (%)
-cohort-column-trainee = alumno/a
+cohort-column-trainee = alumno
 cohort-column-trainees = alumnos
 
 ## Causal model
@@ -57,15 +57,15 @@ cohort-causal-intro = ¿La demanda aumenta la tensión, la tensión reduce el re
 cohort-causal-none = No hay estimación: muy pocos alumnos respondieron el cuestionario o sus respuestas no varían. Se recomiendan al menos { $count } alumnos con respuestas completas.
 cohort-causal-count =
     { $count ->
-        [one] { $count } alumno/a con respuestas completas.
+        [one] { $count } alumno con respuestas completas.
        *[other] { $count } alumnos con respuestas completas.
     }
 cohort-causal-caution = Con menos de { $recommended }, el modelo puede pasar por alto efectos medios. Describe solo a estos alumnos y no se puede generalizar.
-cohort-causal-diagram = Diagrama de trayectorias; las flechas discontinuas marcan efectos cuyo intervalo de confianza del 95 % incluye el cero
+cohort-causal-diagram = Diagrama de relaciones; las flechas discontinuas marcan efectos cuyo intervalo de confianza del 95% incluye el cero
 cohort-causal-diagram-region = Modelo causal
 cohort-causal-diagram-title = Demanda, tensión, rendimiento y avisos
 cohort-causal-scales = La demanda, la tensión y los avisos se califican de 1 a 5; el rendimiento es la puntuación total como porcentaje del máximo.
-cohort-causal-indirect = Efecto indirecto de una unidad de demanda sobre el rendimiento a través de la tensión, según la utilidad de los avisos, con intervalos de confianza del 95 %
+cohort-causal-indirect = Efecto indirecto de una unidad de demanda sobre el rendimiento a través de la tensión, según la utilidad de los avisos, con intervalos de confianza del 95%
 cohort-causal-indirect-region = Efectos indirectos
 cohort-causal-indirect-axis = % de la puntuación total por unidad de demanda
 cohort-causal-indirect-title = Efecto indirecto de la demanda según la utilidad de los avisos
@@ -79,8 +79,8 @@ cohort-causal-coefficients-caption = coeficientes de las dos regresiones
 cohort-column-feedback-level = nivel de avisos
 cohort-column-feedback = avisos
 cohort-column-effect = efecto (%)
-cohort-column-ci-lower = límite inferior del IC del 95 %
-cohort-column-ci-upper = límite superior del IC del 95 %
+cohort-column-ci-lower = límite inferior del IC del 95%
+cohort-column-ci-upper = límite superior del IC del 95%
 cohort-column-outcome = resultado
 cohort-column-term = término
 cohort-column-estimate = estimación
@@ -96,9 +96,9 @@ cohort-term-interaction = demanda × avisos
 cohort-histogram = Histograma: { $score }; la línea marca la media
 cohort-first-caption = primeras sesiones
 cohort-no-tasks = sin tareas
-cohort-individuals-caption = primera sesión de cada alumno/a
-cohort-shares = Porcentaje en la trayectoria por alumno/a y tarea
-cohort-shares-figure = Proporción de tiempo en la trayectoria
+cohort-individuals-caption = primera sesión de cada alumno
+cohort-shares = Porcentaje en la trayectoria por alumno y tarea
+cohort-shares-figure = Porcentaje de tiempo en la trayectoria
 cohort-crashes-count =
     { $count ->
         [one] { $count } colisión
@@ -108,8 +108,8 @@ cohort-crashes-by-object = Por objeto
 cohort-crashes-by-kind-title = Colisiones por tipo
 cohort-crashes-by-task = Por tarea
 cohort-crashes-by-task-title = Colisiones por tarea
-cohort-crashes-by-trainee = Por alumno/a
-cohort-crashes-by-trainee-title = Colisiones por alumno/a
+cohort-crashes-by-trainee = Por alumno
+cohort-crashes-by-trainee-title = Colisiones por alumno
 cohort-crashes-outside = fuera
 cohort-crashes-all = todas
 cohort-column-mean = media
@@ -123,11 +123,11 @@ cohort-column-skewness = asimetría
 
 cohort-learning-mean = media
 cohort-learning-fitted = curva ajustada a las medias
-cohort-learning-one = un alumno/a
-cohort-learning-none = Ningún alumno ha volado tantas todavía.
+cohort-learning-one = un alumno
+cohort-learning-none = Ningún alumno ha volado tantas veces todavía.
 cohort-learning-figure =
     { $score }, { $count ->
-        [one] 1 alumno/a
+        [one] 1 alumno
        *[other] { $count } alumnos
     }
 cohort-learning-note = Cada curva es un ajuste de la ley potencial de la práctica. El anillo marca la predicción para la siguiente repetición. La curva del grupo es más plana que las de los alumnos individuales.
@@ -146,9 +146,9 @@ cohort-individual =
 cohort-pooled-note = { $count } alumnos son demasiados para una lista. Las figuras muestran distribuciones; para los datos individuales, consulte { $file }.
 cohort-pooled-tasks = Porcentaje en la trayectoria por tarea (%)
 cohort-pooled-tasks-title = Porcentaje en la trayectoria por tarea
-cohort-pooled-tasks-caption = porcentaje en la trayectoria por tarea, solo de los alumnos que iniciaron la tarea
+cohort-pooled-tasks-caption = porcentaje en la trayectoria por tarea (%), solo de los alumnos que iniciaron la tarea
 cohort-pooled-crashes = Alumnos por número de colisiones; la línea marca la media
-cohort-pooled-crashes-title = Histograma de colisiones por alumno/a
+cohort-pooled-crashes-title = Histograma de colisiones por alumno
 cohort-pooled-crashes-caption = alumnos por número de colisiones
 cohort-column-crashes-from = colisiones, de
 cohort-column-crashes-to = a
@@ -168,7 +168,7 @@ cohort-column-high-whisker = bigote superior
 
 cohort-boxes = Diagramas de caja por repetición: { $score }
 cohort-boxes-note = Las cajas muestran los cuartiles y la mediana; las cruces, la media. Los bigotes llegan hasta los valores más extremos dentro de 1.5 rangos intercuartílicos de la caja.
-cohort-versus = { $earlier } y { $later }
+cohort-versus = { $earlier } frente a { $later }
 cohort-tests-caption = pruebas t pareadas (repetición posterior menos anterior)
 cohort-column-pairs = pares
 cohort-column-p-upper = p superior
@@ -176,7 +176,7 @@ cohort-column-p-lower = p inferior
 cohort-column-p-two = p bilateral
 cohort-column-p-holm = p bilateral, Holm
 cohort-column-beyond-error = alumnos fuera del error
-cohort-homogeneity-caption = primeras sesiones: alumnos con repeticiones y todos los demás (puntuaciones bajas / medias / altas)
+cohort-homogeneity-caption = primeras sesiones: alumnos con repeticiones frente a todos los demás (puntuaciones bajas / medias / altas)
 cohort-column-with-repetitions = con repeticiones
 cohort-column-others = otros
 cohort-column-chi-squared = chi cuadrado

@@ -2,7 +2,7 @@
 
 compare-title = Comparación de sesiones
 compare-other-jobs = Estas sesiones son de trabajos distintos, por lo que sus puntuaciones solo son comparables a grandes rasgos.
-compare-scores = Puntuación
+compare-scores = Puntuaciones
 compare-scores-figure = Las cuatro puntuaciones, primera y segunda sesión
 compare-scores-radar = Gráfico radial de ambas sesiones
 compare-flights = Vuelos
@@ -33,7 +33,7 @@ compare-readout = Ambas sesiones en el momento elegido
 compare-session = Sesión
 compare-plan = Ambos vuelos desde arriba, norte arriba; las cruces marcan contactos
 compare-side = Vista lateral del puente «{ $bridge }» con las partes cercanas de ambos vuelos
-compare-flights-caption = ambos vuelos, cada pocos segundos
+compare-flights-caption = ambos vuelos, con un dato cada pocos segundos
 compare-column-time = tiempo desde el despegue
 compare-column-of-session = sesión { $session }: { $column }
 compare-not-flying = sin volar

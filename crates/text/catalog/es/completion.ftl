@@ -1,5 +1,5 @@
 completion-task-done = terminada ({ $share }% de la trayectoria)
-completion-task-part = volada en parte ({ $share }% de la trayectoria)
+completion-task-part = recorrida en parte ({ $share }% de la trayectoria)
 completion-task-not-attempted = no iniciada
 completion-complete = Completo: { $done } de { $tasks ->
         [one] { $tasks } tarea

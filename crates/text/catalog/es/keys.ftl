@@ -22,11 +22,11 @@ keys-gimbal-down = cámara hacia abajo
 keys-camera-zoom-in = acercar la cámara
 keys-camera-zoom-out = alejar la cámara
 keys-freeze = congelar o continuar
-keys-rewind = retroceder 10 s
+keys-rewind = rebobinar 10 s
 keys-swap = cambiar las vistas
-keys-map = mapa sí o no
-keys-path = trayectoria sí o no
-keys-ghost = fantasma sí o no
+keys-map = mapa sí/no
+keys-path = trayectoria sí/no
+keys-ghost = fantasma sí/no
 keys-follow = seguir al dron
 keys-look-left = mirar a la izquierda
 keys-look-right = mirar a la derecha
@@ -36,7 +36,7 @@ keys-zoom-in = acercar su vista
 keys-zoom-out = alejar su vista
 keys-pause = pausa
 keys-restart = reiniciar
-keys-sound = sonido sí o no
+keys-sound = sonido sí/no
 
 ## The same in fewer words, beside the sticks on the page of the controller
 
@@ -62,7 +62,7 @@ keys-short-gimbal-down = gimbal abajo
 keys-short-camera-zoom-in = acercar zoom
 keys-short-camera-zoom-out = alejar zoom
 keys-short-freeze = congelar
-keys-short-rewind = retroceder
+keys-short-rewind = rebobinar
 
 ## Names of keys
 

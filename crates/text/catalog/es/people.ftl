@@ -16,7 +16,7 @@ people-experience-none = ninguna
 people-experience-some = alguna
 people-experience-regular = habitual
 
-people-trainee = Alumno/a { $name }
+people-trainee = Alumno { $name }
 people-assignments = Trabajos asignados
 people-next-flights = Próximos vuelos
 people-progress = Progreso
@@ -56,11 +56,11 @@ people-gaming-experience = Experiencia con videojuegos
 people-save = Guardar
 people-details-changed = Estos datos se cambiaron en otro lugar: vuelva a cargar la página y revise los datos actuales.
 people-erase = Borrar
-people-erase-note = Esto borra a { $name } y todas sus sesiones, respuestas y carpetas de sesiones. No se puede deshacer.
+people-erase-note = Esto borra a { $name } con todas sus sesiones, respuestas y carpetas de sesiones. No se puede deshacer.
 people-erase-again = Escriba el seudónimo para confirmar
 people-erase-button = Borrar definitivamente
 people-erase-wrong-name = El seudónimo que escribió no es { $name }: no se borró nada.
-people-erase-self = Usted perdería su propio acceso: pida a otro administrador que lo borre.
+people-erase-self = Usted perdería su propio acceso: pida a otro administrador que borre sus datos.
 
 people-classes = Clases
 people-no-classes = Aún no hay clases.
@@ -73,7 +73,7 @@ people-class = Clase
 people-members = Integrantes
 people-new-class = Clase nueva
 people-name = Nombre
-people-new-class-note = Letras, dígitos, - y _. Un alumno o alumna puede estar en varias clases.
+people-new-class-note = Letras sin tilde ni ñ, dígitos, - y _. Un alumno puede estar en varias clases.
 people-create-class = Crear clase
 people-class-title = Clase { $name }
 people-no-members = Aún no hay alumnos en esta clase.
@@ -87,7 +87,7 @@ people-delete = Eliminar
 people-delete-this-class = Eliminar esta clase
 people-delete-note = Esto elimina la clase y sus asignaciones. Los alumnos y sus sesiones se conservan.
 people-delete-class = Eliminar clase
-people-head-trainee = Alumno/a
+people-head-trainee = Alumno
 people-head-last = Última sesión
 people-head-certified = Certificado
 people-head-next = Recomendado a continuación
@@ -98,11 +98,11 @@ people-remove = Quitar
 people-remove-member = Quitar a { $name } de esta clase
 people-trainee-count =
     { $count ->
-        [one] { $count } alumno/a
+        [one] { $count } alumno
        *[other] { $count } alumnos
     }
 people-job-level = { $job }, nivel { $level }
-people-class-name = name = { $name }: nombre de clase no válido (permitido: de 1 a 32 letras sin tilde, dígitos, «-» o «_», y al principio una letra o un dígito)
+people-class-name = name = { $name }: nombre de clase no válido (permitido: de 1 a 32 letras sin tilde ni ñ, dígitos, «-» o «_», y al principio una letra o un dígito)
 people-class-exists = name = { $name }: ya existe una clase con este nombre.
 people-too-many-members =
     { $count ->
@@ -124,11 +124,11 @@ people-job = Trabajo
 people-due = Fecha límite
 people-state = Estado
 people-assigned-to = Asignado a
-people-to-fly = Para volarlo
+people-to-fly = Cómo volarlo
 people-change = Cambiar
 people-assigned-by = { $target }, por { $instructor }
 people-job-level-or-harder = { $job }, nivel { $level } o más difícil
-people-job-form = { $job }, forma { $form }
+people-job-form = { $job }, variante { $form }
 people-state-open = pendiente
 people-state-overdue = vencido
 people-state-done = terminado
@@ -149,16 +149,16 @@ people-assignment-count =
 people-assign = Asignar
 people-assign-job-to = Asignar { $job } a { $name }
 people-choice-levels = { $job } (niveles { $first } a { $last })
-people-choice-forms = { $job } (formas { $forms })
+people-choice-forms = { $job } (variantes: { $forms })
 people-assign-note = La asignación queda terminada después del primer vuelo completo del trabajo que comience después de asignarlo.
-people-assign-variant = Nivel o forma (opcional)
-people-assign-variant-note = Un nivel más difícil también cuenta. Sin nivel ni forma, cuenta cualquiera.
+people-assign-variant = Nivel o variante (opcional)
+people-assign-variant-note = Un nivel más difícil también cuenta. Sin nivel ni variante, cuenta cualquiera.
 people-assign-due = Fecha límite (fin del día, UTC)
 people-assign-title-trainee = Asignar un trabajo a { $name }
 people-assign-title-class = Asignar un trabajo a la clase { $name }
 people-assign-one-target = Se requiere un alumno o una clase, no ambos.
-people-assign-variant-unknown = variant = { $value }: nivel o forma desconocidos de { $job } (permitido: { $allowed })
-people-assign-no-variants = variant = { $value }: nivel o forma desconocidos de { $job } (el trabajo no tiene niveles ni formas)
+people-assign-variant-unknown = variant = { $value }: nivel o variante desconocidos de { $job } (permitido: { $allowed })
+people-assign-no-variants = variant = { $value }: nivel o variante desconocidos de { $job } (el trabajo no tiene niveles ni variantes)
 people-assign-due-invalid = due = { $value }: fecha no válida (permitido: de { $first } a { $last })
 
 people-rubric-count = { $signed } de { $all } criterios aprobados
@@ -191,8 +191,8 @@ people-history-count =
         [one] { $count } entrada, las más recientes primero
        *[other] { $count } entradas, las más recientes primero
     }
-people-rubric-own = Los criterios que los instructores aprueban para cada alumno o alumna. Este servidor usa su propia rúbrica.
-people-rubric-shipped = Los criterios que los instructores aprueban para cada alumno o alumna. Este servidor usa la rúbrica incluida.
+people-rubric-own = Los criterios que los instructores aprueban para cada alumno. Este servidor usa su propia rúbrica.
+people-rubric-shipped = Los criterios que los instructores aprueban para cada alumno. Este servidor usa la rúbrica incluida.
 people-rubric-note = Las aprobaciones pertenecen al identificador de un criterio. Si quita un criterio, sus aprobaciones permanecen en el historial.
 people-rubric-edit = Editar
 people-rubric-toml = Rúbrica (TOML)

@@ -16,7 +16,7 @@ plot-session = sesión { $session }
 plot-picture = foto { $picture }: { $verdict }
 plot-pad = plataforma
 plot-inspector = inspector
-plot-truck = camión
+plot-truck = camioneta
 plot-north = N
 plot-both-plan = Ambos vuelos desde arriba, norte arriba
 plot-both-side = Vista lateral de ambos vuelos en el puente «{ $bridge }»
@@ -42,10 +42,10 @@ plot-legend-under = menos de { $limit } m
 
 plot-box =
     { $name }: mediana { $median }, cuartiles { $low } a { $high }, { $trainees ->
-        [one] { $trainees } alumno/a
+        [one] { $trainees } alumno
        *[other] { $trainees } alumnos
     }
-plot-bin = { $count } de { $low } a { $high }
+plot-bin = { $count }, de { $low } a { $high }
 plot-mean = media { $mean }
 plot-predicted = próxima prevista: { $value }
 plot-model-demand = Demanda

@@ -4,7 +4,7 @@ report-title = Informe de la sesión: { $trainee }, { $started }
 report-kicker = Informe de la sesión
 report-sections = Secciones
 report-section-better = Qué mejorar
-report-section-scores = Puntuación
+report-section-scores = Puntuaciones
 report-section-tasks = Tareas
 report-section-next = Próximos pasos
 report-section-flight = Vuelo
@@ -13,7 +13,7 @@ report-section-defects = Defectos
 report-section-feedback = Avisos
 report-section-coverage = Cobertura
 report-section-certification = Certificación
-report-section-record = Registro
+report-section-record = Datos
 
 ## Tables
 
@@ -25,8 +25,8 @@ report-table-download = Descargar como CSV
 report-end-landed = aterrizó cerca del equipo de tierra
 report-end-battery = batería agotada
 report-end-time-limit = límite de tiempo
-report-end-person = golpeó a una persona
-report-end-vehicle = golpeó un vehículo
+report-end-person = chocó con una persona
+report-end-vehicle = chocó con un vehículo
 report-end-crash = se estrelló
 report-end-abort = terminó antes de tiempo
 report-end-restart = el simulador se reinició
@@ -64,7 +64,7 @@ report-measure-flight-time = tiempo de vuelo
 report-measure-crashes = colisiones
 report-unit-points = puntos
 report-measure-with-unit = { $measure } ({ $unit })
-report-percent = { $value } %
+report-percent = { $value }%
 
 ## Column headings of several tables
 
@@ -103,14 +103,14 @@ report-column-minimal-change = cambio mínimo detectable
 report-column-pixel-size = tamaño de píxel (mm)
 report-column-angle = ángulo respecto a la normal (grados)
 report-column-illuminance = iluminancia (lx)
-report-column-blur = desenfoque de movimiento (px)
+report-column-blur = desenfoque por movimiento (px)
 
 ## Header
 
 report-skip = Saltar a qué mejorar
 report-level = nivel { $level } de { $levels }
 report-flight-time = Tiempo de vuelo { $duration }, { $end }.
-report-telemetry-covers = La telemetría cubre el { $share } % de la sesión.
+report-telemetry-covers = La telemetría cubre el { $share }% de la sesión.
 report-practice-aids = Esta sesión fue { $aids }. Cuenta como práctica: no se certifica ni se compara con otras.
 report-of-max = de { $max }
 report-out-of-sight = Fuera de la vista del inspector durante { $total }; lo más largo, { $longest }, desde { $from }.
@@ -132,13 +132,13 @@ report-explain-contacts =
         [one] 1 contacto, 3 puntos perdidos
        *[other] { $count } contactos, 3 puntos perdidos por cada uno
     }
-report-explain-grave = se golpeó a una persona o un vehículo: 0 puntos
+report-explain-grave = colisión con una persona o un vehículo: 0 puntos
 report-explain-no-defects = este trabajo no tiene defectos
 report-explain-defects = { $found } de { $placed } defectos encontrados; { $hits } de { $taken } fotos mostraron un defecto nuevo
 report-explain-no-tasks = este trabajo no tiene tareas
 report-explain-none-attempted = ninguna tarea iniciada (la fórmula TASBID da 50 puntos)
 report-explain-skipped = { $skipped } de { $tasks } tareas no iniciadas
-report-explain-lowest = menor porcentaje en la trayectoria: { $share } % (tarea { $task }); exceso de velocidad durante { $speeding } s
+report-explain-lowest = menor porcentaje en la trayectoria: { $share }% (tarea { $task }); exceso de velocidad durante { $speeding } s
 
 ## Do better
 
@@ -161,7 +161,7 @@ report-column-urgency = urgencia
 
 ## Certification
 
-report-certification-intro = El perfil de certificación añade requisitos de aprobación que cierran vacíos de las cuatro puntuaciones TASBID.
+report-certification-intro = El perfil de certificación agrega requisitos de aprobación (cumplido o no) que cierran vacíos de las cuatro puntuaciones TASBID.
 report-certification-passed = Se cumplen todos los requisitos.
 report-certification-met = cumplido
 report-certification-not-met = no cumplido
@@ -170,7 +170,7 @@ report-certification-exposure =
     A menos de { $limit } m de una superficie durante { $exposure } s; { $contacts ->
         [one] { $contacts } contacto
        *[other] { $contacts } contactos
-    } ({ $merged } tras unir los separados por menos de un segundo); { $battery } % de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed }).
+    } ({ $merged } tras unir los separados por menos de un segundo); { $battery }% de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed }).
 report-certification-too-fine =
     { $count ->
         [one] 1 defecto es demasiado fino para esta cámara y no cuenta para la exactitud.
@@ -199,15 +199,15 @@ report-column-placed = colocados
 
 ## Tasks
 
-report-tasks-shares = Proporción del tiempo de cada tarea en la trayectoria y sobre el límite de velocidad
+report-tasks-shares = Porcentaje del tiempo de cada tarea en la trayectoria y sobre el límite de velocidad
 report-tasks-on-path = en la trayectoria
 report-tasks-speeding = sobre el límite de velocidad
 report-tasks-shares-title = Porcentaje en la trayectoria y exceso de velocidad por tarea
 report-tasks-contacts = Contactos por tarea y objeto
 report-tasks-no-contacts = Sin contactos.
 report-tasks-contacts-title = Contactos por tarea y tipo
-report-tasks-done = hecha
-report-tasks-part = volada en parte
+report-tasks-done = terminada
+report-tasks-part = recorrida en parte
 report-tasks-caption = tareas
 report-tasks-contacts-caption = contactos
 report-column-off-path-time = tiempo fuera de la trayectoria (s)
@@ -234,7 +234,7 @@ report-defects-kind = { $kind }, estado de condición { $state }
 report-defects-place = En { $member } ({ $element }), { $size }.
 report-defects-size-line = { $length } cm de largo, { $width } mm de ancho
 report-defects-size-area = { $length } por { $width } cm
-report-defects-outcome = Quedó { $outcome }.
+report-defects-outcome = Resultado: { $outcome }.
 report-defects-picture = foto { $picture }
 report-defects-found-plain = encontrado
 report-defects-found-by = encontrado en la foto { $picture }
@@ -248,7 +248,7 @@ report-column-member = miembro
 report-column-length-mm = longitud (mm)
 report-column-width-mm = ancho (mm)
 report-column-visible-time = tiempo claramente visible (s)
-report-column-closest = acercamiento máximo (m)
+report-column-closest = distancia mínima (m)
 report-column-outcome = resultado
 
 ## Pictures
@@ -293,12 +293,12 @@ report-verdict-too-far = demasiado lejana
 report-verdict-too-oblique = demasiado oblicua
 report-verdict-false = sin defecto
 report-verdict-near = por poco
-report-reason-first = muestra el defecto { $defects } por primera vez
-report-reason-again = el defecto { $defects } ya se había fotografiado
+report-reason-first = muestra por primera vez: defecto { $defects }
+report-reason-again = ya se había fotografiado: defecto { $defects }
 report-reason-none = ningún defecto visible
 report-reason-occluded = ningún defecto visible (el defecto { $defect } está oculto)
 report-reason-failing = el defecto { $defect } está { $reasons }
-report-reason-not-central = fuera del 80 % central de la imagen
+report-reason-not-central = fuera del 80% central de la imagen
 report-reason-hidden = oculto detrás de algo
 report-reason-oblique = en un ángulo demasiado oblicuo: { $angle } grados, límite { $limit } grados
 report-reason-small = a un tamaño demasiado pequeño: { $extent } px, mínimo { $limit } px
@@ -312,7 +312,7 @@ report-picture-alt = Foto { $picture }: { $reason }
 report-picture-lamp-on = foco encendido
 report-picture-lamp-off = foco apagado
 report-picture-sky = Centro: cielo, { $lamp }
-report-picture-center = Centro: { $name }, a { $distance } m, { $angle }° respecto a la normal de la superficie, { $pixel } mm por píxel, { $illuminance } lx ({ $lamp }), desenfoque de movimiento { $blur } px
+report-picture-center = Centro: { $name }, a { $distance } m, { $angle }° respecto a la normal de la superficie, { $pixel } mm por píxel, { $illuminance } lx ({ $lamp }), desenfoque por movimiento { $blur } px
 report-pictures-sky = cielo
 report-pictures-on = encendido
 report-pictures-off = apagado
@@ -333,9 +333,9 @@ report-chart-sticks = Posición de las palancas (recorrido completo = 1)
 report-chart-label = { $title } a lo largo del tiempo; los valores están en la tabla siguiente
 report-flight-timeline = Cronología de la sesión
 report-flight-timeline-region = Cronología
-report-flight-timeline-title = Fuente de control, tareas, avisos, fotos e interrupciones a lo largo del tiempo
-report-flight-zoom = Arrastre sobre un gráfico para ampliarlo. Haga doble clic para restablecerlo. Haga clic para mover el control deslizante.
-report-flight-series = Descargar las series temporales como CSV
+report-flight-timeline-title = Fuente de control, tareas, avisos, fotos y cortes a lo largo del tiempo
+report-flight-zoom = Arrastre sobre un gráfico para ampliarlo. Haga doble clic para restablecer la ampliación. Haga clic para mover el control deslizante.
+report-flight-series = Descargar las series de tiempo como CSV
 report-flight-export = Para exportar todos los registros:
 report-flight-marks = Marcas del instructor
 report-flight-play = Reproducir
@@ -356,12 +356,12 @@ report-flight-picture-hit = foto: acierto
 report-flight-plan = Desde arriba, norte arriba
 report-flight-plan-region = Planta
 report-flight-south = Vista desde el sur
-report-flight-elevation-region = Alzado
+report-flight-elevation-region = Elevación
 report-flight-side = Vista lateral del puente «{ $bridge }» con la trayectoria de vuelo cercana
 report-flight-3d = Vista 3D
 report-flight-rotate = Girar
 report-flight-3d-region = Vista 3D del vuelo
-report-flight-3d-note = Arrastre o use las teclas de flecha para girar. Use las teclas + y − o la rueda del ratón para ampliar.
+report-flight-3d-note = Arrastre o use las teclas de flecha para girar. Use las teclas + y − o la rueda del ratón para ampliar o reducir.
 report-flight-3d-label = Modelo 3D del sitio y de la trayectoria de vuelo. Las teclas de flecha lo giran; más y menos lo amplían y reducen.
 report-flight-slider = { $moment }, tarea { $task }, { $path }
 report-timeline-pilot = pilotado a mano
@@ -385,7 +385,7 @@ report-stick-right = derecha
 report-stick-up = arriba
 report-stick-turn-clockwise = giro horario
 report-stick-turn = giro
-report-flight-caption = datos de vuelo, cada pocos segundos
+report-flight-caption = datos de vuelo, con un dato cada pocos segundos
 
 ## Feedback
 
@@ -401,7 +401,7 @@ report-feedback-region = Resumen de los avisos
 report-feedback-figure = Tiempo desde el aviso hasta el primer movimiento de las palancas; cada punto es un aviso; la barra marca la mediana
 report-feedback-reactions-region = Tiempos de reacción
 report-feedback-reactions = Tiempos de reacción por aviso
-report-feedback-note = Una reacción es un movimiento de palanca de al menos el 10 % del recorrido completo dentro de los 5 s posteriores al aviso. Si una palanca ya se movía, puede contar como reacción por casualidad.
+report-feedback-note = Una reacción es un movimiento de palanca de al menos el 10% del recorrido completo dentro de los 5 s posteriores al aviso. Si una palanca ya se movía, puede contar como reacción por casualidad.
 report-feedback-answers = { $answers } de { $count }
 report-feedback-caption = avisos mostrados
 report-feedback-texts-caption = mensajes enviados
@@ -430,8 +430,8 @@ report-coverage-unseen = nunca a la vista
 report-coverage-none = Ninguna superficie del puente se puede inspeccionar desde las trayectorias de referencia; todas están fuera del alcance de la cámara.
 report-coverage-summary = Las fotos captan bien el { $share } de la superficie inspeccionable del puente ({ $area } m² se pueden inspeccionar desde las trayectorias de referencia).
 report-coverage-rest = El resto: { $reasons }.
-report-coverage-reason = { $share } % { $outcome }
-report-coverage-note = Una superficie es inspeccionable si se ve desde al menos un punto de una trayectoria de referencia a { $pixel } mm por píxel o menos (con esta resolución, una fisura de 1.27 mm, el límite entre los estados de condición 2 y 3, cubre medio píxel; esta cámara la alcanza desde hasta { $reach } m) y con un ángulo de { $angle }° como máximo respecto a la normal de la superficie. Está bien captada si una foto cumple ambos límites, tiene luz suficiente (incluida la del foco) para una exposición dentro de los límites de la cámara y tiene { $blur } px de desenfoque de movimiento como máximo. Si varias fotos muestran la misma parte de la superficie, cuenta la mejor.
+report-coverage-reason = { $share }% { $outcome }
+report-coverage-note = Una superficie es inspeccionable si se ve desde al menos un punto de una trayectoria de referencia a { $pixel } mm por píxel o menos (con esta resolución, una fisura de 1.27 mm, el límite entre los estados de condición 2 y 3, cubre medio píxel; esta cámara la alcanza desde hasta { $reach } m) y con un ángulo de { $angle }° como máximo respecto a la normal de la superficie. Está bien captada si una foto cumple ambos límites, tiene luz suficiente (incluida la del foco) para una exposición dentro de los límites de la cámara y tiene { $blur } px de desenfoque por movimiento como máximo. Si varias fotos muestran la misma parte de la superficie, cuenta la mejor.
 report-coverage-figure = Cobertura de la superficie inspeccionable de cada elemento
 report-coverage-bars = Cobertura de la superficie por elemento
 report-coverage-bars-continued = Cobertura de la superficie por elemento, continuación
@@ -445,7 +445,7 @@ report-column-area = { $outcome } (m²)
 report-record-frames-note = En los cortes de más de 1 s, los registros faltantes repiten la última posición conocida y se puntúan en ella.
 report-record-files-note = Este informe se calcula a partir de la telemetría, el archivo de escenario y el archivo de la aeronave. Los mismos tres archivos producen siempre el mismo informe.
 report-record-no-gaps = La telemetría no tiene cortes de más de 0.2 s.
-report-record-gaps = Cortes de telemetría de más de 0.2 s: { $gaps }. Registros interpolados: { $interpolated }. Registros faltantes: { $missing }. La telemetría cubre el { $share } % de la sesión.
+report-record-gaps = Cortes de telemetría de más de 0.2 s: { $gaps }. Registros interpolados: { $interpolated }. Registros faltantes: { $missing }. La telemetría cubre el { $share }% de la sesión.
 report-record-control-caption = fuente de control a lo largo del tiempo
 report-record-caption = datos de la sesión
 report-column-from = de
@@ -453,9 +453,9 @@ report-column-to = a
 report-column-flown-by = control
 report-column-item = dato
 report-record-session = sesión
-report-record-trainee = alumno/a
-report-record-purpose = finalidad
-report-record-no-purpose = no especificada
+report-record-trainee = alumno
+report-record-purpose = propósito
+report-record-no-purpose = no especificado
 report-record-started = inicio
 report-record-scenario = escenario
 report-record-scenario-hash = SHA-256 del escenario
@@ -463,7 +463,7 @@ report-record-aircraft = aeronave
 report-record-aircraft-hash = SHA-256 de la aeronave
 report-record-telemetry-hash = SHA-256 de la telemetría
 report-record-seed = semilla
-report-record-scorer = evaluador
+report-record-scorer = programa de puntuación
 report-record-frames = registros puntuados
 report-record-received = tramas MAVLink recibidas
 report-record-lost = tramas perdidas
@@ -482,7 +482,7 @@ report-briefing-hazards = Peligros
 report-briefing-counts = Qué cuenta
 report-briefing-check = Revisión del sitio antes del despegue
 report-briefing-above = Desde arriba, norte arriba
-report-briefing-side = Puente «{ $bridge }» de lado
+report-briefing-side = Puente «{ $bridge }» visto de lado
 report-briefing-south = Desde el sur
 report-briefing-task-region = Tareas
 report-briefing-task = Tarea

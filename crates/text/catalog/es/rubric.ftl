@@ -1,12 +1,12 @@
 rubric-preparation = Prepara el vuelo
-rubric-preparation-text = Lee el briefing, nombra los peligros (viento, tráfico, luz), confirma la verificación del sitio y sabe dónde aterrizar si algo sale mal.
+rubric-preparation-text = Lee las instrucciones, nombra los peligros (viento, tráfico, luz), confirma la revisión del sitio y sabe dónde aterrizar si algo sale mal.
 rubric-control = Controla la aeronave
 rubric-control-text = Despega, se mantiene en vuelo estacionario, gira y aterriza en la base con suavidad y sin ayuda, también con la nariz hacia el piloto.
-rubric-path = Vuela la trayectoria
-rubric-path-text = Vuela toda la trayectoria de cada tarea dentro de su tolerancia y por debajo del límite de velocidad, y encuentra el camino de regreso después de salirse.
+rubric-path = Sigue la trayectoria
+rubric-path-text = Recorre toda la trayectoria de cada tarea dentro de su tolerancia y por debajo del límite de velocidad, y encuentra el camino de regreso después de salirse.
 rubric-clearance = Mantiene la distancia
-rubric-clearance-text = Mantiene la distancia recomendada y nunca se acerca a la estructura, a personas o a vehículos más de lo permitido. Reacciona de inmediato a los avisos.
-rubric-pictures = Toma imágenes que cuentan
+rubric-clearance-text = Mantiene la distancia recomendada a la superficie y nunca se acerca a la estructura, a personas o a vehículos más de lo permitido. Reacciona de inmediato a los avisos.
+rubric-pictures = Toma fotos que cuentan
 rubric-pictures-text = Encuadra el defecto con nitidez, lo bastante cerca y de frente para medirlo, y usa el foco donde está oscuro.
 rubric-defects = Encuentra defectos
 rubric-defects-text = Revisa cada elemento de forma sistemática, distingue los defectos de las marcas superficiales y nombra el elemento y el estado de condición.

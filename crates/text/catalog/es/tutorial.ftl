@@ -60,11 +60,11 @@ tutorial-warnings-object = pila
 
 tutorial-defects-title = defectos
 tutorial-defects-text =
-    Los mismos defectos a 1 m, 3 m, 8 m con una lente. Una foto cuenta si el defecto está entre las marcas de las esquinas, iluminado, no se ve de canto y, si es una grieta, mide al menos medio píxel de ancho. Acérquese, o use el zoom ({ $camera_zoom_in }) si la cámara lo tiene.
+    Los mismos defectos a 1 m, 3 m, 8 m con una lente. Una foto cuenta si el defecto está entre las marcas de las esquinas, iluminado, no se ve de canto y, si es una fisura, mide al menos medio píxel de ancho. Acérquese, o use el zoom ({ $camera_zoom_in }) si la cámara lo tiene.
 
-    Manchas, líneas de encofrado, grietas selladas, telarañas y grafitis no son defectos. Cada foto sin un defecto nuevo baja su exactitud.
-tutorial-defects-crack = grieta
-tutorial-defects-spall = desprendimiento
+    Manchas, marcas de encofrado, fisuras selladas, telarañas y grafitis no son defectos. Cada foto sin un defecto nuevo baja su exactitud.
+tutorial-defects-crack = fisura
+tutorial-defects-spall = descascaramiento
 tutorial-defects-efflorescence = eflorescencia
 tutorial-defects-corrosion = corrosión
 
@@ -74,7 +74,7 @@ tutorial-light-title = luz y puntuación
 tutorial-light-text =
     Use el foco ({ $lamp }) en lugares oscuros, como muestran estas fotos.
 
-    Conformidad: permanezca en la trayectoria y bajo el límite de velocidad. Eficiencia: regrese en 15 minutos. Seguridad: no toque nada; chocar con una persona o un vehículo termina la sesión. Exactitud: fotografíe cada defecto una vez.
+    Conformidad: siga la trayectoria bajo el límite de velocidad. Eficiencia: regrese antes de 15 minutos. Seguridad: no toque nada; chocar con una persona o un vehículo termina la sesión. Exactitud: fotografíe cada defecto una vez.
 tutorial-light-without = sin foco
 tutorial-light-with = con foco
 tutorial-light-closer = acérquese para verlo

@@ -10,7 +10,7 @@ window-off = no
 ## Start page
 
 window-start-title = Spandrel: inspeccione un puente con un dron
-window-start-trainee = Alumno/a
+window-start-trainee = Alumno
 window-start-job = Trabajo
 window-start-purpose = Propósito
 window-start-practice = práctica
@@ -35,19 +35,19 @@ window-start-last-flight = Último vuelo: { $words }
 window-start-about-practice = Puede pausar y reiniciar; el mapa muestra las trayectorias.
 window-start-about-assessment = Un solo intento: sin pausa, reinicio ni mapa.
 window-start-web = Ver las sesiones en el navegador
-window-start-name-characters = Use letras sin acentos, dígitos, '-' y '_'; empiece con una letra o un dígito.
+window-start-name-characters = Use letras sin tilde ni ñ, dígitos, «-» y «_»; empiece con una letra o un dígito.
 window-start-name-length = Como máximo { $count } caracteres.
 window-start-name-first = Escriba primero un seudónimo.
 
 ## Waiting
 
 window-waiting-simulator = Iniciando el simulador ...
-window-waiting-scoring = Evaluando el vuelo ...
+window-waiting-scoring = Puntuando el vuelo ...
 window-waiting-pictures = Preparando las fotos ...
 
 ## Briefing
 
-window-briefing-title = Informe previo: { $job }
+window-briefing-title = Instrucciones: { $job }
 window-briefing-acknowledge = He leído esto y revisé el sitio: volar
 window-briefing-site-check = Revisión del sitio
 window-briefing-tasks = Tareas, en este orden
@@ -82,18 +82,18 @@ window-controls-roll = izquierda, derecha
 window-controls-yaw = girar
 window-controls-axis = eje { $number }
 window-controls-no-axis = Aún no se ha movido ningún eje.
-window-controls-note-none = No hay ningún mando ni emisora conectados.
+window-controls-note-none = No hay ningún control ni transmisor conectado.
 window-controls-note-profile = Perfil: { $file }.
-window-controls-note-not-calibrated = '{ $name }' aún no está calibrado.
+window-controls-note-not-calibrated = «{ $name }» aún no está calibrado.
 window-controls-note-saved = Guardado en { $file }.
 window-controls-note-not-saved = No se guardó: { $error }.
 window-controls-note-disabled = Control desactivado: { $error }.
-window-controls-note-lost = '{ $name }' no está conectado.
+window-controls-note-lost = «{ $name }» no está conectado.
 window-controls-message-connected = Control conectado. { $note } Úselo para volar.
 window-controls-message-connected-uncalibrated = Control conectado. { $note } Use el teclado hasta calibrarlo.
 window-controls-message-keyboard = { $note } Use el teclado.
-window-controls-message-disconnected = '{ $name }' desconectado: palancas centradas y luego sin señal. Pulse una tecla para volar con el teclado.
-window-controls-message-reconnected = '{ $name }' conectado de nuevo.
+window-controls-message-disconnected = «{ $name }» desconectado: palancas centradas y luego sin señal. Pulse una tecla para volar con el teclado.
+window-controls-message-reconnected = «{ $name }» conectado de nuevo.
 window-controls-the-controller = el control
 
 ## Pause
@@ -105,9 +105,9 @@ window-paused-restart = Reiniciar
 window-paused-settings = Ajustes y teclas
 window-paused-end = Terminar la sesión
 window-paused-confirm-title = ¿Terminar la evaluación?
-window-paused-confirm-text = El reloj corre. Las tareas que no vuele cuentan como no intentadas.
+window-paused-confirm-text = El reloj corre. Las tareas que no vuele cuentan como no iniciadas.
 window-paused-keep-flying = Seguir volando (Esc)
-window-paused-score = Terminar y evaluar el vuelo
+window-paused-score = Terminar y puntuar el vuelo
 window-paused-pause-button = Pausa ({ $pause })
 window-paused-end-button = Terminar ({ $pause })
 window-paused-no-restart = Una evaluación no se puede reiniciar.
@@ -115,10 +115,10 @@ window-paused-no-restart = Una evaluación no se puede reiniciar.
 ## Result
 
 window-result-lesson-done = Lección terminada
-window-result-lesson-steps = { $done } de { $steps } pasos de la lección hechos
+window-result-lesson-steps = { $done } de { $steps } pasos de la lección terminados
 window-result-title = Vuelo terminado
 window-result-part = { $why }. La puntuación corresponde a la parte que voló.
-window-result-advice = Para mejorar la próxima vez
+window-result-advice = Qué mejorar la próxima vez
 window-result-conformity = conformidad
 window-result-efficiency = eficiencia
 window-result-safety = seguridad
@@ -131,7 +131,7 @@ window-result-questionnaire = cuestionario
 window-result-not-available = no disponible
 window-result-open-report = Abrir el informe
 window-result-open-questionnaire = Abrir el cuestionario
-window-result-fly-yourself = Vuélelo usted: { $job }
+window-result-fly-yourself = Volarlo usted: { $job }
 window-result-fly-next = Volar a continuación: { $job }
 window-result-watch-again = Ver otra vez
 window-result-fly-again = Volar otra vez
@@ -145,7 +145,7 @@ window-result-reason-vehicle = chocó con un vehículo
 window-result-reason-crash = colisión
 window-result-reason-abort = interrumpido
 window-result-reason-restart = reinicio
-window-result-not-scored = La sesión no se evaluó. Los datos grabados están en { $folder }
+window-result-not-scored = La sesión no se puntuó. Los datos grabados están en { $folder }
 
 ## Defect school
 
@@ -209,7 +209,7 @@ window-settings-keys-awaiting = Pulse la tecla nueva. Esc cancela.
 window-settings-keys-help = Enter o clic en una fila; luego pulse la tecla nueva. F11 siempre cambia a pantalla completa.
 window-settings-key-set = { $key }: { $function }.
 window-settings-key-exchanged = { $key }: { $function }. La tecla estaba ocupada: «{ $other }» ahora usa { $other_key }.
-window-settings-key-refused = '{ $key }' no se puede usar (permitidas: { $allowed }).
+window-settings-key-refused = «{ $key }» no se puede usar (permitidas: { $allowed }).
 window-settings-keys-restored = Todas las teclas tienen su valor predeterminado.
 window-settings-all-restored = Todos los ajustes tienen su valor predeterminado.
 window-settings-file-invalid = Se usan los valores predeterminados porque el archivo de ajustes no es válido: { $error }
@@ -230,7 +230,7 @@ window-flight-sound-on = Sonido activado.
 window-flight-sound-off = Sonido desactivado.
 window-flight-no-browser = No se puede abrir un navegador ({ $error }). Escriba la dirección de arriba en un navegador.
 window-flight-frozen = Congelado.
-window-flight-frozen-keys = Congelado. { $freeze }: continuar    { $rewind }: retroceder 10 s
+window-flight-frozen-keys = Congelado. { $freeze }: continuar    { $rewind }: rebobinar 10 s
 window-flight-loading = Cargando: { $what } ... { $pct }%
 window-flight-loading-site = sitio y defectos
 window-flight-loading-bridges = puentes
@@ -243,7 +243,7 @@ window-flight-waiting-vehicle = Esperando al vehículo en { $address } ...
 window-flight-keys-view = { $swap } vistas    { $map } mapa    { $path } trayectoria    arrastrar o { $look_left } { $look_right } mirar    rueda zoom    { $follow } seguir al dron
 window-flight-keys-flight =
     { $arm } armar    { $take_off } despegar    { $up } { $down } subir, bajar    { $turn_left } { $turn_right } girar    { $forward } { $back } { $left } { $right } volar    { $lamp } foco    { $snapshot } foto    { $land } aterrizar
-    { $freeze } congelar    { $rewind } retroceder 10 s
+    { $freeze } congelar    { $rewind } rebobinar 10 s
 window-flight-keys-short = { $arm } armar    { $take_off } despegar    { $pause } pausa; vea allí las teclas
 window-flight-keys-short-view = { $swap } vistas    { $map } mapa    { $follow } seguir al dron
 

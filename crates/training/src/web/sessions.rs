@@ -578,7 +578,7 @@ mod tests {
         }
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
-        assert!(text.contains("Bericht öffnen") && text.contains("Wegtreue") && text.contains("Anteil auf der Bahn"), "{text}");
+        assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");
         let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0) };
         let told = standing_text(Language::German, &standing, 400.0);
         assert_eq!(

@@ -86,7 +86,7 @@ mod tests {
         check_translated(&translated.into_string(), &[]);
         check_translated(&tiles_page(&administrator_with(Language::Pseudo), &[]).into_string(), &[]);
         let german = tiles_page(&administrator_with(Language::German), &tiles).into_string();
-        assert!(german.contains("Laufende Flüge") && german.contains("Fahrzeug 1"), "{german}");
+        assert!(german.contains("Laufende Flüge") && german.contains("Fluggerät 1"), "{german}");
         let none = tiles_page(&administrator(), &[]).into_string();
         assert!(none.contains("No vehicle configured") && !none.contains("tiles.js"), "{none}");
     }

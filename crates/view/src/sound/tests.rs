@@ -95,7 +95,7 @@ fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
     assert_eq!(spoken(cue::CRASH | cue::SPEEDING, cue::SPEEDING), None);
     let german = DisplayStyle { language: Language::German, ..DisplayStyle::default() };
     let said = super::spoken(0, cue::SPEEDING, &texts, german);
-    assert_eq!(said.as_deref(), Some("Zu schnell: 11 Meilen pro Stunde, maximal 10 Meilen pro Stunde"));
+    assert_eq!(said.as_deref(), Some("Zu schnell: 11 Meilen pro Stunde, höchstens 10 Meilen pro Stunde"));
 }
 
 #[test]

@@ -239,7 +239,7 @@ mod tests {
         let cohort = of(&group(), &selection);
         let page = |language: Language| super::cohort(&cohort, language);
         let (english, german) = (page(Language::English), page(Language::German));
-        for words in ["<html lang=\"de\">", "Wertungen der ersten Sitzungen", "7 Trainees", "Kollisionen nach Art", "Wegtreue"] {
+        for words in ["<html lang=\"de\">", "Wertungen der ersten Sitzungen", "7 Trainees", "Kollisionen nach Art", "Bahntreue"] {
             assert!(german.contains(words) && !english.contains(words), "{words}");
         }
         let downloads = |page: &str| -> Vec<String> {
