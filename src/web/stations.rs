@@ -7,11 +7,13 @@ use super::scenario_library;
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::files::with_variant;
+use crate::io::station_key::StationKey;
 use crate::io::trainee_id::{ALLOWED_IDS, is_plain_id};
-use spandrel_model::scenario::form_names;
+use axum::http::StatusCode;
+use spandrel_model::scenario::{form_names, variant_names};
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_text::{Language, text};
-use spandrel_training::stations::{CheckIn, FlightOrder, OrderError, StationFlight};
+use spandrel_training::stations::{CheckIn, CheckInRefusal, CheckInReply, FlightOrder, OrderError, StationFlight};
 use spandrel_training::web::browser_sessions::constant_time_eq;
 use spandrel_training::web::stations::{StationsPage, URL, stations_page};
 
@@ -20,29 +22,39 @@ const ID_DIGITS: usize = 16;
 /// Purposes of a flight.
 const PURPOSES: [&str; 2] = ["practice", "assessment"];
 
-/// Handles a station's check-in.
+/// Handles a station's check-in. A station that is rejected receives the reason as JSON.
 pub fn check_in(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let key = state.station_key.as_ref().ok_or(WebError::NotFound)?;
+    let (value, status) = match reply(state, request, key) {
+        Ok(reply) => (serde_json::to_value(reply), StatusCode::OK),
+        Err((error, status)) => {
+            tracing::warn!("station check-in from {}: {error}", request.from);
+            (serde_json::to_value(CheckInRefusal { error }), status)
+        }
+    };
+    let value = value.map_err(|error| WebError::Failed(error.to_string()))?;
+    Ok(WebResponse::json(&value).with_status(status))
+}
+
+fn reply(state: &ServerState, request: &WebRequest, key: &StationKey) -> Result<CheckInReply, (String, StatusCode)> {
     if !request.authorization.as_deref().is_some_and(|sent| constant_time_eq(sent, &key.authorization())) {
-        return Err(WebError::Forbidden("The station key is wrong.".into()));
+        return Err(("wrong station key (--station-key)".to_owned(), StatusCode::FORBIDDEN));
     }
-    let message: CheckIn =
-        serde_json::from_slice(&request.body).map_err(|error| WebError::BadRequest(format!("not a check-in: {error}")))?;
+    let invalid = |why: String| (why, StatusCode::UNPROCESSABLE_ENTITY);
+    let message: CheckIn = serde_json::from_slice(&request.body).map_err(|error| invalid(format!("not a check-in: {error}")))?;
     if !is_plain_id(&message.station) {
-        return Err(WebError::BadRequest(format!("station: '{}' is not a name (allowed: {ALLOWED_IDS})", message.station)));
+        return Err(invalid(format!("'{}' is not a station name (allowed: {ALLOWED_IDS})", message.station)));
     }
     let reply = lock(&state.stations).check_in(message, clock::unix_us());
-    let reply = reply.map_err(|error| WebError::Forbidden(error.to_string()))?;
-    let value = serde_json::to_value(reply).map_err(|error| WebError::Failed(error.to_string()))?;
-    Ok(WebResponse::json(&value))
+    reply.map_err(|error| (error.to_string(), StatusCode::CONFLICT))
 }
 
 /// Responds with the page of all stations.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    render(state, request, None)
+    render(state, request, (None, [""; 4]))
 }
 
-fn render(state: &ServerState, request: &WebRequest, refusal: Option<&str>) -> HandlerResult {
+fn render(state: &ServerState, request: &WebRequest, (refusal, entered): (Option<&str>, [&str; 4])) -> HandlerResult {
     let board = lock(&state.stations).clone();
     let scenarios: Vec<String> =
         scenario_library::all(&state.scenarios).iter().flat_map(|job| names(&job.named.name, &job.text)).collect();
@@ -52,16 +64,18 @@ fn render(state: &ServerState, request: &WebRequest, refusal: Option<&str>) -> H
         scenarios: &scenarios,
         trainees: &trainees,
         refusal,
+        entered,
         now_unix_us: clock::unix_us(),
         enabled: state.station_key.is_some(),
     };
     Ok(WebResponse::page(stations_page(&request.visitor, &about)))
 }
 
-/// Returns a scenario's name, or its name with each of its forms.
+/// Returns a scenario's name with each of its forms; or its name alone, and with each of its levels.
 fn names(name: &str, text: &str) -> Vec<String> {
     let forms = form_names(text);
-    if forms.is_empty() { vec![name.to_owned()] } else { forms.iter().map(|form| with_variant(name, Some(form), None)).collect() }
+    let alone = forms.is_empty().then(|| name.to_owned());
+    alone.into_iter().chain(variant_names(text).iter().map(|variant| with_variant(name, Some(variant), None))).collect()
 }
 
 /// Orders a flight at a station.
@@ -75,11 +89,11 @@ pub fn order(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let scenario = request.required_field("scenario")?;
     let purpose = request.required_field("purpose")?;
     if !PURPOSES.contains(&purpose) {
-        return Err(WebError::BadRequest(format!("purpose: unknown (allowed: {})", PURPOSES.join(", "))));
+        return Err(WebError::unknown(language, "purpose", &PURPOSES.join(", ")));
     }
     let jobs = scenario_library::all(&state.scenarios);
     let job = jobs.into_iter().find(|job| names(&job.named.name, &job.text).iter().any(|name| name == scenario));
-    let job = job.ok_or_else(|| WebError::BadRequest("scenario: unknown name".into()))?;
+    let job = job.ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown-name", field = "scenario")))?;
     let now = clock::unix_us();
     let order = FlightOrder {
         id: sha256_hex(format!("{station} {trainee} {scenario} {now}").as_bytes()).chars().take(ID_DIGITS).collect(),
@@ -94,7 +108,8 @@ pub fn order(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 fn refused(state: &ServerState, request: &WebRequest, words: &str) -> HandlerResult {
-    Ok(render(state, request, Some(words))?.with_status(axum::http::StatusCode::CONFLICT))
+    let entered = ["station", "trainee", "scenario", "purpose"].map(|name| request.form_field(name).unwrap_or_default());
+    Ok(render(state, request, (Some(words), entered))?.with_status(StatusCode::CONFLICT))
 }
 
 fn refusal_words(language: Language, error: OrderError, station: &str) -> String {

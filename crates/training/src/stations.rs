@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 pub const CHECK_IN_INTERVAL_S: u64 = 2;
 /// Time after which a station that has not checked in counts as lost, µs.
 const LOST_AFTER_US: u64 = 5 * CHECK_IN_INTERVAL_S * 1_000_000;
+/// Time after which an order that was not answered expires, µs (estimate: no trainee expects a flight to start later).
+const ORDER_EXPIRES_AFTER_US: u64 = 30_000_000;
 /// Maximum number of stations.
 pub const MAX_STATIONS: usize = 200;
 
@@ -52,6 +54,9 @@ pub struct OrderAnswer {
 pub struct CheckIn {
     /// Name of the station.
     pub station: String,
+    /// Random number of the process, by which the server recognizes two stations with the same name.
+    #[serde(default)]
+    pub instance: u64,
     /// The flight in progress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flight: Option<StationFlight>,
@@ -68,18 +73,27 @@ pub struct CheckInReply {
     pub order: Option<FlightOrder>,
 }
 
+/// The server's reply to a station that it rejects.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CheckInRefusal {
+    /// Why, in English, for the station's log.
+    pub error: String,
+}
+
 /// State of the last order to a station.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum OrderState {
-    /// The station has not answered.
-    Sent(FlightOrder),
+    /// The station has not answered since this time, µs since the Unix epoch.
+    Sent(FlightOrder, u64),
+    /// The station did not answer in time, so that the order is void.
+    Expired(StationFlight),
     /// The station has started the flight.
     Started(StationFlight),
     /// The station could not start it, for this reason.
     Refused(StationFlight, String),
 }
 
-/// Whether a station is there.
+/// Availability of a station.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StationState {
     /// It waits for a flight.
@@ -90,9 +104,27 @@ pub enum StationState {
     Lost,
 }
 
+impl OrderState {
+    /// Returns the state after a check-in with this answer.
+    fn answered(self, answer: Option<OrderAnswer>, now_unix_us: u64) -> Self {
+        match (self, answer) {
+            (Self::Sent(order, _), Some(answer)) if answer.id == order.id => match answer.refusal {
+                Some(why) => Self::Refused(order.flight, why),
+                None => Self::Started(order.flight),
+            },
+            (Self::Sent(order, since), _) if now_unix_us.saturating_sub(since) > ORDER_EXPIRES_AFTER_US => {
+                Self::Expired(order.flight)
+            }
+            (order, _) => order,
+        }
+    }
+}
+
 /// A station as the server knows it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Station {
+    /// Random number of its process.
+    pub instance: u64,
     /// The flight in progress at the last check-in.
     pub flight: Option<StationFlight>,
     /// Time of the last check-in, µs since the Unix epoch.
@@ -129,10 +161,16 @@ pub enum OrderError {
     Flying,
 }
 
-/// There are too many stations.
+/// Why a station cannot check in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("too many stations (at most {MAX_STATIONS})")]
-pub struct TooManyStations;
+pub enum CheckInError {
+    /// There are too many stations.
+    #[error("too many stations (at most {MAX_STATIONS})")]
+    TooMany,
+    /// Another station with this name is connected.
+    #[error("another station with this name is connected: give each station a name of its own (--station)")]
+    NameTaken,
+}
 
 /// All stations that have checked in since the server was started.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -142,28 +180,32 @@ impl StationBoard {
     /// Handles a check-in. The caller has checked the name.
     ///
     /// # Errors
-    /// Returns an error if there are too many stations.
-    pub fn check_in(&mut self, message: CheckIn, now_unix_us: u64) -> Result<CheckInReply, TooManyStations> {
-        if !self.0.contains_key(&message.station) && self.0.len() >= MAX_STATIONS {
-            self.0.retain(|_, station| station.state(now_unix_us) != StationState::Lost);
-            if self.0.len() >= MAX_STATIONS {
-                return Err(TooManyStations);
-            }
+    /// Returns an error if there are too many stations, or another one has this name.
+    pub fn check_in(&mut self, message: CheckIn, now_unix_us: u64) -> Result<CheckInReply, CheckInError> {
+        self.make_room(&message.station, now_unix_us)?;
+        let known = self.0.get(&message.station);
+        let is_other = |known: &Station| known.instance != message.instance && known.state(now_unix_us) != StationState::Lost;
+        if known.is_some_and(is_other) {
+            return Err(CheckInError::NameTaken);
         }
         let before = self.0.remove(&message.station).and_then(|station| station.order);
-        let order = match (before, message.answer) {
-            (Some(OrderState::Sent(order)), Some(answer)) if answer.id == order.id => Some(match answer.refusal {
-                Some(why) => OrderState::Refused(order.flight, why),
-                None => OrderState::Started(order.flight),
-            }),
-            (before, _) => before,
-        };
+        let order = before.map(|order| order.answered(message.answer, now_unix_us));
         let pending = match &order {
-            Some(OrderState::Sent(order)) => Some(order.clone()),
-            Some(OrderState::Started(_) | OrderState::Refused(..)) | None => None,
+            Some(OrderState::Sent(order, _)) if message.flight.is_none() => Some(order.clone()),
+            _ => None,
         };
-        self.0.insert(message.station, Station { flight: message.flight, seen_unix_us: now_unix_us, order });
+        let CheckIn { station, instance, flight, .. } = message;
+        self.0.insert(station, Station { instance, flight, seen_unix_us: now_unix_us, order });
         Ok(CheckInReply { order: pending })
+    }
+
+    /// Removes lost stations if there is no room for a new one.
+    fn make_room(&mut self, station: &str, now_unix_us: u64) -> Result<(), CheckInError> {
+        if self.0.contains_key(station) || self.0.len() < MAX_STATIONS {
+            return Ok(());
+        }
+        self.0.retain(|_, station| station.state(now_unix_us) != StationState::Lost);
+        if self.0.len() < MAX_STATIONS { Ok(()) } else { Err(CheckInError::TooMany) }
     }
 
     /// Orders a flight. A newer order replaces one that the station has not answered yet.
@@ -177,7 +219,7 @@ impl StationBoard {
             StationState::Flying => return Err(OrderError::Flying),
             StationState::Lost => return Err(OrderError::Lost),
         }
-        station.order = Some(OrderState::Sent(order));
+        station.order = Some(OrderState::Sent(order, now_unix_us));
         Ok(())
     }
 
@@ -201,7 +243,7 @@ mod tests {
 
     fn check_in(answer: Option<(&str, Option<&str>)>, flight: Option<StationFlight>) -> CheckIn {
         let answer = answer.map(|(id, refusal)| OrderAnswer { id: id.into(), refusal: refusal.map(str::to_owned) });
-        CheckIn { station: "s1".into(), flight, answer }
+        CheckIn { station: "s1".into(), instance: 1, flight, answer }
     }
 
     fn last_order(board: &StationBoard) -> Option<OrderState> {
@@ -228,13 +270,36 @@ mod tests {
     }
 
     #[test]
+    fn exact_orders_expire_and_wait_for_no_flight_in_progress() {
+        let mut board = StationBoard::default();
+        board.check_in(check_in(None, None), 0).unwrap();
+        board.order("s1", order("a"), 0).unwrap();
+        assert_eq!(board.check_in(check_in(None, Some(flight())), 1).unwrap().order, None, "the trainee has just started one");
+        assert_eq!(board.check_in(check_in(None, None), ORDER_EXPIRES_AFTER_US).unwrap().order, Some(order("a")));
+        assert_eq!(board.check_in(check_in(None, None), ORDER_EXPIRES_AFTER_US + 1).unwrap().order, None);
+        assert_eq!(last_order(&board), Some(OrderState::Expired(flight())));
+        board.check_in(check_in(Some(("a", None)), None), ORDER_EXPIRES_AFTER_US + 2).unwrap();
+        assert_eq!(last_order(&board), Some(OrderState::Expired(flight())), "a late answer");
+    }
+
+    #[test]
+    fn exact_name_belongs_to_one_station_until_it_is_lost() {
+        let mut board = StationBoard::default();
+        let other = || CheckIn { instance: 2, ..check_in(None, None) };
+        board.check_in(check_in(None, None), 0).unwrap();
+        assert_eq!(board.check_in(other(), 1), Err(CheckInError::NameTaken));
+        board.check_in(other(), LOST_AFTER_US + 1).unwrap();
+        assert_eq!(board.check_in(check_in(None, None), LOST_AFTER_US + 2), Err(CheckInError::NameTaken));
+    }
+
+    #[test]
     fn exact_lost_stations_make_room_for_new_ones() {
         let mut board = StationBoard::default();
-        let new = |k: usize| CheckIn { station: format!("s{k}"), flight: None, answer: None };
+        let new = |k: usize| CheckIn { station: format!("s{k}"), ..check_in(None, None) };
         for k in 0..MAX_STATIONS {
             board.check_in(new(k), 0).unwrap();
         }
-        assert_eq!(board.check_in(new(MAX_STATIONS), 1), Err(TooManyStations));
+        assert_eq!(board.check_in(new(MAX_STATIONS), 1), Err(CheckInError::TooMany));
         board.check_in(new(0), LOST_AFTER_US).unwrap();
         board.check_in(new(MAX_STATIONS), LOST_AFTER_US + 1).unwrap();
         assert_eq!(board.stations().map(|(name, _)| name).collect::<Vec<_>>(), ["s0".to_owned(), format!("s{MAX_STATIONS}")]);
@@ -245,7 +310,8 @@ mod tests {
         let message = check_in(Some(("a", Some("why"))), Some(flight()));
         let text = serde_json::to_string(&message).unwrap();
         assert_eq!(serde_json::from_str::<CheckIn>(&text).unwrap(), message);
-        assert_eq!(serde_json::from_str::<CheckIn>("{\"station\":\"s1\"}").unwrap(), check_in(None, None));
+        let least = CheckIn { instance: 0, ..check_in(None, None) };
+        assert_eq!(serde_json::from_str::<CheckIn>("{\"station\":\"s1\"}").unwrap(), least);
         assert_eq!(serde_json::to_string(&CheckInReply::default()).unwrap(), "{}");
     }
 }

@@ -107,6 +107,9 @@ pub struct Args {
     /// Web server (`spandrel serve`) on which instructors start flights at this station, such as http://10.0.0.5:8080
     #[arg(long, value_name = "URL", value_parser = server_url, requires_all = ["station", "station_key"])]
     pub server: Option<String>,
+    /// Certificate of the authority that signed the server's certificate, PEM [default: the public authorities]
+    #[arg(long, value_name = "FILE", requires = "server")]
+    pub server_ca: Option<PathBuf>,
     /// Name of this station on the server
     #[arg(long, value_name = "NAME", requires = "server")]
     pub station: Option<TraineeId>,

@@ -6,13 +6,16 @@ use crate::io::replace::replace;
 use crate::io::station_key::StationKey;
 use crate::io::trainee_id::TraineeId;
 use crate::web::scenario_library::{self, MAX_SCENARIO_BYTES, UPLOAD_FOLDER, upload_path};
-use spandrel_training::stations::{CHECK_IN_INTERVAL_S, CheckIn, CheckInReply, FlightOrder, OrderAnswer, StationFlight};
+use spandrel_training::stations::{
+    CHECK_IN_INTERVAL_S, CheckIn, CheckInRefusal, CheckInReply, FlightOrder, OrderAnswer, StationFlight,
+};
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, Purpose};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+use ureq::tls::{PemItem, RootCerts, TlsConfig};
 
 /// Timeout for a request.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(10);
@@ -23,7 +26,7 @@ const SERVER_FOLDER: &str = "from-server";
 /// Maximum size of a reply, bytes: a scenario in JSON.
 const MAX_REPLY_BYTES: u64 = 2 * MAX_SCENARIO_BYTES as u64 + 4_096;
 
-/// What the thread sends.
+/// State that the thread sends.
 #[derive(Debug, Default)]
 struct Shared {
     flight: Option<StationFlight>,
@@ -34,44 +37,87 @@ struct Shared {
 pub struct StationLink {
     shared: Arc<Mutex<Shared>>,
     orders: Receiver<FlightOrder>,
+    /// ID of the order whose flight is about to start.
+    starting: Option<String>,
     stop: Arc<AtomicBool>,
     sessions: PathBuf,
 }
 
+/// Address, name and files of a station.
+#[derive(Debug, Clone, Copy)]
+pub struct StationSetup<'a> {
+    /// URL of the server.
+    pub server: &'a str,
+    /// Certificates that the server's certificate must be signed by (PEM); `None` for the public authorities.
+    pub server_ca: Option<&'a Path>,
+    /// Name of the station.
+    pub name: &'a TraineeId,
+    /// File with the stations' key.
+    pub key: &'a Path,
+    /// Folder with the sessions.
+    pub sessions: &'a Path,
+}
+
 impl StationLink {
-    /// Starts to check in under this name.
+    /// Starts to check in.
     ///
     /// # Errors
-    /// Returns an error if the key cannot be read.
-    pub fn start(server: &str, name: &TraineeId, key: &Path, sessions: &Path) -> Result<Self, AppError> {
-        let client = StationClient::new(server, name.as_str(), &StationKey::read(key)?);
+    /// Returns an error if the key or the certificates cannot be read.
+    pub fn start(setup: &StationSetup<'_>) -> Result<Self, AppError> {
+        let client = StationClient::new(setup)?;
         let (shared, stop) = (Arc::new(Mutex::new(Shared::default())), Arc::new(AtomicBool::new(false)));
         let (sender, orders) = channel();
         let (own, stopped) = (shared.clone(), stop.clone());
         std::thread::spawn(move || client.run(&own, &sender, &stopped));
-        Ok(Self { shared, orders, stop, sessions: sessions.to_path_buf() })
+        Ok(Self { shared, orders, starting: None, stop, sessions: setup.sessions.to_path_buf() })
     }
 
-    /// Reports the flight in progress; `None` after its end.
-    pub fn report_flight(&self, choice: Option<&FlightChoice>) {
-        lock(&self.shared).flight = choice.map(|choice| StationFlight {
+    /// Reports that a flight has started, which answers the order for it. Refuses an order that arrived in the meantime.
+    pub fn report_start(&mut self, choice: &FlightChoice) {
+        lock(&self.shared).flight = Some(StationFlight {
             trainee: choice.trainee.clone(),
-            scenario: choice.scenario.clone(),
+            scenario: job_name(&choice.scenario),
             purpose: choice.purpose.word().to_owned(),
         });
+        match self.starting.take() {
+            Some(order) => self.answer(order, None),
+            None => {
+                if let Some(order) = self.orders.try_iter().last() {
+                    self.answer(order.id, Some("a flight has just been started at the station".to_owned()));
+                }
+            }
+        }
     }
 
-    /// Returns the next flight that an instructor has ordered, and answers the order.
-    pub fn next_flight(&self) -> Option<FlightChoice> {
-        let order = self.orders.try_iter().last()?;
-        let choice = choice(&order, &self.sessions);
-        let refusal = choice.as_ref().err().map(ToString::to_string);
-        match &refusal {
-            Some(why) => tracing::warn!("the flight ordered by the instructor was not started: {why}"),
-            None => tracing::info!("the instructor starts {} for {}", order.flight.scenario, order.flight.trainee),
+    /// Reports the end of a flight, or why it could not be started.
+    pub fn report_end(&mut self, error: Option<&AppError>) {
+        lock(&self.shared).flight = None;
+        if let Some(order) = self.starting.take() {
+            self.answer(order, error.map(ToString::to_string));
         }
-        lock(&self.shared).answer = Some(OrderAnswer { id: order.id, refusal });
-        choice.ok()
+    }
+
+    /// Returns the next flight that an instructor has ordered. The order is answered once the flight has started.
+    pub fn next_flight(&mut self) -> Option<FlightChoice> {
+        let order = self.orders.try_iter().last()?;
+        match choice(&order, &self.sessions) {
+            Ok(choice) => {
+                tracing::info!("the instructor starts {} for {}", order.flight.scenario, order.flight.trainee);
+                self.starting = Some(order.id);
+                Some(choice)
+            }
+            Err(error) => {
+                self.answer(order.id, Some(error.to_string()));
+                None
+            }
+        }
+    }
+
+    fn answer(&self, id: String, refusal: Option<String>) {
+        if let Some(why) = &refusal {
+            tracing::warn!("the flight ordered by the instructor was not started: {why}");
+        }
+        lock(&self.shared).answer = Some(OrderAnswer { id, refusal });
     }
 }
 
@@ -100,6 +146,13 @@ fn choice(order: &FlightOrder, sessions: &Path) -> Result<FlightChoice, AppError
     Ok(FlightChoice { trainee: flight.trainee.clone(), scenario, purpose, by: FlownBy::Trainee })
 }
 
+/// Returns the name of a job from its argument, which may be a path, with the form or level.
+fn job_name(argument: &str) -> String {
+    let (file, variant) = split(argument);
+    let name = Path::new(file).file_stem().map_or_else(|| file.into(), |stem| stem.to_string_lossy());
+    files::with_variant(&name, variant, None)
+}
+
 /// Splits a scenario argument into the name and the form or level.
 fn split(argument: &str) -> (&str, Option<&str>) {
     argument.split_once(FORM_SEPARATOR).map_or((argument, None), |(name, variant)| (name, Some(variant)))
@@ -126,17 +179,31 @@ struct StationClient {
     url: String,
     authorization: String,
     name: String,
+    instance: u64,
 }
 
 impl StationClient {
-    fn new(server: &str, name: &str, key: &StationKey) -> Self {
+    fn new(setup: &StationSetup<'_>) -> Result<Self, AppError> {
+        let mut tls = TlsConfig::builder();
+        if let Some(file) = setup.server_ca {
+            tls = tls.root_certs(certificates(file)?);
+        }
         let config = ureq::Agent::config_builder()
             .http_status_as_error(false)
             .timeout_global(Some(REQUEST_TIMEOUT))
             .max_redirects(0)
+            .tls_config(tls.build())
             .build();
-        let url = format!("{}/stations/check-in", server.trim_end_matches('/'));
-        Self { agent: config.into(), url, authorization: key.authorization(), name: name.to_owned() }
+        let mut instance = [0; 8];
+        getrandom::fill(&mut instance)
+            .map_err(|error| AppError::failed(format!("the system's random number generator failed: {error}")))?;
+        Ok(Self {
+            agent: config.into(),
+            url: format!("{}/stations/check-in", setup.server.trim_end_matches('/')),
+            authorization: StationKey::read(setup.key)?.authorization(),
+            name: setup.name.as_str().to_owned(),
+            instance: u64::from_le_bytes(instance),
+        })
     }
 
     /// Checks in until the connection is dropped. Reports only changes of the connection.
@@ -174,7 +241,12 @@ impl StationClient {
     fn check_in(&self, shared: &Mutex<Shared>) -> Result<CheckInReply, String> {
         let message = {
             let now = lock(shared);
-            CheckIn { station: self.name.clone(), flight: now.flight.clone(), answer: now.answer.clone() }
+            CheckIn {
+                station: self.name.clone(),
+                instance: self.instance,
+                flight: now.flight.clone(),
+                answer: now.answer.clone(),
+            }
         };
         let body = serde_json::to_string(&message).map_err(|error| error.to_string())?;
         let request = self.agent.post(&self.url).header("Content-Type", "application/json");
@@ -182,13 +254,32 @@ impl StationClient {
         let mut answer = sent.map_err(|error| error.to_string())?;
         let status = answer.status().as_u16();
         let text = answer.body_mut().with_config().limit(MAX_REPLY_BYTES).read_to_string().map_err(|error| error.to_string())?;
-        match status {
-            200 => serde_json::from_str(&text).map_err(|error| format!("the reply is invalid: {error}")),
-            403 => Err("the server rejects the station (see --station-key)".to_owned()),
-            404 => Err("the server does not accept stations (serve --station-key)".to_owned()),
-            other => Err(format!("status {other}")),
+        if status == 200 {
+            return serde_json::from_str(&text).map_err(|error| format!("the reply is invalid: {error}"));
         }
+        Err(match serde_json::from_str::<CheckInRefusal>(&text) {
+            Ok(refusal) => format!("the server rejects the station: {}", refusal.error),
+            Err(_) if status == 404 => "the server does not accept stations (serve --station-key)".to_owned(),
+            // The server's own checks: host name, origin, proxy.
+            Err(_) => format!("the server rejects the request (status {status}): open its address in a browser to see why"),
+        })
     }
+}
+
+/// Reads certificates from a PEM file.
+fn certificates(file: &Path) -> Result<RootCerts, AppError> {
+    let bytes = std::fs::read(file).map_err(|error| AppError::failed(format!("{}: {error}", file.display())))?;
+    let found = ureq::tls::parse_pem(&bytes).filter_map(|item| match item {
+        Ok(PemItem::Certificate(certificate)) => Some(Ok(certificate)),
+        Ok(_) => None,
+        Err(error) => Some(Err(error)),
+    });
+    let found = found.collect::<Result<Vec<_>, _>>();
+    let found = found.map_err(|error| AppError::invalid(format!("{}: not a certificate (PEM): {error}", file.display())))?;
+    if found.is_empty() {
+        return Err(AppError::invalid(format!("{}: contains no certificate (PEM)", file.display())));
+    }
+    Ok(RootCerts::Specific(Arc::new(found)))
 }
 
 #[cfg(test)]
@@ -211,6 +302,13 @@ mod tests {
         let path = sessions.path().join(UPLOAD_FOLDER).join(SERVER_FOLDER).join("windy.toml");
         assert_eq!(own.scenario, path.display().to_string());
         assert_eq!(std::fs::read_to_string(path).unwrap(), text);
+    }
+
+    #[test]
+    fn exact_job_names_are_reported_without_their_folder() {
+        assert_eq!(job_name("drill-gap@6"), "drill-gap@6");
+        assert_eq!(job_name("sessions/scenarios/from-server/windy.toml"), "windy");
+        assert_eq!(job_name("/srv/a b.toml@B"), "a b@B");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use super::picture_jobs::PictureJobs;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::school::SchoolRoom;
-use super::station::StationLink;
+use super::station::{StationLink, StationSetup};
 use super::window::WindowProcess;
 use crate::cli::invocation::typed;
 use crate::cli::table::report_outcome;
@@ -92,7 +92,8 @@ impl<'a> TrainRun<'a> {
     /// Returns an error if a flight cannot be started or scored; returns the last error.
     pub fn run(mut self) -> Result<(), AppError> {
         if let (Some(server), Some(name), Some(key)) = (&self.args.server, &self.args.station, &self.args.station_key) {
-            self.station = Some(StationLink::start(server, name, key, &self.args.sessions)?);
+            let (server_ca, sessions) = (self.args.server_ca.as_deref(), self.args.sessions.as_path());
+            self.station = Some(StationLink::start(&StationSetup { server, server_ca, name, key, sessions })?);
         }
         self.window = WindowProcess::open(self.args, self.log);
         let usual = FlightChoice {
@@ -109,14 +110,15 @@ impl<'a> TrainRun<'a> {
         let mut result = Ok(());
         let mut last = None;
         while let NextFlight::Fly(choice) = next {
-            self.report_flight(Some(&choice));
             let done = self.fly(&choice);
-            self.report_flight(None);
+            self.station.iter_mut().for_each(|station| station.report_end(done.as_ref().err()));
             let (flown, session) = match done {
                 Ok(done) => done,
                 // An error in the first flight ends the run, as it does without a window; later errors are shown in the
-                // window.
-                Err(error) if last.is_none() && !self.are_flights_chosen_in_window() => return Err(error),
+                // window, or on the server's page.
+                Err(error) if last.is_none() && self.station.is_none() && !self.are_flights_chosen_in_window() => {
+                    return Err(error);
+                }
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
                     self.send_to_window(&ToWindow::Refused { words: error.to_string() });
@@ -271,13 +273,8 @@ impl<'a> TrainRun<'a> {
     }
 
     /// Returns a flight that an instructor has ordered at this station.
-    fn ordered_flight(&self) -> Option<FlightChoice> {
-        self.station.as_ref().and_then(StationLink::next_flight)
-    }
-
-    /// Reports the flight in progress to the server; `None` after its end.
-    fn report_flight(&self, choice: Option<&FlightChoice>) {
-        self.station.iter().for_each(|station| station.report_flight(choice));
+    fn ordered_flight(&mut self) -> Option<FlightChoice> {
+        self.station.as_mut().and_then(StationLink::next_flight)
     }
 
     /// Waits for an instructor's order at a station without a window.
@@ -338,6 +335,7 @@ impl<'a> TrainRun<'a> {
         loop {
             self.end_vehicle();
             let mut flight = FlightProcesses::start(self.args, choice, self.log, self.language())?;
+            self.station.iter_mut().for_each(|station| station.report_start(choice));
             self.serve(flight.port("payload_port"));
             if let Some(flying) = flight.started_message(self.args) {
                 self.send_to_window(&flying);

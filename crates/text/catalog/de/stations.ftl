@@ -11,6 +11,7 @@ stations-lost = keine Verbindung
 stations-practice-of = { $trainee }: Übungsflug { $job }
 stations-assessment-of = { $trainee }: Bewertungsflug { $job }
 stations-sent = gesendet: { $flight }
+stations-expired = nicht rechtzeitig beantwortet, ungültig: { $flight }
 stations-started = gestartet: { $flight }
 stations-refused = nicht gestartet: { $flight }. { $why }
 stations-start = Flug starten

@@ -12,6 +12,7 @@ stations-lost = no connection
 stations-practice-of = { $trainee }: practice of { $job }
 stations-assessment-of = { $trainee }: assessment of { $job }
 stations-sent = sent: { $flight }
+stations-expired = no answer in time, void: { $flight }
 stations-started = started: { $flight }
 stations-refused = not started: { $flight }. { $why }
 stations-start = Start a flight

@@ -11,6 +11,7 @@ stations-lost = sin conexión
 stations-practice-of = { $trainee }: práctica de { $job }
 stations-assessment-of = { $trainee }: evaluación de { $job }
 stations-sent = orden enviada: { $flight }
+stations-expired = sin respuesta a tiempo, anulada: { $flight }
 stations-started = vuelo iniciado: { $flight }
 stations-refused = vuelo no iniciado: { $flight }. { $why }
 stations-start = Iniciar un vuelo

@@ -15,12 +15,14 @@ pub const URL: &str = "/stations";
 pub struct StationsPage<'a> {
     /// Stations by name.
     pub stations: Vec<(&'a str, &'a Station)>,
-    /// Names of the scenarios, with their forms or levels.
+    /// Names of the scenarios, and their names with each form or level.
     pub scenarios: &'a [String],
     /// Known trainees.
     pub trainees: &'a [String],
     /// Why the last order was refused.
     pub refusal: Option<&'a str>,
+    /// Values of the refused order: station, trainee, scenario, purpose.
+    pub entered: [&'a str; 4],
     /// Current time, µs since the Unix epoch.
     pub now_unix_us: u64,
     /// Whether the server accepts stations.
@@ -84,7 +86,8 @@ fn flight_words(language: Language, flight: &StationFlight) -> String {
 fn order_words(language: Language, order: Option<&OrderState>) -> String {
     match order {
         None => "–".to_owned(),
-        Some(OrderState::Sent(order)) => text!(language, "stations-sent", flight = flight_words(language, &order.flight)),
+        Some(OrderState::Sent(order, _)) => text!(language, "stations-sent", flight = flight_words(language, &order.flight)),
+        Some(OrderState::Expired(flight)) => text!(language, "stations-expired", flight = flight_words(language, flight)),
         Some(OrderState::Started(flight)) => text!(language, "stations-started", flight = flight_words(language, flight)),
         Some(OrderState::Refused(flight, why)) => {
             text!(language, "stations-refused", flight = flight_words(language, flight), why = why.as_str())
@@ -98,27 +101,28 @@ const ASSESSMENT: &str = "assessment";
 
 fn order_form(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
     let language = visitor.language;
+    let [station_name, trainee, scenario, purpose] = about.entered;
     html! {
         form.stacked method="post" action=(URL) {
             (token(visitor))
             label { (text!(language, "stations-station"))
                 select name="station" required {
                     @for (name, station) in &about.stations {
-                        option value=(name) disabled[station.state(about.now_unix_us) != StationState::Ready] { (name) }
+                        option value=(name) selected[*name == station_name] disabled[station.state(about.now_unix_us) != StationState::Ready] { (name) }
                     }
                 }
             }
             label { (text!(language, "stations-trainee"))
-                input name="trainee" list="known-trainees" required maxlength="32" autocomplete="off";
+                input name="trainee" list="known-trainees" value=(trainee) required maxlength="32" autocomplete="off";
             }
             datalist id="known-trainees" { @for name in about.trainees { option value=(name) {} } }
             label { (text!(language, "stations-job"))
-                select name="scenario" required { @for name in about.scenarios { option value=(name) { (name) } } }
+                select name="scenario" required { @for name in about.scenarios { option value=(name) selected[name == scenario] { (name) } } }
             }
             label { (text!(language, "stations-purpose"))
                 select name="purpose" {
                     option value=(PRACTICE) { (text!(language, "stations-practice")) }
-                    option value=(ASSESSMENT) { (text!(language, "stations-assessment")) }
+                    option value=(ASSESSMENT) selected[purpose == ASSESSMENT] { (text!(language, "stations-assessment")) }
                 }
             }
             button type="submit" { (text!(language, "stations-start")) }
@@ -139,7 +143,7 @@ mod tests {
     #[test]
     fn exact_page_shows_stations_and_offers_only_those_that_are_ready() {
         let mut board = StationBoard::default();
-        let station = |name: &str, flight| CheckIn { station: name.into(), flight, answer: None };
+        let station = |name: &str, flight| CheckIn { station: name.into(), instance: 1, flight, answer: None };
         board.check_in(station("s1", None), 0).unwrap();
         board.check_in(station("s2", Some(flight())), 0).unwrap();
         board.order("s1", FlightOrder { id: "a".into(), flight: flight(), scenario_text: None }, 0).unwrap();
@@ -148,6 +152,7 @@ mod tests {
             scenarios: &[],
             trainees: &[],
             refusal: Some(HOSTILE_NAME),
+            entered: ["s1", HOSTILE_NAME, "", ""],
             now_unix_us,
             enabled: true,
         };
@@ -167,6 +172,7 @@ mod tests {
             scenarios: &[],
             trainees: &[],
             refusal: None,
+            entered: [""; 4],
             now_unix_us: 0,
             enabled,
         };
