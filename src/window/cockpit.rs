@@ -265,7 +265,7 @@ impl Cockpit {
         self.flow.show_notice(if self.ghost { words } else { text!(language, "window-flight-ghost-hidden") });
     }
 
-    /// Tells `train` and the pilot thread the language of the window.
+    /// Sends the language of the window to `train` and the pilot thread.
     pub(super) fn announce_language(&self) {
         let language = self.settings.language();
         if let Some(train_pipe) = &self.threads.train_pipe {

@@ -36,7 +36,7 @@ pub struct ControllerSlot {
     language: Language,
 }
 
-/// What the user is told about the controller.
+/// Message about the controller, shown on the controller page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum ControllerNote {
     None,

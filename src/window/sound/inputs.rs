@@ -3,7 +3,7 @@
 use spandrel_view::sound::{SoundInputs, SoundSettings};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What is heard, and the settings.
+/// Flight data that determines the sound, and the sound settings.
 pub type Inputs = (SoundInputs, SoundSettings);
 
 /// Locks the inputs, which are valid even if a thread has panicked while holding the lock.

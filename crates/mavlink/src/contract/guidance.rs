@@ -65,7 +65,7 @@ pub struct WayTo {
     pub up_m: f64,
 }
 
-/// Direction of a place, as it is told to the pilot.
+/// Direction of a place relative to the aircraft's heading, as shown to the pilot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TurnTo {
     /// Straight ahead.
@@ -207,7 +207,7 @@ impl WayTo {
         Self { distance_m, bearing_rad, up_m }
     }
 
-    /// Returns the direction as it is told to the pilot.
+    /// Returns the direction as shown to the pilot.
     #[must_use]
     pub fn turn(&self) -> TurnTo {
         let turn_deg = self.bearing_rad.to_degrees();

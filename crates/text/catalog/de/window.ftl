@@ -171,7 +171,7 @@ window-school-failed = Die Schadensschule ist fehlgeschlagen (siehe die Meldung 
 
 window-settings-title = Einstellungen
 window-settings-language = Sprache
-window-settings-language-about = Sprache des Fensters und der Ansagen. Dateien und die eigenen Meldungen des Fluggeräts bleiben englisch.
+window-settings-language-about = Sprache des Fensters und der Ansagen. Auch Berichte verwenden sie. Protokolle, Datendateien und die Meldungen des Fluggeräts bleiben englisch.
 window-settings-keys = Tasten
 window-settings-keys-about = Tastenbelegung ansehen und ändern.
 window-settings-units = Einheiten

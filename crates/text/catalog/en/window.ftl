@@ -175,7 +175,7 @@ window-school-failed = the defect school has failed (see the message in the term
 
 window-settings-title = Settings
 window-settings-language = Language
-window-settings-language-about = Language of the window and of spoken warnings. Files and the vehicle's own messages stay in English.
+window-settings-language-about = Language of the window and of spoken warnings. Reports use it, too. Logs, data files and the vehicle's messages stay in English.
 window-settings-keys = Keys
 window-settings-keys-about = See which key does what, and choose other keys.
 window-settings-units = Units

@@ -171,7 +171,7 @@ window-school-failed = la escuela de defectos falló (vea el mensaje en la termi
 
 window-settings-title = Ajustes
 window-settings-language = Idioma
-window-settings-language-about = Idioma de la ventana y de la voz. Los archivos y los mensajes propios del vehículo siguen en inglés.
+window-settings-language-about = Idioma de la ventana y de la voz. Los informes también lo usan. Los registros, los archivos de datos y los mensajes del vehículo siguen en inglés.
 window-settings-keys = Teclas
 window-settings-keys-about = Vea qué hace cada tecla y elija otras.
 window-settings-units = Unidades

@@ -432,7 +432,7 @@ fn exact_mastery_counts_sessions_that_decide_about_the_standard_level() {
     assert_eq!(counted(&[(5, false), (3, true), (4, true), (5, true), (6, true)]), (2, 3, true));
     let words = progress(&[(3, true)]).words(Language::English);
     assert!(words.starts_with("no session at the standard level yet; done after 2 of 3 at the criterion (complete, "), "{words}");
-    assert!(words.ends_with("crashes all, level 5 or harder)"), "{words}");
+    assert!(words.ends_with("crashes in the whole session, level 5 or harder)"), "{words}");
 }
 
 #[test]

@@ -66,7 +66,7 @@ impl FailingUnit {
     }
 }
 
-/// What a drawing shows.
+/// View of the site or of a bridge that a drawing shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum DrawingView {
     /// The site from above.

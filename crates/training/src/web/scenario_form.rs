@@ -21,7 +21,6 @@ const LAYOUT: &[Layout] = &[
     Layout { id: "job", repeated: "", main: &["name", "title", "briefing"], tables: &[""] },
     Layout {
         id: "place",
-
         repeated: "",
         main: &[
             "origin.latitude_deg",
@@ -38,14 +37,12 @@ const LAYOUT: &[Layout] = &[
     },
     Layout {
         id: "bridges",
-
         repeated: "bridges",
         main: &["bridges[].name", "bridges[].type", "bridges[].centre_m", "bridges[].heading_deg"],
         tables: &["bridges[]", "bridges[].arch", "bridges[].suspension"],
     },
     Layout {
         id: "tasks",
-
         repeated: "tasks",
         main: &[
             "tasks[].name",
@@ -59,28 +56,24 @@ const LAYOUT: &[Layout] = &[
     },
     Layout {
         id: "defects",
-
         repeated: "",
         main: &["defects.count", "defects.size_factor", "defects.detection_pct", "defects.lines"],
         tables: &["defects"],
     },
     Layout {
         id: "traffic",
-
         repeated: "",
         main: &["traffic.cars", "traffic.trucks", "traffic.pedestrians", "traffic.car_speed_m_s"],
         tables: &["traffic"],
     },
     Layout {
         id: "wind",
-
         repeated: "",
         main: &["wind.level", "wind.speed_m_s", "wind.from_deg", "wind.turbulence"],
         tables: &["wind"],
     },
     Layout {
         id: "gusts",
-
         repeated: "wind.events",
         main: &[
             "wind.events[].kind",
@@ -96,7 +89,6 @@ const LAYOUT: &[Layout] = &[
     Layout { id: "light", repeated: "", main: &["light.start_utc", "light.cloud_cover"], tables: &["light"] },
     Layout {
         id: "rules",
-
         repeated: "",
         main: &[
             "rules.after_crash",

@@ -80,7 +80,7 @@ pub enum Page {
     School,
 }
 
-/// What the window waits for.
+/// Operation that the window waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PendingOperation {
     /// The simulator starts.
@@ -92,7 +92,7 @@ pub(super) enum PendingOperation {
 }
 
 impl PendingOperation {
-    /// Returns what the waiting page says.
+    /// Returns the title of the waiting page.
     pub(super) fn title(self, language: Language) -> String {
         match self {
             Self::Simulator => text!(language, "window-waiting-simulator"),

@@ -160,7 +160,7 @@ impl WindowFlow {
     }
 }
 
-/// What an explanation on the start page is about.
+/// Subject of an explanation on the start page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Topic {
     Trainee,

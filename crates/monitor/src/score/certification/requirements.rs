@@ -206,7 +206,8 @@ pub fn requirements(inputs: &CertificationInputs<'_>, reached: &Reached<'_>) -> 
     all
 }
 
-/// Returns the unmet requirements as English text, each with its limit; [`crate::stored_text`] translates it. Omits the battery reserve if the drone did not land.
+/// Returns the unmet requirements as English text, each with its limit; [`crate::stored_text`] translates it. Omits the battery
+/// reserve if the drone did not land.
 #[must_use]
 pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> Vec<String> {
     let english = Language::English;
