@@ -12,6 +12,7 @@ use crate::io::{controller, files};
 #[cfg(feature = "view")]
 use crate::window::{self, CaptureRequest, SettingsOverrides, WindowConfig, WindowSettings, WindowSetup};
 use spandrel_view::arrange::ViewLayout;
+use spandrel_view::path_guide::PathAids;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 
@@ -19,6 +20,8 @@ use std::path::PathBuf;
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 
+/// Names of the path aids.
+const PATH_AIDS: [&str; 4] = [PathAids::ALL[0].0, PathAids::ALL[1].0, PathAids::ALL[2].0, PathAids::ALL[3].0];
 /// Names of the layouts.
 const LAYOUTS: [&str; 4] = [ViewLayout::ALL[0].0, ViewLayout::ALL[1].0, ViewLayout::ALL[2].0, ViewLayout::ALL[3].0];
 
@@ -80,6 +83,9 @@ pub struct Args {
     /// Fill another display than the primary one, if there is one
     #[arg(long)]
     second_screen: bool,
+    /// Most of the reference paths that is drawn into the pictures; V hides it
+    #[arg(long, value_name = "AIDS", default_value = "full", value_parser = PATH_AIDS)]
+    path: String,
     /// Disable the map of the reference paths, for an assessment; M cannot show it
     #[arg(long)]
     no_map: bool,
@@ -127,6 +133,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
             .find(|(name, _)| *name == args.layout)
             .map_or_else(ViewLayout::default, |(_, one)| one),
         second_screen: args.second_screen,
+        path_aids: PathAids::ALL.into_iter().find(|(word, _)| *word == args.path).map_or_else(PathAids::default, |(_, one)| one),
         map: !args.no_map,
         picture: picture(args)?,
         camera_file: args.picture.clone(),

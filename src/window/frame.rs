@@ -334,7 +334,7 @@ impl Cockpit {
 
     /// Returns how much of the path is drawn: nothing in an assessment, and less for better pilots.
     fn path_aids(&self) -> PathAids {
-        if self.path && self.plan.map { self.flow.path_aids() } else { PathAids::None }
+        if self.path && self.plan.map { self.flow.path_aids().min(self.plan.path_aids) } else { PathAids::None }
     }
 
     fn announce(&self) {

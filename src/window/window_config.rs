@@ -4,6 +4,7 @@ use super::window_settings::WindowSettings;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::ViewLayout;
+use spandrel_view::path_guide::PathAids;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -19,6 +20,8 @@ pub struct WindowConfig {
     pub layout: ViewLayout,
     /// True to fill another display than the primary one, if there is one.
     pub second_screen: bool,
+    /// Most of the path that is drawn into the pictures.
+    pub path_aids: PathAids,
     /// True if the map may be shown.
     pub map: bool,
     /// Screenshot to save before exiting, if any.

@@ -66,7 +66,7 @@ def test_instructor_starts_flights_at_a_station(browser, server, tmp_path):
     try:
         # The page shows the station without a reload by hand.
         expect(page.locator("#station-table")).to_contain_text("ready", timeout=PATIENCE_MS)
-        spandrel.wait_for("the refusal", lambda: "rejects the station" in stations[1].output(), LIMIT_S)
+        spandrel.wait_for("the refusal", lambda: "wrong station key" in stations[1].output(), LIMIT_S)
         expect(page.locator("#station-table tbody tr")).to_have_count(1)
         ida.check()
         ida.save_screenshot("stations")
@@ -91,7 +91,7 @@ def test_instructor_starts_flights_at_a_station(browser, server, tmp_path):
         status, _, text = desk.post("/stations", "/stations", form | {"trainee": "a b"})
         assert status == 409 and "pseudonym" in text
         status, _, text = desk.post("/stations", "/stations", form | {"scenario": "../etc"})
-        assert status == 400 and "unknown name" in text
+        assert status == 422 and "unknown name" in text
         stations[0].close()
         expect(table).to_contain_text("no connection", timeout=PATIENCE_MS)
     finally:
@@ -106,14 +106,17 @@ def sessions_of(folder):
 
 def test_only_stations_with_the_key_check_in(server):
     stranger = webserver.Browser(server.address)
-    body = json.dumps({"station": "s1"}).encode()
+    body = json.dumps({"station": "s1", "instance": 1}).encode()
     for headers in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": KEY}):
         assert stranger.ask("/stations/check-in", body=body, headers=headers)[0] == 403
     known = {"Authorization": f"Bearer {KEY}"}
     status, answer, text = stranger.ask("/stations/check-in", body=body, headers=known)
     assert (status, text) == (200, "{}") and not answer.get_all("Set-Cookie", [])
+    # The name belongs to the first station until it is lost.
+    status, _, text = stranger.ask("/stations/check-in", body=json.dumps({"station": "s1", "instance": 2}).encode(), headers=known)
+    assert status == 409 and "another station with this name" in json.loads(text)["error"]
     for bad in (b"", b"{}", b'{"station": "../x"}', b'{"station": 3}', b"\xff" * 100):
-        assert stranger.ask("/stations/check-in", body=bad, headers=known)[0] == 400, bad
+        assert stranger.ask("/stations/check-in", body=bad, headers=known)[0] == 422, bad
     assert stranger.ask("/stations/check-in", body=b"x" * 100_000, headers=known)[0] == 413
     assert stranger.ask("/stations/check-in", headers=known)[0] in (403, 404, 405)
     # Trainees see no stations.
@@ -125,11 +128,15 @@ def test_only_stations_with_the_key_check_in(server):
 def test_bad_station_options_are_reported(tmp_path):
     short = tmp_path / "short.key"
     short.write_text("short", encoding="utf-8")
+    good = tmp_path / "good.key"
+    good.write_text(KEY, encoding="utf-8")
     for args, words in [
         (["train", "--server", "http://127.0.0.1:9", "--no-view"], "--station"),
         (["train", "--server", "127.0.0.1:9", "--station", "s1", "--station-key", str(short), "--no-view"], "is not the address of a server"),
         (["train", "--server", "http://127.0.0.1:9", "--station", "s1", "--station-key", str(short), "--no-view"], "short.key: not a station key"),
         (["serve", "--station-key", str(tmp_path / "missing")], "missing"),
+        (["train", "--server", "https://127.0.0.1:9", "--station", "s1", "--station-key", str(good), "--server-ca", str(short), "--no-view"],
+         "short.key: contains no certificate"),
     ]:
         done = subprocess.run([spandrel.PROGRAM, *args], capture_output=True, text=True, timeout=60, check=False)
         assert done.returncode == 2 and words in done.stderr, (args, done.stderr)

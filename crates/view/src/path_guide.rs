@@ -50,6 +50,16 @@ pub enum PathAids {
 const LIMITS_PCT: [f64; 3] = [70.0, 85.0, 95.0];
 
 impl PathAids {
+    /// All levels with their names on the command line.
+    pub const ALL: [(&'static str, Self); 4] =
+        [("none", Self::None), ("next-gate", Self::NextGate), ("gates", Self::Gates), ("full", Self::Full)];
+
+    /// Returns the name on the command line.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Self::ALL.iter().find(|(_, one)| *one == self).map_or("full", |(word, _)| word)
+    }
+
     /// Number of sessions whose mean conformity determines the aids.
     pub const SESSIONS: usize = 3;
 

@@ -135,8 +135,12 @@ impl FlightProcesses {
         words.extend(["--connect".to_owned(), payload.to_string()]);
         words.extend(["--layout", "inspector-only", "--second-screen", "--no-sound"].map(str::to_owned));
         words.extend(args.quality.iter().flat_map(|quality| ["--quality".to_owned(), quality.clone()]));
-        if self.choice.purpose == Purpose::Assessment {
-            words.push("--no-map".to_owned());
+        words.extend(args.keys.iter().flat_map(|file| ["--keys".to_owned(), file.display().to_string()]));
+        match self.choice.purpose {
+            Purpose::Practice => {
+                words.extend(["--path".to_owned(), offers::path_aids(&args.sessions, &self.choice.trainee).word().to_owned()]);
+            }
+            Purpose::Assessment => words.push("--no-map".to_owned()),
         }
         let opened = Child::start_with_env("view", &words, &[software_renderer_threads()]);
         self.second_window = opened.inspect_err(|error| tracing::warn!("no window on the second screen: {error}")).ok();

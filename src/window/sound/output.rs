@@ -7,13 +7,15 @@ use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{BufferSize, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig, SupportedBufferSize};
 use spandrel_view::sound::ResampledSound;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, Weak};
+use std::sync::{Arc, Mutex, TryLockError, Weak};
 use std::time::Duration;
 
 /// Interval at which the thread looks for new warnings and for a lost device.
 const CHECK_INTERVAL: Duration = Duration::from_millis(10);
-/// Number of checks after which a lost or missing device is opened again: 3 s.
+/// Number of checks after which a lost or missing device is opened again: first 3 s, then twice as long each time, at most
+/// about a minute.
 const CHECKS_BEFORE_RETRY: u32 = 300;
+const MAX_CHECKS_BEFORE_RETRY: u32 = 6_000;
 /// Buffer of the device (estimate). A longer time delays the sound; a shorter time causes dropouts on a busy machine.
 const BUFFER_MS: u32 = 40;
 
@@ -26,20 +28,24 @@ struct OpenDevice {
 
 /// Plays sound and speaks warnings until the window is closed. Opens the device again after it was lost.
 pub fn play(heard: &Weak<Mutex<Inputs>>) {
-    let (mut voice, mut device, mut wait, mut reported) = (SpeechVoice::default(), None::<OpenDevice>, 0, false);
+    let (mut voice, mut device) = (SpeechVoice::default(), None::<OpenDevice>);
+    let (mut wait, mut next_wait, mut reported) = (0, CHECKS_BEFORE_RETRY, false);
     while let Some(inputs) = heard.upgrade() {
         if device.as_ref().is_some_and(|open| open.is_lost.load(Ordering::Relaxed)) {
             device = None;
         }
         if device.is_none() && wait == 0 {
-            wait = CHECKS_BEFORE_RETRY;
             match OpenDevice::open(&inputs) {
-                Ok(open) => device = Some(open),
-                Err(why) if !reported => {
-                    reported = true;
-                    tracing::warn!("no sound: {why}; everything else works");
+                Ok(open) => {
+                    device = Some(open);
+                    (next_wait, reported) = (CHECKS_BEFORE_RETRY, false);
                 }
-                Err(_) => {}
+                Err(why) => {
+                    if !std::mem::replace(&mut reported, true) {
+                        tracing::warn!("no sound: {why}; everything else works");
+                    }
+                    (wait, next_wait) = (next_wait, (2 * next_wait).min(MAX_CHECKS_BEFORE_RETRY));
+                }
             }
         }
         wait = wait.saturating_sub(1);
@@ -92,10 +98,13 @@ impl SoundSource {
     /// Takes over the latest inputs, unless the window is just changing them: the device must not wait.
     fn update(&mut self) {
         let Some(inputs) = self.heard.upgrade() else { return };
-        if let Ok(now) = inputs.try_lock() {
-            self.sound.flight().set_settings(now.1);
-            self.sound.flight().set(now.0.clone());
-        }
+        let now = match inputs.try_lock() {
+            Ok(now) => now,
+            Err(TryLockError::Poisoned(now)) => now.into_inner(),
+            Err(TryLockError::WouldBlock) => return,
+        };
+        self.sound.flight().set_settings(now.1);
+        self.sound.flight().set(now.0.clone());
     }
 }
 
