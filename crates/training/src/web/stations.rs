@@ -158,11 +158,11 @@ mod tests {
         };
         let text = stations_page(&administrator(), &about(0)).into_string();
         check(&text);
-        assert!(text.contains("<option value=\"s1\">") && text.contains("<option value=\"s2\" disabled>"), "{text}");
+        assert!(text.contains("<option value=\"s1\" selected>") && text.contains("<option value=\"s2\" disabled>"), "{text}");
         assert!(text.contains("ready") && text.contains("practice of"), "{text}");
         let german = Visitor { language: Language::German, ..administrator() };
         let lost = stations_page(&german, &about(u64::MAX)).into_string();
-        assert!(lost.contains("keine Verbindung") && lost.contains("<option value=\"s1\" disabled>"), "{lost}");
+        assert!(lost.contains("keine Verbindung") && lost.contains("<option value=\"s1\" selected disabled>"), "{lost}");
     }
 
     #[test]

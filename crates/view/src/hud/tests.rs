@@ -224,7 +224,7 @@ fn exact_the_display_is_translated() {
     };
     let german = in_language(Language::German);
     for words in
-        ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", "Zu Aufgabe 2 von 4 fliegen", "6 m, 29° links", "Höhe", "ein"]
+        ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", "Zurück zu Aufgabe 2 von 4", "6 m, 29° links", "Höhe", "ein"]
     {
         assert!(german.iter().any(|one| one == words), "{words}: {german:?}");
     }
