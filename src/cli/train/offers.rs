@@ -182,7 +182,7 @@ struct KnownSessions {
 impl KnownSessions {
     fn summary(self, name: String, language: Language) -> TraineeSummary {
         let latest = self.latest.map(|(_, folder)| folder);
-        let advice = latest.as_deref().and_then(report::saved_advice);
+        let advice = latest.as_deref().and_then(report::saved_advice).map(|advice| advice.in_language(language));
         let lesson = latest.as_deref().and_then(LessonSession::unfinished);
         TraineeSummary {
             name,
@@ -273,7 +273,7 @@ fn contents_summary(scenario: &Scenario, language: Language) -> String {
 /// Returns a session's end page. `trouble` is the reason why scores are missing, if known.
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>, language: Language) -> FlightSummary {
     let assessment = read_json(session, ASSESSMENT).unwrap_or_default();
-    let advice = report::saved_advice(session);
+    let advice = report::saved_advice(session).map(|advice| advice.in_language(language));
     let lesson = LessonSession::read(session);
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
