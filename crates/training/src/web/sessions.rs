@@ -10,6 +10,7 @@ use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
+use crate::report::page::purpose_label;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::terms::task_title;
@@ -95,7 +96,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
                     @else { td { (one.completion_summary(language)) } }
                     td { (one.verdict(language)) }
                     td { (one.scenario) }
-                    td { (one.purpose.as_deref().unwrap_or("–")) }
+                    td { (one.purpose.as_deref().map_or_else(|| "–".to_owned(), |purpose| purpose_label(purpose, language))) }
                     td { (end_text(language, &one.end_reason)) }
                 }
             }
@@ -147,7 +148,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
-            @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
+            @if let Some(purpose) = &record.purpose { " · " (purpose_label(purpose, language)) } " · "
             (text!(language, "sessions-flight-time", time = time, end = end))
         }
         (section("better", &text!(language, "sessions-better"), &to_do_better(language, record, page_data)))
@@ -489,7 +490,8 @@ mod tests {
     #[test]
     fn exact_advice_is_shown_in_the_visitors_language() {
         let translated = |words: &str| BTreeMap::from([("de".to_owned(), words.to_owned())]);
-        let points = vec![AdvicePoint { translations: translated("Sie flogen zu schnell."), ..point(70.0, "You flew too fast.") }];
+        let points =
+            vec![AdvicePoint { translations: translated("Sie flogen zu schnell."), ..point(70.0, "You flew too fast.") }];
         let (note, note_translations) = (Some("Well flown.".to_owned()), translated("Gut geflogen."));
         let advice = SessionAdvice { points, note, note_translations, next: None };
         let data = SessionPageData { advice: Some(&advice), video: true, ..page_data(true, &[]) };
@@ -596,9 +598,10 @@ mod tests {
         check_translated(&list(&visitor, &listing).into_string(), &NAMES);
         for end in ["landed", "battery", "time_limit", "person", "vehicle", "crash", "abort", "restart"] {
             let english = end_text(Language::English, end);
-            assert_eq!(english, end.replace('_', " "));
             assert_ne!(end_text(Language::Pseudo, end), english);
         }
+        let ends = [Language::English, Language::German, Language::Spanish].map(|language| end_text(language, "time_limit"));
+        assert_eq!(ends, ["time limit reached", "Zeitlimit erreicht", "límite de tiempo alcanzado"]);
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
         assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");
