@@ -3,8 +3,10 @@
 use crate::errors::AppError;
 use crate::io::clock;
 use crate::io::files::{self, ScenarioFile};
+use crate::io::user_language::user_language;
 use spandrel_model::scenario::Scenario;
 use spandrel_sitl::endpoint::flavor as endpoint;
+use spandrel_text::Language;
 use spandrel_view::flow::pipe;
 
 /// Maximum seed: MAVLink messages encode the seed as a signed 32-bit integer.
@@ -50,6 +52,26 @@ impl JobArgs {
     pub fn seed_for(&self, scenario: &Scenario) -> u64 {
         self.seed.or(scenario.seed).unwrap_or_else(random_seed)
     }
+}
+
+/// The language of a page that a command writes.
+#[derive(Debug, Clone, clap::Args)]
+pub struct LanguageArgs {
+    /// Language of the page: en, de or es [default: the window's setting, else the operating system's language]
+    #[arg(long, value_name = "LANGUAGE", value_parser = parse_language)]
+    language: Option<Language>,
+}
+
+impl LanguageArgs {
+    /// Returns the requested language, or else the user's.
+    pub fn language(&self) -> Language {
+        self.language.unwrap_or_else(user_language)
+    }
+}
+
+/// Parses a language tag.
+fn parse_language(tag: &str) -> Result<Language, String> {
+    Language::from_tag(tag).ok_or_else(|| "unknown (allowed: en, de, es)".to_owned())
 }
 
 /// Parses a value of `--seed` (0 to 2147483647).
@@ -126,6 +148,13 @@ pub fn common_args(job: &JobArgs, log: tracing::Level) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_languages_are_parsed_by_tag() {
+        assert_eq!(parse_language("de"), Ok(Language::German));
+        assert!(parse_language("fr").is_err());
+        assert_eq!(LanguageArgs { language: Some(Language::Spanish) }.language(), Language::Spanish);
+    }
 
     #[test]
     fn exact_seeds_fit_in_32_bits() {

@@ -27,6 +27,8 @@ pub struct Args {
     /// Write a page with drawings of the site to this file; '-' for standard output [default: print text]
     #[arg(long, value_name = "FILE", conflicts_with = "json")]
     html: Option<String>,
+    #[command(flatten)]
+    page: args::LanguageArgs,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -40,10 +42,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenario = args.job.load_scenario()?.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let site = Site::without_defects(&scenario);
-    let briefing = Briefing::new(&scenario, &vehicle, &site, Language::English);
+    let briefing = |language| Briefing::new(&scenario, &vehicle, &site, language);
     match (&args.html, args.json) {
-        (Some(file), _) => files::write(file, page::briefing(&briefing, &scenario, &site, Language::English).as_bytes()),
-        (None, true) => files::write("-", json_text(&briefing).as_bytes()),
-        (None, false) => files::write("-", text::render(&briefing).as_bytes()),
+        (Some(file), _) => {
+            let language = args.page.language();
+            files::write(file, page::briefing(&briefing(language), &scenario, &site, language).as_bytes())
+        }
+        // Text and JSON are in English.
+        (None, true) => files::write("-", json_text(&briefing(Language::English)).as_bytes()),
+        (None, false) => files::write("-", text::render(&briefing(Language::English)).as_bytes()),
     }
 }

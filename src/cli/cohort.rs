@@ -1,10 +1,10 @@
 //! `spandrel cohort`: statistics for a group of trainees.
 
+use super::args;
 use super::records::RecordsArgs;
 use crate::cli::invocation::typed;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
-use crate::io::user_language::user_language;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
@@ -56,6 +56,8 @@ pub struct Args {
     /// Write all figures as one HTML page that works offline; '-' for standard output
     #[arg(long, value_name = "FILE")]
     report: Option<String>,
+    #[command(flatten)]
+    page: args::LanguageArgs,
     /// Write each table as a CSV file to this folder
     #[arg(long, value_name = "DIR")]
     csv: Option<PathBuf>,
@@ -97,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     if let Some(target) = &args.report {
-        files::write(target, page::cohort(&cohort, user_language()).as_bytes())?;
+        files::write(target, page::cohort(&cohort, args.page.language()).as_bytes())?;
     }
     match &args.json {
         Some(target) => files::write(target, json_text(&cohort).as_bytes()),

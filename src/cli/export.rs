@@ -8,7 +8,6 @@ use crate::io::progress::ProgressLog;
 use crate::io::report;
 use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
-use crate::io::user_language::user_language;
 use crate::records::read_session;
 use spandrel_clients::pilot::flight_plan;
 use spandrel_clients::pilot::goals::PlanningContext;
@@ -80,6 +79,8 @@ pub struct Args {
     /// Write the result as a SCORM 1.2 package for a learning management system; '-' for standard output
     #[arg(long, value_name = "FILE")]
     scorm: Option<String>,
+    #[command(flatten)]
+    page: args::LanguageArgs,
     /// Seed for placing the defects if the scenario has no seed of its own
     #[arg(long, value_name = "N", value_parser = args::parse_seed)]
     seed: Option<u64>,
@@ -171,7 +172,7 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
     }
     if let Some(target) = &args.scorm {
         needed("--scorm")?;
-        files::write(target, &zip_files(&report::package(Path::new(&args.from), user_language())?)?)?;
+        files::write(target, &zip_files(&report::package(Path::new(&args.from), args.page.language())?)?)?;
     }
     Ok(())
 }

@@ -1,13 +1,12 @@
 //! `spandrel report`: writes a session's report page from its folder.
 
+use super::args;
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
 use crate::io::report::{self, address, comparison_page, review};
-use crate::io::user_language::user_language;
 use crate::records::read_json_lines;
 use spandrel_monitor::folder::REPORT;
-use spandrel_text::Language;
 use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::page;
@@ -42,14 +41,8 @@ pub struct Args {
     /// of the measures
     #[arg(long, value_name = "FILE", requires = "other")]
     records: Option<PathBuf>,
-    /// Language of the report: en, de or es [default: the operating system's language]
-    #[arg(long, value_name = "LANGUAGE", value_parser = parse_language)]
-    language: Option<Language>,
-}
-
-/// Parses a language tag.
-fn parse_language(tag: &str) -> Result<Language, String> {
-    Language::from_tag(tag).ok_or_else(|| "unknown (allowed: en, de, es)".to_owned())
+    #[command(flatten)]
+    page: args::LanguageArgs,
 }
 
 /// Runs the subcommand.
@@ -58,7 +51,7 @@ fn parse_language(tag: &str) -> Result<Language, String> {
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
-    let language = args.language.unwrap_or_else(user_language);
+    let language = args.page.language();
     let text = match (&args.other, &args.out) {
         (Some(other), _) => comparison_page(&args.session, other, language, |scenario| reliability(args, scenario))?,
         (None, Some(_)) => page::session(&review(&args.session, language)?),

@@ -19,30 +19,36 @@ const MAX_PICTURE_BYTES: u64 = 400_000;
 /// Maximum total size of the photographs on a page, bytes; keeps the page under 10 MB.
 const MAX_PICTURES_BYTES: u64 = 4_000_000;
 
-/// Writes the report and the advice into a session folder, removes the report's translations, which are outdated, and returns
-/// the advice.
+/// Writes the report and the advice into a session folder, then removes the report's translations, which are outdated, and
+/// returns the advice.
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or a file cannot be written.
 pub fn write(session: &Path, language: Language) -> Result<SessionAdvice, AppError> {
     let review = review(session, language)?;
-    for other in Language::ALL {
-        // Most sessions have no translations.
-        std::fs::remove_file(translation_path(session, other)).ok();
-    }
     // The report comes last: a session with a report is complete.
     replace(&session.join(ADVICE), json_text(&review.advice).as_bytes())?;
     replace(&session.join(REPORT), page::session(&review).as_bytes())?;
+    remove_translations(session);
     Ok(review.advice)
 }
 
-/// Writes the report in another language beside the session's report.
+/// Removes the report's translations.
+fn remove_translations(session: &Path) {
+    for language in Language::ALL.into_iter().chain([Language::Pseudo]) {
+        // Most sessions have no translations.
+        std::fs::remove_file(translation_path(session, language)).ok();
+    }
+}
+
+/// Writes the report in another language beside the session's report, and returns the page. The file may be removed at any time.
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the file cannot be written.
-pub fn write_translation(session: &Path, language: Language) -> Result<(), AppError> {
-    let review = review(session, language)?;
-    replace(&translation_path(session, language), page::session(&review).as_bytes())
+pub fn write_translation(session: &Path, language: Language) -> Result<Vec<u8>, AppError> {
+    let page = page::session(&review(session, language)?).into_bytes();
+    replace(&translation_path(session, language), &page)?;
+    Ok(page)
 }
 
 /// Returns the path of a session's report in another language than `report.html`.
@@ -254,6 +260,15 @@ mod tests {
     #[test]
     fn exact_translations_lie_beside_the_report() {
         assert_eq!(translation_path(Path::new("a.b"), Language::German), Path::new("a.b/report.de.html"));
+    }
+
+    #[test]
+    fn exact_all_translations_are_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let paths = [Language::German, Language::Pseudo].map(|language| translation_path(folder.path(), language));
+        paths.iter().for_each(|path| std::fs::write(path, "").unwrap());
+        remove_translations(folder.path());
+        assert!(paths.iter().all(|path| !path.exists()), "{paths:?}");
     }
 
     #[test]

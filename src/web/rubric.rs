@@ -61,7 +61,7 @@ pub fn sign(state: &ServerState, request: &WebRequest) -> HandlerResult {
         note: request.line_field("note", (min, MAX_NOTE_LEN))?.to_owned(),
     };
     if !state.database.add_sign_off(&person.pseudonym, &event)? {
-        let title = criterion.title.as_str();
+        let title = criterion.shown_title(language);
         return Err(WebError::BadRequest(match action {
             SignOffAction::SignedOff => text!(language, "people-already-signed", criterion = title),
             SignOffAction::Withdrawn => text!(language, "people-already-withdrawn", criterion = title),

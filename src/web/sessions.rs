@@ -113,8 +113,7 @@ fn translated_report(folder: &Path, language: Language, is_current: impl Fn(&[u8
     if let Some(page) = std::fs::read(&path).ok().filter(|page| is_current(page)) {
         return Ok(page);
     }
-    report::write_translation(folder, language)?;
-    bytes(&path)
+    Ok(report::write_translation(folder, language)?)
 }
 
 /// Returns the first part of a page, which contains its `head` element.

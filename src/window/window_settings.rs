@@ -38,7 +38,7 @@ impl WindowSettings {
             Ok(settings) => (settings, None),
             Err(error) => {
                 tracing::warn!("{error}; using the default settings");
-                (UserSettings::default(), Some(error.to_string()))
+                (UserSettings::of_system(), Some(error.to_string()))
             }
         };
         let mut current = stored.clone();

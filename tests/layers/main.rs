@@ -6,8 +6,10 @@ mod circles;
 mod paths;
 mod picture;
 mod rules;
+mod texts;
 mod wildcards;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
@@ -94,6 +96,19 @@ fn exact_matches_on_our_enums_have_no_catch_all_arms() {
         );
     }
     assert!(found.is_empty(), "{} catch-all arms:\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn exact_every_message_in_the_catalog_is_used() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut used = BTreeSet::new();
+    for path in ["crates", "src"].iter().flat_map(|folder| sources(&root.join(folder))) {
+        used.extend(texts::quoted_names(&std::fs::read_to_string(path).unwrap()).map(str::to_owned));
+    }
+    let catalog = std::fs::read_dir(root.join("crates/text/catalog/en")).unwrap();
+    let unused: Vec<String> =
+        catalog.flat_map(|file| texts::unused_messages(&std::fs::read_to_string(file.unwrap().path()).unwrap(), &used)).collect();
+    assert!(unused.is_empty(), "messages without code that shows them: {}", unused.join(", "));
 }
 
 #[test]

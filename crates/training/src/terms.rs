@@ -44,19 +44,6 @@ pub fn score_title(key: &str, language: Language) -> String {
     }
 }
 
-/// Returns the name of a kind of task with this key, such as `slab_side`; the key if there is no such kind.
-#[must_use]
-pub fn task_kind_title(key: &str, language: Language) -> String {
-    match key {
-        "slab_side" => text!(language, "terms-task-slab-side"),
-        "arch_bottom" => text!(language, "terms-task-arch-bottom"),
-        "interlayer" => text!(language, "terms-task-interlayer"),
-        "pier_circle" => text!(language, "terms-task-pier-circle"),
-        "free" => text!(language, "terms-task-free"),
-        _ => key.to_owned(),
-    }
-}
-
 /// Returns the name of a kind of object hit with this label, such as `terrain`; the label if there is no such kind.
 #[must_use]
 pub fn contact_title(label: &str, language: Language) -> String {
@@ -69,22 +56,6 @@ pub fn contact_title(label: &str, language: Language) -> String {
         "person" => text!(language, "terms-contact-person"),
         "other" => text!(language, "terms-contact-other"),
         _ => label.to_owned(),
-    }
-}
-
-/// Returns the reason why a flight ended, from its label in a record, such as `time_limit`; the label if there is no such reason.
-#[must_use]
-pub fn end_reason_title(label: &str, language: Language) -> String {
-    match label {
-        "landed" => text!(language, "terms-end-landed"),
-        "battery" => text!(language, "terms-end-battery"),
-        "time_limit" => text!(language, "terms-end-time-limit"),
-        "person" => text!(language, "terms-end-person"),
-        "vehicle" => text!(language, "terms-end-vehicle"),
-        "crash" => text!(language, "terms-end-crash"),
-        "abort" => text!(language, "terms-end-abort"),
-        "restart" => text!(language, "terms-end-restart"),
-        _ => label.replace('_', " "),
     }
 }
 
@@ -140,7 +111,6 @@ mod tests {
         }
         assert_eq!(element_title(Element::RcDeck, Language::German), "Fahrbahntafel, Stahlbeton");
         assert_eq!(defect_title(defect_codes::SPALL, Language::Spanish), "delaminación o descascaramiento");
-        assert_eq!(end_reason_title("time_limit", Language::English), "time limit");
     }
 
     #[test]

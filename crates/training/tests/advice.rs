@@ -11,7 +11,9 @@ use spandrel_monitor::{AssessedSession, assess_log};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_text::Language;
-use spandrel_training::advice::{AdvicePoint, FlightEvidence, MAX_POINTS, MissedDefect, SessionAdvice, session_advice};
+use spandrel_training::advice::{
+    AdvicePoint, FlightEvidence, MAX_POINTS, MissedDefect, SessionAdvice, session_advice, translation_languages,
+};
 use spandrel_training::plan::{DEFAULT_RULES, PlanReason, PlanRule, PlanRules, PlanStep, RuleMeasure, plan, read_rules};
 use spandrel_training::record::{RecordSource, SessionRecord, SourceHashes, record};
 use spandrel_training::report::{Review, SessionMetadata, advice_of, page};
@@ -72,7 +74,7 @@ fn advice(tape: &Tape, missed: &[MissedDefect]) -> SessionAdvice {
     timeline.push_log(tape.log(0).as_slice()).unwrap();
     let (flight, _) = flight_with_seed(&timeline, &job, &vehicle()).unwrap();
     let record = session_record(&assessed_session, &job, &[]);
-    let steps = plan(std::slice::from_ref(&record), &rules(), record.started_unix_us, Language::English).unwrap().steps;
+    let steps = |language| plan(std::slice::from_ref(&record), &rules(), record.started_unix_us, language).unwrap().steps;
     let evidence = FlightEvidence {
         scenario: &job,
         vehicle: &vehicle(),
@@ -81,7 +83,7 @@ fn advice(tape: &Tape, missed: &[MissedDefect]) -> SessionAdvice {
         record: &record,
         missed,
     };
-    session_advice(&steps, &rules(), &evidence, Language::English)
+    session_advice(steps, &rules(), &evidence, translation_languages())
 }
 
 fn point<'a>(advice: &'a SessionAdvice, rule: &str) -> &'a AdvicePoint {
@@ -222,8 +224,9 @@ fn prop_every_rule_has_a_sentence_with_a_number_and_a_moment() {
     let end_s = assessed_session.assessment.end.seconds;
     let mut with_moment = 0;
     for rule in &rules.rules {
-        let advice = session_advice(&[step_for(rule)], &rules, &evidence, Language::English);
-        let in_language = |language| session_advice(&[step_for(rule)], &rules, &evidence, language).points[0].words.clone();
+        let languages = [Language::German, Language::Spanish, Language::Pseudo];
+        let advice = session_advice(|_| vec![step_for(rule)], &rules, &evidence, languages.into_iter());
+        let in_language = |language| advice.in_language(language).points[0].words.clone();
         let [point] = advice.points.as_slice() else { panic!("{}: {advice:#?}", rule.name) };
         println!("{:32} {}", rule.name, point.words);
         assert!((0.0..=end_s + MOMENT_TOLERANCE_S).contains(&point.t_s) && point.frame >= 1, "{point:?}");
@@ -251,6 +254,12 @@ fn prop_advice_of_an_inspection_matches_its_report() {
         let log = tape.log(0);
         let review = Review::of(&log, &job, &phantom(), metadata.clone()).unwrap();
         assert_eq!(advice_of(&log, &job, &phantom(), &metadata).unwrap(), review.advice);
+        let german = SessionMetadata { language: Language::German, ..metadata.clone() };
+        let german = Review::of(&log, &job, &phantom(), german).unwrap();
+        assert_eq!(german.advice, review.advice, "the file does not depend on the report's language");
+        let sentence = &review.advice.points[0].translations["de"];
+        assert!(*sentence != review.advice.points[0].words && page::session(&german).contains(sentence), "{sentence}");
+        assert_ne!(german.next[0].reasons[0].words, review.next[0].reasons[0].words, "the plan is in the report's language");
         let points = &review.advice.points;
         assert!((1..=MAX_POINTS).contains(&points.len()), "{points:#?}");
         for point in points {

@@ -6,12 +6,14 @@ use crate::io::clock;
 use crate::records::RecordsLocation;
 use crate::web::scenario_library::{UPLOAD_FOLDER, upload_path};
 use spandrel_model::calendar::day;
+use spandrel_text::Language;
 use spandrel_training::assignment::{Assignment, assigned_jobs};
 use spandrel_view::flow::pipe::{NextJob, TraineeSummary};
 use std::path::Path;
 
-/// Offers each trainee the pending assignment that is due first, instead of the recommended job.
-pub fn put_first(trainees: &mut [TraineeSummary], sessions: &Path) {
+/// Offers each trainee the pending assignment that is due first, instead of the recommended job. Titles are in the given
+/// language.
+pub fn put_first(trainees: &mut [TraineeSummary], sessions: &Path, language: Language) {
     let location = RecordsLocation::beside(sessions);
     // Without a database, nothing was assigned, and the start page does not create one.
     if !location.exists() {
@@ -24,8 +26,10 @@ pub fn put_first(trainees: &mut [TraineeSummary], sessions: &Path) {
                 return Ok(());
             }
             let jobs = assigned_jobs(assignments, &database.records(Some(&trainee.name))?, clock::unix_us());
-            let pending =
-                jobs.iter().filter(|job| job.state.is_pending()).find_map(|job| assigned_job(&job.assignment, sessions));
+            let pending = jobs
+                .iter()
+                .filter(|job| job.state.is_pending())
+                .find_map(|job| assigned_job(&job.assignment, sessions, language));
             trainee.next = pending.or_else(|| trainee.next.take());
             Ok::<(), AppError>(())
         })
@@ -35,13 +39,14 @@ pub fn put_first(trainees: &mut [TraineeSummary], sessions: &Path) {
 }
 
 /// Returns an assigned job, if its scenario is still there.
-fn assigned_job(assignment: &Assignment, sessions: &Path) -> Option<NextJob> {
+fn assigned_job(assignment: &Assignment, sessions: &Path, language: Language) -> Option<NextJob> {
     let own = upload_path(&sessions.join(UPLOAD_FOLDER), &assignment.scenario);
     let name = if own.is_file() { own.display().to_string() } else { assignment.scenario.clone() };
-    let job = job_named(&match &assignment.variant {
+    let name = match &assignment.variant {
         Some(variant) => format!("{name}@{variant}"),
         None => name,
-    });
+    };
+    let job = job_named(&name, language);
     job.map(|job| NextJob { due: Some(day(assignment.due_unix_us)), ..job })
 }
 
@@ -65,11 +70,11 @@ mod tests {
     #[test]
     fn exact_assignment_that_is_due_first_comes_before_the_recommendation() {
         let sessions = tempfile::tempdir().unwrap();
-        let recommended = job_named("drill-hover");
+        let recommended = job_named("drill-hover", Language::English);
         let trainee =
             |name: &str| TraineeSummary { name: name.into(), sessions: 1, practices: 1, last: None, next: recommended.clone() };
         let mut trainees = [trainee("anna"), trainee("bert")];
-        put_first(&mut trainees, sessions.path());
+        put_first(&mut trainees, sessions.path(), Language::English);
         assert_eq!(trainees[0].next, recommended, "no database");
         let database = RecordsLocation::beside(sessions.path()).open().unwrap();
         database.update_details("anna", None, [None; 3]).unwrap();
@@ -80,7 +85,7 @@ mod tests {
         for (id, scenario, due) in [("a", "drill-gap", 2_000_000), ("b", "windy", 1_000_000), ("c", "removed", 500_000)] {
             assert!(database.assign(&assigned(id, scenario, due)).unwrap());
         }
-        put_first(&mut trainees, sessions.path());
+        put_first(&mut trainees, sessions.path(), Language::English);
         let next = trainees[0].next.clone().unwrap();
         assert_eq!((next.scenario, next.due.as_deref()), (own.join("windy.toml").display().to_string(), Some("1970-01-01")));
         assert_eq!(trainees[1].next, recommended);

@@ -47,7 +47,7 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>,
     };
     FlightOptions {
         trainees: trainee_summaries(sessions, language),
-        lesson: job_named(FIRST_LESSON),
+        lesson: job_named(FIRST_LESSON, language),
         scenarios: names.into_iter().filter_map(job).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
@@ -182,7 +182,7 @@ struct KnownSessions {
 impl KnownSessions {
     fn summary(self, name: String, language: Language) -> TraineeSummary {
         let latest = self.latest.map(|(_, folder)| folder);
-        let advice = latest.as_deref().and_then(report::saved_advice);
+        let advice = latest.as_deref().and_then(report::saved_advice).map(|advice| advice.in_language(language));
         let lesson = latest.as_deref().and_then(LessonSession::unfinished);
         TraineeSummary {
             name,
@@ -195,8 +195,8 @@ impl KnownSessions {
                 None => advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
             },
             next: match lesson {
-                Some(lesson) => job_named(&lesson.scenario),
-                None => advice.as_ref().and_then(next_job),
+                Some(lesson) => job_named(&lesson.scenario, language),
+                None => advice.as_ref().and_then(|advice| next_job(advice, language)),
             },
         }
     }
@@ -231,15 +231,16 @@ impl LessonSession {
     }
 }
 
-/// Returns a job with its title, if it is installed.
-pub fn job_named(scenario: &str) -> Option<NextJob> {
-    let title = files::scenario(scenario).ok()?.scenario.title;
+/// Returns a job with its title in a language, if it is installed.
+pub fn job_named(scenario: &str, language: Language) -> Option<NextJob> {
+    let job = files::scenario(scenario).ok()?.scenario;
+    let title = scenario_title(&job.name, &job.title, language);
     Some(NextJob { scenario: scenario.to_owned(), title, due: None })
 }
 
 /// Returns the job that the advice recommends, if it is installed.
-fn next_job(advice: &SessionAdvice) -> Option<NextJob> {
-    job_named(&advice.next.as_ref()?.scenario)
+fn next_job(advice: &SessionAdvice, language: Language) -> Option<NextJob> {
+    job_named(&advice.next.as_ref()?.scenario, language)
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.
@@ -273,7 +274,7 @@ fn contents_summary(scenario: &Scenario, language: Language) -> String {
 /// Returns a session's end page. `trouble` is the reason why scores are missing, if known.
 pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>, language: Language) -> FlightSummary {
     let assessment = read_json(session, ASSESSMENT).unwrap_or_default();
-    let advice = report::saved_advice(session);
+    let advice = report::saved_advice(session).map(|advice| advice.in_language(language));
     let lesson = LessonSession::read(session);
     let scores = &assessment["scores"];
     let one = |name: &str| Some(FinalScore { raw: scores[name]["raw"].as_f64()?, pct: scores[name]["pct"].as_f64()? });
@@ -291,8 +292,8 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session, language)),
         lesson: lesson.as_ref().map(|lesson| lesson.progress),
         next: match lesson.as_ref().filter(|lesson| !lesson.progress.is_complete()) {
-            Some(lesson) => job_named(&lesson.scenario),
-            None => advice.as_ref().and_then(next_job),
+            Some(lesson) => job_named(&lesson.scenario, language),
+            None => advice.as_ref().and_then(|advice| next_job(advice, language)),
         },
         watched: false,
         // The sentence after a lesson is about its scores, which the page does not show.
@@ -312,8 +313,9 @@ pub fn questionnaire(session: &Path, web: Option<&str>) -> String {
 }
 
 /// Returns the end page of a flight that the trainee only watched: the next flight is the trainee's own.
-pub fn watched(ended: FlightSummary, scenario: &str) -> FlightSummary {
-    FlightSummary { watched: true, advice: Vec::new(), questionnaire: String::new(), next: job_named(scenario), ..ended }
+pub fn watched(ended: FlightSummary, scenario: &str, language: Language) -> FlightSummary {
+    let next = job_named(scenario, language);
+    FlightSummary { watched: true, advice: Vec::new(), questionnaire: String::new(), next, ..ended }
 }
 
 fn end_reason_text(end: &Value, session: &Path, language: Language) -> String {
@@ -477,7 +479,7 @@ mod tests {
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
         std::fs::write(folder.path().join(REPORT), "page").unwrap();
         let ended = flight_summary(folder.path(), Some("http://127.0.0.1:9"), None, Language::English);
-        assert_eq!(ended.why, "landed after 12 min 30 s of flight");
+        assert_eq!(ended.why, "Landed after 12 min 30 s of flight");
         assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
         assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));
         assert!(ended.questionnaire.starts_with("http://127.0.0.1:9/sessions/") && ended.questionnaire.ends_with("/questions"));
@@ -495,8 +497,8 @@ mod tests {
         let text = r#"{"end": {"reason": "landed", "seconds": 750.9}}"#;
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
         let why = |language| flight_summary(folder.path(), None, None, language).why;
-        assert_eq!(why(Language::German), "gelandet nach 12 min 30 s Flug");
-        assert_eq!(why(Language::Spanish), "aterrizó tras 12 min 30 s de vuelo");
+        assert_eq!(why(Language::German), "Gelandet nach 12 min 30 s Flug");
+        assert_eq!(why(Language::Spanish), "Aterrizó tras 12 min 30 s de vuelo");
     }
 
     #[test]

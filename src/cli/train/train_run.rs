@@ -222,7 +222,7 @@ impl<'a> TrainRun<'a> {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
         let mut offers = offers::flight_options(&self.args.sessions, choice, web.as_deref(), language);
-        assigned::put_first(&mut offers.trainees, &self.args.sessions);
+        assigned::put_first(&mut offers.trainees, &self.args.sessions, language);
         self.web_announced = true;
         self.offered_language = Some(language);
         self.send_to_window(&ToWindow::Offers(offers));
@@ -389,7 +389,7 @@ impl<'a> TrainRun<'a> {
             let trouble = result.as_ref().err().map(ToString::to_string);
             let mut ended = offers::flight_summary(session, web, trouble, language);
             if choice.by == FlownBy::Expert {
-                ended = offers::watched(ended, &choice.scenario);
+                ended = offers::watched(ended, &choice.scenario, language);
             }
             self.send_to_window(&ToWindow::Ended(ended));
         }

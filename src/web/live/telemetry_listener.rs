@@ -15,6 +15,7 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_text::Language;
 use spandrel_training::report::plots::job::{job_plan, job_side, job_south};
+use spandrel_training::terms::scenario_title;
 use spandrel_training::web::live::{DrawingView, JobDrawings};
 use spandrel_training::web::live_state::{JobIdentity, LiveFlightState};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
@@ -231,7 +232,7 @@ fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> TranslatedDrawings {
     TranslatedDrawings(Language::ALL.map(draw).into())
 }
 
-/// Draws a site. The language is that of the drawings' labels.
+/// Draws a site. The language is that of the title and of the drawings' labels.
 fn draw_site(scenario: &Scenario, site: &Site, key: JobIdentity, language: Language) -> JobDrawings {
     let mut drawings = vec![(DrawingView::Above, job_plan(scenario, site, language).into_string())];
     for bridge in &scenario.bridges {
@@ -240,5 +241,6 @@ fn draw_site(scenario: &Scenario, site: &Site, key: JobIdentity, language: Langu
     if scenario.bridges.is_empty() {
         drawings.push((DrawingView::South, job_south(scenario, site, language).into_string()));
     }
-    JobDrawings { key: format!("{:08x}-{}", key.crc, key.seed), title: scenario.title.clone(), drawings }
+    let title = scenario_title(&scenario.name, &scenario.title, language);
+    JobDrawings { key: format!("{:08x}-{}", key.crc, key.seed), title, drawings }
 }

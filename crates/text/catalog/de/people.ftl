@@ -129,10 +129,6 @@ people-change = Ändern
 people-assigned-by = { $target }, von { $instructor }
 people-job-level-or-harder = { $job }, Stufe { $level } oder schwerer
 people-job-form = { $job }, Variante { $form }
-people-state-open = offen
-people-state-overdue = überfällig
-people-state-done = erledigt
-people-state-done-late = verspätet erledigt
 people-target-class = Klasse { $name }
 people-remove-assignment = Zuweisung von { $job } entfernen
 people-none = keine
@@ -184,8 +180,6 @@ people-criterion = Kriterium
 people-action = Aktion
 people-by = Von
 people-note = Notiz
-people-action-signed = bestätigt
-people-action-withdrawn = zurückgezogen
 people-history-count =
     { $count ->
         [one] { $count } Eintrag, neuester zuerst

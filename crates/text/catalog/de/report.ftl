@@ -69,7 +69,6 @@ report-percent = { $value }%
 ## Column headings of several tables
 
 report-column-task = Aufgabe
-report-column-tasks = Aufgaben
 report-column-name = Name
 report-column-state = Status
 report-column-time = Zeit

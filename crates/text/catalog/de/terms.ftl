@@ -90,12 +90,6 @@ terms-score-safety = Sicherheit
 terms-score-accuracy = Genauigkeit
 terms-score-precision = Präzision
 
-terms-task-slab-side = Seite der Fahrbahntafel
-terms-task-arch-bottom = Bogenuntersicht
-terms-task-interlayer = Zwischenraum
-terms-task-pier-circle = Kreis um den Pfeiler
-terms-task-free = freie Bahn
-
 terms-contact-none = keines
 terms-contact-bridge = Brücke
 terms-contact-terrain = Gelände
@@ -103,12 +97,3 @@ terms-contact-water = Wasser
 terms-contact-vehicle = Fahrzeug
 terms-contact-person = Person
 terms-contact-other = Sonstiges
-
-terms-end-landed = gelandet
-terms-end-battery = Akku leer
-terms-end-time-limit = Zeitlimit erreicht
-terms-end-person = Person getroffen
-terms-end-vehicle = Fahrzeug getroffen
-terms-end-crash = Kollision
-terms-end-abort = abgebrochen
-terms-end-restart = Neustart des Simulators

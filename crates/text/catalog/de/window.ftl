@@ -137,14 +137,14 @@ window-result-watch-again = Noch einmal ansehen
 window-result-fly-again = Noch einmal fliegen
 window-result-choose = Anderen Auftrag wählen
 window-result-after = { $reason } nach { $minutes } min { $seconds } s Flug
-window-result-reason-landed = gelandet
+window-result-reason-landed = Gelandet
 window-result-reason-battery = Akku leer
-window-result-reason-time-limit = Zeitlimit
+window-result-reason-time-limit = Zeitlimit erreicht
 window-result-reason-person = Person getroffen
 window-result-reason-vehicle = Fahrzeug getroffen
 window-result-reason-crash = Kollision
-window-result-reason-abort = abgebrochen
-window-result-reason-restart = Neustart
+window-result-reason-abort = Vorzeitig beendet
+window-result-reason-restart = Simulator neu gestartet
 window-result-not-scored = Die Sitzung wurde nicht bewertet. Die Aufzeichnung liegt in { $folder }
 
 ## Defect school

@@ -139,10 +139,6 @@ people-change = Change
 people-assigned-by = { $target }, by { $instructor }
 people-job-level-or-harder = { $job }, level { $level } or harder
 people-job-form = { $job }, form { $form }
-people-state-open = open
-people-state-overdue = overdue
-people-state-done = done
-people-state-done-late = done late
 people-target-class = class { $name }
 people-remove-assignment = Remove assignment { $job }
 people-none = none
@@ -196,8 +192,6 @@ people-criterion = Criterion
 people-action = Action
 people-by = By
 people-note = Note
-people-action-signed = signed off
-people-action-withdrawn = withdrawn
 people-history-count =
     { $count ->
         [one] { $count } entry, newest first

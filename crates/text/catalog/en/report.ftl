@@ -24,7 +24,7 @@ report-table-download = Download as CSV
 
 report-end-landed = landed near the ground team
 report-end-battery = battery empty
-report-end-time-limit = time limit
+report-end-time-limit = time limit reached
 report-end-person = hit a person
 report-end-vehicle = hit a vehicle
 report-end-crash = crashed
@@ -69,7 +69,6 @@ report-percent = { $value }%
 ## Column headings of several tables
 
 report-column-task = task
-report-column-tasks = tasks
 report-column-name = name
 report-column-state = state
 report-column-time = time

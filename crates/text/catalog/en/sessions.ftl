@@ -22,13 +22,13 @@ sessions-scenario = Scenario
 sessions-purpose = Purpose
 sessions-end = End
 sessions-end-landed = landed
-sessions-end-battery = battery
-sessions-end-time-limit = time limit
-sessions-end-person = person
-sessions-end-vehicle = vehicle
-sessions-end-crash = crash
-sessions-end-abort = abort
-sessions-end-restart = restart
+sessions-end-battery = battery empty
+sessions-end-time-limit = time limit reached
+sessions-end-person = hit a person
+sessions-end-vehicle = hit a vehicle
+sessions-end-crash = crashed
+sessions-end-abort = ended early
+sessions-end-restart = simulator restarted
 
 ## A session's page
 

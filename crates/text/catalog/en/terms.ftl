@@ -95,13 +95,6 @@ terms-score-safety = safety
 terms-score-accuracy = accuracy
 terms-score-precision = precision
 
-# Kinds of tasks.
-terms-task-slab-side = slab side
-terms-task-arch-bottom = arch bottom
-terms-task-interlayer = interlayer
-terms-task-pier-circle = pier circle
-terms-task-free = free
-
 # Objects hit.
 terms-contact-none = none
 terms-contact-bridge = bridge
@@ -110,13 +103,3 @@ terms-contact-water = water
 terms-contact-vehicle = vehicle
 terms-contact-person = person
 terms-contact-other = other
-
-# Ends of a session.
-terms-end-landed = landed
-terms-end-battery = battery
-terms-end-time-limit = time limit
-terms-end-person = person
-terms-end-vehicle = vehicle
-terms-end-crash = crash
-terms-end-abort = abort
-terms-end-restart = restart

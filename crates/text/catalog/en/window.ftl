@@ -141,14 +141,14 @@ window-result-fly-again = Fly again
 window-result-choose = Choose another job
 # Why the flight ended.
 window-result-after = { $reason } after { $minutes } min { $seconds } s of flight
-window-result-reason-landed = landed
-window-result-reason-battery = battery
-window-result-reason-time-limit = time_limit
-window-result-reason-person = person
-window-result-reason-vehicle = vehicle
-window-result-reason-crash = crash
-window-result-reason-abort = abort
-window-result-reason-restart = restart
+window-result-reason-landed = Landed
+window-result-reason-battery = Battery empty
+window-result-reason-time-limit = Time limit reached
+window-result-reason-person = Hit a person
+window-result-reason-vehicle = Hit a vehicle
+window-result-reason-crash = Crashed
+window-result-reason-abort = Ended early
+window-result-reason-restart = Simulator restarted
 window-result-not-scored = The session was not scored. The recorded data is in { $folder }
 
 ## Defect school

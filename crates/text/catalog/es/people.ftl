@@ -129,10 +129,6 @@ people-change = Cambiar
 people-assigned-by = { $target }, por { $instructor }
 people-job-level-or-harder = { $job }, nivel { $level } o más difícil
 people-job-form = { $job }, variante { $form }
-people-state-open = pendiente
-people-state-overdue = vencido
-people-state-done = terminado
-people-state-done-late = terminado con retraso
 people-target-class = clase { $name }
 people-remove-assignment = Quitar la asignación de { $job }
 people-none = ninguno
@@ -184,8 +180,6 @@ people-criterion = Criterio
 people-action = Acción
 people-by = Por
 people-note = Nota
-people-action-signed = aprobado
-people-action-withdrawn = retirado
 people-history-count =
     { $count ->
         [one] { $count } entrada, las más recientes primero

@@ -24,7 +24,7 @@ report-table-download = Descargar como CSV
 
 report-end-landed = aterrizó cerca del equipo de tierra
 report-end-battery = batería agotada
-report-end-time-limit = límite de tiempo
+report-end-time-limit = límite de tiempo alcanzado
 report-end-person = chocó con una persona
 report-end-vehicle = chocó con un vehículo
 report-end-crash = se estrelló
@@ -69,7 +69,6 @@ report-percent = { $value }%
 ## Column headings of several tables
 
 report-column-task = tarea
-report-column-tasks = tareas
 report-column-name = nombre
 report-column-state = estado
 report-column-time = tiempo

@@ -90,12 +90,6 @@ terms-score-safety = seguridad
 terms-score-accuracy = exactitud
 terms-score-precision = precisión
 
-terms-task-slab-side = costado del tablero
-terms-task-arch-bottom = intradós del arco
-terms-task-interlayer = espacio intermedio
-terms-task-pier-circle = círculo alrededor de la pila
-terms-task-free = trayectoria libre
-
 terms-contact-none = ninguno
 terms-contact-bridge = puente
 terms-contact-terrain = terreno
@@ -103,12 +97,3 @@ terms-contact-water = agua
 terms-contact-vehicle = vehículo
 terms-contact-person = persona
 terms-contact-other = otro
-
-terms-end-landed = aterrizaje
-terms-end-battery = batería agotada
-terms-end-time-limit = tiempo agotado
-terms-end-person = colisión con una persona
-terms-end-vehicle = colisión con un vehículo
-terms-end-crash = colisión
-terms-end-abort = interrupción
-terms-end-restart = reinicio del simulador

@@ -137,14 +137,14 @@ window-result-watch-again = Ver otra vez
 window-result-fly-again = Volar otra vez
 window-result-choose = Elegir otro trabajo
 window-result-after = { $reason } tras { $minutes } min { $seconds } s de vuelo
-window-result-reason-landed = aterrizó
-window-result-reason-battery = batería agotada
-window-result-reason-time-limit = límite de tiempo
-window-result-reason-person = chocó con una persona
-window-result-reason-vehicle = chocó con un vehículo
-window-result-reason-crash = colisión
-window-result-reason-abort = interrumpido
-window-result-reason-restart = reinicio
+window-result-reason-landed = Aterrizó
+window-result-reason-battery = Batería agotada
+window-result-reason-time-limit = Límite de tiempo alcanzado
+window-result-reason-person = Chocó con una persona
+window-result-reason-vehicle = Chocó con un vehículo
+window-result-reason-crash = Se estrelló
+window-result-reason-abort = Terminó antes de tiempo
+window-result-reason-restart = El simulador se reinició
 window-result-not-scored = La sesión no se puntuó. Los datos grabados están en { $folder }
 
 ## Defect school

@@ -67,12 +67,13 @@ pub(super) struct FlightScan<'a> {
 }
 
 impl<'a> FlightScan<'a> {
-    pub(super) fn new(evidence: &'a FlightEvidence<'a>, language: Language) -> Self {
+    /// Prepares a flight for sentences in English.
+    pub(super) fn new(evidence: &'a FlightEvidence<'a>) -> Self {
         let (scenario, frames) = (evidence.scenario, &evidence.assessed_session.frames);
         let paths = ReferencePaths::new(scenario);
         let on_path = OnPath::measure(&paths, frames.iter().map(|frame| frame.position_m));
         let near = near_frames(scenario, frames, &paths, &on_path).collect();
-        Self { evidence, paths, on_path, near, language }
+        Self { evidence, paths, on_path, near, language: Language::English }
     }
 
     pub(super) fn frames(&self) -> &'a [Frame] {

@@ -17,19 +17,24 @@ use flight_scan::FlightScan;
 use serde::{Deserialize, Serialize};
 use spandrel_monitor::stored_text::translated;
 use spandrel_text::{Language, text};
+use std::collections::BTreeMap;
 use wording::Sentence;
 
 /// Maximum number of things to do better: more are not remembered in the next flight.
 pub const MAX_POINTS: usize = 3;
 
-/// Advice after a session, and the recommended next flight.
+/// Advice after a session, and the recommended next flight. The sentences are in English, so that files do not depend on the
+/// language; [`SessionAdvice::in_language`] returns them in another one.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SessionAdvice {
     /// At most [`MAX_POINTS`] things to do better, in the plan's order.
     pub points: Vec<AdvicePoint>,
-    /// Sentence to show if there are no points.
+    /// Sentence to show if there are no points, in English.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// The note in other languages, by language tag.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub note_translations: BTreeMap<String, String>,
     /// Scenario to fly next; `None` if the rules are invalid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub next: Option<NextFlight>,
@@ -38,8 +43,11 @@ pub struct SessionAdvice {
 /// One thing to do better.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AdvicePoint {
-    /// Sentence shown to the trainee.
+    /// Sentence shown to the trainee, in English.
     pub words: String,
+    /// The sentence in other languages, by language tag.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub translations: BTreeMap<String, String>,
     /// Name of the plan's rule that fired.
     pub rule: String,
     /// Number of the frame that shows it best, from 1.
@@ -64,6 +72,36 @@ impl SessionAdvice {
     pub fn sentences(&self) -> impl Iterator<Item = &str> {
         self.points.iter().map(|point| point.words.as_str()).chain(self.note.as_deref())
     }
+
+    /// Returns the advice with its sentences in a language. A sentence without a translation stays in English.
+    #[must_use]
+    pub fn in_language(&self, language: Language) -> Self {
+        let mut advice = self.clone();
+        for point in &mut advice.points {
+            translate(&mut point.words, &point.translations, language);
+        }
+        if let Some(note) = &mut advice.note {
+            translate(note, &advice.note_translations, language);
+        }
+        advice
+    }
+}
+
+/// Replaces a sentence by its translation, if there is one.
+fn translate(words: &mut String, translations: &BTreeMap<String, String>, language: Language) {
+    if let Some(translated) = translations.get(language.tag()) {
+        words.clone_from(translated);
+    }
+}
+
+/// Returns the languages into which advice is translated: all except English.
+pub fn translation_languages() -> impl Iterator<Item = Language> + Clone {
+    Language::ALL.into_iter().filter(|language| *language != Language::English)
+}
+
+/// Returns a sentence in other languages, by language tag.
+fn translations(languages: impl Iterator<Item = Language>, words: impl Fn(Language) -> String) -> BTreeMap<String, String> {
+    languages.map(|language| (language.tag().to_owned(), words(language))).collect()
 }
 
 /// Scenario to fly after a lesson.
@@ -71,10 +109,12 @@ const FIRST_DRILL: &str = "drill-hover";
 
 /// Returns the advice after a lesson: what counts is that every step was done, not the scores.
 #[must_use]
-pub fn lesson_advice(trainee: &str, language: Language) -> SessionAdvice {
+pub fn lesson_advice(trainee: &str) -> SessionAdvice {
+    let note = |language| text!(language, "advice-lesson");
     SessionAdvice {
         points: Vec::new(),
-        note: Some(text!(language, "advice-lesson")),
+        note: Some(note(Language::English)),
+        note_translations: translations(translation_languages(), note),
         next: Some(NextFlight {
             scenario: FIRST_DRILL.to_owned(),
             command: format!("spandrel train --trainee {trainee} --scenario {FIRST_DRILL}"),
@@ -90,15 +130,36 @@ struct Cause<'a> {
     tasks: Vec<u32>,
 }
 
-/// Returns the advice after a session, in a language. `steps` is the plan for this session alone, in the same language.
+/// Returns the advice after a session, with translations into the given languages. `plan` returns the plan for this session alone
+/// in a language; except for the words, it is the same in all languages.
 #[must_use]
-pub fn session_advice(steps: &[PlanStep], rules: &PlanRules, evidence: &FlightEvidence<'_>, language: Language) -> SessionAdvice {
-    let causes = chosen(causes(steps, rules));
-    let scan = FlightScan::new(evidence, language);
-    let points: Vec<AdvicePoint> = causes.iter().map(|cause| point(cause, &steps[cause.step].scenario, &scan)).collect();
+pub fn session_advice(
+    plan: impl Fn(Language) -> Vec<PlanStep>,
+    rules: &PlanRules,
+    evidence: &FlightEvidence<'_>,
+    languages: impl Iterator<Item = Language> + Clone,
+) -> SessionAdvice {
+    let steps = plan(Language::English);
+    let translated: Vec<TranslatedPlan> =
+        languages.clone().map(|language| TranslatedPlan { language, steps: plan(language) }).collect();
+    let mut scan = FlightScan::new(evidence);
+    let causes = chosen(causes(&steps, rules));
+    let points: Vec<AdvicePoint> = causes.iter().map(|cause| point(cause, &steps, &translated, &mut scan)).collect();
     let next =
         steps.first().map(|step| NextFlight { scenario: step.scenario.clone(), command: step.command(&evidence.record.trainee) });
-    SessionAdvice { note: points.is_empty().then(|| no_findings(evidence.record, language)), points, next }
+    let note = |language| no_findings(evidence.record, language);
+    SessionAdvice {
+        note: points.is_empty().then(|| note(Language::English)),
+        note_translations: if points.is_empty() { translations(languages, note) } else { BTreeMap::new() },
+        points,
+        next,
+    }
+}
+
+/// The plan's steps in another language.
+struct TranslatedPlan {
+    language: Language,
+    steps: Vec<PlanStep>,
 }
 
 /// Returns the plan's causes in its order. Causes with the same measure are one: they are the same habit in several tasks.
@@ -130,15 +191,35 @@ fn chosen(causes: Vec<Cause<'_>>) -> Vec<Cause<'_>> {
     causes.into_iter().enumerate().filter(|(k, _)| picks.contains(k)).map(|(_, cause)| cause).collect()
 }
 
-fn point(cause: &Cause<'_>, drill: &str, scan: &FlightScan<'_>) -> AdvicePoint {
-    let (words, frame) = sentence(cause, scan).unwrap_or_else(|| (cause.reason.words.clone(), scan.last_frame()));
+fn point(cause: &Cause<'_>, steps: &[PlanStep], translated: &[TranslatedPlan], scan: &mut FlightScan<'_>) -> AdvicePoint {
+    let (words, frame) = sentence_or_reason(cause, steps, Language::English, scan);
+    let words_in = |plan: &TranslatedPlan| {
+        let (words, _) = sentence_or_reason(cause, &plan.steps, plan.language, scan);
+        (plan.language.tag().to_owned(), words)
+    };
     AdvicePoint {
         words,
+        translations: translated.iter().map(words_in).collect(),
         rule: cause.rule.name.clone(),
         frame: u32::try_from(frame + 1).unwrap_or(u32::MAX),
         t_s: scan.t_s(frame),
-        drill: drill.to_owned(),
+        drill: steps.get(cause.step).map_or_else(String::new, |step| step.scenario.clone()),
     }
+}
+
+/// Returns the sentence for a cause in a language; the plan's reason in this language and the last frame if the flight's frames do
+/// not show it.
+fn sentence_or_reason(cause: &Cause<'_>, steps: &[PlanStep], language: Language, scan: &mut FlightScan<'_>) -> Sentence {
+    scan.language = language;
+    sentence(cause, scan).unwrap_or_else(|| (reason_words(cause, steps), scan.last_frame()))
+}
+
+/// Returns a cause's reason in the language of a plan.
+fn reason_words(cause: &Cause<'_>, steps: &[PlanStep]) -> String {
+    let reasons = steps.get(cause.step).map_or(&[][..], |step| &step.reasons);
+    let wanted = (&cause.reason.rule, &cause.reason.tasks);
+    let same = reasons.iter().find(|reason| (&reason.rule, &reason.tasks) == wanted);
+    same.unwrap_or(cause.reason).words.clone()
 }
 
 /// Returns the sentence for a cause; `None` if the flight's frames do not show it.

@@ -22,7 +22,7 @@ pub mod task_proximity;
 
 pub use context::ReviewContext;
 
-use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, lesson_advice, session_advice};
+use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, lesson_advice, session_advice, translation_languages};
 use crate::marks::TimelineMark;
 use crate::plan::{self, DEFAULT_RULES, PlanRules, PlanStep, read_rules};
 use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
@@ -113,7 +113,7 @@ pub struct Review {
     pub coverage: coverage::SurfaceCoverage,
     /// Recommended scenarios, based on this session and the default rules.
     pub next: Vec<PlanStep>,
-    /// Things to do better, and the scenario to fly next.
+    /// Things to do better, and the scenario to fly next. The sentences are in English with translations.
     pub advice: SessionAdvice,
     /// Time out of the inspector's sight.
     pub out_of_sight: line_of_sight::OutOfSight,
@@ -236,15 +236,12 @@ impl ScoredFlight<'_> {
         let Some(rules) = rules_for(self.scene.scenario) else { return Default::default() };
         let record = self.record(defect_outcomes);
         if !self.scene.scenario.lesson.is_empty() {
-            return (Vec::new(), lesson_advice(&record.trainee, self.metadata.language));
+            return (Vec::new(), lesson_advice(&record.trainee));
         }
         let missed: Vec<MissedDefect> = defect_outcomes.iter().filter_map(defects::DefectOutcome::missed).collect();
-        let plan = plan::plan(std::slice::from_ref(&record), &rules, self.metadata.started_unix_us, self.metadata.language);
-        let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
-        // A level depends on the trainee's other sessions, which are unknown here.
-        steps.iter_mut().for_each(|step| step.level = None);
+        let plan = |language| self.plan_steps(&record, &rules, language);
         let advice = session_advice(
-            &steps,
+            plan,
             &rules,
             &FlightEvidence {
                 scenario: self.scene.scenario,
@@ -254,9 +251,18 @@ impl ScoredFlight<'_> {
                 record: &record,
                 missed: &missed,
             },
-            self.metadata.language,
+            translation_languages(),
         );
-        (steps, advice)
+        (plan(self.metadata.language), advice)
+    }
+
+    /// Returns the scenarios that the rules recommend after this session, in a language.
+    fn plan_steps(&self, record: &SessionRecord, rules: &PlanRules, language: Language) -> Vec<PlanStep> {
+        let plan = plan::plan(std::slice::from_ref(record), rules, self.metadata.started_unix_us, language);
+        let mut steps = plan.map_or_else(Vec::new, |plan| plan.steps);
+        // A level depends on the trainee's other sessions, which are unknown here.
+        steps.iter_mut().for_each(|step| step.level = None);
+        steps
     }
 
     /// Creates the session's record, with the times for which missed defects were in view.

@@ -92,7 +92,7 @@ impl DrawingView {
 pub struct JobDrawings {
     /// Key that identifies the job and its seed.
     pub key: String,
-    /// Job title.
+    /// Job title in the language of the drawings.
     pub title: String,
     /// View and SVG of each drawing, created by `crate::report::plots::job`.
     pub drawings: Vec<(DrawingView, String)>,

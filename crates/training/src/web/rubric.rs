@@ -2,7 +2,7 @@
 
 use super::access::{AccessLevel, Visitor};
 use super::layout::{ELEMENT, Notice, message, page, section, table, token, toml_editor, with_element};
-use crate::rubric::{Rubric, RubricCriterion, SignOffAction, SignOffEvent, current_sign_off};
+use crate::rubric::{Rubric, RubricCriterion, SignOffAction, SignOffEvent, criterion_title, current_sign_off};
 use maud::{Markup, html};
 use spandrel_model::calendar::{day, minute};
 use spandrel_text::{Language, text};
@@ -54,8 +54,8 @@ fn criterion_item(visitor: &Visitor, about: &RubricPage<'_>, criterion: &RubricC
     let language = visitor.language;
     let signed = current_sign_off(about.events, &criterion.id);
     html! {
-        h3 { (criterion.title) }
-        p { (criterion.text) }
+        h3 { (criterion.shown_title(language)) }
+        p { (criterion.shown_text(language)) }
         p.verdict {
             @match signed {
                 Some(event) => (sign_off(language, event)),
@@ -89,7 +89,7 @@ fn sign_form(visitor: &Visitor, trainee: &str, criterion: &RubricCriterion, acti
         SignOffAction::SignedOff => (text!(language, "people-note-optional"), text!(language, "people-sign"), false),
         SignOffAction::Withdrawn => (text!(language, "people-reason"), text!(language, "people-withdraw-sign-off"), true),
     };
-    let label = text!(language, "people-button-for", button = button.as_str(), criterion = criterion.title.as_str());
+    let label = text!(language, "people-button-for", button = button.as_str(), criterion = criterion.shown_title(language));
     html! {
         form.inline method="post" action={ "/trainees/" (trainee) "/rubric" } {
             (token(visitor))
@@ -119,7 +119,7 @@ fn history(language: Language, events: &[SignOffEvent]) -> Markup {
         @for event in events.iter().rev() {
             tr {
                 th scope="row" { (minute(event.unix_us)) }
-                td { (event.title) }
+                td { (criterion_title(&event.criterion, &event.title, language)) }
                 td { (event.action.words(language)) }
                 td { (signer(language, event)) }
                 td { (event.note) }
@@ -208,6 +208,19 @@ mod tests {
         assert!(text.contains("Delete own rubric"));
         let shipped = rubric_editor(&administrator(), &RubricEditor { own: false, notice: None, ..about });
         assert!(!shipped.into_string().contains("Delete own rubric"));
+    }
+
+    #[test]
+    fn exact_default_criteria_are_shown_in_the_visitors_language() {
+        let rubric = read_rubric("rubric.toml", DEFAULT_RUBRIC).unwrap();
+        let title = rubric.criterion("path").unwrap().title.clone();
+        let signed = SignOffEvent { title, by: "7".into(), note: String::new(), ..event(SignOffAction::SignedOff) };
+        let events = [signed];
+        let about = RubricPage { trainee: "anna", rubric: &rubric, events: &events, problem: None };
+        let page = |language| rubric_page(&administrator_with(language), &about).into_string();
+        check_translated(&page(Language::Pseudo), &["anna", "UTC"]);
+        let german = page(Language::German);
+        assert_eq!(german.matches("Fliegt die Bahn").count(), 3, "heading, button and history: {german}");
     }
 
     #[test]

@@ -136,7 +136,7 @@ pub fn new_page(visitor: &Visitor, scenarios: &[ScenarioEntry], (from, name): (&
         p.lead { (text!(language, "editor-new-lead")) }
         form.stacked method="get" action="/scenarios/new" {
             label { (text!(language, "editor-start-from")) select name="from" {
-                @for one in scenarios { option value=(one.name) selected[one.name == from] { (one.name) ": " (one.title) } }
+                @for one in scenarios { option value=(one.name) selected[one.name == from] { (one.name) ": " (one.shown_title(language)) } }
             } }
             label { (text!(language, "editor-new-name")) input name="name" required maxlength="40" pattern="[a-z0-9\\-]+" autocapitalize="none" autocomplete="off" value=(name); }
             p.note { (text!(language, "editor-new-name-note")) }

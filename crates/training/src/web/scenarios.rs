@@ -23,6 +23,14 @@ pub struct ScenarioEntry {
     pub uploaded: bool,
 }
 
+impl ScenarioEntry {
+    /// Returns the title in the language of a page. A title other than that of a shipped scenario stays as it is.
+    #[must_use]
+    pub fn shown_title(&self, language: Language) -> String {
+        scenario_title(&self.name, &self.title, language)
+    }
+}
+
 /// Renders the scenario list with the result of an upload, if any.
 #[must_use]
 pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<Notice<'_>>) -> Markup {
@@ -31,7 +39,7 @@ pub fn list(visitor: &Visitor, named: &[ScenarioEntry], notice: Option<Notice<'_
         @for one in named {
             tr {
                 th scope="row" { a href={ "/scenarios/" (one.name) } { (one.name) } }
-                td { (one.title) }
+                td { (one.shown_title(language)) }
                 td { @if one.uploaded { (text!(language, "editor-uploaded")) } @else { (text!(language, "editor-shipped")) } }
             }
         }
@@ -204,6 +212,17 @@ mod tests {
         let there = recorded(&administrator(), &named, &[], Some(UploadMessage::AlreadyImported { id: "s-1", trainee: "anna" }))
             .into_string();
         assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session by anna"), "{there}");
+    }
+
+    #[test]
+    fn exact_titles_of_shipped_scenarios_are_translated() {
+        let entry = |title: &str| ScenarioEntry { name: "drill-hover".into(), title: title.into(), uploaded: false };
+        let shipped = entry("Drill: hover");
+        let german = shipped.shown_title(Language::German);
+        assert_ne!(german, shipped.title);
+        let page = list(&administrator_with(Language::German), &[shipped], None).into_string();
+        assert!(page.contains(&german), "{page}");
+        assert_eq!(entry("Hover here").shown_title(Language::German), "Hover here");
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
+use crate::report::page::purpose_label;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::terms::task_title;
@@ -95,7 +96,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
                     @else { td { (one.completion_summary(language)) } }
                     td { (one.verdict(language)) }
                     td { (one.scenario) }
-                    td { (one.purpose.as_deref().unwrap_or("–")) }
+                    td { (one.purpose.as_deref().map_or_else(|| "–".to_owned(), |purpose| purpose_label(purpose, language))) }
                     td { (end_text(language, &one.end_reason)) }
                 }
             }
@@ -125,7 +126,7 @@ pub struct SessionPageData<'a> {
     pub folder: bool,
     /// The same trainee's other sessions.
     pub others: &'a [SessionListEntry],
-    /// Things to do better, from the session folder.
+    /// Things to do better, from the session folder. The page shows them in the visitor's language.
     pub advice: Option<&'a SessionAdvice>,
     /// Comparison with the trainee's other sessions on this job.
     pub standing: Option<SessionStanding>,
@@ -142,10 +143,12 @@ pub struct SessionPageData<'a> {
 pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     let language = visitor.language;
     let (time, end) = (formatting::duration(record.seconds), end_text(language, &record.end_reason));
+    let advice = page_data.advice.map(|advice| advice.in_language(language));
+    let page_data = &SessionPageData { advice: advice.as_ref(), ..*page_data };
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
-            @if let Some(purpose) = &record.purpose { " · " (purpose) } " · "
+            @if let Some(purpose) = &record.purpose { " · " (purpose_label(purpose, language)) } " · "
             (text!(language, "sessions-flight-time", time = time, end = end))
         }
         (section("better", &text!(language, "sessions-better"), &to_do_better(language, record, page_data)))
@@ -450,6 +453,7 @@ mod tests {
     use crate::advice::{AdvicePoint, NextFlight};
     use crate::testing::{aborted_record, perfect_record};
     use crate::trainee::Role;
+    use std::collections::BTreeMap;
 
     fn page_data(folder: bool, others: &[SessionListEntry]) -> SessionPageData<'_> {
         SessionPageData { folder, others, advice: None, standing: None, marks: &[], pictures: &[], video: false }
@@ -459,13 +463,14 @@ mod tests {
     fn exact_advice_is_escaped_and_links_to_its_moment() {
         let point = AdvicePoint {
             words: HOSTILE_NAME.into(),
+            translations: BTreeMap::new(),
             rule: HOSTILE_NAME.into(),
             frame: 301,
             t_s: 10.0,
             drill: HOSTILE_NAME.into(),
         };
         let next = Some(NextFlight { scenario: HOSTILE_NAME.into(), command: HOSTILE_NAME.into() });
-        let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next };
+        let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next, ..SessionAdvice::default() };
         let standing = Some(SessionStanding { best: 350.0, is_best: false, change: Some(-30.0) });
         let record = perfect_record("anna", 1);
         let data = SessionPageData { advice: Some(&advice), standing, ..page_data(true, &[]) };
@@ -477,10 +482,30 @@ mod tests {
         assert!(!bare.contains("#t="), "there is no report to link to");
     }
 
+    fn point(t_s: f64, words: &str) -> AdvicePoint {
+        let (rule, drill) = ("r".into(), "d".into());
+        AdvicePoint { words: words.into(), translations: BTreeMap::new(), rule, frame: 1, t_s, drill }
+    }
+
+    #[test]
+    fn exact_advice_is_shown_in_the_visitors_language() {
+        let translated = |words: &str| BTreeMap::from([("de".to_owned(), words.to_owned())]);
+        let points =
+            vec![AdvicePoint { translations: translated("Sie flogen zu schnell."), ..point(70.0, "You flew too fast.") }];
+        let (note, note_translations) = (Some("Well flown.".to_owned()), translated("Gut geflogen."));
+        let advice = SessionAdvice { points, note, note_translations, next: None };
+        let data = SessionPageData { advice: Some(&advice), video: true, ..page_data(true, &[]) };
+        let shown = |language| session(&administrator_with(language), &perfect_record("anna", 1), &data).into_string();
+        let (english, german, spanish) = (shown(Language::English), shown(Language::German), shown(Language::Spanish));
+        assert!(english.contains("You flew too fast.") && english.contains("Well flown."), "{english}");
+        assert_eq!(german.matches("Sie flogen zu schnell.").count(), 2, "in the list and beside the video: {german}");
+        assert!(german.contains("Gut geflogen.") && !german.contains("You flew") && !german.contains("Well flown"), "{german}");
+        assert!(spanish.contains("You flew too fast."), "there is no translation: {spanish}");
+    }
+
     #[test]
     fn exact_video_has_the_moments_in_order_and_photographs_lead_to_the_report() {
-        let point = |t_s, words: &str| AdvicePoint { words: words.into(), rule: "r".into(), frame: 1, t_s, drill: "d".into() };
-        let advice = SessionAdvice { points: vec![point(70.0, "late"), point(10.0, HOSTILE_NAME)], note: None, next: None };
+        let advice = SessionAdvice { points: vec![point(70.0, "late"), point(10.0, HOSTILE_NAME)], ..SessionAdvice::default() };
         let marks = [TimelineMark { t_s: 30.0, text: "middle".into(), by: String::new(), added_unix_us: 7 }];
         let data =
             SessionPageData { advice: Some(&advice), marks: &marks, pictures: &[4, 9], video: true, ..page_data(true, &[]) };
@@ -573,9 +598,10 @@ mod tests {
         check_translated(&list(&visitor, &listing).into_string(), &NAMES);
         for end in ["landed", "battery", "time_limit", "person", "vehicle", "crash", "abort", "restart"] {
             let english = end_text(Language::English, end);
-            assert_eq!(english, end.replace('_', " "));
             assert_ne!(end_text(Language::Pseudo, end), english);
         }
+        let ends = [Language::English, Language::German, Language::Spanish].map(|language| end_text(language, "time_limit"));
+        assert_eq!(ends, ["time limit reached", "Zeitlimit erreicht", "límite de tiempo alcanzado"]);
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
         assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");

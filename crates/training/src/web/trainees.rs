@@ -140,8 +140,9 @@ fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -
             p.note { (with_element(&text!(language, "people-changes-compared", session = ELEMENT), &previous)) }
             @let known = reliability_of_session(profile, &changes.since);
             ul {
+                @let scenario = profile.records.last().map_or("", |record| record.scenario.as_str());
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change_line(language, change)) @if change_is_within_error(change, known) { " (" (within_error::words(true, language)) ")" } }
+                    li { (change_line(language, scenario, change)) @if change_is_within_error(change, known) { " (" (within_error::words(true, language)) ")" } }
                 }
             }
         }
@@ -156,9 +157,10 @@ fn drill_line(language: Language, drill: &DrillProgress) -> String {
     }
 }
 
-fn change_line(language: Language, change: &MeasureChange) -> String {
+/// Describes a change. `scenario` is the name of the job.
+fn change_line(language: Language, scenario: &str, change: &MeasureChange) -> String {
     let (before, now) = (formatting::number(change.before, 1), formatting::number(change.now, 1));
-    let what = change.what.as_str();
+    let what = change.title(scenario, language);
     if change.better == Some(true) {
         text!(language, "people-change-better", what = what, before = before, now = now)
     } else {
@@ -349,6 +351,9 @@ mod tests {
         let known = text(&JobReliability::from([("two-bridges".to_owned(), reliability)]));
         check(&known);
         assert!(known.contains("safety: 50.0 → 52.0, better (within error)") && known.contains(">within error<"), "{known}");
+        let changes = &plan.as_ref().unwrap().changes.as_ref().unwrap().changes;
+        let safety = changes.iter().find(|change| change.what == "safety").unwrap();
+        assert_eq!(change_line(Language::German, "two-bridges", safety), "Sicherheit: 50.0 → 52.0, besser");
         let unknown = text(&JobReliability::new());
         assert!(unknown.contains("safety: 50.0 → 52.0, better<") && !unknown.contains("within error"), "{unknown}");
     }

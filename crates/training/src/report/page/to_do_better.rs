@@ -13,7 +13,7 @@ const MAX_PICTURE_AGE_S: f64 = 5.0;
 
 /// Renders the "Do better" section of a session report.
 pub fn section(review: &Review) -> Markup {
-    let advice = &review.advice;
+    let advice = &review.advice.in_language(review.metadata.language);
     html! {
         @if advice.points.is_empty() {
             p { (advice.note.as_deref().unwrap_or_default()) }
