@@ -130,7 +130,7 @@ impl FlightProcesses {
     /// Opens the window on the second screen. The flight goes on if that fails, or if the user closes it.
     pub fn open_second_window(&mut self, args: &Args, log: tracing::Level) {
         let Some(payload) = self.port("payload_port") else { return };
-        let seed = self.ports["seed"].as_u64().and_then(|seed| seed.try_into().ok());
+        let seed = self.ports["seed"].as_u64();
         let mut words = common_args(&JobArgs { seed, ..args.job(&self.choice.scenario) }, log);
         words.extend(["--connect".to_owned(), payload.to_string()]);
         words.extend(["--layout", "inspector-only", "--second-screen", "--no-sound"].map(str::to_owned));
