@@ -229,7 +229,7 @@ fn exact_the_display_is_translated() {
         assert!(german.iter().any(|one| one == words), "{words}: {german:?}");
     }
     let spanish = in_language(Language::Spanish);
-    assert!(spanish.iter().any(|one| one == "Vuele a la tarea 2 de 4"), "{spanish:?}");
+    assert!(spanish.iter().any(|one| one == "Vuelva a la tarea 2 de 4"), "{spanish:?}");
     // Values with units, the name of the flight mode, and GNSS are not in the catalog; some letters have no accented form.
     let is_plain = |words: &String| {
         words.chars().filter(|sign| sign.is_ascii_lowercase() && !"mqvx".contains(*sign)).count() > 3

@@ -19,6 +19,28 @@ use std::path::Path;
 const COMMITTED_PX: (u32, u32) = (400, 226);
 /// Sizes of the album's pictures.
 const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
+/// Functions whose keys the pages mention.
+const KEYS: [&str; 19] = [
+    "up",
+    "down",
+    "turn_left",
+    "turn_right",
+    "forward",
+    "back",
+    "left",
+    "right",
+    "pause",
+    "lamp",
+    "snapshot",
+    "swap",
+    "follow",
+    "arm",
+    "take_off",
+    "land",
+    "gimbal_up",
+    "gimbal_down",
+    "camera_zoom_in",
+];
 /// Number of pages of the tutorial.
 const TUTORIAL_PAGES: usize = 6;
 
@@ -91,10 +113,9 @@ fn question() -> SchoolPage {
 /// Returns the window with its start page.
 fn started(language: Language) -> WindowFlow {
     let mut flow = WindowFlow::new();
-    let keys = ["up", "down", "turn_left", "turn_right", "forward", "back", "left", "right", "pause", "lamp", "snapshot"];
     let key = |binding: &'static str| KeyFunction { binding, title: binding.replace('_', " "), key: "K".to_owned() };
     let style = DisplayStyle { language, ..DisplayStyle::default() };
-    flow.update_settings(SettingsStatus { style, is_sound_on: true, keys: keys.map(key).to_vec(), ..SettingsStatus::default() });
+    flow.update_settings(SettingsStatus { style, is_sound_on: true, keys: KEYS.map(key).to_vec(), ..SettingsStatus::default() });
     flow.handle_message(ToWindow::Offers(options()));
     flow
 }
