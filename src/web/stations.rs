@@ -100,11 +100,12 @@ pub fn order(state: &ServerState, request: &WebRequest) -> HandlerResult {
         flight: StationFlight { trainee: trainee.to_owned(), scenario: scenario.to_owned(), purpose: purpose.to_owned() },
         scenario_text: job.named.uploaded.then_some(job.text),
     };
-    match lock(&state.stations).order(station, order, now) {
-        Ok(()) => {}
-        Err(error) => return refused(state, request, &refusal_words(language, error, station)),
+    // The page of the refusal locks the board again.
+    let ordered = lock(&state.stations).order(station, order, now);
+    match ordered {
+        Ok(()) => Ok(WebResponse::redirect(URL)),
+        Err(error) => refused(state, request, &refusal_words(language, error, station)),
     }
-    Ok(WebResponse::redirect(URL))
 }
 
 fn refused(state: &ServerState, request: &WebRequest, words: &str) -> HandlerResult {

@@ -4,6 +4,7 @@ import json
 import subprocess
 import tomllib
 
+import numpy
 import pytest
 
 import asking
@@ -20,17 +21,26 @@ def settings_of(training):
     return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
+def move_focus(training, key, rows, page=None):
+    """Moves the focus by a number of rows, and returns the page with the focus there. `page` is the page before."""
+    photograph = training.screen.photograph() if page is None else page
+    for _ in range(rows):
+        before = focus(photograph)[1]
+        photograph = training.wait_for_screenshot("focus", lambda now, at=before: is_page(now) and abs(focus(now)[1] - at) > 0.02, key)
+    return photograph
+
+
 @pytest.mark.timeout(1800)
 def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):  # noqa: F811
     """Changes the key for takeoff from T to Y on the settings page, and takes off with it."""
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", "--no-sound")
     try:
         training.wait_for_screenshot("start", is_start_page)
-        # The settings are above "Quit", the last row.
-        moved = training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
-        screen.tap(UP)
-        settings = training.wait_for_screenshot("settings", other_page(moved), ENTER)
-        keys = training.wait_for_screenshot("keys", other_page(settings), ENTER)
+        # The settings are above the language and "Quit", the last rows.
+        training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
+        settings = training.wait_for_screenshot("settings", other_page(move_focus(training, UP, 2)), ENTER)
+        # The first row of the settings is the language.
+        keys = training.wait_for_screenshot("keys", other_page(move_focus(training, DOWN, 1, settings)), ENTER)
         for _ in range(ROWS_ABOVE_TAKE_OFF):
             screen.tap(DOWN)
         training.wait_for_screenshot("awaits-a-key", lambda photograph: is_page(photograph) and abs(photograph - keys).mean() > 0.1, ENTER)
@@ -58,6 +68,20 @@ def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):  # 
             return "lift-off" in training.output()
 
         spandrel.wait_for("lift-off with the new key", flies, LIMIT_S)
+    finally:
+        training.close()
+
+
+@pytest.mark.timeout(600)
+def test_wire_the_language_changes_the_pages_at_once(screen, tmp_path):
+    """Selects German on the start page; the page changes at once, and so do the texts that `train` sends."""
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--no-sound")
+    try:
+        training.wait_for_screenshot("start", is_start_page)
+        training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
+        english = move_focus(training, UP, 1)
+        training.wait_for_screenshot("german", lambda photograph: is_page(photograph) and numpy.abs(photograph - english).mean() > 2.0, "Right")
+        spandrel.wait_for("the stored language", lambda: (settings_of(training) or {}).get("display", {}).get("language") == "de", LIMIT_S)
     finally:
         training.close()
 

@@ -1,4 +1,5 @@
 stations-title = Stationen
+stations-table = Angemeldete Stationen
 stations-none = Noch keine Station hat sich gemeldet. Starten Sie „train“ auf jeder Station mit den Optionen --server, --station und --station-key.
 stations-disabled = Dieser Server nimmt keine Stationen an. Starten Sie „serve“ mit der Option --station-key.
 stations-name = Station

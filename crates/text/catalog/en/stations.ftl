@@ -1,5 +1,6 @@
 # Page with the computers (stations) of a training center, where an instructor starts flights.
 stations-title = Stations
+stations-table = Stations that have checked in
 stations-none = No station has checked in. On each station, start "train" with the options --server, --station and --station-key.
 stations-disabled = This server does not accept stations. Start "serve" with the option --station-key.
 stations-name = Station

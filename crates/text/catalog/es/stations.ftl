@@ -1,4 +1,5 @@
 stations-title = Estaciones
+stations-table = Estaciones registradas
 stations-none = Ninguna estación se ha registrado. En cada estación, inicie «train» con las opciones --server, --station y --station-key.
 stations-disabled = Este servidor no acepta estaciones. Inicie «serve» con la opción --station-key.
 stations-name = Estación

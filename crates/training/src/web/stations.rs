@@ -63,7 +63,7 @@ fn station_table(language: Language, about: &StationsPage<'_>) -> Markup {
             }
         }
     };
-    html! { div id="station-table" { (table(&text!(language, "stations-title"), &heads, &rows)) } }
+    html! { div id="station-table" { (table(&text!(language, "stations-table"), &heads, &rows)) } }
 }
 
 fn state_words(language: Language, state: StationState) -> String {
