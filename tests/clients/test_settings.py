@@ -80,8 +80,10 @@ def test_wire_the_language_changes_the_pages_at_once(screen, tmp_path):
         training.wait_for_screenshot("start", is_start_page)
         training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
         english = move_focus(training, UP, 1)
-        training.wait_for_screenshot("german", lambda photograph: is_page(photograph) and numpy.abs(photograph - english).mean() > 2.0, "Right")
+        german = training.wait_for_screenshot("german", lambda photograph: is_page(photograph) and numpy.abs(photograph - english).mean() > 2.0, "Right")
         spandrel.wait_for("the stored language", lambda: (settings_of(training) or {}).get("display", {}).get("language") == "de", LIMIT_S)
+        # The names of the jobs, which `train` sends, follow.
+        training.wait_for_screenshot("german-jobs", lambda photograph: is_page(photograph) and numpy.abs(photograph - german).mean() > 0.05)
     finally:
         training.close()
 
