@@ -1,5 +1,5 @@
 //! The briefing before a flight: the tasks in order, the conditions and hazards, what counts, and the site check. It is
-//! computed from the scenario, the aircraft and the site, so it holds for every job; [`text`] renders it for a terminal, and
+//! computed from the scenario, the aircraft and the site, so it holds for every job; [`mod@text`] renders it for a terminal, and
 //! `report::page::briefing` as a page.
 
 mod hazards;
