@@ -20,11 +20,6 @@ use std::path::PathBuf;
 #[cfg(feature = "view")]
 const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 
-/// Names of the path aids.
-const PATH_AIDS: [&str; 4] = [PathAids::ALL[0].0, PathAids::ALL[1].0, PathAids::ALL[2].0, PathAids::ALL[3].0];
-/// Names of the layouts.
-const LAYOUTS: [&str; 4] = [ViewLayout::ALL[0].0, ViewLayout::ALL[1].0, ViewLayout::ALL[2].0, ViewLayout::ALL[3].0];
-
 /// Watch a flight live in a window: the inspector's view and the camera's view, with head-up display
 ///
 /// The view uses only the vehicle's telemetry and the scenario, so it also works with a real autopilot and on another
@@ -78,13 +73,13 @@ pub struct Args {
     #[arg(long)]
     no_sound: bool,
     /// Layout of the views; Tab changes it
-    #[arg(long, value_name = "LAYOUT", default_value = "camera", value_parser = LAYOUTS)]
+    #[arg(long, value_name = "LAYOUT", default_value = "camera", value_parser = ViewLayout::ALL.map(|(name, _)| name))]
     layout: String,
     /// Fill another display than the primary one, if there is one
     #[arg(long)]
     second_screen: bool,
     /// Most of the reference paths that is drawn into the pictures; V hides it
-    #[arg(long, value_name = "AIDS", default_value = "full", value_parser = PATH_AIDS)]
+    #[arg(long, value_name = "AIDS", default_value = "full", value_parser = PathAids::ALL.map(|(name, _)| name))]
     path: String,
     /// Disable the map of the reference paths, for an assessment; M cannot show it
     #[arg(long)]

@@ -146,6 +146,7 @@ pub const ROUTES: &[Route] = &[
     show("/upload", AccessLevel::Instructor, uploads::page),
     upload("/upload", MAX_RECORDING_BYTES, AccessLevel::Instructor, uploads::recording),
     show("/stations", AccessLevel::Instructor, stations::page),
+    show("/stations/now", AccessLevel::Instructor, stations::now),
     change("/stations", AccessLevel::Instructor, stations::order),
     Route {
         path: "/stations/check-in",

@@ -15,7 +15,7 @@ use spandrel_monitor::folder::sha256_hex;
 use spandrel_text::{Language, text};
 use spandrel_training::stations::{CheckIn, CheckInRefusal, CheckInReply, FlightOrder, OrderError, StationFlight};
 use spandrel_training::web::browser_sessions::constant_time_eq;
-use spandrel_training::web::stations::{StationsPage, URL, stations_page};
+use spandrel_training::web::stations::{StationList, StationsPage, URL, stations_now, stations_page};
 
 /// Length of an order's ID, hexadecimal digits.
 const ID_DIGITS: usize = 16;
@@ -54,18 +54,24 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     render(state, request, (None, [""; 4]))
 }
 
+/// Responds with the part of the page that changes.
+pub fn now(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let board = lock(&state.stations).clone();
+    let list = StationList { stations: board.stations().collect(), now_unix_us: clock::unix_us() };
+    Ok(WebResponse::page(stations_now(request.visitor.language, &list)))
+}
+
 fn render(state: &ServerState, request: &WebRequest, (refusal, entered): (Option<&str>, [&str; 4])) -> HandlerResult {
     let board = lock(&state.stations).clone();
     let scenarios: Vec<String> =
         scenario_library::all(&state.scenarios).iter().flat_map(|job| names(&job.named.name, &job.text)).collect();
     let trainees: Vec<String> = state.database.trainees()?.into_iter().map(|person| person.pseudonym).collect();
     let about = StationsPage {
-        stations: board.stations().collect(),
+        list: StationList { stations: board.stations().collect(), now_unix_us: clock::unix_us() },
         scenarios: &scenarios,
         trainees: &trainees,
         refusal,
         entered,
-        now_unix_us: clock::unix_us(),
         enabled: state.station_key.is_some(),
     };
     Ok(WebResponse::page(stations_page(&request.visitor, &about)))

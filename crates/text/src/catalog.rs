@@ -12,8 +12,11 @@ pub use fluent_bundle::FluentValue as Value;
 
 type Bundle = FluentBundle<FluentResource>;
 
-static BUNDLES: LazyLock<[Bundle; 4]> =
-    LazyLock::new(|| [Language::English, Language::German, Language::Spanish, Language::Pseudo].map(bundle));
+// Each catalog is read at its first use: most programs show one language only.
+static ENGLISH: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::English));
+static GERMAN: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::German));
+static SPANISH: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::Spanish));
+static PSEUDO: LazyLock<Bundle> = LazyLock::new(|| bundle(Language::Pseudo));
 
 /// Reads a language's catalog. The tests read it with all errors.
 fn bundle(language: Language) -> Bundle {
@@ -34,15 +37,13 @@ fn bundle(language: Language) -> Bundle {
 /// names.
 #[must_use]
 pub fn message(language: Language, id: &str, variables: &[(&str, Value<'_>)]) -> String {
-    let bundles = &*BUNDLES;
-    let [english, german, spanish, pseudo] = bundles;
     let bundle = match language {
-        Language::English => english,
-        Language::German => german,
-        Language::Spanish => spanish,
-        Language::Pseudo => pseudo,
+        Language::English => &ENGLISH,
+        Language::German => &GERMAN,
+        Language::Spanish => &SPANISH,
+        Language::Pseudo => &PSEUDO,
     };
-    format(bundle, id, variables).or_else(|| format(english, id, variables)).unwrap_or_else(|| id.to_owned())
+    format(bundle, id, variables).or_else(|| format(&ENGLISH, id, variables)).unwrap_or_else(|| id.to_owned())
 }
 
 /// Returns the message with a name that is composed at run time, such as one for each bridge element; `None` if the English

@@ -2,10 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "test code")]
 
-use fluent_syntax::ast::{CallArguments, Entry, Expression, InlineExpression, Pattern, PatternElement};
+use fluent_syntax::ast::Entry;
 use spandrel_text::{Language, text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use variables::variables;
+
+#[path = "../variables.rs"]
+mod variables;
 
 /// Variables of each message.
 type Messages = BTreeMap<String, BTreeSet<String>>;
@@ -28,55 +32,15 @@ fn read(path: &Path) -> Messages {
     for entry in resource.body {
         match entry {
             Entry::Message(message) => {
-                let mut found = Variables::default();
-                found.pattern(message.value.as_ref().unwrap_or_else(|| panic!("{file}: {} has no text", message.id.name)));
-                assert!(messages.insert(message.id.name.clone(), found.0).is_none(), "{file}: {} twice", message.id.name);
+                let found = message.value.as_ref().unwrap_or_else(|| panic!("{file}: {} has no text", message.id.name));
+                let known = messages.insert(message.id.name.clone(), variables(found));
+                assert!(known.is_none(), "{file}: {} twice", message.id.name);
             }
             Entry::Junk { content } => panic!("{file}: {content}"),
             Entry::Term(_) | Entry::Comment(_) | Entry::GroupComment(_) | Entry::ResourceComment(_) => {}
         }
     }
     messages
-}
-
-#[derive(Default)]
-struct Variables(BTreeSet<String>);
-
-impl Variables {
-    fn pattern(&mut self, pattern: &Pattern<String>) {
-        for element in &pattern.elements {
-            if let PatternElement::Placeable { expression } = element {
-                self.expression(expression);
-            }
-        }
-    }
-
-    fn expression(&mut self, expression: &Expression<String>) {
-        match expression {
-            Expression::Inline(inline) => self.inline(inline),
-            Expression::Select { selector, variants } => {
-                self.inline(selector);
-                variants.iter().for_each(|variant| self.pattern(&variant.value));
-            }
-        }
-    }
-
-    fn inline(&mut self, inline: &InlineExpression<String>) {
-        match inline {
-            InlineExpression::VariableReference { id } => drop(self.0.insert(id.name.clone())),
-            InlineExpression::Placeable { expression } => self.expression(expression),
-            InlineExpression::FunctionReference { arguments, .. } => self.arguments(arguments),
-            InlineExpression::TermReference { arguments, .. } => arguments.iter().for_each(|all| self.arguments(all)),
-            InlineExpression::StringLiteral { .. }
-            | InlineExpression::NumberLiteral { .. }
-            | InlineExpression::MessageReference { .. } => {}
-        }
-    }
-
-    fn arguments(&mut self, arguments: &CallArguments<String>) {
-        arguments.positional.iter().for_each(|one| self.inline(one));
-        arguments.named.iter().for_each(|one| self.inline(&one.value));
-    }
 }
 
 #[test]

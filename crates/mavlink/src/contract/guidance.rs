@@ -219,6 +219,12 @@ impl WayTo {
         }
     }
 
+    /// Returns the height above the aircraft as shown to the pilot, m; `None` if it is too small to mention.
+    #[must_use]
+    pub fn height_m(&self) -> Option<f64> {
+        (self.up_m.abs() >= MIN_HEIGHT_M).then_some(self.up_m)
+    }
+
     /// Returns the way in words, such as "140 m, 30 deg left, 12 m up" or "60 m, behind you".
     #[must_use]
     pub fn words(&self) -> String {
@@ -228,9 +234,9 @@ impl WayTo {
             TurnTo::Left(turn_deg) => format!("{turn_deg:.0} deg left"),
             TurnTo::Right(turn_deg) => format!("{turn_deg:.0} deg right"),
         };
-        let height = match self.up_m.abs() {
-            small if small < MIN_HEIGHT_M => String::new(),
-            large => format!(", {large:.0} m {}", if self.up_m < 0.0 { "down" } else { "up" }),
+        let height = match self.height_m() {
+            None => String::new(),
+            Some(up_m) => format!(", {:.0} m {}", up_m.abs(), if up_m < 0.0 { "down" } else { "up" }),
         };
         format!("{:.0} m, {turn}{height}", self.distance_m)
     }

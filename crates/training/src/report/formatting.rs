@@ -59,19 +59,6 @@ pub fn control_source_label(by: Option<ControlSource>, language: Language) -> St
     }
 }
 
-/// Returns the display name of a score, such as `conformity`; a name that is not a score's stays as it is.
-#[must_use]
-pub fn score_label(score: &str, language: Language) -> String {
-    match score {
-        "conformity" => text!(language, "report-score-conformity"),
-        "efficiency" => text!(language, "report-score-efficiency"),
-        "safety" => text!(language, "report-score-safety"),
-        "accuracy" => text!(language, "report-score-accuracy"),
-        "overall" => text!(language, "report-score-overall"),
-        other => other.to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,13 +1,8 @@
 //! The next step of a flight in progress, in all languages.
 
 use serde_json::{Map, Value};
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, TurnTo, WayTo};
 use spandrel_text::{Language, text};
-
-/// Smallest turn that is worth mentioning, deg, as in the text messages of the vehicle.
-const MIN_TURN_DEG: f64 = 5.0;
-/// Smallest height difference that is worth mentioning, m, as in the text messages of the vehicle.
-const MIN_HEIGHT_M: f64 = 1.0;
 
 /// Returns the step in each language, by the language's tag.
 pub(super) fn step_texts(guidance: &Guidance) -> Value {
@@ -35,21 +30,17 @@ fn step_text(language: Language, guidance: &Guidance) -> String {
 }
 
 fn way_text(language: Language, way: &WayTo) -> String {
-    let turn_deg = way.bearing_rad.to_degrees();
-    let (distance, angle) = (format!("{:.0}", way.distance_m), format!("{:.0}", turn_deg.abs()));
-    let horizontal = if turn_deg.abs() < MIN_TURN_DEG {
-        text!(language, "live-way-ahead", distance = distance)
-    } else if turn_deg.abs() > 180.0 - MIN_TURN_DEG {
-        text!(language, "live-way-behind", distance = distance)
-    } else if turn_deg < 0.0 {
-        text!(language, "live-way-left", distance = distance, angle = angle)
-    } else {
-        text!(language, "live-way-right", distance = distance, angle = angle)
+    let distance = format!("{:.0}", way.distance_m);
+    let angle = |turn_deg: f64| format!("{turn_deg:.0}");
+    let horizontal = match way.turn() {
+        TurnTo::Ahead => text!(language, "live-way-ahead", distance = distance),
+        TurnTo::Behind => text!(language, "live-way-behind", distance = distance),
+        TurnTo::Left(turn_deg) => text!(language, "live-way-left", distance = distance, angle = angle(turn_deg)),
+        TurnTo::Right(turn_deg) => text!(language, "live-way-right", distance = distance, angle = angle(turn_deg)),
     };
-    let height = format!("{:.0}", way.up_m.abs());
-    if way.up_m.abs() < MIN_HEIGHT_M {
-        horizontal
-    } else if way.up_m < 0.0 {
+    let Some(up_m) = way.height_m() else { return horizontal };
+    let height = format!("{:.0}", up_m.abs());
+    if up_m < 0.0 {
         text!(language, "live-way-down", way = horizontal, height = height)
     } else {
         text!(language, "live-way-up", way = horizontal, height = height)

@@ -10,11 +10,20 @@ use spandrel_text::{Language, text};
 /// URL of the page.
 pub const URL: &str = "/stations";
 
+/// The stations at a time.
+#[derive(Debug)]
+pub struct StationList<'a> {
+    /// Stations by name.
+    pub stations: Vec<(&'a str, &'a Station)>,
+    /// Current time, µs since the Unix epoch.
+    pub now_unix_us: u64,
+}
+
 /// Contents of the page.
 #[derive(Debug)]
 pub struct StationsPage<'a> {
-    /// Stations by name.
-    pub stations: Vec<(&'a str, &'a Station)>,
+    /// The stations.
+    pub list: StationList<'a>,
     /// Names of the scenarios, and their names with each form or level.
     pub scenarios: &'a [String],
     /// Known trainees.
@@ -23,8 +32,6 @@ pub struct StationsPage<'a> {
     pub refusal: Option<&'a str>,
     /// Values of the refused order: station, trainee, scenario, purpose.
     pub entered: [&'a str; 4],
-    /// Current time, µs since the Unix epoch.
-    pub now_unix_us: u64,
     /// Whether the server accepts stations.
     pub enabled: bool,
 }
@@ -35,17 +42,28 @@ pub fn stations_page(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
     let language = visitor.language;
     let body = html! {
         @if let Some(refusal) = about.refusal { (message("bad", refusal)) }
-        @if about.stations.is_empty() {
+        @if about.list.stations.is_empty() {
             p { (if about.enabled { text!(language, "stations-none") } else { text!(language, "stations-disabled") }) }
         } @else {
-            (section("stations", &text!(language, "stations-title"), &station_table(language, about)))
+            (section("stations", &text!(language, "stations-title"), &station_table(language, &about.list)))
             (section("start-flight", &text!(language, "stations-start"), &order_form(visitor, about)))
         }
     };
     page_with_script(visitor, URL, &text!(language, "stations-title"), Some(assets::STATIONS_SCRIPT_NAME), &body)
 }
 
-fn station_table(language: Language, about: &StationsPage<'_>) -> Markup {
+/// Renders what changes on the page: the table, and the stations that can be selected. The page asks for it at short intervals.
+#[must_use]
+pub fn stations_now(language: Language, list: &StationList<'_>) -> Markup {
+    html! {
+        @if !list.stations.is_empty() {
+            (station_table(language, list))
+            (station_select(list, ""))
+        }
+    }
+}
+
+fn station_table(language: Language, list: &StationList<'_>) -> Markup {
     let heads = [
         text!(language, "stations-name"),
         text!(language, "stations-state"),
@@ -54,10 +72,10 @@ fn station_table(language: Language, about: &StationsPage<'_>) -> Markup {
     ];
     let heads = heads.map(|head| (head, false));
     let rows = html! {
-        @for (name, station) in &about.stations {
+        @for (name, station) in &list.stations {
             tr {
                 th scope="row" { (name) }
-                td { (state_words(language, station.state(about.now_unix_us))) }
+                td { (state_words(language, station.state(list.now_unix_us))) }
                 td { @match &station.flight { Some(flight) => (flight_words(language, flight)), None => "–" } }
                 td { (order_words(language, station.order.as_ref())) }
             }
@@ -99,19 +117,23 @@ fn order_words(language: Language, order: Option<&OrderState>) -> String {
 const PRACTICE: &str = "practice";
 const ASSESSMENT: &str = "assessment";
 
+fn station_select(list: &StationList<'_>, selected: &str) -> Markup {
+    html! {
+        select name="station" required {
+            @for (name, station) in &list.stations {
+                option value=(name) selected[*name == selected] disabled[station.state(list.now_unix_us) != StationState::Ready] { (name) }
+            }
+        }
+    }
+}
+
 fn order_form(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
     let language = visitor.language;
     let [station_name, trainee, scenario, purpose] = about.entered;
     html! {
         form.stacked method="post" action=(URL) {
             (token(visitor))
-            label { (text!(language, "stations-station"))
-                select name="station" required {
-                    @for (name, station) in &about.stations {
-                        option value=(name) selected[*name == station_name] disabled[station.state(about.now_unix_us) != StationState::Ready] { (name) }
-                    }
-                }
-            }
+            label { (text!(language, "stations-station")) (station_select(&about.list, station_name)) }
             label { (text!(language, "stations-trainee"))
                 input name="trainee" list="known-trainees" value=(trainee) required maxlength="32" autocomplete="off";
             }
@@ -148,18 +170,20 @@ mod tests {
         board.check_in(station("s2", Some(flight())), 0).unwrap();
         board.order("s1", FlightOrder { id: "a".into(), flight: flight(), scenario_text: None }, 0).unwrap();
         let about = |now_unix_us| StationsPage {
-            stations: board.stations().collect(),
+            list: StationList { stations: board.stations().collect(), now_unix_us },
             scenarios: &[],
             trainees: &[],
             refusal: Some(HOSTILE_NAME),
             entered: ["s1", HOSTILE_NAME, "", ""],
-            now_unix_us,
             enabled: true,
         };
         let text = stations_page(&administrator(), &about(0)).into_string();
         check(&text);
         assert!(text.contains("<option value=\"s1\" selected>") && text.contains("<option value=\"s2\" disabled>"), "{text}");
         assert!(text.contains("ready") && text.contains("practice of"), "{text}");
+        let now = stations_now(Language::English, &about(0).list).into_string();
+        let table = now.split_once("<select").unwrap().0;
+        assert!(text.contains(table) && now.contains("<option value=\"s2\" disabled>"), "{now}");
         let german = Visitor { language: Language::German, ..administrator() };
         let lost = stations_page(&german, &about(u64::MAX)).into_string();
         assert!(lost.contains("keine Verbindung") && lost.contains("<option value=\"s1\" selected disabled>"), "{lost}");
@@ -168,16 +192,16 @@ mod tests {
     #[test]
     fn exact_empty_page_explains_how_stations_connect() {
         let about = |enabled| StationsPage {
-            stations: Vec::new(),
+            list: StationList { stations: Vec::new(), now_unix_us: 0 },
             scenarios: &[],
             trainees: &[],
             refusal: None,
             entered: [""; 4],
-            now_unix_us: 0,
             enabled,
         };
         let text = stations_page(&administrator(), &about(true)).into_string();
         assert!(text.contains("No station") && !text.contains("<select"), "{text}");
+        assert_eq!(stations_now(Language::English, &about(true).list).into_string(), "");
         assert!(stations_page(&administrator(), &about(false)).into_string().contains("--station-key"));
     }
 }

@@ -3,7 +3,7 @@
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::table::{Table, TableCell, folded};
-use crate::terms::{defect_title, element_title};
+use crate::terms::{defect_title, element_title, score_title};
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
 use spandrel_monitor::score::certification::TaskVisits;
@@ -73,11 +73,11 @@ fn scores_table(review: &Review, language: Language) -> Table {
         caption: text!(language, "report-certification-scores-caption"),
         columns: vec![text!(language, "report-column-score"), text!(language, "report-column-points")],
         rows: vec![
-            row(text!(language, "report-score-conformity"), scores.conformity),
-            row(text!(language, "report-score-precision"), scores.precision),
-            row(text!(language, "report-score-safety"), Some(scores.safety)),
-            row(text!(language, "report-score-accuracy"), scores.accuracy),
-            row(text!(language, "report-score-efficiency"), Some(scores.efficiency)),
+            row(score_title("conformity", language), scores.conformity),
+            row(score_title("precision", language), scores.precision),
+            row(score_title("safety", language), Some(scores.safety)),
+            row(score_title("accuracy", language), scores.accuracy),
+            row(score_title("efficiency", language), Some(scores.efficiency)),
             row(text!(language, "report-score-sum"), Some(scores.sum)),
         ],
     }

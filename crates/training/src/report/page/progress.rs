@@ -7,11 +7,11 @@ use super::figure::{figure, legend};
 use super::within_error;
 use crate::cohort::{JobProgress, MeasureReliability, Repetition, ScoreCurve, TraineeProgress, reliability_of};
 use crate::record::excluded_sessions_note;
-use crate::report::formatting::score_label;
 use crate::report::plots::bars::{CountRow, counts};
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::plots::lines::{ChartLine, color_number, lines};
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms::score_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -81,7 +81,7 @@ pub fn progress_figures(progress: &TraineeProgress, tasks: &[(u32, String)], lan
 
 fn scores(progress: &TraineeProgress, language: Language) -> Vec<ChartLine> {
     let line = |(k, name): (usize, &&str)| ChartLine {
-        name: score_label(name, language),
+        name: score_title(name, language),
         style: k + 1,
         values: progress.repetitions.iter().map(|one| one.score(name)).collect(),
     };
@@ -115,7 +115,7 @@ fn learning(progress: &TraineeProgress, language: Language) -> Markup {
             @for curve in &progress.curves {
                 @let values = values(curve);
                 @let chart = PracticeChart { values: &values, curve: &curve.curve, others: &[], max_value: max_value(&curve.score) };
-                @let score = score_label(&curve.score, language);
+                @let score = score_title(&curve.score, language);
                 (figure(&score, &practice(&chart, &text!(language, "report-progress-curve", score = score.as_str()), language)))
             }
         }
@@ -130,7 +130,7 @@ fn curve_table(curves: &[ScoreCurve], language: Language) -> Table {
         let next = TableCell::Number(c.next.min(max_value(&one.score)), 1);
         let r_squared = c.r_squared.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
         vec![
-            score_label(&one.score, language).into(),
+            score_title(&one.score, language).into(),
             c.n.into(),
             TableCell::Number(c.first, 1),
             TableCell::Number(c.exponent, 3),
@@ -164,7 +164,7 @@ fn changes(progress: &TraineeProgress, reliability: &[MeasureReliability], langu
             let known = reliability_of(reliability, score).and_then(|one| one.reliability);
             let least = known.map_or(TableCell::Empty, |one| TableCell::Number(one.minimal_detectable_change, 1));
             let label = within_error::label(known.map(|_| after.within_error.iter().any(|name| name == score)), language);
-            Some(vec![after.number.into(), score_label(score, language).into(), TableCell::Number(change, 1), least, label])
+            Some(vec![after.number.into(), score_title(score, language).into(), TableCell::Number(change, 1), least, label])
         };
         CHANGING_SCORES.iter().filter_map(row).collect::<Vec<_>>()
     });
@@ -192,7 +192,7 @@ fn numbers(scenario: &str, progress: &TraineeProgress, language: Language) -> Ta
         row
     };
     let mut columns = vec![text!(language, "report-column-repetition"), text!(language, "report-column-scenario")];
-    columns.extend(CHANGING_SCORES.map(|score| score_label(score, language)));
+    columns.extend(CHANGING_SCORES.map(|score| score_title(score, language)));
     columns.extend([
         text!(language, "report-column-flight-time"),
         text!(language, "report-column-bridge-crashes"),

@@ -5,6 +5,7 @@ use crate::report::Review;
 use crate::report::formatting;
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms;
 use crate::words::capitalized;
 use maud::{Markup, html};
 use spandrel_monitor::assessment::Scores;
@@ -40,7 +41,7 @@ pub fn header(review: &Review) -> Markup {
             div.overall {
                 @if review.assessment.completion.complete {
                     p.figure { (formatting::number(scores.overall, 0)) span.of { " " (text!(language, "report-of-max", max = formatting::number(scores.overall_max, 0))) } }
-                    p { (formatting::score_label("overall", language)) }
+                    p { (terms::score_title("overall", language)) }
                     p { (review.assessment.completion.headline(language)) }
                 } @else {
                     p.headline { (review.assessment.completion.headline(language)) }
@@ -109,7 +110,7 @@ pub fn scores_by_name(scores: &Scores) -> [(&'static str, Option<Score>); 4] {
 
 /// Returns the display name of a score for headings.
 pub fn score_title(score: &str, language: Language) -> String {
-    capitalized(&formatting::score_label(score, language))
+    capitalized(&terms::score_title(score, language))
 }
 
 fn score_explanation(review: &Review, name: &str) -> String {

@@ -4,7 +4,7 @@ const EVERY_MS = 2000;
 async function look() {
   try {
     // Hidden pages do not poll. A redirect means that the login has expired.
-    const answer = document.hidden ? null : await fetch(location.pathname, { redirect: "manual" });
+    const answer = document.hidden ? null : await fetch("/stations/now", { redirect: "manual" });
     if (answer && answer.ok) {
       const page = new DOMParser().parseFromString(await answer.text(), "text/html");
       update(page);

@@ -5,10 +5,10 @@ use super::super::figure::{figure, legend};
 use super::lists_individuals::lists_individuals;
 use super::pooled;
 use crate::cohort::Cohort;
-use crate::report::formatting::score_label;
 use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
 use crate::report::plots::histogram::histogram;
 use crate::report::table::{Table, TableCell, shown};
+use crate::terms::score_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -17,7 +17,7 @@ pub fn distributions(cohort: &Cohort, language: Language) -> Markup {
     html! {
         div.trio {
             @for one in &cohort.distributions {
-                @let score = score_label(&one.score, language);
+                @let score = score_title(&one.score, language);
                 @let title = text!(language, "cohort-histogram", score = score.as_str());
                 (figure(&score, &histogram(&one.histogram, one.summary.mean, &title, language)))
             }
@@ -31,7 +31,7 @@ fn distribution_table(cohort: &Cohort, language: Language) -> Table {
         let s = &one.summary;
         let maybe = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
         let numbers = [s.min, s.q1, s.median, s.q3, s.max].map(|value| TableCell::Number(value, 1));
-        let score = score_label(&one.score, language);
+        let score = score_title(&one.score, language);
         let mut row = vec![score.into(), s.n.into(), TableCell::Number(s.mean, 2), maybe(s.sd)];
         row.extend(numbers);
         row.push(maybe(s.skewness));
@@ -106,7 +106,7 @@ fn individual_table(cohort: &Cohort, language: Language) -> Table {
         ]
     });
     let mut columns = vec![text!(language, "cohort-column-trainee")];
-    columns.extend(["conformity", "efficiency", "safety", "accuracy", "overall"].map(|score| score_label(score, language)));
+    columns.extend(["conformity", "efficiency", "safety", "accuracy", "overall"].map(|score| score_title(score, language)));
     columns.push(text!(language, "report-column-flight-time"));
     Table { name: "individuals", caption: text!(language, "cohort-individuals-caption"), columns, rows: rows.collect() }
 }

@@ -4,10 +4,10 @@ use super::super::figure::{figure, legend};
 use super::super::progress::{max_value, progress_figures, too_few_repetitions};
 use super::super::within_error;
 use crate::cohort::{Cohort, GroupCurve, TraineeProgress};
-use crate::report::formatting::score_label;
 use crate::report::plots::learning_curve::{PracticeChart, practice};
 use crate::report::table::{Table, TableCell, shown};
 use crate::statistics::LearningCurve;
+use crate::terms::score_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -32,7 +32,7 @@ pub fn curves(cohort: &Cohort, language: Language) -> Markup {
                 @for one in &cohort.learning {
                     @let others = individual_curves(cohort, &one.score);
                     @let chart = PracticeChart { values: &one.means, curve: &one.curve, others: &others, max_value: max_value(&one.score) };
-                    @let score = score_label(&one.score, language);
+                    @let score = score_title(&one.score, language);
                     @let caption = text!(language, "cohort-learning-figure", score = score.as_str(), count = one.people);
                     (figure(&caption, &practice(&chart, &text!(language, "report-progress-curve", score = score.as_str()), language)))
                 }
@@ -58,7 +58,7 @@ fn numbers(curves: &[GroupCurve], language: Language) -> Table {
     let row = |one: &GroupCurve| {
         let c = &one.curve;
         vec![
-            score_label(&one.score, language).into(),
+            score_title(&one.score, language).into(),
             one.people.into(),
             c.n.into(),
             TableCell::Number(one.means.first().copied().unwrap_or_default(), 1),

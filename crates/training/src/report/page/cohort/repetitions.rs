@@ -3,9 +3,9 @@
 use super::super::figure::figure;
 use super::super::within_error;
 use crate::cohort::{Cohort, Comparison};
-use crate::report::formatting::score_label;
 use crate::report::plots::boxes::{NamedBox, boxes};
 use crate::report::table::{Table, TableCell, shown};
+use crate::terms::score_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -19,7 +19,7 @@ pub fn repetitions(cohort: &Cohort, language: Language) -> Markup {
         div.trio {
             @for (score, max_value) in SCORES {
                 @let named: Vec<NamedBox<'_>> = cohort.boxes.iter().filter(|one| one.score == score).map(|one| NamedBox { name: one.repetition.to_string(), plot: &one.plot }).collect();
-                @let score = score_label(score, language);
+                @let score = score_title(score, language);
                 @let title = text!(language, "cohort-boxes", score = score.as_str());
                 @if !named.is_empty() { (figure(&score, &boxes(&named, max_value, &title, language))) }
             }
@@ -35,7 +35,7 @@ fn t_tests(tests: &[Comparison], language: Language) -> Table {
     let row = |one: &Comparison| {
         let (t, p) = (&one.test, one.test.p);
         vec![
-            score_label(&one.score, language).into(),
+            score_title(&one.score, language).into(),
             text!(language, "cohort-versus", earlier = one.earlier, later = one.later).into(),
             t.n.into(),
             TableCell::Number(t.mean_difference, 2),
@@ -74,7 +74,7 @@ fn homogeneity(cohort: &Cohort, language: Language) -> Table {
     let counted = |counts: &[usize]| counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" / ");
     let rows = cohort.homogeneity.iter().map(|one| {
         vec![
-            score_label(&one.score, language).into(),
+            score_title(&one.score, language).into(),
             counted(&one.group).into(),
             counted(&one.others).into(),
             TableCell::Number(one.test.chi_squared, 2),
