@@ -2,6 +2,7 @@
 
 use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
+use super::job_pictures::JobLook;
 use super::panes::{PaneContent, ViewOptions};
 use super::pilot::{PilotCommand, PilotThread};
 use super::window_text::{WindowText, frozen, help, paint_flight, waiting};
@@ -14,7 +15,7 @@ use spandrel_model::pose::Pose;
 use spandrel_text::text;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
-use spandrel_view::flow::{Page, PageLayout, PictureSource, SettingChange, WindowRequest};
+use spandrel_view::flow::{Page, PageLayout, SettingChange, WindowRequest};
 use spandrel_view::gpu::{PageTextures, paint_sheet};
 use spandrel_view::hud::{self, TextScale};
 use spandrel_view::live::LiveMoment;
@@ -176,16 +177,14 @@ impl Cockpit {
     }
 
     fn page(&mut self) -> Result<(), AppError> {
-        let sheet = self.flow.sheet(self.shape().window);
-        for placed in &sheet.pictures {
-            match &placed.source {
-                PictureSource::Job(job) => self.job_pictures.request(job),
-                PictureSource::Embedded(_) | PictureSource::File(_) => {}
-            }
-        }
-        while let Some((job, picture)) = self.job_pictures.poll() {
+        while let Some(JobLook { job, picture, drawing }) = self.job_pictures.poll() {
+            self.flow.add_job_drawing(job.clone(), drawing);
             self.pictures.add_job(job, picture);
         }
+        if let Some(job) = self.flow.job_to_draw() {
+            self.job_pictures.request(job);
+        }
+        let sheet = self.flow.sheet(self.shape().window);
         let (Some(screen), pictures) = (&mut self.screen, &mut self.pictures) else { return Ok(()) };
         screen.show(|ui| paint_page(ui, &sheet, pictures))
     }

@@ -1,7 +1,9 @@
-//! Pictures of jobs for the start page, drawn in the background when they are first shown.
+//! Pictures of jobs for the start page and drawings for their briefings, made in the background when they are first needed.
 
 use crate::io::files;
+use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_view::hud::JobDrawing;
 use spandrel_view::job_picture;
 use spandrel_view::picture::Picture;
 use std::collections::BTreeSet;
@@ -14,11 +16,22 @@ pub struct JobPictures {
     thread: Option<DrawingThread>,
 }
 
-/// The thread's ends: for requests, and for pictures with their jobs.
-type DrawingThread = (Sender<String>, Receiver<(String, Picture)>);
+/// How a job looks.
+#[derive(Debug)]
+pub struct JobLook {
+    /// Name or path of the job.
+    pub job: String,
+    /// Picture for the start page.
+    pub picture: Picture,
+    /// Drawings for the briefing.
+    pub drawing: JobDrawing,
+}
+
+/// The thread's ends: for requests, and for finished jobs.
+type DrawingThread = (Sender<String>, Receiver<JobLook>);
 
 impl JobPictures {
-    /// Requests the picture of a job, given by its name or path, unless it was requested before.
+    /// Requests the picture and the drawings of a job, given by its name or path, unless it was requested before.
     pub fn request(&mut self, job: &str) {
         if !self.requested.insert(job.to_owned()) {
             return;
@@ -28,8 +41,8 @@ impl JobPictures {
         let _ = jobs.send(job.to_owned());
     }
 
-    /// Returns the next finished picture.
-    pub fn poll(&self) -> Option<(String, Picture)> {
+    /// Returns the next finished job.
+    pub fn poll(&self) -> Option<JobLook> {
         self.thread.as_ref().and_then(|(_, drawn)| drawn.try_recv().ok())
     }
 }
@@ -41,9 +54,8 @@ fn start() -> DrawingThread {
         for job in wanted {
             match files::scenario(&job) {
                 Ok(file) => {
-                    let picture = job_picture::draw(&file.scenario, &Site::without_defects(&file.scenario));
                     // Sending fails only if the window has since been closed.
-                    let _ = sender.send((job, picture));
+                    let _ = sender.send(look(job, &file.scenario));
                 }
                 // The start page works without the picture, and starting the job reports the error.
                 Err(error) => tracing::debug!("no picture of {job}: {error}"),
@@ -51,6 +63,11 @@ fn start() -> DrawingThread {
         }
     });
     (jobs, drawn)
+}
+
+fn look(job: String, scenario: &Scenario) -> JobLook {
+    let site = Site::without_defects(scenario);
+    JobLook { job, picture: job_picture::draw(scenario, &site), drawing: JobDrawing::new(scenario, &site) }
 }
 
 #[cfg(test)]
@@ -66,7 +83,7 @@ mod tests {
         }
         let (_, drawn) = pictures.thread.take().unwrap();
         // The thread ends when nobody can request another picture.
-        let names: Vec<String> = drawn.iter().map(|(name, _)| name).collect();
+        let names: Vec<String> = drawn.iter().map(|look| look.job).collect();
         assert_eq!(names, ["drill-hover", "drill-gap"]);
     }
 }

@@ -53,6 +53,9 @@ window-briefing-site-check = Kontrolle des Einsatzorts
 window-briefing-tasks = Aufgaben, in dieser Reihenfolge
 window-briefing-hazards = Gefahren
 window-briefing-notes = Von Ihrem Ausbilder
+window-briefing-map = Karte
+window-briefing-side = Brücke „{ $bridge }“ von der Seite
+window-briefing-from-south = Von Süden
 
 ## Controller
 

@@ -54,6 +54,9 @@ window-briefing-site-check = Site check
 window-briefing-tasks = Tasks, in this order
 window-briefing-hazards = Hazards
 window-briefing-notes = From your instructor
+window-briefing-map = Map
+window-briefing-side = Bridge '{ $bridge }' from the side
+window-briefing-from-south = From the south
 
 ## Controller
 

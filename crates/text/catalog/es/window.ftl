@@ -53,6 +53,9 @@ window-briefing-site-check = Revisión del sitio
 window-briefing-tasks = Tareas, en este orden
 window-briefing-hazards = Peligros
 window-briefing-notes = De su instructor
+window-briefing-map = Mapa
+window-briefing-side = Puente «{ $bridge }» visto de lado
+window-briefing-from-south = Desde el sur
 
 ## Controller
 

@@ -1,10 +1,12 @@
-//! Briefing page before the flight: tasks, hazards, and the site check, which the user acknowledges to start.
+//! Briefing page before the flight: drawings of the site with the tasks, hazards, and the site check, which the user acknowledges
+//! to start.
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{JobBriefing, JobOffer};
-use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, wrap_text};
-use crate::hud::{HudColor, TextAlign};
+use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, fitted, wrap_text};
+use crate::hud::{HudColor, JobDrawing, TextAlign};
 use spandrel_text::{Language, text};
+use std::sync::Arc;
 
 /// Left margin, and gap between the columns.
 const LEFT: f64 = 0.04;
@@ -14,6 +16,13 @@ const TOP: f64 = 0.15;
 const MENU_TOP: f64 = 0.82;
 /// Smallest font size, relative to secondary text, before the page is scrolled instead.
 const MIN_SIZE_RATIO: f64 = 0.55;
+/// Share of the width for the drawings of the site.
+const DRAWINGS_SHARE: f64 = 0.36;
+/// Smallest and largest height of a drawing, relative to its width.
+const DRAWING_HEIGHTS: (f64, f64) = (0.25, 0.8);
+const DRAWING_GAP: f64 = 0.015;
+/// Font size of the drawings' captions.
+const CAPTION_SIZE: f64 = 0.8 * SMALL_TEXT_SIZE;
 /// Space between two paragraphs and before a heading, in lines.
 const PARAGRAPH_GAP: f64 = 0.35;
 const HEADING_GAP: f64 = 0.6;
@@ -29,21 +38,53 @@ pub fn rows(language: Language) -> Vec<MenuRow> {
 /// A block of the page: a heading and its paragraphs.
 type Block<'a> = (String, &'a [String]);
 
-pub fn page(pen: &mut PageWriter, job: &JobOffer, rows: &[MenuRow], focus: usize) {
+pub fn page(pen: &mut PageWriter, (job, drawing): (&JobOffer, Option<&Arc<JobDrawing>>), rows: &[MenuRow], focus: usize) {
     let whole = pen.width - 2.0 * LEFT;
     let language = pen.style().language;
     pen.title((LEFT, 0.08), whole, &text!(language, "window-briefing-title", job = job.title.as_str()));
     let columns = columns(&job.briefing, language);
-    let width = if pen.is_narrow() { whole } else { 0.5 * (whole - COLUMN_GAP) };
+    let is_narrow = pen.is_narrow();
+    let drawn = if is_narrow { whole } else { DRAWINGS_SHARE * whole };
+    let texts = match drawing {
+        Some(_) if !is_narrow => whole - drawn - COLUMN_GAP,
+        Some(_) | None => whole,
+    };
+    let width = if is_narrow { whole } else { 0.5 * (texts - COLUMN_GAP) };
     // A page that fits has its menu at the bottom; otherwise, it is scrolled.
-    let fits = fitting_size(&columns, width).filter(|_| !pen.is_narrow() && pen.height >= 1.0);
+    let fits = fitting_size(&columns, width).filter(|_| !is_narrow && pen.height >= 1.0);
     let mut bottom = TOP;
     for (k, column) in columns.iter().enumerate() {
-        let (x, top) = if pen.is_narrow() { (LEFT, bottom) } else { (LEFT + (width + COLUMN_GAP) * k as f64, TOP) };
+        let (x, top) = if is_narrow { (LEFT, bottom) } else { (LEFT + (width + COLUMN_GAP) * k as f64, TOP) };
         bottom = draw_column(pen, ((x, top), width), column, fits.unwrap_or(SMALL_TEXT_SIZE)).max(bottom);
+    }
+    if let Some(drawing) = drawing {
+        let (place, room) =
+            if is_narrow { ((LEFT, bottom), f64::INFINITY) } else { ((LEFT + whole - drawn, TOP), MENU_TOP - TOP) };
+        bottom = draw_site(pen, drawing, (place, drawn), room).max(bottom);
     }
     let menu_top = if fits.is_some() { MENU_TOP } else { bottom + 0.02 };
     menu::draw(pen, (LEFT, menu_top), whole, rows, focus);
+}
+
+/// Draws the site one drawing below the other, as high as they are, or lower if there is less room. Returns the y position below.
+fn draw_site(pen: &mut PageWriter, drawing: &JobDrawing, ((x, top), width): ((f64, f64), f64), room: f64) -> f64 {
+    let language = pen.style().language;
+    let caption_height = LINE_SPACING * CAPTION_SIZE;
+    let (least, most) = DRAWING_HEIGHTS;
+    let heights = (0..drawing.count()).map(|k| (width * drawing.height_ratio(k)).clamp(least * width, most * width));
+    let heights: Vec<f64> = heights.collect();
+    let gaps = (caption_height + DRAWING_GAP) * heights.len() as f64;
+    let shrink = ((room - gaps) / heights.iter().sum::<f64>()).clamp(0.0, 1.0);
+    let mut y = top;
+    for (k, height) in heights.into_iter().enumerate() {
+        let caption = drawing.caption(k, language).unwrap_or_default();
+        let size = fitted(&caption, CAPTION_SIZE, width);
+        pen.text((x, y + 0.5 * caption_height), TextAlign::Left, size, HudColor::Yellow, caption);
+        y += caption_height;
+        pen.job_drawing((drawing, k), (x, y), (width, shrink * height));
+        y += shrink * height + DRAWING_GAP;
+    }
+    y
 }
 
 fn columns(briefing: &JobBriefing, language: Language) -> [Vec<Block<'_>>; 2] {

@@ -31,14 +31,15 @@ pub use sheet::{PageLayout, PictureSource};
 pub use tutorial::PICTURES;
 
 use crate::arrange::ViewLayout;
-use crate::hud::ScreenPoint;
+use crate::hud::{JobDrawing, ScreenPoint};
 use crate::path_guide::PathAids;
 use page::PendingOperation;
 use pipe::{
     FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, Purpose, SchoolPage, ToWindow,
 };
 use spandrel_text::{Language, text};
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
 
 /// State of the window.
 #[derive(Debug, Clone)]
@@ -73,6 +74,8 @@ pub struct WindowFlow {
     scrolled: f64,
     /// Whether the page is scrolled to the focused row: not before the user has moved the focus.
     follows_focus: bool,
+    /// Drawings of the jobs' sites that are ready, by the jobs' names.
+    job_drawings: BTreeMap<String, Arc<JobDrawing>>,
     out: VecDeque<WindowRequest>,
 }
 
@@ -107,8 +110,14 @@ impl WindowFlow {
             awaited_key: None,
             scrolled: 0.0,
             follows_focus: false,
+            job_drawings: BTreeMap::new(),
             out: VecDeque::new(),
         }
+    }
+
+    /// Adds the drawings of a job's site for its briefing.
+    pub fn add_job_drawing(&mut self, job: String, drawing: JobDrawing) {
+        self.job_drawings.insert(job, Arc::new(drawing));
     }
 
     /// Creates the state for watching a flight without controlling it; it shows only the flight page.

@@ -4,7 +4,7 @@
 
 use super::KeyPress;
 pub use crate::hud::text_metrics::{fitted, text_width};
-use crate::hud::{DisplayStyle, DrawItem, HudColor, ScreenPoint, TextAlign, at};
+use crate::hud::{Area, DisplayStyle, DrawItem, HudColor, JobDrawing, Pane, ScreenPoint, TextAlign, at};
 
 /// Font size of titles, as a fraction of the window's height with normal text (the unit of all sizes in this module).
 pub const TITLE_SIZE: f64 = 0.075;
@@ -233,6 +233,13 @@ impl PageWriter {
     pub fn picture_from(&mut self, source: PictureSource, (x, y): (f64, f64), (width, height): (f64, f64)) {
         let (from, to) = (self.place(x, y), self.place(x + width, y + height));
         self.sheet.pictures.push(PlacedPicture { source, from, to });
+    }
+
+    /// Adds one of a job's drawings.
+    pub fn job_drawing(&mut self, (drawing, index): (&JobDrawing, usize), (x, y): (f64, f64), (width, height): (f64, f64)) {
+        let pane = Pane { width: self.aspect, height: self.height };
+        let area = Area { x: self.left + x, y, width, height };
+        self.sheet.items.extend(drawing.draw(index, self.style, pane, area));
     }
 
     /// Adds a clickable area.

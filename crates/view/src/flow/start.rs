@@ -63,7 +63,7 @@ impl WindowFlow {
             Page::Settings { .. } => self.draw_settings(&mut pen, &rows),
             Page::Keys { .. } => self.draw_keys(&mut pen, &rows),
             Page::Briefing => match self.chosen_job() {
-                Some(job) => briefing::page(&mut pen, job, &rows, self.focus),
+                Some(job) => briefing::page(&mut pen, (job, self.job_drawings.get(&job.name)), &rows, self.focus),
                 None => waiting(&mut pen, &self.waiting_for.title(self.language())),
             },
             Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
@@ -119,6 +119,12 @@ impl WindowFlow {
     /// Returns the selected job, if it is one of the offered ones.
     pub(super) fn chosen_job(&self) -> Option<&JobOffer> {
         self.offers.as_ref()?.scenarios.iter().find(|job| job.name == self.choice.scenario)
+    }
+
+    /// Returns the name of the job whose picture or drawings the current page shows.
+    #[must_use]
+    pub fn job_to_draw(&self) -> Option<&str> {
+        matches!(self.page, Page::Start | Page::Briefing).then_some(self.choice.scenario.as_str())
     }
 
     /// Returns a heading and an explanation for each selected value.

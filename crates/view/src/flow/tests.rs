@@ -10,8 +10,10 @@ use super::{
     WindowFlow, WindowRequest,
 };
 use crate::hud::text_metrics::text_width;
-use crate::hud::{DisplayStyle, DisplayUnits, DrawItem, ScreenPoint, TextAlign, TextScale};
+use crate::hud::{DisplayStyle, DisplayUnits, DrawItem, JobDrawing, ScreenPoint, TextAlign, TextScale};
 use crate::path_guide::PathAids;
+use spandrel_model::site::Site;
+use spandrel_model::{scenario, shipped};
 use spandrel_text::Language;
 use std::net::SocketAddr;
 
@@ -859,12 +861,41 @@ fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
     assert!(matches!(pending_requests(&mut flow)[..], [WindowRequest::Send(FromWindow::Chosen(_))]));
 }
 
-#[test]
-fn prop_briefing_is_complete_and_does_not_overlap_at_any_aspect_ratio() {
+/// Returns the window's briefing page without and with drawings of the site.
+fn briefings() -> [WindowFlow; 2] {
     let mut flow = started();
     flow.handle_message(ToWindow::Offers(briefed_offers()));
     press(&mut flow, &[KeyPress::Down, KeyPress::Down, KeyPress::Down, KeyPress::Enter, KeyPress::Enter]);
+    let scenario = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
+    let mut drawn = flow.clone();
+    let job = drawn.job_to_draw().unwrap().to_owned();
+    drawn.add_job_drawing(job, JobDrawing::new(&scenario, &Site::without_defects(&scenario)));
+    [flow, drawn]
+}
+
+#[test]
+fn prop_drawings_of_the_briefing_overlap_neither_each_other_nor_the_menu() {
+    let [_, flow] = briefings();
     for aspect in [1.0, 4.0 / 3.0, 16.0 / 9.0, 21.0 / 9.0] {
+        let panel = |item: &DrawItem| match item {
+            DrawItem::Panel { from, to, .. } => Some((*from, *to)),
+            DrawItem::Text { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        };
+        let panels: Vec<(ScreenPoint, ScreenPoint)> = flow.sheet(aspect).items.iter().filter_map(panel).collect();
+        // The map, two bridges, and two rows of the menu.
+        assert_eq!(panels.len(), 5, "aspect {aspect}");
+        for (k, (from, to)) in panels.iter().enumerate() {
+            let apart = |(a, b): &(ScreenPoint, ScreenPoint)| b.x <= from.x || to.x <= a.x || b.y <= from.y || to.y <= a.y;
+            assert!(panels[..k].iter().all(apart), "aspect {aspect}: {panels:?}");
+            assert!(to.y - from.y > 0.03, "aspect {aspect}: {panels:?}");
+        }
+    }
+}
+
+#[test]
+fn prop_briefing_is_complete_and_does_not_overlap_at_any_aspect_ratio() {
+    let aspects = [1.0, 4.0 / 3.0, 16.0 / 9.0, 21.0 / 9.0];
+    for (flow, aspect) in briefings().into_iter().flat_map(|flow| aspects.map(|aspect| (flow.clone(), aspect))) {
         let sheet = flow.sheet(aspect);
         let texts: Vec<(ScreenPoint, f64, String)> = sheet
             .items

@@ -26,10 +26,12 @@ mod task_panel;
 mod tests;
 pub(crate) mod text_metrics;
 
-pub use instruments::{SiteOutline, instruments};
+pub(crate) use instruments::Area;
+pub use instruments::{JobDrawing, SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub use monitor_texts::{Warning, message_words};
+pub(crate) use pane::Pane;
 pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
 pub use status::LINK_TIMEOUT_S;
 pub use style::{DisplayStyle, DisplayUnits, TextScale};

@@ -2,6 +2,8 @@
 //! in the usual sizes of windows, to be looked at.
 
 use super::compare::{check_picture, save_in};
+use spandrel_model::site::Site;
+use spandrel_model::{scenario, shipped};
 use spandrel_text::Language;
 use spandrel_view::flow::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing, JobOffer, NextJob, Purpose,
@@ -9,7 +11,7 @@ use spandrel_view::flow::pipe::{
 };
 use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
 use spandrel_view::gpu::{Gpu, Overlay, PageTextures, picture_texture, read};
-use spandrel_view::hud::DisplayStyle;
+use spandrel_view::hud::{DisplayStyle, JobDrawing};
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
 use std::net::SocketAddr;
@@ -110,6 +112,11 @@ fn question() -> SchoolPage {
     }
 }
 
+fn drawing() -> JobDrawing {
+    let scenario = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
+    JobDrawing::new(&scenario, &Site::without_defects(&scenario))
+}
+
 /// Returns the window with its start page.
 fn started(language: Language) -> WindowFlow {
     let mut flow = WindowFlow::new();
@@ -156,6 +163,8 @@ fn pages(language: Language) -> Vec<(String, WindowFlow)> {
     let mut briefing = on_page(language, |page| page == Page::Controls);
     briefing.press(KeyPress::Enter);
     assert_eq!(briefing.page(), Page::Briefing);
+    let job = briefing.job_to_draw().unwrap().to_owned();
+    briefing.add_job_drawing(job, drawing());
     pages.push(("briefing".to_owned(), briefing));
     let flight = |purpose| {
         let mut flow = started(language);

@@ -2,7 +2,7 @@
 
 /// Rectangle of an instrument, px.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Area {
+pub(crate) struct Area {
     pub x: f64,
     pub y: f64,
     pub width: f64,
@@ -10,16 +10,16 @@ pub(super) struct Area {
 }
 
 impl Area {
-    pub(super) fn middle(self) -> (f64, f64) {
+    pub(crate) fn middle(self) -> (f64, f64) {
         (self.x + 0.5 * self.width, self.y + 0.5 * self.height)
     }
 
-    pub(super) fn corner(self) -> (f64, f64) {
+    pub(crate) fn corner(self) -> (f64, f64) {
         (self.x + self.width, self.y + self.height)
     }
 
     /// Returns the rectangle without a margin on each side.
-    pub(super) fn inside(self, margin: f64) -> Self {
+    pub(crate) fn inside(self, margin: f64) -> Self {
         let (width, height) = ((self.width - 2.0 * margin).max(1.0), (self.height - 2.0 * margin).max(1.0));
         Self { x: self.x + margin, y: self.y + margin, width, height }
     }

@@ -3,7 +3,7 @@
 use super::super::pane::Pane;
 use super::super::state::Hud;
 use super::super::style::DisplayStyle;
-use super::super::{DrawItem, HudColor, TextAlign};
+use super::super::{DrawItem, HudColor, MapPath, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
 use super::scale::DrawingScale;
@@ -18,7 +18,8 @@ const MAX_SCALE_SHARE: f64 = 0.35;
 /// Lengths of the scale, in units of length.
 const SCALE_LENGTHS: [f64; 9] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1_000.0, 2_000.0];
 
-fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
+/// Returns the place of a point on the map.
+pub(super) fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
     scale.place((point_m.east(), point_m.north()))
 }
 
@@ -26,10 +27,11 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     let scale = DrawingScale::fit(site.bounds, area.inside(0.5 * font));
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
     items.extend(ground(site, pane, area, &scale));
-    items.extend(tasks(hud, pane, area, &scale, font));
-    let (pad, side) = (clamp_point(place(&scale, hud.pad_m), area.inside(0.5 * font)), 0.35 * font);
-    let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
-    items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
+    let current = hud.guidance.and_then(|guidance| guidance.task);
+    let paths = Paths { tracks: &hud.tracks, current, place: &|point_m| place(&scale, point_m) };
+    items.extend(paths.lines(pane, font));
+    items.extend(paths.numbers(pane, area, font));
+    items.push(pad(pane, place(&scale, hud.pad_m), area, font));
     if let Some(ghost) = hud.ghost {
         let here = clamp_point(place(&scale, ghost.position_m), area.inside(font));
         items.push(pane.fill(&arrow(here, ghost.ned_from_frd.yaw_rad(), font), HudColor::Ghost));
@@ -41,7 +43,8 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     items
 }
 
-fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
+/// Returns the water and the bridges.
+pub(super) fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
     // Strips overlap, so that no line shows between them.
     let half_m = 0.5 * GROUND_SAMPLE_SPACING_M + 1.0 / scale.px_per_m;
     let strip = |west: f64, east: f64, north: f64| {
@@ -58,25 +61,71 @@ fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &DrawingScale) -> V
     drawn.collect()
 }
 
-fn tasks(hud: &Hud, pane: Pane, area: Area, scale: &DrawingScale, font: f64) -> Vec<DrawItem> {
-    let current = hud.guidance.and_then(|guidance| guidance.task);
-    let mut items = Vec::new();
-    for track in &hud.tracks {
-        let mut points: Vec<Point> = track.path_m.iter().step_by(3).map(|point_m| place(scale, *point_m)).collect();
-        points.extend(track.path_m.last().filter(|_| !track.closed).or(track.path_m.first()).map(|end_m| place(scale, *end_m)));
-        let color = if Some(track.id) == current { HudColor::Yellow } else { HudColor::Blue };
-        let width = if Some(track.id) == current { 0.28 } else { 0.16 };
-        items.push(pane.line(&points, width * font, color));
+/// Returns the landing pad, at the edge of the area if it is outside.
+pub(super) fn pad(pane: Pane, at: Point, area: Area, font: f64) -> DrawItem {
+    let (pad, side) = (clamp_point(at, area.inside(0.5 * font)), 0.35 * font);
+    let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
+    pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White)
+}
+
+/// The tasks' paths in a drawing.
+pub(super) struct Paths<'a> {
+    pub tracks: &'a [MapPath],
+    /// The current task, which is highlighted.
+    pub current: Option<u32>,
+    /// Returns the place of a point in the drawing.
+    pub place: &'a dyn Fn(Vec3<Enu>) -> Point,
+}
+
+impl Paths<'_> {
+    fn points(&self, track: &MapPath) -> Vec<Point> {
+        let end = track.path_m.last().filter(|_| !track.closed).or(track.path_m.first());
+        track.path_m.iter().step_by(3).chain(end).map(|point_m| (self.place)(*point_m)).collect()
     }
-    let mut taken: Vec<Point> = Vec::new();
-    for track in &hud.tracks {
-        let start = place(scale, track.path_m[0]);
-        let label = free_place((start.0, start.1 - 0.9 * font), &taken, area.inside(0.7 * font), font);
-        items.push(disc(pane, label, 0.62 * font, HudColor::Black));
-        items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
-        taken.push(label);
+
+    /// Returns the paths as lines.
+    pub fn lines(&self, pane: Pane, font: f64) -> Vec<DrawItem> {
+        let line = |track: &MapPath| {
+            let is_current = Some(track.id) == self.current;
+            let (color, width) = if is_current { (HudColor::Yellow, 0.28) } else { (HudColor::Blue, 0.16) };
+            pane.line(&self.points(track), width * font, color)
+        };
+        self.tracks.iter().map(line).collect()
     }
-    items
+
+    /// Returns the tasks' numbers beside the starts of their paths.
+    pub fn numbers(&self, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+        let mut items = Vec::new();
+        let mut taken: Vec<Point> = Vec::new();
+        for track in self.tracks {
+            let Some(start_m) = track.path_m.first() else { continue };
+            let start = (self.place)(*start_m);
+            let label = free_place((start.0, start.1 - 0.9 * font), &taken, area.inside(0.7 * font), font);
+            items.push(disc(pane, label, 0.62 * font, HudColor::Black));
+            items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
+            taken.push(label);
+        }
+        items
+    }
+
+    /// Returns an arrowhead on each path that shows its direction.
+    pub fn directions(&self, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+        let arrows = self.tracks.iter().filter_map(|track| direction(&self.points(track)));
+        let inside = area.inside(0.7 * font);
+        arrows
+            .map(|(at, heading_rad)| pane.fill(&arrow(clamp_point(at, inside), heading_rad, 0.7 * font), HudColor::White))
+            .collect()
+    }
+}
+
+/// Returns the middle of the longest part of a path, and its direction in the drawing, rad clockwise from up. A path that is seen
+/// end-on has no direction.
+fn direction(points: &[Point]) -> Option<(Point, f64)> {
+    let length2 = |pair: &&[Point]| (pair[1].0 - pair[0].0).powi(2) + (pair[1].1 - pair[0].1).powi(2);
+    let longest = points.windows(2).max_by(|a, b| length2(a).total_cmp(&length2(b)))?;
+    let (from, to) = (longest[0], longest[1]);
+    let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
+    (length2(&longest) > 0.0).then(|| (middle, math::atan2(to.0 - from.0, from.1 - to.1)))
 }
 
 /// Returns the place for a task's number: the wanted one, or the next free one to the right and down.
@@ -100,7 +149,7 @@ fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
 }
 
 /// Returns the north arrow and the scale.
-fn legend(style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
+pub(super) fn legend(style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
     let units = style.units;
     let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
     let lengths_m = SCALE_LENGTHS.map(|length| length * units.length_unit_m());

@@ -2,6 +2,7 @@
 
 mod area;
 mod clip;
+mod job_drawing;
 mod map;
 mod navigation;
 mod profile;
@@ -10,12 +11,13 @@ mod site_outline;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use area::Area;
+pub use job_drawing::JobDrawing;
 pub use site_outline::SiteOutline;
 
 use super::DrawItem;
 use super::pane::Pane;
 use super::state::Hud;
-use area::Area;
 
 /// Normal font size relative to the shorter side of the instruments' area.
 const FONT_RATIO: f64 = 0.045;

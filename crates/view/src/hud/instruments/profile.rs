@@ -39,7 +39,8 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
     items
 }
 
-fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
+/// Returns the water, the ground and the bridge.
+pub(super) fn background(side: &SideView, water_level_m: f64, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
     let ((left, low), (right, _)) = side.bounds;
     let water = vec![(left, low), (right, low), (right, water_level_m), (left, water_level_m)];
     let ground = side.ground.windows(2).filter(|pair| pair[0].1 > low || pair[1].1 > low);

@@ -71,9 +71,14 @@ impl SiteOutline {
         }
     }
 
+    /// Returns the index of a task's bridge in the scenario; `None` for a free path.
+    pub(super) fn bridge_of(&self, task: u32) -> Option<usize> {
+        self.bridges.iter().find(|(id, _)| *id == task).and_then(|(_, bridge)| *bridge)
+    }
+
     /// Returns the side view of a task's bridge; without a task or a bridge, the view from the south.
     pub(super) fn side(&self, task: Option<u32>) -> Option<&SideView> {
-        let bridge = self.bridges.iter().find(|(id, _)| Some(*id) == task).and_then(|(_, bridge)| *bridge);
+        let bridge = task.and_then(|task| self.bridge_of(task));
         bridge.and_then(|bridge| self.sides.get(bridge)).or(self.sides.last())
     }
 }
