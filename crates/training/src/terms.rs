@@ -44,6 +44,18 @@ pub fn score_title(key: &str, language: Language) -> String {
     }
 }
 
+/// Returns the name of a measure with this key: a score, or `flight_time`, `crashes` or `certification_sum`; the key if there is no
+/// such measure.
+#[must_use]
+pub fn measure_title(key: &str, language: Language) -> String {
+    match key {
+        "certification_sum" => text!(language, "report-measure-certification-sum"),
+        "flight_time" => text!(language, "report-measure-flight-time"),
+        "crashes" => text!(language, "report-measure-crashes"),
+        score => score_title(score, language),
+    }
+}
+
 /// Returns the name of a kind of object hit with this label, such as `terrain`; the label if there is no such kind.
 #[must_use]
 pub fn contact_title(label: &str, language: Language) -> String {

@@ -186,3 +186,38 @@ cohort-column-measure = Messgröße
 cohort-column-sessions = Sitzungen
 cohort-column-ceiling = am Höchstwert (%)
 cohort-column-trainees-repeating = Trainees mit Wiederholungen
+
+## Limitations
+
+cohort-limitations =
+    { $count ->
+        [one] 1 Einschränkung dieser Statistik
+       *[other] { $count } Einschränkungen dieser Statistik
+    }
+cohort-limit-aided =
+    { $count ->
+        [one] 1 Sitzung wurde eingefroren oder zurückgespult und wird nicht verglichen
+       *[other] { $count } Sitzungen wurden eingefroren oder zurückgespult und werden nicht verglichen
+    }
+cohort-limit-few-answers =
+    Anforderung, Belastung, Leistung: Nur { $count ->
+        [one] 1 Trainee hat
+       *[other] { $count } Trainees haben
+    } vollständig geantwortet; bei weniger als { $recommended } kann das Modell mittlere Effekte übersehen, beschreibt also nur diese Trainees und lässt sich nicht verallgemeinern
+cohort-limit-no-causal-model = Anforderung, Belastung, Leistung: Das Modell konnte nicht geschätzt werden: { $outcome }: { $reason }
+cohort-limit-few-pairs =
+    Nur { $count ->
+        [one] 1 Trainee ist
+       *[other] { $count } Trainees sind
+    } { $repetitions }-mal geflogen; bei weniger als { $recommended } kann ein gepaarter Test mittlere Effekte übersehen
+cohort-limit-imprecise = Die Zuverlässigkeit der Messgrößen beruht auf { $count } Trainees; bei weniger als { $recommended } ist sie ungenau
+cohort-limit-no-reliability = Keine Zuverlässigkeit für { $measure }: In allen Sitzungen dieser Trainees ist der Wert gleich
+cohort-limit-no-comparison = { $score }, Wiederholung { $later } und { $earlier }: kein Test möglich: { $reason }
+cohort-limit-no-homogeneity = { $score }: Die Gruppe lässt sich nicht mit den übrigen Trainees vergleichen: { $reason }
+cohort-reason-too-few =
+    nur { $count ->
+        [one] 1 Wert
+       *[other] { $count } Werte
+    }, mindestens { $needed } nötig
+cohort-reason-constant = alle Werte sind gleich
+cohort-reason-collinear = die Prädiktoren sind in dieser Stichprobe kollinear

@@ -190,3 +190,38 @@ cohort-column-measure = measure
 cohort-column-sessions = sessions
 cohort-column-ceiling = at the ceiling (%)
 cohort-column-trainees-repeating = trainees with repetitions
+
+## Limitations
+
+cohort-limitations =
+    { $count ->
+        [one] 1 limitation of these statistics
+       *[other] { $count } limitations of these statistics
+    }
+cohort-limit-aided =
+    { $count ->
+        [one] 1 session was frozen or rewound, and is not compared
+       *[other] { $count } sessions were frozen or rewound, and are not compared
+    }
+cohort-limit-few-answers =
+    demand, strain, performance: only { $count ->
+        [one] 1 trainee
+       *[other] { $count } trainees
+    } gave complete answers; with fewer than { $recommended }, the model can miss medium effects, so it describes only these trainees and does not generalize
+cohort-limit-no-causal-model = demand, strain, performance: model could not be estimated: { $outcome }: { $reason }
+cohort-limit-few-pairs =
+    only { $count ->
+        [one] 1 trainee
+       *[other] { $count } trainees
+    } flew { $repetitions } times; with fewer than { $recommended }, a paired test can miss medium effects
+cohort-limit-imprecise = the reliability of the measures is based on { $count } trainees; with fewer than { $recommended }, it is imprecise
+cohort-limit-no-reliability = no reliability of { $measure }: it has the same value in all sessions of these trainees
+cohort-limit-no-comparison = { $score }, repetition { $later } vs. { $earlier }: no test possible: { $reason }
+cohort-limit-no-homogeneity = { $score }: cannot compare the group with the other trainees: { $reason }
+cohort-reason-too-few =
+    only { $count ->
+        [one] 1 value
+       *[other] { $count } values
+    }; at least { $needed } are required
+cohort-reason-constant = all values are the same
+cohort-reason-collinear = the predictors are collinear in this sample

@@ -190,3 +190,38 @@ cohort-column-measure = medida
 cohort-column-sessions = sesiones
 cohort-column-ceiling = en el máximo (%)
 cohort-column-trainees-repeating = alumnos con repeticiones
+
+## Limitations
+
+cohort-limitations =
+    { $count ->
+        [one] 1 limitación de estas estadísticas
+       *[other] { $count } limitaciones de estas estadísticas
+    }
+cohort-limit-aided =
+    { $count ->
+        [one] 1 sesión se congeló o se rebobinó y no se compara
+       *[other] { $count } sesiones se congelaron o se rebobinaron y no se comparan
+    }
+cohort-limit-few-answers =
+    demanda, tensión, rendimiento: solo { $count ->
+        [one] 1 alumno respondió
+       *[other] { $count } alumnos respondieron
+    } por completo; con menos de { $recommended }, el modelo puede pasar por alto efectos medianos, por lo que describe solo a estos alumnos y no se puede generalizar
+cohort-limit-no-causal-model = demanda, tensión, rendimiento: no se pudo estimar el modelo: { $outcome }: { $reason }
+cohort-limit-few-pairs =
+    solo { $count ->
+        [one] 1 alumno voló
+       *[other] { $count } alumnos volaron
+    } { $repetitions } veces; con menos de { $recommended }, una prueba pareada puede pasar por alto efectos medianos
+cohort-limit-imprecise = la fiabilidad de las medidas se basa en { $count } alumnos; con menos de { $recommended } es imprecisa
+cohort-limit-no-reliability = sin fiabilidad de { $measure }: tiene el mismo valor en todas las sesiones de estos alumnos
+cohort-limit-no-comparison = { $score }, repetición { $later } frente a { $earlier }: no es posible ninguna prueba: { $reason }
+cohort-limit-no-homogeneity = { $score }: no se puede comparar el grupo con los demás alumnos: { $reason }
+cohort-reason-too-few =
+    solo { $count ->
+        [one] 1 valor
+       *[other] { $count } valores
+    }; se necesitan al menos { $needed }
+cohort-reason-constant = todos los valores son iguales
+cohort-reason-collinear = los predictores son colineales en esta muestra

@@ -4,14 +4,13 @@
 //! 2007).
 
 use super::answers::measured_pct;
+use super::limitation::Limitation;
+use super::sample_sizes::RECOMMENDED_RESPONDENTS;
 use crate::record::SessionRecord;
-use crate::statistics::{Regression, least_squares, mean, quantile, sd, solve};
+use crate::statistics::{Regression, StatisticsError, least_squares, mean, quantile, sd, solve};
 use serde::Serialize;
 use spandrel_model::random::RandomStream;
 
-/// Number of trainees needed to detect medium effects at a power of 0.8 with a percentile bootstrap (Fritz and
-/// MacKinnon 2007). Smaller samples cause a warning.
-pub const RECOMMENDED_TRAINEES: usize = 78;
 /// Maximum number of bootstrap samples.
 const MAX_RESAMPLES: usize = 2_000;
 /// Minimum number of bootstrap samples, used for large cohorts, for which more samples would take seconds.
@@ -60,20 +59,17 @@ struct Respondent {
     performance: f64,
 }
 
-/// Estimates the model and appends its limitations to `warnings`.
-pub fn causal(first_sessions: &[&SessionRecord], warnings: &mut Vec<String>) -> Option<MediationModel> {
+/// Estimates the model and appends its limitations.
+pub fn causal(first_sessions: &[&SessionRecord], limitations: &mut Vec<Limitation>) -> Option<MediationModel> {
     let people: Vec<Respondent> = first_sessions.iter().filter_map(|record| respondent(record)).collect();
     let n = people.len();
-    if n < RECOMMENDED_TRAINEES {
-        warnings.push(format!(
-            "demand, strain, performance: only {n} trainees gave complete answers; with fewer than {RECOMMENDED_TRAINEES}, the model can miss medium effects, \
-             so it describes only these trainees and does not generalize"
-        ));
+    if n < RECOMMENDED_RESPONDENTS {
+        limitations.push(Limitation::FewAnswers(n));
     }
     match estimate(&people) {
         Ok(model) => Some(model),
-        Err(why) => {
-            warnings.push(format!("demand, strain, performance: model could not be estimated: {why}"));
+        Err((outcome, reason)) => {
+            limitations.push(Limitation::NoCausalModel { outcome, reason });
             None
         }
     }
@@ -85,7 +81,8 @@ fn respondent(record: &SessionRecord) -> Option<Respondent> {
     Some(Respondent { demand, strain, feedback, performance: measured_pct(record) })
 }
 
-fn estimate(people: &[Respondent]) -> Result<MediationModel, String> {
+/// Estimates the model; an error contains the outcome of the failing regression.
+fn estimate(people: &[Respondent]) -> Result<MediationModel, (&'static str, StatisticsError)> {
     let column = |pick: fn(&Respondent) -> f64| people.iter().map(pick).collect::<Vec<f64>>();
     let about_mean = |values: Vec<f64>| {
         let middle = mean(&values).unwrap_or_default();
@@ -98,9 +95,9 @@ fn estimate(people: &[Respondent]) -> Result<MediationModel, String> {
     let product: Vec<f64> = demand.iter().zip(&feedback).map(|(demand, feedback)| demand * feedback).collect();
     let (strain, performance) = (column(|person| person.strain), column(|person| person.performance));
     let first = [("demand", demand.as_slice()), ("feedback", feedback.as_slice()), ("demand x feedback", product.as_slice())];
-    let on_strain = least_squares(&strain, &first).map_err(|error| format!("strain: {error}"))?;
+    let on_strain = least_squares(&strain, &first).map_err(|error| ("strain", error))?;
     let second = [("strain", strain.as_slice()), ("demand", demand.as_slice())];
-    let on_performance = least_squares(&performance, &second).map_err(|error| format!("performance: {error}"))?;
+    let on_performance = least_squares(&performance, &second).map_err(|error| ("performance", error))?;
     let estimates = |model: &Regression| model.coefficients.iter().map(|one| one.estimate).collect::<Vec<f64>>();
     let (a, b) = (estimates(&on_strain), estimates(&on_performance));
     let rows: Vec<[f64; 3]> = (0..people.len()).map(|k| [demand[k], feedback[k], product[k]]).collect();

@@ -6,28 +6,29 @@ mod answers;
 mod causal;
 pub mod columns;
 mod learning;
+mod limitation;
 mod progress;
 mod reliability;
+mod sample_sizes;
 mod samples;
 mod scores;
 mod tables;
 
 pub use answers::{AnswerDistribution, Contradiction, SelfRating, SelfRatingPair};
-pub use causal::{IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
+pub use causal::{IndirectEffect, MediationModel};
 pub use learning::GroupCurve;
+pub use limitation::Limitation;
 pub use progress::{JobProgress, JobReliability, Repetition, ScoreCurve, TraineeProgress, by_job};
 pub use reliability::{MeasureReliability, reliability_of};
+pub use sample_sizes::RECOMMENDED_RESPONDENTS;
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, FirstSession, GroupHomogeneityTest, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
 use super::record::{IncompletePolicy, SessionRecord};
+use sample_sizes::RECOMMENDED_PAIRS;
 use samples::SessionsByTrainee;
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// Minimum number of pairs for meaningful paired tests. Detecting a medium effect (d = 0.5) at a power of 0.8 and a
-/// two-tailed significance level of 0.05 takes 34 pairs (Cohen 1988).
-const RECOMMENDED_PAIRS: usize = 34;
 
 /// Sessions and number of repetitions to analyze.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,16 +81,8 @@ pub struct Cohort {
     /// Learning curves over all trainees with enough sessions; empty if there are none.
     pub learning: Vec<GroupCurve>,
     /// Limitations to consider when interpreting the results.
-    pub warnings: Vec<String>,
-}
-
-/// Returns a note with the number of sessions that were frozen or rewound; `None` if it is 0.
-fn aided_note(count: usize) -> Option<String> {
-    match count {
-        0 => None,
-        1 => Some("1 session was frozen or rewound, and is not compared".to_owned()),
-        many => Some(format!("{many} sessions were frozen or rewound, and are not compared")),
-    }
+    #[serde(rename = "warnings")]
+    pub limitations: Vec<Limitation>,
 }
 
 /// Analyzes the selected sessions of a cohort.
@@ -111,18 +104,18 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let repetitions = selection.repetitions.max(1);
     let group: SessionsByTrainee<'_> =
         runs.iter().filter(|(_, sessions)| sessions.len() >= repetitions).map(|(k, v)| (*k, v.clone())).collect();
-    let mut warnings: Vec<String> = aided_note(aided.len()).into_iter().collect();
-    let causal = causal::causal(&first_sessions, &mut warnings);
-    if repetitions > 1 && group.len() < RECOMMENDED_PAIRS {
-        warnings.push(format!(
-            "only {} trainees flew {repetitions} times; with fewer than {RECOMMENDED_PAIRS}, a paired test can miss medium effects",
-            group.len()
-        ));
+    let mut limitations = Vec::new();
+    if !aided.is_empty() {
+        limitations.push(Limitation::AidedSessions(aided.len()));
     }
-    let reliability = reliability::reliabilities(&runs, &group, repetitions, &mut warnings);
+    let causal = causal::causal(&first_sessions, &mut limitations);
+    if repetitions > 1 && group.len() < RECOMMENDED_PAIRS {
+        limitations.push(Limitation::FewPairs { trainees: group.len(), repetitions });
+    }
+    let reliability = reliability::reliabilities(&runs, &group, repetitions, &mut limitations);
     let progress: Vec<TraineeProgress> =
         runs.iter().map(|(trainee, sessions)| progress::progress(trainee, sessions, &reliability)).collect();
-    let homogeneity = scores::test_group_homogeneity(&first_sessions, &group, &mut warnings);
+    let homogeneity = scores::test_group_homogeneity(&first_sessions, &group, &mut limitations);
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
         left_out: left_out.len(),
@@ -133,7 +126,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         individuals: first_sessions.iter().map(|record| scores::first_session(record)).collect(),
         crashes: scores::crash_table(&first_sessions),
         boxes: scores::boxes(&group, repetitions),
-        tests: scores::comparisons(&group, repetitions, &reliability, &mut warnings),
+        tests: scores::comparisons(&group, repetitions, &reliability, &mut limitations),
         homogeneity,
         likert: answers::likert(&first_sessions, &group, repetitions),
         self_rating: answers::self_rating(&first_sessions, &reliability),
@@ -141,7 +134,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         learning: learning::learning(&progress, &reliability),
         reliability,
         progress,
-        warnings,
+        limitations,
         scenarios,
     }
 }

@@ -1,12 +1,11 @@
 //! Reliability of each measure, and the changes that are too small to be told apart from measurement error.
 
+use super::limitation::Limitation;
+use super::sample_sizes::RECOMMENDED_REPEATERS;
 use super::samples::{MEASURES, Measure, SessionsByTrainee};
 use crate::record::SessionRecord;
 use crate::statistics::{Reliability, StatisticsError, reliability};
 use serde::Serialize;
-
-/// Minimum number of trainees for a reliability that can be relied on (Koo and Li 2016).
-const RECOMMENDED_TRAINEES: usize = 30;
 
 /// Reliability of one measure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,13 +48,10 @@ pub fn reliabilities(
     runs: &SessionsByTrainee<'_>,
     group: &SessionsByTrainee<'_>,
     repetitions: usize,
-    warnings: &mut Vec<String>,
+    limitations: &mut Vec<Limitation>,
 ) -> Vec<MeasureReliability> {
-    if repetitions > 1 && (2..RECOMMENDED_TRAINEES).contains(&group.len()) {
-        warnings.push(format!(
-            "the reliability of the measures is based on {} trainees; with fewer than {RECOMMENDED_TRAINEES}, it is imprecise",
-            group.len()
-        ));
+    if repetitions > 1 && (2..RECOMMENDED_REPEATERS).contains(&group.len()) {
+        limitations.push(Limitation::ImpreciseReliability(group.len()));
     }
     let all: Vec<&SessionRecord> = runs.values().flatten().copied().collect();
     let mut one = |measure: &Measure| {
@@ -65,10 +61,7 @@ pub fn reliabilities(
         let reliability = match reliability(&complete) {
             Ok(found) => Some(found),
             Err(StatisticsError::Constant(_)) => {
-                warnings.push(format!(
-                    "no reliability of {}: it has the same value in all sessions of these trainees",
-                    measure.name.replace('_', " ")
-                ));
+                limitations.push(Limitation::NoReliability(measure.name));
                 None
             }
             Err(_) => None,

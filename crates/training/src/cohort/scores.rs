@@ -1,5 +1,6 @@
 //! Cohort score statistics: distributions, first sessions, crashes, repetitions and tests.
 
+use super::limitation::Limitation;
 use super::reliability::{MeasureReliability, reliability_of};
 use super::samples::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
 use crate::record::{Crashes, SessionRecord};
@@ -214,7 +215,7 @@ pub fn comparisons(
     group: &SessionsByTrainee<'_>,
     repetitions: usize,
     reliability: &[MeasureReliability],
-    warnings: &mut Vec<String>,
+    limitations: &mut Vec<Limitation>,
 ) -> Vec<Comparison> {
     let mut tests = Vec::new();
     for (score, pick) in SCORES {
@@ -236,8 +237,9 @@ pub fn comparisons(
                         test,
                         p_holm: None,
                     }),
-                    Err(error) => {
-                        warnings.push(format!("{score}, repetition {} vs. {}: no test possible: {error}", later + 1, earlier + 1))
+                    Err(reason) => {
+                        let (earlier, later) = (earlier + 1, later + 1);
+                        limitations.push(Limitation::NoComparison { score, earlier, later, reason });
                     }
                 }
             }
@@ -269,7 +271,7 @@ fn apply_holm_correction(mut family: Vec<&mut Comparison>) {
 pub fn test_group_homogeneity(
     first_sessions: &[&SessionRecord],
     group: &SessionsByTrainee<'_>,
-    warnings: &mut Vec<String>,
+    limitations: &mut Vec<Limitation>,
 ) -> Vec<GroupHomogeneityTest> {
     let mut tests = Vec::new();
     if group.is_empty() || group.len() == first_sessions.len() {
@@ -292,7 +294,7 @@ pub fn test_group_homogeneity(
             Ok(test) => {
                 tests.push(GroupHomogeneityTest { score: score.to_owned(), cuts: [low, middle], group: own, others, test })
             }
-            Err(error) => warnings.push(format!("{score}: cannot compare the group with the other trainees: {error}")),
+            Err(reason) => limitations.push(Limitation::NoHomogeneityTest { score, reason }),
         }
     }
     tests

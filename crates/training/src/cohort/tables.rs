@@ -2,6 +2,7 @@
 
 use super::Cohort;
 use crate::statistics::{Regression, TailProbabilities};
+use spandrel_text::Language;
 use std::fmt::Display;
 
 /// File names of all tables.
@@ -45,7 +46,9 @@ pub fn table(cohort: &Cohort, name: &str) -> Option<String> {
         "progress.csv" => progress(cohort),
         "learning_curves.csv" => curves(cohort),
         "learning_of_the_group.csv" => learning(cohort),
-        "warnings.csv" => CsvWriter::new(&["warning"]).rows(cohort.warnings.iter().map(|words| vec![text(words)])),
+        "warnings.csv" => {
+            CsvWriter::new(&["warning"]).rows(cohort.limitations.iter().map(|one| vec![text(&one.words(Language::English))]))
+        }
         _ => return None,
     })
 }

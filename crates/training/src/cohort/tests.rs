@@ -2,6 +2,7 @@ use super::*;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem};
 use crate::testing::{aborted_record, perfect_record};
 use spandrel_model::random::RandomStream;
+use spandrel_text::Language;
 
 /// Returns records of 22 trainees, the first eight with three sessions each. Scores and answers are random, but higher demand
 /// leads to more strain and more strain to less safety.
@@ -37,6 +38,11 @@ fn pilot_study_records() -> Vec<SessionRecord> {
     records
 }
 
+/// Returns the limitations in English.
+fn words(cohort: &Cohort) -> Vec<String> {
+    cohort.limitations.iter().map(|one| one.words(Language::English)).collect()
+}
+
 fn analyzed(records: &[SessionRecord]) -> Cohort {
     cohort(records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude })
 }
@@ -58,7 +64,7 @@ fn exact_tasbid_study_design_yields_tables_of_expected_size() {
     assert_eq!(cohort.crashes.total, cohort.crashes.by_kind.total());
     assert_eq!(cohort.progress[0].repetitions.len(), 3);
     assert!(cohort.progress.iter().all(|one| one.curves.is_empty()), "a curve requires four repetitions");
-    assert!(cohort.warnings.iter().any(|words| words.contains("22 trainees") && words.contains("78")), "{:?}", cohort.warnings);
+    assert!(words(&cohort).iter().any(|words| words.contains("22 trainees") && words.contains("78")), "{:?}", cohort.limitations);
 }
 
 #[test]
@@ -159,7 +165,7 @@ fn exact_rewound_sessions_are_not_compared() {
     let without = analyzed(&records);
     assert_eq!((without.sessions, without.left_out), (all.sessions - 1, all.left_out));
     let words = "1 session was frozen or rewound, and is not compared";
-    assert!(without.warnings.iter().any(|warning| warning == words), "{:?}", without.warnings);
+    assert!(self::words(&without).iter().any(|warning| warning == words), "{:?}", without.limitations);
     let repetitions = |records: &[SessionRecord]| {
         by_job(records, IncompletePolicy::Exclude, &JobReliability::new())[0].progress.repetitions.len()
     };
@@ -189,10 +195,10 @@ fn exact_progress_is_separate_per_job() {
 fn exact_small_and_empty_cohorts_have_warnings() {
     let none = analyzed(&[]);
     assert_eq!((none.trainees, none.causal, none.tests.len()), (0, None, 0));
-    assert!(!none.warnings.is_empty());
+    assert!(!none.limitations.is_empty());
     let one = analyzed(&[perfect_record("anna", 1)]);
     assert_eq!((one.trainees, one.distributions.len(), one.distributions[0].summary.sd), (1, 5, None));
-    assert!(one.warnings.iter().any(|words| words.contains("could not be estimated")));
+    assert!(words(&one).iter().any(|words| words.contains("could not be estimated")));
     for (name, table) in tables(&one) {
         let columns = table.lines().next().unwrap().split(',').count();
         assert!(
@@ -290,7 +296,7 @@ fn exact_reliability_covers_every_measure_and_labels_changes() {
     assert_eq!((of("accuracy").sessions, of("accuracy").at_ceiling), (38, Some(0.5)));
     // Efficiency is 100 in every session: nothing to estimate, and no change is labeled.
     assert_eq!((of("efficiency").reliability, of("efficiency").at_ceiling), (None, Some(1.0)));
-    assert!(cohort.warnings.iter().any(|words| words.starts_with("no reliability of efficiency: ")), "{:?}", cohort.warnings);
+    assert!(words(&cohort).iter().any(|words| words.starts_with("no reliability of efficiency: ")), "{:?}", cohort.limitations);
     let flat = cohort.tests.iter().find(|test| test.score == "efficiency").unwrap();
     assert_eq!((flat.within_error, flat.trainees_beyond_error), (None, None));
     for test in cohort.tests.iter().filter(|test| test.score == "conformity") {

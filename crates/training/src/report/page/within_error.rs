@@ -1,7 +1,7 @@
 //! Labels for changes: within the error of the measure, or beyond it.
 
 use crate::report::table::TableCell;
-use crate::terms::score_title;
+use crate::terms::measure_title;
 use spandrel_text::{Language, text};
 
 /// Returns a table cell with the label of a change; empty if the measure's error is unknown.
@@ -18,12 +18,7 @@ pub fn words(within_error: bool, language: Language) -> String {
 /// Returns a measure's name with its unit, as in "flight time (s)".
 #[must_use]
 pub fn measure_name(measure: &str, unit: &str, language: Language) -> String {
-    let measure = match measure {
-        "certification_sum" => text!(language, "report-measure-certification-sum"),
-        "flight_time" => text!(language, "report-measure-flight-time"),
-        "crashes" => text!(language, "report-measure-crashes"),
-        score => score_title(score, language),
-    };
+    let measure = measure_title(measure, language);
     let unit = if unit == "points" { text!(language, "report-unit-points") } else { unit.to_owned() };
     if unit.is_empty() { measure } else { text!(language, "report-measure-with-unit", measure = measure, unit = unit) }
 }

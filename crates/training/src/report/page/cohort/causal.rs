@@ -1,7 +1,7 @@
 //! The causal model section: demand, strain and performance, with feedback as moderator.
 
 use super::super::figure::{figure, scrolling};
-use crate::cohort::{Cohort, IndirectEffect, MediationModel, RECOMMENDED_TRAINEES};
+use crate::cohort::{Cohort, IndirectEffect, MediationModel, RECOMMENDED_RESPONDENTS};
 use crate::report::formatting;
 use crate::report::plots::intervals::{IntervalEstimate, intervals};
 use crate::report::plots::path_diagram::{PathEffect, PathEffects, model};
@@ -16,7 +16,7 @@ pub fn causal(cohort: &Cohort, language: Language) -> Markup {
         p { (text!(language, "cohort-causal-intro")) }
         @match &cohort.causal {
             Some(model) => (model_section(model, language)),
-            None => p.caution { (text!(language, "cohort-causal-none", count = RECOMMENDED_TRAINEES)) },
+            None => p.caution { (text!(language, "cohort-causal-none", count = RECOMMENDED_RESPONDENTS)) },
         }
     }
 }
@@ -26,10 +26,10 @@ fn model_section(model_: &MediationModel, language: Language) -> Markup {
     let axis = text!(language, "cohort-causal-indirect-axis");
     let indirect = intervals(&indirect(model_, language), &axis, &text!(language, "cohort-causal-indirect-title"));
     html! {
-        @if model_.n < RECOMMENDED_TRAINEES {
+        @if model_.n < RECOMMENDED_RESPONDENTS {
             p.caution {
                 b { (text!(language, "cohort-causal-count", count = model_.n)) } " "
-                (text!(language, "cohort-causal-caution", recommended = RECOMMENDED_TRAINEES))
+                (text!(language, "cohort-causal-caution", recommended = RECOMMENDED_RESPONDENTS))
             }
         }
         (figure(&text!(language, "cohort-causal-diagram"), &scrolling(&text!(language, "cohort-causal-diagram-region"), &diagram)))

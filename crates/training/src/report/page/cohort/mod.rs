@@ -14,12 +14,15 @@ pub use lists_individuals::MAX_LISTED_TRAINEES;
 
 use super::figure::{SLOT, filled};
 use super::{PageScripts, document};
-use crate::cohort::{Cohort, TABLES, tables};
+use crate::cohort::{Cohort, Limitation, TABLES, tables};
 use crate::record::excluded_sessions_note;
 use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
+
+/// Largest number of limitations that are listed without being asked for.
+const MAX_OPEN_LIMITATIONS: usize = 3;
 
 /// Where the table files are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,14 +66,22 @@ pub fn summary_lines(cohort: &Cohort, language: Language) -> Markup {
     }
 }
 
+/// Lists the limitations: a few, or one line that opens.
+fn limitations(found: &[Limitation], language: Language) -> Markup {
+    let list = html! { ul { @for one in found { li { (one.words(language)) } } } };
+    html! {
+        @if found.len() > MAX_OPEN_LIMITATIONS { details { summary { (text!(language, "cohort-limitations", count = found.len())) } (list) } }
+        @else { (list) }
+    }
+}
+
 /// Returns the ID, name and body of each section, omitting empty sections.
 #[must_use]
 pub fn sections(cohort: &Cohort, files_at: TableLinks<'_>, language: Language) -> Vec<(&'static str, String, Markup)> {
     let mut sections = Vec::new();
     let mut add = |id: &'static str, name: String, body: Markup| sections.push((id, name, body));
-    if !cohort.warnings.is_empty() {
-        let body = html! { ul { @for words in &cohort.warnings { li { (words) } } } };
-        add("mind", text!(language, "cohort-section-limitations"), body);
+    if !cohort.limitations.is_empty() {
+        add("mind", text!(language, "cohort-section-limitations"), limitations(&cohort.limitations, language));
     }
     let name = text!(language, "cohort-section-distributions");
     add("distributions", name, first_sessions::distributions(cohort, language));
@@ -187,7 +198,7 @@ mod tests {
             record.scores.overall = chance.range(200.0, 400.0);
         }
         let cohort = of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete: IncompletePolicy::Exclude });
-        assert!(cohort.causal.is_some(), "{:?}", cohort.warnings);
+        assert!(cohort.causal.is_some(), "{:?}", cohort.limitations);
         let page = super::cohort(&cohort, Language::English);
         assert!(page.contains("class=\"model-drawing\"") && page.contains("With fewer than 78"), "no warning");
         assert_eq!(page.matches("class=\"intervals\"").count(), 1);
