@@ -223,8 +223,8 @@ fn summary_text(cohort: &Cohort) -> String {
             contradictions.len() - MAX_CONTRADICTIONS
         );
     }
-    for warning in &cohort.warnings {
-        let _ = writeln!(out, "note: {warning}");
+    for limitation in &cohort.limitations {
+        let _ = writeln!(out, "note: {}", limitation.words(Language::English));
     }
     out
 }

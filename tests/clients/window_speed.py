@@ -64,7 +64,10 @@ def time_to_change(screen, press):
 
 
 def start(screen, folder, *args):
-    """Starts the program and returns it with its output file."""
+    """Starts the program with the quality `low` and returns it with its output file."""
+    settings = pathlib.Path(folder) / "spandrel" / "settings.toml"
+    settings.parent.mkdir()
+    settings.write_text('format = 1\n[display]\nquality = "low"\n', encoding="utf-8")
     out = open(pathlib.Path(folder) / "out.txt", "w", encoding="utf-8")
     command = [spandrel.COCKPIT, *args, "--sessions", f"{folder}/sessions"]
     return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=out, env=screen.environment() | {"XDG_CONFIG_HOME": folder}), out
@@ -76,9 +79,9 @@ def output(folder):
 
 def frame_rate(screen, folder):
     """Returns the frame rate while an expert flies, frames/s."""
-    process, _ = start(screen, folder, "demo", "--view", "--skill", "expert", "--speed", "1", "--seed", "7", "--quality", "low")
+    process, _ = start(screen, folder, "demo", "--view", "--skill", "expert", "--speed", "1", "--seed", "7")
     try:
-        spandrel.wait_for("the expert's takeoff", lambda: "lift-off" in output(folder), 300.0)
+        spandrel.wait_for("the expert's takeoff", lambda: "flight time" in output(folder), 300.0)
         time.sleep(FLIGHT_S)
     finally:
         process.send_signal(signal.SIGINT)
@@ -89,7 +92,7 @@ def frame_rate(screen, folder):
 
 def delays(screen, folder):
     """Returns the times for a key that changes the layout, and for a key that turns the aircraft, s."""
-    process, _ = start(screen, folder, "train", "--ports", "ephemeral", "--web", "none", "--no-sound", "--scenario", "drill-hover", "--quality", "low")
+    process, _ = start(screen, folder, "train", "--ports", "ephemeral", "--web", "none", "--no-sound", "--scenario", "drill-hover")
     try:
         spandrel.wait_for("the controller", lambda: "has connected" in output(folder), 300.0)
         time.sleep(10.0)

@@ -33,7 +33,7 @@ fn val_pilot_study_design_yields_expected_tables() {
     assert_eq!((study.likert.len(), study.crashes.rows.len(), study.progress.len()), (96, 22, 22));
     assert_eq!(study.self_rating.people.len(), 22);
     assert!(study.causal.is_some() && study.homogeneity.len() >= 3);
-    assert!(study.warnings.iter().any(|words| words.contains("fewer than 78")));
+    assert!(study.limitations.iter().any(|one| one.words(Language::English).contains("fewer than 78")));
     // Three repetitions are too few for a learning curve, and none of these answers contradicts the measurements.
     let expected = ["contradictions.csv", "learning_curves.csv", "learning_of_the_group.csv"];
     let empty: Vec<_> =

@@ -28,6 +28,9 @@ struct OpenDevice {
 
 /// Plays sound and speaks warnings until the window is closed. Opens the device again after it was lost.
 pub fn play(heard: &Weak<Mutex<Inputs>>) {
+    // ALSA prints many lines when there is no device. The one warning below says the same.
+    #[cfg(target_os = "linux")]
+    let _messages = alsa::Output::local_error_handler();
     let (mut voice, mut device) = (SpeechVoice::default(), None::<OpenDevice>);
     let (mut wait, mut next_wait, mut reported) = (0, CHECKS_BEFORE_RETRY, false);
     while let Some(inputs) = heard.upgrade() {

@@ -10,7 +10,7 @@ use super::{
     WindowFlow, WindowRequest,
 };
 use crate::hud::text_metrics::text_width;
-use crate::hud::{DisplayStyle, DisplayUnits, DrawItem, JobDrawing, ScreenPoint, TextAlign, TextScale};
+use crate::hud::{DisplayStyle, DisplayUnits, DrawItem, HudColor, JobDrawing, ScreenPoint, TextAlign, TextScale};
 use crate::path_guide::PathAids;
 use spandrel_model::site::Site;
 use spandrel_model::{scenario, shipped};
@@ -878,15 +878,18 @@ fn prop_drawings_of_the_briefing_overlap_neither_each_other_nor_the_menu() {
     let [_, flow] = briefings();
     for aspect in [1.0, 4.0 / 3.0, 16.0 / 9.0, 21.0 / 9.0] {
         let panel = |item: &DrawItem| match item {
-            DrawItem::Panel { from, to, .. } => Some((*from, *to)),
+            DrawItem::Panel { from, to, color } => Some((*from, *to, *color)),
             DrawItem::Text { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
         };
-        let panels: Vec<(ScreenPoint, ScreenPoint)> = flow.sheet(aspect).items.iter().filter_map(panel).collect();
-        // The map, two bridges, and two rows of the menu.
-        assert_eq!(panels.len(), 5, "aspect {aspect}");
-        for (k, (from, to)) in panels.iter().enumerate() {
-            let apart = |(a, b): &(ScreenPoint, ScreenPoint)| b.x <= from.x || to.x <= a.x || b.y <= from.y || to.y <= a.y;
-            assert!(panels[..k].iter().all(apart), "aspect {aspect}: {panels:?}");
+        let panels: Vec<(ScreenPoint, ScreenPoint, HudColor)> = flow.sheet(aspect).items.iter().filter_map(panel).collect();
+        let is_drawing = |panel: &&(ScreenPoint, ScreenPoint, HudColor)| panel.2 == HudColor::TextBackground;
+        // The map and two bridges.
+        assert_eq!(panels.iter().filter(is_drawing).count(), 3, "aspect {aspect}: {panels:?}");
+        for drawing in panels.iter().filter(is_drawing) {
+            let (from, to, _) = drawing;
+            let apart =
+                |(a, b, _): &(ScreenPoint, ScreenPoint, HudColor)| b.x <= from.x || to.x <= a.x || b.y <= from.y || to.y <= a.y;
+            assert!(panels.iter().all(|other| other == drawing || apart(other)), "aspect {aspect}: {panels:?}");
             assert!(to.y - from.y > 0.03, "aspect {aspect}: {panels:?}");
         }
     }

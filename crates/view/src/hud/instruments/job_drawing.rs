@@ -133,6 +133,8 @@ mod tests {
     use spandrel_model::{scenario, shipped};
 
     const PANE: Pane = Pane { width: 2.0, height: 1.0 };
+    /// Rounding errors, as a fraction of the picture.
+    const ROUNDING: f64 = 1e-9;
     const AREA: Area = Area { x: 0.5, y: 0.25, width: 1.0, height: 0.5 };
 
     fn drawing(text: &str) -> JobDrawing {
@@ -175,7 +177,7 @@ mod tests {
                 for item in &items {
                     let (DrawItem::Fill { points, .. } | DrawItem::Line { points, .. }) = item else { continue };
                     let inside = |point: &super::super::super::ScreenPoint| {
-                        (0.25..=0.75).contains(&point.x) && (0.25..=0.75).contains(&point.y)
+                        [point.x, point.y].iter().all(|place| (place - 0.5).abs() <= 0.25 + ROUNDING)
                     };
                     assert!(points.iter().all(inside), "{name}, drawing {index}: {item:?}");
                 }
