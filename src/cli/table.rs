@@ -92,13 +92,13 @@ fn requirements(out: &mut String, requirements: &Value) {
     if requirements.is_empty() {
         return;
     }
-    let _ = writeln!(out, "\n{:<26}{:<16}needed", "certification", "reached");
+    let _ = writeln!(out, "\n{:<30}{:<16}needed", "certification", "reached");
     for one in requirements {
         let state = if one.met { "met" } else { "not met" };
         let _ = writeln!(
             out,
-            "{:<26}{:<16}{:<22}{state}",
-            one.name,
+            "{:<30}{:<16}{:<22}{state}",
+            one.title(Language::English),
             one.reached_text(Language::English),
             one.limit_text(Language::English)
         );
@@ -231,19 +231,19 @@ score              raw     of 100
 
     #[test]
     fn exact_requirements_are_listed_with_limit_and_value() {
-        let requirement = |name: &str, unit: &str, kind: &str, limit: f64, reached: Value, met: bool| json!({"id": name, "name": name, "unit": unit, "kind": kind, "limit": limit, "reached": reached, "applies": true, "met": met});
+        let requirement = |id: &str, unit: &str, kind: &str, limit: f64, reached: Value, met: bool| json!({"id": id, "name": id, "unit": unit, "kind": kind, "limit": limit, "reached": reached, "applies": true, "met": met});
         let mut text = String::new();
         let list = [
-            requirement("battery at landing", "%", "at_least", 20.0, json!(19.6), false),
-            requirement("fastest contact", "m/s", "at_most", 1.0, json!(0.4), true),
+            requirement("battery", "%", "at_least", 20.0, json!(19.6), false),
+            requirement("contact_speed", "m/s", "at_most", 1.0, json!(0.4), true),
             requirement("conformity", "points", "at_least", 75.0, Value::Null, false),
         ];
         requirements(&mut text, &json!(list));
         let expected = "
-certification             reached         needed
-battery at landing        19.6%           at least 20%          not met
-fastest contact           0.4 m/s         at most 1 m/s         met
-conformity                no evidence     at least 75 points    not met
+certification                 reached         needed
+battery at landing            19.6%           at least 20%          not met
+fastest contact               0.4 m/s         at most 1 m/s         met
+coverage-weighted conformity  no evidence     at least 75 points    not met
 ";
         assert_eq!(text, expected);
     }

@@ -75,7 +75,7 @@ fn wire_check_reports_all_problems_as_text_and_json() {
     let is_about = |line: &str| line.contains("good.toml: to be certified: ") || line.contains("good.toml: level ");
     let is_note = |line: &&str| line.starts_with("note: ") && is_about(line);
     assert_eq!(out.lines().filter(is_note).count(), out.lines().count() - 1, "{out}");
-    assert!(out.contains("conformity at least 75"), "{out}");
+    assert!(out.contains("coverage-weighted conformity at least 75"), "{out}");
     assert!(out.contains("level 9 of 9: wind 8 m/s, on path within 0.8 m"), "{out}");
 
     let (code, out, err) = code_and_output(&spandrel(&["check", &good, &bad]));

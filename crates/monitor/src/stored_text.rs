@@ -2,6 +2,7 @@
 //! not count. Files keep the English text, so that they don't depend on a language; pages translate it for display.
 
 use crate::measures::practice_aids::PracticeAids;
+use crate::score::certification::names::title;
 use spandrel_text::{Language, text};
 
 /// Stands for a value in a pattern. Texts do not contain it.
@@ -32,16 +33,19 @@ const TEXTS: &[(usize, Render)] = &[
     (2, |l, v| text!(l, "certification-picture-dark-lamp-off", value = v[0], limit = v[1])),
     (2, |l, v| text!(l, "certification-picture-of-defect", defect = v[0], reason = translated(v[1], l))),
     (1, |l, v| text!(l, "certification-unmet-practice", aids = PracticeAids::from_words(v[0]).words(l).unwrap_or_default())),
-    (1, |l, v| text!(l, "certification-unmet-no-evidence", score = v[0])),
-    (3, |l, v| text!(l, "certification-unmet-score", score = v[0], value = v[1], needed = v[2])),
+    (1, |l, v| text!(l, "certification-unmet-no-evidence", score = score(v[0], l))),
+    (3, |l, v| text!(l, "certification-unmet-score", score = score(v[0], l), value = v[1], needed = v[2])),
 ];
 
-/// Returns a stored English text in a language, or unchanged if it is none of the known ones.
+/// Returns the name of a certification score in a language; files contain its key.
+fn score(key: &str, language: Language) -> String {
+    title(key, language).unwrap_or_else(|| key.to_owned())
+}
+
+/// Returns a stored English text in a language, or unchanged if it is none of the known ones. Scores get the names that people
+/// read, also in English.
 #[must_use]
 pub fn translated(stored: &str, language: Language) -> String {
-    if language == Language::English {
-        return stored.to_owned();
-    }
     let known = |(count, render): &(usize, Render)| {
         // A mark names no aids, so that the text of a practice flight contains none: it begins with them.
         let pattern = match render(Language::English, &vec![MARK; *count]) {
@@ -89,8 +93,6 @@ mod tests {
             ("12% battery at landing, 20% needed", "12% Akku bei der Landung, 20% nötig"),
             ("3 contacts, at most 2 allowed", "Berührungen: 3, höchstens 2 erlaubt"),
             ("contact at 1.4 m/s, at most 1 m/s allowed", "Berührung mit 1.4 m/s, höchstens 1 m/s erlaubt"),
-            ("precision 60, 70 needed", "Präzision 60, 70 nötig"),
-            ("no evidence for conformity", "kein Nachweis für: Bahntreue"),
             (
                 "rewound twice and frozen 3 times, so it was practice",
                 "zweimal zurückgespult und 3-mal eingefroren, daher ein Übungsflug",
@@ -111,5 +113,18 @@ mod tests {
             assert!(!translated(stored, Language::Pseudo).is_ascii(), "{stored}");
         }
         assert_eq!(translated("something else", Language::Spanish), "something else");
+    }
+
+    #[test]
+    fn regress_stored_certification_scores_get_names_of_their_own() {
+        let texts = [
+            ("precision 60, 70 needed", "flight precision 60, 70 needed", "Flugpräzision 60, 70 nötig"),
+            ("no evidence for conformity", "no evidence for coverage-weighted conformity", "kein Nachweis für: abdeckungsgewichtete Bahntreue"),
+        ];
+        for (stored, english, german) in texts {
+            assert_eq!(translated(stored, Language::English), english);
+            assert_eq!(translated(stored, Language::German), german);
+            assert!(!translated(stored, Language::Pseudo).is_ascii(), "{stored}");
+        }
     }
 }

@@ -45,7 +45,6 @@ report-control-autopilot = Autopilot
 report-control-unknown = unbekannt
 report-purpose-practice = Übungsflug
 report-purpose-assessment = Bewertungsflug
-report-score-sum = Summe
 report-between-tasks = zwischen den Aufgaben
 report-on-path = auf der Bahn
 report-off-path = neben der Bahn
@@ -116,7 +115,6 @@ report-scores-radar = Netzdiagramm der vier Wertungen
 report-scores-caption = Wertungen
 report-column-raw = Rohwert
 report-column-score-of-100 = Wertung (von 100)
-report-column-certification-of-100 = Zertifizierungsprofil (von 100)
 report-explain-battery-failed = nicht beim Bodenteam gelandet, bevor Akku oder Zeit zu Ende waren
 report-explain-time = Flugzeit { $time }; volle Punktzahl bis { $best }
 report-explain-no-contacts = keine Berührungen
@@ -154,7 +152,7 @@ report-column-urgency = Dringlichkeit
 
 ## Certification
 
-report-certification-intro = Das Zertifizierungsprofil ergänzt Anforderungen, die bestanden werden müssen und Lücken der vier TASBID-Wertungen schließen.
+report-certification-intro = Das Zertifizierungsprofil ergänzt Anforderungen, die bestanden werden müssen und Lücken der vier TASBID-Wertungen schließen. Seine eigenen Wertungen haben andere Formeln als die TASBID-Wertungen und daher andere Namen.
 report-certification-passed = Alle Anforderungen erfüllt.
 report-certification-met = erfüllt
 report-certification-not-met = nicht erfüllt
@@ -166,8 +164,8 @@ report-certification-exposure =
     } ({ $merged } nach Zusammenfassen der Berührungen innerhalb von weniger als einer Sekunde); am Ende { $battery }% Akku; Flugzeit { $time } (dieser Auftrag braucht { $needed }).
 report-certification-too-fine =
     { $count ->
-        [one] 1 Schaden ist zu fein für diese Kamera und zählt nicht für die Genauigkeit.
-       *[other] { $count } Schäden sind zu fein für diese Kamera und zählen nicht für die Genauigkeit.
+        [one] 1 Schaden ist zu fein für diese Kamera und zählt nicht für die Erkennungsgenauigkeit.
+       *[other] { $count } Schäden sind zu fein für diese Kamera und zählen nicht für die Erkennungsgenauigkeit.
     }
 report-certification-scores-caption = Wertungen der Zertifizierung
 report-certification-contacts-caption = zusammengefasste Berührungen

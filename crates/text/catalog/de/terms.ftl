@@ -88,7 +88,6 @@ terms-score-conformity = Bahntreue
 terms-score-efficiency = Effizienz
 terms-score-safety = Sicherheit
 terms-score-accuracy = Genauigkeit
-terms-score-precision = Präzision
 
 terms-contact-none = keines
 terms-contact-bridge = Brücke

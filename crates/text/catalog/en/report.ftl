@@ -45,7 +45,6 @@ report-control-autopilot = autopilot
 report-control-unknown = unknown
 report-purpose-practice = practice
 report-purpose-assessment = assessment
-report-score-sum = sum
 report-between-tasks = between tasks
 report-on-path = on path
 report-off-path = off path
@@ -116,7 +115,6 @@ report-scores-radar = Radar chart of the four scores
 report-scores-caption = scores
 report-column-raw = raw
 report-column-score-of-100 = score (of 100)
-report-column-certification-of-100 = certification profile (of 100)
 report-explain-battery-failed = did not land near the ground team before the battery or time ran out
 report-explain-time = flight time { $time }; full score up to { $best }
 report-explain-no-contacts = no contacts
@@ -154,7 +152,7 @@ report-column-urgency = urgency
 
 ## Certification
 
-report-certification-intro = The certification profile adds pass/fail requirements that close loopholes in the four TASBID scores.
+report-certification-intro = The certification profile adds pass/fail requirements that close loopholes in the four TASBID scores. Its own scores have other formulas than the TASBID scores, and other names.
 report-certification-passed = All requirements met.
 report-certification-met = met
 report-certification-not-met = not met
@@ -166,8 +164,8 @@ report-certification-exposure =
     } ({ $merged } after merging those less than a second apart); { $battery }% battery remaining at the end; flight time { $time } (this job needs { $needed }).
 report-certification-too-fine =
     { $count ->
-        [one] 1 defect is too fine for this camera and does not count toward the accuracy.
-       *[other] { $count } defects are too fine for this camera and do not count toward the accuracy.
+        [one] 1 defect is too fine for this camera and does not count toward the detection accuracy.
+       *[other] { $count } defects are too fine for this camera and do not count toward the detection accuracy.
     }
 report-certification-scores-caption = certification scores
 report-certification-contacts-caption = merged contacts

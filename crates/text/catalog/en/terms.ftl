@@ -93,7 +93,6 @@ terms-score-conformity = conformity
 terms-score-efficiency = efficiency
 terms-score-safety = safety
 terms-score-accuracy = accuracy
-terms-score-precision = precision
 
 # Objects hit.
 terms-contact-none = none

@@ -45,7 +45,6 @@ report-control-autopilot = piloto automático
 report-control-unknown = desconocido
 report-purpose-practice = práctica
 report-purpose-assessment = evaluación
-report-score-sum = suma
 report-between-tasks = entre tareas
 report-on-path = en la trayectoria
 report-off-path = fuera de la trayectoria
@@ -116,7 +115,6 @@ report-scores-radar = Gráfico radial de las cuatro puntuaciones
 report-scores-caption = puntuaciones
 report-column-raw = valor bruto
 report-column-score-of-100 = puntuación (sobre 100)
-report-column-certification-of-100 = perfil de certificación (sobre 100)
 report-explain-battery-failed = no aterrizó cerca del equipo de tierra antes de agotar la batería o el tiempo
 report-explain-time = tiempo de vuelo { $time }; puntuación completa hasta { $best }
 report-explain-no-contacts = sin contactos
@@ -154,7 +152,7 @@ report-column-urgency = urgencia
 
 ## Certification
 
-report-certification-intro = El perfil de certificación agrega requisitos de aprobación (cumplido o no) que cierran vacíos de las cuatro puntuaciones TASBID.
+report-certification-intro = El perfil de certificación agrega requisitos de aprobación (cumplido o no) que cierran vacíos de las cuatro puntuaciones TASBID. Sus propias puntuaciones tienen fórmulas distintas de las de TASBID y, por eso, otros nombres.
 report-certification-passed = Se cumplen todos los requisitos.
 report-certification-met = cumplido
 report-certification-not-met = no cumplido
@@ -166,8 +164,8 @@ report-certification-exposure =
     } ({ $merged } tras unir los separados por menos de un segundo); { $battery }% de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed }).
 report-certification-too-fine =
     { $count ->
-        [one] 1 defecto es demasiado fino para esta cámara y no cuenta para la exactitud.
-       *[other] { $count } defectos son demasiado finos para esta cámara y no cuentan para la exactitud.
+        [one] 1 defecto es demasiado fino para esta cámara y no cuenta para la exactitud de detección.
+       *[other] { $count } defectos son demasiado finos para esta cámara y no cuentan para la exactitud de detección.
     }
 report-certification-scores-caption = puntuaciones de certificación
 report-certification-contacts-caption = contactos unidos

@@ -88,7 +88,6 @@ terms-score-conformity = conformidad
 terms-score-efficiency = eficiencia
 terms-score-safety = seguridad
 terms-score-accuracy = exactitud
-terms-score-precision = precisión
 
 terms-contact-none = ninguno
 terms-contact-bridge = puente

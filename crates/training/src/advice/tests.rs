@@ -74,11 +74,11 @@ fn exact_flight_without_findings_is_not_praised_falsely() {
     (record.certified, record.unmet) = (false, vec!["precision 60, 70 needed".into()]);
     assert_eq!(
         no_findings(&record, Language::English),
-        "No single mistake stands out, but you are not certified yet: precision 60, 70 needed."
+        "No single mistake stands out, but you are not certified yet: flight precision 60, 70 needed."
     );
     assert!(no_findings(&aborted_record("anna", 1), Language::English).contains("not finished"));
     let german = no_findings(&record, Language::German);
-    assert_eq!(german, "Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: Präzision 60, 70 nötig.");
+    assert_eq!(german, "Kein einzelner Fehler fällt auf, aber Sie sind noch nicht zertifiziert: Flugpräzision 60, 70 nötig.");
     let (rules, steps) = (rules(), steps(&perfect_record("anna", 1)));
     assert!(causes(&steps, &rules).is_empty(), "the job's own step is no cause");
 }

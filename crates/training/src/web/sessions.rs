@@ -347,7 +347,7 @@ fn requirements(language: Language, certification: &CertificationRecord) -> Mark
         &html! {
             @for one in &certification.requirements {
                 tr {
-                    th scope="row" { (one.title(language)) }
+                    th scope="row" { (one.title(language)) div.note { (one.explanation(language)) } }
                     td.number { (one.reached_text(language)) }
                     td.number { (one.limit_text(language)) }
                     td { @if one.met { (text!(language, "sessions-yes")) } @else { b { (text!(language, "sessions-no")) } } }

@@ -5,6 +5,7 @@
 pub mod contacts;
 pub mod inputs;
 pub mod job_time;
+pub mod names;
 pub mod pictures;
 pub mod precision;
 pub mod requirements;

@@ -2,6 +2,7 @@
 
 use super::contacts::MergedCrash;
 use super::inputs::CertificationInputs;
+use super::names::{explanation, title};
 use crate::score::completion::describe_unfinished_task;
 use crate::session::EndReason;
 use serde::{Deserialize, Serialize};
@@ -94,6 +95,12 @@ impl Requirement {
         title(&self.id, language).unwrap_or_else(|| self.name.clone())
     }
 
+    /// Returns one sentence about how the value is measured; empty if the requirement is unknown.
+    #[must_use]
+    pub fn explanation(&self, language: Language) -> String {
+        explanation(&self.id, language).unwrap_or_default()
+    }
+
     /// Returns the limit as text, such as "at least 20%".
     #[must_use]
     pub fn limit_text(&self, language: Language) -> String {
@@ -134,24 +141,6 @@ impl Requirement {
             unit => format!("{value} {unit}"),
         }
     }
-}
-
-/// Returns the name of the requirement with this ID; `None` if there is none.
-fn title(id: &str, language: Language) -> Option<String> {
-    Some(match id {
-        "tasks_done" => text!(language, "certification-tasks-done"),
-        LANDED_AT_HOME => text!(language, "certification-landed-at-home"),
-        "person_or_vehicle_hits" => text!(language, "certification-person-or-vehicle-hits"),
-        "battery" => text!(language, "certification-battery"),
-        "contacts" => text!(language, "certification-contacts"),
-        "contact_speed" => text!(language, "certification-contact-speed"),
-        "conformity" => text!(language, "certification-conformity"),
-        "precision" => text!(language, "certification-precision"),
-        "safety" => text!(language, "certification-safety"),
-        "accuracy" => text!(language, "certification-accuracy"),
-        PRACTICE_AIDS => text!(language, "certification-practice-aids"),
-        _ => return None,
-    })
 }
 
 fn yes_or_no(value: f64, language: Language) -> String {
@@ -306,6 +295,8 @@ mod tests {
         assert_eq!(precision.reached_text(Language::Spanish), "44 puntos");
         let other = Requirement { id: "elegance".into(), ..precision.clone() };
         assert_eq!(other.title(Language::German), precision.name, "the stored name of an unknown requirement");
+        assert_eq!(other.explanation(Language::German), "");
+        assert!(precision.explanation(Language::German).starts_with("Wie klein "));
         for shown in [precision.title(Language::Pseudo), precision.limit_text(Language::Pseudo)] {
             assert!(!shown.contains(['a', 'e', 'i', 'o', 'u']), "{shown}");
         }

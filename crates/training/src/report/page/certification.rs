@@ -3,11 +3,12 @@
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::table::{Table, TableCell, folded};
-use crate::terms::{defect_title, element_title, score_title};
+use crate::terms::{defect_title, element_title};
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
 use spandrel_monitor::score::certification::TaskVisits;
 use spandrel_monitor::score::certification::contacts::MergedCrash;
+use spandrel_monitor::score::certification::names::title;
 use spandrel_monitor::score::certification::pictures::GradedPicture;
 use spandrel_monitor::score::completion::verdict;
 use spandrel_monitor::stored_text::all_translated;
@@ -23,7 +24,8 @@ pub fn section(review: &Review) -> Markup {
         ul.gates {
             @for requirement in &c.requirements {
                 li { span class={ "badge " (if requirement.met { "v-hit" } else { "v-false" }) } { (met_label(requirement.met, language)) }
-                    " " (requirement.title(language)) ": " (requirement.reached_text(language)) " (" (requirement.limit_text(language)) ")" }
+                    " " (requirement.title(language)) ": " (requirement.reached_text(language)) " (" (requirement.limit_text(language)) ")"
+                    div.note { (requirement.explanation(language)) } }
             }
         }
         @if !c.unmet.is_empty() { p { (text!(language, "report-certification-unmet", requirements = all_translated(&c.unmet, language).join("; "))) } }
@@ -66,19 +68,19 @@ fn too_fine(review: &Review) -> String {
 
 fn scores_table(review: &Review, language: Language) -> Table {
     let scores = &review.assessment.certification.scores;
-    let row =
-        |name: String, value: Option<f64>| vec![name.into(), value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1))];
+    let number = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 1));
+    let row = |id: &str, value: Option<f64>| vec![title(id, language).unwrap_or_default().into(), number(value)];
     Table {
         name: "certification-scores",
         caption: text!(language, "report-certification-scores-caption"),
         columns: vec![text!(language, "report-column-score"), text!(language, "report-column-points")],
         rows: vec![
-            row(score_title("conformity", language), scores.conformity),
-            row(score_title("precision", language), scores.precision),
-            row(score_title("safety", language), Some(scores.safety)),
-            row(score_title("accuracy", language), scores.accuracy),
-            row(score_title("efficiency", language), Some(scores.efficiency)),
-            row(text!(language, "report-score-sum"), Some(scores.sum)),
+            row("conformity", scores.conformity),
+            row("precision", scores.precision),
+            row("safety", Some(scores.safety)),
+            row("accuracy", scores.accuracy),
+            row("efficiency", Some(scores.efficiency)),
+            vec![text!(language, "report-measure-certification-sum").into(), number(Some(scores.sum))],
         ],
     }
 }

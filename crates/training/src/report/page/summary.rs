@@ -169,23 +169,13 @@ fn accuracy(review: &Review) -> String {
 
 fn table(review: &Review, language: Language) -> Table {
     let scores = &review.assessment.scores;
-    let certification = &review.assessment.certification.scores;
     let number = |value: Option<f64>| value.map_or(TableCell::Empty, |value| TableCell::Number(value, 2));
-    let beside = [certification.conformity, Some(certification.efficiency), Some(certification.safety), certification.accuracy];
     let mut rows: Vec<Vec<TableCell>> = scores_by_name(scores)
         .iter()
-        .zip(beside)
-        .map(|((name, score), beside)| {
-            vec![score_title(name, language).into(), number(score.map(|s| s.raw)), number(score.map(|s| s.pct)), number(beside)]
-        })
+        .map(|(name, score)| vec![score_title(name, language).into(), number(score.map(|s| s.raw)), number(score.map(|s| s.pct))])
         .collect();
     if review.assessment.completion.complete {
-        rows.push(vec![
-            score_title("overall", language).into(),
-            TableCell::Empty,
-            TableCell::Number(scores.overall, 2),
-            TableCell::Empty,
-        ]);
+        rows.push(vec![score_title("overall", language).into(), TableCell::Empty, TableCell::Number(scores.overall, 2)]);
     }
     Table {
         name: "scores",
@@ -194,7 +184,6 @@ fn table(review: &Review, language: Language) -> Table {
             text!(language, "report-column-score"),
             text!(language, "report-column-raw"),
             text!(language, "report-column-score-of-100"),
-            text!(language, "report-column-certification-of-100"),
         ],
         rows,
     }
