@@ -15,6 +15,7 @@ use spandrel_training::marks::marks_key;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
 use spandrel_training::report::page::MARKS_META_NAME;
+use spandrel_training::web::back_links::{ParentPage, with_back_links};
 use spandrel_training::web::sessions as pages;
 use spandrel_training::web::standing::standing;
 use std::path::{Path, PathBuf};
@@ -89,7 +90,8 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
 /// Responds with a session's report in the visitor's language, under the report's own policy. Creates the report again if it is
 /// missing, another version wrote it, or the instructor's marks have changed. `report.html` keeps its language.
 pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    let folder = folder(state, request, request.path_param("id"))?;
+    let id = request.path_param("id");
+    let folder = folder(state, request, id)?;
     let policy = assets::page_policy();
     let (path, marks) = (folder.join(REPORT), marks_key(&valid_marks(&folder)));
     let is_current = |page: &[u8]| is_current(page, &policy, marks.as_deref());
@@ -104,7 +106,8 @@ pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
         }
     };
     let page = if written_language == language { page } else { translated_report(&folder, language, is_current)? };
-    Ok(WebResponse::sandboxed_page(page, &policy))
+    let served = with_back_links(page, &[ParentPage::Session(id), ParentPage::Sessions], language);
+    Ok(WebResponse::sandboxed_page(served, &policy))
 }
 
 /// Returns a session's report in another language than `report.html`.
@@ -147,8 +150,10 @@ pub fn compare(state: &ServerState, request: &WebRequest) -> HandlerResult {
         folder(state, request, id)
     };
     let reliability = |scenario: &str| state.figures.reliability(scenario, IncompletePolicy::Exclude);
-    let page = report::comparison_page(&folder("first")?, &folder("second")?, request.visitor.language, reliability)?;
-    Ok(WebResponse::sandboxed_page(page.into_bytes(), &assets::page_policy()))
+    let language = request.visitor.language;
+    let page = report::comparison_page(&folder("first")?, &folder("second")?, language, reliability)?;
+    let served = with_back_links(page.into_bytes(), &[ParentPage::Sessions], language);
+    Ok(WebResponse::sandboxed_page(served, &assets::page_policy()))
 }
 
 /// Responds with the frames as CSV.

@@ -17,6 +17,7 @@ use spandrel_training::plan::plan_for_policy;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::{assets, page::cohort as report};
 use spandrel_training::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Role};
+use spandrel_training::web::back_links::{ParentPage, with_back_links};
 use spandrel_training::web::rubric::count_words;
 use spandrel_training::web::{cohort_page, trainees as pages};
 use std::collections::BTreeMap;
@@ -172,5 +173,7 @@ pub fn cohort_report(state: &ServerState, request: &WebRequest) -> HandlerResult
     let figured = state.figures.get(&selection_from_query(request)?)?;
     let nothing = || WebError::BadRequest(text!(request.visitor.language, "people-cohort-nothing"));
     let cohort = figured.non_empty_cohort().ok_or_else(nothing)?;
-    Ok(WebResponse::sandboxed_page(report::cohort(cohort, request.visitor.language).into_bytes(), &assets::page_policy()))
+    let page = report::cohort(cohort, request.visitor.language).into_bytes();
+    let served = with_back_links(page, &[ParentPage::Cohort], request.visitor.language);
+    Ok(WebResponse::sandboxed_page(served, &assets::page_policy()))
 }

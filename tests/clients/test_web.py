@@ -312,6 +312,13 @@ def test_report_works_under_its_content_security_policy(browser, server, session
     assert first and place() != first
     # The report is sandboxed: it cannot read the site's cookie, and the site cannot access its scripts.
     assert person.page.evaluate("self.origin") == "null"
+    # Links lead back to the session and to the list, although the sandboxed page has no cookies of its own.
+    person.page.click("nav.back >> text=All sessions")
+    person.page.wait_for_url("**/sessions")
+    person.page.go_back()
+    person.page.click("nav.back >> text=Back to the session")
+    person.page.wait_for_url(f"**/sessions/{session}")
+    assert (sessions / session / "report.html").read_text(encoding="utf-8").find('class="back"') < 0
     assert person.wrong == []
 
 

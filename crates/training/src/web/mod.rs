@@ -5,6 +5,7 @@
 pub mod access;
 pub mod assets;
 pub mod assignments;
+pub mod back_links;
 pub mod browser_sessions;
 pub mod classes;
 pub mod cohort_page;

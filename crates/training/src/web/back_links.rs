@@ -1,0 +1,61 @@
+//! Links from a report to the server's pages. Only the server adds them: a report that is opened from disk has no such pages.
+
+use maud::html;
+use spandrel_text::{Language, text};
+
+/// End of the tag after which a page's content begins.
+const BODY: &[u8] = b"<body>";
+
+/// Page from which people open reports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ParentPage<'a> {
+    /// A session, by its ID.
+    Session(&'a str),
+    /// The list of sessions.
+    Sessions,
+    /// The cohort page.
+    Cohort,
+}
+
+impl ParentPage<'_> {
+    fn link(self, language: Language) -> (String, String) {
+        match self {
+            Self::Session(id) => (format!("/sessions/{id}"), text!(language, "web-back-to-session")),
+            Self::Sessions => ("/sessions".to_owned(), text!(language, "web-back-to-sessions")),
+            Self::Cohort => ("/cohort".to_owned(), text!(language, "web-back-to-cohort")),
+        }
+    }
+}
+
+/// Returns a report page with links to these pages at its beginning, and unchanged if it has no body.
+#[must_use]
+pub fn with_back_links(page: Vec<u8>, parents: &[ParentPage<'_>], language: Language) -> Vec<u8> {
+    let Some(start) = page.windows(BODY.len()).position(|bytes| bytes == BODY) else { return page };
+    let (head, content) = page.split_at(start + BODY.len());
+    [head, links(parents, language).as_bytes(), content].concat()
+}
+
+fn links(parents: &[ParentPage<'_>], language: Language) -> String {
+    html! {
+        nav.back aria-label=(text!(language, "web-back")) {
+            @for (address, label) in parents.iter().map(|parent| parent.link(language)) { a href=(address) { "‹ " (label) } }
+        }
+    }
+    .into_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_served_report_links_to_its_session_and_the_list() {
+        let page = b"<html><head></head><body><main>...</main></body></html>".to_vec();
+        let parents = [ParentPage::Session("2026-a"), ParentPage::Sessions];
+        let served = String::from_utf8(with_back_links(page, &parents, Language::English)).unwrap_or_default();
+        let expected = "<html><head></head><body><nav class=\"back\" aria-label=\"Back\"><a href=\"/sessions/2026-a\">‹ Back to the session</a>\
+                        <a href=\"/sessions\">‹ All sessions</a></nav><main>...</main></body></html>";
+        assert_eq!(served, expected);
+        assert_eq!(with_back_links(b"no page".to_vec(), &parents, Language::English), b"no page");
+    }
+}
