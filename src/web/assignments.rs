@@ -5,6 +5,7 @@ use super::response::{HandlerResult, WebError, WebResponse};
 use super::scenario_library::{self, StoredScenario};
 use super::state::ServerState;
 use crate::io::clock;
+use maud::Markup;
 use spandrel_model::calendar::{day, end_of_day_unix_us};
 use spandrel_model::scenario::variant_names;
 use spandrel_monitor::folder::sha256_hex;
@@ -12,6 +13,7 @@ use spandrel_text::{Language, text};
 use spandrel_training::assignment::{AssignedJob, Assignment, AssignmentTarget, assigned_jobs};
 use spandrel_training::record::SessionRecord;
 use spandrel_training::web::assignments::{self as pages, AssignPage, JobChoice};
+use spandrel_training::web::rejected_form::RejectedForm;
 
 /// Length of a day, µs.
 const DAY_US: u64 = 86_400_000_000;
@@ -35,12 +37,24 @@ pub fn jobs_of(
     Ok(assigned_jobs(state.database.assignments_of_trainee(trainee)?, records, now_unix_us))
 }
 
+/// Field of the form with an error, and the error.
+type FieldError = (&'static str, WebError);
+
 /// Responds with the page that assigns a job.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let language = request.visitor.language;
     let target =
         target(language, request.query_param("trainee"), request.query_param("class")).map_err(|_| WebError::NotFound)?;
-    if !exists(state, &target)? {
+    Ok(WebResponse::page(render(state, request, &target, None)?))
+}
+
+fn render(
+    state: &ServerState,
+    request: &WebRequest,
+    target: &AssignmentTarget,
+    rejected: Option<RejectedForm<'_>>,
+) -> Result<Markup, WebError> {
+    if !exists(state, target)? {
         return Err(WebError::NotFound);
     }
     let choice = |job: StoredScenario| JobChoice { variants: variant_names(&job.text), name: job.named.name };
@@ -49,13 +63,14 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let jobs: Vec<JobChoice> = jobs.map(choice).collect();
     let now = clock::unix_us();
     let about = AssignPage {
-        target: &target,
+        target,
         jobs: &jobs,
         scenario: request.query_param("scenario"),
         variant: request.query_param("variant"),
         due: (&day(now + SUGGESTED_DAYS * DAY_US), &day(now)),
+        rejected,
     };
-    Ok(WebResponse::page(pages::assign_page(&request.visitor, &about)))
+    Ok(pages::assign_page(&request.visitor, &about))
 }
 
 /// Returns the trainee or class in a request, which must name exactly one.
@@ -74,16 +89,31 @@ fn exists(state: &ServerState, target: &AssignmentTarget) -> Result<bool, WebErr
     })
 }
 
-/// Assigns a job.
+/// Assigns a job. Shows the form again if a field is not possible.
 pub fn assign(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let language = request.visitor.language;
     let target = target(language, request.form_field("trainee"), request.form_field("class"))?;
-    let now = clock::unix_us();
-    let scenario = request.required_field("scenario")?;
-    let variant = variant(state, language, scenario, request.form_field("variant").unwrap_or_default().trim())?;
-    let due_unix_us = due(language, request.required_field("due")?, now)?;
+    match assignment(state, request, target.clone()) {
+        Ok(assignment) if state.database.assign(&assignment)? => Ok(WebResponse::redirect(&target_url(&target))),
+        Ok(_) => Err(WebError::NotFound),
+        Err((field, error)) => {
+            let form = request.rejected(field, &error).ok_or_else(|| error.clone())?;
+            Ok(WebResponse::rejected_form(render(state, request, &target, Some(form))?))
+        }
+    }
+}
+
+/// Returns the assignment in the form.
+fn assignment(state: &ServerState, request: &WebRequest, target: AssignmentTarget) -> Result<Assignment, FieldError> {
+    let (language, now) = (request.visitor.language, clock::unix_us());
+    let required = |field: &'static str| request.required_field(field).map_err(|error| (field, error));
+    let scenario = required("scenario")?;
+    let job = job(state, language, scenario).map_err(|error| ("scenario", error))?;
+    let given = request.form_field("variant").unwrap_or_default().trim();
+    let variant = variant(&job, language, given).map_err(|error| ("variant", error))?;
+    let due_unix_us = due(language, required("due")?, now).map_err(|error| ("due", error))?;
     let key = format!("{target:?} {scenario} {variant:?} {now}");
-    let assignment = Assignment {
+    Ok(Assignment {
         id: sha256_hex(key.as_bytes()).chars().take(ID_DIGITS).collect(),
         target,
         scenario: scenario.to_owned(),
@@ -91,17 +121,18 @@ pub fn assign(state: &ServerState, request: &WebRequest) -> HandlerResult {
         assigned_unix_us: now,
         due_unix_us,
         assigned_by: request.visitor.name.clone().unwrap_or_default(),
-    };
-    if !state.database.assign(&assignment)? {
-        return Err(WebError::NotFound);
-    }
-    Ok(WebResponse::redirect(&target_url(&assignment.target)))
+    })
+}
+
+/// Returns the scenario with this name.
+fn job(state: &ServerState, language: Language, scenario: &str) -> Result<StoredScenario, WebError> {
+    let unknown = || WebError::BadRequest(text!(language, "web-error-unknown-name", field = "scenario"));
+    scenario_library::find(&state.scenarios, scenario).ok_or_else(unknown)
 }
 
 /// Checks the form or level of a scenario; empty for none.
-fn variant(state: &ServerState, language: Language, scenario: &str, given: &str) -> Result<Option<String>, WebError> {
-    let unknown = || WebError::BadRequest(text!(language, "web-error-unknown-name", field = "scenario"));
-    let job = scenario_library::find(&state.scenarios, scenario).ok_or_else(unknown)?;
+fn variant(job: &StoredScenario, language: Language, given: &str) -> Result<Option<String>, WebError> {
+    let scenario = job.named.name.as_str();
     if given.is_empty() {
         return Ok(None);
     }

@@ -7,20 +7,34 @@ use super::response::{HandlerResult, WebError, WebResponse};
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::trainee_id::is_plain_id;
+use maud::Markup;
 use spandrel_text::{Language, text};
 use spandrel_training::assignment::{Assignment, AssignmentCounts};
 use spandrel_training::plan::{PlanRules, plan_for_policy};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::training_class::TrainingClass;
 use spandrel_training::web::classes::{self as pages, ClassMember, ClassPage, MAX_NEW_MEMBERS};
+use spandrel_training::web::rejected_form::RejectedForm;
 
 /// Responds with the list of classes.
 pub fn class_list(state: &ServerState, request: &WebRequest) -> HandlerResult {
-    Ok(WebResponse::page(pages::class_list(&request.visitor, &state.database.classes()?)))
+    Ok(WebResponse::page(pages::class_list(&request.visitor, &state.database.classes()?, None)))
 }
 
-/// Creates a class.
+/// Creates a class. Shows the form again if its name is not possible.
 pub fn create(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    match add_class(state, request) {
+        Ok(name) => Ok(WebResponse::redirect(&class_url(name))),
+        Err(error) => {
+            let form = request.rejected("name", &error).ok_or_else(|| error.clone())?;
+            let page = pages::class_list(&request.visitor, &state.database.classes()?, Some(&form));
+            Ok(WebResponse::rejected_form(page))
+        }
+    }
+}
+
+/// Adds the class in the form, and returns its name.
+fn add_class<'a>(state: &ServerState, request: &'a WebRequest) -> Result<&'a str, WebError> {
     let (language, name) = (request.visitor.language, request.required_field("name")?);
     if !is_plain_id(name) {
         let short: String = name.chars().take(60).collect();
@@ -29,11 +43,15 @@ pub fn create(state: &ServerState, request: &WebRequest) -> HandlerResult {
     if !state.database.add_class(name)? {
         return Err(WebError::BadRequest(text!(language, "people-class-exists", name = name)));
     }
-    Ok(WebResponse::redirect(&class_url(name)))
+    Ok(name)
 }
 
 /// Responds with a class's page.
 pub fn class_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    Ok(WebResponse::page(render_class(state, request, None)?))
+}
+
+fn render_class(state: &ServerState, request: &WebRequest, rejected: Option<RejectedForm<'_>>) -> Result<Markup, WebError> {
     let class = class(state, request)?;
     let (rules, _) = rules_in_use(state, request.visitor.language)?;
     let now = clock::unix_us();
@@ -44,8 +62,8 @@ pub fn class_page(state: &ServerState, request: &WebRequest) -> HandlerResult {
         .collect::<Result<Vec<_>, _>>()?;
     let assignments: Vec<(Assignment, AssignmentCounts)> =
         state.database.assignments_of_class(&class.name)?.into_iter().map(|one| counted(one, &members)).collect();
-    let about = ClassPage { name: &class.name, members: &members, assignments: &assignments };
-    Ok(WebResponse::page(pages::class_page(&request.visitor, &about)))
+    let about = ClassPage { name: &class.name, members: &members, assignments: &assignments, rejected };
+    Ok(pages::class_page(&request.visitor, &about))
 }
 
 /// Returns the class named in the path.
@@ -75,9 +93,21 @@ fn counted(assignment: Assignment, members: &[ClassMember]) -> (Assignment, Assi
     (assignment, counts)
 }
 
-/// Adds trainees to a class.
+/// Adds trainees to a class. Shows the form again if a pseudonym is not possible.
 pub fn add_members(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let name = request.path_param("name");
+    match new_members(state, request) {
+        Ok(trainees) if state.database.add_members(name, &trainees)? => Ok(WebResponse::redirect(&class_url(name))),
+        Ok(_) => Err(WebError::NotFound),
+        Err(error) => {
+            let form = request.rejected("trainees", &error).ok_or_else(|| error.clone())?;
+            Ok(WebResponse::rejected_form(render_class(state, request, Some(form))?))
+        }
+    }
+}
+
+/// Returns the pseudonyms in the form.
+fn new_members(state: &ServerState, request: &WebRequest) -> Result<Vec<String>, WebError> {
     let given = request.required_field("trainees")?;
     let separated = given.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
     let trainees = separated.map(|word| Ok(request.trainee_id("trainees", word)?.as_str().to_owned()));
@@ -92,11 +122,7 @@ pub fn add_members(state: &ServerState, request: &WebRequest) -> HandlerResult {
         )));
     }
     reject_lookalikes(state, &trainees, request.visitor.language)?;
-    if state.database.add_members(name, &trainees)? {
-        Ok(WebResponse::redirect(&class_url(name)))
-    } else {
-        Err(WebError::NotFound)
-    }
+    Ok(trainees)
 }
 
 /// Rejects pseudonyms that differ from a known trainee's only in the case of letters: the instructor means that trainee.

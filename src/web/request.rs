@@ -6,6 +6,7 @@ use super::spool::SpooledUpload;
 use crate::io::trainee_id::TraineeId;
 use spandrel_text::{Language, text};
 use spandrel_training::web::access::Visitor;
+use spandrel_training::web::rejected_form::RejectedForm;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
 
@@ -103,6 +104,11 @@ impl WebRequest {
         }
         let language = self.visitor.language;
         Err(WebError::BadRequest(text!(language, "web-error-line", field = name, count = count, least = min, most = max)))
+    }
+
+    /// Returns the submitted form with the problem of one of its fields; `None` if the error is not about what was entered.
+    pub fn rejected<'a>(&'a self, field: &'a str, error: &'a WebError) -> Option<RejectedForm<'a>> {
+        error.invalid_input().map(|problem| RejectedForm { entered: &self.form, field, problem })
     }
 
     /// Returns the pseudonym in a form field.

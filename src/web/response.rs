@@ -74,6 +74,11 @@ impl WebResponse {
         Self::new("text/html; charset=utf-8", markup.into_string().into_bytes())
     }
 
+    /// Responds with a page that shows a rejected form again.
+    pub fn rejected_form(markup: Markup) -> Self {
+        Self::page(markup).with_status(StatusCode::UNPROCESSABLE_ENTITY)
+    }
+
     /// Responds with a page that has its own policy and scripts (a report). The page is sandboxed and cannot access the
     /// cookies.
     pub fn sandboxed_page(page: Vec<u8>, policy: &str) -> Self {
@@ -208,6 +213,20 @@ impl WebError {
             | Self::Forbidden(_)
             | Self::BadRequest(_)
             | Self::TooLarge(_)
+            | Self::Failed(_) => None,
+        }
+    }
+
+    /// Returns the message about invalid input; `None` for other errors.
+    pub fn invalid_input(&self) -> Option<&str> {
+        match self {
+            Self::BadRequest(words) => Some(words),
+            Self::NotFound
+            | Self::LoginRequired
+            | Self::Forbidden(_)
+            | Self::TooLarge(_)
+            | Self::RateLimited(_)
+            | Self::Busy(_)
             | Self::Failed(_) => None,
         }
     }

@@ -2,6 +2,7 @@
 all live flights on one page."""
 
 import datetime
+import html
 import json
 import subprocess
 import threading
@@ -132,12 +133,14 @@ def test_classes_and_assignments_can_be_removed_and_are_validated(server):
     assert ida.log_in("ida") == 303
     post = lambda page, path, **fields: ida.post(page, path, fields)
     for name in ["", "a b", "../x", "x" * 33, "<b>"]:
-        assert post("/classes", "/classes", name=name)[0] == 422, name
+        status, _, text = post("/classes", "/classes", name=name)
+        assert status == 422 and f'name="name" value="{html.escape(name)}"' in text and 'id="name-problem"' in text, (name, text)
     assert post("/classes", "/classes", name="autumn")[0] == 303
     status, _, text = post("/classes", "/classes", name="autumn")
     assert status == 422 and "already a class" in text
     for trainees in ["", " , ", "anna ../x", " ".join(f"t{k}" for k in range(101))]:
-        assert post("/classes", "/classes/autumn/members", trainees=trainees)[0] == 422, trainees
+        status, _, text = post("/classes", "/classes/autumn/members", trainees=trainees)
+        assert status == 422 and f"{trainees}</textarea>" in text and 'id="trainees-problem"' in text, (trainees, text)
     assert "0</td>" in ida.ask("/classes")[2], "an invalid list adds nobody"
     assert post("/classes", "/classes/autumn/members", trainees="anna\n ben")[0] == 303
     assert post("/classes", "/classes/nothing/members", trainees="anna")[0] == 404
@@ -149,6 +152,8 @@ def test_classes_and_assignments_can_be_removed_and_are_validated(server):
     ]:
         status, _, text = post("/classes", "/assign", **{**job, **change})
         assert status == 422 and said in text, (change, text)
+        if "trainee" not in change:
+            assert 'name="class" value="autumn"' in text and f'value="{change.get("due", due_date())}"' in text, (change, text)
     assert post("/classes", "/assign", **{**job, "class": "nothing"})[0] == 404
     assert ida.ask("/assign?trainee=nobody")[0] == 404 and ida.ask("/assign")[0] == 404
     assert post("/classes", "/assign", **job, variant="6")[0] == 303

@@ -119,7 +119,11 @@ mod tests {
     fn regress_stored_certification_scores_get_names_of_their_own() {
         let texts = [
             ("precision 60, 70 needed", "flight precision 60, 70 needed", "Flugpräzision 60, 70 nötig"),
-            ("no evidence for conformity", "no evidence for coverage-weighted conformity", "kein Nachweis für: abdeckungsgewichtete Bahntreue"),
+            (
+                "no evidence for conformity",
+                "no evidence for coverage-weighted conformity",
+                "kein Nachweis für: abdeckungsgewichtete Bahntreue",
+            ),
         ];
         for (stored, english, german) in texts {
             assert_eq!(translated(stored, Language::English), english);

@@ -2,6 +2,7 @@
 
 use super::access::{AccessLevel, Visitor};
 use super::layout::{ELEMENT, page, table, token, with_element};
+use super::rejected_form::{FormField, RejectedForm};
 use crate::assignment::{AssignedJob, Assignment, AssignmentCounts, AssignmentState, AssignmentTarget};
 use maud::{Markup, html};
 use spandrel_model::calendar::day;
@@ -190,6 +191,8 @@ pub struct AssignPage<'a> {
     pub variant: Option<&'a str>,
     /// Due date that is entered first, and the earliest one allowed, as `YYYY-MM-DD`.
     pub due: (&'a str, &'a str),
+    /// The form, if it was rejected. Its values replace the others.
+    pub rejected: Option<RejectedForm<'a>>,
 }
 
 /// Renders the page that assigns a job.
@@ -210,19 +213,30 @@ pub fn assign_page(visitor: &Visitor, about: &AssignPage<'_>) -> Markup {
             form.stacked method="post" action="/assign" {
                 (token(visitor))
                 input type="hidden" name=(kind) value=(name);
-                label { (text!(language, "people-job"))
-                    select name="scenario" required {
-                        @for job in about.jobs { option value=(job.name) selected[about.scenario == Some(job.name.as_str())] { (job.label(language)) } }
-                    }
-                }
-                label { (text!(language, "people-assign-variant")) input name="variant" value=[about.variant] maxlength="8" autocomplete="off" aria-describedby="variant-note"; }
-                p.note id="variant-note" { (text!(language, "people-assign-variant-note")) }
-                label { (text!(language, "people-assign-due")) input type="date" name="due" required min=(about.due.1) value=(about.due.0); }
+                (assign_fields(language, about))
                 button type="submit" { (text!(language, "people-assign")) }
             }
         }
     };
     page(visitor, at, &title, &body)
+}
+
+fn assign_fields(language: Language, about: &AssignPage<'_>) -> Markup {
+    let [scenario, variant, due] = ["scenario", "variant", "due"].map(|name| FormField::of(about.rejected.as_ref(), name));
+    let selected = scenario.value.or(about.scenario);
+    html! {
+        label { (text!(language, "people-job"))
+            select name="scenario" required aria-invalid=[scenario.invalid()] aria-describedby=[scenario.described_by(None)] {
+                @for job in about.jobs { option value=(job.name) selected[selected == Some(job.name.as_str())] { (job.label(language)) } }
+            }
+        }
+        (scenario.problem())
+        label { (text!(language, "people-assign-variant")) input name="variant" value=[variant.value.or(about.variant)] maxlength="8" autocomplete="off" aria-invalid=[variant.invalid()] aria-describedby=[variant.described_by(Some("variant-note"))]; }
+        (variant.problem())
+        p.note id="variant-note" { (text!(language, "people-assign-variant-note")) }
+        label { (text!(language, "people-assign-due")) input type="date" name="due" required min=(about.due.1) value=(due.value.unwrap_or(about.due.0)) aria-invalid=[due.invalid()] aria-describedby=[due.described_by(None)]; }
+        (due.problem())
+    }
 }
 
 #[cfg(test)]
@@ -274,6 +288,7 @@ mod tests {
             scenario: Some(HOSTILE_NAME),
             variant: Some(HOSTILE_NAME),
             due: ("2026-12-02", "2026-11-25"),
+            rejected: None,
         };
         let text = assign_page(&administrator(), &about).into_string();
         check(&text);
@@ -284,6 +299,22 @@ mod tests {
                 .into_string()
                 .contains("trainee=anna&amp;scenario=drill-gap&amp;variant=6")
         );
+    }
+
+    #[test]
+    fn regress_a_rejected_assignment_keeps_what_was_entered() {
+        let jobs = ["drill-gap", "two-bridges"].map(|name| JobChoice { name: name.into(), variants: Vec::new() });
+        let target = AssignmentTarget::Trainee("anna".into());
+        let entered = [("scenario", "two-bridges"), ("variant", "99"), ("due", "2026-12-24")];
+        let entered = entered.map(|(name, value)| (name.to_owned(), value.to_owned()));
+        let rejected = Some(RejectedForm { entered: &entered, field: "variant", problem: "unknown level" });
+        let due = ("2026-12-02", "2026-11-25");
+        let about = AssignPage { target: &target, jobs: &jobs, scenario: None, variant: None, due, rejected };
+        let text = assign_page(&administrator(), &about).into_string();
+        assert!(text.contains("<option value=\"two-bridges\" selected>"), "{text}");
+        assert!(text.contains("value=\"2026-12-24\"") && text.contains("name=\"variant\" value=\"99\""), "{text}");
+        assert!(text.contains("aria-invalid=\"true\" aria-describedby=\"variant-problem variant-note\""), "{text}");
+        assert_eq!(text.matches("unknown level").count(), 1);
     }
 
     #[test]
@@ -298,8 +329,8 @@ mod tests {
         check_translated(&text.replace(&maud::html! { (HOSTILE_NAME) }.into_string(), "7"), &names);
         let (target, choice) =
             (AssignmentTarget::Trainee("7".into()), JobChoice { name: "8".into(), variants: vec!["1".into()] });
-        let about =
-            AssignPage { target: &target, jobs: &[choice], scenario: None, variant: None, due: ("2026-12-02", "2026-11-25") };
+        let due = ("2026-12-02", "2026-11-25");
+        let about = AssignPage { target: &target, jobs: &[choice], scenario: None, variant: None, due, rejected: None };
         check_translated(&assign_page(&visitor, &about).into_string(), &[]);
         let german = assign_page(&administrator_with(Language::German), &about).into_string();
         assert!(german.contains("Trainee 7 einen Auftrag zuweisen") && german.contains("8 (Stufen 1 bis 1)"), "{german}");

@@ -3,6 +3,7 @@
 use super::access::Visitor;
 use super::assignments::{assign_link, class_assignments, pending_list};
 use super::layout::{ELEMENT, page, section, table, token, with_element};
+use super::rejected_form::{FormField, RejectedForm};
 use crate::assignment::{AssignedJob, Assignment, AssignmentCounts};
 use crate::plan::PlanStep;
 use crate::record::{SessionListEntry, SessionOutcome};
@@ -14,9 +15,9 @@ use spandrel_text::{Language, text};
 /// Maximum number of trainees that can be added at once.
 pub const MAX_NEW_MEMBERS: usize = 100;
 
-/// Renders the list of classes.
+/// Renders the list of classes, and the form for a new one.
 #[must_use]
-pub fn class_list(visitor: &Visitor, classes: &[TrainingClass]) -> Markup {
+pub fn class_list(visitor: &Visitor, classes: &[TrainingClass], rejected: Option<&RejectedForm<'_>>) -> Markup {
     let language = visitor.language;
     let rows = html! {
         @for class in classes {
@@ -38,15 +39,25 @@ pub fn class_list(visitor: &Visitor, classes: &[TrainingClass]) -> Markup {
             @else { (table(&text!(language, "people-class-count", count = classes.len()), &heads, &rows)) }
         }
         (section("new", &text!(language, "people-new-class"), &html! {
-            form.stacked method="post" action="/classes" {
-                (token(visitor))
-                label { (text!(language, "people-name")) input name="name" required maxlength="32" autocomplete="off" autocapitalize="none" placeholder="spring-2027"; }
-                p.note { (text!(language, "people-new-class-note")) }
-                button type="submit" { (text!(language, "people-create-class")) }
-            }
+            (new_class_form(visitor, FormField::of(rejected, "name")))
         }))
     };
     page(visitor, "/classes", &text!(language, "people-classes"), &body)
+}
+
+fn new_class_form(visitor: &Visitor, name: FormField<'_>) -> Markup {
+    let language = visitor.language;
+    html! {
+        form.stacked method="post" action="/classes" {
+            (token(visitor))
+            label { (text!(language, "people-name"))
+                input name="name" value=[name.value] required maxlength="32" autocomplete="off" autocapitalize="none" placeholder="spring-2027" aria-invalid=[name.invalid()] aria-describedby=[name.described_by(None)];
+            }
+            (name.problem())
+            p.note { (text!(language, "people-new-class-note")) }
+            button type="submit" { (text!(language, "people-create-class")) }
+        }
+    }
 }
 
 /// A member of a class.
@@ -71,6 +82,8 @@ pub struct ClassPage<'a> {
     pub members: &'a [ClassMember],
     /// The class's assignments, with the number of members by state.
     pub assignments: &'a [(Assignment, AssignmentCounts)],
+    /// The form that adds trainees, if it was rejected.
+    pub rejected: Option<RejectedForm<'a>>,
 }
 
 /// Renders a class's page.
@@ -86,12 +99,7 @@ pub fn class_page(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
             ul.actions { li { a.button href={ "/assign?class=" (class.name) } { (text!(language, "people-assign-to-class")) } } }
         }))
         (section("add", &text!(language, "people-add-trainees"), &html! {
-            form.stacked method="post" action={ "/classes/" (class.name) "/members" } {
-                (token(visitor))
-                label { (text!(language, "people-add-pseudonyms")) textarea name="trainees" rows="3" required autocapitalize="none" spellcheck="false" {} }
-                p.note { (text!(language, "people-add-note")) }
-                button type="submit" { (text!(language, "people-add-button")) }
-            }
+            (add_members_form(visitor, class.name, FormField::of(class.rejected.as_ref(), "trainees")))
         }))
         (section("delete", &text!(language, "people-delete"), &html! {
             details {
@@ -105,6 +113,21 @@ pub fn class_page(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
         }))
     };
     page(visitor, "/classes", &text!(language, "people-class-title", name = class.name), &body)
+}
+
+fn add_members_form(visitor: &Visitor, class: &str, trainees: FormField<'_>) -> Markup {
+    let language = visitor.language;
+    html! {
+        form.stacked method="post" action={ "/classes/" (class) "/members" } {
+            (token(visitor))
+            label { (text!(language, "people-add-pseudonyms"))
+                textarea name="trainees" rows="3" required autocapitalize="none" spellcheck="false" aria-invalid=[trainees.invalid()] aria-describedby=[trainees.described_by(None)] { (trainees.value.unwrap_or_default()) }
+            }
+            (trainees.problem())
+            p.note { (text!(language, "people-add-note")) }
+            button type="submit" { (text!(language, "people-add-button")) }
+        }
+    }
 }
 
 fn members(visitor: &Visitor, class: &ClassPage<'_>) -> Markup {
@@ -166,10 +189,10 @@ mod tests {
     #[test]
     fn exact_class_pages_escape_names_and_show_pending_assignments() {
         let class = TrainingClass { name: HOSTILE_NAME.into(), members: vec![HOSTILE_NAME.into()] };
-        let text = class_list(&administrator(), &[class]).into_string();
+        let text = class_list(&administrator(), &[class], None).into_string();
         check(&text);
         assert!(text.contains("<caption>1 class</caption>"), "{text}");
-        check(&class_list(&administrator(), &[]).into_string());
+        check(&class_list(&administrator(), &[], None).into_string());
         let assignment = Assignment {
             id: "a1".into(),
             target: AssignmentTarget::Class(HOSTILE_NAME.into()),
@@ -186,7 +209,7 @@ mod tests {
         let member = |jobs, next| ClassMember { trainee: HOSTILE_NAME.into(), last: None, next, jobs };
         let members = [member(jobs, Some(step)), member(Vec::new(), None)];
         let assignments = [(assignment.clone(), AssignmentCounts { done: 0, open: 0, overdue: 1 })];
-        let page = ClassPage { name: HOSTILE_NAME, members: &members, assignments: &assignments };
+        let page = ClassPage { name: HOSTILE_NAME, members: &members, assignments: &assignments, rejected: None };
         let text = class_page(&administrator(), &page).into_string();
         check(&text);
         assert_eq!(text.matches("not flown yet").count(), 2);
@@ -196,14 +219,27 @@ mod tests {
     }
 
     #[test]
+    fn regress_rejected_class_forms_keep_what_was_entered() {
+        let entered = [("name".to_owned(), "spring 2027".to_owned()), ("trainees".to_owned(), "anna, b/c".to_owned())];
+        let form = |field| RejectedForm { entered: &entered, field, problem: "invalid" };
+        let text = class_list(&administrator(), &[], Some(&form("name"))).into_string();
+        assert!(text.contains("name=\"name\" value=\"spring 2027\"") && text.contains("aria-invalid=\"true\""), "{text}");
+        assert!(text.contains("aria-describedby=\"name-problem\"") && text.contains("id=\"name-problem\""), "{text}");
+        let page = ClassPage { name: "autumn", members: &[], assignments: &[], rejected: Some(form("trainees")) };
+        let text = class_page(&administrator(), &page).into_string();
+        assert!(text.contains("aria-describedby=\"trainees-problem\">anna, b/c</textarea>"), "{text}");
+        assert!(text.contains("id=\"trainees-problem\" role=\"alert\">invalid</p>"), "{text}");
+    }
+
+    #[test]
     fn exact_class_pages_are_translated() {
         let visitor = administrator_with(Language::Pseudo);
         let class = TrainingClass { name: "7".into(), members: vec!["8".into()] };
-        check_translated(&class_list(&visitor, &[class]).into_string(), &["spring"]);
-        check_translated(&class_list(&visitor, &[]).into_string(), &["spring"]);
+        check_translated(&class_list(&visitor, &[class], None).into_string(), &["spring"]);
+        check_translated(&class_list(&visitor, &[], None).into_string(), &["spring"]);
         let step = PlanStep { scenario: "9".into(), urgency: 0.0, reasons: Vec::new(), level: None };
         let members = [ClassMember { trainee: "8".into(), last: None, next: Some(step), jobs: Vec::new() }];
-        let page = ClassPage { name: "7", members: &members, assignments: &[] };
+        let page = ClassPage { name: "7", members: &members, assignments: &[], rejected: None };
         check_translated(&class_page(&visitor, &page).into_string(), &[]);
         check_translated(&class_page(&visitor, &ClassPage { members: &[], ..page }).into_string(), &[]);
         let german = class_page(&administrator_with(Language::German), &page).into_string();

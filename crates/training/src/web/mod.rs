@@ -18,6 +18,7 @@ pub mod login;
 pub mod login_throttle;
 pub mod plan_rules;
 pub mod questionnaire_form;
+pub mod rejected_form;
 pub mod rubric;
 pub mod scenario_check_result;
 pub mod scenario_editor;
