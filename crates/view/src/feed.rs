@@ -9,8 +9,8 @@ use spandrel_mavlink::contract::lesson::{self, LessonStatus};
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
-    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavFrame, MavMessage, NAMED_VALUE_INT_DATA,
-    OBSTACLE_DISTANCE_DATA, STATUSTEXT_DATA,
+    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavFrame, MavMessage, NAMED_VALUE_FLOAT_DATA,
+    NAMED_VALUE_INT_DATA, OBSTACLE_DISTANCE_DATA, STATUSTEXT_DATA,
 };
 use spandrel_model::time::SimTime;
 
@@ -32,6 +32,8 @@ pub struct Feed {
     cue_texts: CueTexts,
     guidance: Option<(SimTime, Guidance)>,
     obstacles: Option<(SimTime, ObstacleSectors)>,
+    /// Distance to the nearest surface in any direction, m.
+    clearance_m: Option<(SimTime, f64)>,
     lesson: Option<(SimTime, LessonStatus)>,
     /// Last remark about a lesson, without its prefix.
     lesson_remark: Option<(SimTime, String)>,
@@ -55,6 +57,7 @@ impl Feed {
             HEARTBEAT_DATA::ID
                 | GPS_RAW_INT_DATA::ID
                 | NAMED_VALUE_INT_DATA::ID
+                | NAMED_VALUE_FLOAT_DATA::ID
                 | STATUSTEXT_DATA::ID
                 | DEBUG_FLOAT_ARRAY_DATA::ID
                 | OBSTACLE_DISTANCE_DATA::ID
@@ -90,6 +93,11 @@ impl Feed {
             MavMessage::NAMED_VALUE_INT(named) => {
                 if let Some(NamedValue::Cues(cues)) = NamedValue::from_int(named) {
                     self.set_cues(cues, now);
+                }
+            }
+            MavMessage::NAMED_VALUE_FLOAT(named) => {
+                if let Some(NamedValue::ClearanceM(clearance_m)) = NamedValue::from_float(named) {
+                    self.clearance_m = Some((now, clearance_m));
                 }
             }
             MavMessage::OBSTACLE_DISTANCE(data) => self.obstacles = ObstacleSectors::of(data).map(|sectors| (now, sectors)),
@@ -143,6 +151,12 @@ impl Feed {
     #[must_use]
     pub fn obstacles(&self, now: SimTime) -> Option<&ObstacleSectors> {
         self.obstacles.as_ref().filter(|(heard, _)| now.saturating_sub(*heard) <= OBSTACLE_TIMEOUT).map(|(_, sectors)| sectors)
+    }
+
+    /// Returns the distance to the nearest surface in any direction, m, which the too-close cue uses; `None` if it is unknown.
+    #[must_use]
+    pub fn clearance_m(&self, now: SimTime) -> Option<f64> {
+        self.clearance_m.filter(|(heard, _)| now.saturating_sub(*heard) <= OBSTACLE_TIMEOUT).map(|(_, clearance_m)| clearance_m)
     }
 
     /// Returns the current step of a lesson, and what went wrong in it; `None` if there is none, or the monitor has stopped.
@@ -239,6 +253,17 @@ mod tests {
         assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash: bridge member arch/rib-left/07"));
         feed.set_cues(cue::OFF_PATH, now);
         assert_eq!(feed.cue_texts().text(cue::CRASH), Some("Crash"), "the text of an old crash is not shown again");
+    }
+
+    #[test]
+    fn exact_the_nearest_surface_is_known_while_its_telemetry_continues() {
+        let now = SimTime::from_ms(5_000);
+        let mut feed = Feed::default();
+        assert_eq!(feed.clearance_m(now), None);
+        feed.handle_datagram(&Encoder::new(1, 1).encode(&NamedValue::ClearanceM(2.25).message(5_000)), now);
+        assert!(Feed::is_relevant(NAMED_VALUE_FLOAT_DATA::ID));
+        assert_eq!(feed.clearance_m(now + OBSTACLE_TIMEOUT), Some(2.25));
+        assert_eq!(feed.clearance_m(now + OBSTACLE_TIMEOUT + SimTime::from_ms(1)), None);
     }
 
     #[test]

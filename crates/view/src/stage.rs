@@ -321,6 +321,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         pitch_rad,
         obstacles: feed.obstacles(at).map(|sectors| Obstacles {
             sectors_m: sectors.sectors_m.clone(),
+            nearest_m: feed.clearance_m(at),
             range_m: sectors.range_m,
             too_close_m: scenario.feedback.too_close_m,
         }),

@@ -49,6 +49,9 @@ pub struct Obstacles {
     /// Distance in each of equal sectors, clockwise, m. The middle of the first sector is at the nose. Infinite: nothing within
     /// the range; NaN: unknown.
     pub sectors_m: Vec<f64>,
+    /// Distance to the nearest surface in any direction, above and below included, m; `None` if it is unknown. The too-close cue
+    /// uses it.
+    pub nearest_m: Option<f64>,
     /// Largest distance that can be measured, m.
     pub range_m: f64,
     /// Distance at which the too-close cue begins, m.

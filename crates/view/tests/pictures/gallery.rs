@@ -364,7 +364,7 @@ fn regress_practice_with_path_and_instruments() {
             heading_rad,
             roll_rad,
             pitch_rad,
-            obstacles: Some(Obstacles { sectors_m, range_m: 12.0, too_close_m: 2.5 }),
+            obstacles: Some(Obstacles { sectors_m, nearest_m: Some(1.9), range_m: 12.0, too_close_m: 2.5 }),
             way_back: (aids == PathAids::Gates).then_some(WayBack { direction_rad: 5.6 }),
             ..calm(&studio, position_m)
         };

@@ -73,10 +73,12 @@ pub(super) fn navigation(hud: &Hud, pane: Pane, area: Area, font: f64) -> Vec<Dr
     items
 }
 
-/// Returns the distance of the nearest obstacle in words; `None` without range finders.
+/// Returns the distance of the nearest obstacle in any direction in words; `None` without range finders.
 fn obstacle_words(hud: &Hud) -> Option<[String; 2]> {
     let (language, obstacles) = (hud.style.language, hud.obstacles.as_ref()?);
-    let nearest_m = obstacles.sectors_m.iter().copied().fold(f64::INFINITY, f64::min);
+    // The range finders look around, but not up and down.
+    let elsewhere_m = obstacles.nearest_m.filter(|nearest_m| *nearest_m <= obstacles.range_m);
+    let nearest_m = obstacles.sectors_m.iter().copied().chain(elsewhere_m).fold(f64::INFINITY, f64::min);
     let words = if nearest_m.is_finite() {
         hud.style.units.length(nearest_m, 1)
     } else {

@@ -39,7 +39,7 @@ fn flying(job: &Scenario) -> Hud {
     (sectors_m[0], sectors_m[1]) = (1.2, 7.5);
     Hud {
         guidance: Some(guidance),
-        obstacles: Some(Obstacles { sectors_m, range_m: 12.0, too_close_m: 1.5 }),
+        obstacles: Some(Obstacles { sectors_m, nearest_m: None, range_m: 12.0, too_close_m: 1.5 }),
         pad_m: job.ground_team.pad_m,
         position_m: Vec3::new(20.0, -10.0, 30.0),
         roll_rad: 0.3,
@@ -133,9 +133,23 @@ fn exact_near_obstacles_are_red_and_missing_range_finders_are_not_free_space() {
         (found, has_color(&items, HudColor::Red))
     };
     assert_eq!(words(&flying(&job)), (Some("obstacle 1.2 m".to_owned()), true));
-    let free = Obstacles { sectors_m: vec![f64::INFINITY; 72], range_m: 12.0, too_close_m: 1.5 };
+    let free = Obstacles { sectors_m: vec![f64::INFINITY; 72], nearest_m: Some(12.1), range_m: 12.0, too_close_m: 1.5 };
     assert_eq!(words(&Hud { obstacles: Some(free), ..flying(&job) }), (Some("obstacle none near".to_owned()), false));
     assert_eq!(words(&Hud { obstacles: None, ..flying(&job) }), (None, false));
+}
+
+#[test]
+fn regress_a_surface_above_or_below_is_an_obstacle_as_for_the_too_close_cue() {
+    let (job, site) = job();
+    let words = |sectors_m: Vec<f64>, nearest_m| {
+        let obstacles = Obstacles { sectors_m, nearest_m, range_m: 12.0, too_close_m: 2.5 };
+        let items = instruments(&Hud { obstacles: Some(obstacles), ..flying(&job) }, &site, (200.0, 600.0));
+        texts(&items, (200.0, 600.0)).into_iter().map(|(words, _)| words).find(|words| words.contains("obstacle"))
+    };
+    assert_eq!(words(vec![f64::INFINITY; 8], Some(1.8)).as_deref(), Some("obstacle 1.8 m"), "the deck above");
+    let beside = vec![f64::INFINITY, 3.1, f64::NAN, f64::INFINITY];
+    assert_eq!(words(beside.clone(), Some(2.2)).as_deref(), Some("obstacle 2.2 m"), "nearer than the arc");
+    assert_eq!(words(beside, None).as_deref(), Some("obstacle 3.1 m"), "without this telemetry, the arcs remain");
 }
 
 #[test]
