@@ -296,7 +296,6 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
     Hud {
         speed_m_s: moment.velocity_m_s.norm(),
         limit_m_s: scenario.scoring.speed_limit_m_s,
-        limit_unit: scenario.scoring.speed_limit_unit,
         battery_pct: inputs.battery_pct,
         min_green_pct: scenario.feedback.battery_green_pct,
         min_yellow_pct: scenario.feedback.battery_yellow_pct,

@@ -1,7 +1,6 @@
 ## Speed, battery, readouts
 
 flight-speed-limit = max. { $limit }
-flight-speed-and-limit = { $speed }, max. { $limit }
 flight-battery-no-data = keine Akkudaten
 flight-battery-unknown = Akku ?
 flight-readout-height = Höhe

@@ -1,7 +1,6 @@
 ## Speed, battery, readouts
 
 flight-speed-limit = limit { $limit }
-flight-speed-and-limit = { $speed }, limit { $limit }
 flight-battery-no-data = no battery data
 # Where there is little room.
 flight-battery-unknown = battery ?

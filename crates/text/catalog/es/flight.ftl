@@ -1,7 +1,6 @@
 ## Speed, battery, readouts
 
 flight-speed-limit = límite { $limit }
-flight-speed-and-limit = { $speed }, límite { $limit }
 flight-battery-no-data = sin datos de batería
 flight-battery-unknown = batería ?
 flight-readout-height = altura

@@ -9,7 +9,6 @@ use crate::hud::{
 };
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
-use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_text::{Language, text};
 
 /// Embedded JPEG pictures by name.
@@ -250,7 +249,6 @@ fn example(cues: i32, style: DisplayStyle) -> Hud {
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 10.0 * spandrel_model::math::M_S_PER_MPH,
-        limit_unit: SpeedUnit::MilesPerHour,
         battery_pct: Some(86.0),
         min_green_pct: 70.0,
         min_yellow_pct: 30.0,

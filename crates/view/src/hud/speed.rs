@@ -3,12 +3,9 @@
 use super::metrics::{EDGE_MARGIN, LARGE_FONT_SIZE, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
-use super::style::DisplayUnits;
 use super::text_metrics::fitted;
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::cue;
-use spandrel_model::numbers::format_limit;
-use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_text::text;
 
 /// Width and height of the panel.
@@ -20,35 +17,14 @@ const PADDING: f64 = 0.016;
 /// Returns the speed as text, and its color.
 pub(super) fn speed_text(hud: &Hud) -> (HudColor, String) {
     let fast = hud.cues & cue::SPEEDING != 0;
-    let over = hud.speed_m_s > hud.limit_m_s;
-    let words = match hud.style.units {
-        // The digits must show that the speed is above the limit.
-        DisplayUnits::UsCustomary if over => {
-            format!("{} mph", SpeedUnit::MilesPerHour.format_speed(hud.speed_m_s, hud.limit_m_s))
-        }
-        DisplayUnits::UsCustomary | DisplayUnits::Metric => hud.style.units.speed(hud.speed_m_s),
-    };
+    let words = hud.style.units.speed(hud.speed_m_s, hud.limit_m_s);
     (if fast { HudColor::Yellow } else { HudColor::White }, words)
 }
 
 /// Returns the speed block in the upper left corner.
 pub(super) fn speed(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let (language, inner) = (hud.style.language, EDGE_MARGIN + PADDING);
-    let limit = match (hud.style.units, hud.limit_unit) {
-        // The speed above is in the same unit.
-        (DisplayUnits::UsCustomary, _) => text!(language, "flight-speed-limit", limit = hud.style.units.speed(hud.limit_m_s)),
-        (DisplayUnits::Metric, SpeedUnit::MilesPerHour) => {
-            let over = hud.speed_m_s > hud.limit_m_s;
-            let speed_mph = SpeedUnit::MilesPerHour.from_m_s(hud.speed_m_s);
-            let shown =
-                if over { SpeedUnit::MilesPerHour.format_speed(hud.speed_m_s, hud.limit_m_s) } else { format!("{speed_mph:.0}") };
-            let limit = format_limit(SpeedUnit::MilesPerHour.from_m_s(hud.limit_m_s));
-            text!(language, "flight-speed-and-limit", speed = format!("{shown} mph"), limit = limit)
-        }
-        (DisplayUnits::Metric, SpeedUnit::MetersPerSecond) => {
-            text!(language, "flight-speed-limit", limit = SpeedUnit::MetersPerSecond.format_limit(hud.limit_m_s))
-        }
-    };
+    let limit = text!(language, "flight-speed-limit", limit = hud.style.units.speed_limit(hud.limit_m_s));
     let (color, words) = speed_text(hud);
     let limit_size = fitted(&limit, SMALL_FONT_SIZE, PANEL_WIDTH - 2.0 * PADDING);
     vec![

@@ -7,7 +7,6 @@ use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::{Scenario, Task};
-use spandrel_model::speed_unit::SpeedUnit;
 
 /// Name of the flight mode before it has been received.
 pub const UNKNOWN_MODE: &str = "no mode";
@@ -92,8 +91,6 @@ pub struct Hud {
     pub speed_m_s: f64,
     /// Speed limit, m/s.
     pub limit_m_s: f64,
-    /// Unit in which the speed limit is displayed.
-    pub limit_unit: SpeedUnit,
     /// Battery level, %.
     pub battery_pct: Option<f64>,
     /// Minimum battery level for a green display, %.

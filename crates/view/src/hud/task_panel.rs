@@ -9,7 +9,6 @@ use super::text_metrics::{fitted, text_width};
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, TurnTo, WayTo};
 use spandrel_model::math;
-use spandrel_model::numbers::format_limit;
 use spandrel_text::{Language, text};
 
 /// Top of the panel with normal text: just above the map, below the status text of the window.
@@ -170,12 +169,9 @@ fn deviation_words(deviation: &PathDeviation, style: DisplayStyle) -> String {
 }
 
 fn stand_off_words(reading: &StandOffReading, units: DisplayUnits) -> String {
-    let limit = |length_m: f64| match units {
-        DisplayUnits::Metric => format_limit(length_m),
-        DisplayUnits::UsCustomary => units.length_number(length_m, 1),
-    };
-    let (recommended, tolerance) = (limit(reading.recommended_m), limit(reading.tolerance_m));
-    format!("{} ({recommended} ± {tolerance})", units.length(reading.actual_m.max(0.0), 1))
+    let lengths_m = [reading.actual_m.max(0.0), reading.recommended_m, reading.tolerance_m];
+    let [actual, recommended, tolerance] = units.length_numbers(lengths_m, 1);
+    format!("{actual} {} ({recommended} ± {tolerance})", units.length_symbol())
 }
 
 /// Returns an arrowhead that points up for straight ahead.

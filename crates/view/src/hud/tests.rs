@@ -4,7 +4,6 @@ use super::*;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::Vec3;
-use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_text::Language;
 
 const WIDE_ASPECT: f64 = 16.0 / 9.0;
@@ -21,7 +20,6 @@ pub(super) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,
         limit_m_s: 4.4704,
-        limit_unit: SpeedUnit::MilesPerHour,
         battery_pct: Some(76.0),
         min_green_pct: 70.0,
         min_yellow_pct: 30.0,
@@ -77,7 +75,7 @@ fn snapshot(hud: &Hud) -> String {
 
 #[test]
 fn regress_hud_in_normal_flight() {
-    let expected = "  2   6 White: 3.2 m/s\n  2  11 Gray: 7 mph, limit 10\n 98   6 Green: 76%\n 50   5 White: Position   GNSS 14   link ok\n \
+    let expected = "  2   6 White: 3.2 m/s\n  2  11 Gray: limit 4.47 m/s\n 98   6 Green: 76%\n 50   5 White: Position   GNSS 14   link ok\n \
                     87  13 Gray: height\n 98  13 White: 21.4 m\n 87  17 Gray: home\n 98  17 White: 118 m\n 87  21 Gray: gimbal\n \
                     98  21 White: +20°\n 87  25 Gray: time left\n 98  25 White: 20:34\n 87  28 Gray: lamp\n 98  28 White: off\n \
                     87  32 Gray: pictures\n 98  32 White: 3\n 89  88 Gray: 1\n 91  72 Gray: N\n";
@@ -169,11 +167,14 @@ fn exact_texts_are_correct_in_every_abnormal_state() {
         (Hud { battery_pct: Some(17.0), ..hud() }, &["Red: 17%"]),
         (Hud { battery_pct: None, ..hud() }, &["Gray: no battery data"]),
         (warned(cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST"]),
-        (said("Too fast: 11 mph, limit 10 mph", cue::SPEEDING), &["Yellow: 3.2 m/s", "Yellow: TOO FAST: 11 mph, limit 10 mph"]),
+        (
+            said("Too fast: 11 mph, limit 10 mph", cue::SPEEDING),
+            &["Yellow: 3.2 m/s", "Yellow: TOO FAST: 4.92 m/s, limit 4.47 m/s"],
+        ),
         (warned(cue::OFF_PATH), &["Blue: OFF PATH"]),
         (said("Off path 3.4 m: left and up", cue::OFF_PATH), &["Blue: OFF PATH 3.4 m: left and up"]),
         (warned(cue::STAND_OFF | cue::OFF_PATH), &["Blue: STAND-OFF"]),
-        (Hud { limit_m_s: 4.5, limit_unit: SpeedUnit::MetersPerSecond, ..hud() }, &["Gray: limit 4.5 m/s"]),
+        (Hud { limit_m_s: 4.5, ..hud() }, &["Gray: limit 4.5 m/s"]),
         (warned(cue::TOO_CLOSE), &["Orange: TOO CLOSE"]),
         (warned(cue::CRASH), &["Red: CRASH"]),
         (Hud { cue_texts: member.clone(), ..warned(cue::CRASH) }, &[hit]),
@@ -286,10 +287,10 @@ fn exact_task_panel_shows_the_next_step() {
         assert!(find(&guided, words).is_some(), "{words}\n{}", snapshot(&guided));
         assert!(find(&hud(), words).is_none(), "{words}");
     }
-    assert_eq!(find(&guided, "7.1 m (5 ± 1.5)").unwrap().1, HudColor::Yellow, "outside the tolerance");
+    assert_eq!(find(&guided, "7.1 m (5.0 ± 1.5)").unwrap().1, HudColor::Yellow, "outside the tolerance");
     let level = Guidance { way: Some(WayTo { distance_m: 6.2, bearing_rad: -0.5, up_m: -0.4 }), ..guidance };
     assert!(find(&Hud { guidance: Some(level), ..hud() }, "level").is_some());
     let inside = StandOffReading { actual_m: 6.4, recommended_m: 5.0, tolerance_m: 1.5 };
     let guided = Hud { guidance: Some(Guidance { stand_off: Some(inside), ..guidance }), ..hud() };
-    assert_eq!(find(&guided, "6.4 m (5 ± 1.5)").unwrap().1, HudColor::White);
+    assert_eq!(find(&guided, "6.4 m (5.0 ± 1.5)").unwrap().1, HudColor::White);
 }

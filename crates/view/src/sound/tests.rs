@@ -2,7 +2,7 @@
 
 use super::propellers::BLADES_PER_PROPELLER;
 use super::{FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
-use crate::hud::DisplayStyle;
+use crate::hud::{DisplayStyle, DisplayUnits};
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
@@ -88,14 +88,17 @@ fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
     assert_eq!(spoken(0, cue::CRASH | cue::SPEEDING).as_deref(), Some("Crash"));
     let off = Some("Off path 3.4 meters: left and up");
     assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH).as_deref(), off);
-    assert_eq!(spoken(0, cue::SPEEDING).as_deref(), Some("Too fast: 11 miles per hour, limit 10 miles per hour"));
+    assert_eq!(spoken(0, cue::SPEEDING).as_deref(), Some("Too fast: 4.92 meters per second, limit 4.47 meters per second"));
     assert_eq!(spoken(0, cue::BATTERY_RED).as_deref(), Some("Battery 29 percent"));
     assert_eq!(spoken(0, cue::STAND_OFF | cue::OFF_PATH).as_deref(), Some("Stand-off"), "not the off-path cue");
     assert_eq!(spoken(cue::STAND_OFF | cue::OFF_PATH, cue::OFF_PATH).as_deref(), off);
     assert_eq!(spoken(cue::CRASH | cue::SPEEDING, cue::SPEEDING), None);
     let german = DisplayStyle { language: Language::German, ..DisplayStyle::default() };
     let said = super::spoken(0, cue::SPEEDING, &texts, german);
-    assert_eq!(said.as_deref(), Some("Zu schnell: 11 Meilen pro Stunde, höchstens 10 Meilen pro Stunde"));
+    assert_eq!(said.as_deref(), Some("Zu schnell: 4.92 Meter pro Sekunde, höchstens 4.47 Meter pro Sekunde"));
+    let us = DisplayStyle { units: DisplayUnits::UsCustomary, ..DisplayStyle::default() };
+    let said = super::spoken(0, cue::SPEEDING, &texts, us);
+    assert_eq!(said.as_deref(), Some("Too fast: 11 miles per hour, limit 10 miles per hour"));
 }
 
 #[test]

@@ -8,7 +8,6 @@ use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
-use spandrel_model::speed_unit::SpeedUnit;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
@@ -244,7 +243,6 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,
-        limit_unit: SpeedUnit::MilesPerHour,
         battery_pct: Some(86.0),
         min_green_pct: 70.0,
         min_yellow_pct: 30.0,
