@@ -4,7 +4,7 @@
 use crate::feedback::{HeadingOffset, TaskProximity};
 use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::guidance::{DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{HOLD_DURATION, Scenario};
 use spandrel_model::time::SimTime;
@@ -12,6 +12,8 @@ use spandrel_model::time::SimTime;
 /// Distance along the path to the place that the pilot is guided to while following it, m (estimate: far enough that the
 /// direction is steady, near enough that it follows a curve).
 const LOOK_AHEAD_M: f64 = 6.0;
+/// Height above the pad of the place that the way home leads to if it is blocked, m (estimate).
+const APPROACH_HEIGHT_M: Vec3<Enu> = Vec3::new(0.0, 0.0, 5.0);
 /// Time for which a step must last before it is announced, so that a drone at the threshold of a path causes no flood of
 /// texts (estimate).
 const ANNOUNCEMENT_DELAY: SimTime = SimTime::from_ms(1_500);
@@ -50,16 +52,8 @@ impl GuidanceInput<'_> {
     #[must_use]
     pub fn next_step(&self) -> Guidance {
         let step = self.step();
-        let task = match step {
-            GuidanceStep::FlyToTask | GuidanceStep::FollowPath | GuidanceStep::HoldPosition => self.task(),
-            GuidanceStep::TakeOff | GuidanceStep::FlyHome | GuidanceStep::Land | GuidanceStep::Over => None,
-        };
-        let target_m = match step {
-            GuidanceStep::FlyToTask | GuidanceStep::FollowPath => task.and_then(|task| self.target_on_path_m(task)),
-            GuidanceStep::HoldPosition => task.and_then(|task| self.paths.path(task).closest_position(self.position_m)),
-            GuidanceStep::FlyHome => Some(self.scenario.ground_team.pad_m),
-            GuidanceStep::TakeOff | GuidanceStep::Land | GuidanceStep::Over => None,
-        };
+        let task = self.task_of(step);
+        let target_m = self.target_m(step);
         let near = task.map(|task| &self.tasks[task]).filter(|task| task.distance_m <= self.scenario.feedback.off_path_max_m);
         Guidance {
             step,
@@ -76,6 +70,40 @@ impl GuidanceInput<'_> {
             }),
             flown_s: self.flown_s,
             needed_s: self.needed_s,
+            detour: None,
+        }
+    }
+
+    /// Returns the place far away that the step leads to, to which the straight way may be blocked; `None` in other steps.
+    #[must_use]
+    pub fn far_place_m(&self) -> Option<Vec3<Enu>> {
+        match self.step() {
+            GuidanceStep::FlyToTask => self.target_m(GuidanceStep::FlyToTask),
+            GuidanceStep::FlyHome => Some(self.scenario.ground_team.pad_m + APPROACH_HEIGHT_M),
+            GuidanceStep::TakeOff
+            | GuidanceStep::FollowPath
+            | GuidanceStep::HoldPosition
+            | GuidanceStep::Land
+            | GuidanceStep::Over => None,
+        }
+    }
+
+    /// Returns the task that a step belongs to.
+    fn task_of(&self, step: GuidanceStep) -> Option<usize> {
+        match step {
+            GuidanceStep::FlyToTask | GuidanceStep::FollowPath | GuidanceStep::HoldPosition => self.task(),
+            GuidanceStep::TakeOff | GuidanceStep::FlyHome | GuidanceStep::Land | GuidanceStep::Over => None,
+        }
+    }
+
+    /// Returns the place that a step leads to.
+    fn target_m(&self, step: GuidanceStep) -> Option<Vec3<Enu>> {
+        let task = self.task_of(step);
+        match step {
+            GuidanceStep::FlyToTask | GuidanceStep::FollowPath => task.and_then(|task| self.target_on_path_m(task)),
+            GuidanceStep::HoldPosition => task.and_then(|task| self.paths.path(task).closest_position(self.position_m)),
+            GuidanceStep::FlyHome => Some(self.scenario.ground_team.pad_m),
+            GuidanceStep::TakeOff | GuidanceStep::Land | GuidanceStep::Over => None,
         }
     }
 
@@ -208,19 +236,22 @@ impl HoldTimer {
 /// Interval at which the way to a task or home is repeated, for ground stations that show only texts (estimate).
 const REPETITION_INTERVAL: SimTime = SimTime::from_ms(10_000);
 
+/// What distinguishes announcements: step, task, and what leads around an obstacle.
+type Announcement = (GuidanceStep, Option<u32>, Option<DetourKind>);
+
 /// Announces each new step once it has lasted, and repeats the way to a place while the drone is on its way.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StepAnnouncer {
     /// Step that was announced last, and when.
-    announced: Option<((GuidanceStep, Option<u32>), SimTime)>,
+    announced: Option<(Announcement, SimTime)>,
     /// Step, and the time since when it has lasted.
-    current: Option<((GuidanceStep, Option<u32>), SimTime)>,
+    current: Option<(Announcement, SimTime)>,
 }
 
 impl StepAnnouncer {
-    /// Returns the text to send, if a new step has lasted long enough.
-    pub fn update(&mut self, now: SimTime, guidance: &Guidance) -> Option<String> {
-        let key = (guidance.step, guidance.task);
+    /// Returns the texts to send, if a new step has lasted long enough.
+    pub fn update(&mut self, now: SimTime, guidance: &Guidance) -> Vec<String> {
+        let key = (guidance.step, guidance.task, guidance.detour.map(|detour| detour.kind));
         let since = self.current.filter(|(current, _)| *current == key).map_or(now, |(_, since)| since);
         self.current = Some((key, since));
         let repeated = match guidance.step {
@@ -234,17 +265,19 @@ impl StepAnnouncer {
         let said = self.announced.filter(|(announced, _)| *announced == key);
         let is_news = said.is_none_or(|(_, at)| repeated && now - at >= REPETITION_INTERVAL);
         if !is_news || now - since < ANNOUNCEMENT_DELAY {
-            return None;
+            return Vec::new();
         }
         self.announced = Some((key, now));
         // The end of the session has a text of its own.
-        (guidance.step != GuidanceStep::Over).then(|| guidance.words())
+        let words = (guidance.step != GuidanceStep::Over).then(|| guidance.words());
+        words.into_iter().chain(guidance.detour_words()).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_mavlink::contract::guidance::Detour;
     use spandrel_model::math;
     use spandrel_model::{scenario, shipped};
 
@@ -392,13 +425,18 @@ mod tests {
         let far = flight.guidance(flight.scenario.ground_team.pad_m, None);
         let on = flight.guidance(flight.point_m(0, 0), Some(0));
         let mut announcer = StepAnnouncer::default();
-        let mut said = |ms: i64, guidance: &Guidance| announcer.update(SimTime::from_ms(ms), guidance);
-        assert_eq!(said(0, &far), None);
-        assert_eq!(said(1_500, &far), Some(far.words()));
-        assert_eq!((said(1_700, &on), said(2_000, &far), said(3_500, &far)), (None, None, None), "a short visit");
-        assert_eq!(said(11_400, &far), None);
-        assert_eq!(said(11_500, &far), Some(far.words()));
-        assert_eq!((said(12_000, &on), said(13_500, &on)), (None, Some("Task 1: follow the path".to_owned())));
-        assert_eq!(said(60_000, &on), None, "nothing new");
+        let mut said = |ms: i64, guidance: &Guidance| announcer.update(SimTime::from_ms(ms), guidance).join("; ");
+        assert_eq!(said(0, &far), "");
+        assert_eq!(said(1_500, &far), far.words());
+        let visit = [said(1_700, &on), said(2_000, &far), said(3_500, &far)];
+        assert_eq!(visit, ["", "", ""], "a short visit");
+        assert_eq!(said(11_400, &far), "");
+        assert_eq!(said(11_500, &far), far.words());
+        assert_eq!([said(12_000, &on), said(13_500, &on)], ["", "Task 1: follow the path"]);
+        assert_eq!(said(60_000, &on), "", "nothing new");
+        let way = WayTo { distance_m: 8.0, bearing_rad: 0.0, up_m: 0.0 };
+        let blocked = Guidance { detour: Some(Detour { kind: DetourKind::OutFromUnder, way }), ..far };
+        assert_eq!([said(70_000, &blocked), said(71_000, &blocked)], ["", ""]);
+        assert_eq!(said(71_500, &blocked), "Task 1: fly out from under the bridge first; First: 8 m, ahead");
     }
 }

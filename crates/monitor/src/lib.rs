@@ -24,6 +24,7 @@
 //! determines where a session starts and ends.
 
 pub mod assessment;
+pub mod detour;
 pub mod export;
 pub mod feedback;
 pub mod folder;

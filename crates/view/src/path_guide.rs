@@ -431,6 +431,7 @@ mod tests {
             stand_off: None,
             flown_s: 10.0,
             needed_s: 300.0,
+            detour: None,
         }
     }
 

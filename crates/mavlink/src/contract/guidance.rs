@@ -12,7 +12,7 @@ pub const NAME: &str = "guidance";
 /// Age at which a step that was not repeated is out of date; the monitor repeats it at 5 Hz.
 pub const TIMEOUT: SimTime = SimTime::from_ms(1_500);
 /// Number of values.
-const LENGTH: usize = 15;
+const LENGTH: usize = 19;
 
 /// The pilot's next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -78,6 +78,54 @@ pub enum TurnTo {
     Right(f64),
 }
 
+/// What leads around an obstacle on the straight way to the next place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum DetourKind {
+    /// Fly out from under the bridge.
+    OutFromUnder,
+    /// Climb.
+    Climb,
+    /// Descend.
+    Descend,
+    /// Fly around the obstacle.
+    Around,
+}
+
+impl DetourKind {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::OutFromUnder, Self::Climb, Self::Descend, Self::Around];
+
+    /// Returns the number in the message; 0 stands for no detour.
+    fn code(self) -> u32 {
+        match self {
+            Self::OutFromUnder => 1,
+            Self::Climb => 2,
+            Self::Descend => 3,
+            Self::Around => 4,
+        }
+    }
+
+    /// Returns what to do first, in words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::OutFromUnder => "fly out from under the bridge first",
+            Self::Climb => "climb first",
+            Self::Descend => "descend first",
+            Self::Around => "fly around the obstacle first",
+        }
+    }
+}
+
+/// The way around an obstacle on the straight way to the next place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detour {
+    /// What leads around the obstacle.
+    pub kind: DetourKind,
+    /// The way to a place from which the rest of the way is clear.
+    pub way: WayTo,
+}
+
 /// The aircraft's position relative to the task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathDeviation {
@@ -121,9 +169,23 @@ pub struct Guidance {
     pub flown_s: f64,
     /// Time that the job needs, s.
     pub needed_s: f64,
+    /// What to do first if the bridge or the ground blocks the straight way to the next place.
+    pub detour: Option<Detour>,
 }
 
 impl Guidance {
+    /// Returns the way to the place to fly to now: around an obstacle first, then to the next place.
+    #[must_use]
+    pub fn first_way(&self) -> Option<WayTo> {
+        self.detour.map(|detour| detour.way).or(self.way)
+    }
+
+    /// Returns whether the drone has left the path of a task that was begun.
+    #[must_use]
+    pub fn is_return(&self) -> bool {
+        self.step == GuidanceStep::FlyToTask && self.progress.is_some_and(|progress| progress > 0.0)
+    }
+
     /// Encodes the message. `time_us` is the simulation time, µs.
     #[must_use]
     pub fn message(&self, time_us: u64) -> MavMessage {
@@ -148,6 +210,10 @@ impl Guidance {
             optional(self.stand_off.map(|reading| reading.tolerance_m)),
             optional(Some(self.flown_s)),
             optional(Some(self.needed_s)),
+            count(self.detour.map_or(0, |detour| detour.kind.code())),
+            optional(self.detour.map(|detour| detour.way.distance_m)),
+            optional(self.detour.map(|detour| detour.way.bearing_rad)),
+            optional(self.detour.map(|detour| detour.way.up_m)),
         ]
     }
 
@@ -170,6 +236,12 @@ impl Guidance {
             }),
             flown_s: array.finite(13)?,
             needed_s: array.finite(14)?,
+            // Older monitors send 0.
+            detour: array
+                .count(15)
+                .and_then(|code| DetourKind::ALL.into_iter().find(|kind| kind.code() == code))
+                .zip(array.triple(16))
+                .map(|(kind, values)| Detour { kind, way: WayTo::from_values(values) }),
         })
     }
 
@@ -178,23 +250,36 @@ impl Guidance {
     #[must_use]
     pub fn words(&self) -> String {
         let task = self.task.map_or_else(String::new, |task| format!("Task {task}: "));
+        let first = self.detour.map(|detour| detour.kind.words());
         match self.step {
             GuidanceStep::TakeOff => "Take off".to_owned(),
-            GuidanceStep::FlyToTask => match self.way {
-                Some(way) => format!("{task}{}", way.words()),
-                None => format!("{task}fly to the path"),
+            GuidanceStep::FlyToTask => match (first, self.way, self.task) {
+                (Some(first), ..) => format!("{task}{first}"),
+                (None, Some(way), Some(task)) if self.is_return() => format!("Return to task {task}: {}", way.words()),
+                (None, Some(way), _) => format!("{task}{}", way.words()),
+                (None, None, _) => format!("{task}fly to the path"),
             },
             GuidanceStep::FollowPath => format!("{task}follow the path"),
-            GuidanceStep::FlyHome => match self.way {
-                Some(way) => format!("Fly home: {}", way.words()),
-                None => "Fly home".to_owned(),
+            GuidanceStep::FlyHome => match (first, self.way) {
+                (Some(first), _) => format!("Fly home: {first}"),
+                (None, Some(way)) => format!("Fly home: {}", way.words()),
+                (None, None) => "Fly home".to_owned(),
             },
             GuidanceStep::Land => "Land on the pad".to_owned(),
             GuidanceStep::Over => "The session is over".to_owned(),
             GuidanceStep::HoldPosition => format!("{task}hold position"),
         }
     }
+
+    /// Returns the way around an obstacle in words for a second STATUSTEXT message, such as "First: 12 m, 90 deg right".
+    #[must_use]
+    pub fn detour_words(&self) -> Option<String> {
+        self.detour.map(|detour| format!("{DETOUR_PREFIX}{}", detour.way.words()))
+    }
 }
+
+/// Beginning of the text about the way around an obstacle.
+pub const DETOUR_PREFIX: &str = "First: ";
 
 /// Smallest turn that is worth mentioning, deg (estimate: a person cannot judge a smaller one).
 const MIN_TURN_DEG: f64 = 5.0;
@@ -260,17 +345,27 @@ mod tests {
             stand_off: Some(StandOffReading { actual_m: 6.5, recommended_m: 5.0, tolerance_m: 1.5 }),
             flown_s: 75.0,
             needed_s: 480.0,
+            detour: None,
         }
+    }
+
+    fn with_detour(kind: DetourKind) -> Guidance {
+        let way = WayTo { distance_m: 12.0, bearing_rad: 2.0, up_m: -1.5 };
+        Guidance { detour: Some(Detour { kind, way }), ..guidance() }
     }
 
     #[test]
     fn wire_guidance_survives_the_link() {
         for step in GuidanceStep::ALL {
-            let sent = Guidance { step, ..guidance() };
-            let bytes = Encoder::new(1, 191).encode(&sent.message(5_000_000));
-            let received = Decoder::new().datagram(&bytes).remove(0).message.unwrap();
-            assert_eq!(Guidance::of(&received), Some(sent));
+            assert_survives(Guidance { step, ..guidance() });
         }
+        DetourKind::ALL.into_iter().for_each(|kind| assert_survives(with_detour(kind)));
+    }
+
+    fn assert_survives(sent: Guidance) {
+        let bytes = Encoder::new(1, 191).encode(&sent.message(5_000_000));
+        let received = Decoder::new().datagram(&bytes).remove(0).message.unwrap();
+        assert_eq!(Guidance::of(&received), Some(sent));
     }
 
     #[test]
@@ -288,11 +383,16 @@ mod tests {
         }
         assert_eq!(of(&|array| array.data[6] = f32::NAN), None);
         assert_eq!(of(&|array| array.data[3] = f32::NAN).unwrap().way, None);
+        // An older monitor sends zeros, a newer one perhaps another kind.
+        let zeros = |array: &mut DEBUG_FLOAT_ARRAY_DATA| array.data[15..].fill(0.0);
+        assert_eq!(of(&zeros), Some(guidance()));
+        assert_eq!(of(&|array| array.data[15..19].copy_from_slice(&[5.0, 1.0, 1.0, 1.0])), Some(guidance()));
     }
 
     #[test]
     fn exact_words_fit_into_a_status_text() {
-        assert_eq!(guidance().words(), "Task 2: 140 m, 29 deg left, 12 m up");
+        let begins = Guidance { progress: Some(0.0), ..guidance() };
+        assert_eq!(begins.words(), "Task 2: 140 m, 29 deg left, 12 m up");
         let way = WayTo { distance_m: 12_345.0, bearing_rad: 3.1, up_m: -123.0 };
         for step in GuidanceStep::ALL {
             let words = Guidance { step, way: Some(way), task: Some(4), ..guidance() }.words();
@@ -301,6 +401,28 @@ mod tests {
         let near = WayTo { distance_m: 8.0, bearing_rad: 0.05, up_m: 0.4 };
         assert_eq!(Guidance { step: GuidanceStep::FlyHome, way: Some(near), ..guidance() }.words(), "Fly home: 8 m, ahead");
         let passed = WayTo { distance_m: 60.0, bearing_rad: -3.1, up_m: 0.0 };
-        assert_eq!(Guidance { way: Some(passed), ..guidance() }.words(), "Task 2: 60 m, behind you");
+        assert_eq!(Guidance { way: Some(passed), ..begins }.words(), "Task 2: 60 m, behind you");
+    }
+
+    #[test]
+    fn regress_the_way_back_to_a_task_that_was_begun_is_called_a_return() {
+        assert_eq!(guidance().words(), "Return to task 2: 140 m, 29 deg left, 12 m up");
+        assert!(!Guidance { step: GuidanceStep::FollowPath, ..guidance() }.is_return());
+    }
+
+    #[test]
+    fn regress_words_say_what_to_do_before_the_way_is_clear() {
+        let under = with_detour(DetourKind::OutFromUnder);
+        assert_eq!(under.words(), "Task 2: fly out from under the bridge first");
+        assert_eq!(under.detour_words().as_deref(), Some("First: 12 m, 115 deg right, 2 m down"));
+        assert_eq!(under.first_way().map(|way| way.distance_m), Some(12.0));
+        assert_eq!(Guidance { step: GuidanceStep::FlyHome, ..with_detour(DetourKind::Climb) }.words(), "Fly home: climb first");
+        assert_eq!((guidance().detour_words(), guidance().first_way()), (None, guidance().way));
+        for (kind, step) in
+            DetourKind::ALL.into_iter().flat_map(|kind| [GuidanceStep::FlyToTask, GuidanceStep::FlyHome].map(|step| (kind, step)))
+        {
+            let words = Guidance { step, task: Some(64), ..with_detour(kind) }.words();
+            assert!(words.len() <= 50, "{words}");
+        }
     }
 }

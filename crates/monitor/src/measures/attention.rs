@@ -6,6 +6,7 @@ use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::geometry::Geometry;
 use spandrel_model::site::{CameraPose, DefectView, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp, Vehicle};
@@ -20,6 +21,10 @@ pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: SimTime) -> Vec<DefectView>;
     /// Returns the name of the nearest object within `max_m`, for messages to the pilot.
     fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String>;
+    /// Returns the bridges and the ground; `None` if they are unknown.
+    fn geometry(&self) -> Option<&Geometry> {
+        None
+    }
     /// Returns a copy of the site with these bridge closures; `None` if the site has no moving traffic.
     fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         None
@@ -48,6 +53,9 @@ impl SiteSurvey for Site {
     }
     fn nearest_object_name(&self, position_m: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<String> {
         self.nearest(position_m, max_m, at).map(|nearest| self.object_name(nearest.object))
+    }
+    fn geometry(&self) -> Option<&Geometry> {
+        Some(Self::geometry(self))
     }
     fn with_closures(&self, gates: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
         Some(Arc::new(Self::with_closures(self, gates)))

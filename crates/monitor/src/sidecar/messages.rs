@@ -1,6 +1,7 @@
 //! Outgoing messages: cues, texts, replies, and log events.
 
 use super::{AUTOPILOT_COMPONENT_ID, CUES_INTERVAL, GUIDANCE_INTERVAL, MONITOR_COMPONENT_ID, Monitor, SessionOutput};
+use crate::detour::DetourFinder;
 use crate::feedback::{FeedbackInput, HeadingOffset, SurfaceDistance, TaskProximity};
 use crate::guidance::GuidanceInput;
 use crate::measures::on_path::NearestOnPath;
@@ -9,7 +10,7 @@ use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::contract::guidance::Guidance;
+use spandrel_mavlink::contract::guidance::{Detour, Guidance};
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
@@ -66,15 +67,16 @@ impl Monitor {
         self.holds.update(truth.time, self.live.current_task);
         let guidance = self.guidance(truth);
         self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
-        if self.lesson.is_none()
-            && let Some(words) = self.announcer.update(truth.time, &guidance)
-        {
+        if self.lesson.is_some() {
+            return;
+        }
+        for words in self.announcer.update(truth.time, &guidance) {
             self.event("guidance", json!({ "words": words }));
             self.send_text(&words, MavSeverity::MAV_SEVERITY_INFO);
         }
     }
 
-    fn guidance(&self, truth: &Truth) -> Guidance {
+    fn guidance(&mut self, truth: &Truth) -> Guidance {
         let scenario = &self.config.scenario;
         let tasks: Vec<TaskProximity> = (0..scenario.tasks.len()).map(|task| self.task_proximity(task, truth)).collect();
         let input = GuidanceInput {
@@ -91,7 +93,22 @@ impl Monitor {
             flown_s: self.flight_time().map_or(0.0, SimTime::s),
             needed_s: self.needed_s,
         };
-        input.next_step()
+        let (guidance, far_place_m) = (input.next_step(), input.far_place_m());
+        Guidance { detour: self.detour(truth, far_place_m), ..guidance }
+    }
+
+    /// Returns the way around the bridge or the ground if it blocks the straight way to a place.
+    fn detour(&mut self, truth: &Truth, far_place_m: Option<Vec3<Enu>>) -> Option<Detour> {
+        let Self { survey, detours, .. } = self;
+        let geometry = survey.as_ref().and_then(|survey| survey.geometry());
+        let Some((geometry, to_m)) = geometry.zip(far_place_m) else {
+            *detours = DetourFinder::default();
+            return None;
+        };
+        let motion = truth.motion;
+        let found = detours.update(geometry, truth.time, (motion.position_m, to_m))?;
+        let offset = HeadingOffset::new(found.place_m - motion.position_m, motion.ned_from_frd.yaw_rad());
+        Some(Detour { kind: found.kind, way: offset.way() })
     }
 
     fn input(&self, truth: &Truth) -> FeedbackInput {

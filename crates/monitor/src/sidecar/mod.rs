@@ -8,6 +8,7 @@
 //! ```
 
 use crate::assessment::{AssessError, AssessedSession};
+use crate::detour::DetourFinder;
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SessionInfo;
 use crate::guidance::{HoldTimer, StepAnnouncer};
@@ -168,6 +169,7 @@ pub struct Monitor {
     announcer: StepAnnouncer,
     holds: HoldTimer,
     guidance_sent: Option<SimTime>,
+    detours: DetourFinder,
     /// The lesson, if the job is one.
     lesson: Option<LessonCoach>,
     lesson_sent: Option<SimTime>,
@@ -205,6 +207,7 @@ impl Monitor {
             announcer: StepAnnouncer::default(),
             holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
+            detours: DetourFinder::default(),
             lesson: new_lesson(scenario, guides),
             lesson_sent: None,
             needed_s: job_time::job_needed_s(scenario),

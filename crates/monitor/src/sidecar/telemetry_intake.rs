@@ -5,6 +5,7 @@ use super::{
     new_lesson,
 };
 use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
+use crate::detour::DetourFinder;
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
 use crate::guidance::{HoldTimer, StepAnnouncer};
@@ -68,6 +69,7 @@ impl Monitor {
         self.announcer = StepAnnouncer::default();
         self.holds = HoldTimer::new(self.paths.len());
         self.guidance_sent = None;
+        self.detours = DetourFinder::default();
         self.lesson = new_lesson(&self.config.scenario, self.guides);
         self.lesson_sent = None;
         self.last_heartbeat_sim_time = None;

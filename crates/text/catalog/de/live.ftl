@@ -74,6 +74,7 @@ live-step-fly-home-way = Zurückfliegen: { $way }
 live-step-land = Auf dem Landeplatz landen
 live-step-over = Die Sitzung ist beendet
 live-step-hold = Position halten
+live-step-first-way = { $first }: { $way }
 live-way-ahead = { $distance } m, geradeaus
 live-way-behind = { $distance } m, hinter Ihnen
 live-way-left = { $distance } m, { $angle }° links

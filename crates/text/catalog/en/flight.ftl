@@ -29,7 +29,7 @@ flight-status-frozen = FROZEN
 ## The next step of the job
 
 flight-step-take-off = Take off
-flight-step-return-to-task = Return to task { $task } of { $tasks }
+flight-step-return-to-task = Path left: return to task { $task } of { $tasks }
 flight-step-fly-to-task = Fly to task { $task } of { $tasks }
 # Without a number; not sent by the monitor.
 flight-step-fly-to = Fly to
@@ -40,6 +40,10 @@ flight-step-land = Land on the pad
 flight-step-over = Session over
 flight-step-hold-task = Hold position: task { $task } of { $tasks }
 flight-step-hold = Hold position:
+flight-first-out-from-under = Fly out from under the bridge first
+flight-first-climb = Climb first
+flight-first-descend = Descend first
+flight-first-around = Fly around the obstacle first
 flight-way-ahead = { $distance }, ahead
 flight-way-behind = { $distance }, behind you
 flight-way-left = { $distance }, { $angle } left
@@ -165,6 +169,12 @@ flight-message-fly-to-path = Task { $task }: fly to the path
 flight-message-follow-path = Task { $task }: follow the path
 flight-message-hold = Task { $task }: hold position
 flight-message-fly-home = Fly home: { $words }
+flight-message-return = Return to task { $task }: { $words }
+flight-message-first = First: { $words }
+flight-message-out-from-under = fly out from under the bridge first
+flight-message-climb = climb first
+flight-message-descend = descend first
+flight-message-around = fly around the obstacle first
 flight-message-session-over = The session is over
 flight-message-lesson = Lesson: { $words }
 flight-message-lesson-step = Lesson: { $step }/{ $steps } { $words }

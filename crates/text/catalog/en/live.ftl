@@ -82,6 +82,7 @@ live-step-fly-home-way = Fly home: { $way }
 live-step-land = Land on the pad
 live-step-over = The session is over
 live-step-hold = hold position
+live-step-first-way = { $first }: { $way }
 live-way-ahead = { $distance } m, ahead
 live-way-behind = { $distance } m, behind you
 live-way-left = { $distance } m, { $angle } deg left

@@ -74,6 +74,7 @@ live-step-fly-home-way = Regrese a la base: { $way }
 live-step-land = Aterrice en la plataforma
 live-step-over = La sesión terminó
 live-step-hold = mantenga la posición
+live-step-first-way = { $first }: { $way }
 live-way-ahead = { $distance } m, al frente
 live-way-behind = { $distance } m, detrás de usted
 live-way-left = { $distance } m, { $angle }° a la izquierda

@@ -347,6 +347,7 @@ mod tests {
             stand_off: None,
             flown_s: 90.0,
             needed_s: 300.0,
+            detour: None,
         };
         feed_message(&mut live_state, &guidance.message(2_000_000));
         let moment = live_state.to_json(true);

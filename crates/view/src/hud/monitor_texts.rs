@@ -3,6 +3,7 @@
 use super::lesson_words::instruction;
 use super::style::DisplayUnits;
 use spandrel_mavlink::contract::cue;
+use spandrel_mavlink::contract::guidance::{DETOUR_PREFIX, DetourKind};
 use spandrel_mavlink::contract::lesson::{self, LessonStatus, LessonTask};
 use spandrel_text::{Language, text};
 
@@ -234,15 +235,33 @@ fn guidance_message(message: &str, language: Language) -> Option<String> {
         "The session is over" => return Some(text!(language, "flight-message-session-over")),
         _ => {}
     }
-    if let Some([way]) = parts(message, ["Fly home: "]) {
-        return Some(text!(language, "flight-message-fly-home", words = sent_way(way, language)?));
+    let way_or_first = |words: &str| sent_detour(words, language).or_else(|| sent_way(words, language));
+    if let Some([words]) = parts(message, ["Fly home: "]) {
+        return Some(text!(language, "flight-message-fly-home", words = way_or_first(words)?));
+    }
+    if let Some([way]) = parts(message, [DETOUR_PREFIX]) {
+        return Some(text!(language, "flight-message-first", words = sent_way(way, language)?));
+    }
+    if let Some([task, way]) = parts(message, ["Return to task ", ": "]) {
+        return Some(text!(language, "flight-message-return", task = task, words = sent_way(way, language)?));
     }
     let [task, words] = parts(message, ["Task ", ": "])?;
     Some(match words {
         "fly to the path" => text!(language, "flight-message-fly-to-path", task = task),
         "follow the path" => text!(language, "flight-message-follow-path", task = task),
         "hold position" => text!(language, "flight-message-hold", task = task),
-        way => text!(language, "flight-message-task", task = task, words = sent_way(way, language)?),
+        way => text!(language, "flight-message-task", task = task, words = way_or_first(way)?),
+    })
+}
+
+/// Returns what leads around an obstacle.
+fn sent_detour(words: &str, language: Language) -> Option<String> {
+    let kind = DetourKind::ALL.into_iter().find(|kind| kind.words() == words)?;
+    Some(match kind {
+        DetourKind::OutFromUnder => text!(language, "flight-message-out-from-under"),
+        DetourKind::Climb => text!(language, "flight-message-climb"),
+        DetourKind::Descend => text!(language, "flight-message-descend"),
+        DetourKind::Around => text!(language, "flight-message-around"),
     })
 }
 
@@ -341,6 +360,10 @@ mod tests {
             ("Task 2: 60 m, behind you", "Aufgabe 2: 60 m, hinter Ihnen"),
             ("Task 1: hold position", "Aufgabe 1: Position halten"),
             ("Fly home: 14 m, ahead, 3 m down", "Zurückfliegen: 14 m, geradeaus, 3 m tiefer"),
+            ("Return to task 2: 140 m, 30 deg left", "Zurück zu Aufgabe 2: 140 m, 30° links"),
+            ("Task 2: fly out from under the bridge first", "Aufgabe 2: zuerst unter der Brücke herausfliegen"),
+            ("First: 12 m, 90 deg right, 3 m up", "Zuerst: 12 m, 90° rechts, 3 m höher"),
+            ("Fly home: climb first", "Zurückfliegen: zuerst steigen"),
             ("Land on the pad", "Auf dem Landeplatz landen"),
             ("Lesson: 2/11 take off to 2 m", "Lektion: 2/11 Auf 2 m Höhe steigen"),
             ("Lesson: 8/11 tilt the camera down 30 deg", "Lektion: 8/11 Kamera 30° nach unten neigen"),

@@ -4,7 +4,7 @@ use super::tests::{ALL_CUES, crash, hud};
 use super::text_metrics::text_width;
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout, WindowShape};
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::pose::Pose;
@@ -134,7 +134,14 @@ fn longest_guidance() -> Guidance {
         stand_off: Some(StandOffReading { actual_m: 88.8, recommended_m: 18.5, tolerance_m: 10.5 }),
         flown_s: 5_999.0,
         needed_s: 5_999.0,
+        detour: None,
     }
+}
+
+/// Returns guidance around an obstacle with the longest possible texts.
+fn longest_detour() -> Guidance {
+    let detour = Detour { kind: DetourKind::OutFromUnder, way: WayTo { distance_m: 4_321.0, bearing_rad: 3.1, up_m: -120.0 } };
+    Guidance { detour: Some(detour), ..longest_guidance() }
 }
 
 /// Returns a step of a lesson with the longest possible texts.
@@ -238,6 +245,7 @@ fn states() -> Vec<(&'static str, Hud)> {
         ("name without spaces", hit(&"bridge-member-".repeat(4)[..43])),
         ("name longer than telemetry allows", hit(&"WWWW ".repeat(40))),
         ("guidance", Hud { guidance: Some(longest_guidance()), ..hud() }),
+        ("detour", Hud { guidance: Some(longest_detour()), ..hud() }),
         ("lesson", Hud { lesson: Some(longest_lesson()), ..hud() }),
         ("lesson and warnings", Hud { lesson: Some(longest_lesson()), ..hit("bridge") }),
         ("zoomed", Hud { zoom: 3.1, lamp: true, ..hud() }),

@@ -7,7 +7,7 @@ use super::state::Hud;
 use super::style::{DisplayStyle, DisplayUnits};
 use super::text_metrics::{fitted, text_width};
 use super::{DrawItem, HudColor, TextAlign};
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, TurnTo, WayTo};
+use spandrel_mavlink::contract::guidance::{DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, TurnTo, WayTo};
 use spandrel_model::math;
 use spandrel_text::{Language, text};
 
@@ -48,12 +48,14 @@ struct PanelLine {
 pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64)) -> Vec<DrawItem> {
     // A lesson has a panel of its own.
     let Some(guidance) = hud.guidance.as_ref().filter(|_| hud.lesson.is_none()) else { return Vec::new() };
+    let (way, first) = (guidance.first_way(), guidance.detour.map(|detour| first_words(detour.kind, hud.style.language)));
     let lines = match detail {
         PanelDetail::Full => details(guidance, hud.style),
-        PanelDetail::Brief => details(guidance, hud.style).into_iter().take(usize::from(guidance.way.is_some())).collect(),
+        PanelDetail::Brief if first.is_some() => Vec::new(),
+        PanelDetail::Brief => details(guidance, hud.style).into_iter().take(usize::from(way.is_some())).collect(),
         PanelDetail::None => return Vec::new(),
     };
-    let rows = 1 + usize::from(guidance.way.is_some()) + lines.len();
+    let rows = 1 + usize::from(first.is_some()) + usize::from(way.is_some()) + lines.len();
     let (left, right) = (pane.width - EDGE_MARGIN - WIDTH, pane.width - EDGE_MARGIN);
     let middle = |row: usize| top + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
     let mut items = vec![pane.panel((left, top), (right, top + 2.0 * PADDING + LINE_HEIGHT * rows as f64))];
@@ -62,12 +64,18 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
     let title = title(guidance, hud.style.language);
     let room = to - from - text_width(&format!("{progress} "), SMALL_FONT_SIZE);
     let size = fitted(&title, SMALL_FONT_SIZE, room);
-    items.push(pane.text((from, middle(0)), TextAlign::Left, size, HudColor::White, title));
+    let color = if guidance.is_return() { HudColor::Yellow } else { HudColor::White };
+    items.push(pane.text((from, middle(0)), TextAlign::Left, size, color, title));
     if !progress.is_empty() {
         items.push(pane.text((to, middle(0)), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, progress));
     }
     let mut row = 1;
-    if let Some(way) = &guidance.way {
+    if let Some(first) = first {
+        let size = fitted(&first, SMALL_FONT_SIZE, to - from);
+        items.push(pane.text((from, middle(row)), TextAlign::Left, size, HudColor::Yellow, first));
+        row += 1;
+    }
+    if let Some(way) = &way {
         items.extend(way_items(way, hud.style, pane, (from, to, middle(row))));
         row += 1;
     }
@@ -81,8 +89,7 @@ fn title(guidance: &Guidance, language: Language) -> String {
     let tasks = guidance.tasks;
     match (guidance.step, guidance.task) {
         (GuidanceStep::TakeOff, _) => text!(language, "flight-step-take-off"),
-        // The task was begun, and the drone has left its path.
-        (GuidanceStep::FlyToTask, Some(task)) if guidance.progress.is_some_and(|progress| progress > 0.0) => {
+        (GuidanceStep::FlyToTask, Some(task)) if guidance.is_return() => {
             text!(language, "flight-step-return-to-task", task = task, tasks = tasks)
         }
         (GuidanceStep::FlyToTask, Some(task)) => text!(language, "flight-step-fly-to-task", task = task, tasks = tasks),
@@ -94,6 +101,16 @@ fn title(guidance: &Guidance, language: Language) -> String {
         (GuidanceStep::Over, _) => text!(language, "flight-step-over"),
         (GuidanceStep::HoldPosition, Some(task)) => text!(language, "flight-step-hold-task", task = task, tasks = tasks),
         (GuidanceStep::HoldPosition, None) => text!(language, "flight-step-hold"),
+    }
+}
+
+/// Returns what to do first if the straight way is blocked.
+fn first_words(kind: DetourKind, language: Language) -> String {
+    match kind {
+        DetourKind::OutFromUnder => text!(language, "flight-first-out-from-under"),
+        DetourKind::Climb => text!(language, "flight-first-climb"),
+        DetourKind::Descend => text!(language, "flight-first-descend"),
+        DetourKind::Around => text!(language, "flight-first-around"),
     }
 }
 
@@ -123,13 +140,15 @@ fn details(guidance: &Guidance, style: DisplayStyle) -> Vec<PanelLine> {
     let language = style.language;
     let white = |name: String, value: String| PanelLine { name, color: HudColor::White, value };
     let mut lines = Vec::new();
-    if let Some(way) = &guidance.way {
+    if let Some(way) = guidance.first_way() {
         lines.push(white(text!(language, "flight-panel-height"), height_words(way.up_m, style)));
     }
-    if let Some(deviation) = &guidance.deviation {
+    // On the way around an obstacle, the path and the surface do not matter yet.
+    let on_straight_way = guidance.detour.is_none();
+    if let Some(deviation) = guidance.deviation.as_ref().filter(|_| on_straight_way) {
         lines.push(white(text!(language, "flight-panel-path"), deviation_words(deviation, style)));
     }
-    if let Some(reading) = &guidance.stand_off {
+    if let Some(reading) = guidance.stand_off.as_ref().filter(|_| on_straight_way) {
         let off = (reading.actual_m - reading.recommended_m).abs() > reading.tolerance_m;
         let color = if off { HudColor::Yellow } else { HudColor::White };
         let name = text!(language, "flight-panel-stand-off");

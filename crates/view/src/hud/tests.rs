@@ -2,7 +2,7 @@
 
 use super::*;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
-use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::Vec3;
 use spandrel_text::Language;
 
@@ -216,6 +216,7 @@ fn exact_the_display_is_translated() {
             stand_off: None,
             flown_s: 75.0,
             needed_s: 480.0,
+            detour: None,
         }),
         ..hud()
     };
@@ -224,13 +225,12 @@ fn exact_the_display_is_translated() {
         texts(&Hud { style, ..everything.clone() }).into_iter().map(|(.., words)| words).collect::<Vec<_>>()
     };
     let german = in_language(Language::German);
-    for words in
-        ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", "Zurück zu Aufgabe 2 von 4", "6 m, 29° links", "Höhe", "ein"]
-    {
+    let title = "Bahn verlassen: zurück zu Aufgabe 2 von 4";
+    for words in ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", title, "6 m, 29° links", "Höhe", "ein"] {
         assert!(german.iter().any(|one| one == words), "{words}: {german:?}");
     }
     let spanish = in_language(Language::Spanish);
-    assert!(spanish.iter().any(|one| one == "Vuelva a la tarea 2 de 4"), "{spanish:?}");
+    assert!(spanish.iter().any(|one| one == "Fuera de la trayectoria: vuelva a la tarea 2 de 4"), "{spanish:?}");
     // Values with units, the name of the flight mode, and GNSS are not in the catalog; some letters have no accented form.
     let is_plain = |words: &String| {
         words.chars().filter(|sign| sign.is_ascii_lowercase() && !"mqvx".contains(*sign)).count() > 3
@@ -238,6 +238,31 @@ fn exact_the_display_is_translated() {
     };
     let plain: Vec<String> = in_language(Language::Pseudo).into_iter().filter(is_plain).collect();
     assert!(plain.is_empty(), "not in the catalog: {plain:?}");
+}
+
+#[test]
+fn regress_task_panel_leads_around_an_obstacle_first() {
+    let detour = Detour { kind: DetourKind::OutFromUnder, way: WayTo { distance_m: 12.2, bearing_rad: 1.2, up_m: -3.0 } };
+    let guidance = Guidance {
+        step: GuidanceStep::FlyToTask,
+        task: Some(2),
+        way: Some(WayTo { distance_m: 5.0, bearing_rad: 0.0, up_m: 9.0 }),
+        progress: Some(0.0),
+        tasks_done: 1,
+        tasks: 4,
+        deviation: Some(PathDeviation { distance_m: 7.0, above_m: -7.0 }),
+        stand_off: None,
+        flown_s: 75.0,
+        needed_s: 480.0,
+        detour: Some(detour),
+    };
+    let guided = Hud { guidance: Some(guidance), ..hud() };
+    for words in ["Fly to task 2 of 4", "Fly out from under the bridge first", "12 m, 69° right", "3 m down"] {
+        assert!(find(&guided, words).is_some(), "{words}\n{}", snapshot(&guided));
+    }
+    for words in ["5 m, ahead", "9 m up", "7.0 m"] {
+        assert!(find(&guided, words).is_none(), "{words} leads through the deck");
+    }
 }
 
 #[test]
@@ -281,6 +306,7 @@ fn exact_task_panel_shows_the_next_step() {
         stand_off: Some(StandOffReading { actual_m: 7.1, recommended_m: 5.0, tolerance_m: 1.5 }),
         flown_s: 75.0,
         needed_s: 480.0,
+        detour: None,
     };
     let guided = Hud { guidance: Some(guidance), ..hud() };
     for words in ["Inspect task 2 of 4", "35%", "6 m, 29° left", "2 m up", "1.2 m, 0.4 m below", "1:15 of 8:00"] {
@@ -288,6 +314,9 @@ fn exact_task_panel_shows_the_next_step() {
         assert!(find(&hud(), words).is_none(), "{words}");
     }
     assert_eq!(find(&guided, "7.1 m (5.0 ± 1.5)").unwrap().1, HudColor::Yellow, "outside the tolerance");
+    let left = Guidance { step: GuidanceStep::FlyToTask, ..guidance };
+    let title = "Path left: return to task 2 of 4";
+    assert_eq!(find(&Hud { guidance: Some(left), ..hud() }, title).unwrap().1, HudColor::Yellow);
     let level = Guidance { way: Some(WayTo { distance_m: 6.2, bearing_rad: -0.5, up_m: -0.4 }), ..guidance };
     assert!(find(&Hud { guidance: Some(level), ..hud() }, "level").is_some());
     let inside = StandOffReading { actual_m: 6.4, recommended_m: 5.0, tolerance_m: 1.5 };

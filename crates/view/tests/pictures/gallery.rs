@@ -354,6 +354,7 @@ fn regress_practice_with_path_and_instruments() {
             stand_off: Some(StandOffReading { actual_m: 6.5, recommended_m: 4.5, tolerance_m: 1.5 }),
             flown_s: 70.0,
             needed_s: 557.0,
+            detour: None,
         };
         let mut sectors_m = vec![f64::INFINITY; 8];
         (sectors_m[1], sectors_m[6], sectors_m[7]) = (1.9, 4.4, 8.0);

@@ -146,7 +146,7 @@ impl Disc {
             items.push(self.pane.fill(&square, HudColor::White));
         }
         let lesson = hud.lesson.as_ref().and_then(|lesson| lesson.status.way);
-        if let Some(way) = lesson.or(hud.guidance.and_then(|guidance| guidance.way)) {
+        if let Some(way) = lesson.or(hud.guidance.and_then(|guidance| guidance.first_way())) {
             let (tip, spread) = (OBSTACLE_RADII.0 - 0.01, 0.07);
             let angle = way.bearing_rad;
             let corners = [self.at(angle, tip), self.at(angle + spread, TICK_RADII.0), self.at(angle - spread, TICK_RADII.0)];

@@ -34,6 +34,7 @@ fn flying(job: &Scenario) -> Hud {
         stand_off: None,
         flown_s: 10.0,
         needed_s: 300.0,
+        detour: None,
     };
     let mut sectors_m = vec![f64::INFINITY; 8];
     (sectors_m[0], sectors_m[1]) = (1.2, 7.5);
