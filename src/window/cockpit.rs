@@ -211,6 +211,14 @@ impl Cockpit {
                 self.flow.pause();
                 return;
             }
+            Some(KeyChange::Down(key))
+                if self.flow.is_paused()
+                    && self.flow.is_dialog_open()
+                    && self.keys().window_action(&key) == Some(WindowAction::Restart) =>
+            {
+                self.flow.restart();
+                return;
+            }
             // The controller page shows the keyboard's stick positions.
             Some(KeyChange::Down(key)) if trying => self.send_to_pilot(PilotCommand::Down(key)),
             Some(KeyChange::Up(key)) => self.send_to_pilot(PilotCommand::Up(key)),

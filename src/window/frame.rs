@@ -212,6 +212,7 @@ impl Cockpit {
         let map = self.map && self.plan.map && self.flow.shows_map();
         if let Some(flight) = &self.threads.flight {
             self.flow.camera_aspect = flight.job.1.camera.aspect();
+            self.flow.flown_s = now.as_ref().map_or(self.flow.flown_s, LiveMoment::flown_s);
             if self.flow.arrangement == ViewLayout::Camera {
                 flight.listener.live().request_obstacles();
             }

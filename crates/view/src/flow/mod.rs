@@ -64,8 +64,12 @@ pub struct WindowFlow {
     pub arrangement: ViewLayout,
     /// Aspect ratio (width over height) of the flight's camera.
     pub camera_aspect: f64,
+    /// Time since lift-off, s.
+    pub flown_s: f64,
     /// Whether the pause was requested for a restart.
     restart_requested: bool,
+    /// Action of the pause page that the next press confirms.
+    confirming: Option<MenuAction>,
     sound: bool,
     settings: SettingsStatus,
     /// Index of the function whose key the user is about to press.
@@ -104,7 +108,9 @@ impl WindowFlow {
             waiting_for: PendingOperation::Simulator,
             arrangement: ViewLayout::default(),
             camera_aspect: 4.0 / 3.0,
+            flown_s: 0.0,
             restart_requested: false,
+            confirming: None,
             sound: true,
             settings: SettingsStatus::default(),
             awaited_key: None,
@@ -226,6 +232,7 @@ impl WindowFlow {
     fn show_page(&mut self, page: Page) {
         (self.page, self.focus) = (page, 0);
         (self.scrolled, self.follows_focus, self.awaited_key) = (0.0, false, None);
+        self.confirming = None;
     }
 
     fn send(&mut self, message: FromWindow) {
@@ -277,14 +284,16 @@ impl WindowFlow {
                 }
                 self.ended = None;
                 self.notice = None;
-                self.restart_requested = false;
+                (self.restart_requested, self.flown_s) = (false, 0.0);
                 self.flying = Some(flying.clone());
                 self.out.push_back(WindowRequest::ShowFlight(Box::new(flying)));
                 self.show_page(Page::Flight);
             }
             ToWindow::Paused { on: true } if self.page == Page::Flight => {
                 self.show_page(Page::Paused);
-                self.focus = usize::from(std::mem::take(&mut self.restart_requested));
+                if std::mem::take(&mut self.restart_requested) {
+                    self.ask_to_restart();
+                }
             }
             ToWindow::Paused { on: false } if self.is_paused() => self.show_page(Page::Flight),
             ToWindow::Paused { .. } => {}
@@ -332,7 +341,13 @@ impl WindowFlow {
         }
     }
 
-    /// Handles the restart key: pauses and asks for confirmation.
+    /// Selects the restart on the pause page; the next press confirms it.
+    fn ask_to_restart(&mut self) {
+        self.focus = self.rows().iter().position(|row| row.action == MenuAction::Restart).unwrap_or_default();
+        self.confirming = Some(MenuAction::Restart);
+    }
+
+    /// Handles the restart key: pauses and asks for confirmation, which a second press gives.
     pub fn restart(&mut self) {
         match (self.page, &self.flying) {
             (Page::Flight, Some(flying)) if flying.choice.purpose == Purpose::Practice => {
@@ -340,7 +355,8 @@ impl WindowFlow {
                 self.send(FromWindow::Pause);
             }
             (Page::Flight, Some(_)) => self.notice = Some(text!(self.language(), "window-paused-no-restart")),
-            (Page::Paused, _) => self.focus = 1,
+            (Page::Paused, _) if self.confirming == Some(MenuAction::Restart) => self.press(KeyPress::Enter),
+            (Page::Paused, _) => self.ask_to_restart(),
             _ => {}
         }
     }

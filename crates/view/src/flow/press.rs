@@ -9,6 +9,8 @@ use spandrel_text::text;
 
 /// Maximum length of a pseudonym.
 const MAX_NAME_LENGTH: usize = 32;
+/// Longest flight that ends without a second press, s (estimate: nobody misses it).
+const MAX_UNCONFIRMED_FLIGHT_S: f64 = 10.0;
 /// Step sizes of the dead band and expo.
 const DEAD_BAND_STEP: f64 = 0.01;
 const EXPO_STEP: f64 = 0.1;
@@ -23,6 +25,7 @@ impl WindowFlow {
             return;
         }
         (self.follows_focus, self.scrolled) = (true, 0.0);
+        let confirmed = self.confirming.take();
         let rows = self.rows();
         let last = rows.len().saturating_sub(1);
         let kind = rows.get(self.focus).map(|row| row.kind);
@@ -33,7 +36,7 @@ impl WindowFlow {
             KeyPress::Left | KeyPress::Right if matches!(kind, Some(RowKind::Button | RowKind::KeyBinding)) => {}
             KeyPress::Left => self.step(&rows, false),
             KeyPress::Right => self.step(&rows, true),
-            KeyPress::Enter => self.activate(&rows),
+            KeyPress::Enter => self.activate(&rows, confirmed),
             KeyPress::Escape => self.back(),
             KeyPress::Backspace if kind == Some(RowKind::TextField) => {
                 self.choice.trainee.pop();
@@ -43,7 +46,7 @@ impl WindowFlow {
             KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
                 if matches!(rows[row].kind, RowKind::Button | RowKind::KeyBinding) {
-                    self.activate(&rows);
+                    self.activate(&rows, confirmed);
                 }
             }
             KeyPress::Step(row, on) if row < rows.len() => {
@@ -147,9 +150,17 @@ impl WindowFlow {
         !self.tutorial_done.contains(&self.choice.trainee) && !self.offers.as_ref().is_some_and(flown)
     }
 
-    fn activate(&mut self, rows: &[MenuRow]) {
+    /// Returns whether an action of the pause page needs a second press, because it ends a flight that is more than a try.
+    fn needs_confirmation(&self, confirmed: Option<MenuAction>, action: MenuAction) -> bool {
+        self.page == Page::Paused && self.flown_s > MAX_UNCONFIRMED_FLIGHT_S && confirmed != Some(action)
+    }
+
+    fn activate(&mut self, rows: &[MenuRow], confirmed: Option<MenuAction>) {
         let Some(row) = rows.get(self.focus) else { return };
         match row.action {
+            MenuAction::Restart | MenuAction::End if self.needs_confirmation(confirmed, row.action) => {
+                self.confirming = Some(row.action);
+            }
             MenuAction::Trainee
             | MenuAction::Scenario
             | MenuAction::Purpose

@@ -25,9 +25,9 @@ impl WindowFlow {
             Page::Briefing => briefing::rows(language),
             Page::Paused => vec![
                 MenuRow::button(MenuAction::Resume, text!(language, "window-paused-resume")),
-                MenuRow::button(MenuAction::Restart, text!(language, "window-paused-restart")),
+                MenuRow::button(MenuAction::Restart, self.restart_label()),
                 MenuRow::button(MenuAction::Settings, text!(language, "window-paused-settings")),
-                MenuRow::button(MenuAction::End, text!(language, "window-paused-end")),
+                MenuRow::button(MenuAction::End, self.end_label()),
             ],
             Page::ConfirmEnd => {
                 vec![
@@ -37,6 +37,22 @@ impl WindowFlow {
             }
             Page::Results => summary::rows(self.ended.as_ref(), language),
             Page::School => self.school.as_ref().map(|shown| school::rows(shown, language)).unwrap_or_default(),
+        }
+    }
+
+    fn restart_label(&self) -> String {
+        if self.confirming == Some(MenuAction::Restart) {
+            text!(self.language(), "window-paused-restart-again")
+        } else {
+            text!(self.language(), "window-paused-restart")
+        }
+    }
+
+    fn end_label(&self) -> String {
+        if self.confirming == Some(MenuAction::End) {
+            text!(self.language(), "window-paused-end-again")
+        } else {
+            text!(self.language(), "window-paused-end")
         }
     }
 

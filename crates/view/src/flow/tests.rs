@@ -395,6 +395,44 @@ fn exact_profile_changes_in_steps_within_its_range() {
     assert_eq!(flow.page(), Page::Controls);
 }
 
+#[test]
+fn regress_ending_a_flight_of_more_than_ten_seconds_needs_a_second_press() {
+    let paused = |flown_s: f64| {
+        let mut flow = in_flight(Purpose::Practice);
+        flow.flown_s = flown_s;
+        flow.handle_message(ToWindow::Paused { on: true });
+        pending_requests(&mut flow);
+        flow
+    };
+    let row = |flow: &WindowFlow, action| flow.rows().iter().position(|row| row.action == action).unwrap();
+    for (action, message) in [(MenuAction::Restart, FromWindow::Restart), (MenuAction::End, FromWindow::End)] {
+        let ended = [WindowRequest::LeaveFlight, WindowRequest::Send(message)];
+        let mut flow = paused(10.1);
+        let click = KeyPress::Row(row(&flow, action));
+        flow.press(click);
+        assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Paused, vec![]), "the first click asks");
+        assert!(flow.rows()[row(&flow, action)].label.contains("Press again"));
+        press(&mut flow, &[KeyPress::Down, KeyPress::Up, KeyPress::Enter]);
+        assert_eq!(pending_requests(&mut flow), [], "another key withdraws the first press");
+        flow.press(KeyPress::Enter);
+        assert_eq!(pending_requests(&mut flow), ended);
+        let mut short = paused(9.9);
+        short.press(click);
+        assert_eq!(pending_requests(&mut short), ended, "a short flight ends at once");
+    }
+    let mut flow = in_flight(Purpose::Practice);
+    flow.flown_s = 60.0;
+    flow.restart();
+    flow.handle_message(ToWindow::Paused { on: true });
+    pending_requests(&mut flow);
+    flow.restart();
+    assert_eq!(
+        pending_requests(&mut flow),
+        [WindowRequest::LeaveFlight, WindowRequest::Send(FromWindow::Restart)],
+        "key pressed twice"
+    );
+}
+
 /// Returns every page.
 fn every_page() -> Vec<(String, WindowFlow)> {
     let mut all = vec![("opening".to_owned(), opened()), ("start".to_owned(), started())];

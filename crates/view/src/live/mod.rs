@@ -117,6 +117,14 @@ pub struct LiveMoment {
     pub closures: BridgeClosures,
 }
 
+impl LiveMoment {
+    /// Returns the time since lift-off, s; 0 before it.
+    #[must_use]
+    pub fn flown_s(&self) -> f64 {
+        self.hud.lift_off.map_or(0.0, |begun| (self.moment.at - begun).s())
+    }
+}
+
 impl LiveFlight {
     /// Creates the state before the first datagram.
     #[must_use]
