@@ -7,7 +7,6 @@ use crate::io::stop::StopRequest;
 use spandrel_clients::pilot::Skill;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::GhostFlight;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -24,21 +23,21 @@ pub struct GhostJob {
     file: PathBuf,
     scenario: Scenario,
     vehicle: Vehicle,
-    language: Language,
+    /// Whose flight it is, for the trainee.
+    words: String,
 }
 
 impl GhostJob {
     /// Creates a job whose flight is stored below the sessions folder. `None` for a lesson, which has no tasks for the expert.
-    pub fn new(sessions: &Path, scenario: Scenario, vehicle: Vehicle, language: Language) -> Option<Self> {
+    pub fn new(sessions: &Path, scenario: Scenario, vehicle: Vehicle, words: String) -> Option<Self> {
         let name = format!("{}-{:08x}-{}.tlog", scenario.name, scenario.crc, vehicle.id);
         let file = sessions.join(FOLDER).join(name);
-        scenario.lesson.is_empty().then_some(Self { file, scenario, vehicle, language })
+        scenario.lesson.is_empty().then_some(Self { file, scenario, vehicle, words })
     }
 
     /// Returns the expert's flight, if it was flown earlier.
     pub fn flown(&self) -> Option<GhostFlight> {
-        let words = || text!(self.language, "window-flight-ghost-of-expert");
-        self.file.is_file().then(|| GhostFlight { telemetry: self.file.clone(), words: words() })
+        self.file.is_file().then(|| GhostFlight { telemetry: self.file.clone(), words: self.words.clone() })
     }
 
     /// Flies the job and stores the flight.
@@ -53,16 +52,52 @@ impl GhostJob {
     }
 }
 
+/// The expert of one attempt of the trainee: the job to fly, or its flight.
+#[derive(Default)]
+pub struct BackgroundExpert {
+    /// Job that is not flown yet.
+    job: Option<GhostJob>,
+    flight: Option<ExpertFlight>,
+}
+
+impl BackgroundExpert {
+    /// Creates an expert without starting the flight. Without a job, there is nothing to fly.
+    pub fn new(job: Option<GhostJob>) -> Self {
+        Self { job, flight: None }
+    }
+
+    /// Starts the flight, unless it is already flown.
+    pub fn start(&mut self) {
+        if let Some(job) = self.job.take() {
+            self.flight = Some(ExpertFlight::start(job));
+        }
+    }
+
+    /// Continues the flight of an earlier attempt at the same job. The flight of another job stops.
+    pub fn take_over(&mut self, earlier: Self) {
+        let flies_this = |flight: &ExpertFlight| self.job.as_ref().is_some_and(|job| job.file == flight.file);
+        if let Some(flight) = earlier.flight.filter(flies_this) {
+            (self.job, self.flight) = (None, Some(flight));
+        }
+    }
+
+    /// Returns the flight once, when it is ready.
+    pub fn poll(&self) -> Option<GhostFlight> {
+        self.flight.as_ref().and_then(ExpertFlight::poll)
+    }
+}
+
 /// The expert's flight while it is flown. It stops when this is dropped.
-pub struct ExpertFlight {
+struct ExpertFlight {
+    file: PathBuf,
     stop: StopRequest,
     result: Receiver<Option<GhostFlight>>,
 }
 
 impl ExpertFlight {
     /// Starts the flight in another thread.
-    pub fn start(job: GhostJob) -> Self {
-        let stop = StopRequest::default();
+    fn start(job: GhostJob) -> Self {
+        let (file, stop) = (job.file.clone(), StopRequest::default());
         let (sender, result) = channel();
         let stopped = stop.clone();
         std::thread::spawn(move || {
@@ -75,11 +110,10 @@ impl ExpertFlight {
             // Sending fails only if the trainee's flight has ended.
             let _ = sender.send(job.flown());
         });
-        Self { stop, result }
+        Self { file, stop, result }
     }
 
-    /// Returns the flight once, when it is ready.
-    pub fn poll(&self) -> Option<GhostFlight> {
+    fn poll(&self) -> Option<GhostFlight> {
         self.result.try_recv().ok().flatten()
     }
 }
@@ -102,7 +136,7 @@ mod tests {
     fn flight_expert_flies_a_drill_once_and_the_flight_is_kept() {
         let sessions = tempfile::tempdir().unwrap();
         let (scenario, vehicle) = (files::scenario("drill-hover").unwrap().scenario, files::vehicle("phantom2").unwrap().vehicle);
-        let job = GhostJob::new(sessions.path(), scenario.clone(), vehicle.clone(), Language::English).unwrap();
+        let job = GhostJob::new(sessions.path(), scenario.clone(), vehicle.clone(), "the expert's flight".into()).unwrap();
         assert_eq!(job.flown(), None);
         let flight = ExpertFlight::start(job.clone());
         let ghost = flight.result.recv().unwrap().unwrap();
@@ -112,6 +146,28 @@ mod tests {
         let flown = timeline.flight(0);
         assert!(flown.lift_off(scenario.ground_team.pad_m.up(), 0.3).is_some() && flown.truths.len() > 1_000);
         let lesson = files::scenario("first-flight").unwrap().scenario;
-        assert!(GhostJob::new(sessions.path(), lesson, vehicle, Language::English).is_none());
+        assert!(GhostJob::new(sessions.path(), lesson, vehicle, String::new()).is_none());
+    }
+
+    #[test]
+    fn regress_a_restarted_attempt_does_not_restart_the_expert() {
+        let sessions = tempfile::tempdir().unwrap();
+        let expert = |name: &str| {
+            let (scenario, vehicle) = (files::scenario(name).unwrap().scenario, files::vehicle("phantom2").unwrap().vehicle);
+            BackgroundExpert::new(GhostJob::new(sessions.path(), scenario, vehicle, String::new()))
+        };
+        let mut first = expert("two-bridges");
+        first.start();
+        let stop = first.flight.as_ref().unwrap().stop.clone();
+        let mut second = expert("two-bridges");
+        second.take_over(first);
+        second.start();
+        assert!(!stop.is_requested() && second.job.is_none() && second.flight.is_some());
+        let mut other = expert("practice");
+        other.take_over(second);
+        assert!(stop.is_requested() && other.flight.is_none(), "another job needs another flight");
+        let mut none = BackgroundExpert::default();
+        none.start();
+        assert!(none.flight.is_none() && none.poll().is_none());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::Args;
 use super::connection_info::connection_instructions;
-use super::expert_ghost::{ExpertFlight, GhostJob};
+use super::expert_ghost::{BackgroundExpert, GhostJob};
 use super::offers;
 use super::window::WindowProcess;
 use crate::cli::args::{JobArgs, common_args};
@@ -47,10 +47,10 @@ pub struct FlightProcesses {
     paused: bool,
     /// Flight that a ghost repeats.
     ghost: Option<GhostFlight>,
-    /// Job that the expert flies for a ghost, if there is no flight yet.
-    ghost_job: Option<GhostJob>,
-    /// The expert's flight for the ghost, while it is flown.
-    expert_flight: Option<ExpertFlight>,
+    /// Whether the trainee's own flights are of an earlier version of the job.
+    is_ghost_outdated: bool,
+    /// The expert that flies for the ghost.
+    background_expert: BackgroundExpert,
     /// Arguments for restarting the monitor with the same session and port.
     monitor_restart_args: Vec<String>,
     monitor_restarts: u32,
@@ -74,7 +74,7 @@ impl FlightProcesses {
     pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level, language: Language) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
-        let (ghost, ghost_job) = ghost(args, choice, language);
+        let ghost = available_ghost(args, choice, language);
         let common = common_args(&job, log);
         let expert_args = expert_args(&common);
         let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
@@ -119,9 +119,9 @@ impl FlightProcesses {
             choice: choice.clone(),
             title,
             paused: false,
-            ghost,
-            ghost_job,
-            expert_flight: None,
+            ghost: ghost.flight,
+            is_ghost_outdated: ghost.is_outdated,
+            background_expert: BackgroundExpert::new(ghost.job),
             monitor_restart_args,
             monitor_restarts: 0,
         })
@@ -168,7 +168,18 @@ impl FlightProcesses {
             fly: self.port("gcs_port").filter(|_| self.choice.by == FlownBy::Trainee),
             path_aids: offers::path_aids(&args.sessions, &self.choice.trainee),
             ghost: self.ghost.clone(),
+            is_ghost_outdated: self.is_ghost_outdated,
         }))
+    }
+
+    /// Continues the expert's flight of an earlier attempt, if it is the same job.
+    pub fn take_over_expert(&mut self, earlier: BackgroundExpert) {
+        self.background_expert.take_over(earlier);
+    }
+
+    /// Returns the expert that flies in the background, for the next attempt.
+    pub fn take_background_expert(&mut self) -> BackgroundExpert {
+        std::mem::take(&mut self.background_expert)
     }
 
     /// Returns the instructions for connecting ground stations and scripts.
@@ -190,7 +201,7 @@ impl FlightProcesses {
                         return outcome;
                     }
                 }
-                if let Some(ghost) = self.expert_flight.as_ref().and_then(ExpertFlight::poll) {
+                if let Some(ghost) = self.background_expert.poll() {
                     window.send(&ToWindow::Ghost(ghost));
                 }
                 if !window.is_open() && self.paused {
@@ -226,7 +237,7 @@ impl FlightProcesses {
             FromWindow::Ready | FromWindow::Language { .. } => {}
             FromWindow::Showing => {
                 self.start_expert();
-                self.expert_flight = self.ghost_job.take().map(ExpertFlight::start);
+                self.background_expert.start();
             }
             FromWindow::Pause | FromWindow::Resume if practice => {
                 self.set_paused(*wish == FromWindow::Pause);
@@ -306,18 +317,30 @@ fn exited_normally(status: ExitStatus) -> bool {
     status.code().is_some_and(|code| (0..=2).contains(&code))
 }
 
-/// Returns the flight that a ghost repeats in a practice or, if there is none, the job that the expert flies for it.
-fn ghost(args: &Args, choice: &FlightChoice, language: Language) -> (Option<GhostFlight>, Option<GhostJob>) {
+/// The ghost of a practice.
+#[derive(Default)]
+struct AvailableGhost {
+    /// Flight that it repeats.
+    flight: Option<GhostFlight>,
+    /// Whether the trainee's own flights are of an earlier version of the job.
+    is_outdated: bool,
+    /// Job that the expert flies for it, if there is no flight yet.
+    job: Option<GhostJob>,
+}
+
+fn available_ghost(args: &Args, choice: &FlightChoice, language: Language) -> AvailableGhost {
     let practices = choice.purpose == Purpose::Practice && choice.by == FlownBy::Trainee;
     let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&args.vehicle).ok());
-    let Some((scenario, vehicle)) = job else { return (None, None) };
-    if let Some(ghost) = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario.scenario, language) {
-        return (Some(ghost), None);
+    let Some((scenario, vehicle)) = job else { return AvailableGhost::default() };
+    let recorded = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario, language);
+    let is_outdated = recorded.is_outdated;
+    if recorded.flight.is_some() {
+        return AvailableGhost { flight: recorded.flight, is_outdated, job: None };
     }
-    let job = GhostJob::new(&args.sessions, scenario.scenario, vehicle.vehicle, language);
-    let flown = job.as_ref().and_then(GhostJob::flown);
-    let open = job.filter(|_| flown.is_none());
-    (flown, open)
+    let words = offers::expert_ghost_words(is_outdated, language);
+    let job = GhostJob::new(&args.sessions, scenario.scenario, vehicle.vehicle, words);
+    let flight = job.as_ref().and_then(GhostJob::flown);
+    AvailableGhost { job: job.filter(|_| flight.is_none()), flight, is_outdated }
 }
 
 /// Returns whether the flight can be frozen and rewound.

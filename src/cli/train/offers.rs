@@ -1,7 +1,7 @@
 //! Contents of the window's start page and end page.
 
 use crate::cli::invocation::typed;
-use crate::io::files;
+use crate::io::files::{self, ScenarioFile};
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::records::session_folders;
@@ -130,22 +130,72 @@ fn read_json(session: &Path, name: &str) -> Option<Value> {
     serde_json::from_str(&std::fs::read_to_string(session.join(name)).ok()?).ok()
 }
 
+/// The earlier flights of a job that a ghost can repeat.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordedGhost {
+    /// The best flight; `None` if there is none.
+    pub flight: Option<GhostFlight>,
+    /// Whether the trainee's flights are of an earlier version of the job, whose paths may be others.
+    pub is_outdated: bool,
+}
+
 /// Returns the flight that a ghost repeats: the trainee's complete session of this job with the highest score or, without one, the
-/// synthetic expert's best one. A form or another seed only moves the defects, so the paths are the same.
-pub fn recorded_ghost(sessions: &Path, trainee: &str, scenario: &Scenario, language: Language) -> Option<GhostFlight> {
+/// synthetic expert's best one. A form or another seed only moves the defects, so the paths are the same. Flights of a job whose
+/// file has changed since don't count.
+pub fn recorded_ghost(sessions: &Path, trainee: &str, job: &ScenarioFile, language: Language) -> RecordedGhost {
     let stored = stored_sessions(sessions);
-    let level = scenario.difficulty.as_ref().map(|difficulty| difficulty.level);
-    let flown = |who: &str| {
-        let of = stored.iter().filter(|session| session.trainee == who).map(|session| &session.folder);
-        let scored = of.filter_map(|folder| Some((folder, complete_score(folder, &scenario.name, level)?)));
-        scored.max_by(|a, b| a.1.0.total_cmp(&b.1.0))
-    };
-    let flight = |folder: &Path, words: String| GhostFlight { telemetry: folder.join(TELEMETRY), words };
-    if let Some((folder, (overall, most))) = flown(trainee) {
-        let (overall, most) = (format!("{overall:.0}"), format!("{most:.0}"));
-        return Some(flight(folder, text!(language, "window-flight-ghost-best", overall = overall, most = most)));
+    let own = complete_flights(&stored, trainee, job);
+    let flight = |flown: CompleteFlight<'_>, words: String| GhostFlight { telemetry: flown.folder.join(TELEMETRY), words };
+    if let Some(flown) = best(&own) {
+        let (overall, most) = (format!("{:.0}", flown.overall), format!("{:.0}", flown.overall_max));
+        let words = text!(language, "window-flight-ghost-best", overall = overall, most = most);
+        return RecordedGhost { flight: Some(flight(flown, words)), is_outdated: false };
     }
-    flown(EXPERT_ID).map(|(folder, _)| flight(folder, text!(language, "window-flight-ghost-of-expert")))
+    let is_outdated = !own.is_empty();
+    let experts = best(&complete_flights(&stored, EXPERT_ID, job));
+    RecordedGhost { flight: experts.map(|flown| flight(flown, expert_ghost_words(is_outdated, language))), is_outdated }
+}
+
+/// Returns the words for the expert's flight as a ghost, and why it is not one of the trainee's if these are outdated.
+pub fn expert_ghost_words(is_outdated: bool, language: Language) -> String {
+    if is_outdated {
+        text!(language, "window-flight-ghost-of-expert-changed")
+    } else {
+        text!(language, "window-flight-ghost-of-expert")
+    }
+}
+
+/// A complete session.
+#[derive(Debug, Clone, Copy)]
+struct CompleteFlight<'a> {
+    folder: &'a Path,
+    /// Score and highest possible score.
+    overall: f64,
+    overall_max: f64,
+    /// Whether the job's file is still the same, except for its form.
+    is_current: bool,
+}
+
+/// Returns the present job's flight with the highest score.
+fn best<'a>(flights: &[CompleteFlight<'a>]) -> Option<CompleteFlight<'a>> {
+    flights.iter().filter(|flown| flown.is_current).max_by(|a, b| a.overall.total_cmp(&b.overall)).copied()
+}
+
+/// Returns a person's complete sessions of a job.
+fn complete_flights<'a>(stored: &'a [StoredSessionFolder], who: &str, job: &ScenarioFile) -> Vec<CompleteFlight<'a>> {
+    let level = job.scenario.difficulty.as_ref().map(|difficulty| difficulty.level);
+    let of = stored.iter().filter(|session| session.trainee == who).map(|session| session.folder.as_path());
+    let complete = of.filter_map(|folder| {
+        let (overall, overall_max) = complete_score(folder, &job.scenario.name, level)?;
+        Some(CompleteFlight { folder, overall, overall_max, is_current: is_current(folder, job) })
+    });
+    complete.collect()
+}
+
+/// Returns whether a session flew the present version of a job, in any of its forms.
+fn is_current(session: &Path, job: &ScenarioFile) -> bool {
+    let crc = read_json(session, SESSION).and_then(|info| u32::from_str_radix(info["scenario_crc"].as_str()?, 16).ok());
+    crc.is_some_and(|crc| crc == job.scenario.crc || job.variant_with_crc(crc).is_some())
 }
 
 /// Returns the score of a session and the highest possible one, if it is a complete session of this job.
@@ -409,21 +459,27 @@ mod tests {
     #[test]
     fn exact_ghost_is_the_best_complete_flight_of_the_same_job_and_level() {
         let sessions = tempfile::tempdir().unwrap();
-        let job = files::scenario("drill-hover").unwrap().scenario;
+        let job = files::scenario("drill-hover").unwrap();
         let save = |k: usize, trainee: &str, scenario: &str, level: u8, (complete, overall): (bool, f64)| {
             let folder = sessions.path().join(k.to_string());
             std::fs::create_dir(&folder).unwrap();
             std::fs::write(folder.join(TELEMETRY), "").unwrap();
-            let session = serde_json::json!({ "trainee": trainee, "started_unix_us": k, "scenario": scenario, "level": level });
+            let crc = format!("{:08x}", job.scenario.crc);
+            let session = serde_json::json!({
+                "trainee": trainee, "started_unix_us": k, "scenario": scenario, "level": level, "scenario_crc": crc
+            });
             std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
             let scores = serde_json::json!({ "overall": overall, "overall_max": 300.0 });
             let assessment = serde_json::json!({ "completion": { "complete": complete }, "scores": scores });
             std::fs::write(folder.join(ASSESSMENT), assessment.to_string()).unwrap();
         };
-        let found =
-            || recorded_ghost(sessions.path(), "anna", &job, Language::English).map(|ghost| (ghost.telemetry, ghost.words));
+        let found = || {
+            let ghost = recorded_ghost(sessions.path(), "anna", &job, Language::English);
+            assert!(!ghost.is_outdated);
+            ghost.flight.map(|ghost| (ghost.telemetry, ghost.words))
+        };
         let at = |k: usize| sessions.path().join(k.to_string()).join(TELEMETRY);
-        let level = job.difficulty.as_ref().unwrap().level;
+        let level = job.scenario.difficulty.as_ref().unwrap().level;
         for (k, trainee, scenario, of_level, result) in [
             (0, "bert", "drill-hover", level, (true, 300.0)),
             (1, "anna", "drill-gap", level, (true, 300.0)),
@@ -443,6 +499,40 @@ mod tests {
         rewound["practice_aids"] = serde_json::json!({ "freezes": 0, "rewinds": 1 });
         std::fs::write(path, rewound.to_string()).unwrap();
         assert_eq!(found(), Some((at(5), "your best flight, 212 of 300".to_owned())));
+    }
+
+    #[test]
+    fn regress_a_flight_of_a_job_that_has_changed_since_is_no_ghost() {
+        let sessions = tempfile::tempdir().unwrap();
+        let save = |k: usize, trainee: &str, crc: u32| {
+            let folder = sessions.path().join(k.to_string());
+            std::fs::create_dir(&folder).unwrap();
+            std::fs::write(folder.join(TELEMETRY), "").unwrap();
+            let crc = format!("{crc:08x}");
+            let session =
+                serde_json::json!({ "trainee": trainee, "started_unix_us": k, "scenario": "pilot-study", "scenario_crc": crc });
+            std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
+            let scores = serde_json::json!({ "overall": 300.0 - k as f64, "overall_max": 400.0 });
+            let assessment = serde_json::json!({ "completion": { "complete": true }, "scores": scores });
+            std::fs::write(folder.join(ASSESSMENT), assessment.to_string()).unwrap();
+        };
+        let job = files::scenario("pilot-study").unwrap();
+        let found = || recorded_ghost(sessions.path(), "anna", &job, Language::English);
+        save(1, "anna", job.scenario.crc ^ 1);
+        assert_eq!(found(), RecordedGhost { flight: None, is_outdated: true });
+        save(2, EXPERT_ID, job.scenario.crc ^ 1);
+        assert_eq!(found(), RecordedGhost { flight: None, is_outdated: true });
+        save(3, EXPERT_ID, job.scenario.crc);
+        let words = found().flight.map(|ghost| ghost.words);
+        assert_eq!(words.as_deref(), Some("the expert's flight, because this job has changed since your own"));
+        save(4, "anna", files::scenario("pilot-study@B").unwrap().scenario.crc);
+        let telemetry = sessions.path().join("4").join(TELEMETRY);
+        let own = found();
+        assert_eq!(
+            (own.flight.map(|ghost| ghost.telemetry), own.is_outdated),
+            (Some(telemetry), false),
+            "another form has the same paths"
+        );
     }
 
     #[test]

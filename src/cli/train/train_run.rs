@@ -2,6 +2,7 @@
 
 use super::args::{Args, camera_file};
 use super::assigned;
+use super::expert_ghost::BackgroundExpert;
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::picture_jobs::PictureJobs;
@@ -324,17 +325,19 @@ impl<'a> TrainRun<'a> {
         }
     }
 
-    fn end_vehicle(&mut self) {
-        if let Some(mut flight) = self.vehicle.take() {
-            flight.finish();
-        }
+    /// Ends the vehicle of the last flight. Returns the expert that still flies in the background; its flight ends with it.
+    fn end_vehicle(&mut self) -> Option<BackgroundExpert> {
+        let mut flight = self.vehicle.take()?;
+        flight.finish();
+        Some(flight.take_background_expert())
     }
 
     /// Runs the chosen flight to its end, including restarts. Returns the result and the session folder.
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
-            self.end_vehicle();
+            let expert = self.end_vehicle();
             let mut flight = FlightProcesses::start(self.args, choice, self.log, self.language())?;
+            expert.into_iter().for_each(|expert| flight.take_over_expert(expert));
             self.station.iter_mut().for_each(|station| station.report_start(choice));
             self.serve(flight.port("payload_port"));
             if let Some(flying) = flight.started_message(self.args) {
@@ -355,7 +358,7 @@ impl<'a> TrainRun<'a> {
             let session = flight.session().to_path_buf();
             if matches!(outcome, FlightOutcome::Restart) {
                 tracing::info!("the attempt has ended; the recorded data is in {}", session.display());
-                flight.finish();
+                self.vehicle = Some(flight);
                 continue;
             }
             if matches!(outcome, FlightOutcome::Over) && !self.stop.is_requested() {

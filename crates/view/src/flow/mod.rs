@@ -190,6 +190,7 @@ impl WindowFlow {
         let words = match &self.flying {
             Some(flying) if flying.choice.purpose == Purpose::Assessment => text!(language, "window-flight-ghost-assessment"),
             Some(flying) if flying.choice.by == FlownBy::Expert => text!(language, "window-flight-ghost-expert"),
+            Some(flying) if flying.is_ghost_outdated => text!(language, "window-flight-ghost-changed"),
             Some(_) => text!(language, "window-flight-ghost-not-ready"),
             None => text!(language, "window-flight-ghost-no-session"),
         };

@@ -174,6 +174,9 @@ pub struct FlightStarted {
     /// Flight that a ghost repeats in a practice session, if there is one.
     #[serde(default)]
     pub ghost: Option<GhostFlight>,
+    /// Whether the trainee's own flights are of an earlier version of the job, so that no ghost repeats them.
+    #[serde(default)]
+    pub is_ghost_outdated: bool,
 }
 
 /// An earlier flight of the same job that a ghost repeats.
@@ -398,6 +401,7 @@ mod tests {
             fly: None,
             path_aids: PathAids::Gates,
             ghost: Some(GhostFlight { telemetry: "sessions/a b/telemetry.tlog".into(), words: "your best flight".into() }),
+            is_ghost_outdated: true,
         };
         let ended = FlightSummary {
             scores: [score, None, score, None],

@@ -46,6 +46,7 @@ fn flying(choice: &FlightChoice) -> ToWindow {
     ToWindow::Flying(FlightStarted {
         path_aids: PathAids::Full,
         ghost: None,
+        is_ghost_outdated: false,
         choice: choice.clone(),
         vehicle: "phantom2".into(),
         seed: 7,
@@ -967,6 +968,11 @@ fn exact_ghost_is_for_practice_only() {
     assert_eq!(flow.ghost(), None);
     flow.explain_missing_ghost();
     assert!(flow.take_notice().is_some_and(|words| words.contains("not ready yet")));
+    let ToWindow::Flying(started) = flying(flow.choice()) else { panic!("another message") };
+    flow.handle_message(ToWindow::Flying(FlightStarted { is_ghost_outdated: true, ..started }));
+    pending_requests(&mut flow);
+    flow.explain_missing_ghost();
+    assert!(flow.take_notice().is_some_and(|words| words.contains("this job has changed since")));
     flow.handle_message(ToWindow::Ghost(ghost.clone()));
     assert_eq!(pending_requests(&mut flow), [WindowRequest::LoadGhost("a.tlog".into())]);
     assert_eq!(flow.ghost(), Some(&ghost));

@@ -82,6 +82,7 @@ fn flying(purpose: Purpose) -> ToWindow {
         fly: Some(here),
         path_aids: PathAids::Full,
         ghost: None,
+        is_ghost_outdated: false,
     })
 }
 
