@@ -7,16 +7,18 @@ use crate::io::controller::{self, CalibratedController, ControllerReading, Event
 use crate::io::files;
 use crate::io::net::{NetEvent, SocketHub, SocketId};
 use crate::io::stop::StopRequest;
+#[cfg(feature = "view")]
+use crate::io::user_settings::SettingsFile;
 use spandrel_clients::rc::controller_link::ControllerLink;
 use spandrel_clients::rc::input_recording::InputRecording;
-use spandrel_clients::rc::keyboard::KeyboardState;
+use spandrel_clients::rc::keyboard::{KeyBindings, KeyboardState};
 use spandrel_clients::rc::wizard::CalibrationWizard;
 use spandrel_clients::rc::{ControllerProfile, StickMode};
 use spandrel_model::time::SimTime;
 use spandrel_text::Language;
 use std::io::BufRead;
 use std::net::{IpAddr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -75,7 +77,7 @@ pub struct Args {
     /// Fly with the keyboard in the terminal
     #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
     keyboard: bool,
-    /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window]); the same file as for `spandrel view`
+    /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window]); the same file as for `spandrel view` [default: the keys in the window's settings]
     #[arg(long, value_name = "FILE", requires = "keyboard")]
     keys: Option<PathBuf>,
     /// Record the device's input, or the input of --replay, to this file
@@ -126,11 +128,45 @@ enum StickSource {
     Keyboard { terminal: RawTerminal, board: KeyboardState },
 }
 
+/// Key bindings, and the file that contains them if they are not the defaults.
+type KeyFile = (KeyBindings, Option<PathBuf>);
+
+/// Returns the key bindings of a file or, without one, those of the window's settings.
+fn key_bindings(file: Option<&Path>) -> Result<KeyFile, AppError> {
+    match file {
+        Some(path) => Ok((controller::keys(Some(path))?, Some(path.to_path_buf()))),
+        None => Ok(window_keys()),
+    }
+}
+
+#[cfg(feature = "view")]
+fn window_keys() -> KeyFile {
+    settings_keys(&SettingsFile::of_user())
+}
+
+/// Without the window, there are no settings.
+#[cfg(not(feature = "view"))]
+fn window_keys() -> KeyFile {
+    (KeyBindings::default(), None)
+}
+
+/// Returns the keys of the window's settings. As in the window, invalid settings are reported and the defaults apply.
+#[cfg(feature = "view")]
+fn settings_keys(file: &SettingsFile) -> KeyFile {
+    match file.load() {
+        Ok(settings) => (settings.keys, file.path().filter(|path| path.exists()).map(Path::to_path_buf)),
+        Err(error) => {
+            tracing::warn!("{error}; using the default keys");
+            (KeyBindings::default(), None)
+        }
+    }
+}
+
 fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError> {
     if args.keyboard {
-        let keys = controller::keys(args.keys.as_deref())?;
+        let (keys, file) = key_bindings(args.keys.as_deref())?;
         if let Some(duty) = keys.binding_name(QUIT_KEY) {
-            let file = args.keys.as_ref().map_or(String::new(), |path| format!("{}: ", path.display()));
+            let file = file.map_or(String::new(), |path| format!("{}: ", path.display()));
             return Err(AppError::invalid(format!(
                 "{file}{duty} = \"{QUIT_KEY}\": this key quits the program in the terminal; choose another one"
             )));
@@ -309,6 +345,23 @@ mod tests {
         let args = TestArgs::parse_from(["rc", "--calibrate"]).args;
         let told = calibrate(&args, &ProfileFolder::default(), &StopRequest::default()).unwrap_err().to_string();
         assert!(told.contains("specify a profile folder with --profiles"), "{told}");
+    }
+
+    #[cfg(feature = "view")]
+    #[test]
+    fn regress_the_keyboard_has_the_keys_of_the_window_settings() {
+        use crate::io::user_settings::UserSettings;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("settings.toml");
+        let file = SettingsFile::at(path.clone());
+        assert_eq!(settings_keys(&file), (KeyBindings::default(), None));
+        let mut settings = UserSettings::default();
+        settings.keys.rebind("take_off", "e");
+        file.save(&settings).unwrap();
+        let (keys, from) = settings_keys(&file);
+        assert_eq!((keys.of("take_off"), from), (Some("e"), Some(path.clone())));
+        std::fs::write(&path, "format = 9").unwrap();
+        assert_eq!(settings_keys(&file), (KeyBindings::default(), None), "invalid settings, as in the window");
     }
 
     #[test]

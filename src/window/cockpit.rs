@@ -225,7 +225,7 @@ impl Cockpit {
             _ => {}
         }
         // Keys that the user tests there have no other effect.
-        let tried = self.flow.is_key_test() && keys::name(&event.logical_key).is_some_and(|key| self.keys().is_stick(&key));
+        let tried = keys::name(&event.logical_key).is_some_and(|key| self.flow.only_tests(&key, self.keys().is_stick(&key)));
         if tried {
             return;
         }

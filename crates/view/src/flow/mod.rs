@@ -41,6 +41,9 @@ use spandrel_text::{Language, text};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
+/// Names of the keys that select and activate the rows of a page.
+const PAGE_KEYS: [&str; 2] = ["enter", "tab"];
+
 /// State of the window.
 #[derive(Debug, Clone)]
 pub struct WindowFlow {
@@ -148,6 +151,13 @@ impl WindowFlow {
     #[must_use]
     pub fn is_key_test(&self) -> bool {
         self.page == Page::Controls && !self.controls.is_connected()
+    }
+
+    /// Checks whether a key only tests the stick that it moves. Enter and Tab always act on the page, so that it can be left
+    /// without a mouse.
+    #[must_use]
+    pub fn only_tests(&self, key: &str, moves_stick: bool) -> bool {
+        self.is_key_test() && moves_stick && !PAGE_KEYS.contains(&key)
     }
 
     /// Checks whether a dialog is shown over the flight.

@@ -250,6 +250,8 @@ fn exact_flight_keys_have_no_effect_on_a_newly_opened_page() {
     press(&mut flow, &[KeyPress::Row(3), KeyPress::Right, KeyPress::Left]);
     assert_eq!(flow.page(), Page::Controls);
     assert!(flow.is_key_test(), "without a controller, this page must test the flight keys");
+    assert!(flow.only_tests("w", true) && !flow.only_tests("w", false));
+    assert!(["enter", "tab"].into_iter().all(|key| !flow.only_tests(key, true)), "the page can be left without a mouse");
     flow.update_controls(ControllerStatus { device: Some("Pad".into()), ..ControllerStatus::default() });
     assert!(!flow.is_key_test(), "with a controller, keys must select rows and values");
 }
