@@ -2,7 +2,7 @@
 //! responds; a step without a response is reported.
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
-use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::contract::practice::{PracticeRequest, request_number};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
 use spandrel_mavlink::{instructor_note, station};
 use spandrel_monitor::sidecar::MONITOR_COMPONENT_ID as MONITOR;
@@ -87,6 +87,8 @@ impl ParamNumber {
 struct QueuedCommand {
     steps: VecDeque<CommandStep>,
     description: String,
+    /// When the current step was sent first.
+    first_sent: Option<Duration>,
     last_sent: Option<Duration>,
     attempts: u32,
 }
@@ -130,7 +132,13 @@ impl CommandQueue {
                 (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1)), inject], said)
             }
         };
-        self.0.push_back(QueuedCommand { steps: steps.into(), description: words, last_sent: None, attempts: 0 });
+        self.0.push_back(QueuedCommand {
+            steps: steps.into(),
+            description: words,
+            first_sent: None,
+            last_sent: None,
+            attempts: 0,
+        });
     }
 
     /// Returns the frames to send now, and messages about finished commands. For `cast`, see [`ParamNumber::to_wire`].
@@ -150,7 +158,8 @@ impl CommandQueue {
                 self.0.pop_front();
                 continue;
             }
-            frames.push(frame(step, encoder, system, cast));
+            let first_sent = *task.first_sent.get_or_insert(now);
+            frames.push(frame(step, encoder, system, (cast, first_sent)));
             (task.last_sent, task.attempts) = (Some(now), task.attempts + 1);
             // Notes have no response; datagrams to a monitor on the same machine are hardly ever lost.
             if matches!(step, CommandStep::Note(_)) {
@@ -167,7 +176,7 @@ impl CommandQueue {
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
             Ok(()) => {
                 task.steps.pop_front();
-                (task.last_sent, task.attempts) = (None, 0);
+                (task.first_sent, task.last_sent, task.attempts) = (None, None, 0);
                 None
             }
             Err(why) => {
@@ -198,7 +207,7 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
             result(ack.result)
         }
         (CommandStep::Practice(request), MavMessage::COMMAND_ACK(ack))
-            if ack.command == request.command().0 && ours(ack.target_system, ack.target_component) =>
+            if ack.command == request.command(0).0 && ours(ack.target_system, ack.target_component) =>
         {
             result(ack.result)
         }
@@ -229,7 +238,8 @@ fn param_error_text(error: MavParamError) -> &'static str {
     }
 }
 
-fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> Vec<u8> {
+/// Encodes a step. `first_sent` is when it was sent first, so that a repeated request keeps its number.
+fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, (cast, first_sent): (bool, Duration)) -> Vec<u8> {
     match step {
         CommandStep::Parameter(name, number) => {
             let param_type = match number {
@@ -247,7 +257,8 @@ fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> V
             encoder.encode(&MavMessage::COMMAND_LONG(command))
         }
         CommandStep::Practice(request) => {
-            let (command, params) = request.command();
+            let number = request_number(u64::try_from(first_sent.as_millis()).unwrap_or_default());
+            let (command, params) = request.command(number);
             encoder.encode(&MavMessage::COMMAND_LONG(station::command(system, 1, command, params)))
         }
         CommandStep::Note(text) => instructor_note::encode(encoder, system, MONITOR, text),
@@ -416,10 +427,21 @@ mod tests {
     }
 
     #[test]
+    fn regress_a_repeated_rewind_keeps_its_number() {
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Practice(PracticeRequest::Rewind { by: SimTime::from_ms(10_000) }));
+        let mut number = |ms: u64| match &sent(&mut commands, ms).0[0].message {
+            Some(MavMessage::COMMAND_LONG(command)) => command.param2,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!([number(4_000), number(4_500)], [4_001.0, 4_001.0]);
+    }
+
+    #[test]
     fn exact_integer_parameters_use_the_vehicle_encoding() {
         for (cast, bits) in [(false, 1), (true, 1f32.to_bits())] {
             let step = CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1));
-            let frame = Decoder::new().datagram(&frame(&step, &mut Encoder::new(252, 192), 1, cast)).remove(0);
+            let frame = Decoder::new().datagram(&frame(&step, &mut Encoder::new(252, 192), 1, (cast, Duration::ZERO))).remove(0);
             let Some(MavMessage::PARAM_SET(set)) = frame.message else { panic!() };
             assert_eq!(set.param_value.to_bits(), bits);
         }

@@ -6,7 +6,7 @@
 use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::named_values::NamedValue;
-use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest};
+use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest, request_number};
 use spandrel_mavlink::dialect::{
     COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
 };
@@ -274,9 +274,9 @@ impl ControllerLink {
             ControllerAction::CameraZoomOut => {
                 (CAMERA_COMPONENT, M::MAV_CMD_SET_CAMERA_ZOOM, [ZOOM_STEP, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
             }
-            ControllerAction::Freeze if self.vehicle.frozen => practice(PracticeRequest::Resume),
-            ControllerAction::Freeze => practice(PracticeRequest::Freeze),
-            ControllerAction::Rewind => practice(PracticeRequest::Rewind { by: DEFAULT_REWIND }),
+            ControllerAction::Freeze if self.vehicle.frozen => practice(PracticeRequest::Resume, now),
+            ControllerAction::Freeze => practice(PracticeRequest::Freeze, now),
+            ControllerAction::Rewind => practice(PracticeRequest::Rewind { by: DEFAULT_REWIND }, now),
         }
     }
 
@@ -373,9 +373,9 @@ impl ControllerLink {
     }
 }
 
-/// Returns a request that is allowed in practice only.
-fn practice(request: PracticeRequest) -> (u8, MavCmd, [f32; 7]) {
-    let (command, params) = request.command();
+/// Returns a request that is allowed in practice only. Its number lets the vehicle recognize a retransmitted command.
+fn practice(request: PracticeRequest, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
+    let (command, params) = request.command(request_number(u64::try_from(now.ms()).unwrap_or_default()));
     (AUTOPILOT_COMPONENT, command, params)
 }
 
@@ -598,6 +598,22 @@ mod tests {
         assert_eq!(asked(&mut link, ControllerAction::Freeze, 2.0), Some((MavCmd::MAV_CMD_USER_1, 1.0)));
         answer(&mut link, MavCmd::MAV_CMD_USER_1, MavResult::MAV_RESULT_ACCEPTED);
         assert_eq!(asked(&mut link, ControllerAction::Rewind, 3.0), Some((MavCmd::MAV_CMD_USER_2, 10.0)));
+    }
+
+    #[test]
+    fn regress_a_retransmitted_rewind_keeps_its_number_and_the_next_one_has_another() {
+        let mut link = known();
+        let numbers = |link: &mut ControllerLink, from: f64, to: f64| {
+            let rewind = |m: &MavMessage| match m {
+                MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_USER_2 => Some(c.param2),
+                _ => None,
+            };
+            sent(link, from, to).iter().filter_map(rewind).collect::<Vec<_>>()
+        };
+        link.request_action(ControllerAction::Rewind, at(3.0));
+        assert_eq!(numbers(&mut link, 3.0, 3.7), [3_001.0, 3_001.0]);
+        link.request_action(ControllerAction::Rewind, at(4.0));
+        assert_eq!(numbers(&mut link, 4.0, 4.1), [4_001.0]);
     }
 
     #[test]

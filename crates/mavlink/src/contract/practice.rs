@@ -9,6 +9,28 @@ pub const DEFAULT_REWIND: SimTime = SimTime::from_ms(10_000);
 /// Longest time by which one request rewinds a flight.
 pub const MAX_REWIND: SimTime = SimTime::from_ms(30_000);
 
+/// Largest number of a request: whole numbers up to it survive as 32-bit floats.
+const MAX_NUMBER: u32 = (1 << 24) - 1;
+
+/// Returns a number that tells one request of a sender from the next, from the sender's clock in ms. A clock makes it unlikely that
+/// a sender that was restarted uses its last number again.
+#[must_use]
+pub fn request_number(clock_ms: u64) -> u32 {
+    (clock_ms % u64::from(MAX_NUMBER)) as u32 + 1
+}
+
+/// Returns the number in parameter 2 of a request; `None` if it has none (0 or NaN).
+///
+/// # Errors
+/// Returns a text with the allowed values if the parameter is invalid.
+pub fn number_in(param: f64) -> Result<Option<u32>, &'static str> {
+    match param {
+        none if none.is_nan() || none == 0.0 => Ok(None),
+        number if (1.0..=f64::from(MAX_NUMBER)).contains(&number) && number.fract() == 0.0 => Ok(Some(number as u32)),
+        _ => Err("Parameter 2 must be 0 to 16777215, whole"),
+    }
+}
+
 /// A request that is allowed in practice only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PracticeRequest {
@@ -33,16 +55,17 @@ pub enum PracticeRequest {
 pub const MAX_TASK: u32 = 64;
 
 impl PracticeRequest {
-    /// Returns the command and its parameters.
+    /// Returns the command and its parameters. `number` tells the request from the sender's next one, so that the vehicle carries out
+    /// a repeated command only once; see [`request_number`]. 0: each command counts.
     #[must_use]
-    pub fn command(self) -> (MavCmd, [f32; 7]) {
+    pub fn command(self, number: u32) -> (MavCmd, [f32; 7]) {
         let (command, value) = match self {
             Self::Freeze => (MavCmd::MAV_CMD_USER_1, 1.0),
             Self::Resume => (MavCmd::MAV_CMD_USER_1, 0.0),
             Self::Rewind { by } => (MavCmd::MAV_CMD_USER_2, by.s() as f32),
             Self::MoveToTask { task } => (MavCmd::MAV_CMD_USER_3, task as f32),
         };
-        (command, [value, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        (command, [value, number as f32, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
 
     /// Returns the request of a command with this number and parameter 1; `None` for other commands.
@@ -81,9 +104,20 @@ mod tests {
     fn exact_requests_survive_the_command() {
         let five = PracticeRequest::Rewind { by: SimTime::from_ms(5_000) };
         for request in [PracticeRequest::Freeze, PracticeRequest::Resume, five, PracticeRequest::MoveToTask { task: 3 }] {
-            let (command, params) = request.command();
+            let (command, params) = request.command(MAX_NUMBER);
             assert_eq!(PracticeRequest::of(command as u16, f64::from(params[0])), Some(Ok(request)));
+            assert_eq!(number_in(f64::from(params[1])), Ok(Some(MAX_NUMBER)));
         }
+    }
+
+    #[test]
+    fn exact_numbers_of_requests_are_whole_or_missing() {
+        assert_eq!([0.0, f64::NAN, 1.0].map(number_in), [Ok(None), Ok(None), Ok(Some(1))]);
+        for param in [-1.0, 0.5, 16_777_216.0, f64::INFINITY] {
+            assert!(number_in(param).is_err_and(|refusal| refusal.len() <= 50), "{param}");
+        }
+        let numbers = [0, 1, u64::from(MAX_NUMBER) - 1, u64::from(MAX_NUMBER)].map(request_number);
+        assert_eq!(numbers, [1, 2, MAX_NUMBER, 1]);
     }
 
     #[test]

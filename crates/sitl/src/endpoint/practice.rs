@@ -1,10 +1,59 @@
 //! Requests that are allowed in practice only: to freeze, resume and rewind the flight, and to move the aircraft. The endpoint decides whether a
 //! request is accepted; the simulation carries it out.
 
-use super::refused_request::RefusedRequest;
+use super::refused_request::{RefusedRequest, queue_or_refuse};
+use super::text_queue::TextQueue;
 use super::vehicle_command::VehicleCommand;
-use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::contract::practice::{PracticeRequest, number_in};
 use spandrel_mavlink::dialect::MavResult;
+use std::collections::{BTreeMap, VecDeque};
+
+/// Number of senders whose last request is known.
+const MAX_SENDERS: usize = 64;
+
+/// A sender's last request with a number: the command and the number.
+type NumberedRequest = (u16, u32);
+
+/// The accepted requests.
+#[derive(Debug, Clone, Default)]
+pub struct PracticeInbox {
+    requests: VecDeque<PracticeRequest>,
+    /// By the sender's system and component ID.
+    numbered: BTreeMap<(u8, u8), NumberedRequest>,
+}
+
+impl PracticeInbox {
+    /// Takes in a request; `None` for other commands and for mission items. A command that a sender repeats with the same number,
+    /// because the acknowledgment was lost, is acknowledged again but not carried out again. Returns the result for the
+    /// acknowledgment.
+    pub fn take(&mut self, state: &PracticeState, c: &VehicleCommand, texts: &mut TextQueue) -> Option<MavResult> {
+        let admitted = state.admit(c)?;
+        let number = match number_in(c.p[1]) {
+            Ok(number) => number.map(|number| (c.number, number)),
+            Err(text) => return Some(queue_or_refuse(Err(RefusedRequest::denied(text.to_owned())), &mut self.requests, texts)),
+        };
+        if number.is_some() && self.numbered.get(&c.from) == number.as_ref() {
+            return Some(MavResult::MAV_RESULT_ACCEPTED);
+        }
+        let result = queue_or_refuse(admitted, &mut self.requests, texts);
+        if let (Some(number), MavResult::MAV_RESULT_ACCEPTED) = (number, result) {
+            self.remember(c.from, number);
+        }
+        Some(result)
+    }
+
+    fn remember(&mut self, from: (u8, u8), request: NumberedRequest) {
+        if self.numbered.len() >= MAX_SENDERS && !self.numbered.contains_key(&from) {
+            self.numbered.pop_first();
+        }
+        self.numbered.insert(from, request);
+    }
+
+    /// Removes and returns the next request.
+    pub fn next_request(&mut self) -> Option<PracticeRequest> {
+        self.requests.pop_front()
+    }
+}
 
 /// Requests that the simulation can carry out at this instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,13 +77,13 @@ impl PracticeState {
     ///
     /// # Errors
     /// Returns the result and a text if the request is refused.
-    pub fn admit(&self, c: &VehicleCommand) -> Option<Result<PracticeRequest, RefusedRequest>> {
+    fn admit(&self, c: &VehicleCommand) -> Option<Result<PracticeRequest, RefusedRequest>> {
         if c.own {
             return None;
         }
         let request = PracticeRequest::of(c.number, c.p[0])?;
         let admitted = request.map_err(str::to_owned).and_then(|request| self.refusal(request).map_or(Ok(request), Err));
-        Some(admitted.map_err(|text| RefusedRequest { result: MavResult::MAV_RESULT_DENIED, text: Some(text) }))
+        Some(admitted.map_err(RefusedRequest::denied))
     }
 
     fn refusal(&self, request: PracticeRequest) -> Option<String> {
@@ -77,9 +126,36 @@ impl PracticeState {
 mod tests {
     use super::*;
     use spandrel_mavlink::contract::practice::MAX_TASK;
+    use spandrel_mavlink::dialect::MavCmd;
+
+    const MAV_CMD_USER_2: u16 = MavCmd::MAV_CMD_USER_2 as u16;
 
     const ALL: PracticeState =
         PracticeState { is_allowed: true, can_freeze: true, can_rewind: true, has_flown: true, has_ended: false, tasks: 2 };
+
+    #[test]
+    fn regress_a_repeated_request_with_a_number_is_carried_out_once() {
+        let (mut inbox, mut texts) = (PracticeInbox::default(), TextQueue::default());
+        let rewind = MAV_CMD_USER_2;
+        let mut ask = |number: u16, from: (u8, u8), p: [f64; 2]| {
+            let p = [p[0], p[1], 0.0, 0.0, 0.0, 0.0, 0.0];
+            let c = VehicleCommand { number, p, frame: 0, component: 1, system: 1, from, whole: false, own: false };
+            let result = inbox.take(&ALL, &c, &mut texts);
+            (result, inbox.next_request().is_some())
+        };
+        let (done, repeated) = ((Some(MavResult::MAV_RESULT_ACCEPTED), true), (Some(MavResult::MAV_RESULT_ACCEPTED), false));
+        assert_eq!(ask(rewind, (254, 190), [10.0, 7.0]), done);
+        assert_eq!(ask(rewind, (254, 190), [10.0, 7.0]), repeated, "the acknowledgment was lost");
+        assert_eq!(ask(rewind, (252, 192), [10.0, 7.0]), done, "another sender");
+        assert_eq!(ask(rewind, (254, 190), [10.0, 8.0]), done, "the next request");
+        assert_eq!(ask(rewind, (254, 190), [10.0, 0.0]), done);
+        assert_eq!(ask(rewind, (254, 190), [10.0, 0.0]), done, "without a number, each command counts");
+        assert_eq!(ask(rewind, (254, 190), [10.0, 0.5]), (Some(MavResult::MAV_RESULT_DENIED), false));
+        for system in 0..=255 {
+            ask(rewind, (system, 1), [10.0, 3.0]);
+        }
+        assert!(inbox.numbered.len() <= MAX_SENDERS);
+    }
 
     #[test]
     fn exact_each_reason_refuses_with_a_short_text() {

@@ -13,6 +13,13 @@ pub struct RefusedRequest {
     pub text: Option<String>,
 }
 
+impl RefusedRequest {
+    /// Creates a refusal with the result "denied".
+    pub fn denied(text: String) -> Self {
+        Self { result: MavResult::MAV_RESULT_DENIED, text: Some(text) }
+    }
+}
+
 /// Queues a request to the simulation, or reports why it is refused. Returns the result for the acknowledgment.
 pub fn queue_or_refuse<T>(request: Result<T, RefusedRequest>, queue: &mut VecDeque<T>, texts: &mut TextQueue) -> MavResult {
     match request {

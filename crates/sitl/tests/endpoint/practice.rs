@@ -18,7 +18,7 @@ const MAX_RUN_ON_DRIFT_M: f64 = 0.1;
 
 /// Asks the vehicle to freeze, resume or rewind. Returns the result of its acknowledgment, which must arrive even if time stops.
 fn ask(station: &mut Station, request: PracticeRequest) -> MavResult {
-    let (command, params) = request.command();
+    let (command, params) = request.command(0);
     station.command(1, command, params)
 }
 
@@ -106,7 +106,7 @@ fn flight_freeze_does_not_change_the_flight() {
         // The inputs of both flights are the same; only one of them is frozen in between.
         let requests = if freezes { [PracticeRequest::Freeze, PracticeRequest::Resume] } else { [PracticeRequest::Resume; 2] };
         for request in requests {
-            let (command, params) = request.command();
+            let (command, params) = request.command(0);
             station.send(&MavMessage::COMMAND_LONG(spandrel_mavlink::station::command(1, 1, command, params)));
             let now = station.sim.now();
             station.sim.handle_timeout(now);
@@ -132,7 +132,7 @@ fn flight_rewind_restores_the_motion_and_the_flight_continues() {
     let request = PracticeRequest::Rewind { by: station.sim.now() - at };
     station.received.clear();
     let before = station.sim.now();
-    let (command, params) = request.command();
+    let (command, params) = request.command(0);
     station.send(&MavMessage::COMMAND_LONG(spandrel_mavlink::station::command(1, 1, command, params)));
     station.sim.handle_timeout(before);
     assert_eq!((motion(station.sim.truth()), station.sim.now()), (earlier, before));
@@ -212,6 +212,27 @@ fn flight_rewind_after_a_crash_continues_before_it() {
     fly(&mut station, [0, 0, 500, 0], 5_000);
     let away_m = (station.sim.truth().rigid.position_m - place).norm();
     assert!(station.sim.armed() && away_m < 2.0, "{away_m} m, {:?}", station.texts());
+}
+
+/// The acknowledgment of a rewind is lost, and the sender repeats the command.
+#[test]
+fn regress_a_repeated_rewind_goes_back_once() {
+    let mut station = Station::airborne("drill-hover", SEED);
+    fly(&mut station, [500, 0, 500, 0], 9_000);
+    let (command, params) = rewind(3).command(17);
+    for _ in 0..2 {
+        assert_eq!(station.command(1, command, params), MavResult::MAV_RESULT_ACCEPTED);
+        station.run_ms(500);
+    }
+    let rewinds = named(&station, |value| if let NamedValue::Rewinds(count) = value { Some(count) } else { None });
+    assert_eq!(rewinds.last(), Some(&1), "{:?}", station.texts());
+    let (command, params) = rewind(3).command(18);
+    assert_eq!(station.command(1, command, params), MavResult::MAV_RESULT_ACCEPTED);
+    station.run_ms(500);
+    let rewinds = named(&station, |value| if let NamedValue::Rewinds(count) = value { Some(count) } else { None });
+    assert_eq!(rewinds.last(), Some(&2), "another request");
+    assert_eq!(station.command(1, command, p(&[3.0, 0.5])), MavResult::MAV_RESULT_DENIED);
+    assert!(station.has_text("Parameter 2 must be"), "{:?}", station.texts());
 }
 
 #[test]

@@ -32,8 +32,8 @@ impl RelayEndpoint {
             return Some(result);
         }
         let for_autopilot = c.component <= AUTOPILOT;
-        if let Some(request) = aircraft.practice.admit(c).filter(|_| for_autopilot) {
-            return Some(queue_or_refuse(request, &mut self.practice_requests, &mut self.texts));
+        if for_autopilot && let Some(result) = self.practice_requests.take(&aircraft.practice, c, &mut self.texts) {
+            return Some(result);
         }
         match c.number {
             n if n == MavCmd::MAV_CMD_INJECT_FAILURE as u16 && for_autopilot => return Some(self.inject(c, aircraft)),

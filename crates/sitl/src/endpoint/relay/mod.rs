@@ -18,6 +18,7 @@ mod streams;
 use super::component_ids;
 use super::link::{LinkId, LinkKind, Links, PeerLink};
 use super::payload::{PayloadComponents, PayloadLink};
+use super::practice::PracticeInbox;
 use super::simulated_aircraft::SimulatedAircraft;
 use super::text_queue::TextQueue;
 use super::vehicle_link::FailureInjection;
@@ -62,7 +63,7 @@ pub struct RelayEndpoint {
     autopilot_link: Option<LinkId>,
     instructor: InstructorParams,
     injections: VecDeque<FailureInjection>,
-    practice_requests: VecDeque<PracticeRequest>,
+    practice_requests: PracticeInbox,
     manual: ManualControl,
     /// Encoder for sticks under the only accepted sender.
     stick_encoder: Option<Encoder>,
@@ -86,7 +87,7 @@ impl RelayEndpoint {
             autopilot_link: None,
             instructor: InstructorParams::new(rules.params),
             injections: VecDeque::new(),
-            practice_requests: VecDeque::new(),
+            practice_requests: PracticeInbox::default(),
             manual: ManualControl::default(),
             stick_encoder: rules.stick_sender.map(|(system, component)| Encoder::new(system, component)),
             texts: TextQueue::default(),
@@ -160,7 +161,7 @@ impl RelayEndpoint {
 
     /// Removes and returns the next request to freeze or resume the flight.
     pub fn next_practice_request(&mut self) -> Option<PracticeRequest> {
-        self.practice_requests.pop_front()
+        self.practice_requests.next_request()
     }
 
     /// Returns true once after a client has requested a reboot that the simulator carries out.

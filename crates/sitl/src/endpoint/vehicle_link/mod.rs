@@ -42,6 +42,7 @@ mod terrain;
 use super::files::FileServer;
 use super::link::LinkId;
 use super::payload::Payload;
+use super::practice::PracticeInbox;
 use super::simulated_aircraft::SimulatedAircraft;
 use super::text_queue::TextQueue;
 use crate::autopilot::{Autopilot, Sticks};
@@ -85,7 +86,7 @@ pub struct VehicleLink {
     shown_by_params: Option<(u64, [u16; 3], bool)>,
     restart_requested: bool,
     injections: VecDeque<FailureInjection>,
-    practice_requests: VecDeque<PracticeRequest>,
+    practice_requests: PracticeInbox,
     /// Whether manual control is accepted.
     pub accepts_sticks: bool,
     plans: PlanStore,
@@ -132,7 +133,7 @@ impl VehicleLink {
             shown_by_params: None,
             restart_requested: false,
             injections: VecDeque::new(),
-            practice_requests: VecDeque::new(),
+            practice_requests: PracticeInbox::default(),
             accepts_sticks: true,
             plans: PlanStore::with_lead_items(u16::from(flavor.home_item))
                 .with_splines(flavor.splines)
@@ -227,7 +228,7 @@ impl VehicleLink {
 
     /// Removes and returns the next request to freeze, resume or rewind the flight.
     pub fn next_practice_request(&mut self) -> Option<PracticeRequest> {
-        self.practice_requests.pop_front()
+        self.practice_requests.next_request()
     }
 
     /// Removes and returns the messages to broadcast once.

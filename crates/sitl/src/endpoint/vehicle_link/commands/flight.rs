@@ -163,8 +163,8 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
 /// Handles commands that don't involve the autopilot: freeze and rewind, failure injection, calibration, storage, checks, and reboot.
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
-    if let Some(request) = a.aircraft.practice.admit(c) {
-        return Some(Answer(queue_or_refuse(request, &mut v.practice_requests, &mut v.texts)));
+    if let Some(result) = v.practice_requests.take(&a.aircraft.practice, c, &mut v.texts) {
+        return Some(Answer(result));
     }
     Some(Answer(match c.number {
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, v, a),
