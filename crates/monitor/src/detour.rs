@@ -140,8 +140,9 @@ impl FreeSpace<'_> {
                     .collect::<Vec<_>>()
             };
             let (first, last) = (around(from_m), around(to_m));
-            let places_m = self.via_one((from_m, to_m), clearance_m, (&first, &last));
-            let places_m = places_m.or_else(|| self.via_two((from_m, to_m), clearance_m, (&first, &last)))?;
+            let ends = (first.as_slice(), last.as_slice());
+            let places_m = self.via_one((from_m, to_m), clearance_m, ends);
+            let places_m = places_m.or_else(|| self.via_two((from_m, to_m), clearance_m, ends))?;
             Some(Route { places_m, to_m, clearance_m })
         })
     }

@@ -105,7 +105,7 @@ impl Monitor {
             *detours = DetourFinder::default();
             return None;
         };
-        let motion = truth.motion;
+        let motion = &truth.motion;
         let found = detours.update(geometry, truth.time, (motion.position_m, to_m))?;
         let offset = HeadingOffset::new(found.place_m - motion.position_m, motion.ned_from_frd.yaw_rad());
         Some(Detour { kind: found.kind, way: offset.way() })
