@@ -5,6 +5,7 @@ mod camera_picture;
 mod command_queue;
 mod flight_owner;
 mod instructor_actions;
+mod instructor_command;
 mod own_flight;
 mod page;
 mod picture;

@@ -240,7 +240,7 @@ pub async fn live_stream(shared: PipelineState, mut request: Request) -> Respons
     }
     let cookie = head.request.cookie.clone();
     let mut response = match live::select_vehicle(&shared.state, visitor.language, head.request.query_param("vehicle")) {
-        Ok((_, live)) => live::stream(shared.state.clone(), live, cookie),
+        Ok((_, live)) => live::stream(shared.state.clone(), live, (cookie, visitor.language)),
         Err(refusal) => return error_response(&shared, visitor, &refusal),
     };
     set_security_headers(response.headers_mut(), shared.state.auth.is_secure());

@@ -12,6 +12,7 @@ use crate::io::png::png;
 use serde_json::json;
 use spandrel_model::frames::Enu;
 use spandrel_model::pose::Pose;
+use spandrel_text::monitor_texts::message_words;
 use spandrel_text::text;
 use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
@@ -277,7 +278,8 @@ impl Cockpit {
     fn listen(&mut self, now: std::time::Duration) {
         while let Some(text) = self.threads.pilot.as_ref().and_then(PilotThread::poll_message) {
             tracing::info!("{text}");
-            self.notices.push((hud::message_words(&text, self.flow.language()), now));
+            let words = message_words(&text, self.flow.language()).unwrap_or(text);
+            self.notices.push((words, now));
         }
         if let Some(text) = self.flow.take_notice() {
             tracing::info!("{text}");

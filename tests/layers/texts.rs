@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 /// Beginnings of the names that are composed at run time.
-const COMPOSED: [&str; 3] = ["plan-reason-", "job-", "terms-element-"];
+const COMPOSED: [&str; 4] = ["plan-reason-", "plan-rule-", "job-", "terms-element-"];
 
 /// Returns the names of the messages in a catalog file.
 fn messages(file: &str) -> impl Iterator<Item = &str> {

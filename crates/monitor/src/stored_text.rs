@@ -3,39 +3,34 @@
 
 use crate::measures::practice_aids::PracticeAids;
 use crate::score::certification::names::title;
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, PICTURE_REASONS, Sentence, SentenceTable, text};
+use std::sync::LazyLock;
 
-/// Stands for a value in a pattern. Texts do not contain it.
-const MARK: &str = "\u{0}";
-
-/// Renders a text with its values, which are in the order in which the English text shows them.
-type Render = fn(Language, &[&str]) -> String;
-
-/// Known texts with the numbers of their values. Texts with more words between their values come first.
-const TEXTS: &[(usize, Render)] = &[
-    (3, |l, v| text!(l, "certification-unmet-task-part", task = v[0], share = v[1], needed = v[2])),
-    (1, |l, v| text!(l, "certification-unmet-task-not-attempted", task = v[0])),
-    (0, |l, _| text!(l, "certification-unmet-hit")),
-    (0, |l, _| text!(l, "certification-unmet-landing")),
-    (2, |l, v| text!(l, "certification-unmet-battery", battery = v[0], needed = v[1])),
-    (2, |l, v| text!(l, "certification-unmet-contacts", contacts = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-unmet-contact-speed", speed = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-resolution", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-motion-blur", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-incidence", value = v[0], limit = v[1])),
-    (0, |l, _| text!(l, "certification-picture-too-fine")),
-    (0, |l, _| text!(l, "certification-picture-not-central")),
-    (0, |l, _| text!(l, "certification-picture-hidden")),
-    (2, |l, v| text!(l, "certification-picture-too-oblique", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-too-small", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-line-too-thin", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-dark-lamp-on", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-dark-lamp-off", value = v[0], limit = v[1])),
-    (2, |l, v| text!(l, "certification-picture-of-defect", defect = v[0], reason = translated(v[1], l))),
-    (1, |l, v| text!(l, "certification-unmet-practice", aids = PracticeAids::from_words(v[0]).words(l).unwrap_or_default())),
-    (1, |l, v| text!(l, "certification-unmet-no-evidence", score = score(v[0], l))),
-    (3, |l, v| text!(l, "certification-unmet-score", score = score(v[0], l), value = v[1], needed = v[2])),
-];
+/// Known texts. Those with more words between their values come first.
+static TEXTS: LazyLock<SentenceTable> = LazyLock::new(|| {
+    let own = [
+        Sentence::new(3, |l, v| text!(l, "certification-unmet-task-part", task = v[0], share = v[1], needed = v[2])),
+        Sentence::new(1, |l, v| text!(l, "certification-unmet-task-not-attempted", task = v[0])),
+        Sentence::new(0, |l, _| text!(l, "certification-unmet-hit")),
+        Sentence::new(0, |l, _| text!(l, "certification-unmet-landing")),
+        Sentence::new(2, |l, v| text!(l, "certification-unmet-battery", battery = v[0], needed = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-unmet-contacts", contacts = v[0], limit = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-unmet-contact-speed", speed = v[0], limit = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-picture-resolution", value = v[0], limit = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-picture-motion-blur", value = v[0], limit = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-picture-incidence", value = v[0], limit = v[1])),
+        Sentence::new(0, |l, _| text!(l, "certification-picture-too-fine")),
+    ];
+    let general = [
+        Sentence::new(2, |l, v| text!(l, "terms-picture-of-defect", defect = v[0], reason = translated(v[1], l))),
+        Sentence::new(1, |l, v| text!(l, "certification-unmet-practice", aids = practice_aids(v[0], l))),
+        Sentence::new(1, |l, v| text!(l, "certification-unmet-no-evidence", score = score(v[0], l))),
+        Sentence::new(3, |l, v| {
+            text!(l, "certification-unmet-score", score = score(v[0], l), value = v[1], needed = v[2])
+        }),
+    ];
+    SentenceTable::new(own.into_iter().chain(PICTURE_REASONS).chain(general))
+});
 
 /// Returns the name of a certification score in a language; files contain its key.
 fn score(key: &str, language: Language) -> String {
@@ -46,16 +41,7 @@ fn score(key: &str, language: Language) -> String {
 /// read, also in English.
 #[must_use]
 pub fn translated(stored: &str, language: Language) -> String {
-    let known = |(count, render): &(usize, Render)| {
-        // A mark names no aids, so that the text of a practice flight contains none: it begins with them.
-        let pattern = match render(Language::English, &vec![MARK; *count]) {
-            pattern if pattern.contains(MARK) || *count == 0 => pattern,
-            pattern => MARK.to_owned() + &pattern,
-        };
-        let values = values(stored, &pattern)?;
-        Some(render(language, &values))
-    };
-    TEXTS.iter().find_map(known).unwrap_or_else(|| stored.to_owned())
+    TEXTS.translate(stored, language).unwrap_or_else(|| stored.to_owned())
 }
 
 /// Returns stored English texts in a language.
@@ -64,19 +50,9 @@ pub fn all_translated(stored: &[String], language: Language) -> Vec<String> {
     stored.iter().map(|one| translated(one, language)).collect()
 }
 
-/// Returns the parts of a text at the marks of a pattern; `None` if the rest differs.
-fn values<'a>(stored: &'a str, pattern: &str) -> Option<Vec<&'a str>> {
-    let mut words = pattern.split(MARK).peekable();
-    let mut rest = stored.strip_prefix(words.next()?)?;
-    let mut values = Vec::new();
-    while let Some(word) = words.next() {
-        let is_last = words.peek().is_none();
-        let length = if is_last { rest.strip_suffix(word)?.len() } else { rest.find(word)? };
-        let (value, following) = rest.split_at(length);
-        values.push(value);
-        rest = following.get(word.len()..)?;
-    }
-    rest.is_empty().then_some(values)
+/// Returns the words for aids of practice in a language. Other words stay.
+fn practice_aids(words: &str, language: Language) -> String {
+    PracticeAids::from_words(words).words(language).unwrap_or_else(|| words.to_owned())
 }
 
 #[cfg(test)]

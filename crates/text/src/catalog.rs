@@ -54,6 +54,18 @@ pub fn find(language: Language, id: &str, variables: &[(&str, Value<'_>)]) -> Op
     is_message(id).then(|| message(language, id, variables))
 }
 
+/// Returns a text whose English source is not the catalog, such as the documentation of a key: in English, `english` itself; in
+/// another language, the message with this name; `None` if the language does not have it.
+#[must_use]
+pub fn translation(language: Language, id: &str, english: &str) -> Option<String> {
+    match language {
+        Language::English => Some(english.to_owned()),
+        Language::German => format(&GERMAN, id, &[]),
+        Language::Spanish => format(&SPANISH, id, &[]),
+        Language::Pseudo => Some(pseudo(english).into_owned()),
+    }
+}
+
 fn format(bundle: &Bundle, id: &str, variables: &[(&str, Value<'_>)]) -> Option<String> {
     let pattern = bundle.get_message(id)?.value()?;
     let arguments: FluentArgs = variables.iter().map(|(name, value)| (*name, value.clone())).collect();

@@ -2,7 +2,8 @@
 //!
 //! Each language has a folder in `catalog` with [Fluent](https://projectfluent.org) files. English is the reference: [`text!`]
 //! checks at compile time that it contains the message, and that the message has exactly the given variables. Tests check that
-//! the other languages have the same messages with the same variables.
+//! the other languages have the same messages with the same variables. A text whose English source is elsewhere, such as the
+//! documentation of a key, has messages in the other languages only ([`translation`]).
 //!
 //! Variables are values for display, with their units, such as `"12.5 m"`; numbers that select a plural form are integers.
 //!
@@ -15,11 +16,19 @@
 mod catalog;
 mod language;
 mod messages;
+pub mod monitor_texts;
+mod picture_reasons;
 mod pseudo;
+mod sentences;
+pub mod terms;
+mod translated;
 
-pub use catalog::{Value, find, message};
+pub use catalog::{Value, find, message, translation};
 pub use language::Language;
 pub use messages::check_message;
+pub use picture_reasons::PICTURE_REASONS;
+pub use sentences::{Sentence, SentenceTable};
+pub use translated::Translated;
 
 /// Returns a message in a language: `text!(language, "id", variable = value)`. A wrong name is a compile error.
 #[macro_export]

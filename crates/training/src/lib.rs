@@ -31,7 +31,6 @@ mod time_text;
 pub mod trainee;
 pub mod training_class;
 pub mod web;
-mod words;
 pub mod xapi;
 
 pub mod testing;

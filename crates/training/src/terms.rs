@@ -4,6 +4,7 @@
 use spandrel_model::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, PSC_CRACK, REBAR, SPALL};
 use spandrel_model::elements::Element;
 use spandrel_model::shipped::SCENARIOS;
+pub use spandrel_text::terms::{contact_title, end_reason_title, purpose_title, score_title};
 use spandrel_text::{Language, find, text};
 
 /// Returns the name of an element: the part, then its material.
@@ -30,19 +31,6 @@ pub fn defect_title(kind: u32, language: Language) -> String {
     }
 }
 
-/// Returns the name of a score with this key, such as `conformity`; the key if there is no such score.
-#[must_use]
-pub fn score_title(key: &str, language: Language) -> String {
-    match key {
-        "overall" => text!(language, "terms-score-overall"),
-        "conformity" => text!(language, "terms-score-conformity"),
-        "efficiency" => text!(language, "terms-score-efficiency"),
-        "safety" => text!(language, "terms-score-safety"),
-        "accuracy" => text!(language, "terms-score-accuracy"),
-        _ => key.to_owned(),
-    }
-}
-
 /// Returns the name of a measure with this key: a score, or `flight_time`, `crashes` or `certification_sum`; the key if there is no
 /// such measure.
 #[must_use]
@@ -52,21 +40,6 @@ pub fn measure_title(key: &str, language: Language) -> String {
         "flight_time" => text!(language, "report-measure-flight-time"),
         "crashes" => text!(language, "report-measure-crashes"),
         score => score_title(score, language),
-    }
-}
-
-/// Returns the name of a kind of object hit with this label, such as `terrain`; the label if there is no such kind.
-#[must_use]
-pub fn contact_title(label: &str, language: Language) -> String {
-    match label {
-        "none" => text!(language, "terms-contact-none"),
-        "bridge" => text!(language, "terms-contact-bridge"),
-        "terrain" => text!(language, "terms-contact-terrain"),
-        "water" => text!(language, "terms-contact-water"),
-        "vehicle" => text!(language, "terms-contact-vehicle"),
-        "person" => text!(language, "terms-contact-person"),
-        "other" => text!(language, "terms-contact-other"),
-        _ => label.to_owned(),
     }
 }
 

@@ -14,6 +14,7 @@ use spandrel_model::site::Site;
 use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::completion::{Completion, verdict};
+use spandrel_text::terms::{capitalized, end_reason_title};
 use spandrel_text::{Language, text};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text as briefing_text};
@@ -373,25 +374,10 @@ fn end_reason_text(end: &Value, session: &Path, language: Language) -> String {
         (Some(reason), Some(seconds)) => {
             let minutes = format!("{:.0}", (seconds / 60.0).floor());
             let seconds = format!("{:.0}", (seconds % 60.0).floor());
-            let reason = reason_words(reason, language);
+            let reason = capitalized(&end_reason_title(reason, language));
             text!(language, "window-result-after", reason = reason, minutes = minutes, seconds = seconds)
         }
         _ => text!(language, "window-result-not-scored", folder = session.display().to_string()),
-    }
-}
-
-/// Returns the reason why a flight ended, by its name in files.
-fn reason_words(reason: &str, language: Language) -> String {
-    match reason {
-        "landed" => text!(language, "window-result-reason-landed"),
-        "battery" => text!(language, "window-result-reason-battery"),
-        "time_limit" => text!(language, "window-result-reason-time-limit"),
-        "person" => text!(language, "window-result-reason-person"),
-        "vehicle" => text!(language, "window-result-reason-vehicle"),
-        "crash" => text!(language, "window-result-reason-crash"),
-        "abort" => text!(language, "window-result-reason-abort"),
-        "restart" => text!(language, "window-result-reason-restart"),
-        other => other.to_owned(),
     }
 }
 

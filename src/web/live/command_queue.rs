@@ -1,6 +1,7 @@
 //! Queue of instructor commands to the vehicle. Datagrams can be lost, so each step is repeated until the vehicle
 //! responds; a step without a response is reported.
 
+use super::instructor_command::{CommandOutcome, InstructorCommand, InstructorReport, Rejection};
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::practice::{PracticeRequest, request_number};
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
@@ -20,36 +21,6 @@ pub const INSTRUCTOR_COMPONENT: u8 = 192;
 /// FAILURE_TYPE_OK and FAILURE_TYPE_OFF of MAV_CMD_INJECT_FAILURE.
 const FAILURE_TYPE_OK: f32 = 0.0;
 const FAILURE_TYPE_OFF: f32 = 1.0;
-
-/// An instructor's command.
-#[derive(Debug, Clone, PartialEq)]
-pub enum InstructorCommand {
-    /// Adds a note to the monitor's event log.
-    Note(String),
-    /// Sets the mean wind.
-    Wind {
-        /// Mean wind speed, m/s.
-        speed_m_s: f64,
-        /// Wind direction (where the wind comes from), degrees clockwise from north.
-        from_deg: f64,
-    },
-    /// Opens the bridges to traffic or closes them.
-    Traffic {
-        /// True to open the bridges.
-        open: bool,
-    },
-    /// Freezes, resumes or rewinds a practice flight.
-    Practice(PracticeRequest),
-    /// Injects or clears a failure.
-    Failure {
-        /// The component's FAILURE_UNIT.
-        unit: f32,
-        /// Component name.
-        words: String,
-        /// True to inject the failure, false to clear it.
-        fails: bool,
-    },
-}
 
 /// A single message to the vehicle.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +57,7 @@ impl ParamNumber {
 #[derive(Debug, Clone, PartialEq)]
 struct QueuedCommand {
     steps: VecDeque<CommandStep>,
-    description: String,
+    command: InstructorCommand,
     /// When the current step was sent first.
     first_sent: Option<Duration>,
     last_sent: Option<Duration>,
@@ -97,65 +68,61 @@ struct QueuedCommand {
 #[derive(Debug, Default)]
 pub struct CommandQueue(VecDeque<QueuedCommand>);
 
+impl QueuedCommand {
+    fn report(self, outcome: CommandOutcome) -> InstructorReport {
+        InstructorReport { command: self.command, outcome }
+    }
+}
+
+/// Returns the messages that carry out a command.
+fn steps(command: &InstructorCommand) -> Vec<CommandStep> {
+    match command {
+        InstructorCommand::Note(text) => vec![CommandStep::Note(text.clone())],
+        InstructorCommand::Wind { speed_m_s, from_deg } => {
+            let value = |value: f64| ParamNumber::Real(value as f32);
+            vec![
+                CommandStep::Parameter("SIM_WIND_DIR", value(*from_deg)),
+                CommandStep::Parameter("SIM_WIND_SPD", value(*speed_m_s)),
+            ]
+        }
+        InstructorCommand::Traffic { open } => {
+            vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Integer(i32::from(*open)))]
+        }
+        InstructorCommand::Practice(request) => vec![CommandStep::Practice(*request)],
+        InstructorCommand::Failure { unit, fails } => {
+            let kind = if *fails { FAILURE_TYPE_OFF } else { FAILURE_TYPE_OK };
+            let inject = CommandStep::Inject { unit: unit.code(), kind };
+            vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1)), inject]
+        }
+    }
+}
+
 impl CommandQueue {
     /// Appends an instructor's command to the queue.
-    pub fn push(&mut self, order: InstructorCommand) {
-        let (steps, words) = match order {
-            InstructorCommand::Note(text) => (vec![CommandStep::Note(text.clone())], format!("note: {text}")),
-            InstructorCommand::Wind { speed_m_s, from_deg } => {
-                let words = format!("instructor: wind {speed_m_s} m/s from {from_deg}°");
-                let value = |value: f64| ParamNumber::Real(value as f32);
-                (
-                    vec![
-                        CommandStep::Parameter("SIM_WIND_DIR", value(from_deg)),
-                        CommandStep::Parameter("SIM_WIND_SPD", value(speed_m_s)),
-                    ],
-                    words,
-                )
-            }
-            InstructorCommand::Traffic { open } => {
-                let words = format!("instructor: the bridges are {} to traffic", if open { "open" } else { "closed" });
-                (vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Integer(i32::from(open)))], words)
-            }
-            InstructorCommand::Practice(request) => {
-                let words = match request {
-                    PracticeRequest::Freeze => "freeze".to_owned(),
-                    PracticeRequest::Resume => "continue".to_owned(),
-                    PracticeRequest::Rewind { by } => format!("rewind {:.0} s", by.s()),
-                    PracticeRequest::MoveToTask { task } => format!("move to task {task}"),
-                };
-                (vec![CommandStep::Practice(request)], format!("instructor: {words}"))
-            }
-            InstructorCommand::Failure { unit, words, fails } => {
-                let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "restored" });
-                let inject = CommandStep::Inject { unit, kind: if fails { FAILURE_TYPE_OFF } else { FAILURE_TYPE_OK } };
-                (vec![CommandStep::Parameter("SYS_FAILURE_EN", ParamNumber::Integer(1)), inject], said)
-            }
-        };
-        self.0.push_back(QueuedCommand {
-            steps: steps.into(),
-            description: words,
-            first_sent: None,
-            last_sent: None,
-            attempts: 0,
-        });
+    pub fn push(&mut self, command: InstructorCommand) {
+        let steps = steps(&command).into();
+        self.0.push_back(QueuedCommand { steps, command, first_sent: None, last_sent: None, attempts: 0 });
     }
 
-    /// Returns the frames to send now, and messages about finished commands. For `cast`, see [`ParamNumber::to_wire`].
-    pub fn poll_frames(&mut self, now: Duration, encoder: &mut Encoder, system: u8, cast: bool) -> (Vec<Vec<u8>>, Vec<String>) {
-        let (mut frames, mut words) = (Vec::new(), Vec::new());
+    /// Returns the frames to send now, and the finished commands. For `cast`, see [`ParamNumber::to_wire`].
+    pub fn poll_frames(
+        &mut self,
+        now: Duration,
+        encoder: &mut Encoder,
+        system: u8,
+        cast: bool,
+    ) -> (Vec<Vec<u8>>, Vec<InstructorReport>) {
+        let (mut frames, mut reports) = (Vec::new(), Vec::new());
         while let Some(task) = self.0.front_mut() {
             let Some(step) = task.steps.front() else {
-                words.push(std::mem::take(&mut task.description));
-                self.0.pop_front();
+                reports.extend(self.end_current(CommandOutcome::Done));
                 continue;
             };
             if task.last_sent.is_some_and(|asked| now < asked + RETRY_INTERVAL) {
                 break;
             }
             if task.attempts >= MAX_ATTEMPTS {
-                words.push(format!("{}: no response", task.description));
-                self.0.pop_front();
+                reports.extend(self.end_current(CommandOutcome::NoResponse));
                 continue;
             }
             let first_sent = *task.first_sent.get_or_insert(now);
@@ -166,12 +133,16 @@ impl CommandQueue {
                 task.steps.pop_front();
             }
         }
-        (frames, words)
+        (frames, reports)
     }
 
-    /// Checks whether a frame is a response to the current step. If the step was rejected, ends the command and returns
-    /// a message.
-    pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<String> {
+    /// Removes the current command and reports its outcome.
+    fn end_current(&mut self, outcome: CommandOutcome) -> Option<InstructorReport> {
+        Some(self.0.pop_front()?.report(outcome))
+    }
+
+    /// Checks whether a frame is a response to the current step. If the step was rejected, ends the command and reports it.
+    pub fn handle_frame(&mut self, frame: &ReceivedFrame) -> Option<InstructorReport> {
         let task = self.0.front_mut()?;
         match answer(task.steps.front()?, frame.message.as_ref()?)? {
             Ok(()) => {
@@ -179,17 +150,13 @@ impl CommandQueue {
                 (task.first_sent, task.last_sent, task.attempts) = (None, None, 0);
                 None
             }
-            Err(why) => {
-                let words = format!("{}: rejected, {why}", task.description);
-                self.0.pop_front();
-                Some(words)
-            }
+            Err(why) => self.end_current(CommandOutcome::Rejected(why)),
         }
     }
 }
 
 /// Returns the response to a step: success, or rejection with a reason. Ignores responses addressed to other systems.
-fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'static str>> {
+fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), Rejection>> {
     let ours = |system: u8, component: u8| (system, component) == (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
     match (step, message) {
         // Only the new value counts as a response; another client may have requested the old value.
@@ -199,7 +166,7 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
         }
         (CommandStep::Parameter(name, _), MavMessage::PARAM_ERROR(error)) => {
             let it = error.param_id.to_str().is_ok_and(|id| id == *name) && ours(error.target_system, error.target_component);
-            it.then(|| Err(param_error_text(error.error)))
+            it.then(|| Err(param_rejection(error.error)))
         }
         (CommandStep::Inject { .. }, MavMessage::COMMAND_ACK(ack))
             if ack.command == MavCmd::MAV_CMD_INJECT_FAILURE && ours(ack.target_system, ack.target_component) =>
@@ -216,25 +183,23 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
 }
 
 /// Returns a command's result, or `None` while it is in progress.
-fn result(result: MavResult) -> Option<Result<(), &'static str>> {
+fn result(result: MavResult) -> Option<Result<(), Rejection>> {
     match result {
         MavResult::MAV_RESULT_ACCEPTED => Some(Ok(())),
         MavResult::MAV_RESULT_IN_PROGRESS => None,
-        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err("not now")),
-        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err("the vehicle does not support this command")),
-        MavResult::MAV_RESULT_DENIED => Some(Err("the vehicle denied this command")),
-        _ => Some(Err("the vehicle reported a failure")),
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => Some(Err(Rejection::NotNow)),
+        MavResult::MAV_RESULT_UNSUPPORTED => Some(Err(Rejection::Unsupported)),
+        MavResult::MAV_RESULT_DENIED => Some(Err(Rejection::Denied)),
+        _ => Some(Err(Rejection::Failed)),
     }
 }
 
-fn param_error_text(error: MavParamError) -> &'static str {
+fn param_rejection(error: MavParamError) -> Rejection {
     match error {
-        MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST => "this vehicle has no such parameter",
-        MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE => "the value is out of range",
-        MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => {
-            "the parameter is read-only"
-        }
-        _ => "the vehicle rejected the value",
+        MavParamError::MAV_PARAM_ERROR_DOES_NOT_EXIST => Rejection::NoSuchParameter,
+        MavParamError::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE => Rejection::OutOfRange,
+        MavParamError::MAV_PARAM_ERROR_READ_ONLY | MavParamError::MAV_PARAM_ERROR_PERMISSION_DENIED => Rejection::ReadOnly,
+        _ => Rejection::InvalidValue,
     }
 }
 
@@ -271,6 +236,8 @@ mod tests {
     use spandrel_mavlink::codec::Decoder;
     use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, PARAM_ERROR_DATA, PARAM_VALUE_DATA};
     use spandrel_model::time::SimTime;
+    use spandrel_text::Language;
+    use spandrel_training::web::live::FailingUnit;
 
     fn received_frame(message: &MavMessage) -> ReceivedFrame {
         Decoder::new().datagram(&Encoder::new(1, 1).encode(message)).remove(0)
@@ -278,7 +245,12 @@ mod tests {
 
     fn sent(commands: &mut CommandQueue, now_ms: u64) -> (Vec<ReceivedFrame>, Vec<String>) {
         let (frames, words) = commands.poll_frames(Duration::from_millis(now_ms), &mut Encoder::new(252, 192), 1, false);
+        let words = words.iter().map(|report| report.words(Language::English)).collect();
         (frames.iter().map(|frame| Decoder::new().datagram(frame).remove(0)).collect(), words)
+    }
+
+    fn words(report: Option<InstructorReport>) -> Option<String> {
+        report.map(|report| report.words(Language::English))
     }
 
     fn command_ack(result: MavResult, (target_system, target_component): (u8, u8)) -> MavMessage {
@@ -323,17 +295,15 @@ mod tests {
     #[test]
     fn wire_rejections_and_timeouts_are_reported_and_next_command_runs() {
         let mut commands = CommandQueue::default();
-        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Satellite navigation".into(), fails: true });
+        commands.push(InstructorCommand::Failure { unit: FailingUnit::Gnss, fails: true });
         commands.push(InstructorCommand::Note("look".into()));
         sent(&mut commands, 0);
         commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut commands, 1);
+        let denied = command_ack(MavResult::MAV_RESULT_DENIED, (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT));
         assert_eq!(
-            commands.handle_frame(&received_frame(&command_ack(
-                MavResult::MAV_RESULT_DENIED,
-                (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)
-            ))),
-            Some("instructor: satellite navigation fails: rejected, the vehicle denied this command".into())
+            words(commands.handle_frame(&received_frame(&denied))).as_deref(),
+            Some("instructor: satellite navigation fails: rejected, the vehicle denied this command")
         );
         let (frames, words) = sent(&mut commands, 2);
         assert_eq!((instructor_note::decode(&frames[0]).unwrap().1, words), ("look".into(), vec!["note: look".into()]));
@@ -364,10 +334,10 @@ mod tests {
             assert_eq!(commands.handle_frame(&other), None);
         }
         let refused = commands.handle_frame(&error("SIM_WIND_DIR", (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT)));
-        assert_eq!(refused.as_deref(), Some("instructor: wind 8 m/s from 270°: rejected, the value is out of range"));
+        assert_eq!(words(refused).as_deref(), Some("instructor: wind 8 m/s from 270°: rejected, the value is out of range"));
         assert_eq!(sent(&mut commands, 10_000), (vec![], vec![]), "the command has ended");
 
-        commands.push(InstructorCommand::Failure { unit: 5.0, words: "Compass".into(), fails: true });
+        commands.push(InstructorCommand::Failure { unit: FailingUnit::Compass, fails: true });
         sent(&mut commands, 10_000);
         commands.handle_frame(&value("SYS_FAILURE_EN", f32::from_bits(1)));
         sent(&mut commands, 10_001);
@@ -423,7 +393,7 @@ mod tests {
         commands.push(InstructorCommand::Practice(PracticeRequest::Rewind { by: SimTime::from_ms(10_000) }));
         sent(&mut commands, 2);
         let refused = commands.handle_frame(&acknowledged(MavCmd::MAV_CMD_USER_2, MavResult::MAV_RESULT_DENIED));
-        assert_eq!(refused.as_deref(), Some("instructor: rewind 10 s: rejected, the vehicle denied this command"));
+        assert_eq!(words(refused).as_deref(), Some("instructor: rewind 10 s: rejected, the vehicle denied this command"));
     }
 
     #[test]

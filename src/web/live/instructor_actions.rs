@@ -1,13 +1,13 @@
 //! Converts the instructor's form fields to commands.
 
-use super::command_queue::InstructorCommand;
+use super::instructor_command::InstructorCommand;
 use super::vehicle_choice::select_vehicle;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::json;
 use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, MAX_TASK, PracticeRequest};
-use spandrel_text::{Language, text};
+use spandrel_text::text;
 use spandrel_training::web::live::{self as pages, FailingUnit};
 
 /// Starts an instructor's action. The result appears later in the stream.
@@ -52,10 +52,8 @@ fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
         "failure" => {
             let unit = FailingUnit::from_key(request.required_field("unit")?);
             let unit = unit.ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown", field = "unit")))?;
-            // The message log is the same for all visitors.
-            let words = unit.name(Language::English);
             let fails = request.required_field("fails")? == "yes";
-            Ok(InstructorCommand::Failure { unit: unit.code(), words, fails })
+            Ok(InstructorCommand::Failure { unit, fails })
         }
         _ => Err(WebError::unknown(language, "act", "note, wind, traffic, practice, failure")),
     }

@@ -1,7 +1,6 @@
 //! The instructor's page for a live flight.
 
 use super::vehicle_choice::select_vehicle;
-use crate::web::lock::lock;
 use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebResponse};
 use crate::web::state::ServerState;
@@ -17,7 +16,7 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
         return Ok(WebResponse::redirect("/live/all"));
     }
     let (number, live) = select_vehicle(state, request.visitor.language, request.query_param("vehicle"))?;
-    let drawings = lock(&live.known.drawings).for_language(request.visitor.language);
+    let drawings = live.known.drawings_in(request.visitor.language);
     let vehicles = state.live.iter().map(|live| live.vehicle.to_string()).collect();
     Ok(WebResponse::page(pages::live(&request.visitor, drawings.as_ref(), &pages::VehicleSelection { vehicles, number })))
 }

@@ -6,6 +6,7 @@ use axum::body::Body;
 use axum::http::{Response, header};
 use axum::response::IntoResponse;
 use axum::response::sse::{Event, KeepAlive, Sse};
+use spandrel_text::Language;
 use spandrel_training::web::access::AccessLevel;
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -13,10 +14,10 @@ use std::sync::Arc;
 /// Number of events between checks of the visitor's access.
 const ACCESS_CHECK_INTERVAL: u32 = 50;
 
-/// Streams the values until the browser disconnects or the visitor loses access.
-pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String>) -> Response<Body> {
+/// Streams the values in a language until the browser disconnects or the visitor loses access.
+pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, (cookie, language): (Option<String>, Language)) -> Response<Body> {
     let moments = live.moments.clone();
-    let events = futures_util::stream::unfold((moments, state, cookie, 0u32), |(mut moments, state, cookie, count)| async move {
+    let events = futures_util::stream::unfold((moments, state, cookie, 0u32), move |(mut moments, state, cookie, count)| async move {
         // The first value is sent immediately.
         if count > 0 {
             moments.changed().await.ok()?;
@@ -24,7 +25,7 @@ pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, cookie: Option<String
         if count % ACCESS_CHECK_INTERVAL == ACCESS_CHECK_INTERVAL - 1 && !still_has_access(&state, cookie.clone()).await {
             return None;
         }
-        let text = moments.borrow_and_update().clone();
+        let text = moments.borrow_and_update().get(language).clone();
         Some((Ok::<Event, Infallible>(Event::default().data(text)), (moments, state, cookie, count.wrapping_add(1))))
     });
     let mut response = Sse::new(events).keep_alive(KeepAlive::default()).into_response();

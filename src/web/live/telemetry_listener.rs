@@ -1,6 +1,7 @@
 //! Listener thread, which subscribes to one vehicle's payload port.
 
-use super::command_queue::{CommandQueue, INSTRUCTOR_COMPONENT, INSTRUCTOR_SYSTEM, InstructorCommand};
+use super::command_queue::{CommandQueue, INSTRUCTOR_COMPONENT, INSTRUCTOR_SYSTEM};
+use super::instructor_command::InstructorCommand;
 use super::{flight_owner, picture};
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
@@ -13,7 +14,7 @@ use spandrel_mavlink::dialect::{MavAutopilot, MavMessage};
 use spandrel_mavlink::station;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
-use spandrel_text::Language;
+use spandrel_text::{Language, Translated};
 use spandrel_training::report::plots::job::{job_plan, job_side, job_south};
 use spandrel_training::terms::scenario_title;
 use spandrel_training::web::live::{DrawingView, JobDrawings};
@@ -67,20 +68,15 @@ pub struct LiveListener {
 #[derive(Debug, Clone, Default)]
 pub struct SharedFlightInfo {
     /// The scenario's drawings.
-    pub drawings: Arc<Mutex<TranslatedDrawings>>,
+    pub drawings: Arc<Mutex<Option<Translated<JobDrawings>>>>,
     /// The current flight's trainee.
     pub trainee: Arc<Mutex<Option<String>>>,
 }
 
-/// Drawings of a job in all languages; empty until they are known.
-#[derive(Debug, Default)]
-pub struct TranslatedDrawings(Vec<(Language, JobDrawings)>);
-
-impl TranslatedDrawings {
-    /// Returns the drawings in a language, or in English if there are none in this language.
-    pub fn for_language(&self, language: Language) -> Option<JobDrawings> {
-        let found = self.0.iter().find(|(own, _)| *own == language).or_else(|| self.0.first());
-        found.map(|(_, drawings)| drawings.clone())
+impl SharedFlightInfo {
+    /// Returns the scenario's drawings in a language; `None` until the scenario is known.
+    pub fn drawings_in(&self, language: Language) -> Option<JobDrawings> {
+        lock(&self.drawings).as_ref().map(|drawings| drawings.get(language).clone())
     }
 }
 
@@ -114,7 +110,7 @@ impl LiveListener {
     }
 
     /// Listens until the server stops.
-    pub fn listen(&mut self, moments: &watch::Sender<String>, commands: &Receiver<InstructorCommand>) {
+    pub fn listen(&mut self, moments: &watch::Sender<Translated<String>>, commands: &Receiver<InstructorCommand>) {
         let clock = Stopwatch::start();
         let (mut heard, mut beat, mut told) = (None, None, None);
         let due = |last: Option<Duration>, every: Duration| last.is_none_or(|last| clock.elapsed() >= last + every);
@@ -136,13 +132,13 @@ impl LiveListener {
             self.find_trainee(lives, clock.elapsed());
             if due(told, UPDATE_INTERVAL) {
                 told = Some(clock.elapsed());
-                moments.send_replace(self.moment(lives).to_string());
+                moments.send_replace(Translated::new(|language| self.moment(lives, language).to_string()));
             }
         }
     }
 
-    fn moment(&self, heard: bool) -> Value {
-        let mut moment = self.flight.to_json(heard);
+    fn moment(&self, heard: bool, language: Language) -> Value {
+        let mut moment = self.flight.to_json(heard, language);
         moment["picture"] = self.paths.picture.as_deref().and_then(picture::version).into();
         moment
     }
@@ -160,8 +156,8 @@ impl LiveListener {
             }
             for frame in Decoder::new().datagram(&bytes) {
                 self.flight.handle_frame(&frame);
-                if let Some(words) = self.commands.handle_frame(&frame) {
-                    self.flight.push_message("warn", words);
+                if let Some(report) = self.commands.handle_frame(&frame) {
+                    self.flight.push_message("warn", |language| report.words(language));
                 }
                 spoke = true;
             }
@@ -172,12 +168,12 @@ impl LiveListener {
     fn send_due_commands(&mut self, now: Duration) {
         let Some(system) = self.flight.system else { return };
         let cast = self.flight.autopilot == Some(MavAutopilot::MAV_AUTOPILOT_ARDUPILOTMEGA);
-        let (frames, words) = self.commands.poll_frames(now, &mut self.encoder, system, cast);
+        let (frames, reports) = self.commands.poll_frames(now, &mut self.encoder, system, cast);
         for frame in frames {
             self.hub.send(self.socket, self.vehicle, &frame);
         }
-        for one in words {
-            self.flight.push_message("info", one);
+        for report in reports {
+            self.flight.push_message("info", |language| report.words(language));
         }
     }
 
@@ -197,7 +193,7 @@ impl LiveListener {
             return;
         };
         let drawings = draw_scenario(&scenario, key);
-        *lock(&self.known.drawings) = drawings;
+        *lock(&self.known.drawings) = Some(drawings);
         self.flight.set_job(key, &scenario);
     }
 
@@ -226,10 +222,9 @@ impl LiveListener {
     }
 }
 
-fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> TranslatedDrawings {
+fn draw_scenario(scenario: &Scenario, key: JobIdentity) -> Translated<JobDrawings> {
     let site = Site::build(scenario, key.seed);
-    let draw = |language| (language, draw_site(scenario, &site, key, language));
-    TranslatedDrawings(Language::ALL.map(draw).into())
+    Translated::new(|language| draw_site(scenario, &site, key, language))
 }
 
 /// Draws a site. The language is that of the title and of the drawings' labels.

@@ -6,12 +6,13 @@ use crate::web::request::WebRequest;
 use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::{Value, json};
+use spandrel_text::Language;
 use spandrel_training::web::tiles::{VehicleTile, tiles_page};
 
 /// Responds with the page.
 pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let tile = |live: &LiveVehicle| {
-        let drawings = lock(&live.known.drawings).for_language(request.visitor.language);
+        let drawings = live.known.drawings_in(request.visitor.language);
         VehicleTile { address: live.vehicle.to_string(), drawings }
     };
     let tiles: Vec<VehicleTile> = state.live.iter().map(tile).collect();
@@ -19,14 +20,14 @@ pub fn page(state: &ServerState, request: &WebRequest) -> HandlerResult {
 }
 
 /// Responds with the current values of all flights. Browsers limit the number of open streams, so the tiles poll.
-pub fn current(state: &ServerState, _: &WebRequest) -> HandlerResult {
-    let vehicles = state.live.iter().map(moment).collect::<Result<Vec<_>, _>>()?;
+pub fn current(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let vehicles = state.live.iter().map(|live| moment(live, request.visitor.language)).collect::<Result<Vec<_>, _>>()?;
     Ok(WebResponse::json(&json!({ "vehicles": vehicles })))
 }
 
 /// Returns a flight's current values, with the trainee and without the message log.
-fn moment(live: &LiveVehicle) -> Result<Value, WebError> {
-    let text = live.moments.borrow().clone();
+fn moment(live: &LiveVehicle, language: Language) -> Result<Value, WebError> {
+    let text = live.moments.borrow().get(language).clone();
     let mut moment: Value = serde_json::from_str(&text).map_err(|error| WebError::Failed(error.to_string()))?;
     if let Some(values) = moment.as_object_mut() {
         values.remove("words");

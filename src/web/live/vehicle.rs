@@ -1,8 +1,9 @@
 //! A vehicle on the live page.
 
-use super::command_queue::InstructorCommand;
+use super::instructor_command::InstructorCommand;
 use super::telemetry_listener::{ListenerPaths, LiveListener, SharedFlightInfo};
 use crate::errors::AppError;
+use spandrel_text::Translated;
 use spandrel_training::web::live_state::LiveFlightState;
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,8 @@ pub struct WatchedVehicle {
 pub struct LiveVehicle {
     pub vehicle: SocketAddr,
     pub picture: Option<PathBuf>,
-    pub moments: watch::Receiver<String>,
+    /// Current values as JSON.
+    pub moments: watch::Receiver<Translated<String>>,
     pub known: SharedFlightInfo,
     pub commands: Sender<InstructorCommand>,
 }
@@ -35,7 +37,8 @@ impl LiveVehicle {
     /// Returns an error if the socket cannot be opened.
     pub fn start(watched: &WatchedVehicle, sessions: &[PathBuf], scenarios: &Path) -> Result<Self, AppError> {
         let WatchedVehicle { vehicle, picture } = watched.clone();
-        let (sender, moments) = watch::channel(LiveFlightState::new().to_json(false).to_string());
+        let state = LiveFlightState::new();
+        let (sender, moments) = watch::channel(Translated::new(|language| state.to_json(false, language).to_string()));
         let (commands, received) = channel();
         let known = SharedFlightInfo::default();
         let places = ListenerPaths { sessions: sessions.to_vec(), scenarios: scenarios.to_path_buf(), picture: picture.clone() };

@@ -55,12 +55,12 @@ impl StickDirection {
     /// Returns the same in fewer words.
     fn short_title(self, language: Language) -> String {
         match self {
-            Self::Forward => text!(language, "keys-short-forward"),
-            Self::Back => text!(language, "keys-short-back"),
-            Self::Left => text!(language, "keys-short-left"),
-            Self::Right => text!(language, "keys-short-right"),
-            Self::Up => text!(language, "keys-short-up"),
-            Self::Down => text!(language, "keys-short-down"),
+            Self::Forward => text!(language, "terms-direction-forward"),
+            Self::Back => text!(language, "terms-direction-back"),
+            Self::Left => text!(language, "terms-direction-left"),
+            Self::Right => text!(language, "terms-direction-right"),
+            Self::Up => text!(language, "terms-direction-up"),
+            Self::Down => text!(language, "terms-direction-down"),
             Self::TurnLeft => text!(language, "keys-short-turn-left"),
             Self::TurnRight => text!(language, "keys-short-turn-right"),
         }

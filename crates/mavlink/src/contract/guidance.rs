@@ -34,7 +34,8 @@ pub enum GuidanceStep {
 }
 
 impl GuidanceStep {
-    const ALL: [Self; 7] =
+    /// All steps, in the order of their codes.
+    pub const ALL: [Self; 7] =
         [Self::TakeOff, Self::FlyToTask, Self::FollowPath, Self::FlyHome, Self::Land, Self::Over, Self::HoldPosition];
 
     fn code(self) -> f32 {

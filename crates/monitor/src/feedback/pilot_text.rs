@@ -32,3 +32,51 @@ impl Cooldown {
         Some(PilotText { cue, text: message() })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use spandrel_mavlink::contract::cue;
+    use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+    use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
+    use spandrel_text::Language;
+    use spandrel_text::monitor_texts::{Warning, message_words};
+
+    /// Panics unless German and Spanish have a text of their own, and the English one is as sent.
+    fn assert_translated(sent: &str) {
+        let [english, german, spanish] = Language::ALL.map(|language| message_words(sent, language).unwrap_or_default());
+        assert_eq!(english, sent);
+        assert!(german != sent && spanish != sent && german != spanish, "{sent}: {german}, {spanish}");
+        assert!(!german.is_empty() && !spanish.is_empty(), "{sent}");
+    }
+
+    #[test]
+    fn exact_every_text_of_the_contract_is_translated() {
+        for (bit, _) in cue::ALL {
+            let label = cue::label(bit).unwrap();
+            let warning = Warning::of_text(label, Language::English, |name| name).unwrap();
+            assert_eq!((warning.name.as_str(), warning.words.as_str()), (label, label));
+            assert_translated(label);
+        }
+        for (task, target) in LessonTask::ALL.into_iter().flat_map(|task| [(task, 0.5), (task, -0.5), (task, 10.0)]) {
+            let status =
+                LessonStatus { task, step: 3, steps: 11, progress: 0.5, way: None, radius_m: None, target: Some(target) };
+            assert_translated(&status.words());
+        }
+        let way = Some(WayTo { distance_m: 140.0, bearing_rad: -0.5, up_m: 12.0 });
+        for (step, way) in GuidanceStep::ALL.into_iter().flat_map(|step| [(step, None), (step, way)]) {
+            let guidance = Guidance {
+                step,
+                task: Some(2),
+                way,
+                progress: None,
+                tasks_done: 1,
+                tasks: 4,
+                deviation: None,
+                stand_off: None,
+                flown_s: 75.0,
+                needed_s: 480.0,
+            };
+            assert_translated(&guidance.words());
+        }
+    }
+}

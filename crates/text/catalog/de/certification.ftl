@@ -43,18 +43,10 @@ certification-unmet-contact-speed = Berührung mit { $speed }, höchstens { $lim
 certification-unmet-score = { $score } { $value }, { $needed } nötig
 certification-unmet-no-evidence = kein Nachweis für: { $score }
 
-certification-picture-of-defect = Schaden { $defect }: { $reason }
 certification-picture-resolution = Auflösung { $value } mm/px, höchstens { $limit } mm/px
 certification-picture-motion-blur = Bewegungsunschärfe { $value } px, höchstens { $limit } px
 certification-picture-incidence = Aufnahmewinkel { $value }°, höchstens { $limit }°
 certification-picture-too-fine = zu fein für diese Kamera
-certification-picture-not-central = nicht in den mittleren 80% des Bildes
-certification-picture-hidden = verdeckt
-certification-picture-too-oblique = zu schräg: { $value }°, höchstens { $limit }°
-certification-picture-too-small = zu klein: { $value } px, mindestens { $limit } px
-certification-picture-line-too-thin = Linie zu dünn: { $value } px, mindestens { $limit } px
-certification-picture-dark-lamp-on = zu dunkel: Scheinwerfer an, { $value } lx, nötig { $limit } lx
-certification-picture-dark-lamp-off = zu dunkel: Scheinwerfer aus, { $value } lx, nötig { $limit } lx
 
 certification-job-tasks = jede Aufgabe auf mindestens { $share }% ihrer Bahn geflogen
 certification-job-landing = am Landeplatz mit mindestens { $battery }% Akku gelandet, keine Person und kein Fahrzeug getroffen

@@ -170,6 +170,19 @@ editor-required = Erforderlich.
 editor-default = Vorgabe: { $value }.
 editor-with-unit = { $label } ({ $unit })
 
+# Allowed values and defaults of keys. The English ones are those in scenarios/README.md.
+editor-allowed-range = { $low } bis { $high }
+editor-allowed-whole-number = ganze Zahl { $low } bis { $high }
+editor-allowed-numbers = { $count } Zahlen, je { $low } bis { $high }
+editor-allowed-positions = Liste von [Ost, Nord, Höhe], je { $low } bis { $high }
+editor-allowed-whole-numbers = Liste ganzer Zahlen, je { $low } bis { $high }
+editor-allowed-true-or-false = true oder false
+editor-default-first-form = die erste Form
+editor-default-standard-level = die Standardstufe
+editor-default-by-level = je nach Stufe: { $values }
+editor-default-by-kind = je nach Art: { $values }
+editor-default-true-for = true bei { $first } und { $second }
+
 editor-key-format = Format
 editor-key-name = Name
 editor-key-title = Titel

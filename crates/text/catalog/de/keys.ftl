@@ -40,12 +40,6 @@ keys-sound = Ton ein oder aus
 
 ## The same in fewer words, beside the sticks on the page of the controller
 
-keys-short-forward = vor
-keys-short-back = zurück
-keys-short-left = links
-keys-short-right = rechts
-keys-short-up = hoch
-keys-short-down = runter
 keys-short-turn-left = links drehen
 keys-short-turn-right = rechts drehen
 keys-short-lamp = Scheinwerfer

@@ -89,10 +89,42 @@ terms-score-efficiency = Effizienz
 terms-score-safety = Sicherheit
 terms-score-accuracy = Genauigkeit
 
-terms-contact-none = keines
+terms-contact-none = keine
 terms-contact-bridge = Brücke
-terms-contact-terrain = Gelände
+terms-contact-ground = Boden
 terms-contact-water = Wasser
 terms-contact-vehicle = Fahrzeug
 terms-contact-person = Person
 terms-contact-other = Sonstiges
+
+# Why a flight ended. Pages and the window put them at the beginning of a sentence or after a comma.
+terms-end-landed = gelandet
+terms-end-battery = Akku leer
+terms-end-time-limit = Zeitlimit erreicht
+terms-end-person = Person getroffen
+terms-end-vehicle = Fahrzeug getroffen
+terms-end-crash = Kollision
+terms-end-abort = vorzeitig beendet
+terms-end-restart = Simulator neu gestartet
+
+# Purpose of a flight.
+terms-purpose-practice = Übungsflug
+terms-purpose-assessment = Bewertungsflug
+
+# Directions as seen from the aircraft.
+terms-direction-forward = vor
+terms-direction-back = zurück
+terms-direction-right = rechts
+terms-direction-left = links
+terms-direction-up = hoch
+terms-direction-down = runter
+
+# Why a picture does not show a defect. The monitor sends and stores the English texts.
+terms-picture-of-defect = Schaden { $defect }: { $reason }
+terms-picture-not-central = nicht in den mittleren 80% des Bildes
+terms-picture-hidden = verdeckt
+terms-picture-too-oblique = zu schräg: { $value }°, höchstens { $limit }°
+terms-picture-too-small = zu klein: { $value } px, mindestens { $limit } px
+terms-picture-line-too-thin = Linie zu dünn: { $value } px, mindestens { $limit } px
+terms-picture-dark-lamp-on = zu dunkel: Scheinwerfer an, { $value } lx, nötig { $limit } lx
+terms-picture-dark-lamp-off = zu dunkel: Scheinwerfer aus, { $value } lx, nötig { $limit } lx

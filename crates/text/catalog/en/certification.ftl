@@ -50,18 +50,10 @@ certification-unmet-score = { $score } { $value }, { $needed } needed
 certification-unmet-no-evidence = no evidence for { $score }
 
 # Reasons why a picture does not count. The English ones are stored, too.
-certification-picture-of-defect = defect { $defect }: { $reason }
 certification-picture-resolution = resolution { $value } mm/px, limit { $limit } mm/px
 certification-picture-motion-blur = motion blur { $value } px, limit { $limit } px
 certification-picture-incidence = incidence { $value } deg, limit { $limit } deg
 certification-picture-too-fine = too fine for this camera
-certification-picture-not-central = not in the central 80% of the image
-certification-picture-hidden = hidden behind something
-certification-picture-too-oblique = too oblique: { $value } deg, limit { $limit } deg
-certification-picture-too-small = too small: { $value } px, at least { $limit } px
-certification-picture-line-too-thin = line too thin: { $value } px, at least { $limit } px
-certification-picture-dark-lamp-on = too dark: lamp on, { $value } lx of { $limit } lx needed
-certification-picture-dark-lamp-off = too dark: lamp off, { $value } lx of { $limit } lx needed
 
 # Requirements of a job, in its briefing.
 certification-job-tasks = every task flown over at least { $share }% of its path

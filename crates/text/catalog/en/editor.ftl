@@ -186,6 +186,19 @@ editor-required = Required.
 editor-default = Default: { $value }.
 editor-with-unit = { $label } ({ $unit })
 
+# Allowed values and defaults of keys. The English ones are those in scenarios/README.md.
+editor-allowed-range = { $low } to { $high }
+editor-allowed-whole-number = whole number { $low } to { $high }
+editor-allowed-numbers = { $count } numbers, each { $low } to { $high }
+editor-allowed-positions = list of [east, north, up], each { $low } to { $high }
+editor-allowed-whole-numbers = list of whole numbers, each { $low } to { $high }
+editor-allowed-true-or-false = true or false
+editor-default-first-form = the first form
+editor-default-standard-level = the standard level
+editor-default-by-level = by level: { $values }
+editor-default-by-kind = by kind: { $values }
+editor-default-true-for = true for { $first } and { $second }
+
 ## Labels of keys; the units are added by the code
 
 editor-key-format = Format

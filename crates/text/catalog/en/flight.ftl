@@ -95,13 +95,6 @@ flight-how-done = You are ready for the first drill.
 flight-remark-motors-off = the motors are off: arm them again
 flight-remark-left-ring = you left the ring: stay { $time }
 flight-remark-no-defect = no defect in the picture
-flight-remark-not-central = not in the central 80% of the image
-flight-remark-hidden = hidden behind something
-flight-remark-oblique = too oblique: { $angle } deg, limit { $limit } deg
-flight-remark-small = too small: { $size } px, at least { $limit } px
-flight-remark-thin = line too thin: { $width } px, at least { $limit } px
-flight-remark-dark-lamp-on = too dark: lamp on, { $light } lx of { $limit } lx needed
-flight-remark-dark-lamp-off = too dark: lamp off, { $light } lx of { $limit } lx needed
 
 ## Warnings
 
@@ -121,29 +114,16 @@ flight-warning-stand-off-large = { $name } too large: { $distance }, recommended
 flight-warning-off-path = { $name } { $distance }: { $direction }
 flight-warning-battery = { $name } { $level }
 # Directions back to the path.
-flight-direction-forward = forward
-flight-direction-back = back
-flight-direction-right = right
-flight-direction-left = left
-flight-direction-up = up
-flight-direction-down = down
 flight-directions-two = { $first } and { $second }
 flight-directions-three = { $first }, { $second } and { $third }
 # What the drone hit.
-flight-object-bridge = bridge
 flight-object-member = bridge member { $name }
 flight-object-pad = pad
-flight-object-ground = ground
 flight-object-inspector = inspector
 flight-object-crew-truck = crew truck
 flight-object-car = car { $number }
 flight-object-truck = truck { $number }
 flight-object-pedestrian = pedestrian { $number }
-flight-object-terrain = terrain
-flight-object-water = water
-flight-object-vehicle = vehicle
-flight-object-person = person
-flight-object-other = other
 # Units in spoken warnings.
 flight-spoken-meters = meters
 flight-spoken-feet = feet

@@ -40,12 +40,6 @@ keys-sound = sound on or off
 
 ## The same in fewer words, beside the sticks on the page of the controller
 
-keys-short-forward = forward
-keys-short-back = back
-keys-short-left = left
-keys-short-right = right
-keys-short-up = up
-keys-short-down = down
 keys-short-turn-left = turn left
 keys-short-turn-right = turn right
 keys-short-lamp = lamp

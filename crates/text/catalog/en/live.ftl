@@ -60,35 +60,32 @@ live-state-silent = no telemetry
 live-off-path = off path
 live-traffic-open = open
 live-traffic-closed = closed
-live-contact-none = none
-live-contact-bridge = bridge
-live-contact-terrain = terrain
-live-contact-water = water
-live-contact-vehicle = vehicle
-live-contact-person = person
-live-contact-other = other
+live-message-picture = picture { $number }
 live-failed-status = Failed: HTTP status { $status }
 live-failed-login = Failed: please log in
 live-failed-silent = Failed: no response from the server
 
-## Next step
-
-live-step-of-task = Task { $task }: { $step }
-live-step-take-off = Take off
-live-step-fly-to-path = fly to the path
-live-step-follow-path = follow the path
-live-step-fly-home = Fly home
-live-step-fly-home-way = Fly home: { $way }
-live-step-land = Land on the pad
-live-step-over = The session is over
-live-step-hold = hold position
-live-step-first-way = { $first }: { $way }
-live-way-ahead = { $distance } m, ahead
-live-way-behind = { $distance } m, behind you
-live-way-left = { $distance } m, { $angle } deg left
-live-way-right = { $distance } m, { $angle } deg right
-live-way-up = { $way }, { $height } m up
-live-way-down = { $way }, { $height } m down
+# Commands of the instructor in the message log, and why the vehicle rejects them.
+live-report-note = note: { $note }
+live-report-wind = instructor: wind { $speed } m/s from { $from }°
+live-report-bridges-open = instructor: the bridges are open to traffic
+live-report-bridges-closed = instructor: the bridges are closed to traffic
+live-report-freeze = instructor: freeze
+live-report-continue = instructor: continue
+live-report-rewind = instructor: rewind { $seconds } s
+live-report-move = instructor: move to task { $task }
+live-report-fails = instructor: { $unit } fails
+live-report-restored = instructor: { $unit } restored
+live-report-no-response = { $command }: no response
+live-report-rejected = { $command }: rejected, { $reason }
+live-rejected-not-now = not now
+live-rejected-unsupported = the vehicle does not support this command
+live-rejected-denied = the vehicle denied this command
+live-rejected-failed = the vehicle reported a failure
+live-rejected-no-such-parameter = this vehicle has no such parameter
+live-rejected-out-of-range = the value is out of range
+live-rejected-read-only = the parameter is read-only
+live-rejected-invalid-value = the vehicle rejected the value
 
 ## Own flight
 

@@ -21,14 +21,6 @@ sessions-certified = Certified
 sessions-scenario = Scenario
 sessions-purpose = Purpose
 sessions-end = End
-sessions-end-landed = landed
-sessions-end-battery = battery empty
-sessions-end-time-limit = time limit reached
-sessions-end-person = hit a person
-sessions-end-vehicle = hit a vehicle
-sessions-end-crash = crashed
-sessions-end-abort = ended early
-sessions-end-restart = simulator restarted
 
 ## A session's page
 
@@ -68,10 +60,6 @@ sessions-questions-view = View the questionnaire (all { $all } answered)
 sessions-frames = Frames (CSV)
 sessions-telemetry = Telemetry (tlog)
 sessions-no-folder = The session folder is not on this machine, so the report, questionnaire and downloads are unavailable.
-sessions-conformity = Conformity
-sessions-efficiency = Efficiency
-sessions-safety = Safety
-sessions-accuracy = Accuracy
 sessions-partial = The scores below cover only the part that was flown.
 sessions-radar-caption = The four scores, 0 at the center, 100 at the edge
 sessions-radar = Radar chart of the four scores

@@ -97,8 +97,40 @@ terms-score-accuracy = accuracy
 # Objects hit.
 terms-contact-none = none
 terms-contact-bridge = bridge
-terms-contact-terrain = terrain
+terms-contact-ground = ground
 terms-contact-water = water
 terms-contact-vehicle = vehicle
 terms-contact-person = person
 terms-contact-other = other
+
+# Why a flight ended. Pages and the window put them at the beginning of a sentence or after a comma.
+terms-end-landed = landed
+terms-end-battery = battery empty
+terms-end-time-limit = time limit reached
+terms-end-person = hit a person
+terms-end-vehicle = hit a vehicle
+terms-end-crash = crashed
+terms-end-abort = ended early
+terms-end-restart = simulator restarted
+
+# Purpose of a flight.
+terms-purpose-practice = practice
+terms-purpose-assessment = assessment
+
+# Directions as seen from the aircraft.
+terms-direction-forward = forward
+terms-direction-back = back
+terms-direction-right = right
+terms-direction-left = left
+terms-direction-up = up
+terms-direction-down = down
+
+# Why a picture does not show a defect. The monitor sends and stores the English texts.
+terms-picture-of-defect = defect { $defect }: { $reason }
+terms-picture-not-central = not in the central 80% of the image
+terms-picture-hidden = hidden behind something
+terms-picture-too-oblique = too oblique: { $value } deg, limit { $limit } deg
+terms-picture-too-small = too small: { $value } px, at least { $limit } px
+terms-picture-line-too-thin = line too thin: { $value } px, at least { $limit } px
+terms-picture-dark-lamp-on = too dark: lamp on, { $value } lx of { $limit } lx needed
+terms-picture-dark-lamp-off = too dark: lamp off, { $value } lx of { $limit } lx needed

@@ -14,8 +14,6 @@ window-start-title = Spandrel: inspect a bridge with a drone
 window-start-trainee = Trainee
 window-start-job = Job
 window-start-purpose = Purpose
-window-start-practice = practice
-window-start-assessment = assessment
 window-start-check-controller = Next: check controller
 window-start-watch-expert = Watch an expert fly this job
 window-start-tutorial = Read the tutorial
@@ -127,10 +125,6 @@ window-result-lesson-steps = { $done } of { $steps } steps of the lesson done
 window-result-title = Flight ended
 window-result-part = { $why }. The scores cover the part you flew.
 window-result-advice = Do better next time
-window-result-conformity = conformity
-window-result-efficiency = efficiency
-window-result-safety = safety
-window-result-accuracy = accuracy
 window-result-overall = overall  { $sum } of { $most }
 window-result-no-scores = no scores
 window-result-not-applicable = not applicable
@@ -146,14 +140,6 @@ window-result-fly-again = Fly again
 window-result-choose = Choose another job
 # Why the flight ended.
 window-result-after = { $reason } after { $minutes } min { $seconds } s of flight
-window-result-reason-landed = Landed
-window-result-reason-battery = Battery empty
-window-result-reason-time-limit = Time limit reached
-window-result-reason-person = Hit a person
-window-result-reason-vehicle = Hit a vehicle
-window-result-reason-crash = Crashed
-window-result-reason-abort = Ended early
-window-result-reason-restart = Simulator restarted
 window-result-not-scored = The session was not scored. The recorded data is in { $folder }
 
 ## Defect school

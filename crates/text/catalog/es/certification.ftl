@@ -43,18 +43,10 @@ certification-unmet-contact-speed = contacto a { $speed }, se permite como máxi
 certification-unmet-score = { $score } { $value }, se requiere { $needed }
 certification-unmet-no-evidence = sin datos para: { $score }
 
-certification-picture-of-defect = defecto { $defect }: { $reason }
 certification-picture-resolution = resolución { $value } mm/px, límite { $limit } mm/px
 certification-picture-motion-blur = desenfoque por movimiento { $value } px, límite { $limit } px
 certification-picture-incidence = incidencia { $value }°, límite { $limit }°
 certification-picture-too-fine = demasiado fino para esta cámara
-certification-picture-not-central = fuera del 80% central de la imagen
-certification-picture-hidden = oculto detrás de algo
-certification-picture-too-oblique = demasiado oblicuo: { $value }°, límite { $limit }°
-certification-picture-too-small = demasiado pequeño: { $value } px, al menos { $limit } px
-certification-picture-line-too-thin = línea demasiado fina: { $value } px, al menos { $limit } px
-certification-picture-dark-lamp-on = demasiado oscuro: foco encendido, { $value } lx de { $limit } lx necesarios
-certification-picture-dark-lamp-off = demasiado oscuro: foco apagado, { $value } lx de { $limit } lx necesarios
 
 certification-job-tasks = cada tarea recorrida en al menos { $share }% de su trayectoria
 certification-job-landing = aterrizaje en la base con al menos { $battery }% de batería, sin colisiones con personas ni vehículos

@@ -170,6 +170,19 @@ editor-required = Obligatorio.
 editor-default = Predeterminado: { $value }.
 editor-with-unit = { $label } ({ $unit })
 
+# Allowed values and defaults of keys. The English ones are those in scenarios/README.md.
+editor-allowed-range = de { $low } a { $high }
+editor-allowed-whole-number = número entero de { $low } a { $high }
+editor-allowed-numbers = { $count } números, cada uno de { $low } a { $high }
+editor-allowed-positions = lista de [este, norte, altura], cada valor de { $low } a { $high }
+editor-allowed-whole-numbers = lista de números enteros, cada uno de { $low } a { $high }
+editor-allowed-true-or-false = true o false
+editor-default-first-form = la primera forma
+editor-default-standard-level = el nivel estándar
+editor-default-by-level = según el nivel: { $values }
+editor-default-by-kind = según el tipo: { $values }
+editor-default-true-for = true con { $first } y con { $second }
+
 editor-key-format = Formato
 editor-key-name = Nombre
 editor-key-title = Título

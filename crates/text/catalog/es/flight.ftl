@@ -89,13 +89,6 @@ flight-how-done = Ya puede volar el primer ejercicio.
 flight-remark-motors-off = los motores están apagados: ármelos de nuevo
 flight-remark-left-ring = salió del anillo: permanezca { $time }
 flight-remark-no-defect = no hay ningún defecto en la foto
-flight-remark-not-central = fuera del 80% central de la imagen
-flight-remark-hidden = oculto detrás de algo
-flight-remark-oblique = demasiado oblicuo: { $angle }°, límite { $limit }°
-flight-remark-small = demasiado pequeño: { $size } px, mínimo { $limit } px
-flight-remark-thin = línea muy fina: { $width } px, mínimo { $limit } px
-flight-remark-dark-lamp-on = muy oscuro: foco encendido, { $light } lx de { $limit } lx
-flight-remark-dark-lamp-off = muy oscuro: foco apagado, { $light } lx de { $limit } lx
 
 ## Warnings
 
@@ -112,31 +105,18 @@ flight-warning-stand-off-small = { $name } muy corta: { $distance }, recomendada
 flight-warning-stand-off-large = { $name } muy larga: { $distance }, recomendada { $recommended }
 flight-warning-off-path = { $name } { $distance }: { $direction }
 flight-warning-battery = { $name } { $level }
-flight-direction-forward = adelante
-flight-direction-back = atrás
-flight-direction-right = derecha
-flight-direction-left = izquierda
-flight-direction-up = arriba
-flight-direction-down = abajo
 flight-directions-two = { $first } { $second ->
         [izquierda] e
        *[other] y
     } { $second }
 flight-directions-three = { $first }, { $second } y { $third }
-flight-object-bridge = puente
 flight-object-member = elemento { $name }
 flight-object-pad = plataforma
-flight-object-ground = suelo
 flight-object-inspector = inspector
 flight-object-crew-truck = camioneta
 flight-object-car = auto { $number }
 flight-object-truck = camión { $number }
 flight-object-pedestrian = peatón { $number }
-flight-object-terrain = terreno
-flight-object-water = agua
-flight-object-vehicle = vehículo
-flight-object-person = persona
-flight-object-other = otro
 flight-spoken-meters = metros
 flight-spoken-feet = pies
 flight-spoken-miles-per-hour = millas por hora

@@ -40,12 +40,6 @@ keys-sound = sonido sí/no
 
 ## The same in fewer words, beside the sticks on the page of the controller
 
-keys-short-forward = adelante
-keys-short-back = atrás
-keys-short-left = izquierda
-keys-short-right = derecha
-keys-short-up = subir
-keys-short-down = bajar
 keys-short-turn-left = girar izq.
 keys-short-turn-right = girar der.
 keys-short-lamp = foco

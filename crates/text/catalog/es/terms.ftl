@@ -91,8 +91,40 @@ terms-score-accuracy = exactitud
 
 terms-contact-none = ninguno
 terms-contact-bridge = puente
-terms-contact-terrain = terreno
+terms-contact-ground = suelo
 terms-contact-water = agua
 terms-contact-vehicle = vehículo
 terms-contact-person = persona
 terms-contact-other = otro
+
+# Why a flight ended. Pages and the window put them at the beginning of a sentence or after a comma.
+terms-end-landed = aterrizó
+terms-end-battery = batería agotada
+terms-end-time-limit = límite de tiempo alcanzado
+terms-end-person = chocó con una persona
+terms-end-vehicle = chocó con un vehículo
+terms-end-crash = se estrelló
+terms-end-abort = terminó antes de tiempo
+terms-end-restart = el simulador se reinició
+
+# Purpose of a flight.
+terms-purpose-practice = práctica
+terms-purpose-assessment = evaluación
+
+# Directions as seen from the aircraft.
+terms-direction-forward = adelante
+terms-direction-back = atrás
+terms-direction-right = derecha
+terms-direction-left = izquierda
+terms-direction-up = arriba
+terms-direction-down = abajo
+
+# Why a picture does not show a defect. The monitor sends and stores the English texts.
+terms-picture-of-defect = defecto { $defect }: { $reason }
+terms-picture-not-central = fuera del 80% central de la imagen
+terms-picture-hidden = oculto detrás de algo
+terms-picture-too-oblique = demasiado oblicuo: { $value }°, límite { $limit }°
+terms-picture-too-small = demasiado pequeño: { $value } px, al menos { $limit } px
+terms-picture-line-too-thin = línea demasiado fina: { $value } px, al menos { $limit } px
+terms-picture-dark-lamp-on = demasiado oscuro: foco encendido, { $value } lx de { $limit } lx necesarios
+terms-picture-dark-lamp-off = demasiado oscuro: foco apagado, { $value } lx de { $limit } lx necesarios

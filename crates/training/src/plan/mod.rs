@@ -5,6 +5,7 @@ mod causes;
 mod changes;
 mod default_reasons;
 mod finding;
+mod level_settings;
 mod mastery;
 mod measure;
 mod rules;
@@ -14,6 +15,8 @@ mod wording;
 pub(crate) use finding::{BATTERY_RESERVE_PCT, MIN_SEVERE_CONDITION_STATE};
 
 pub use changes::{ChangedMeasure, MeasureChange, SessionChanges};
+pub use default_reasons::rule_title;
+pub use level_settings::level_settings;
 pub use mastery::{DrillProgress, meets_criterion};
 pub use measure::{MEASURES, MeasureUnit, RuleMeasure, SessionMeasure, TaskMeasure};
 pub use rules::{DEFAULT_RULES, DrillCriterion, PlanRule, PlanRules, StaircaseRule, read_rules};

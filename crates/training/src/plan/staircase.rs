@@ -1,5 +1,6 @@
 //! Difficulty level of a drill's next session: a weighted up-down staircase (Kaernbach 1991).
 
+use super::level_settings::level_settings;
 use super::rules::StaircaseRule;
 use serde::Serialize;
 use spandrel_model::scenario::Difficulty;
@@ -92,7 +93,7 @@ fn describe(difficulty: &Difficulty, level: u8, reason: String, language: Langua
         "plan-level",
         level = level.to_string(),
         levels = levels.to_string(),
-        settings = settings.as_str(),
+        settings = level_settings(&settings, language),
         reason = reason
     );
     LevelAdvice { level, levels, standard: difficulty.standard, settings, words }

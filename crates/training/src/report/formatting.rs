@@ -2,9 +2,7 @@
 
 pub use crate::time_text::{clock, duration, parse_clock};
 
-use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::modes::ControlSource;
-use spandrel_monitor::session::EndReason;
 use spandrel_text::{Language, text};
 
 /// Formats a number with `digits` decimal places. Returns a dash if it is not finite.
@@ -16,35 +14,6 @@ pub fn number(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     // Values that round to zero are shown without a sign.
     if text.starts_with('-') && text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.')) { text[1..].to_owned() } else { text }
-}
-
-/// Returns the display name of an end reason.
-#[must_use]
-pub fn end_reason_label(reason: EndReason, language: Language) -> String {
-    match reason {
-        EndReason::Landed => text!(language, "report-end-landed"),
-        EndReason::Battery => text!(language, "report-end-battery"),
-        EndReason::TimeLimit => text!(language, "report-end-time-limit"),
-        EndReason::Person => text!(language, "report-end-person"),
-        EndReason::Vehicle => text!(language, "report-end-vehicle"),
-        EndReason::Crash => text!(language, "report-end-crash"),
-        EndReason::Abort => text!(language, "report-end-abort"),
-        EndReason::Restart => text!(language, "report-end-restart"),
-    }
-}
-
-/// Returns the display name of a contact kind.
-#[must_use]
-pub fn contact_label(with: ContactKind, language: Language) -> String {
-    match with {
-        ContactKind::None => text!(language, "report-contact-none"),
-        ContactKind::Bridge => text!(language, "report-contact-bridge"),
-        ContactKind::Terrain => text!(language, "report-contact-ground"),
-        ContactKind::Water => text!(language, "report-contact-water"),
-        ContactKind::Vehicle => text!(language, "report-contact-vehicle"),
-        ContactKind::Person => text!(language, "report-contact-person"),
-        ContactKind::Other => text!(language, "report-contact-other"),
-    }
 }
 
 /// Returns the display name of a control source.

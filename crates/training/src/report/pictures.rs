@@ -97,8 +97,8 @@ impl VerdictReason {
             Self::First(ids) => text!(language, "report-reason-first", defects = list(ids)),
             Self::Again(ids) => text!(language, "report-reason-again", defects = list(ids)),
             Self::Failing(view) => {
-                let reasons = failed_conditions(view, language).join("; ");
-                text!(language, "report-reason-failing", defect = view.defect_id, reasons = reasons)
+                let reason = failed_conditions(view, language).join("; ");
+                text!(language, "terms-picture-of-defect", defect = view.defect_id, reason = reason)
             }
             Self::NoDefect(None) => text!(language, "report-reason-none"),
             Self::NoDefect(Some(id)) => text!(language, "report-reason-occluded", defect = *id),
@@ -110,24 +110,24 @@ impl VerdictReason {
 #[must_use]
 pub fn failed_conditions(view: &DefectView, language: Language) -> Vec<String> {
     let words = [
-        text!(language, "report-reason-not-central"),
-        text!(language, "report-reason-hidden"),
+        text!(language, "terms-picture-not-central"),
+        text!(language, "terms-picture-hidden"),
         text!(
             language,
-            "report-reason-oblique",
-            angle = format_with_limit(view.incidence_rad.to_degrees(), MAX_INCIDENCE_RAD.to_degrees(), 0),
+            "terms-picture-too-oblique",
+            value = format_with_limit(view.incidence_rad.to_degrees(), MAX_INCIDENCE_RAD.to_degrees(), 0),
             limit = format_limit(MAX_INCIDENCE_RAD.to_degrees())
         ),
         text!(
             language,
-            "report-reason-small",
-            extent = format_with_limit(view.extent_px, MIN_EXTENT_PX, 1),
+            "terms-picture-too-small",
+            value = format_with_limit(view.extent_px, MIN_EXTENT_PX, 1),
             limit = format_limit(MIN_EXTENT_PX)
         ),
         text!(
             language,
-            "report-reason-thin",
-            width = format_with_limit(view.width_px, MIN_LINE_WIDTH_PX, 2),
+            "terms-picture-line-too-thin",
+            value = format_with_limit(view.width_px, MIN_LINE_WIDTH_PX, 2),
             limit = format_limit(MIN_LINE_WIDTH_PX)
         ),
         too_dark(view, language),
@@ -139,11 +139,11 @@ fn too_dark(view: &DefectView, language: Language) -> String {
     // The required illuminance is displayed as an integer unless the measured value is between the rounded and the exact limit.
     let whole = view.required_illuminance_lux.round();
     let required_lux = if view.illuminance_lux < whole { whole } else { view.required_illuminance_lux };
-    let (illuminance, limit) = (format_with_limit(view.illuminance_lux, required_lux, 0), format_limit(required_lux));
+    let (value, limit) = (format_with_limit(view.illuminance_lux, required_lux, 0), format_limit(required_lux));
     if view.lamp_on {
-        text!(language, "report-reason-dark-lamp-on", illuminance = illuminance, limit = limit)
+        text!(language, "terms-picture-dark-lamp-on", value = value, limit = limit)
     } else {
-        text!(language, "report-reason-dark-lamp-off", illuminance = illuminance, limit = limit)
+        text!(language, "terms-picture-dark-lamp-off", value = value, limit = limit)
     }
 }
 

@@ -4,10 +4,10 @@ use super::card::{Card, Subject};
 use super::gallery::SchoolPicture;
 use super::record::SchoolRecord;
 use crate::terms::{defect_title, element_title};
-use crate::words::capitalized;
 use spandrel_model::defect_codes;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::PlacedDefect;
+use spandrel_text::terms::capitalized;
 use spandrel_text::{Language, text};
 use std::collections::VecDeque;
 

@@ -3,6 +3,7 @@
 use super::access::Visitor;
 use super::assets;
 use super::layout::{ELEMENT, page_with_script, script_texts, section, token, with_element};
+use crate::terms::contact_title;
 use maud::{Markup, PreEscaped, html};
 use spandrel_mavlink::contract::practice::MAX_TASK;
 use spandrel_text::{Language, text};
@@ -51,6 +52,15 @@ impl FailingUnit {
             Self::Compass => text!(language, "live-unit-compass"),
             Self::Barometer => text!(language, "live-unit-barometer"),
             Self::Battery => text!(language, "live-unit-battery"),
+        }
+    }
+
+    /// Returns the unit's name within a sentence: in German, nouns are capitalized.
+    #[must_use]
+    pub fn name_in_sentence(self, language: Language) -> String {
+        match language {
+            Language::German => self.name(language),
+            Language::English | Language::Spanish | Language::Pseudo => self.name(language).to_lowercase(),
         }
     }
 
@@ -195,13 +205,13 @@ pub(super) fn texts(language: Language) -> String {
         ("off_path", text!(language, "live-off-path")),
         ("traffic_open", text!(language, "live-traffic-open")),
         ("traffic_closed", text!(language, "live-traffic-closed")),
-        ("contact_none", text!(language, "live-contact-none")),
-        ("contact_bridge", text!(language, "live-contact-bridge")),
-        ("contact_terrain", text!(language, "live-contact-terrain")),
-        ("contact_water", text!(language, "live-contact-water")),
-        ("contact_vehicle", text!(language, "live-contact-vehicle")),
-        ("contact_person", text!(language, "live-contact-person")),
-        ("contact_other", text!(language, "live-contact-other")),
+        ("contact_none", contact_title("none", language)),
+        ("contact_bridge", contact_title("bridge", language)),
+        ("contact_terrain", contact_title("terrain", language)),
+        ("contact_water", contact_title("water", language)),
+        ("contact_vehicle", contact_title("vehicle", language)),
+        ("contact_person", contact_title("person", language)),
+        ("contact_other", contact_title("other", language)),
         ("not_connected", text!(language, "live-not-connected")),
         ("failed_status", text!(language, "live-failed-status", status = "{status}")),
         ("failed_login", text!(language, "live-failed-login")),

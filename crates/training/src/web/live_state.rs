@@ -1,7 +1,7 @@
 //! State of a flight in progress for the instructor's live page: processes telemetry and returns a JSON snapshot.
 //! Performs no I/O. Uses only data available to every subscriber of the payload port.
 
-use super::live_steps::step_texts;
+use crate::terms::task_title;
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -17,6 +17,8 @@ use spandrel_model::scenario::Scenario;
 use spandrel_model::site::bridge_closures::BridgeClosures;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::measures::on_path::ReferencePaths;
+use spandrel_text::monitor_texts::{Warning, message_words, way_words};
+use spandrel_text::{Language, Translated, text};
 use std::collections::VecDeque;
 
 /// Placeholder origin for decoding before the job is known. Positions decoded with it are never displayed.
@@ -38,10 +40,41 @@ pub struct JobIdentity {
 #[derive(Debug)]
 struct TrackedJob {
     key: JobIdentity,
+    /// Machine-readable name of the job.
+    scenario: String,
     plane: LocalPlane,
     paths: ReferencePaths,
     /// Task numbers and names.
     tasks: Vec<(u32, String)>,
+}
+
+/// Words of a message with their language: texts of the vehicle itself are in English.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LogWords {
+    /// Language of the words.
+    pub language: Language,
+    /// The words.
+    pub words: String,
+}
+
+impl LogWords {
+    /// Returns a text that the vehicle or the monitor has sent, in a language if it is one of the monitor's.
+    fn received(text: &str, language: Language) -> Self {
+        match message_words(text, language) {
+            Some(words) => Self { language, words },
+            None => Self { language: Language::English, words: text.to_owned() },
+        }
+    }
+}
+
+/// A line of the message log.
+#[derive(Debug)]
+struct LogLine {
+    id: u64,
+    t_s: f64,
+    /// CSS class.
+    kind: &'static str,
+    words: Translated<LogWords>,
 }
 
 /// Live state of the flight.
@@ -64,7 +97,7 @@ pub struct LiveFlightState {
     last_cue: Option<(f64, String)>,
     /// The next step, and the simulation time when it was received.
     guidance: Option<(SimTime, Guidance)>,
-    messages: VecDeque<(u64, f64, &'static str, String)>,
+    messages: VecDeque<LogLine>,
     message_count: u64,
     /// The vehicle's system ID, once received.
     pub system: Option<u8>,
@@ -121,7 +154,8 @@ impl LiveFlightState {
     /// Sets the job after the application has loaded its scenario.
     pub fn set_job(&mut self, key: JobIdentity, scenario: &Scenario) {
         let tasks = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
-        self.job = Some(TrackedJob { key, plane: LocalPlane::new(scenario.origin), paths: ReferencePaths::new(scenario), tasks });
+        let (name, plane) = (scenario.name.clone(), LocalPlane::new(scenario.origin));
+        self.job = Some(TrackedJob { key, scenario: name, plane, paths: ReferencePaths::new(scenario), tasks });
         self.truth = None;
     }
 
@@ -136,7 +170,7 @@ impl LiveFlightState {
                     self.cue_texts.add(&words);
                     self.remember_cue();
                 }
-                self.push_message(kind, words);
+                self.push(kind, Translated::new(|language| LogWords::received(&words, language)));
             }
             Some(message) => {
                 if let Some(NamedValue::Cues(cues)) = NamedValue::of(message) {
@@ -183,7 +217,9 @@ impl LiveFlightState {
             SampleValue::Seed(seed) => self.seed = Some(seed),
             SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
             SampleValue::Frozen(on) => self.is_frozen = on,
-            SampleValue::Snapshot(index) => self.push_message("info", format!("picture {index}")),
+            SampleValue::Snapshot(index) => {
+                self.push_message("info", |language| text!(language, "live-message-picture", number = index));
+            }
             SampleValue::Sticks(_)
             | SampleValue::Light(_)
             | SampleValue::Hits(_)
@@ -220,31 +256,42 @@ impl LiveFlightState {
         }
     }
 
-    /// Adds a line to the message log.
-    pub fn push_message(&mut self, kind: &'static str, words: String) {
+    /// Adds a line to the message log; `words` returns it in a language.
+    pub fn push_message(&mut self, kind: &'static str, words: impl Fn(Language) -> String) {
+        self.push(kind, Translated::new(|language| LogWords { language, words: words(language) }));
+    }
+
+    fn push(&mut self, kind: &'static str, words: Translated<LogWords>) {
         self.message_count += 1;
         let t_s = self.truth.map_or(0.0, |truth| truth.time.s());
-        self.messages.push_back((self.message_count, t_s, kind, words));
+        self.messages.push_back(LogLine { id: self.message_count, t_s, kind, words });
         while self.messages.len() > MAX_MESSAGES {
             self.messages.pop_front();
         }
     }
 
-    /// Returns the current state for the page's script. `heard` indicates whether telemetry was received recently. All pages get the
-    /// same state, so the next step is in all languages, by their tags.
+    /// Returns the name of the current task in a language.
+    fn task_words(&self, language: Language) -> Option<String> {
+        let job = self.job.as_ref()?;
+        let (id, name) = job.tasks.get(self.current_task?)?;
+        Some(format!("{id} · {}", task_title(&job.scenario, name, language)))
+    }
+
+    /// Returns the current state for the page's script in a language. `heard` indicates whether telemetry was received recently.
     #[must_use]
-    pub fn to_json(&self, heard: bool) -> Value {
+    pub fn to_json(&self, heard: bool, language: Language) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
         let place = self.truth.map(|truth| {
             let [e, n, u] = truth.motion.position_m.array().map(|m| (m * 100.0).round() / 100.0);
             json!([e, n, u])
         });
-        let task = self.current_task.and_then(|on| self.job.as_ref()?.tasks.get(on)).map(|(id, name)| format!("{id} · {name}"));
-        let words: Vec<Value> = self
-            .messages
-            .iter()
-            .map(|(id, t_s, kind, words)| json!({ "id": id, "t_s": t_s, "kind": kind, "words": words }))
-            .collect();
+        let line = |line: &LogLine| {
+            let LogWords { language, words } = line.words.get(language);
+            json!({ "id": line.id, "t_s": line.t_s, "kind": line.kind, "lang": language.tag(), "words": words })
+        };
+        let words: Vec<Value> = self.messages.iter().map(line).collect();
+        let cues: Vec<String> = self.displayed_cues().into_iter().map(|text| cue_words(text, language)).collect();
+        let last_cue = self.last_cue.as_ref().map(|(t_s, text)| json!({ "t_s": t_s, "words": cue_words(text, language) }));
         let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
         let guidance = self.guidance.filter(|(at, _)| now.saturating_sub(*at) <= guidance::TIMEOUT).map(|(_, guidance)| guidance);
         let open = self.gates.is_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
@@ -261,21 +308,36 @@ impl LiveFlightState {
             "contact": self.contact.label(),
             "armed": self.armed,
             "frozen": self.is_frozen,
-            "task": task,
-            "step": guidance.as_ref().map(step_texts),
+            "task": self.task_words(language),
+            "step": guidance.as_ref().map(|guidance| step_words(guidance, language)),
             "progress": guidance.and_then(|guidance| guidance.progress),
-            "cues": self.displayed_cues(),
-            "last_cue": self.last_cue.as_ref().map(|(t_s, words)| json!({ "t_s": t_s, "words": words })),
+            "cues": cues,
+            "last_cue": last_cue,
             "words": words,
         })
     }
+}
+
+/// Returns a cue's text in a language.
+fn cue_words(text: &str, language: Language) -> String {
+    Warning::of_text(text, language, |name| name).map_or_else(|| text.to_owned(), |warning| warning.words)
+}
+
+/// Returns the next step in a language: the words of the monitor's text message and, if the step leads around an obstacle, the
+/// way to the place that is reached first.
+fn step_words(guidance: &Guidance, language: Language) -> String {
+    let sent = guidance.words();
+    let step = message_words(&sent, language).unwrap_or(sent);
+    let first = guidance.detour.map(|detour| detour.way.words());
+    let first = first.map(|way| way_words(&way, language).unwrap_or(way));
+    first.map_or(step.clone(), |way| format!("{step}: {way}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use spandrel_mavlink::codec::{Decoder, Encoder};
-    use spandrel_mavlink::contract::guidance::GuidanceStep;
+    use spandrel_mavlink::contract::guidance::{GuidanceStep, WayTo};
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA};
     use spandrel_model::scenario::read;
 
@@ -295,7 +357,7 @@ mod tests {
     fn wire_flight_is_tracked_once_job_is_known() {
         let scenario = read("j.toml", include_str!("../../../../scenarios/two-bridges.toml"), &|_| Err("none".into())).unwrap();
         let mut live_state = LiveFlightState::new();
-        assert_eq!(live_state.to_json(false)["place"], Value::Null);
+        assert_eq!(live_state.to_json(false, Language::English)["place"], Value::Null);
         number(&mut live_state, "seed", 7);
         number(&mut live_state, "scn_crc", scenario.crc.cast_signed());
         let key = JobIdentity { crc: scenario.crc, seed: 7 };
@@ -315,13 +377,13 @@ mod tests {
             }),
         );
         number(&mut live_state, "cues", cue::TOO_CLOSE | cue::SPEEDING);
-        assert_eq!(live_state.to_json(true)["traffic"], json!("open"));
+        assert_eq!(live_state.to_json(true, Language::English)["traffic"], json!("open"));
         number(&mut live_state, "frozen", 1);
-        assert_eq!(live_state.to_json(true)["frozen"], json!(true));
+        assert_eq!(live_state.to_json(true, Language::English)["frozen"], json!(true));
         number(&mut live_state, "frozen", 0);
-        assert_eq!(live_state.to_json(true)["frozen"], json!(false));
+        assert_eq!(live_state.to_json(true, Language::English)["frozen"], json!(false));
         number(&mut live_state, "traffic", -1_500);
-        let moment = live_state.to_json(true);
+        let moment = live_state.to_json(true, Language::English);
         assert_eq!(moment["traffic"], json!("closed"));
         // The resolution is about 1 cm for degE7 and 1 mm for MAVLink altitudes.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
@@ -331,9 +393,9 @@ mod tests {
         let text = STATUSTEXT_DATA { text: "Too close: 2.1 m, limit 2.5 m".into(), ..STATUSTEXT_DATA::default() };
         let bytes = Encoder::new(1, 191).encode(&MavMessage::STATUSTEXT(text));
         Decoder::new().datagram(&bytes).iter().for_each(|frame| live_state.handle_frame(frame));
-        assert_eq!(live_state.to_json(true)["cues"], json!(["Too close: 2.1 m, limit 2.5 m", "Too fast"]));
+        assert_eq!(live_state.to_json(true, Language::English)["cues"], json!(["Too close: 2.1 m, limit 2.5 m", "Too fast"]));
         number(&mut live_state, "cues", 0);
-        let ended = live_state.to_json(true);
+        let ended = live_state.to_json(true, Language::English);
         assert_eq!((&ended["cues"], &ended["last_cue"]["words"]), (&json!([]), &json!("Too close: 2.1 m, limit 2.5 m")));
         assert_eq!((&ended["last_cue"]["t_s"], &ended["step"]), (&json!(2.0), &Value::Null));
         let guidance = Guidance {
@@ -350,9 +412,11 @@ mod tests {
             detour: None,
         };
         feed_message(&mut live_state, &guidance.message(2_000_000));
-        let moment = live_state.to_json(true);
-        assert_eq!((&moment["step"]["en"], &moment["progress"]), (&json!("Task 3: follow the path"), &json!(0.5)));
-        assert_eq!(moment["step"]["de"], "Aufgabe 3: der Bahn folgen");
+        let moment = live_state.to_json(true, Language::English);
+        assert_eq!((&moment["step"], &moment["progress"]), (&json!("Task 3: follow the path"), &json!(0.5)));
+        let german = live_state.to_json(true, Language::German);
+        assert_eq!(german["step"], "Aufgabe 3: der Bahn folgen");
+        assert_eq!(german["last_cue"]["words"], "Zu nah: 2.1 m, mindestens 2.5 m");
     }
 
     #[test]
@@ -372,8 +436,58 @@ mod tests {
                 }),
             );
         }
-        let moment = live_state.to_json(true);
+        let moment = live_state.to_json(true, Language::English);
         let words = moment["words"].as_array().unwrap();
         assert_eq!((words.len(), &words[39]["words"], &words[39]["id"]), (MAX_MESSAGES, &json!("<b>99"), &json!(100)));
+    }
+
+    #[test]
+    fn exact_texts_of_the_monitor_are_translated_and_those_of_the_vehicle_are_not() {
+        let mut live_state = LiveFlightState::new();
+        for text in ["Too fast: 11 mph, limit 10 mph", "Task 2: follow the path", "Failsafe enabled: no RC"] {
+            feed_message(
+                &mut live_state,
+                &MavMessage::STATUSTEXT(STATUSTEXT_DATA { text: text.into(), ..STATUSTEXT_DATA::default() }),
+            );
+        }
+        live_state.push_message("info", |language| text!(language, "live-message-picture", number = 3));
+        let lines = |language| {
+            let moment = live_state.to_json(true, language);
+            let lines = moment["words"].as_array().unwrap().clone();
+            lines.iter().map(|line| format!("{}: {}", line["lang"], line["words"])).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            lines(Language::German),
+            [
+                "\"de\": \"Zu schnell: 11 mph, höchstens 10 mph\"",
+                "\"de\": \"Aufgabe 2: der Bahn folgen\"",
+                "\"en\": \"Failsafe enabled: no RC\"",
+                "\"de\": \"Bild 3\""
+            ]
+        );
+        assert!(lines(Language::English).iter().all(|line| line.starts_with("\"en\"")));
+    }
+
+    #[test]
+    fn exact_every_step_is_translated() {
+        let way = |bearing_rad, up_m| Some(WayTo { distance_m: 140.4, bearing_rad, up_m });
+        let ways = [None, way(0.01, 0.5), way(-0.5, 12.0), way(0.5, -12.0), way(3.1, 0.0)];
+        for (step, way) in GuidanceStep::ALL.into_iter().flat_map(|step| ways.map(|way| (step, way))) {
+            let guidance = Guidance {
+                step,
+                task: Some(2),
+                way,
+                progress: None,
+                tasks_done: 1,
+                tasks: 4,
+                deviation: None,
+                stand_off: None,
+                flown_s: 75.0,
+                needed_s: 480.0,
+            };
+            let [english, german, spanish] = Language::ALL.map(|language| step_words(&guidance, language));
+            assert_eq!(english, guidance.words());
+            assert!(german != english && spanish != english && german != spanish, "{english}: {german}, {spanish}");
+        }
     }
 }

@@ -2,6 +2,7 @@
 //! text. Without the script, only the text is edited.
 
 use super::scenario_form::{Control, Field, FieldGroup, FormSection, ScenarioForm, element_id, section_id};
+use super::key_texts::{allowed_words, default_words, meaning};
 use super::scenario_labels::label;
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};
@@ -135,11 +136,11 @@ fn input(language: Language, field: &Field, id: &str) -> Markup {
     let at = &field.location;
     let default = &field.description.documented.default;
     let optional = default != "required";
-    let hint = if !optional || default == "none" { "" } else { default.as_str() };
+    let hint = if !optional || default == "none" { String::new() } else { default_words(language, default) };
     match &field.control {
         Control::Choice(words) => html! {
             select id=(id) data-field=(at) aria-describedby=(described_by) {
-                @if optional || field.value.is_empty() { option value="" selected[field.value.is_empty()] { (no_choice(language, optional, hint)) } }
+                @if optional || field.value.is_empty() { option value="" selected[field.value.is_empty()] { (no_choice(language, optional, &hint)) } }
                 @for word in words { option value=(word) selected[field.value == *word] { (word) } }
                 @if !field.value.is_empty() && !words.contains(&field.value) { option value=(field.value) selected { (field.value) } }
             }
@@ -190,23 +191,28 @@ fn position_parts(value: &str) -> [String; 3] {
     std::array::from_fn(|_| parts.next().unwrap_or_default())
 }
 
-/// Renders the meaning of the key, which is in English, and its allowed values.
+/// Renders the meaning of the key and its allowed values.
 fn notes(language: Language, field: &Field, id: &str) -> Markup {
     let DocumentedKey { allowed, default } = &field.description.documented;
+    let (own_language, meaning) = meaning(language, field.description);
+    let own_tag = Some(own_language.tag()).filter(|_| own_language != language);
     html! {
         p.field-problem id={ (id) "-problem" } lang="en" {}
         p.note id={ (id) "-note" } {
-            span lang="en" { (with_code(&field.description.meaning)) }
+            span lang=[own_tag] { (with_code(&meaning)) }
             span.allowed {
-                @if !["text", "list of texts"].contains(&allowed.as_str()) { " " (text!(language, "editor-allowed", allowed = allowed.as_str())) }
-                @if default != "none" { " " (default_words(language, default)) }
+                @if !["text", "list of texts"].contains(&allowed.as_str()) { " " (text!(language, "editor-allowed", allowed = allowed_words(language, allowed))) }
+                @if default != "none" { " " (default_note(language, default)) }
             }
         }
     }
 }
 
-fn default_words(language: Language, default: &str) -> String {
-    if default == "required" { text!(language, "editor-required") } else { text!(language, "editor-default", value = default) }
+fn default_note(language: Language, default: &str) -> String {
+    match default {
+        "required" => text!(language, "editor-required"),
+        default => text!(language, "editor-default", value = default_words(language, default)),
+    }
 }
 
 /// Renders Markdown of the documentation: words in backticks as code, without emphasis.
@@ -240,11 +246,11 @@ mod tests {
     }
 
     #[test]
-    fn exact_german_labels_are_around_english_meanings() {
+    fn exact_labels_and_meanings_are_in_the_language_of_the_page() {
         let text = fields(Language::German, &ScenarioForm::read(PRACTICE).unwrap()).into_string();
         assert!(text.contains("Aufgaben (4)") && text.contains("Aufgabe hinzufügen") && text.contains(">Abstand (m)<"), "{text}");
-        assert!(text.contains("Zulässig: 0 to 360. Vorgabe: 0.") && text.contains("data-check=\"bitte prüfen\""), "{text}");
-        assert!(text.contains("<span lang=\"en\">Direction that the wind blows from"), "{text}");
+        assert!(text.contains("Zulässig: 0 bis 360. Vorgabe: 0.") && text.contains("data-check=\"bitte prüfen\""), "{text}");
+        assert!(text.contains("<span>Richtung, aus der der Wind weht") && !text.contains("<span lang"), "{text}");
     }
 
     #[test]

@@ -103,6 +103,13 @@ const LAYOUT: &[Layout] = &[
     },
 ];
 
+/// Returns the documentation of all keys that the form can show.
+#[cfg(test)]
+pub(super) fn form_keys() -> impl Iterator<Item = &'static KeyDescription> {
+    let is_in = |layout: &Layout, key: &str| layout.main.contains(&key) || layout.tables.contains(&parent(key));
+    key_descriptions().iter().filter(move |described| LAYOUT.iter().any(|layout| is_in(layout, &described.key)))
+}
+
 /// How a field is edited.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Control {

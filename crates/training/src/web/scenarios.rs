@@ -3,6 +3,7 @@
 use super::access::{AccessLevel, Visitor};
 use super::layout::{ELEMENT, Notice, message, page, section, table, token, with_element};
 use crate::briefing::Briefing;
+use crate::plan::level_settings;
 use crate::report::formatting;
 use crate::report::page::briefing_contents;
 use crate::report::plots::job::job_plan;
@@ -72,7 +73,7 @@ fn upload(visitor: &Visitor) -> Markup {
 /// Describes the ends of the difficulty levels and the standard level.
 fn levels(language: Language, difficulty: &Difficulty) -> String {
     let (standard, levels) = (difficulty.standard, difficulty.levels());
-    let [first, middle, last] = [1, standard, levels].map(|level| difficulty.settings_at(level).to_string());
+    let [first, middle, last] = [1, standard, levels].map(|level| level_settings(difficulty.settings_at(level), language));
     text!(language, "editor-levels", levels = levels, first = first, standard = standard, middle = middle, last = last)
 }
 

@@ -10,13 +10,13 @@ use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
 use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
-use crate::report::page::purpose_label;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
-use crate::terms::task_title;
+use crate::terms::{end_reason_title, purpose_title, score_title, task_title};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 use spandrel_monitor::stored_text::all_translated;
+use spandrel_text::terms::capitalized;
 use spandrel_text::{Language, text};
 
 /// One page of the session list.
@@ -96,27 +96,12 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
                     @else { td { (one.completion_summary(language)) } }
                     td { (one.verdict(language)) }
                     td { (one.scenario) }
-                    td { (one.purpose.as_deref().map_or_else(|| "–".to_owned(), |purpose| purpose_label(purpose, language))) }
-                    td { (end_text(language, &one.end_reason)) }
+                    td { (one.purpose.as_deref().map_or_else(|| "–".to_owned(), |purpose| purpose_title(purpose, language))) }
+                    td { (end_reason_title(&one.end_reason, language)) }
                 }
             }
         },
     )
-}
-
-/// Returns why a session ended, from the word in the session's record.
-fn end_text(language: Language, end_reason: &str) -> String {
-    match end_reason {
-        "landed" => text!(language, "sessions-end-landed"),
-        "battery" => text!(language, "sessions-end-battery"),
-        "time_limit" => text!(language, "sessions-end-time-limit"),
-        "person" => text!(language, "sessions-end-person"),
-        "vehicle" => text!(language, "sessions-end-vehicle"),
-        "crash" => text!(language, "sessions-end-crash"),
-        "abort" => text!(language, "sessions-end-abort"),
-        "restart" => text!(language, "sessions-end-restart"),
-        other => other.replace('_', " "),
-    }
 }
 
 /// Session page data that is not part of the session record.
@@ -142,13 +127,13 @@ pub struct SessionPageData<'a> {
 #[must_use]
 pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     let language = visitor.language;
-    let (time, end) = (formatting::duration(record.seconds), end_text(language, &record.end_reason));
+    let (time, end) = (formatting::duration(record.seconds), end_reason_title(&record.end_reason, language));
     let advice = page_data.advice.map(|advice| advice.in_language(language));
     let page_data = &SessionPageData { advice: advice.as_ref(), ..*page_data };
     let body = html! {
         p.lead {
             a href={ "/trainees/" (record.trainee) } { (record.trainee) } " · " (minute(record.started_unix_us)) " · " (record.vehicle)
-            @if let Some(purpose) = &record.purpose { " · " (purpose_label(purpose, language)) } " · "
+            @if let Some(purpose) = &record.purpose { " · " (purpose_title(purpose, language)) } " · "
             (text!(language, "sessions-flight-time", time = time, end = end))
         }
         (section("better", &text!(language, "sessions-better"), &to_do_better(language, record, page_data)))
@@ -308,11 +293,12 @@ fn actions(language: Language, record: &SessionRecord, page_data: &SessionPageDa
 fn scores_by_name(language: Language, record: &SessionRecord) -> [(String, Option<f64>); 4] {
     let scores = &record.scores;
     [
-        (text!(language, "sessions-conformity"), scores.conformity),
-        (text!(language, "sessions-efficiency"), Some(scores.efficiency)),
-        (text!(language, "sessions-safety"), Some(scores.safety)),
-        (text!(language, "sessions-accuracy"), scores.accuracy),
+        ("conformity", scores.conformity),
+        ("efficiency", Some(scores.efficiency)),
+        ("safety", Some(scores.safety)),
+        ("accuracy", scores.accuracy),
     ]
+    .map(|(key, value)| (capitalized(&score_title(key, language)), value))
 }
 
 fn scores(language: Language, record: &SessionRecord) -> Markup {

@@ -5,6 +5,7 @@ use super::assets;
 use super::layout::{message, page_with_script, section, table, token};
 use crate::stations::{OrderState, Station, StationFlight, StationState};
 use maud::{Markup, html};
+use spandrel_text::terms::{capitalized, purpose_title};
 use spandrel_text::{Language, text};
 
 /// URL of the page.
@@ -143,8 +144,8 @@ fn order_form(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
             }
             label { (text!(language, "stations-purpose"))
                 select name="purpose" {
-                    option value=(PRACTICE) { (text!(language, "stations-practice")) }
-                    option value=(ASSESSMENT) selected[purpose == ASSESSMENT] { (text!(language, "stations-assessment")) }
+                    option value=(PRACTICE) { (capitalized(&purpose_title(PRACTICE, language))) }
+                    option value=(ASSESSMENT) selected[purpose == ASSESSMENT] { (capitalized(&purpose_title(ASSESSMENT, language))) }
                 }
             }
             button type="submit" { (text!(language, "stations-start")) }

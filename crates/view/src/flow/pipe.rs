@@ -3,6 +3,7 @@
 use crate::path_guide::PathAids;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use spandrel_text::terms::purpose_title;
 use spandrel_text::{Language, text};
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -31,10 +32,7 @@ impl Purpose {
     /// Returns the name for display.
     #[must_use]
     pub fn title(self, language: Language) -> String {
-        match self {
-            Self::Practice => text!(language, "window-start-practice"),
-            Self::Assessment => text!(language, "window-start-assessment"),
-        }
+        purpose_title(self.word(), language)
     }
 }
 

@@ -1,9 +1,10 @@
 //! Result page: what to do better, the four scores, links to the report and questionnaire, and the next steps.
 
 use super::menu::{self, MenuAction, MenuRow};
-use super::pipe::{FlightSummary, LessonProgress};
+use super::pipe::{FlightSummary, LessonProgress, SCORE_NAMES};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE};
 use crate::hud::{HudColor, TextAlign};
+use spandrel_text::terms::score_title;
 use spandrel_text::{Language, text};
 
 /// Left margin.
@@ -45,14 +46,9 @@ pub fn rows(ended: Option<&FlightSummary>, language: Language) -> Vec<MenuRow> {
     rows
 }
 
-/// Returns the names of the four scores, in the order of [`SCORE_NAMES`](super::pipe::SCORE_NAMES).
+/// Returns the names of the four scores, in the order of [`SCORE_NAMES`].
 fn score_titles(language: Language) -> [String; 4] {
-    [
-        text!(language, "window-result-conformity"),
-        text!(language, "window-result-efficiency"),
-        text!(language, "window-result-safety"),
-        text!(language, "window-result-accuracy"),
-    ]
+    SCORE_NAMES.map(|name| score_title(name, language))
 }
 
 pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow], focus: usize) {

@@ -2,12 +2,12 @@
 
 use super::lesson_words::{instruction, title};
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
-use super::monitor_texts::remark_words;
 use super::pane::Pane;
 use super::state::{Hud, LessonDisplay};
 use super::task_panel::{LINE_HEIGHT, PADDING, PanelDetail, WIDTH, height_words, way_items};
 use super::text_metrics::{text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign};
+use spandrel_text::monitor_texts::remark_words;
 use spandrel_text::text;
 
 /// Largest number of lines for what to do, how, and what went wrong; in the full and in the brief panel.

@@ -2,12 +2,12 @@
 
 use super::icons::IconShape;
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, MEDIUM_FONT_SIZE};
-use super::monitor_texts::Warning;
 use super::pane::Pane;
 use super::state::Hud;
 use super::text_metrics::{text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::cue;
+use spandrel_text::monitor_texts::Warning;
 
 /// Mean width of a capital letter.
 const CAPITAL_WIDTH: f64 = 0.0205;

@@ -12,7 +12,6 @@ mod map;
 mod marker;
 mod messages;
 mod metrics;
-mod monitor_texts;
 #[cfg(test)]
 mod overlap;
 mod pane;
@@ -30,7 +29,6 @@ pub(crate) use instruments::Area;
 pub use instruments::{JobDrawing, SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
-pub use monitor_texts::{Warning, message_words};
 pub(crate) use pane::Pane;
 pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
 pub use status::LINK_TIMEOUT_S;

@@ -1,9 +1,10 @@
 //! Warning tones, distinguished by pitch and rhythm. Only the tone of the most serious warning sounds.
 
 use super::smoothing::SAMPLE_RATE_HZ;
-use crate::hud::{DisplayStyle, Warning};
+use crate::hud::DisplayStyle;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::math;
+use spandrel_text::monitor_texts::Warning;
 use spandrel_text::{Language, text};
 
 /// Duration of a tone's attack and release, s: long enough to avoid clicks, short enough for a clear onset.

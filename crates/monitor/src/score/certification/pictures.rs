@@ -177,7 +177,7 @@ fn grade_picture(picture: &Snapshot, defects: &mut [DefectGrade], params: &Certi
         fails.extend(
             reasons
                 .into_iter()
-                .map(|reason| text!(Language::English, "certification-picture-of-defect", defect = view.defect, reason = reason)),
+                .map(|reason| text!(Language::English, "terms-picture-of-defect", defect = view.defect, reason = reason)),
         );
     }
     GradedPicture { frame: picture.frame, counted: !found.is_empty() || !too_fine, hit: !found.is_empty(), found, fails }

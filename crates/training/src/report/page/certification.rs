@@ -3,7 +3,7 @@
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::table::{Table, TableCell, folded};
-use crate::terms::{defect_title, element_title};
+use crate::terms::{contact_title, defect_title, element_title};
 use maud::{Markup, html};
 use spandrel_model::elements::Element;
 use spandrel_monitor::score::certification::TaskVisits;
@@ -89,7 +89,7 @@ fn crashes_table(review: &Review, language: Language) -> Table {
     let row = |crash: &MergedCrash| {
         vec![
             TableCell::Number(crash.t_s, 1),
-            formatting::contact_label(crash.with, language).into(),
+            contact_title(crash.with.label(), language).into(),
             TableCell::Number(crash.speed_m_s, 2),
             TableCell::Number(crash.loss, 1),
         ]

@@ -1,6 +1,7 @@
 //! Kinds of crashes, as grouped in multi-session figures.
 
 use crate::record::Crashes;
+use crate::terms::contact_title;
 use spandrel_text::{Language, text};
 
 /// CSS class of each kind. People and vehicles share one kind because hitting either ends a session.
@@ -10,10 +11,10 @@ const CLASSES: [&str; 5] = ["k-bridge", "k-terrain", "k-water", "k-other", "k-gr
 pub fn kinds(language: Language) -> [(&'static str, String); 5] {
     let [bridge, terrain, water, other, grave] = CLASSES;
     [
-        (bridge, text!(language, "report-contact-bridge")),
-        (terrain, text!(language, "report-contact-ground")),
-        (water, text!(language, "report-contact-water")),
-        (other, text!(language, "report-contact-other")),
+        (bridge, contact_title("bridge", language)),
+        (terrain, contact_title("terrain", language)),
+        (water, contact_title("water", language)),
+        (other, contact_title("other", language)),
         (grave, text!(language, "report-contact-grave")),
     ]
 }

@@ -180,9 +180,9 @@ fn timeline_legend(language: Language) -> Vec<(&'static str, String)> {
 
 fn stick_legend(language: Language) -> Markup {
     legend(&[
-        ("s-fb", text!(language, "report-stick-forward")),
-        ("s-rl", text!(language, "report-stick-right")),
-        ("s-ud", text!(language, "report-stick-up")),
+        ("s-fb", text!(language, "terms-direction-forward")),
+        ("s-rl", text!(language, "terms-direction-right")),
+        ("s-ud", text!(language, "terms-direction-up")),
         ("s-rt", text!(language, "report-stick-turn-clockwise")),
     ])
 }
@@ -323,9 +323,9 @@ fn series_table(review: &Review, language: Language) -> Table {
             text!(language, "report-column-speed"),
             text!(language, "report-column-clearance"),
             text!(language, "report-column-battery"),
-            text!(language, "report-stick-forward"),
-            text!(language, "report-stick-right"),
-            text!(language, "report-stick-up"),
+            text!(language, "terms-direction-forward"),
+            text!(language, "terms-direction-right"),
+            text!(language, "terms-direction-up"),
             text!(language, "report-stick-turn"),
         ],
         rows: review.frames.iter().enumerate().step_by(stride).map(row).collect(),

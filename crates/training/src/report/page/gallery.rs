@@ -11,11 +11,11 @@ use crate::report::pictures::{PictureVerdict, ReviewedPicture};
 use crate::report::plots::coord;
 use crate::report::sketch::{SketchExposure, Sketcher, WIDTH_PX};
 use crate::report::table::{Table, TableCell, folded};
-use crate::words::capitalized;
 use maud::{Markup, html};
 use spandrel_model::site::CameraPose;
 use spandrel_model::site::visibility::CENTRAL_FRACTION;
 use spandrel_model::vehicle::Camera;
+use spandrel_text::terms::capitalized;
 use spandrel_text::{Language, text};
 
 /// Prepares the site for all drawings, lit by the sun at mid-flight.

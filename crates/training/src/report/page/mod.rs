@@ -24,7 +24,6 @@ pub mod within_error;
 
 pub use briefing::{briefing, contents as briefing_contents};
 pub use compare::comparison;
-pub use summary::purpose_label;
 
 use super::Review;
 use super::assets;

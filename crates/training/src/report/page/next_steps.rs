@@ -1,7 +1,7 @@
 //! Recommended next scenarios, based on this session only.
 
 use super::figure::{SLOT, filled};
-use crate::plan::{PlanReason, PlanStep};
+use crate::plan::{PlanReason, PlanStep, rule_title};
 use crate::report::Review;
 use crate::report::table::{Table, TableCell, folded};
 use maud::{Markup, html};
@@ -39,8 +39,8 @@ fn table(steps: &[PlanStep], language: Language) -> Table {
         vec![
             step.scenario.clone().into(),
             step.level.as_ref().map(|level| level.level.to_string()).unwrap_or_default().into(),
-            reason.rule.clone().into(),
-            reason.consequence_of.clone().unwrap_or_default().into(),
+            rule_title(&reason.rule, language).into(),
+            reason.consequence_of.as_deref().map(|rule| rule_title(rule, language)).unwrap_or_default().into(),
             TableCell::Number(reason.value, 3),
             TableCell::Number(reason.limit, 3),
             TableCell::Number(step.urgency, 2),

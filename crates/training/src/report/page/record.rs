@@ -1,9 +1,9 @@
 //! Data behind the report: telemetry gaps, control sources, link statistics, files and their hashes.
 
-use super::summary::purpose_label;
 use crate::report::Review;
 use crate::report::formatting;
 use crate::report::table::{Table, TableCell, shown};
+use crate::terms::purpose_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -62,7 +62,7 @@ fn files(review: &Review, language: Language) -> Table {
     let metadata = &review.metadata;
     let link = &review.link;
     let purpose = match &metadata.purpose {
-        Some(purpose) => purpose_label(purpose, language),
+        Some(purpose) => purpose_title(purpose, language),
         None => text!(language, "report-record-no-purpose"),
     };
     let row = |name: String, value: TableCell| vec![name.into(), value];

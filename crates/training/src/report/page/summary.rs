@@ -6,11 +6,11 @@ use crate::report::formatting;
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell, folded};
 use crate::terms;
-use crate::words::capitalized;
 use maud::{Markup, html};
 use spandrel_monitor::assessment::Scores;
 use spandrel_monitor::score::Score;
 use spandrel_monitor::score::completion::verdict;
+use spandrel_text::terms::capitalized;
 use spandrel_text::{Language, text};
 
 /// Renders the trainee, job, date and overall score.
@@ -20,7 +20,7 @@ pub fn header(review: &Review) -> Markup {
     let certification = &review.assessment.certification;
     let telemetry = &review.assessment.telemetry;
     let language = review.metadata.language;
-    let (duration, reason) = (formatting::duration(end.seconds), formatting::end_reason_label(end.reason, language));
+    let (duration, reason) = (formatting::duration(end.seconds), terms::end_reason_title(end.reason.label(), language));
     html! {
         a.skip href="#better" { (text!(language, "report-skip")) }
         header {
@@ -29,7 +29,7 @@ pub fn header(review: &Review) -> Markup {
                 h1 { (review.title(language)) }
                 p {
                     b { (review.metadata.trainee) } " · " (utc(&review.metadata.started_utc)) " · " (review.vehicle.name)
-                    @if let Some(purpose) = &review.metadata.purpose { " · " (purpose_label(purpose, language)) }
+                    @if let Some(purpose) = &review.metadata.purpose { " · " (terms::purpose_title(purpose, language)) }
                     @if let Some(difficulty) = &review.scenario.difficulty {
                         " · " (text!(language, "report-level", level = difficulty.level, levels = difficulty.levels()))
                     }
@@ -49,15 +49,6 @@ pub fn header(review: &Review) -> Markup {
                 p { (verdict(certification.passed, &certification.unmet, language)) }
             }
         }
-    }
-}
-
-/// Returns the display name of a session's purpose.
-pub fn purpose_label(purpose: &str, language: Language) -> String {
-    match purpose {
-        "practice" => text!(language, "report-purpose-practice"),
-        "assessment" => text!(language, "report-purpose-assessment"),
-        other => other.to_owned(),
     }
 }
 

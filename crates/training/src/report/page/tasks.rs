@@ -5,6 +5,7 @@ use crate::report::Review;
 use crate::report::formatting;
 use crate::report::plots::bars::{self, CountRow, ShareRow};
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms::contact_title;
 use maud::{Markup, html};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_monitor::score::completion::TaskState;
@@ -85,7 +86,7 @@ fn contact_kinds(review: &Review) -> Vec<(&'static str, String)> {
     KINDS
         .iter()
         .filter(|(kind, _)| present(*kind))
-        .map(|(kind, class)| (*class, formatting::contact_label(*kind, review.metadata.language)))
+        .map(|(kind, class)| (*class, contact_title(kind.label(), review.metadata.language)))
         .collect()
 }
 
@@ -145,7 +146,7 @@ fn crash_table(review: &Review, language: Language) -> Table {
         vec![
             TableCell::Clock(review.t_s(crash.frame)),
             task_label(crash.task, review, language).into(),
-            formatting::contact_label(crash.with, language).into(),
+            contact_title(crash.with.label(), language).into(),
             TableCell::Number(crash.speed_m_s, 2),
             TableCell::Number(east, 2),
             TableCell::Number(north, 2),

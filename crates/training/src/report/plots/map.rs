@@ -7,6 +7,7 @@ use super::plot_map::{PlotMap, TRACK_TOLERANCE};
 use super::{coord, line, simplify_polyline, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
+use crate::terms::contact_title;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
@@ -249,7 +250,7 @@ fn marks(review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Mark
     };
     let language = review.metadata.language;
     let crash_title = |crash: &Crash| {
-        let (object, moment) = (formatting::contact_label(crash.with, language), formatting::clock(review.t_s(crash.frame)));
+        let (object, moment) = (contact_title(crash.with.label(), language), formatting::clock(review.t_s(crash.frame)));
         text!(language, "plot-crash", object = object, moment = moment)
     };
     html! {

@@ -9,6 +9,7 @@ use super::plot_map::PlotMap;
 use super::{coord, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
+use crate::terms::contact_title;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::scenario::Bridge;
@@ -82,7 +83,7 @@ fn flights(both: [&Review; 2], map: &PlotMap, bridge: Option<&Bridge>, shown: &d
 fn crashes(k: usize, review: &Review, map: &PlotMap, shown: &dyn Fn(&Frame) -> bool) -> Markup {
     let language = review.metadata.language;
     let title = |crash: &Crash| {
-        let (object, moment) = (formatting::contact_label(crash.with, language), formatting::clock(review.t_s(crash.frame)));
+        let (object, moment) = (contact_title(crash.with.label(), language), formatting::clock(review.t_s(crash.frame)));
         text!(language, "plot-session-crash", session = k + 1, object = object, moment = moment)
     };
     html! {

@@ -54,8 +54,8 @@ function tell(words) {
     const item = document.createElement("li");
     item.className = one.kind;
     item.textContent = `${clock(one.t_s)} ${one.words}`;
-    // Messages and cues of the vehicle are in English.
-    item.lang = "en";
+    // Messages of the vehicle are in English.
+    item.lang = one.lang;
     list.prepend(item);
   }
   while (list.children.length > 60) list.lastChild.remove();
@@ -68,7 +68,6 @@ function cues(names) {
   list.replaceChildren(...names.map((name) => {
     const item = document.createElement("li");
     item.textContent = name;
-    item.lang = "en";
     return item;
   }));
 }
@@ -86,7 +85,7 @@ function show(now) {
     move(now.place);
   }
   put("task", now.task ?? texts.off_path);
-  put("step", stepText(now) ?? "–");
+  put("step", now.step ?? "–");
   put("progress", now.progress === null ? "–" : `${Math.floor(100 * now.progress)}%`);
   put("time", clock(now.t_s));
   put("speed", number(now.speed_m_s, 1, "m/s"));

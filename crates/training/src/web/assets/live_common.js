@@ -1,12 +1,9 @@
 // Functions shared by the pages about live flights. Each of these pages loads one file, which begins with these functions.
 "use strict";
 const texts = JSON.parse(document.querySelector("[data-texts]").dataset.texts);
-const language = document.documentElement.lang;
 const number = (value, digits, unit) => (value === null ? "–" : `${value.toFixed(digits)}${unit === "%" ? "" : " "}${unit}`);
 const clock = (t) => (t === null ? "–" : `${Math.floor(t / 60)}:${String(Math.floor(t % 60)).padStart(2, "0")}`);
 const flightState = (now) => (now.heard ? (now.frozen ? texts.frozen : now.armed ? texts.armed : texts.disarmed) : texts.silent);
-// The next step in the language of the page, if there is one.
-const stepText = (now) => now.step?.[language] ?? now.step?.en ?? null;
 
 function onSheet(matrix, [e, n, u]) {
   const m = matrix.split(" ").map(Number);

@@ -11,8 +11,6 @@ function put(tile, key, value) {
 function showCue(tile, now) {
   const at = tile.querySelector("[data-cue]");
   at.classList.toggle("on", now.cues.length > 0);
-  // Cues of the vehicle are in English.
-  at.lang = now.last_cue === null ? language : "en";
   if (now.cues.length > 0) at.textContent = now.cues.join(" · ");
   else at.textContent = now.last_cue === null ? texts.tile_no_cue : `${clock(now.last_cue.t_s)} ${now.last_cue.words}`;
 }
@@ -22,7 +20,7 @@ function show(tile, now) {
   const state = tile.querySelector("[data-state]");
   state.textContent = flightState(now);
   state.classList.toggle("on", now.heard);
-  put(tile, "task", stepText(now) ?? now.task ?? texts.off_path);
+  put(tile, "task", now.step ?? now.task ?? texts.off_path);
   put(tile, "time", clock(now.t_s));
   put(tile, "battery", number(now.battery_pct, 0, "%"));
   showCue(tile, now);
