@@ -288,7 +288,15 @@ fn wrong_credentials(language: Language) -> WebError {
 fn visitor(open: bool, person: Option<Trainee>, visit: BrowserSession) -> Visitor {
     let role = if open { Role::Administrator } else { person.as_ref().map_or(Role::Trainee, |person| person.role) };
     let (language, address) = (Language::default(), String::new());
-    Visitor { name: person.map(|person| person.pseudonym), role, open, token: visit.token, language, address }
+    Visitor {
+        name: person.map(|person| person.pseudonym),
+        role,
+        open,
+        token: visit.token,
+        language,
+        has_stations: false,
+        address,
+    }
 }
 
 fn secrets() -> Result<[TokenBytes; 2], WebError> {

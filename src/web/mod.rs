@@ -37,6 +37,7 @@ mod sessions;
 mod settings;
 mod spool;
 mod state;
+mod station_jobs;
 mod stations;
 mod temp_files;
 mod tls;

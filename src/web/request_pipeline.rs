@@ -122,8 +122,13 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
             Some(state.auth.identify(&state.database, state.auth.session_cookie_from(&headers))?)
         };
         let address = anonymous.address.clone();
-        let visitor =
-            recognized.as_ref().map_or(anonymous, |recognized| Visitor { language, address, ..recognized.visitor.clone() });
+        let has_stations = state.station_key.is_some();
+        let visitor = recognized.as_ref().map_or(anonymous, |recognized| Visitor {
+            language,
+            has_stations,
+            address,
+            ..recognized.visitor.clone()
+        });
         let cookie = recognized.as_ref().map(|recognized| recognized.cookie.clone());
         let device = state.auth.browser_cookie_from(&headers);
         let expects_json = accepts_json(&headers);
@@ -155,7 +160,7 @@ fn anonymous_visitor(request: &Request) -> Visitor {
     let language = Language::accepted(&preferred_languages(request.headers())).unwrap_or_default();
     let shows = request.method() == Method::GET || request.method() == Method::HEAD;
     let address = request.uri().path_and_query().filter(|_| shows).map(ToString::to_string).unwrap_or_default();
-    Visitor { name: None, role: Role::Trainee, open: false, token: String::new(), language, address }
+    Visitor { name: None, role: Role::Trainee, open: false, token: String::new(), language, has_stations: false, address }
 }
 
 /// Returns the language that the visitor has selected, or else those that the browser prefers.

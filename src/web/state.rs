@@ -6,6 +6,7 @@ use super::live::{LiveVehicle, WatchedVehicle};
 use super::safe_names::is_safe_file_name;
 use super::scenario_library::UPLOAD_FOLDER;
 use super::session_importer::SessionImporter;
+use super::station_jobs::StationJobs;
 use super::temp_files;
 use crate::errors::AppError;
 use crate::io::answers;
@@ -45,6 +46,8 @@ pub struct ServerState {
     pub scenarios: PathBuf,
     /// Training stations that have checked in.
     pub stations: Mutex<StationBoard>,
+    /// Jobs that can be ordered at the stations.
+    pub station_jobs: StationJobs,
     /// Key of the training stations.
     pub station_key: Option<StationKey>,
     /// Manages logins, browser sessions and cookies.
@@ -95,6 +98,7 @@ impl ServerState {
             records_location,
             scenarios,
             stations: Mutex::default(),
+            station_jobs: StationJobs::default(),
             station_key,
             auth: guard,
             languages,

@@ -3,14 +3,11 @@
 use super::lock::lock;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
-use super::scenario_library;
 use super::state::ServerState;
 use crate::io::clock;
-use crate::io::files::with_variant;
 use crate::io::station_key::StationKey;
 use crate::io::trainee_id::{ALLOWED_IDS, is_plain_id};
 use axum::http::StatusCode;
-use spandrel_model::scenario::{form_names, variant_names};
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_text::{Language, text};
 use spandrel_training::stations::{CheckIn, CheckInRefusal, CheckInReply, FlightOrder, OrderError, StationFlight};
@@ -63,8 +60,8 @@ pub fn now(state: &ServerState, request: &WebRequest) -> HandlerResult {
 
 fn render(state: &ServerState, request: &WebRequest, (refusal, entered): (Option<&str>, [&str; 4])) -> HandlerResult {
     let board = lock(&state.stations).clone();
-    let scenarios: Vec<String> =
-        scenario_library::all(&state.scenarios).iter().flat_map(|job| names(&job.named.name, &job.text)).collect();
+    let jobs = state.station_jobs.all(&state.scenarios);
+    let scenarios: Vec<&str> = jobs.iter().flat_map(|job| &job.names).map(String::as_str).collect();
     let trainees: Vec<String> = state.database.trainees()?.into_iter().map(|person| person.pseudonym).collect();
     let about = StationsPage {
         list: StationList { stations: board.stations().collect(), now_unix_us: clock::unix_us() },
@@ -75,13 +72,6 @@ fn render(state: &ServerState, request: &WebRequest, (refusal, entered): (Option
         enabled: state.station_key.is_some(),
     };
     Ok(WebResponse::page(stations_page(&request.visitor, &about)))
-}
-
-/// Returns a scenario's name with each of its forms; or its name alone, and with each of its levels.
-fn names(name: &str, text: &str) -> Vec<String> {
-    let forms = form_names(text);
-    let alone = forms.is_empty().then(|| name.to_owned());
-    alone.into_iter().chain(variant_names(text).iter().map(|variant| with_variant(name, Some(variant), None))).collect()
 }
 
 /// Orders a flight at a station.
@@ -97,14 +87,14 @@ pub fn order(state: &ServerState, request: &WebRequest) -> HandlerResult {
     if !PURPOSES.contains(&purpose) {
         return Err(WebError::unknown(language, "purpose", &PURPOSES.join(", ")));
     }
-    let jobs = scenario_library::all(&state.scenarios);
-    let job = jobs.into_iter().find(|job| names(&job.named.name, &job.text).iter().any(|name| name == scenario));
+    let jobs = state.station_jobs.all(&state.scenarios);
+    let job = jobs.iter().find(|job| job.names.iter().any(|name| name == scenario));
     let job = job.ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown-name", field = "scenario")))?;
     let now = clock::unix_us();
     let order = FlightOrder {
         id: sha256_hex(format!("{station} {trainee} {scenario} {now}").as_bytes()).chars().take(ID_DIGITS).collect(),
         flight: StationFlight { trainee: trainee.to_owned(), scenario: scenario.to_owned(), purpose: purpose.to_owned() },
-        scenario_text: job.named.uploaded.then_some(job.text),
+        scenario_text: job.uploaded_text.clone(),
     };
     // The page of the refusal locks the board again.
     let ordered = lock(&state.stations).order(station, order, now);

@@ -1,16 +1,13 @@
 //! The window's controller: detects, tests and calibrates it, and flies with it.
 
 use crate::errors::AppError;
-use crate::io::controller::{CalibratedController, DeviceWatcher, EventSource, ProfileFolder};
+use crate::io::controller::{CalibratedController, DeviceError, DeviceWatcher, EventSource, ProfileFolder};
 use spandrel_clients::rc::controller_link::ControllerLink;
 use spandrel_clients::rc::wizard::CalibrationWizard;
 use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
 use spandrel_model::time::SimTime;
 use spandrel_text::{Language, text};
 use spandrel_view::flow::{ControllerStatus, ProfileChange};
-
-/// Error if there is no device, without the hint for the command line.
-const NO_DEVICE: &str = "no gamepad or transmitter is connected";
 
 /// Controller state.
 enum DeviceState {
@@ -40,8 +37,8 @@ pub struct ControllerSlot {
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum ControllerNote {
     None,
-    /// Why there is no controller, in English.
-    NoDevice(String),
+    /// Why there is no controller.
+    NoDevice(DeviceError),
     /// Where its profile is stored.
     Profile(String),
     NotCalibrated(String),
@@ -56,11 +53,10 @@ impl ControllerNote {
     fn words(&self, language: Language) -> String {
         match self {
             Self::None => String::new(),
-            Self::NoDevice(why) if why == NO_DEVICE => text!(language, "window-controls-note-none"),
-            Self::NoDevice(why) => sentence(why),
+            Self::NoDevice(why) => no_device_words(why, language),
             Self::Profile(file) => text!(language, "window-controls-note-profile", file = file.as_str()),
             Self::NotCalibrated(name) => text!(language, "window-controls-note-not-calibrated", name = name.as_str()),
-            Self::InvalidProfile(why) => why.clone(),
+            Self::InvalidProfile(why) => text!(language, "window-controls-note-invalid-profile", error = why.as_str()),
             Self::Saved(file) => text!(language, "window-controls-note-saved", file = file.as_str()),
             Self::NotSaved(why) => text!(language, "window-controls-note-not-saved", error = why.as_str()),
             Self::Disabled(why) => text!(language, "window-controls-note-disabled", error = why.as_str()),
@@ -68,10 +64,27 @@ impl ControllerNote {
     }
 }
 
-/// Returns a reason as a sentence.
-fn sentence(why: &str) -> String {
-    let mut signs = why.chars();
-    signs.next().map_or(String::new(), |first| format!("{}{}.", first.to_uppercase(), signs.as_str()))
+/// Explains why there is no controller, without the hints for the command line.
+fn no_device_words(why: &DeviceError, language: Language) -> String {
+    match why {
+        #[cfg(feature = "gamepad")]
+        DeviceError::NotConnected => text!(language, "window-controls-note-none"),
+        #[cfg(feature = "gamepad")]
+        DeviceError::NoMatch { connected, .. } if connected.is_empty() => text!(language, "window-controls-note-none"),
+        #[cfg(feature = "gamepad")]
+        DeviceError::NoMatch { wanted, connected } => {
+            let connected = connected.join(", ");
+            text!(language, "window-controls-note-no-match", wanted = wanted.as_str(), connected = connected)
+        }
+        #[cfg(feature = "gamepad")]
+        DeviceError::Ambiguous { connected } => {
+            text!(language, "window-controls-note-ambiguous", connected = connected.join(", "))
+        }
+        #[cfg(feature = "gamepad")]
+        DeviceError::NoAccess(error) => text!(language, "window-controls-note-no-access", error = error.as_str()),
+        #[cfg(not(feature = "gamepad"))]
+        DeviceError::Unsupported { .. } => text!(language, "window-controls-note-unsupported"),
+    }
 }
 
 impl ControllerSlot {
@@ -96,10 +109,7 @@ impl ControllerSlot {
             Ok(source) => self.open_controller(source),
             Err(error) => {
                 self.held = DeviceState::NoDevice(DeviceWatcher::start());
-                // The rest of the message applies only to the command line.
-                let why = error.to_string();
-                let why = why.rsplit_once(';').map_or(why.as_str(), |(why, _)| why);
-                self.note = ControllerNote::NoDevice(why.to_owned());
+                self.note = ControllerNote::NoDevice(error);
             }
         }
     }
@@ -356,6 +366,20 @@ mod tests {
             note: ControllerNote::None,
             language: Language::default(),
         }
+    }
+
+    #[test]
+    #[cfg(feature = "gamepad")]
+    fn exact_reasons_are_in_the_language_of_the_window() {
+        let connected = vec!["'A' (1:2)".to_owned(), "'B' (3:4)".to_owned()];
+        let no_match = |connected| DeviceError::NoMatch { wanted: "Pad".into(), connected };
+        let words = |why: &DeviceError| no_device_words(why, Language::German);
+        let none = "Kein Gamepad und keine Fernsteuerung verbunden.";
+        assert_eq!((words(&DeviceError::NotConnected).as_str(), words(&no_match(Vec::new())).as_str()), (none, none));
+        assert_eq!(words(&no_match(connected.clone())), "Kein Gerät passt zu 'Pad' (verbunden: 'A' (1:2), 'B' (3:4)).");
+        let several = DeviceError::Ambiguous { connected };
+        assert_eq!(words(&several), "Mehrere Geräte passen ('A' (1:2), 'B' (3:4)). Lassen Sie nur eines verbunden.");
+        assert!(words(&DeviceError::NoAccess("x".into())).ends_with(": x"));
     }
 
     fn poll_sticks(desk: &mut ControllerSlot, s: f64) -> Option<Sticks> {

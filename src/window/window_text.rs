@@ -3,7 +3,7 @@
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
 use super::panes::PaneContent;
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, MessageId, message_id, text};
 use spandrel_view::arrange::TextAnchor;
 use spandrel_view::flow::KeyNames;
 use spandrel_view::gpu::paint;
@@ -37,68 +37,21 @@ pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener, 
 
 /// Returns the key help. Where larger text leaves no room for all keys, there are only the most important ones.
 pub fn help(names: &KeyNames, flies: bool, style: DisplayStyle) -> String {
+    let fill = |id| names.fill(style.language, id);
     match (style.text_scale, flies) {
-        (TextScale::Normal, false) => view_help(names, style.language),
-        (TextScale::Normal, true) => format!("{}\n{}", view_help(names, style.language), flight_help(names, style.language)),
-        (TextScale::Larger | TextScale::Large | TextScale::Double, false) => text!(
-            style.language,
-            "window-flight-keys-short-view",
-            swap = names.name("swap"),
-            map = names.name("map"),
-            follow = names.name("follow")
-        ),
-        (TextScale::Larger | TextScale::Large | TextScale::Double, true) => text!(
-            style.language,
-            "window-flight-keys-short",
-            arm = names.name("arm"),
-            take_off = names.name("take_off"),
-            pause = names.name("pause")
-        ),
+        (TextScale::Normal, false) => fill(VIEW_KEYS),
+        (TextScale::Normal, true) => format!("{}\n{}", fill(VIEW_KEYS), fill(message_id!("window-flight-keys-flight"))),
+        (TextScale::Larger | TextScale::Large | TextScale::Double, false) => fill(message_id!("window-flight-keys-short-view")),
+        (TextScale::Larger | TextScale::Large | TextScale::Double, true) => fill(message_id!("window-flight-keys-short")),
     }
 }
 
-fn view_help(names: &KeyNames, language: Language) -> String {
-    text!(
-        language,
-        "window-flight-keys-view",
-        swap = names.name("swap"),
-        map = names.name("map"),
-        path = names.name("path"),
-        look_left = names.name("look_left"),
-        look_right = names.name("look_right"),
-        follow = names.name("follow")
-    )
-}
-
-fn flight_help(names: &KeyNames, language: Language) -> String {
-    text!(
-        language,
-        "window-flight-keys-flight",
-        arm = names.name("arm"),
-        take_off = names.name("take_off"),
-        up = names.name("up"),
-        down = names.name("down"),
-        turn_left = names.name("turn_left"),
-        turn_right = names.name("turn_right"),
-        forward = names.name("forward"),
-        back = names.name("back"),
-        left = names.name("left"),
-        right = names.name("right"),
-        lamp = names.name("lamp"),
-        snapshot = names.name("snapshot"),
-        land = names.name("land"),
-        freeze = names.name("freeze"),
-        rewind = names.name("rewind")
-    )
-}
+/// Keys of the views.
+const VIEW_KEYS: MessageId = message_id!("window-flight-keys-view");
 
 /// Returns the text for a frozen flight: how to continue, if the window can fly the vehicle.
 pub fn frozen(names: &KeyNames, flies: bool, language: Language) -> String {
-    if flies {
-        text!(language, "window-flight-frozen-keys", freeze = names.name("freeze"), rewind = names.name("rewind"))
-    } else {
-        text!(language, "window-flight-frozen")
-    }
+    if flies { names.fill(language, message_id!("window-flight-frozen-keys")) } else { text!(language, "window-flight-frozen") }
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.
@@ -159,4 +112,32 @@ fn paint_lines(painter: &egui::Painter, area: egui::Rect, words: &str, (anchor, 
     let rect = egui::Rect::from_min_size(corner + egui::vec2(0.6 * size, down), galley.size());
     painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
     painter.galley(rect.min, galley, egui::Color32::WHITE);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_clients::rc::keyboard::KeyBindings;
+    use spandrel_mavlink::contract::lesson::LessonTask;
+    use spandrel_view::hud::lesson_words::how_to;
+
+    #[test]
+    fn exact_every_key_in_the_help_is_bound() {
+        let keys = KeyBindings::default();
+        for language in Language::ALL {
+            let label = |(binding, _): (&'static str, String)| (binding, keys.label(binding, language));
+            let names = KeyNames::new(KeyBindings::functions(language).map(label).collect());
+            let mut texts: Vec<String> =
+                LessonTask::ALL.into_iter().map(|task| how_to(task, language, &|binding| names.name(binding))).collect();
+            for (text_scale, flies) in TextScale::ALL.into_iter().flat_map(|scale| [(scale, false), (scale, true)]) {
+                texts.push(help(&names, flies, DisplayStyle { language, text_scale, ..DisplayStyle::default() }));
+                texts.push(frozen(&names, flies, language));
+            }
+            for page in ["tutorial-views-text", "tutorial-defects-text", "tutorial-light-text", "tutorial-light-keys"] {
+                texts.push(names.fill(language, MessageId::new(page)));
+            }
+            // A binding that does not exist is in braces.
+            assert!(texts.iter().all(|text| !text.contains('{')), "{texts:?}");
+        }
+    }
 }

@@ -9,6 +9,7 @@ from playwright.sync_api import expect
 
 import spandrel
 import webserver
+from test_flow import ENTER, ESCAPE, Training, in_flight, is_start_page, other_page, screen  # noqa: F401 (a fixture)
 from test_web import BrowserUser, browser  # noqa: F401 (a fixture)
 
 KEY = "0123456789abcdef-stations"
@@ -119,10 +120,67 @@ def test_only_stations_with_the_key_check_in(server):
         assert stranger.ask("/stations/check-in", body=bad, headers=known)[0] == 422, bad
     assert stranger.ask("/stations/check-in", body=b"x" * 100_000, headers=known)[0] == 413
     assert stranger.ask("/stations/check-in", headers=known)[0] in (403, 404, 405)
-    # Trainees see no stations.
-    zoe = webserver.Browser(server.address)
+    # Trainees see no stations, and instructors only on a server that accepts stations.
+    zoe, ida = webserver.Browser(server.address), webserver.Browser(server.address)
     zoe.log_in("zoe")
-    assert zoe.ask("/stations")[0] == 403
+    assert zoe.ask("/stations")[0] == 403 and 'href="/stations"' not in zoe.ask("/sessions")[2]
+    ida.log_in("ida")
+    assert 'href="/stations"' in ida.ask("/sessions")[2]
+
+
+def test_server_without_a_key_has_no_page_for_stations_in_the_navigation(tmp_path):
+    sessions = tmp_path / "sessions"
+    webserver.set_passwords(sessions, "zoe")
+    opened = webserver.Server(sessions)
+    try:
+        ida = webserver.Browser(opened.address)
+        ida.log_in("ida")
+        assert 'href="/stations"' not in ida.ask("/sessions")[2]
+        assert "does not accept stations" in ida.ask("/stations")[2]
+    finally:
+        opened.close()
+
+
+@pytest.mark.timeout(1800)
+def test_flight_ordered_at_a_station_with_a_window_waits_for_the_briefing(server, screen, tmp_path):  # noqa: F811
+    """The window leads to the ordered flight: controller check and briefing. Going back declines it."""
+    folder = tmp_path / "station"
+    folder.mkdir()
+    key = folder / "key"
+    key.write_text(KEY, encoding="utf-8")
+    training = Training(screen, folder, "--no-sound", "--server", server.address, "--station", "s1", "--station-key", str(key))
+    desk = webserver.Browser(server.address)
+    desk.log_in("ida")
+
+    def order(purpose):
+        form = {"station": "s1", "trainee": "zoe", "scenario": "windy", "purpose": purpose}
+        status, _, text = desk.post("/stations", "/stations", form)
+        assert status == 303, text
+
+    def wait_for_state(words):
+        spandrel.wait_for(words, lambda: words in desk.ask("/stations/now")[2], LIMIT_S)
+
+    try:
+        start = training.wait_for_screenshot("start", is_start_page)
+        wait_for_state("ready")
+        order("assessment")
+        controls = training.wait_for_screenshot("ordered", other_page(start))
+        wait_for_state("in briefing: zoe: assessment of windy")
+        declined = training.wait_for_screenshot("declined", other_page(controls), ESCAPE)
+        wait_for_state("the trainee declined the flight")
+        assert sessions_of(training.sessions) == []
+        order("assessment")
+        controls = training.wait_for_screenshot("ordered-again", other_page(declined))
+        training.wait_for_screenshot("briefing", other_page(controls), ENTER)
+        wait_for_state("in briefing")
+        assert sessions_of(training.sessions) == [], "nothing starts before the briefing is confirmed"
+        training.wait_for_screenshot("flight", in_flight, ENTER)
+        wait_for_state("started: zoe: assessment of windy")
+        (session,) = sessions_of(training.sessions)
+        facts = json.loads((session / "session.json").read_text(encoding="utf-8"))
+        assert (facts["trainee"], facts["purpose"]) == ("zoe", "assessment")
+    finally:
+        training.close()
 
 
 def test_bad_station_options_are_reported(tmp_path):

@@ -103,7 +103,11 @@ def test_class_is_made_and_a_job_assigned_with_the_keyboard(browser, server, ses
     anna.go("/trainees/anna")
     first = anna.page.locator("main section").first
     expect(first).to_contain_text("2 open assignments")
-    expect(first).to_contain_text("spandrel train --trainee anna --scenario drill-hover")
+    # Trainees read where to click, instructors the command.
+    expect(first).to_contain_text("On the start page of the simulator window: Assigned, due")
+    expect(first).not_to_contain_text("spandrel train")
+    ida.go("/trainees/anna")
+    expect(page.locator("#assignments table").first).to_contain_text("spandrel train --trainee anna --scenario drill-hover")
     assert anna.page.locator("a[href^='/assign'], form[action*=assign], a[href^='/classes']").count() == 0
     check_everywhere(anna, "trainee-assignments", "/trainees/anna")
     kept = json.loads(webserver_export(server, "anna"))

@@ -25,9 +25,7 @@ static TEXTS: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(2, |l, v| text!(l, "terms-picture-of-defect", defect = v[0], reason = translated(v[1], l))),
         Sentence::new(1, |l, v| text!(l, "certification-unmet-practice", aids = practice_aids(v[0], l))),
         Sentence::new(1, |l, v| text!(l, "certification-unmet-no-evidence", score = score(v[0], l))),
-        Sentence::new(3, |l, v| {
-            text!(l, "certification-unmet-score", score = score(v[0], l), value = v[1], needed = v[2])
-        }),
+        Sentence::new(3, |l, v| text!(l, "certification-unmet-score", score = score(v[0], l), value = v[1], needed = v[2])),
     ];
     SentenceTable::new(own.into_iter().chain(PICTURE_REASONS).chain(general))
 });

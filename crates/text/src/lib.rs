@@ -15,6 +15,7 @@
 
 mod catalog;
 mod language;
+mod message_id;
 mod messages;
 pub mod monitor_texts;
 mod picture_reasons;
@@ -25,6 +26,7 @@ mod translated;
 
 pub use catalog::{Value, find, message, translation};
 pub use language::Language;
+pub use message_id::MessageId;
 pub use messages::check_message;
 pub use picture_reasons::PICTURE_REASONS;
 pub use sentences::{Sentence, SentenceTable};
@@ -37,4 +39,12 @@ macro_rules! text {
         const { $crate::check_message($id, &[$(stringify!($name)),*]) };
         $crate::message($language, $id, &[$((stringify!($name), $crate::Value::from($value))),*])
     }};
+}
+
+/// Returns the [`MessageId`] with this name: `message_id!("id")`. A wrong name is a compile error.
+#[macro_export]
+macro_rules! message_id {
+    ($id:literal) => {
+        const { $crate::MessageId::new($id) }
+    };
 }

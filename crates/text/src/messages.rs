@@ -25,6 +25,11 @@ pub const fn is_message(id: &str) -> bool {
     position(id).is_some()
 }
 
+/// Returns the variables of a message; none if it does not exist.
+pub fn variables(id: &str) -> &'static [&'static str] {
+    position(id).map_or(&[], |index| MESSAGES[index].1)
+}
+
 /// Returns a message's index in the sorted list.
 const fn position(id: &str) -> Option<usize> {
     let (mut from, mut to) = (0, MESSAGES.len());

@@ -39,7 +39,8 @@ struct CueSentences {
 
 impl CueSentences {
     fn new(name: fn(Language) -> String, details: &[(usize, ComposeWarning)]) -> Self {
-        let pattern = |(count, compose): &(usize, ComposeWarning)| (compose(Language::English, "", &vec![MARK; *count]), *compose);
+        let pattern =
+            |(count, compose): &(usize, ComposeWarning)| (compose(Language::English, "", &vec![MARK; *count]), *compose);
         Self { name, label: name(Language::English), details: details.iter().map(pattern).collect() }
     }
 
@@ -72,12 +73,8 @@ static CUES: LazyLock<[CueSentences; 6]> = LazyLock::new(|| {
         CueSentences::new(
             |l| text!(l, "flight-cue-stand-off"),
             &[
-                (2, |l, name, v| {
-                    text!(l, "flight-warning-stand-off-small", name = name, distance = v[0], recommended = v[1])
-                }),
-                (2, |l, name, v| {
-                    text!(l, "flight-warning-stand-off-large", name = name, distance = v[0], recommended = v[1])
-                }),
+                (2, |l, name, v| text!(l, "flight-warning-stand-off-small", name = name, distance = v[0], recommended = v[1])),
+                (2, |l, name, v| text!(l, "flight-warning-stand-off-large", name = name, distance = v[0], recommended = v[1])),
             ],
         ),
         CueSentences::new(
@@ -126,13 +123,9 @@ fn direction_words(words: &str, language: Language) -> String {
         Some([first, second]) => {
             text!(language, "flight-directions-two", first = first.as_str(), second = second.as_str())
         }
-        Some([first, second, third]) => text!(
-            language,
-            "flight-directions-three",
-            first = first.as_str(),
-            second = second.as_str(),
-            third = third.as_str()
-        ),
+        Some([first, second, third]) => {
+            text!(language, "flight-directions-three", first = first.as_str(), second = second.as_str(), third = third.as_str())
+        }
         Some(_) | None => words.to_owned(),
     }
 }

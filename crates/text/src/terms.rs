@@ -81,6 +81,9 @@ mod tests {
 
     #[test]
     fn exact_only_the_first_letter_changes() {
-        assert_eq!((capitalized("límite"), capitalized("éxito"), capitalized("")), ("Límite".into(), "Éxito".into(), String::new()));
+        assert_eq!(
+            (capitalized("límite"), capitalized("éxito"), capitalized("")),
+            ("Límite".into(), "Éxito".into(), String::new())
+        );
     }
 }

@@ -2,7 +2,8 @@
 //! orders. Sans-IO: the caller supplies time and messages.
 //!
 //! A station sends a [`CheckIn`] and receives a [`CheckInReply`]. An order is repeated in every reply until the station has
-//! answered it, because a reply can be lost.
+//! answered it, because a reply can be lost. A station with a window first shows the briefing, and answers again when the trainee has
+//! started or declined the flight.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -44,9 +45,12 @@ pub struct FlightOrder {
 pub struct OrderAnswer {
     /// ID of the order.
     pub id: String,
-    /// Why the flight was not started; `None` if it was.
+    /// Why the flight was not started; `None` if it was, or if the trainee reads the briefing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refusal: Option<String>,
+    /// Whether the trainee reads the briefing; another answer follows.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub in_briefing: bool,
 }
 
 /// Message from a station to the server.
@@ -87,6 +91,8 @@ pub enum OrderState {
     Sent(FlightOrder, u64),
     /// The station did not answer in time, so that the order is void.
     Expired(StationFlight),
+    /// The station shows the briefing, which the trainee has not acknowledged yet.
+    InBriefing(FlightOrder),
     /// The station has started the flight.
     Started(StationFlight),
     /// The station could not start it, for this reason.
@@ -108,14 +114,23 @@ impl OrderState {
     /// Returns the state after a check-in with this answer.
     fn answered(self, answer: Option<OrderAnswer>, now_unix_us: u64) -> Self {
         match (self, answer) {
-            (Self::Sent(order, _), Some(answer)) if answer.id == order.id => match answer.refusal {
+            (Self::Sent(order, _) | Self::InBriefing(order), Some(answer)) if answer.id == order.id => match answer.refusal {
                 Some(why) => Self::Refused(order.flight, why),
+                None if answer.in_briefing => Self::InBriefing(order),
                 None => Self::Started(order.flight),
             },
             (Self::Sent(order, since), _) if now_unix_us.saturating_sub(since) > ORDER_EXPIRES_AFTER_US => {
                 Self::Expired(order.flight)
             }
             (order, _) => order,
+        }
+    }
+
+    /// Returns the state after the station's program was restarted: a briefing that it showed is gone.
+    fn after_restart(self) -> Self {
+        match self {
+            Self::InBriefing(order) => Self::Expired(order.flight),
+            Self::Sent(..) | Self::Expired(_) | Self::Started(_) | Self::Refused(..) => self,
         }
     }
 }
@@ -188,7 +203,9 @@ impl StationBoard {
         if known.is_some_and(is_other) {
             return Err(CheckInError::NameTaken);
         }
+        let is_restarted = known.is_some_and(|known| known.instance != message.instance);
         let before = self.0.remove(&message.station).and_then(|station| station.order);
+        let before = if is_restarted { before.map(OrderState::after_restart) } else { before };
         let order = before.map(|order| order.answered(message.answer, now_unix_us));
         let pending = match &order {
             Some(OrderState::Sent(order, _)) if message.flight.is_none() => Some(order.clone()),
@@ -242,7 +259,8 @@ mod tests {
     }
 
     fn check_in(answer: Option<(&str, Option<&str>)>, flight: Option<StationFlight>) -> CheckIn {
-        let answer = answer.map(|(id, refusal)| OrderAnswer { id: id.into(), refusal: refusal.map(str::to_owned) });
+        let answer =
+            answer.map(|(id, refusal)| OrderAnswer { id: id.into(), refusal: refusal.map(str::to_owned), in_briefing: false });
         CheckIn { station: "s1".into(), instance: 1, flight, answer }
     }
 
@@ -267,6 +285,31 @@ mod tests {
         board.check_in(check_in(Some(("b", Some("no such file"))), None), 8).unwrap();
         assert_eq!(last_order(&board), Some(OrderState::Refused(flight(), "no such file".into())));
         assert_eq!(board.order("s1", order("c"), 8 + LOST_AFTER_US + 1), Err(OrderError::Lost));
+    }
+
+    #[test]
+    fn exact_a_briefing_ends_with_the_start_or_a_refusal_and_does_not_expire() {
+        let reading = |id: &str| {
+            let answer = OrderAnswer { id: id.into(), refusal: None, in_briefing: true };
+            CheckIn { answer: Some(answer), ..check_in(None, None) }
+        };
+        let mut board = StationBoard::default();
+        board.check_in(check_in(None, None), 0).unwrap();
+        for (id, refusal) in [("a", None), ("b", Some("declined"))] {
+            board.order("s1", order(id), 0).unwrap();
+            assert_eq!(board.check_in(reading(id), 1), Ok(CheckInReply::default()), "the order is not repeated");
+            let late = LOST_AFTER_US - 1;
+            board.check_in(reading(id), late).unwrap();
+            board.check_in(reading(id), ORDER_EXPIRES_AFTER_US + 2).unwrap();
+            assert_eq!(last_order(&board), Some(OrderState::InBriefing(order(id))));
+            board.check_in(check_in(Some((id, refusal)), None), ORDER_EXPIRES_AFTER_US + 3).unwrap();
+        }
+        assert_eq!(last_order(&board), Some(OrderState::Refused(flight(), "declined".into())));
+        board.order("s1", order("c"), ORDER_EXPIRES_AFTER_US + 4).unwrap();
+        board.check_in(reading("c"), ORDER_EXPIRES_AFTER_US + 5).unwrap();
+        let restarted = CheckIn { instance: 2, ..check_in(None, None) };
+        board.check_in(restarted, ORDER_EXPIRES_AFTER_US + LOST_AFTER_US + 9).unwrap();
+        assert_eq!(last_order(&board), Some(OrderState::Expired(flight())));
     }
 
     #[test]
@@ -310,6 +353,7 @@ mod tests {
         let message = check_in(Some(("a", Some("why"))), Some(flight()));
         let text = serde_json::to_string(&message).unwrap();
         assert_eq!(serde_json::from_str::<CheckIn>(&text).unwrap(), message);
+        assert!(!text.contains("in_briefing"), "older servers get what they know: {text}");
         let least = CheckIn { instance: 0, ..check_in(None, None) };
         assert_eq!(serde_json::from_str::<CheckIn>("{\"station\":\"s1\"}").unwrap(), least);
         assert_eq!(serde_json::to_string(&CheckInReply::default()).unwrap(), "{}");

@@ -52,6 +52,13 @@ pub fn scenario_title(name: &str, title: &str, language: Language) -> String {
     find(language, &id, &[]).filter(|_| is_shipped).unwrap_or_else(|| title.to_owned())
 }
 
+/// Returns the title of the shipped job with this name; the name of another job.
+#[must_use]
+pub fn job_title(name: &str, language: Language) -> String {
+    let is_shipped = SCENARIOS.iter().any(|(shipped, _)| *shipped == name);
+    find(language, &format!("job-{name}"), &[]).filter(|_| is_shipped).unwrap_or_else(|| name.to_owned())
+}
+
 /// Returns the name of a task from the name of its job and the task's name in the job's file. Names in files other than the
 /// shipped ones are the user's and stay as they are.
 #[must_use]
@@ -113,5 +120,10 @@ mod tests {
         assert_eq!(scenario_title("drill-hover", "My hover", Language::German), "My hover");
         assert_eq!(scenario_title("mine", "Drill: hover", Language::German), "Drill: hover");
         assert_eq!(task_title("mine", "Hover", Language::German), "Hover");
+        assert_eq!(
+            (job_title("drill-hover", Language::English), job_title("mine", Language::German)),
+            ("Drill: hover".into(), "mine".into())
+        );
+        assert_eq!(job_title("task-hover", Language::German), "task-hover");
     }
 }

@@ -234,7 +234,8 @@ impl FlightProcesses {
     fn handle_window_message(&mut self, wish: &FromWindow, window: &mut WindowProcess) -> Option<FlightOutcome> {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
-            FromWindow::Ready | FromWindow::Language { .. } => {}
+            // An order is declined before the flight begins.
+            FromWindow::Ready | FromWindow::Language { .. } | FromWindow::Declined => {}
             FromWindow::Showing => {
                 self.start_expert();
                 self.background_expert.start();

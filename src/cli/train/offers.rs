@@ -37,22 +37,24 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>,
     if !names.contains(&choice.scenario) {
         names.push(choice.scenario.clone());
     }
-    let job = |name: String| {
-        let scenario = files::scenario(&name).ok()?.scenario;
-        Some(JobOffer {
-            name,
-            title: job_title(&scenario, language),
-            kind: contents_summary(&scenario, language),
-            briefing: job_briefing(&scenario, language),
-        })
-    };
     FlightOptions {
         trainees: trainee_summaries(sessions, language),
         lesson: job_named(FIRST_LESSON, language),
-        scenarios: names.into_iter().filter_map(job).collect(),
+        scenarios: names.into_iter().filter_map(|name| job_offer(name, language)).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
     }
+}
+
+/// Returns the job with this name or path in a language, with its briefing; `None` if it cannot be read.
+pub fn job_offer(name: String, language: Language) -> Option<JobOffer> {
+    let scenario = files::scenario(&name).ok()?.scenario;
+    Some(JobOffer {
+        name,
+        title: job_title(&scenario, language),
+        kind: contents_summary(&scenario, language),
+        briefing: job_briefing(&scenario, language),
+    })
 }
 
 /// Lesson for trainees without sessions.
@@ -340,7 +342,10 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         completion: completion.map(|completion| completion.headline(language)),
         complete,
         verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet, language)),
-        why: trouble.unwrap_or_else(|| end_reason_text(&assessment["end"], session, language)),
+        why: match trouble {
+            Some(error) => text!(language, "window-result-not-scored-because", error = error),
+            None => end_reason_text(&assessment["end"], session, language),
+        },
         lesson: lesson.as_ref().map(|lesson| lesson.progress),
         next: match lesson.as_ref().filter(|lesson| !lesson.progress.is_complete()) {
             Some(lesson) => job_named(&lesson.scenario, language),
@@ -350,17 +355,14 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         // The sentence after a lesson is about its scores, which the page does not show.
         advice: advice.iter().filter(|_| lesson.is_none()).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
         report: page.is_file().then(|| report::address(&page)),
-        questionnaire: questionnaire(session, web),
+        questionnaire: web.map(|web| questionnaire(session, web)).unwrap_or_default(),
     }
 }
 
-/// Returns the address of a session's questionnaire or, without a server, the command that starts it.
-pub fn questionnaire(session: &Path, web: Option<&str>) -> String {
+/// Returns the address of a session's questionnaire on the server with this address.
+pub fn questionnaire(session: &Path, web: &str) -> String {
     let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    match web {
-        Some(web) => format!("{web}/sessions/{id}/questions"),
-        None => typed(&format!("spandrel questionnaire {}", session.display())).into_owned(),
-    }
+    format!("{web}/sessions/{id}/questions")
 }
 
 /// Returns the end page of a flight that the trainee only watched: the next flight is the trainee's own.
@@ -548,7 +550,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let none = flight_summary(folder.path(), None, None, Language::English);
         assert!(none.overall.is_none() && none.report.is_none() && none.why.contains("not scored"), "{none:?}");
-        assert!(none.questionnaire.starts_with("spandrel questionnaire "), "{none:?}");
+        assert_eq!(none.questionnaire, "", "no server, no address");
         let text = r#"{"scores": {"conformity": {"raw": 62.0, "pct": 81.0}, "efficiency": {"raw": 100.0, "pct": 100.0},
             "safety": {"raw": -9.0, "pct": 91.0}, "accuracy": null, "overall": 272.0, "overall_max": 300.0},
             "end": {"reason": "landed", "seconds": 750.9}}"#;

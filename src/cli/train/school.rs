@@ -63,7 +63,7 @@ impl SchoolRoom {
         let message = match self.round.as_ref()?.pages.try_recv() {
             Ok(Ok(page)) => return Some(ToWindow::School(page)),
             Err(TryRecvError::Empty) => return None,
-            Ok(Err(words)) => words,
+            Ok(Err(error)) => text!(self.language, "window-school-failed-because", error = error),
             Err(TryRecvError::Disconnected) => text!(self.language, "window-school-failed"),
         };
         self.round = None;

@@ -6,6 +6,7 @@ use crate::io::replace::replace;
 use crate::io::station_key::StationKey;
 use crate::io::trainee_id::TraineeId;
 use crate::web::scenario_library::{self, MAX_SCENARIO_BYTES, UPLOAD_FOLDER, upload_path};
+use spandrel_text::{Language, text};
 use spandrel_training::stations::{
     CHECK_IN_INTERVAL_S, CheckIn, CheckInRefusal, CheckInReply, FlightOrder, OrderAnswer, StationFlight,
 };
@@ -83,7 +84,7 @@ impl StationLink {
             Some(order) => self.answer(order, None),
             None => {
                 if let Some(order) = self.orders.try_iter().last() {
-                    self.answer(order.id, Some("a flight has just been started at the station".to_owned()));
+                    self.answer(order.id, Some(text!(Language::English, "stations-refusal-flying")));
                 }
             }
         }
@@ -94,6 +95,20 @@ impl StationLink {
         lock(&self.shared).flight = None;
         if let Some(order) = self.starting.take() {
             self.answer(order, error.map(ToString::to_string));
+        }
+    }
+
+    /// Reports that the trainee reads the briefing of the ordered flight.
+    pub fn report_briefing(&mut self) {
+        if let Some(id) = self.starting.clone() {
+            lock(&self.shared).answer = Some(OrderAnswer { id, refusal: None, in_briefing: true });
+        }
+    }
+
+    /// Reports why the ordered flight does not start, if there is one.
+    pub fn decline(&mut self, why: String) {
+        if let Some(order) = self.starting.take() {
+            self.answer(order, Some(why));
         }
     }
 
@@ -117,7 +132,7 @@ impl StationLink {
         if let Some(why) = &refusal {
             tracing::warn!("the flight ordered by the instructor was not started: {why}");
         }
-        lock(&self.shared).answer = Some(OrderAnswer { id, refusal });
+        lock(&self.shared).answer = Some(OrderAnswer { id, refusal, in_briefing: false });
     }
 }
 

@@ -20,8 +20,8 @@ use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
-use spandrel_text::Language;
-use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, ToWindow};
+use spandrel_text::{Language, text};
+use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow};
 use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
@@ -56,6 +56,8 @@ pub struct TrainRun<'a> {
     school: SchoolRoom,
     /// Connection to the server on which instructors start flights, if this computer is a station.
     station: Option<StationLink>,
+    /// Ordered flight whose briefing the window shows.
+    briefed: Option<FlightChoice>,
 }
 
 /// What to do after a flight.
@@ -84,6 +86,7 @@ impl<'a> TrainRun<'a> {
             prompt: TerminalPrompt::default(),
             school: SchoolRoom::new(&args.sessions),
             station: None,
+            briefed: None,
         }
     }
 
@@ -122,7 +125,7 @@ impl<'a> TrainRun<'a> {
                 }
                 Err(error) => {
                     tracing::warn!("cannot start the flight: {error}");
-                    self.send_to_window(&ToWindow::Refused { words: error.to_string() });
+                    self.refuse(&error);
                     result = Err(error);
                     next = self.next_choice(&choice);
                     continue;
@@ -184,6 +187,12 @@ impl<'a> TrainRun<'a> {
         }
     }
 
+    /// Shows in the window why a flight cannot start.
+    fn refuse(&mut self, error: &AppError) {
+        let message = refusal(error, self.language());
+        self.send_to_window(&message);
+    }
+
     /// Returns the command line's choice once the window is shown or has failed to open, so that no flight starts
     /// without its views.
     fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
@@ -235,12 +244,22 @@ impl<'a> TrainRun<'a> {
             while let Some(said) = window.receive() {
                 let language = window.language;
                 match said {
-                    FromWindow::Again => return NextFlight::Fly(last.clone()),
+                    FromWindow::Again => {
+                        self.settle_order(last);
+                        return NextFlight::Fly(last.clone());
+                    }
+                    FromWindow::Declined => {
+                        self.briefed = None;
+                        decline(&mut self.station, text!(Language::English, "stations-refusal-declined"));
+                    }
                     FromWindow::Quit => return NextFlight::Leave,
                     FromWindow::School(request) => self.school.handle(request, language),
                     FromWindow::Chosen(choice) => match validate_choice(&choice) {
-                        Ok(()) => return NextFlight::Fly(choice),
-                        Err(error) => window.send(&ToWindow::Refused { words: error.to_string() }),
+                        Ok(()) => {
+                            self.settle_order(&choice);
+                            return NextFlight::Fly(choice);
+                        }
+                        Err(error) => window.send(&refusal(&error, language)),
                     },
                     // Ignore late messages about a flight that has just ended.
                     FromWindow::Ready
@@ -253,13 +272,14 @@ impl<'a> TrainRun<'a> {
                 }
             }
             if self.offered_language.is_some_and(|offered| offered != self.language()) {
-                self.offer(last);
+                let shown = self.briefed.clone().unwrap_or_else(|| last.clone());
+                self.offer(&shown);
             }
             while let Some(message) = self.school.poll() {
                 self.send_to_window(&message);
             }
             if let Some(choice) = self.ordered_flight() {
-                return NextFlight::Fly(choice);
+                self.brief(choice);
             }
             self.check_vehicle();
             self.pictures.advance();
@@ -270,7 +290,30 @@ impl<'a> TrainRun<'a> {
                 std::thread::sleep(CHECK_INTERVAL);
             }
         }
+        if self.briefed.take().is_some() {
+            decline(&mut self.station, text!(Language::English, "stations-refusal-window-closed"));
+        }
         self.prompt_at_terminal(last)
+    }
+
+    /// Leads the trainee in the window to an ordered flight, which starts after the briefing, as a chosen one does.
+    fn brief(&mut self, choice: FlightChoice) {
+        match offers::job_offer(choice.scenario.clone(), self.language()) {
+            Some(job) => {
+                self.briefed = Some(choice.clone());
+                self.station.iter_mut().for_each(StationLink::report_briefing);
+                self.send_to_window(&ToWindow::Ordered(OrderedFlight { choice, job }));
+            }
+            // The file was readable a moment ago.
+            None => decline(&mut self.station, format!("cannot read {}", choice.scenario)),
+        }
+    }
+
+    /// Declines the ordered flight if the trainee starts another one.
+    fn settle_order(&mut self, chosen: &FlightChoice) {
+        if self.briefed.take().is_some_and(|ordered| ordered != *chosen) {
+            decline(&mut self.station, text!(Language::English, "stations-refusal-other-flight"));
+        }
     }
 
     /// Returns a flight that an instructor has ordered at this station.
@@ -299,7 +342,7 @@ impl<'a> TrainRun<'a> {
         }
         println!("{}", self.prompt.help_text());
         if let (Some(web), Some(vehicle)) = (&self.web, &self.vehicle) {
-            println!("questionnaire {}", offers::questionnaire(vehicle.session(), Some(web.server.address())));
+            println!("questionnaire {}", offers::questionnaire(vehicle.session(), web.server.address()));
         }
         while self.vehicle.is_some() && !self.stop.is_requested() {
             if let Some(choice) = self.ordered_flight() {
@@ -374,6 +417,7 @@ impl<'a> TrainRun<'a> {
         if told.is_ok() {
             println!("questions     {}", typed(&format!("spandrel questionnaire {}", session.display())));
         }
+        let is_lost = matches!(outcome, FlightOutcome::Lost(_));
         let result = match outcome {
             FlightOutcome::Lost(error) => Err(error),
             FlightOutcome::Over | FlightOutcome::Restart => told,
@@ -389,7 +433,7 @@ impl<'a> TrainRun<'a> {
             self.offer(choice);
             let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());
-            let trouble = result.as_ref().err().map(ToString::to_string);
+            let trouble = result.as_ref().err().filter(|_| is_lost).map(ToString::to_string);
             let mut ended = offers::flight_summary(session, web, trouble, language);
             if choice.by == FlownBy::Expert {
                 ended = offers::watched(ended, &choice.scenario, language);
@@ -435,7 +479,7 @@ impl<'a> TrainRun<'a> {
     /// questionnaire after the flight.
     fn keep_serving(&mut self, session: &Path) {
         let (Some(web), true, false) = (&self.web, self.prompt.is_open(), self.stop.is_requested()) else { return };
-        let address = offers::questionnaire(session, Some(web.server.address()));
+        let address = offers::questionnaire(session, web.server.address());
         println!("questionnaire {address}   (available until you press Enter)");
         // Enter only stops the web pages; the run still waits for the photographs.
         while self.prompt.answer().is_none() && !self.stop.is_requested() {
@@ -443,6 +487,18 @@ impl<'a> TrainRun<'a> {
             std::thread::sleep(CHECK_INTERVAL);
         }
     }
+}
+
+/// Reports to the server, if this computer is a station, why the ordered flight does not start.
+fn decline(station: &mut Option<StationLink>, why: String) {
+    if let Some(station) = station {
+        station.decline(why);
+    }
+}
+
+/// Returns the message for the window about a flight that cannot start. The details are in English, as in the log.
+fn refusal(error: &AppError, language: Language) -> ToWindow {
+    ToWindow::Refused { words: text!(language, "window-train-refused", error = error.to_string()) }
 }
 
 /// Validates a choice made in the window in the same way as a choice on the command line.

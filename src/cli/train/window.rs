@@ -78,6 +78,7 @@ impl WindowProcess {
             ToWindow::Flying(_) => self.is_flying = true,
             ToWindow::Ended(_) => self.is_flying = false,
             ToWindow::Offers(_)
+            | ToWindow::Ordered(_)
             | ToWindow::Paused { .. }
             | ToWindow::Refused { .. }
             | ToWindow::School(_)

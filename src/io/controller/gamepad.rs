@@ -1,6 +1,6 @@
 //! Gamepads and RC transmitters, accessed through gilrs. Axes are raw; the calibration assigns their functions.
 
-use crate::errors::AppError;
+use super::device_error::DeviceError;
 use gilrs::{EventType, GamepadId, Gilrs, GilrsBuilder};
 use spandrel_clients::rc::{Device, DeviceEvent};
 
@@ -16,11 +16,11 @@ pub struct Gamepad {
     device: Device,
 }
 
-fn system() -> Result<Gilrs, AppError> {
+fn system() -> Result<Gilrs, DeviceError> {
     // gilrs filters are off because the profile defines dead bands, and gilrs mappings are off because raw axes are
     // needed.
     let built = GilrsBuilder::new().with_default_filters(false).add_included_mappings(false).add_env_mappings(false).build();
-    built.map_err(|error| AppError::failed(format!("cannot access gamepads and transmitters on this machine: {error}")))
+    built.map_err(|error| DeviceError::NoAccess(error.to_string()))
 }
 
 fn describe(gamepad: gilrs::Gamepad) -> Device {
@@ -39,7 +39,7 @@ pub struct GamepadWatcher(Gilrs);
 #[cfg(feature = "view")]
 impl GamepadWatcher {
     /// Starts watching for new devices.
-    pub fn start() -> Result<Self, AppError> {
+    pub fn start() -> Result<Self, DeviceError> {
         system().map(Self)
     }
 
@@ -50,25 +50,24 @@ impl GamepadWatcher {
 }
 
 /// Returns all connected devices.
-pub fn connected() -> Result<Vec<Device>, AppError> {
+pub fn connected() -> Result<Vec<Device>, DeviceError> {
     Ok(system()?.gamepads().map(|(_, gamepad)| describe(gamepad)).collect())
 }
 
 impl Gamepad {
     /// Opens the device with this ID or name, or the only device.
-    pub fn open(wanted: Option<&str>) -> Result<Self, AppError> {
+    pub fn open(wanted: Option<&str>) -> Result<Self, DeviceError> {
         let system = system()?;
         let all: Vec<(GamepadId, Device)> = system.gamepads().map(|(id, gamepad)| (id, describe(gamepad))).collect();
         let fits =
             |device: &Device| wanted.is_none_or(|w| device.id == w || device.name.to_lowercase().contains(&w.to_lowercase()));
         let fitting: Vec<&(GamepadId, Device)> = all.iter().filter(|(_, device)| fits(device)).collect();
-        let names = all.iter().map(|(_, d)| format!("'{}' ({})", d.name, d.id)).collect::<Vec<_>>().join(", ");
-        let names = if names.is_empty() { "none".to_owned() } else { names };
+        let connected = || all.iter().map(|(_, d)| format!("'{}' ({})", d.name, d.id)).collect();
         match (fitting.as_slice(), wanted) {
             ([(id, device)], _) => Ok(Self { id: *id, device: device.clone(), system }),
-            ([], None) => Err(AppError::failed("no gamepad or transmitter is connected; use --keyboard to fly without one")),
-            ([], Some(wanted)) => Err(AppError::failed(format!("no device matches '{wanted}' (connected: {names})"))),
-            _ => Err(AppError::invalid(format!("more than one device matches: choose one with --device (connected: {names})"))),
+            ([], None) => Err(DeviceError::NotConnected),
+            ([], Some(wanted)) => Err(DeviceError::NoMatch { wanted: wanted.to_owned(), connected: connected() }),
+            _ => Err(DeviceError::Ambiguous { connected: connected() }),
         }
     }
 

@@ -1,12 +1,14 @@
 //! Sources of stick input: gamepads and transmitters (feature `gamepad`), the terminal's keyboard, and recordings.
 
 mod calibrated;
+mod device_error;
 #[cfg(feature = "gamepad")]
 mod gamepad;
 mod profiles;
 mod terminal;
 
 pub use calibrated::{CalibratedController, ControllerReading};
+pub use device_error::DeviceError;
 pub use profiles::{ProfileFolder, read as read_profile};
 pub use terminal::{RawTerminal, TerminalKey};
 
@@ -33,11 +35,11 @@ impl EventSource {
     ///
     /// # Errors
     /// Returns an error if there is none, several match, or this build does not support gamepads.
-    pub fn device(wanted: Option<&str>) -> Result<Self, AppError> {
+    pub fn device(wanted: Option<&str>) -> Result<Self, DeviceError> {
         #[cfg(feature = "gamepad")]
         return gamepad::Gamepad::open(wanted).map(|gamepad| Self::Gamepad(Box::new(gamepad)));
         #[cfg(not(feature = "gamepad"))]
-        Err(AppError::failed(format!("{}: {NO_GAMEPADS_MESSAGE}", wanted.unwrap_or("a gamepad or transmitter"))))
+        Err(DeviceError::Unsupported { wanted: format!("{}: ", wanted.unwrap_or("a gamepad or transmitter")) })
     }
 
     /// Returns the device that produces the events.
@@ -67,9 +69,6 @@ impl EventSource {
         }
     }
 }
-
-#[cfg(not(feature = "gamepad"))]
-const NO_GAMEPADS_MESSAGE: &str = "this build does not support gamepads (build with --features gamepad, which needs libudev-dev on Debian and Ubuntu); use --keyboard to fly without one";
 
 /// Detects newly connected devices.
 #[derive(Debug, Default)]
@@ -114,9 +113,9 @@ pub fn keys(file: Option<&Path>) -> Result<KeyBindings, AppError> {
 ///
 /// # Errors
 /// Returns an error if the system cannot list them, or this build does not support gamepads.
-pub fn connected() -> Result<Vec<Device>, AppError> {
+pub fn connected() -> Result<Vec<Device>, DeviceError> {
     #[cfg(feature = "gamepad")]
     return gamepad::connected();
     #[cfg(not(feature = "gamepad"))]
-    Err(AppError::failed(NO_GAMEPADS_MESSAGE))
+    Err(DeviceError::Unsupported { wanted: String::new() })
 }

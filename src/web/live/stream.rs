@@ -17,17 +17,18 @@ const ACCESS_CHECK_INTERVAL: u32 = 50;
 /// Streams the values in a language until the browser disconnects or the visitor loses access.
 pub fn stream(state: Arc<ServerState>, live: &LiveVehicle, (cookie, language): (Option<String>, Language)) -> Response<Body> {
     let moments = live.moments.clone();
-    let events = futures_util::stream::unfold((moments, state, cookie, 0u32), move |(mut moments, state, cookie, count)| async move {
-        // The first value is sent immediately.
-        if count > 0 {
-            moments.changed().await.ok()?;
-        }
-        if count % ACCESS_CHECK_INTERVAL == ACCESS_CHECK_INTERVAL - 1 && !still_has_access(&state, cookie.clone()).await {
-            return None;
-        }
-        let text = moments.borrow_and_update().get(language).clone();
-        Some((Ok::<Event, Infallible>(Event::default().data(text)), (moments, state, cookie, count.wrapping_add(1))))
-    });
+    let events =
+        futures_util::stream::unfold((moments, state, cookie, 0u32), move |(mut moments, state, cookie, count)| async move {
+            // The first value is sent immediately.
+            if count > 0 {
+                moments.changed().await.ok()?;
+            }
+            if count % ACCESS_CHECK_INTERVAL == ACCESS_CHECK_INTERVAL - 1 && !still_has_access(&state, cookie.clone()).await {
+                return None;
+            }
+            let text = moments.borrow_and_update().get(language).clone();
+            Some((Ok::<Event, Infallible>(Event::default().data(text)), (moments, state, cookie, count.wrapping_add(1))))
+        });
     let mut response = Sse::new(events).keep_alive(KeepAlive::default()).into_response();
     response.headers_mut().insert(header::CACHE_CONTROL, header::HeaderValue::from_static("no-store"));
     response

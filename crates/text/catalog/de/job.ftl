@@ -33,3 +33,7 @@ job-state-open = offen
 job-state-overdue = überfällig
 job-state-done = erledigt
 job-state-done-late = verspätet erledigt
+
+# How a trainee flies a job.
+job-how-to-fly = Wählen Sie diesen Auftrag im Simulatorfenster auf der Startseite.
+job-how-to-fly-assigned = Auf der Startseite des Simulatorfensters: { $row }

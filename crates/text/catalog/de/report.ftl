@@ -123,7 +123,7 @@ report-better-next = Nächster Flug:
 
 ## Next
 
-report-next-note = Nur aus dieser Sitzung abgeleitet. Einen Plan aus allen Sitzungen eines Trainees erstellt { $command }.
+report-next-note = Nur auf Grundlage dieser Sitzung. Der Plan aus allen Sitzungen steht im Browser auf der Seite des Trainees.
 report-next-consequence = Folge: { $reason }
 report-next-caption = empfohlene Szenarien
 report-column-level = Stufe
@@ -286,7 +286,7 @@ report-flight-timeline-region = Zeitleiste
 report-flight-timeline-title = Steuerung, Aufgaben, Rückmeldungen, Bilder und Lücken im Zeitverlauf
 report-flight-zoom = Ziehen Sie über ein Diagramm, um es zu vergrößern. Doppelklicken Sie, um die Vergrößerung aufzuheben. Klicken Sie, um den Schieberegler zu bewegen.
 report-flight-series = Zeitreihen als CSV herunterladen
-report-flight-export = Alle Datensätze exportieren:
+report-flight-export = Alle Einzelbilder: { $link } auf der Seite der Sitzung im Browser.
 report-flight-marks = Markierungen der Ausbilder
 report-flight-play = Abspielen
 report-flight-pause = Pause

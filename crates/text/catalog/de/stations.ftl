@@ -12,6 +12,7 @@ stations-lost = keine Verbindung
 stations-practice-of = { $trainee }: Übungsflug { $job }
 stations-assessment-of = { $trainee }: Bewertungsflug { $job }
 stations-sent = gesendet: { $flight }
+stations-in-briefing = Einweisung: { $flight }
 stations-expired = nicht rechtzeitig beantwortet, ungültig: { $flight }
 stations-started = gestartet: { $flight }
 stations-refused = nicht gestartet: { $flight }. { $why }
@@ -24,3 +25,8 @@ stations-error-unknown = { $station } ist nicht bekannt. Die Station wurde viell
 stations-error-lost = { $station } antwortet nicht. Prüfen Sie, ob die Station eingeschaltet und verbunden ist.
 stations-error-flying = An { $station } läuft ein Flug. Beenden Sie ihn zuerst.
 stations-error-trainee = Geben Sie das Pseudonym des Trainees ein: 1 bis 32 Buchstaben ohne Umlaute, Ziffern, „-“ oder „_“, am Anfang ein Buchstabe oder eine Ziffer.
+# Why a station does not start a flight. Stations send the English texts.
+stations-refusal-declined = der Trainee hat den Flug abgelehnt
+stations-refusal-other-flight = der Trainee hat einen anderen Flug gewählt
+stations-refusal-window-closed = das Fenster an der Station wurde geschlossen
+stations-refusal-flying = an der Station hat gerade ein Flug begonnen

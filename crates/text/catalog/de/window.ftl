@@ -84,6 +84,11 @@ window-controls-yaw = drehen
 window-controls-axis = Achse { $number }
 window-controls-no-axis = Noch keine Achse bewegt.
 window-controls-note-none = Kein Gamepad und keine Fernsteuerung verbunden.
+window-controls-note-no-match = Kein Gerät passt zu '{ $wanted }' (verbunden: { $connected }).
+window-controls-note-ambiguous = Mehrere Geräte passen ({ $connected }). Lassen Sie nur eines verbunden.
+window-controls-note-no-access = Controller sind auf diesem Computer nicht nutzbar: { $error }
+window-controls-note-unsupported = Dieses Programm wurde ohne Unterstützung für Controller gebaut.
+window-controls-note-invalid-profile = Das Profil des Controllers ist ungültig: { $error }
 window-controls-note-profile = Profil: { $file }.
 window-controls-note-not-calibrated = „{ $name }“ ist noch nicht kalibriert.
 window-controls-note-saved = Gespeichert in { $file }.
@@ -126,7 +131,6 @@ window-result-overall = gesamt  { $sum } von { $most }
 window-result-no-scores = keine Wertung
 window-result-not-applicable = entfällt
 window-result-report = Bericht
-window-result-questionnaire = Fragebogen
 window-result-not-available = nicht vorhanden
 window-result-open-report = Bericht öffnen
 window-result-open-questionnaire = Fragebogen öffnen
@@ -137,6 +141,7 @@ window-result-fly-again = Noch einmal fliegen
 window-result-choose = Anderen Auftrag wählen
 window-result-after = { $reason } nach { $minutes } min { $seconds } s Flug
 window-result-not-scored = Die Sitzung wurde nicht bewertet. Die Aufzeichnung liegt in { $folder }
+window-result-not-scored-because = Die Sitzung wurde nicht bewertet: { $error }
 
 ## Defect school
 
@@ -156,7 +161,8 @@ window-school-mastered =
         [one] { $count } Bildart beherrschen Sie: mindestens viermal hintereinander richtig.
        *[other] { $count } Bildarten beherrschen Sie: mindestens viermal hintereinander richtig.
     }
-window-school-failed = Die Schadensschule ist fehlgeschlagen (siehe die Meldung im Terminal)
+window-school-failed = Die Schadensschule ist ausgefallen. Bitte informieren Sie Ihren Ausbilder.
+window-school-failed-because = Die Schadensschule ist ausgefallen: { $error }
 
 ## Settings
 
@@ -193,7 +199,7 @@ window-settings-restore-about = Setzt alle Einstellungen und Tasten zurück.
 window-settings-back-about = Alle Änderungen sind gespeichert.
 window-settings-key-unusable = Diese Taste geht nicht. Drücken Sie eine andere, oder Esc zum Abbrechen.
 window-settings-nothing-changed = Nichts geändert.
-window-settings-keys-fixed = Die Tasten kommen aus { $file } (Option --keys). Ändern Sie sie dort.
+window-settings-keys-fixed = Die Tasten stammen aus { $file }. Ändern Sie sie dort.
 window-settings-press-key = Taste drücken
 window-settings-restore-keys = Standardtasten wiederherstellen
 window-settings-keys-awaiting = Drücken Sie die neue Taste. Esc bricht ab.
@@ -213,7 +219,7 @@ window-flight-ghost-assessment = Kein Geist im Bewertungsflug.
 window-flight-ghost-expert = Kein Geist, während Sie dem Experten zusehen.
 window-flight-ghost-not-ready = Der Geist ist noch nicht bereit: Ein Experte fliegt diesen Auftrag im Hintergrund. Versuchen Sie es in einer Minute wieder.
 window-flight-ghost-changed = Kein Geist Ihrer eigenen Flüge: Dieser Auftrag hat sich seitdem geändert. Ein Experte fliegt ihn im Hintergrund. Versuchen Sie es in einer Minute wieder.
-window-flight-ghost-no-session = Kein Geist ohne Sitzung: Starten Sie den Flug mit spandrel train.
+window-flight-ghost-no-session = Kein Geist ohne Sitzung: Wählen Sie einen Flug auf der Startseite des Simulators.
 window-flight-ghost = Geist: { $words }.
 window-flight-ghost-hidden = Geist ausgeblendet.
 window-flight-ghost-best = Ihr bester Flug, { $overall } von { $most }
@@ -263,3 +269,7 @@ window-train-lesson-progress = { $done } von { $steps } Schritten der Lektion.
 window-train-not-in-assessment = Im Bewertungsflug nicht möglich.
 window-train-in-flight = Ein Flug läuft: Beenden Sie ihn zuerst.
 window-train-no-window = Dieses Programm wurde ohne das Fenster gebaut
+window-train-refused = Der Flug kann nicht beginnen: { $error }
+# A flight that an instructor has ordered at this station.
+window-ordered = Ihr Ausbilder hat einen Flug für { $trainee } gewählt: { $job } ({ $purpose }).
+window-ordered-declined = Sie haben den Flug abgelehnt, den Ihr Ausbilder gewählt hat.

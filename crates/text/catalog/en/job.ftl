@@ -38,3 +38,7 @@ job-state-open = open
 job-state-overdue = overdue
 job-state-done = done
 job-state-done-late = done late
+
+# How a trainee flies a job.
+job-how-to-fly = In the simulator window, choose this job on the start page.
+job-how-to-fly-assigned = On the start page of the simulator window: { $row }

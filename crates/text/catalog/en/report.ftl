@@ -123,7 +123,7 @@ report-better-next = Next flight:
 
 ## Next
 
-report-next-note = Based on this session only. For a plan based on all of a trainee's sessions, run { $command }.
+report-next-note = Based on this session only. For a plan based on all of a trainee's sessions, see the trainee's page in the browser.
 report-next-consequence = Consequence: { $reason }
 report-next-caption = recommended scenarios
 report-column-level = level
@@ -282,7 +282,7 @@ report-flight-timeline-region = Timeline
 report-flight-timeline-title = Control source, tasks, feedback, pictures and gaps over time
 report-flight-zoom = Drag across a chart to zoom in. Double-click to reset the zoom. Click to move the slider.
 report-flight-series = Download time series as CSV
-report-flight-export = To export every frame:
+report-flight-export = Every frame: { $link } on the session's page in the browser.
 report-flight-marks = Instructor's marks
 report-flight-play = Play
 report-flight-pause = Pause

@@ -13,6 +13,7 @@ stations-lost = no connection
 stations-practice-of = { $trainee }: practice of { $job }
 stations-assessment-of = { $trainee }: assessment of { $job }
 stations-sent = sent: { $flight }
+stations-in-briefing = in briefing: { $flight }
 stations-expired = no answer in time, void: { $flight }
 stations-started = started: { $flight }
 stations-refused = not started: { $flight }. { $why }
@@ -25,3 +26,8 @@ stations-error-unknown = { $station } is not known. It may have been renamed.
 stations-error-lost = { $station } does not respond. Check that it is switched on and connected.
 stations-error-flying = A flight is in progress at { $station }. End it first.
 stations-error-trainee = Enter the trainee's pseudonym: 1 to 32 letters, digits, "-" or "_", starting with a letter or digit.
+# Why a station does not start a flight. Stations send the English texts.
+stations-refusal-declined = the trainee declined the flight
+stations-refusal-other-flight = the trainee chose another flight
+stations-refusal-window-closed = the window at the station was closed
+stations-refusal-flying = a flight has just been started at the station

@@ -86,6 +86,11 @@ window-controls-axis = axis { $number }
 window-controls-no-axis = No axis has moved yet.
 # Notes about the controller.
 window-controls-note-none = No gamepad or transmitter is connected.
+window-controls-note-no-match = No device matches '{ $wanted }' (connected: { $connected }).
+window-controls-note-ambiguous = More than one device matches ({ $connected }). Disconnect all but one.
+window-controls-note-no-access = Controllers cannot be used on this computer: { $error }
+window-controls-note-unsupported = This program was built without support for controllers.
+window-controls-note-invalid-profile = The controller's profile is invalid: { $error }
 window-controls-note-profile = Profile: { $file }.
 window-controls-note-not-calibrated = '{ $name }' is not calibrated yet.
 window-controls-note-saved = Saved in { $file }.
@@ -129,7 +134,6 @@ window-result-overall = overall  { $sum } of { $most }
 window-result-no-scores = no scores
 window-result-not-applicable = not applicable
 window-result-report = report
-window-result-questionnaire = questionnaire
 window-result-not-available = not available
 window-result-open-report = Open report
 window-result-open-questionnaire = Open questionnaire
@@ -141,6 +145,7 @@ window-result-choose = Choose another job
 # Why the flight ended.
 window-result-after = { $reason } after { $minutes } min { $seconds } s of flight
 window-result-not-scored = The session was not scored. The recorded data is in { $folder }
+window-result-not-scored-because = The session was not scored: { $error }
 
 ## Defect school
 
@@ -160,7 +165,8 @@ window-school-mastered =
         [one] You know { $count } kind of picture well: right at least four times in a row.
        *[other] You know { $count } kinds of pictures well: right at least four times in a row.
     }
-window-school-failed = the defect school has failed (see the message in the terminal)
+window-school-failed = The defect school has failed. Please tell your instructor.
+window-school-failed-because = The defect school has failed: { $error }
 
 ## Settings
 
@@ -197,7 +203,7 @@ window-settings-restore-about = Resets all settings and keys.
 window-settings-back-about = All changes are saved.
 window-settings-key-unusable = This key cannot be used. Press another one, or Esc to cancel.
 window-settings-nothing-changed = Nothing changed.
-window-settings-keys-fixed = The keys come from { $file } (option --keys). Change them there.
+window-settings-keys-fixed = The keys come from { $file }. Change them there.
 window-settings-press-key = press a key
 window-settings-restore-keys = Restore default keys
 window-settings-keys-awaiting = Press the new key. Esc cancels.
@@ -217,7 +223,7 @@ window-flight-ghost-assessment = No ghost in an assessment.
 window-flight-ghost-expert = No ghost while you watch the expert.
 window-flight-ghost-not-ready = The ghost is not ready yet: an expert flies this job in the background. Try again in a minute.
 window-flight-ghost-changed = No ghost of your own flights: this job has changed since. An expert flies it in the background. Try again in a minute.
-window-flight-ghost-no-session = No ghost without a session: start the flight with spandrel train.
+window-flight-ghost-no-session = No ghost without a session: choose a flight on the start page of the simulator.
 window-flight-ghost = Ghost: { $words }.
 window-flight-ghost-hidden = Ghost hidden.
 window-flight-ghost-best = your best flight, { $overall } of { $most }
@@ -269,3 +275,7 @@ window-train-lesson-progress = { $done } of { $steps } steps of the lesson.
 window-train-not-in-assessment = Not available in an assessment.
 window-train-in-flight = A flight is in progress: end it first.
 window-train-no-window = this program was built without the window
+window-train-refused = The flight cannot start: { $error }
+# A flight that an instructor has ordered at this station.
+window-ordered = Your instructor has chosen a flight for { $trainee }: { $job } ({ $purpose }).
+window-ordered-declined = You have declined the flight that your instructor chose.

@@ -33,3 +33,7 @@ job-state-open = pendiente
 job-state-overdue = vencido
 job-state-done = terminado
 job-state-done-late = terminado con retraso
+
+# How a trainee flies a job.
+job-how-to-fly = En la ventana del simulador, elija este trabajo en la página de inicio.
+job-how-to-fly-assigned = En la página de inicio de la ventana del simulador: { $row }

@@ -123,7 +123,7 @@ report-better-next = Próximo vuelo:
 
 ## Next
 
-report-next-note = Basado solo en esta sesión. Para un plan basado en todas las sesiones de un alumno, ejecute { $command }.
+report-next-note = Basado solo en esta sesión. El plan basado en todas las sesiones está en la página del alumno en el navegador.
 report-next-consequence = Consecuencia: { $reason }
 report-next-caption = escenarios recomendados
 report-column-level = nivel
@@ -302,7 +302,7 @@ report-flight-timeline-region = Cronología
 report-flight-timeline-title = Fuente de control, tareas, avisos, fotos y cortes a lo largo del tiempo
 report-flight-zoom = Arrastre sobre un gráfico para ampliarlo. Haga doble clic para restablecer la ampliación. Haga clic para mover el control deslizante.
 report-flight-series = Descargar las series de tiempo como CSV
-report-flight-export = Para exportar todos los registros:
+report-flight-export = Todos los fotogramas: { $link } en la página de la sesión en el navegador.
 report-flight-marks = Marcas del instructor
 report-flight-play = Reproducir
 report-flight-pause = Pausa

@@ -12,6 +12,7 @@ stations-lost = sin conexión
 stations-practice-of = { $trainee }: práctica de { $job }
 stations-assessment-of = { $trainee }: evaluación de { $job }
 stations-sent = orden enviada: { $flight }
+stations-in-briefing = en la sesión informativa: { $flight }
 stations-expired = sin respuesta a tiempo, anulada: { $flight }
 stations-started = vuelo iniciado: { $flight }
 stations-refused = vuelo no iniciado: { $flight }. { $why }
@@ -24,3 +25,8 @@ stations-error-unknown = No se conoce { $station }. Es posible que haya cambiado
 stations-error-lost = { $station } no responde. Compruebe que esté encendida y conectada.
 stations-error-flying = Hay un vuelo en curso en { $station }. Termínelo primero.
 stations-error-trainee = Escriba el seudónimo del alumno: de 1 a 32 letras sin tilde ni ñ, dígitos, «-» o «_», y al principio una letra o un dígito.
+# Why a station does not start a flight. Stations send the English texts.
+stations-refusal-declined = el alumno rechazó el vuelo
+stations-refusal-other-flight = el alumno eligió otro vuelo
+stations-refusal-window-closed = se cerró la ventana de la estación
+stations-refusal-flying = acaba de empezar un vuelo en la estación

@@ -84,6 +84,11 @@ window-controls-yaw = girar
 window-controls-axis = eje { $number }
 window-controls-no-axis = Aún no se ha movido ningún eje.
 window-controls-note-none = No hay ningún control ni transmisor conectado.
+window-controls-note-no-match = Ningún dispositivo coincide con '{ $wanted }' (conectados: { $connected }).
+window-controls-note-ambiguous = Coincide más de un dispositivo ({ $connected }). Deje conectado solo uno.
+window-controls-note-no-access = No se pueden usar controles en este equipo: { $error }
+window-controls-note-unsupported = Este programa se compiló sin compatibilidad con controles.
+window-controls-note-invalid-profile = El perfil del control no es válido: { $error }
 window-controls-note-profile = Perfil: { $file }.
 window-controls-note-not-calibrated = «{ $name }» aún no está calibrado.
 window-controls-note-saved = Guardado en { $file }.
@@ -126,7 +131,6 @@ window-result-overall = total  { $sum } de { $most }
 window-result-no-scores = sin puntuación
 window-result-not-applicable = no se aplica
 window-result-report = informe
-window-result-questionnaire = cuestionario
 window-result-not-available = no disponible
 window-result-open-report = Abrir el informe
 window-result-open-questionnaire = Abrir el cuestionario
@@ -137,6 +141,7 @@ window-result-fly-again = Volar otra vez
 window-result-choose = Elegir otro trabajo
 window-result-after = { $reason } tras { $minutes } min { $seconds } s de vuelo
 window-result-not-scored = La sesión no se puntuó. Los datos grabados están en { $folder }
+window-result-not-scored-because = La sesión no se puntuó: { $error }
 
 ## Defect school
 
@@ -156,7 +161,8 @@ window-school-mastered =
         [one] Domina { $count } tipo de foto: correcto al menos cuatro veces seguidas.
        *[other] Domina { $count } tipos de foto: correcto al menos cuatro veces seguidas.
     }
-window-school-failed = la escuela de defectos falló (vea el mensaje en la terminal)
+window-school-failed = La escuela de defectos ha fallado. Avise a su instructor.
+window-school-failed-because = La escuela de defectos ha fallado: { $error }
 
 ## Settings
 
@@ -193,7 +199,7 @@ window-settings-restore-about = Restablece todos los ajustes y teclas.
 window-settings-back-about = Todos los cambios están guardados.
 window-settings-key-unusable = Esta tecla no se puede usar. Pulse otra, o Esc para cancelar.
 window-settings-nothing-changed = No se cambió nada.
-window-settings-keys-fixed = Las teclas vienen de { $file } (opción --keys). Cámbielas allí.
+window-settings-keys-fixed = Las teclas provienen de { $file }. Cámbielas allí.
 window-settings-press-key = pulse una tecla
 window-settings-restore-keys = Restaurar teclas
 window-settings-keys-awaiting = Pulse la tecla nueva. Esc cancela.
@@ -213,7 +219,7 @@ window-flight-ghost-assessment = No hay fantasma en una evaluación.
 window-flight-ghost-expert = No hay fantasma mientras observa al experto.
 window-flight-ghost-not-ready = El fantasma aún no está listo: un experto vuela este trabajo en segundo plano. Inténtelo en un minuto.
 window-flight-ghost-changed = No hay fantasma de sus propios vuelos: este trabajo ha cambiado desde entonces. Un experto lo vuela en segundo plano. Inténtelo en un minuto.
-window-flight-ghost-no-session = No hay fantasma sin sesión: inicie el vuelo con spandrel train.
+window-flight-ghost-no-session = No hay fantasma sin una sesión: elija un vuelo en la página de inicio del simulador.
 window-flight-ghost = Fantasma: { $words }.
 window-flight-ghost-hidden = Fantasma oculto.
 window-flight-ghost-best = su mejor vuelo, { $overall } de { $most }
@@ -263,3 +269,7 @@ window-train-lesson-progress = { $done } de { $steps } pasos de la lección.
 window-train-not-in-assessment = No disponible en una evaluación.
 window-train-in-flight = Hay un vuelo en curso: termínelo primero.
 window-train-no-window = este programa se compiló sin la ventana
+window-train-refused = El vuelo no puede empezar: { $error }
+# A flight that an instructor has ordered at this station.
+window-ordered = Su instructor ha elegido un vuelo para { $trainee }: { $job } ({ $purpose }).
+window-ordered-declined = Ha rechazado el vuelo que eligió su instructor.

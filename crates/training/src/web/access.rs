@@ -29,6 +29,8 @@ pub struct Visitor {
     pub token: String,
     /// Language of the pages.
     pub language: Language,
+    /// Whether the server accepts training stations, so that instructors can start flights there.
+    pub has_stations: bool,
     /// Path and query of the requested page, which the language form shows again; empty if the request was a change.
     pub address: String,
 }
@@ -75,6 +77,7 @@ mod tests {
             open,
             token: String::new(),
             language: Language::English,
+            has_stations: false,
             address: String::new(),
         }
     }

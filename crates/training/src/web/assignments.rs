@@ -4,6 +4,7 @@ use super::access::{AccessLevel, Visitor};
 use super::layout::{ELEMENT, page, table, token, with_element};
 use super::rejected_form::{FormField, RejectedForm};
 use crate::assignment::{AssignedJob, Assignment, AssignmentCounts, AssignmentState, AssignmentTarget};
+use crate::terms::job_title;
 use maud::{Markup, html};
 use spandrel_model::calendar::day;
 use spandrel_text::{Language, text};
@@ -45,12 +46,18 @@ fn job_table(visitor: &Visitor, trainee: &str, caption: &str, jobs: &[&AssignedJ
                 td { (day(assignment.due_unix_us)) }
                 td { (state(language, &job.state)) }
                 td { (target(visitor, assignment)) }
-                td { @if job.state.is_pending() { code { (assignment.command(trainee)) } } @else { "–" } }
+                td { @if !job.state.is_pending() { "–" } @else if instructor { code { (assignment.command(trainee)) } } @else { (how_to_fly(language, assignment)) } }
                 @if instructor { td { (remove(visitor, assignment)) } }
             }
         }
     };
     table(caption, &heads, &rows)
+}
+
+/// Describes how the trainee flies an assigned job: by a row of the window's start page.
+fn how_to_fly(language: Language, assignment: &Assignment) -> String {
+    let (date, job) = (day(assignment.due_unix_us), job_title(&assignment.scenario, language));
+    text!(language, "job-how-to-fly-assigned", row = text!(language, "window-start-assigned", date = date, job = job))
 }
 
 /// Renders the scenario with a link, and the form or level.

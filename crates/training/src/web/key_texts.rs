@@ -64,8 +64,10 @@ mod tests {
         let mut quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
         let plain = text.split('`').step_by(2);
         let numbers = plain.flat_map(|part| part.split(|sign: char| !sign.is_ascii_digit() && sign != '.'));
-        let mut numbers: Vec<&str> =
-            numbers.map(|number| number.trim_matches('.')).filter(|number| number.starts_with(|sign: char| sign.is_ascii_digit())).collect();
+        let mut numbers: Vec<&str> = numbers
+            .map(|number| number.trim_matches('.'))
+            .filter(|number| number.starts_with(|sign: char| sign.is_ascii_digit()))
+            .collect();
         quoted.sort_unstable();
         numbers.sort_unstable();
         (quoted, numbers)
@@ -89,7 +91,8 @@ mod tests {
     fn exact_the_catalog_explains_no_other_keys() {
         let ids: Vec<String> = form_keys().map(|description| meaning_id(&description.key)).collect();
         let messages = GERMAN_FILE.lines().filter_map(|line| line.split_once(" = ")).map(|(id, _)| id);
-        let others: Vec<&str> = messages.filter(|id| id.starts_with(MEANING_PREFIX) && !ids.iter().any(|known| known == id)).collect();
+        let others: Vec<&str> =
+            messages.filter(|id| id.starts_with(MEANING_PREFIX) && !ids.iter().any(|known| known == id)).collect();
         assert!(others.is_empty(), "no keys of the form: {others:?}");
     }
 
@@ -107,7 +110,10 @@ mod tests {
             assert_eq!(allowed_words(Language::English, english), english);
         }
         assert_eq!(default_words(Language::German, "by level: 0, 0.12, 3, 12"), "je nach Stufe: 0, 0.12, 3, 12");
-        assert_eq!(default_words(Language::Spanish, "true for arch_bottom and interlayer"), "true con arch_bottom y con interlayer");
+        assert_eq!(
+            default_words(Language::Spanish, "true for arch_bottom and interlayer"),
+            "true con arch_bottom y con interlayer"
+        );
         assert_eq!(default_words(Language::Spanish, "respawn"), "respawn");
         let plain = ["text", "list of texts"];
         for description in form_keys().filter(|one| !plain.contains(&one.documented.allowed.as_str())) {

@@ -8,6 +8,8 @@ use spandrel_text::{Language, text};
 
 /// URL of the trainee's own flight page; instructors use the live page.
 const OWN_FLIGHT_URL: &str = "/flight";
+/// URL of the page with the training stations, which instructors see only on a server that accepts stations.
+pub(super) const STATIONS_URL: &str = "/stations";
 /// Stands in a message for an element, such as a link, that [`with_element`] inserts.
 pub const ELEMENT: &str = "\u{fffc}";
 
@@ -18,7 +20,7 @@ fn navigation_entries(language: Language) -> [(&'static str, String, AccessLevel
         (OWN_FLIGHT_URL, text!(language, "web-nav-flight"), AccessLevel::Login),
         ("/live", text!(language, "web-nav-live"), AccessLevel::Instructor),
         ("/trainees", text!(language, "web-nav-trainees"), AccessLevel::Instructor),
-        ("/stations", text!(language, "stations-title"), AccessLevel::Instructor),
+        (STATIONS_URL, text!(language, "stations-title"), AccessLevel::Instructor),
         ("/classes", text!(language, "web-nav-classes"), AccessLevel::Instructor),
         ("/cohort", text!(language, "web-nav-cohort"), AccessLevel::Instructor),
         ("/scenarios", text!(language, "web-nav-scenarios"), AccessLevel::Login),
@@ -78,7 +80,8 @@ fn navigation_bar(visitor: &Visitor, at: &str) -> Markup {
     let is_shown = |address: &str, needs: AccessLevel| {
         let without_account = visitor.open && address == "/account";
         let flies_elsewhere = visitor.satisfies(AccessLevel::Instructor) && address == OWN_FLIGHT_URL;
-        visitor.satisfies(needs) && !without_account && !flies_elsewhere
+        let without_stations = !visitor.has_stations && address == STATIONS_URL;
+        visitor.satisfies(needs) && !without_account && !flies_elsewhere && !without_stations
     };
     html! {
         a.brand href="/" { "Spandrel" }
@@ -268,6 +271,7 @@ pub(super) mod tests {
             open: false,
             token: "t0ken".into(),
             language: Language::English,
+            has_stations: false,
             address: String::new(),
         }
     }
@@ -337,6 +341,11 @@ pub(super) mod tests {
         let trainee = Visitor { role: Role::Trainee, ..administrator() };
         let text = page(&trainee, "", "x", &html! {}).into_string();
         assert!(text.contains("/sessions") && !text.contains("\"/trainees\"") && !text.contains("\"/settings\""));
+        for (has_stations, visitor) in [(false, administrator()), (true, administrator()), (true, trainee)] {
+            let shows = has_stations && visitor.satisfies(AccessLevel::Instructor);
+            let text = page(&Visitor { has_stations, ..visitor }, "", "x", &html! {}).into_string();
+            assert_eq!(text.contains("href=\"/stations\""), shows, "{text}");
+        }
         let stranger = Visitor { name: None, ..administrator() };
         let text = page(&stranger, "", "x", &html! {}).into_string();
         assert!(!text.contains("\"/sessions\"") && !text.contains("Log out"));

@@ -330,7 +330,10 @@ fn step_words(guidance: &Guidance, language: Language) -> String {
     let step = message_words(&sent, language).unwrap_or(sent);
     let first = guidance.detour.map(|detour| detour.way.words());
     let first = first.map(|way| way_words(&way, language).unwrap_or(way));
-    first.map_or(step.clone(), |way| format!("{step}: {way}"))
+    match first {
+        Some(way) => format!("{step}: {way}"),
+        None => step,
+    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! Renders the form of the scenario editor. The fields have no names: a script sends each change to the server, which edits the
 //! text. Without the script, only the text is edited.
 
-use super::scenario_form::{Control, Field, FieldGroup, FormSection, ScenarioForm, element_id, section_id};
 use super::key_texts::{allowed_words, default_words, meaning};
+use super::scenario_form::{Control, Field, FieldGroup, FormSection, ScenarioForm, element_id, section_id};
 use super::scenario_labels::label;
 use maud::{Markup, html};
 use serde_json::{Map, Value, json};

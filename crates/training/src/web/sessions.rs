@@ -12,7 +12,7 @@ use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, Sessi
 use crate::report::formatting;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
-use crate::terms::{end_reason_title, purpose_title, score_title, task_title};
+use crate::terms::{end_reason_title, job_title, purpose_title, score_title, task_title};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
 use spandrel_monitor::stored_text::all_translated;
@@ -168,17 +168,17 @@ fn to_do_better(language: Language, record: &SessionRecord, page_data: &SessionP
                 }
             }
             @if let Some(next) = &advice.next {
-                p { (next_flight(language, &next.scenario, &next.command)) " "
+                p { (next_flight(language, &next.scenario)) " "
                     a href={ "/trainees/" (record.trainee) } { (text!(language, "sessions-plan")) } }
             }
         }
     }
 }
 
-fn next_flight(language: Language, scenario: &str, command: &str) -> Markup {
-    let sentence = text!(language, "sessions-next-flight", scenario = ELEMENT, command = ELEMENT);
-    let (before, after) = sentence.split_at(sentence.find(ELEMENT).map_or(0, |at| at + ELEMENT.len()));
-    html! { (with_element(before, &html! { b { (scenario) } })) (with_element(after, &html! { code { (command) } })) }
+/// Renders the recommended job, and how to fly it.
+fn next_flight(language: Language, scenario: &str) -> Markup {
+    let sentence = text!(language, "sessions-next-flight", job = ELEMENT);
+    html! { (with_element(&sentence, &html! { b { (job_title(scenario, language)) } })) " " (text!(language, "job-how-to-fly")) }
 }
 
 /// Renders the instructor's marks with links to their moments in the report, and the form that adds one.

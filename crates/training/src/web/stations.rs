@@ -2,14 +2,15 @@
 
 use super::access::Visitor;
 use super::assets;
-use super::layout::{message, page_with_script, section, table, token};
+use super::layout::{STATIONS_URL, message, page_with_script, section, table, token};
 use crate::stations::{OrderState, Station, StationFlight, StationState};
 use maud::{Markup, html};
 use spandrel_text::terms::{capitalized, purpose_title};
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, Sentence, SentenceTable, text};
+use std::sync::LazyLock;
 
 /// URL of the page.
-pub const URL: &str = "/stations";
+pub const URL: &str = STATIONS_URL;
 
 /// The stations at a time.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ pub struct StationsPage<'a> {
     /// The stations.
     pub list: StationList<'a>,
     /// Names of the scenarios, and their names with each form or level.
-    pub scenarios: &'a [String],
+    pub scenarios: &'a [&'a str],
     /// Known trainees.
     pub trainees: &'a [String],
     /// Why the last order was refused.
@@ -107,11 +108,29 @@ fn order_words(language: Language, order: Option<&OrderState>) -> String {
         None => "–".to_owned(),
         Some(OrderState::Sent(order, _)) => text!(language, "stations-sent", flight = flight_words(language, &order.flight)),
         Some(OrderState::Expired(flight)) => text!(language, "stations-expired", flight = flight_words(language, flight)),
+        Some(OrderState::InBriefing(order)) => {
+            text!(language, "stations-in-briefing", flight = flight_words(language, &order.flight))
+        }
         Some(OrderState::Started(flight)) => text!(language, "stations-started", flight = flight_words(language, flight)),
         Some(OrderState::Refused(flight, why)) => {
-            text!(language, "stations-refused", flight = flight_words(language, flight), why = why.as_str())
+            text!(language, "stations-refused", flight = flight_words(language, flight), why = refusal_words(language, why))
         }
     }
+}
+
+/// Known reasons of stations.
+static REFUSALS: LazyLock<SentenceTable> = LazyLock::new(|| {
+    SentenceTable::new([
+        Sentence::new(0, |l, _| text!(l, "stations-refusal-declined")),
+        Sentence::new(0, |l, _| text!(l, "stations-refusal-other-flight")),
+        Sentence::new(0, |l, _| text!(l, "stations-refusal-window-closed")),
+        Sentence::new(0, |l, _| text!(l, "stations-refusal-flying")),
+    ])
+});
+
+/// Returns why a station did not start a flight. Errors of the station are in English.
+fn refusal_words(language: Language, why: &str) -> String {
+    REFUSALS.translate(why, language).unwrap_or_else(|| why.to_owned())
 }
 
 /// Purposes, as in files.
@@ -140,7 +159,7 @@ fn order_form(visitor: &Visitor, about: &StationsPage<'_>) -> Markup {
             }
             datalist id="known-trainees" { @for name in about.trainees { option value=(name) {} } }
             label { (text!(language, "stations-job"))
-                select name="scenario" required { @for name in about.scenarios { option value=(name) selected[name == scenario] { (name) } } }
+                select name="scenario" required { @for name in about.scenarios { option value=(name) selected[*name == scenario] { (name) } } }
             }
             label { (text!(language, "stations-purpose"))
                 select name="purpose" {
@@ -182,6 +201,12 @@ mod tests {
         check(&text);
         assert!(text.contains("<option value=\"s1\" selected>") && text.contains("<option value=\"s2\" disabled>"), "{text}");
         assert!(text.contains("ready") && text.contains("practice of"), "{text}");
+        let words = |order: OrderState| order_words(Language::German, Some(&order));
+        let refused = OrderState::Refused(flight(), "the trainee declined the flight".into());
+        assert!(words(refused).ends_with("der Trainee hat den Flug abgelehnt"));
+        assert!(words(OrderState::Refused(flight(), "no such file".into())).ends_with("no such file"));
+        let order = FlightOrder { id: "a".into(), flight: flight(), scenario_text: None };
+        assert!(words(OrderState::InBriefing(order)).starts_with("Einweisung: "));
         let now = stations_now(Language::English, &about(0).list).into_string();
         let table = now.split_once("<select").unwrap().0;
         assert!(text.contains(table) && now.contains("<option value=\"s2\" disabled>"), "{now}");

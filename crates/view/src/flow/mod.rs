@@ -6,6 +6,7 @@ mod briefing;
 mod controls;
 mod menu;
 mod names;
+mod ordered;
 mod page;
 mod paused;
 pub mod pipe;
@@ -63,6 +64,8 @@ pub struct WindowFlow {
     names: KeyNames,
     /// The operation in progress.
     waiting_for: PendingOperation,
+    /// Whether an instructor has ordered the selected flight.
+    ordered: bool,
     /// Layout of the views.
     pub arrangement: ViewLayout,
     /// Aspect ratio (width over height) of the flight's camera.
@@ -109,6 +112,7 @@ impl WindowFlow {
             tutorial_done: BTreeSet::new(),
             names: KeyNames::default(),
             waiting_for: PendingOperation::Simulator,
+            ordered: false,
             arrangement: ViewLayout::default(),
             camera_aspect: 4.0 / 3.0,
             flown_s: 0.0,
@@ -288,6 +292,7 @@ impl WindowFlow {
                     self.show_page(Page::Start);
                 }
             }
+            ToWindow::Ordered(order) => self.begin_ordered(order),
             ToWindow::Flying(flying) => {
                 // After an expert's flight, the trainee's own choice is still selected.
                 if flying.choice.by == FlownBy::Trainee {
@@ -295,7 +300,7 @@ impl WindowFlow {
                 }
                 self.ended = None;
                 self.notice = None;
-                (self.restart_requested, self.flown_s) = (false, 0.0);
+                (self.restart_requested, self.ordered, self.flown_s) = (false, false, 0.0);
                 self.flying = Some(flying.clone());
                 self.out.push_back(WindowRequest::ShowFlight(Box::new(flying)));
                 self.show_page(Page::Flight);

@@ -1,5 +1,6 @@
 //! Display names of the key bindings, for use in page texts.
 
+use spandrel_text::{Language, MessageId};
 use std::collections::BTreeMap;
 
 /// Display names of keys, by the binding's name in key files.
@@ -17,5 +18,11 @@ impl KeyNames {
     #[must_use]
     pub fn name(&self, binding: &str) -> String {
         self.0.get(binding).cloned().unwrap_or_else(|| format!("{{{binding}}}"))
+    }
+
+    /// Returns a message whose variables are bindings, with the names of their keys.
+    #[must_use]
+    pub fn fill(&self, language: Language, id: MessageId) -> String {
+        id.fill(language, &|binding| self.name(binding))
     }
 }

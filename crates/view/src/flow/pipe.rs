@@ -241,7 +241,7 @@ pub struct FlightSummary {
     pub lesson: Option<LessonProgress>,
     /// Address of the report, if one was written.
     pub report: Option<String>,
-    /// Address of the questionnaire if a server is running, otherwise the command that starts it.
+    /// Address of the questionnaire; empty if no server is running.
     pub questionnaire: String,
 }
 
@@ -279,12 +279,23 @@ pub enum SchoolRequest {
 /// Names of the four scores in files, in order.
 pub const SCORE_NAMES: [&str; 4] = ["conformity", "efficiency", "safety", "accuracy"];
 
+/// A flight that an instructor has ordered at this station.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct OrderedFlight {
+    /// The flight.
+    pub choice: FlightChoice,
+    /// Its job.
+    pub job: JobOffer,
+}
+
 /// Messages from `spandrel train` to its window.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "is", rename_all = "snake_case")]
 pub enum ToWindow {
     /// Choices to offer on the start page.
     Offers(FlightOptions),
+    /// An instructor has ordered a flight: lead the trainee to it.
+    Ordered(OrderedFlight),
     /// A flight has started.
     Flying(FlightStarted),
     /// The simulation has been paused or resumed.
@@ -320,6 +331,8 @@ pub enum FromWindow {
     Showing,
     /// Start this flight.
     Chosen(FlightChoice),
+    /// The trainee has left the pages of the ordered flight without starting it.
+    Declined,
     /// Pause the simulation.
     Pause,
     /// Resume the simulation.
@@ -413,10 +426,12 @@ mod tests {
             watched: false,
             lesson: None,
             report: Some("file:///a%20b".into()),
-            questionnaire: "spandrel questionnaire x".into(),
+            questionnaire: "http://127.0.0.1:9/sessions/x/questions".into(),
         };
+        let ordered = OrderedFlight { choice: choice(), job: offers.scenarios[0].clone() };
         for message in [
             ToWindow::Offers(offers),
+            ToWindow::Ordered(ordered),
             ToWindow::Flying(flying),
             ToWindow::Paused { on: true },
             ToWindow::Refused { words: "no".into() },
@@ -432,6 +447,7 @@ mod tests {
             FromWindow::Language { tag: "de".into() },
             FromWindow::Showing,
             FromWindow::Chosen(choice()),
+            FromWindow::Declined,
             FromWindow::Restart,
             FromWindow::Quit,
         ] {

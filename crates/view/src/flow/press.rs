@@ -251,8 +251,7 @@ impl WindowFlow {
     }
 
     fn leave_school(&mut self) {
-        self.school = None;
-        self.send(FromWindow::School(SchoolRequest::Leave));
+        self.end_school();
         self.show_page(Page::Start);
     }
 
@@ -288,6 +287,7 @@ impl WindowFlow {
     }
 
     fn choose(&mut self) {
+        self.ordered = false;
         self.send(FromWindow::Chosen(self.choice.clone()));
         self.wait(PendingOperation::Simulator);
     }
@@ -331,7 +331,11 @@ impl WindowFlow {
 
     fn back(&mut self) {
         match self.page {
-            Page::Controls | Page::Tutorial(0, false) => self.show_page(Page::Start),
+            Page::Controls => {
+                self.decline_order();
+                self.show_page(Page::Start);
+            }
+            Page::Tutorial(0, false) => self.show_page(Page::Start),
             Page::Keys { in_flight } => self.show_page(Page::Settings { in_flight }),
             Page::Settings { in_flight: true } => self.show_page(Page::Paused),
             Page::Settings { in_flight: false } => self.show_page(Page::Start),

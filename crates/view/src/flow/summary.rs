@@ -143,12 +143,8 @@ fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) ->
     let mut y = y;
     let language = pen.style().language;
     let report = ended.report.is_none().then(|| text!(language, "window-result-not-available"));
-    let questionnaire = Some(ended.questionnaire.clone()).filter(|address| !address.is_empty() && !is_openable(address));
-    let places =
-        [(text!(language, "window-result-report"), report), (text!(language, "window-result-questionnaire"), questionnaire)];
-    for (name, words) in places {
-        let Some(words) = words else { continue };
-        pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, name);
+    if let Some(words) = report {
+        pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, text!(language, "window-result-report"));
         let (indent, down) = if width < MIN_BAR_LINE_WIDTH { (0.0, LINE_SPACING * SMALL_TEXT_SIZE) } else { (0.24, 0.0) };
         y = pen.lines((LEFT + indent, y + down), width - indent, SMALL_TEXT_SIZE, HudColor::White, &words);
     }

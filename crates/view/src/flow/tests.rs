@@ -2,7 +2,7 @@
 
 use super::pipe::{
     FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing,
-    JobOffer, LessonProgress, NextJob, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
+    JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
 use super::sheet::{PageLayout, PictureSource};
 use super::{
@@ -900,6 +900,57 @@ fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting);
     assert!(matches!(pending_requests(&mut flow)[..], [WindowRequest::Send(FromWindow::Chosen(_))]));
+}
+
+/// Returns an assessment of a job that is not among the offers, as an instructor orders it.
+fn ordered_flight() -> OrderedFlight {
+    let (trainee, scenario) = ("bert".to_owned(), "from-server/windy.toml".to_owned());
+    let choice = FlightChoice { trainee, scenario: scenario.clone(), purpose: Purpose::Assessment, by: FlownBy::Trainee };
+    let job = JobOffer { name: scenario, title: "Windy".into(), kind: "1 task".into(), briefing: long_briefing() };
+    OrderedFlight { choice, job }
+}
+
+#[test]
+fn exact_an_ordered_flight_needs_the_controller_check_and_the_briefing() {
+    let mut flow = started();
+    let order = ordered_flight();
+    flow.handle_message(ToWindow::Ordered(order.clone()));
+    assert_eq!(flow.page(), Page::Controls);
+    assert!(flow.notice().is_some_and(|notice| notice.contains("bert: Windy (assessment)")));
+    press(&mut flow, &[KeyPress::Enter]);
+    assert_eq!(flow.page(), Page::Briefing);
+    assert!(words(&flow).contains("Briefing: Windy"));
+    assert_eq!(pending_requests(&mut flow), [], "nothing starts before the briefing is acknowledged");
+    press(&mut flow, &[KeyPress::Enter]);
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(order.choice))]);
+    assert_eq!(flow.page(), Page::Waiting);
+}
+
+#[test]
+fn exact_a_trainee_who_goes_back_declines_the_ordered_flight_once() {
+    let mut flow = started();
+    flow.handle_message(ToWindow::Ordered(ordered_flight()));
+    press(&mut flow, &[KeyPress::Enter, KeyPress::Escape]);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Controls, vec![]));
+    press(&mut flow, &[KeyPress::Escape]);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Start, vec![WindowRequest::Send(FromWindow::Declined)]));
+    open(&mut flow, MenuAction::CheckController);
+    press(&mut flow, &[KeyPress::Escape]);
+    assert_eq!(pending_requests(&mut flow), [], "the trainee's own choice");
+}
+
+#[test]
+fn exact_an_ordered_flight_ends_the_school_and_the_calibration() {
+    for (name, mut flow) in school_pages() {
+        flow.handle_message(ToWindow::Ordered(ordered_flight()));
+        let left = WindowRequest::Send(FromWindow::School(SchoolRequest::Leave));
+        assert!(flow.page() == Page::Controls && pending_requests(&mut flow).contains(&left), "{name}");
+    }
+    let mut flow = started();
+    open(&mut flow, MenuAction::CheckController);
+    flow.update_controls(ControllerStatus { wizard: Some(String::new()), ..ControllerStatus::default() });
+    flow.handle_message(ToWindow::Ordered(ordered_flight()));
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Cancel]);
 }
 
 /// Returns the window's briefing page without and with drawings of the site.

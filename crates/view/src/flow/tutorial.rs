@@ -9,7 +9,7 @@ use crate::hud::{
 };
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, message_id, text};
 
 /// Embedded JPEG pictures by name.
 pub const PICTURES: [(&str, &[u8]); 9] = [
@@ -37,23 +37,18 @@ struct TutorialPage {
 impl TutorialPage {
     /// Returns the page with this number, from 0.
     fn new(number: usize, language: Language, names: &KeyNames) -> Option<Self> {
-        let key = |binding: &str| names.name(binding);
         let page = |title: String, picture, text: String| Self { title, picture, text };
         Some(match number {
             0 => page(text!(language, "tutorial-job-title"), job, text!(language, "tutorial-job-text")),
-            1 => page(
-                text!(language, "tutorial-views-title"),
-                views,
-                text!(language, "tutorial-views-text", swap = key("swap"), follow = key("follow")),
-            ),
+            1 => page(text!(language, "tutorial-views-title"), views, names.fill(language, message_id!("tutorial-views-text"))),
             2 => page(text!(language, "tutorial-display-title"), display, text!(language, "tutorial-display-text")),
             3 => page(text!(language, "tutorial-warnings-title"), warnings, text!(language, "tutorial-warnings-text")),
             4 => page(
                 text!(language, "tutorial-defects-title"),
                 defects,
-                text!(language, "tutorial-defects-text", camera_zoom_in = key("camera_zoom_in")),
+                names.fill(language, message_id!("tutorial-defects-text")),
             ),
-            5 => page(text!(language, "tutorial-light-title"), light, text!(language, "tutorial-light-text", lamp = key("lamp"))),
+            5 => page(text!(language, "tutorial-light-title"), light, names.fill(language, message_id!("tutorial-light-text"))),
             _ => return None,
         })
     }
@@ -220,27 +215,7 @@ fn light(pen: &mut PageWriter, frame: PictureFrame, names: &KeyNames) {
     label(pen, second, text!(language, "tutorial-light-with"), (0.3, 1.14), (0.38, 0.85));
     label(pen, second, text!(language, "tutorial-light-closer"), (0.62, 0.68), (0.33, 0.33));
     let (x, y) = frame.at(0.0, 0.72);
-    let key = |binding: &str| names.name(binding);
-    let words = text!(
-        language,
-        "tutorial-light-keys",
-        arm = key("arm"),
-        take_off = key("take_off"),
-        up = key("up"),
-        down = key("down"),
-        turn_left = key("turn_left"),
-        turn_right = key("turn_right"),
-        forward = key("forward"),
-        back = key("back"),
-        left = key("left"),
-        right = key("right"),
-        lamp = key("lamp"),
-        snapshot = key("snapshot"),
-        gimbal_up = key("gimbal_up"),
-        gimbal_down = key("gimbal_down"),
-        land = key("land"),
-        pause = key("pause"),
-    );
+    let words = names.fill(language, message_id!("tutorial-light-keys"));
     pen.lines((x, y), frame.width, frame.font, HudColor::Gray, &words);
 }
 

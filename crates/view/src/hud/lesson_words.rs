@@ -2,36 +2,26 @@
 
 use super::style::DisplayUnits;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, message_id, text};
 
 /// Returns how a step is done. `key` returns the name of a binding's key.
 #[must_use]
 pub fn how_to(task: LessonTask, language: Language, key: &dyn Fn(&str) -> String) -> String {
-    match task {
-        LessonTask::Arm => text!(language, "flight-how-arm", arm = key("arm")),
-        LessonTask::TakeOff => text!(language, "flight-how-take-off", take_off = key("take_off"), up = key("up")),
-        LessonTask::Hover => text!(language, "flight-how-hover"),
-        LessonTask::Turn => text!(language, "flight-how-turn", turn_left = key("turn_left"), turn_right = key("turn_right")),
-        LessonTask::FlyPath => text!(
-            language,
-            "flight-how-fly-path",
-            forward = key("forward"),
-            left = key("left"),
-            back = key("back"),
-            right = key("right"),
-            up = key("up"),
-            down = key("down")
-        ),
-        LessonTask::StopAt => text!(language, "flight-how-stop-at"),
-        LessonTask::TiltCamera => {
-            text!(language, "flight-how-tilt-camera", gimbal_up = key("gimbal_up"), gimbal_down = key("gimbal_down"))
-        }
-        LessonTask::Lamp => text!(language, "flight-how-lamp", lamp = key("lamp")),
-        LessonTask::Photograph => text!(language, "flight-how-photograph", snapshot = key("snapshot")),
-        LessonTask::FlyHome => text!(language, "flight-how-fly-home"),
-        LessonTask::Land => text!(language, "flight-how-land", land = key("land"), down = key("down")),
-        LessonTask::Done => text!(language, "flight-how-done"),
-    }
+    let id = match task {
+        LessonTask::Arm => message_id!("flight-how-arm"),
+        LessonTask::TakeOff => message_id!("flight-how-take-off"),
+        LessonTask::Hover => message_id!("flight-how-hover"),
+        LessonTask::Turn => message_id!("flight-how-turn"),
+        LessonTask::FlyPath => message_id!("flight-how-fly-path"),
+        LessonTask::StopAt => message_id!("flight-how-stop-at"),
+        LessonTask::TiltCamera => message_id!("flight-how-tilt-camera"),
+        LessonTask::Lamp => message_id!("flight-how-lamp"),
+        LessonTask::Photograph => message_id!("flight-how-photograph"),
+        LessonTask::FlyHome => message_id!("flight-how-fly-home"),
+        LessonTask::Land => message_id!("flight-how-land"),
+        LessonTask::Done => message_id!("flight-how-done"),
+    };
+    id.fill(language, key)
 }
 
 /// Returns what the trainee does in a step.

@@ -8,6 +8,7 @@ use crate::report::formatting;
 use crate::report::plots::{coord, line, svg_figure, ticks};
 use crate::report::table::{Table, TableCell, folded, shown};
 use maud::{Markup, html};
+use spandrel_text::monitor_texts::message_words;
 use spandrel_text::{Language, text};
 
 const WIDTH: f64 = 620.0;
@@ -132,7 +133,10 @@ fn episodes(review: &Review, language: Language) -> Table {
 }
 
 fn texts(review: &Review, language: Language) -> Table {
-    let row = |(t_s, text): &(f64, String)| vec![TableCell::Clock(*t_s), text.clone().into()];
+    let row = |(t_s, sent): &(f64, String)| {
+        let words = message_words(sent, language).unwrap_or_else(|| sent.clone());
+        vec![TableCell::Clock(*t_s), words.into()]
+    };
     Table {
         name: "texts",
         caption: text!(language, "report-feedback-texts-caption"),

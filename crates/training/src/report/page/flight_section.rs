@@ -52,7 +52,7 @@ pub fn section(review: &Review) -> Markup {
         p.note { (text!(language, "report-flight-zoom")) }
         (folded(language, |language| series_table(review, language)))
         p.download { button type="button" id="series-csv" hidden { (text!(language, "report-flight-series")) } " "
-            span.note { (text!(language, "report-flight-export")) " " code { "spandrel export SESSION --frames frames.csv" } } }
+            span.note { (text!(language, "report-flight-export", link = text!(language, "sessions-frames"))) } }
     }
 }
 

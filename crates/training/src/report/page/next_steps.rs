@@ -1,6 +1,5 @@
 //! Recommended next scenarios, based on this session only.
 
-use super::figure::{SLOT, filled};
 use crate::plan::{PlanReason, PlanStep, rule_title};
 use crate::report::Review;
 use crate::report::table::{Table, TableCell, folded};
@@ -10,9 +9,8 @@ use spandrel_text::{Language, text};
 /// Renders the "Next" section of a session report.
 pub fn section(review: &Review) -> Markup {
     let language = review.metadata.language;
-    let note = text!(language, "report-next-note", command = SLOT);
     html! {
-        p.note { (filled(&note, &html! { code { "spandrel plan" } })) }
+        p.note { (text!(language, "report-next-note")) }
         ol.steps {
             @for step in &review.next {
                 li {

@@ -4,6 +4,7 @@ use super::{gallery, moment};
 use crate::advice::{AdvicePoint, SessionAdvice};
 use crate::report::Review;
 use crate::report::pictures::ReviewedPicture;
+use crate::terms::job_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -46,7 +47,7 @@ fn picture_near(review: &Review, t_s: f64) -> Option<&ReviewedPicture> {
 fn next(advice: &SessionAdvice, language: Language) -> Markup {
     html! {
         @if let Some(next) = &advice.next {
-            p.next-flight { (text!(language, "report-better-next")) " " b { (next.scenario) } br; code { (next.command) } }
+            p.next-flight { (text!(language, "report-better-next")) " " b { (job_title(&next.scenario, language)) } br; (text!(language, "job-how-to-fly")) }
         }
     }
 }
