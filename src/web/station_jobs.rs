@@ -34,22 +34,27 @@ fn names(name: &str, text: &str) -> Vec<String> {
 /// Path, length and modification time of an uploaded file.
 type FileStamp = (PathBuf, u64, Option<SystemTime>);
 
-/// The jobs with the stamps of the uploaded files from which they were read.
+/// The jobs that were read, and the stamps of the uploaded files at that time.
+#[derive(Debug)]
+struct ReadJobs {
+    stamps: Vec<FileStamp>,
+    jobs: Arc<[StationJob]>,
+}
+
+/// The jobs, kept until an uploaded file changes.
 #[derive(Debug, Default)]
-pub struct StationJobs(Mutex<Option<(Vec<FileStamp>, Arc<[StationJob]>)>>);
+pub struct StationJobs(Mutex<Option<ReadJobs>>);
 
 impl StationJobs {
     /// Returns all jobs: the shipped ones, then those in a folder.
     pub fn all(&self, folder: &Path) -> Arc<[StationJob]> {
         let stamps = stamps(folder);
         let mut cached = lock(&self.0);
-        if let Some((known, jobs)) = cached.as_ref()
-            && *known == stamps
-        {
-            return jobs.clone();
+        if let Some(known) = cached.as_ref().filter(|known| known.stamps == stamps) {
+            return known.jobs.clone();
         }
         let jobs: Arc<[StationJob]> = scenario_library::all(folder).into_iter().map(StationJob::new).collect();
-        *cached = Some((stamps, jobs.clone()));
+        *cached = Some(ReadJobs { stamps, jobs: jobs.clone() });
         jobs
     }
 }

@@ -1,6 +1,5 @@
 //! Contents of the window's start page and end page.
 
-use crate::cli::invocation::typed;
 use crate::io::files::{self, ScenarioFile};
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};

@@ -36,7 +36,7 @@ impl Cooldown {
 #[cfg(test)]
 mod tests {
     use spandrel_mavlink::contract::cue;
-    use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+    use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, WayTo};
     use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
     use spandrel_text::Language;
     use spandrel_text::monitor_texts::{Warning, message_words};
@@ -75,8 +75,16 @@ mod tests {
                 stand_off: None,
                 flown_s: 75.0,
                 needed_s: 480.0,
+                detour: None,
             };
             assert_translated(&guidance.words());
+            assert_translated(&Guidance { progress: Some(0.4), ..guidance }.words());
+            for kind in DetourKind::ALL {
+                let detour = Detour { kind, way: WayTo { distance_m: 12.0, bearing_rad: 0.5, up_m: 3.0 } };
+                let guidance = Guidance { detour: Some(detour), ..guidance };
+                assert_translated(&guidance.words());
+                assert_translated(&guidance.detour_words().unwrap());
+            }
         }
     }
 }

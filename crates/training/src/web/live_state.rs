@@ -340,7 +340,7 @@ fn step_words(guidance: &Guidance, language: Language) -> String {
 mod tests {
     use super::*;
     use spandrel_mavlink::codec::{Decoder, Encoder};
-    use spandrel_mavlink::contract::guidance::{GuidanceStep, WayTo};
+    use spandrel_mavlink::contract::guidance::{Detour, DetourKind, GuidanceStep, WayTo};
     use spandrel_mavlink::dialect::{HEARTBEAT_DATA, HIL_STATE_QUATERNION_DATA, NAMED_VALUE_INT_DATA, STATUSTEXT_DATA};
     use spandrel_model::scenario::read;
 
@@ -471,26 +471,45 @@ mod tests {
         assert!(lines(Language::English).iter().all(|line| line.starts_with("\"en\"")));
     }
 
+    fn guidance() -> Guidance {
+        Guidance {
+            step: GuidanceStep::FlyToTask,
+            task: Some(2),
+            way: Some(WayTo { distance_m: 140.4, bearing_rad: 0.0, up_m: 0.0 }),
+            progress: None,
+            tasks_done: 1,
+            tasks: 4,
+            deviation: None,
+            stand_off: None,
+            flown_s: 75.0,
+            needed_s: 480.0,
+            detour: None,
+        }
+    }
+
     #[test]
     fn exact_every_step_is_translated() {
         let way = |bearing_rad, up_m| Some(WayTo { distance_m: 140.4, bearing_rad, up_m });
         let ways = [None, way(0.01, 0.5), way(-0.5, 12.0), way(0.5, -12.0), way(3.1, 0.0)];
         for (step, way) in GuidanceStep::ALL.into_iter().flat_map(|step| ways.map(|way| (step, way))) {
-            let guidance = Guidance {
-                step,
-                task: Some(2),
-                way,
-                progress: None,
-                tasks_done: 1,
-                tasks: 4,
-                deviation: None,
-                stand_off: None,
-                flown_s: 75.0,
-                needed_s: 480.0,
-            };
+            let guidance = Guidance { step, way, ..guidance() };
             let [english, german, spanish] = Language::ALL.map(|language| step_words(&guidance, language));
             assert_eq!(english, guidance.words());
             assert!(german != english && spanish != english && german != spanish, "{english}: {german}, {spanish}");
+        }
+    }
+
+    #[test]
+    fn regress_the_step_leads_around_an_obstacle_first() {
+        for kind in DetourKind::ALL {
+            let way = WayTo { distance_m: 12.0, bearing_rad: 0.5, up_m: 3.0 };
+            let blocked = Guidance { detour: Some(Detour { kind, way }), ..guidance() };
+            let home = Guidance { step: GuidanceStep::FlyHome, task: None, ..blocked };
+            for guidance in [blocked, home] {
+                let [english, german, spanish] = Language::ALL.map(|language| step_words(&guidance, language));
+                assert_eq!(english, format!("{}: {}", guidance.words(), way.words()));
+                assert!(german != english && spanish != english && german != spanish, "{english}: {german}, {spanish}");
+            }
         }
     }
 }

@@ -583,10 +583,10 @@ mod tests {
         let listing = SessionList { lines: &[], trainee: Some("anna"), page: 1, last: 9, count: 401 };
         check_translated(&list(&visitor, &listing).into_string(), &NAMES);
         for end in ["landed", "battery", "time_limit", "person", "vehicle", "crash", "abort", "restart"] {
-            let english = end_text(Language::English, end);
-            assert_ne!(end_text(Language::Pseudo, end), english);
+            assert_ne!(end_reason_title(end, Language::Pseudo), end_reason_title(end, Language::English));
         }
-        let ends = [Language::English, Language::German, Language::Spanish].map(|language| end_text(language, "time_limit"));
+        let ends =
+            [Language::English, Language::German, Language::Spanish].map(|language| end_reason_title("time_limit", language));
         assert_eq!(ends, ["time limit reached", "Zeitlimit erreicht", "límite de tiempo alcanzado"]);
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();

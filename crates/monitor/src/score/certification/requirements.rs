@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::Scenario;
-use spandrel_text::terms::score_title;
 use spandrel_text::{Language, text};
 
 /// Name of the requirement to land near the ground team.

@@ -2,7 +2,6 @@
 
 use super::figure::{figure, legend};
 use crate::report::Review;
-use crate::report::formatting;
 use crate::report::plots::bars::{self, CountRow, ShareRow};
 use crate::report::table::{Table, TableCell, folded};
 use crate::terms::contact_title;
