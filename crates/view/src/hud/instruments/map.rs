@@ -121,7 +121,10 @@ impl Paths<'_> {
 /// Returns the middle of the longest part of a path, and its direction in the drawing, rad clockwise from up. A path that is seen
 /// end-on has no direction.
 fn direction(points: &[Point]) -> Option<(Point, f64)> {
-    let length2 = |pair: &&[Point]| (pair[1].0 - pair[0].0).powi(2) + (pair[1].1 - pair[0].1).powi(2);
+    let length2 = |pair: &&[Point]| {
+        let (x, y) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
+        x * x + y * y
+    };
     let longest = points.windows(2).max_by(|a, b| length2(a).total_cmp(&length2(b)))?;
     let (from, to) = (longest[0], longest[1]);
     let middle = (0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1));
