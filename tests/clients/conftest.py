@@ -12,6 +12,19 @@ import webserver
 MEASURED = []
 
 
+# Files whose tests take longest (`--durations=0`). They begin first, so that no process is left alone with one of them at the end.
+LONG_FILES = (
+    "test_pymavlink", "test_mavsdk", "test_simple_clients", "test_faults", "test_flow", "test_flavors", "test_bad_radio", "test_train", "test_web", "test_lesson",
+    "test_practice", "test_school",
+)
+
+
+def pytest_collection_modifyitems(items):
+    """Sorts the tests by file: the long files first, the others in the order of their names."""
+    rank = {name: k for k, name in enumerate(LONG_FILES)}
+    items.sort(key=lambda item: rank.get(item.path.stem, len(rank)))
+
+
 @pytest.fixture
 def measured():
     """Returns a function that records a measurement for the summary."""

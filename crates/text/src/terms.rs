@@ -12,7 +12,6 @@ pub fn score_title(key: &str, language: Language) -> String {
         "efficiency" => text!(language, "terms-score-efficiency"),
         "safety" => text!(language, "terms-score-safety"),
         "accuracy" => text!(language, "terms-score-accuracy"),
-        "precision" => text!(language, "terms-score-precision"),
         _ => key.to_owned(),
     }
 }
