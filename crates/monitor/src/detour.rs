@@ -117,7 +117,7 @@ impl FreeSpace<'_> {
         }
         let hit = self.geometry.ray(from_m, (to_m - from_m).unit(), length_m - CONTACT_M);
         let is_free = |p: Vec3<Enu>| self.geometry.nearest_member(p, clearance_m).is_none() && p.up() > self.floor_m(p);
-        !hit.is_some_and(|hit| hit.surface == Surface::Bridge) && samples((from_m, to_m), END_M).all(is_free)
+        hit.is_none_or(|hit| hit.surface != Surface::Bridge) && samples((from_m, to_m), END_M).all(is_free)
     }
 
     /// Returns the height of the ground or water below a place, m.
