@@ -6,9 +6,20 @@ use crate::score::certification::names::title;
 use spandrel_text::{Language, PICTURE_REASONS, Sentence, SentenceTable, text};
 use std::sync::LazyLock;
 
-/// Known texts. Those with more words between their values come first.
-static TEXTS: LazyLock<SentenceTable> = LazyLock::new(|| {
+/// Reasons why a picture does not count.
+static REASONS: LazyLock<SentenceTable> = LazyLock::new(|| {
     let own = [
+        Sentence::new(2, |l, v| text!(l, "certification-picture-resolution", value = v[0], limit = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-picture-motion-blur", value = v[0], limit = v[1])),
+        Sentence::new(2, |l, v| text!(l, "certification-picture-incidence", value = v[0], limit = v[1])),
+        Sentence::new(0, |l, _| text!(l, "certification-picture-too-fine")),
+    ];
+    SentenceTable::new(own.into_iter().chain(PICTURE_REASONS))
+});
+
+/// Other known texts. Those with more words between their values come first.
+static TEXTS: LazyLock<SentenceTable> = LazyLock::new(|| {
+    SentenceTable::new([
         Sentence::new(3, |l, v| text!(l, "certification-unmet-task-part", task = v[0], share = v[1], needed = v[2])),
         Sentence::new(1, |l, v| text!(l, "certification-unmet-task-not-attempted", task = v[0])),
         Sentence::new(0, |l, _| text!(l, "certification-unmet-hit")),
@@ -16,19 +27,17 @@ static TEXTS: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(2, |l, v| text!(l, "certification-unmet-battery", battery = v[0], needed = v[1])),
         Sentence::new(2, |l, v| text!(l, "certification-unmet-contacts", contacts = v[0], limit = v[1])),
         Sentence::new(2, |l, v| text!(l, "certification-unmet-contact-speed", speed = v[0], limit = v[1])),
-        Sentence::new(2, |l, v| text!(l, "certification-picture-resolution", value = v[0], limit = v[1])),
-        Sentence::new(2, |l, v| text!(l, "certification-picture-motion-blur", value = v[0], limit = v[1])),
-        Sentence::new(2, |l, v| text!(l, "certification-picture-incidence", value = v[0], limit = v[1])),
-        Sentence::new(0, |l, _| text!(l, "certification-picture-too-fine")),
-    ];
-    let general = [
-        Sentence::new(2, |l, v| text!(l, "terms-picture-of-defect", defect = v[0], reason = translated(v[1], l))),
+        Sentence::new(2, |l, v| text!(l, "terms-picture-of-defect", defect = v[0], reason = reason(v[1], l))),
         Sentence::new(1, |l, v| text!(l, "certification-unmet-practice", aids = practice_aids(v[0], l))),
         Sentence::new(1, |l, v| text!(l, "certification-unmet-no-evidence", score = score(v[0], l))),
         Sentence::new(3, |l, v| text!(l, "certification-unmet-score", score = score(v[0], l), value = v[1], needed = v[2])),
-    ];
-    SentenceTable::new(own.into_iter().chain(PICTURE_REASONS).chain(general))
+    ])
 });
+
+/// Returns a reason why a picture does not count in a language. An unknown one stays.
+fn reason(stored: &str, language: Language) -> String {
+    REASONS.translate(stored, language).unwrap_or_else(|| stored.to_owned())
+}
 
 /// Returns the name of a certification score in a language; files contain its key.
 fn score(key: &str, language: Language) -> String {
@@ -39,7 +48,7 @@ fn score(key: &str, language: Language) -> String {
 /// read, also in English.
 #[must_use]
 pub fn translated(stored: &str, language: Language) -> String {
-    TEXTS.translate(stored, language).unwrap_or_else(|| stored.to_owned())
+    TEXTS.translate(stored, language).unwrap_or_else(|| reason(stored, language))
 }
 
 /// Returns stored English texts in a language.
