@@ -48,7 +48,8 @@ fn score(key: &str, language: Language) -> String {
 /// read, also in English.
 #[must_use]
 pub fn translated(stored: &str, language: Language) -> String {
-    TEXTS.translate(stored, language).unwrap_or_else(|| reason(stored, language))
+    let known = REASONS.translate(stored, language).or_else(|| TEXTS.translate(stored, language));
+    known.unwrap_or_else(|| stored.to_owned())
 }
 
 /// Returns stored English texts in a language.

@@ -60,7 +60,8 @@ impl From<DeviceError> for AppError {
     }
 }
 
-#[cfg(all(test, feature = "gamepad"))]
+#[cfg(test)]
+#[cfg(feature = "gamepad")]
 mod tests {
     use super::*;
 

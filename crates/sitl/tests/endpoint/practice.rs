@@ -220,11 +220,12 @@ fn regress_a_repeated_rewind_goes_back_once() {
     let mut station = Station::airborne("drill-hover", SEED);
     fly(&mut station, [500, 0, 500, 0], 9_000);
     let (command, params) = rewind(3).command(17);
+    let mut rewinds = Vec::new();
     for _ in 0..2 {
         assert_eq!(station.command(1, command, params), MavResult::MAV_RESULT_ACCEPTED);
         station.run_ms(500);
+        rewinds.extend(named(&station, |value| if let NamedValue::Rewinds(count) = value { Some(count) } else { None }));
     }
-    let rewinds = named(&station, |value| if let NamedValue::Rewinds(count) = value { Some(count) } else { None });
     assert_eq!(rewinds.last(), Some(&1), "{:?}", station.texts());
     let (command, params) = rewind(3).command(18);
     assert_eq!(station.command(1, command, params), MavResult::MAV_RESULT_ACCEPTED);

@@ -327,7 +327,7 @@ fn exact_larger_text_is_larger_and_keeps_speed_battery_and_warnings() {
         let style = DisplayStyle { text_scale, ..DisplayStyle::default() };
         let items = layout(&Hud { style, ..calm.clone() }, 4.0 / 3.0);
         let shows = |part: &str| items.iter().any(|item| matches!(item, DrawItem::Text { words, .. } if words.contains(part)));
-        assert!(shows("Return to task 12") && shows("down"), "{text_scale:?}: the next step stays without warnings");
+        assert!(shows("return to task 12") && shows("down"), "{text_scale:?}: the next step stays without warnings");
     }
 }
 

@@ -314,7 +314,7 @@ mod tests {
         assert_eq!(shown(DisplayUnits::Metric, 3.21, limit_m_s), ["3.2 m/s", "4.47 m/s"]);
         assert_eq!(shown(DisplayUnits::Metric, 4.46, limit_m_s), ["4.46 m/s", "4.47 m/s"]);
         assert_eq!(shown(DisplayUnits::Metric, 5.0, 4.5), ["5.0 m/s", "4.5 m/s"]);
-        assert_eq!(shown(DisplayUnits::UsCustomary, 4.48, limit_m_s), ["10.1 mph", "10 mph"]);
+        assert_eq!(shown(DisplayUnits::UsCustomary, 4.48, limit_m_s), ["10.02 mph", "10 mph"]);
         assert_eq!(shown(DisplayUnits::UsCustomary, 3.21, 4.5), ["7.2 mph", "10.07 mph"]);
     }
 

@@ -46,7 +46,7 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
 /// Returns the water and the bridges.
 pub(super) fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &DrawingScale) -> Vec<DrawItem> {
     // Strips overlap, so that no line shows between them.
-    let half_m = 0.5 * GROUND_SAMPLE_SPACING_M + 1.0 / scale.px_per_m;
+    let half_m = 0.5 * GROUND_SAMPLE_SPACING_M + scale.overlap_m;
     let strip = |west: f64, east: f64, north: f64| {
         [(west, north - half_m), (east, north - half_m), (east, north + half_m), (west, north + half_m)]
     };

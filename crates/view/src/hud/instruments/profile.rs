@@ -44,10 +44,8 @@ pub(super) fn background(side: &SideView, water_level_m: f64, pane: Pane, area: 
     let ((left, low), (right, _)) = side.bounds;
     let water = vec![(left, low), (right, low), (right, water_level_m), (left, water_level_m)];
     let ground = side.ground.windows(2).filter(|pair| pair[0].1 > low || pair[1].1 > low);
-    // Neighbors overlap, so that no line shows between them.
-    let overlap_m = 1.0 / scale.px_per_m;
     let ground = ground.map(|pair| {
-        let (from, to) = (pair[0].0, pair[1].0 + overlap_m);
+        let (from, to) = (pair[0].0, pair[1].0 + scale.overlap_m);
         vec![(from, low), (to, low), (to, pair[1].1.max(low)), (from, pair[0].1.max(low))]
     });
     let water = (water_level_m > low).then_some((water, HudColor::Water));

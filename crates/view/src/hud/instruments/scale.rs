@@ -9,16 +9,23 @@ pub(super) struct DrawingScale {
     middle_m: Point,
     middle_px: Point,
     pub px_per_m: f64,
+    /// Overlap of neighboring shapes, so that no line shows between them, m.
+    pub overlap_m: f64,
 }
+
+/// Overlap of neighboring shapes, relative to the shorter side of the area: about a pixel.
+const OVERLAP_SHARE: f64 = 0.004;
 
 impl DrawingScale {
     /// Fits the bounds of a drawing into the area.
     pub fn fit((low, high): Bounds, area: Area) -> Self {
         let (wide, tall) = ((high.0 - low.0).max(1.0), (high.1 - low.1).max(1.0));
+        let px_per_m = (area.width / wide).min(area.height / tall);
         Self {
             middle_m: (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1)),
             middle_px: area.middle(),
-            px_per_m: (area.width / wide).min(area.height / tall),
+            px_per_m,
+            overlap_m: OVERLAP_SHARE * area.width.min(area.height) / px_per_m,
         }
     }
 
