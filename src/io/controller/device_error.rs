@@ -60,8 +60,8 @@ impl From<DeviceError> for AppError {
     }
 }
 
-#[cfg(test)]
 #[cfg(feature = "gamepad")]
+#[cfg(test)]
 mod tests {
     use super::*;
 
