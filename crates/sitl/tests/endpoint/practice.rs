@@ -233,6 +233,9 @@ fn regress_a_repeated_rewind_goes_back_once() {
     let rewinds = named(&station, |value| if let NamedValue::Rewinds(count) = value { Some(count) } else { None });
     assert_eq!(rewinds.last(), Some(&2), "another request");
     assert_eq!(station.command(1, command, p(&[3.0, 0.5])), MavResult::MAV_RESULT_DENIED);
+    // The text follows when time continues.
+    fly(&mut station, [0, 0, 500, 0], 500);
+    fly(&mut station, [500, 0, 500, 0], 1_000);
     assert!(station.has_text("Parameter 2 must be"), "{:?}", station.texts());
 }
 
