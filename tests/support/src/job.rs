@@ -50,6 +50,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         name: "test-job".to_owned(),
         title: "A job for tests".to_owned(),
         briefing: Vec::new(),
+        briefing_pictures: Vec::new(),
         lesson: Vec::new(),
         seed: None,
         origin: Geo { latitude_deg: 46.0, longitude_deg: 8.0, altitude_m: 400.0 },

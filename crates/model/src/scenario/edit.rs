@@ -1,5 +1,6 @@
 //! Edits the text of a scenario and keeps its comments, its order and the spelling of all other values.
 
+use super::briefing_pictures::{self, BriefingPicture};
 use super::toml_text::{shown, typed};
 use super::values::{KIND_KEYS, ScenarioValues, describe};
 use std::collections::BTreeSet;
@@ -52,8 +53,12 @@ fn is_kind_key(key: &str) -> bool {
     key == BRIDGE_TYPE_KEY || KIND_KEYS.contains(&key)
 }
 
+fn parse(text: &str) -> Result<DocumentMut, String> {
+    text.parse().map_err(|_| "the text is not valid TOML".to_owned())
+}
+
 fn apply_one(text: &str, edit: &Edit) -> Result<String, String> {
-    let mut document: DocumentMut = text.parse().map_err(|_| "the text is not valid TOML".to_owned())?;
+    let mut document = parse(text)?;
     match edit {
         Edit::Set { location, text: typed } => {
             set(document.as_table_mut(), location, typed)?;
@@ -171,6 +176,11 @@ fn unknown_locations(text: &str, table: &str) -> BTreeSet<String> {
 fn add(document: &mut DocumentMut, location: &str) -> Result<(), String> {
     let values = ScenarioValues::read(&document.to_string()).unwrap_or_default();
     let entries = new_table(location, &values).ok_or_else(|| unknown(location))?;
+    push(document, location, entries)
+}
+
+/// Adds a table with these entries to a repeated table.
+fn push(document: &mut DocumentMut, location: &str, entries: Entries) -> Result<(), String> {
     let steps = steps(location)?;
     let (last, path) = steps.split_last().ok_or_else(|| unknown(location))?;
     let parent = table_at(document.as_table_mut(), path, true).ok_or_else(|| unknown(location))?;
@@ -291,6 +301,17 @@ fn swap(root: &mut Table, location: &str, up: bool) -> Result<(), String> {
     Ok(())
 }
 
+/// Returns the text with one more picture of the briefing.
+///
+/// # Errors
+/// Returns a message if the text is not valid TOML, or `briefing_pictures` is not a repeated table.
+pub fn with_briefing_picture(text: &str, picture: &BriefingPicture) -> Result<String, String> {
+    let mut document = parse(text)?;
+    let entries = vec![("file", Value::from(&picture.file)), ("caption", Value::from(&picture.caption))];
+    push(&mut document, briefing_pictures::TABLE, entries)?;
+    Ok(document.to_string())
+}
+
 /// Returns the text with another name. Invalid TOML is returned unchanged.
 #[must_use]
 pub fn with_name(text: &str, name: &str) -> String {
@@ -378,6 +399,25 @@ mod tests {
         let inline = "tasks = [{ name = \"a\", kind = \"free\", points_m = [[0, 0, 5]] }]\n";
         let edited = apply(inline, &[Edit::Add { location: "tasks".into() }]).unwrap();
         assert_eq!(ScenarioValues::read(&edited).unwrap().count("tasks"), 2, "{edited}");
+    }
+
+    #[test]
+    fn exact_pictures_are_added_and_removed_and_everything_else_remains() {
+        let picture = |file: &str| BriefingPicture { file: file.into(), caption: "The \"gate\"".into() };
+        let one = with_briefing_picture(PRACTICE, &picture("job/gate.png")).unwrap();
+        let two = with_briefing_picture(&one, &picture("job/site.jpg")).unwrap();
+        assert_eq!(problems(&two), []);
+        let table = |file: &str| format!("\n[[briefing_pictures]]\nfile = \"job/{file}\"\ncaption = 'The \"gate\"'\n");
+        assert_eq!(two, format!("{PRACTICE}{}{}", table("gate.png"), table("site.jpg")));
+        let remove = |k: usize| Edit::Remove { location: format!("briefing_pictures[{k}]") };
+        assert_eq!(apply(&two, &[remove(1)]).unwrap(), one);
+        assert_eq!(apply(&two, &[remove(1), remove(0)]).unwrap(), PRACTICE);
+        assert!(apply(&two, &[remove(2)]).is_err());
+        let inline = "briefing_pictures = [{ file = \"a.png\", caption = \"a\" }]\n";
+        let edited = with_briefing_picture(inline, &picture("b.png")).unwrap();
+        assert_eq!(ScenarioValues::read(&edited).unwrap().count("briefing_pictures"), 2, "{edited}");
+        assert!(with_briefing_picture("a = ", &picture("b.png")).is_err());
+        assert!(with_briefing_picture("briefing_pictures = 3\n", &picture("b.png")).is_err());
     }
 
     #[test]

@@ -3,6 +3,7 @@
 
 use super::bridges::Bridge;
 use super::bridges::path::TaskKind;
+use super::briefing_pictures::BriefingPicture;
 use super::certification::CertificationParams;
 use super::lesson::LessonStep;
 use crate::elements::Element;
@@ -20,6 +21,8 @@ pub struct Scenario {
     pub title: String,
     /// The instructor's own words at the start of the briefing, one paragraph each.
     pub briefing: Vec<String>,
+    /// The instructor's pictures for the briefing, in file order.
+    pub briefing_pictures: Vec<BriefingPicture>,
     /// Seed for all random content (defects, traffic, turbulence, sensors); `None` if each session draws a new seed.
     pub seed: Option<u64>,
     /// Geographic position of the local frame's origin.
@@ -54,7 +57,7 @@ pub struct Scenario {
     pub scoring: ScoringParams,
     /// Requirements of the certification profile.
     pub certification: CertificationParams,
-    /// CRC-32 (IEEE) of the file without seed and placed defects, sent as `scn_crc`.
+    /// CRC-32 (IEEE) of the file without seed, placed defects and pictures of the briefing, sent as `scn_crc`.
     pub crc: u32,
 }
 

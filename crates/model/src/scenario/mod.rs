@@ -2,6 +2,7 @@
 //! documents every key; a test checks it against this code.
 
 pub mod bridges;
+mod briefing_pictures;
 mod certification;
 mod difficulty;
 pub mod edit;
@@ -18,6 +19,7 @@ mod weather;
 
 pub use bridges::path::TaskKind;
 pub use bridges::{Bridge, BridgeKind};
+pub use briefing_pictures::{BriefingPicture, MAX_BRIEFING_PICTURES, MAX_CAPTION_CHARS, check_picture_files, is_picture_name};
 pub use certification::CertificationParams;
 pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};

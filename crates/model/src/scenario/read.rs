@@ -70,6 +70,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let name = read_name(r, root, "name");
     let title = r.text(root, "title", None);
     let briefing = read_briefing(r, root);
+    let briefing_pictures = super::briefing_pictures::read(r, root);
     // The protocol transmits the seed in a signed 32-bit field.
     let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
@@ -87,6 +88,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         name,
         title,
         briefing,
+        briefing_pictures,
         seed,
         origin,
         terrain,

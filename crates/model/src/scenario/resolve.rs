@@ -3,7 +3,7 @@
 
 use super::job::PlacedDefect;
 use super::point::point;
-use super::{difficulty, forms};
+use super::{briefing_pictures, difficulty, forms};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
@@ -87,11 +87,12 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
 }
 
 /// Returns the CRC-32 of the text in canonical form. Excludes the seed and placed defects, so that a resolved file has
-/// the same CRC as its source. Each form of a job has a different CRC, and so does each difficulty level.
+/// the same CRC as its source, and the pictures of the briefing, which do not affect a flight. Each form of a job has a different CRC, and so does each difficulty level.
 #[must_use]
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };
     document.remove("seed");
+    document.remove(briefing_pictures::TABLE);
     forms::state_selected_form(document.as_table_mut());
     difficulty::remove_standard_level(&mut document);
     if let Some(defects) = document.get_mut("defects").and_then(Item::as_table_like_mut) {

@@ -186,6 +186,7 @@ mod tests {
             name: "test".into(),
             title: "test".into(),
             briefing: Vec::new(),
+            briefing_pictures: Vec::new(),
             lesson: Vec::new(),
             seed: None,
             origin: Geo { latitude_deg: 46.5, longitude_deg: 0.0, altitude_m: 400.0 },
