@@ -12,7 +12,8 @@ use spandrel_training::report::page;
 /// Print the briefing for a job
 ///
 /// The tasks in order, with direction, length, height, stand-off and lamp; the conditions and hazards; what counts; and the
-/// site check before takeoff. The key `briefing` in the scenario file adds your own words.
+/// site check before takeoff. In the scenario file, the key `briefing` adds your own words, and `[[briefing_pictures]]` adds
+/// pictures.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -37,16 +38,18 @@ pub struct Args {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// Returns an error if the scenario or the aircraft is invalid, or if the page cannot be written.
+/// Returns an error if the scenario or the aircraft is invalid, or if the page or a picture on it cannot be written or read.
 pub fn run(args: &Args) -> Result<(), AppError> {
-    let scenario = args.job.load_scenario()?.scenario;
+    let source = args.job.load_scenario()?;
+    let scenario = &source.scenario;
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
-    let site = Site::without_defects(&scenario);
-    let briefing = |language| Briefing::new(&scenario, &vehicle, &site, language);
+    let site = Site::without_defects(scenario);
+    let briefing = |language| Briefing::new(scenario, &vehicle, &site, language);
     match (&args.html, args.json) {
         (Some(file), _) => {
             let language = args.page.language();
-            files::write(file, page::briefing(&briefing(language), &scenario, &site, language).as_bytes())
+            let pictures: Vec<Option<String>> = source.load_pictures()?.iter().map(|picture| Some(picture.data_uri())).collect();
+            files::write(file, page::briefing(&briefing(language), (scenario, &site), &pictures, language).as_bytes())
         }
         // Text and JSON are in English.
         (None, true) => files::write("-", json_text(&briefing(Language::English)).as_bytes()),

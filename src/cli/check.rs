@@ -13,7 +13,7 @@ use spandrel_training::scenario_check::{self, CheckOptions, Findings, ScenarioTe
 ///
 /// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
 /// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
-/// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It warns if it cannot place as many defects as the
+/// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It loads the pictures of the briefing. It warns if it cannot place as many defects as the
 /// scenario requests. For each form of a scenario, it prints the predicted detection of the defects; for each difficulty
 /// level, it prints what the level changes.
 #[derive(Debug, clap::Args)]
@@ -109,7 +109,10 @@ fn check_file(source: &SourceFile, args: &Args, options: &CheckOptions<'_>, find
     let siblings = |name: &str| source.read_referenced_file(name);
     let text = ScenarioText { file: &source.file, text: &source.text, siblings: &siblings };
     match scenario::read(text.file, text.text, text.siblings) {
-        Ok(scenario) => scenario_check::check_scenario(&text, &scenario, options, findings),
+        Ok(scenario) => {
+            findings.problems.extend(source.picture_problems());
+            scenario_check::check_scenario(&text, &scenario, options, findings);
+        }
         Err(wrong) => findings.problems.extend(wrong.0),
     }
     scenario_check::check_forms(&text, args.form.as_deref(), options, findings);
@@ -130,9 +133,10 @@ fn check_vehicle(source: &SourceFile, findings: &mut Findings) {
 /// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const SCENARIO_KEYS: [&str; 17] = [
+const SCENARIO_KEYS: [&str; 18] = [
     "title",
     "briefing",
+    "briefing_pictures",
     "difficulty",
     "forms",
     "seed",

@@ -1,10 +1,12 @@
 //! Loads scenario and vehicle files from a path, from a session folder, or from the program itself.
 
+use super::picture_file::{ALLOWED_PICTURES, PictureFile};
 use crate::errors::AppError;
 use spandrel_clients::pilot::{Skill, skill_file};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
+use spandrel_model::toml::{Problem, Problems};
 use spandrel_model::vehicle::{self, Vehicle};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -19,6 +21,9 @@ pub struct ScenarioFile {
     pub referenced_files: BTreeMap<String, String>,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
+    /// File name to use in messages.
+    file: String,
+    folder: SourceFolder,
 }
 
 impl ScenarioFile {
@@ -28,7 +33,26 @@ impl ScenarioFile {
         let text = scenario::variant_with_crc(&self.text, crc)?;
         let referenced = |name: &str| self.referenced_files.get(name).cloned().ok_or_else(|| format!("{name}: not loaded"));
         let scenario = scenario::read(&self.scenario.name, &text, &referenced).ok()?;
-        Some(Self { text, referenced_files: self.referenced_files.clone(), scenario })
+        Some(Self { text, scenario, ..self.clone() })
+    }
+
+    /// Loads the pictures of the briefing, in their order. Nothing but the briefing needs them.
+    ///
+    /// # Errors
+    /// Returns an error if a picture cannot be used; all problems are listed.
+    pub fn load_pictures(&self) -> Result<Vec<PictureFile>, AppError> {
+        let (pictures, problems) = load_pictures(&self.file, &self.text, &self.folder);
+        if problems.is_empty() { Ok(pictures) } else { Err(Problems(problems).into()) }
+    }
+
+    /// Loads one picture of the briefing. Returns its absolute path with it.
+    ///
+    /// # Errors
+    /// Returns a message if it cannot be used.
+    pub fn picture(&self, name: &str) -> Result<(PathBuf, PictureFile), String> {
+        let path = std::path::absolute(self.folder.path_of(name)?).map_err(|error| error.to_string())?;
+        let picture = self.folder.read_picture(name)?;
+        Ok((path, picture))
     }
 }
 
@@ -47,8 +71,38 @@ pub struct SourceFile {
     pub file: String,
     /// File contents.
     pub text: String,
-    /// Folder that contains the file; `None` for a shipped file.
-    folder: Option<PathBuf>,
+    folder: SourceFolder,
+}
+
+/// Folder that contains a scenario or vehicle file; `None` for a shipped file.
+#[derive(Debug, Clone)]
+struct SourceFolder(Option<PathBuf>);
+
+impl SourceFolder {
+    /// Returns the path of a file in the folder or below; an error for any other file.
+    fn path_of(&self, name: &str) -> Result<PathBuf, String> {
+        let Some(folder) = &self.0 else { return Err("a shipped scenario cannot refer to other files".into()) };
+        if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
+            return Err("only files in the scenario's folder or below are allowed".into());
+        }
+        Ok(folder.join(name))
+    }
+
+    fn read_picture(&self, name: &str) -> Result<PictureFile, String> {
+        PictureFile::read(&self.path_of(name)?).map_err(|error| error.to_string())
+    }
+}
+
+/// Loads the pictures of a scenario's briefing. Returns the problems of those that cannot be used.
+fn load_pictures(file: &str, text: &str, folder: &SourceFolder) -> (Vec<PictureFile>, Vec<Problem>) {
+    let pictures = RefCell::new(Vec::new());
+    let load = |name: &str| -> Result<(), String> {
+        let picture = folder.read_picture(name)?;
+        pictures.borrow_mut().push(picture);
+        Ok(())
+    };
+    let problems = scenario::check_picture_files(file, text, ALLOWED_PICTURES, &load);
+    (pictures.into_inner(), problems)
 }
 
 /// Returns the names of the shipped scenarios.
@@ -110,7 +164,8 @@ pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
         Ok(text)
     };
     let scenario = scenario::read(&source.file, &source.text, &read_referenced_file)?;
-    Ok(ScenarioFile { text: source.text, referenced_files: seen.into_inner(), scenario })
+    let SourceFile { file, text, folder } = source;
+    Ok(ScenarioFile { text, referenced_files: seen.into_inner(), scenario, file, folder })
 }
 
 /// Separates a scenario from one of its forms or difficulty levels in an argument, as in `pilot-study@B` or `drill-gap@6`.
@@ -169,14 +224,14 @@ fn find_file(argument: &str, what: &str, library: &[(&'static str, &'static str)
     let path = Path::new(argument);
     let looks_like_a_path = argument.contains(['/', '\\']) || path.extension().is_some_and(|end| end == "toml");
     if looks_like_a_path || path.is_file() {
-        let folder = path.parent().map(Path::to_path_buf);
+        let folder = SourceFolder(path.parent().map(Path::to_path_buf));
         return Ok(SourceFile { file: argument.to_owned(), text: read(path)?, folder });
     }
     let names: Vec<&str> = library.iter().map(|(name, _)| *name).collect();
     let (name, text) = library.iter().find(|(name, _)| *name == argument).ok_or_else(|| {
         AppError::invalid(format!("there is no {what} '{argument}': specify a file or one of {}", names.join(", ")))
     })?;
-    Ok(SourceFile { file: format!("{name}.toml"), text: (*text).to_owned(), folder: None })
+    Ok(SourceFile { file: format!("{name}.toml"), text: (*text).to_owned(), folder: SourceFolder(None) })
 }
 
 /// Finds a file for `check`: a path, or the name of a shipped scenario or vehicle.
@@ -220,11 +275,12 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
 impl SourceFile {
     /// Reads a file that another file refers to. Only files in the same folder or below are allowed.
     pub fn read_referenced_file(&self, name: &str) -> Result<String, String> {
-        let Some(folder) = &self.folder else { return Err("a shipped scenario cannot refer to other files".into()) };
-        if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
-            return Err("only files in the scenario's folder or below are allowed".into());
-        }
-        std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string())
+        std::fs::read_to_string(self.folder.path_of(name)?).map_err(|error| error.to_string())
+    }
+
+    /// Returns the problems of the pictures of the briefing. The scenario must be valid.
+    pub fn picture_problems(&self) -> Vec<Problem> {
+        load_pictures(&self.file, &self.text, &self.folder).1
     }
 }
 
@@ -236,6 +292,9 @@ pub fn site_model(site: &Site) -> Result<Vec<u8>, AppError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::scenario::BriefingPicture;
+    use spandrel_model::scenario::edit::with_briefing_picture;
+    use spandrel_view::picture::Picture;
 
     #[test]
     fn exact_every_shipped_file_is_valid() {
@@ -292,10 +351,51 @@ mod tests {
     fn exact_referenced_files_outside_the_scenario_folder_are_rejected() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("heights.csv"), "1,2").unwrap();
-        let source = SourceFile { file: "s.toml".into(), text: String::new(), folder: Some(folder.path().into()) };
+        let source_folder = SourceFolder(Some(folder.path().into()));
+        let source = SourceFile { file: "s.toml".into(), text: String::new(), folder: source_folder };
         assert_eq!(source.read_referenced_file("heights.csv"), Ok("1,2".into()));
         for bad in ["../heights.csv", "/etc/hostname"] {
             assert!(source.read_referenced_file(bad).is_err(), "{bad}");
         }
+    }
+
+    /// Saves a scenario with one picture of its briefing.
+    fn with_picture(folder: &Path, name: &str) -> String {
+        let picture = BriefingPicture { file: name.into(), caption: "The gate".into() };
+        let path = folder.join("job.toml");
+        std::fs::write(&path, with_briefing_picture(shipped::PRACTICE, &picture).unwrap()).unwrap();
+        path.display().to_string()
+    }
+
+    #[test]
+    fn exact_pictures_are_loaded_from_the_folder_of_the_scenario() {
+        let folder = tempfile::tempdir().unwrap();
+        let job = with_picture(folder.path(), "site/gate.png");
+        let bytes = crate::io::png::png(&Picture { width: 2, height: 1, rgba: vec![9; 8] }).unwrap();
+        std::fs::create_dir(folder.path().join("site")).unwrap();
+        std::fs::write(folder.path().join("site/gate.png"), &bytes).unwrap();
+        let scenario = scenario(&job).unwrap();
+        assert_eq!(scenario.load_pictures().unwrap().into_iter().map(|picture| picture.bytes).collect::<Vec<_>>(), [bytes]);
+        let (path, picture) = scenario.picture("site/gate.png").unwrap();
+        assert!(path.is_absolute() && path.is_file() && picture.info.size_px() == (2, 1), "{}", path.display());
+        assert_eq!(any_source(&job).unwrap().picture_problems(), []);
+    }
+
+    #[test]
+    fn exact_a_scenario_is_valid_without_its_pictures_and_each_problem_has_its_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let job = with_picture(folder.path(), "gate.png");
+        let line = 2 + shipped::PRACTICE.lines().count() + 1;
+        let scenario = scenario(&job).unwrap();
+        let expected = |message: &str| {
+            let allowed = "a PNG or JPEG file of at most 4 MiB and 8192 x 8192 px";
+            format!("{job}:{line}: briefing_pictures[].file = gate.png: {message} (allowed: {allowed})")
+        };
+        let missing = scenario.load_pictures().unwrap_err().to_string();
+        assert_eq!(missing, expected("cannot read: No such file or directory (os error 2)"));
+        std::fs::write(folder.path().join("gate.png"), "GIF89a").unwrap();
+        assert_eq!(scenario.load_pictures().unwrap_err().to_string(), expected("neither a PNG nor a JPEG file"));
+        let shipped = SourceFile { folder: SourceFolder(None), ..any_source(&job).unwrap() };
+        assert_eq!(shipped.picture_problems()[0].message, "a shipped scenario cannot refer to other files");
     }
 }

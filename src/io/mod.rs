@@ -26,6 +26,7 @@ pub mod pacing;
 pub mod params;
 pub mod parquet;
 pub mod pause;
+pub mod picture_file;
 pub mod plan_rules;
 pub mod png;
 pub mod progress;

@@ -101,6 +101,11 @@ impl WebResponse {
         Self::new("image/jpeg", jpeg)
     }
 
+    /// Responds with an image of this media type that is not cached.
+    pub fn image(kind: &'static str, bytes: Vec<u8>) -> Self {
+        Self::new(kind, bytes)
+    }
+
     /// Responds with an entire file of which clients may also request parts.
     pub fn seekable(kind: &'static str, bytes: Vec<u8>) -> Self {
         Self { accepts_ranges: true, ..Self::new(kind, bytes) }

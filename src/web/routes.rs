@@ -5,9 +5,10 @@ use super::response::HandlerResult;
 use super::scenario_library::MAX_SCENARIO_BYTES;
 use super::state::ServerState;
 use super::{
-    assets, assignments, classes, languages, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor, scenarios,
-    session_media, sessions, settings, stations, trainees, uploads,
+    assets, assignments, classes, languages, live, map_tiles, marks, plan_rules, questions, rubric, scenario_editor,
+    scenario_pictures, scenarios, session_media, sessions, settings, stations, trainees, uploads,
 };
+use crate::io::picture_file::MAX_PICTURE_BYTES;
 use spandrel_training::web::access::AccessLevel;
 
 /// Function that handles a request.
@@ -134,6 +135,9 @@ pub const ROUTES: &[Route] = &[
     text("/scenario-editor/download", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenario_editor::download),
     show("/tiles/{name}/{z}/{x}/{y}", AccessLevel::Public, map_tiles::tile),
     show("/scenarios/{name}/briefing", AccessLevel::Login, scenarios::briefing_page),
+    show("/scenarios/{name}/pictures/{file}", AccessLevel::Login, scenario_pictures::show),
+    upload("/scenarios/{name}/pictures", MAX_PICTURE_BYTES, AccessLevel::Instructor, scenario_pictures::add),
+    change("/scenarios/{name}/pictures/remove", AccessLevel::Instructor, scenario_pictures::remove),
     upload("/scenarios", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenarios::upload),
     change("/scenarios/{name}/remove", AccessLevel::Instructor, scenarios::remove),
     show("/plan-rules", AccessLevel::Instructor, plan_rules::page),

@@ -1,6 +1,7 @@
 //! Saves uploaded scenarios. A scenario that somebody else has changed is not replaced silently.
 
 use super::lock::lock;
+use super::picture_store;
 use super::safe_names::is_safe_file_name;
 use super::scenario_library::{read, upload_path, uploaded};
 use super::state::ServerState;
@@ -10,6 +11,7 @@ use crate::io::replace::replace;
 use spandrel_monitor::folder::sha256_hex;
 use spandrel_text::{Language, text};
 use std::path::Path;
+use std::sync::MutexGuard;
 
 /// Maximum number of uploaded scenarios.
 const MAX_UPLOADS: usize = 200;
@@ -60,9 +62,23 @@ pub fn save(
     (shown, text): (&str, &str),
     expected: Expected<'_>,
 ) -> Result<String, SaveError> {
+    let writing = lock(&state.scenario_writing);
+    save_locked((state, &writing), language, (shown, text), expected)
+}
+
+/// Like [`save`], while the caller holds the lock for writing scenarios. Pictures of the briefing that the text does not list are
+/// removed, and those of the scenario from which it was copied are copied.
+///
+/// # Errors
+/// As [`save`].
+pub fn save_locked(
+    (state, _writing): (&ServerState, &MutexGuard<'_, ()>),
+    language: Language,
+    (shown, text): (&str, &str),
+    expected: Expected<'_>,
+) -> Result<String, SaveError> {
     let name = read(shown, text)?.name;
     check_name(language, shown, &name).map_err(SaveError::Refused)?;
-    let _writing = lock(&state.scenario_writing);
     let target = upload_path(&state.scenarios, &name);
     check_expected(language, &target, &name, expected)?;
     if !target.is_file() && uploaded(&state.scenarios).len() >= MAX_UPLOADS {
@@ -70,7 +86,9 @@ pub fn save(
     }
     std::fs::create_dir_all(&state.scenarios)
         .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;
+    let text = picture_store::adopt(&state.scenarios, &read(shown, text)?, text)?;
     replace(&target, text.as_bytes())?;
+    picture_store::remove_unlisted(&state.scenarios, &name, &read(shown, &text)?.briefing_pictures);
     Ok(name)
 }
 

@@ -11,12 +11,14 @@ pub const IMPORT_FOLDER: &str = ".taking-in";
 /// any process ID, so this age must exceed the duration of any write.
 const STALE_AGE: Duration = Duration::from_secs(600);
 
-/// Removes stale temporary files from the sessions folders, from the session folders inside them, and from the scenario
-/// folder. Leaves files in place that it cannot check or remove; they are harmless.
+/// Removes stale temporary files from the sessions folders, from the session folders inside them, from the scenario folder, and from
+/// the folders inside it. Leaves files in place that it cannot check or remove; they are harmless.
 pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let inside = session_folders(&here).unwrap_or_default();
-    for folder in here.iter().chain(&inside).map(PathBuf::as_path).chain([scenarios]) {
+    let entries = std::fs::read_dir(scenarios).into_iter().flatten().flatten();
+    let below: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
+    for folder in here.iter().chain(&inside).chain(&below).map(PathBuf::as_path).chain([scenarios]) {
         let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
         for path in entries.map(|entry| entry.path()).filter(|path| is_stale(path)) {
             match std::fs::remove_file(&path) {
@@ -83,7 +85,10 @@ mod tests {
         fs::write(session.join("telemetry.tlog"), "x").unwrap();
         // Linux process IDs do not exceed 2^22.
         let (dead, alive) = (4_194_305, std::process::id());
+        let pictures = scenarios.path().join("job");
+        fs::create_dir(&pictures).unwrap();
         let gone = [
+            pictures.join(format!("gate.png.{dead}-2.new")),
             session.join(format!("answers.json.{dead}-7.new")),
             sessions.path().join(format!("x.{dead}-0.new")),
             scenarios.path().join(format!("job.toml.{dead}-1.new")),

@@ -107,7 +107,7 @@ impl Cockpit {
             speaker,
             stop,
             screen: None,
-            pictures: PageTextures::new(crate::io::png::read_picture),
+            pictures: PageTextures::new(super::page_picture::read),
             job_pictures: JobPictures::default(),
             inspector_camera: InspectorCamera::default(),
             held: HeldKeys::default(),

@@ -9,6 +9,7 @@ mod frame;
 mod job_pictures;
 mod keys;
 mod listener;
+mod page_picture;
 mod panes;
 mod picture_writer;
 mod pilot;

@@ -62,6 +62,7 @@ def forms(sessions):
         "/assign": ("/assign?trainee=anna", {"trainee": "anna", "scenario": "drill-hover", "due": "2099-01-01"}),
         "/assignments/none/remove": ("/classes", {}),
         "/scenarios/none/remove": ("/scenarios", {}),
+        "/scenarios/none/pictures/remove": ("/scenarios", {"file": "none/a.png", "version": "x"}),
         "/scenario-editor/check": ("/scenarios", {"text": "name = 'x'"}),
         "/scenario-editor/save": ("/scenarios", {"text": "name = 'x'"}),
         "/scenario-editor/download": ("/scenarios", {"text": "name = 'x'"}),
@@ -94,7 +95,7 @@ def test_cross_site_requests_are_rejected(server, sessions):
         assert status in (200, 404, 405), (path, status)
     status, _, text = ada.ask("/settings")
     assert status == 200 and "eve" not in text
-    for path in ("/scenarios", "/upload", "/plan-rules/upload"):
+    for path in ("/scenarios", "/upload", "/plan-rules/upload", "/scenarios/none/pictures"):
         status, _, _ = ada.upload("/sessions", path, {"trainee": "x", "scenario": "drill-hover", "vehicle": "phantom2"}, b"x", token="0" * 64)
         assert status == 403, path
 
@@ -269,6 +270,72 @@ def test_invalid_and_oversized_uploads_are_rejected(server, sessions):
         assert raw.recv(64).split(b" ")[1] in (b"403", b"413")
     assert sorted(path.name for path in sessions.iterdir() if not path.name.startswith(".")) == [n for n in before if not n.startswith(".")]
     assert ida.ask("/sessions")[0] == 200
+
+
+def test_hostile_pictures_are_rejected(server, sessions):
+    ida = logged_in(server, "ida")
+    job = (spandrel.ROOT / "scenarios" / "drill-hover.toml").read_text(encoding="utf-8")
+    own = job.replace('name = "drill-hover"', 'name = "pictured"')
+    assert ida.upload("/scenarios", "/scenarios", {}, own.encode(), "x.toml")[0] == 200
+    folder = sessions / "scenarios" / "pictured"
+    version = lambda: re.search(r'name="version" value="([0-9a-f]{64})"', ida.ask("/scenarios/pictured")[2]).group(1)
+    add = lambda file, name="gate.png", caption="The gate", browser=ida: browser.upload(
+        "/scenarios", "/scenarios/pictured/pictures", {"version": version(), "caption": caption}, file, name
+    )
+    good = webserver.png()
+    svg = b'<svg xmlns="http://www.w3.org/2000/svg"><script>alert(1)</script></svg>'
+    for name, file in {
+        "nothing": b"", "text": b"no picture", "script": svg, "page": b"<!doctype html>" + EVIL.encode(), "GIF": b"GIF89a" + bytes(200),
+        "noise": random.Random(SEED).randbytes(200_000), "only the head": good[:20], "too wide": good[:16] + b"\0\0\x20\x01" + good[20:],
+    }.items():
+        status, _, text = add(file)
+        assert status == 422 and "<script>alert" not in text, (name, status)
+    for name, caption in {"none": "", "too long": "x" * 201, "two lines": "a\nb"}.items():
+        assert add(good, caption=caption)[0] == 422, name
+    assert add(good + bytes(4 * 1024 * 1024))[0] == 413
+    assert not folder.exists(), "nothing was saved"
+    # The name of the file is only a suggestion.
+    for name in ["../../../evil.png", "..\\..\\evil.png", "/etc/passwd", "evil.php", ".htaccess", "a/../../b.png", "%2e%2e%2fx.png"]:
+        assert add(good, name)[0] == 303, name
+        new = [path for path in sessions.parent.rglob("*") if path.is_file() and path.read_bytes() == good]
+        assert len(new) == 1 and new[0].parent == folder and re.fullmatch(r"\w[\w-]*\.png", new[0].name), (name, new)
+        entry = f"pictured/{new[0].name}"
+        token = {"version": version(), "file": entry}
+        assert ida.post("/scenarios", "/scenarios/pictured/pictures/remove", token)[0] == 303
+    status, _, text = add(good, caption=EVIL)
+    assert status == 303 and EVIL not in ida.ask("/scenarios/pictured")[2] and EVIL not in ida.ask("/scenarios/pictured/briefing")[2]
+    # Pictures are for logged-in people only, have their own type, and cannot be framed or run.
+    status, headers, _ = ida.ask("/scenarios/pictured/pictures/gate.png")
+    assert status == 200 and headers.get_content_type() == "image/png" and headers["X-Content-Type-Options"] == "nosniff"
+    assert "default-src 'none'" in headers["Content-Security-Policy"] and headers["Cache-Control"] == "no-store"
+    anna = logged_in(server, "anna")
+    assert anna.ask("/scenarios/pictured/pictures/gate.png")[0] == 200
+    status, headers, _ = webserver.Browser(server.address).ask("/scenarios/pictured/pictures/gate.png")
+    assert (status, headers["Location"]) == (303, "/login")
+    # Trainees change nothing.
+    assert add(good, browser=anna)[0] == 403
+    fields = {"version": version(), "file": "pictured/gate.png"}
+    assert anna.post("/scenarios", "/scenarios/pictured/pictures/remove", fields)[0] == 403
+    # Other files in the folder and outside, and pictures of other scenarios, stay hidden.
+    (folder / "hidden.png").write_bytes(good)
+    (sessions / "scenarios" / "outside.png").write_bytes(good)
+    for way in ["hidden.png", "..%2Foutside.png", "%2e%2e%2foutside.png", "..", "%00", "gate.png%00", "gate.png%2f..%2fhidden.png", "remove"]:
+        assert ida.ask(f"/scenarios/pictured/pictures/{way}")[0] in (400, 404, 405), way
+    for file in ["../outside.png", "/etc/passwd.png", "outside.txt"]:
+        text = own.replace('name = "pictured"', 'name = "thief"') + f'\n[[briefing_pictures]]\nfile = "{file}"\ncaption = "x"\n'
+        assert ida.upload("/scenarios", "/scenarios", {}, text.encode(), "x.toml")[0] == 422, file
+    for file in ["outside.png", "pictured/hidden.png", "pictured/none.png"]:
+        text = own.replace('name = "pictured"', 'name = "thief"') + f'\n[[briefing_pictures]]\nfile = "{file}"\ncaption = "x"\n'
+        assert ida.upload("/scenarios", "/scenarios", {}, text.encode(), "x.toml")[0] == 200, file
+        page = ida.ask("/scenarios/thief/briefing")[2]
+        assert "<img" not in page and "is missing" in page, file
+    assert not (sessions / "scenarios" / "thief").exists()
+    # Shipped scenarios have none.
+    assert ida.upload("/scenarios", "/scenarios/drill-hover/pictures", {"version": version(), "caption": "x"}, good, "a.png")[0] == 404
+    for name in ("pictured", "thief"):
+        assert ida.post("/scenarios", f"/scenarios/{name}/remove", {})[0] == 303
+    assert not folder.exists() and (sessions / "scenarios" / "outside.png").exists()
+    (sessions / "scenarios" / "outside.png").unlink()
 
 
 def test_login_does_not_reveal_user_names(server, sessions):

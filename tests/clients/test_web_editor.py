@@ -266,6 +266,84 @@ def test_wire_save_follows_the_rules_of_uploads(server, sessions):
     assert status == 200 and headers["Content-Disposition"] == 'attachment; filename="scenario.toml"' and text == "name = '../../x'\n"
 
 
+def test_wire_instructor_adds_and_removes_pictures_of_the_briefing(browser, server, sessions):
+    upload(server, "with-pictures")
+    folder = sessions / "scenarios" / "with-pictures"
+    ida = BrowserUser(browser, server, "ida")
+    page = ida.page
+    ida.go("/scenarios/with-pictures")
+    for name, caption in [("Gate & road.PNG", "The gate, seen from the road"), ("pier.png", "Begin at this pier")]:
+        page.set_input_files("input[type=file]", {"name": name, "mimeType": "image/png", "buffer": webserver.png()})
+        page.fill("[name=caption]", caption)
+        page.click("button:text-is('Add the picture')")
+        expect(page.locator(f"#pictures figcaption:text-is('{caption}')")).to_be_visible()
+    assert sorted(path.name for path in folder.iterdir()) == ["Gate---road.png", "pier.png"]
+    text = stored(sessions, "with-pictures").read_text(encoding="utf-8")
+    assert text.startswith(PRACTICE.splitlines()[0]), "the comment of the shipped file remains"
+    assert 'file = "with-pictures/Gate---road.png"\ncaption = "The gate, seen from the road"\n' in text
+    found = json.loads(spandrel.run("check", str(stored(sessions, "with-pictures")), "--json"))
+    assert found["problems"] == []
+    loaded = "images => images.map(image => image.complete ? image.naturalWidth : 0)"
+    check_in_every_size_and_theme(ida, "pictures")
+    # A trainee sees them in the briefing, and neither forms nor buttons for them.
+    anna = BrowserUser(browser, server, "anna")
+    anna.go("/scenarios/with-pictures/briefing")
+    assert anna.page.locator("#pictures img").evaluate_all(loaded) == [40, 40]
+    assert anna.page.locator("#pictures figcaption").all_inner_texts() == ["The gate, seen from the road", "Begin at this pier"]
+    anna.check()
+    anna.save_screenshot("briefing-pictures")
+    anna.go("/scenarios/with-pictures")
+    assert anna.page.locator("#pictures").count() == 0
+    # The editor shows both, and a copy has files of its own.
+    ida.go("/scenarios/with-pictures/edit")
+    wait_until_checked(page)
+    assert page.input_value("#field-briefing_pictures-1-file") == "with-pictures/pier.png"
+    page.fill("#new-name", "pictures-copy")
+    page.click("button:text-is('Save as')")
+    page.wait_for_url("**/scenarios/pictures-copy/edit?saved=yes")
+    assert 'file = "pictures-copy/pier.png"' in stored(sessions, "pictures-copy").read_text(encoding="utf-8")
+    # A picture is removed with its file; the copy keeps its own.
+    ida.go("/scenarios/with-pictures")
+    page.click("#pictures button[aria-label='Remove the picture: Begin at this pier']")
+    expect(page.locator("#pictures figcaption")).to_have_count(1)
+    assert [path.name for path in folder.iterdir()] == ["Gate---road.png"]
+    ida.go("/scenarios/pictures-copy/briefing")
+    assert page.locator("#pictures img").evaluate_all(loaded) == [40, 40]
+    ida.go("/scenarios/with-pictures")
+    page.click("text=Delete this scenario")
+    page.wait_for_url("**/scenarios")
+    assert not folder.exists() and not stored(sessions, "with-pictures").exists()
+    assert ida.wrong == [] and anna.wrong == []
+
+
+def test_wire_pictures_of_a_scenario_that_somebody_changed_are_not_changed(server, sessions):
+    ida = upload(server, "pictured")
+    version = lambda: re.search(r'name="version" value="([0-9a-f]{64})"', ida.ask("/scenarios/pictured")[2]).group(1)
+    add = lambda fields, file=webserver.png(), name="gate.png": ida.upload("/scenarios/pictured", "/scenarios/pictured/pictures", fields, file, name)
+    opened = version()
+    assert add({"version": opened, "caption": "The gate"})[0] == 303
+    status, _, page = add({"version": opened, "caption": "The gate"})
+    assert status == 409 and "Somebody changed" in page
+    remove = lambda fields: ida.post("/scenarios/pictured", "/scenarios/pictured/pictures/remove", fields)
+    assert remove({"version": opened, "file": "pictured/gate.png"})[0] == 409
+    assert [path.name for path in (sessions / "scenarios" / "pictured").iterdir()] == ["gate.png"]
+    # A text without the table removes the file.
+    text = stored(sessions, "pictured").read_text(encoding="utf-8").split("\n[[briefing_pictures]]")[0] + "\n"
+    fields = {"text": text, "opened": "pictured", "version": version()}
+    assert ida.post("/scenarios", "/scenario-editor/save", fields)[0] == 303
+    assert not (sessions / "scenarios" / "pictured").exists()
+    for number in range(6):
+        assert add({"version": version(), "caption": f"Picture {number}"})[0] == 303
+    status, _, page = add({"version": version(), "caption": "One more"})
+    assert status == 422 and "already 6 pictures" in page
+    assert len(list((sessions / "scenarios" / "pictured").iterdir())) == 6
+    # A missing file is named, and its entry can be removed.
+    (sessions / "scenarios" / "pictured" / "gate-2.png").unlink()
+    assert "The picture pictured/gate-2.png is missing." in ida.ask("/scenarios/pictured/briefing")[2]
+    assert remove({"version": version(), "file": "pictured/gate-2.png"})[0] == 303
+    assert "is missing" not in ida.ask("/scenarios/pictured/briefing")[2]
+
+
 def test_wire_shipped_scenarios_are_copied_not_changed(browser, server):
     ida = BrowserUser(browser, server, "ida")
     ida.go("/scenarios/two-bridges")

@@ -4,10 +4,12 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import urllib.error
 import urllib.parse
 import urllib.request
+import zlib
 
 import spandrel
 
@@ -123,6 +125,14 @@ class Browser:
         body += f'--{boundary}\r\nContent-Disposition: form-data; name="file"; filename="{name}"\r\n\r\n'.encode()
         body += file + f"\r\n--{boundary}--\r\n".encode()
         return self.ask(path, body=body, headers={"Content-Type": f"multipart/form-data; boundary={boundary}"})
+
+
+def png(width=40, height=30):
+    """Returns a gray PNG file."""
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    head = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    rows = (b"\0" + b"\x80" * width) * height
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
 
 def flown(folder, *trainees, seed=7, skill="novice"):

@@ -51,6 +51,34 @@ impl Picture {
         Self { width, height, rgba: rgba.collect() }
     }
 
+    /// Turns and mirrors the stored pixels of a photograph upright. `orientation` is its EXIF orientation, 1 to 8 (EXIF 2.32, section
+    /// 4.6.4); any other number is treated as 1.
+    #[must_use]
+    pub fn upright(self, orientation: u16) -> Self {
+        let (right, bottom) = (self.width.saturating_sub(1), self.height.saturating_sub(1));
+        let from = move |x: u32, y: u32| match orientation {
+            2 => (right - x, y),
+            3 => (right - x, bottom - y),
+            4 => (x, bottom - y),
+            5 => (y, x),
+            6 => (y, bottom - x),
+            7 => (right - y, bottom - x),
+            8 => (right - y, x),
+            _ => (x, y),
+        };
+        if !(2..=8).contains(&orientation) {
+            return self;
+        }
+        let (width, height) = if orientation > 4 { (self.height, self.width) } else { (self.width, self.height) };
+        let pixel = |(x, y): (u32, u32)| {
+            let at = 4 * (y as usize * self.width as usize + x as usize);
+            self.rgba.get(at..at + 4).unwrap_or(&[0; 4])
+        };
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let rgba = pixels.flat_map(|(x, y)| pixel(from(x, y))).copied().collect();
+        Self { width, height, rgba }
+    }
+
     /// Returns the mean color of a rectangle.
     fn mean(&self, (left, top): (u32, u32), (right, bottom): (u32, u32)) -> [u8; 4] {
         let (mut sums, mut count) = ([0_u32; 3], 0);
@@ -87,6 +115,30 @@ mod tests {
         assert!((grey(40).luma((0, 0), (9, 9)) - 40.0).abs() < 1e-9);
         assert_eq!(grey(7).at(1, 0), [7, 7, 7]);
         assert_eq!(grey(7).at(2, 0), [0, 0, 0]);
+    }
+
+    #[test]
+    fn exact_photographs_are_turned_upright() {
+        let picture = |width: u32, values: &[u8]| Picture {
+            width,
+            height: values.len() as u32 / width,
+            rgba: values.iter().flat_map(|value| [*value; 4]).collect(),
+        };
+        // The picture of the EXIF standard: its first row and first column, for each orientation.
+        let upright = picture(2, &[1, 2, 3, 4, 5, 6]);
+        for (orientation, width, stored) in [
+            (1, 2, [1, 2, 3, 4, 5, 6]),
+            (2, 2, [2, 1, 4, 3, 6, 5]),
+            (3, 2, [6, 5, 4, 3, 2, 1]),
+            (4, 2, [5, 6, 3, 4, 1, 2]),
+            (5, 3, [1, 3, 5, 2, 4, 6]),
+            (6, 3, [2, 4, 6, 1, 3, 5]),
+            (7, 3, [6, 4, 2, 5, 3, 1]),
+            (8, 3, [5, 3, 1, 6, 4, 2]),
+            (9, 2, [1, 2, 3, 4, 5, 6]),
+        ] {
+            assert_eq!(picture(width, &stored).upright(orientation), upright, "orientation {orientation}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::records::session_folders;
 use crate::web::scenario_library::{UPLOAD_FOLDER, uploaded};
 use serde::Deserialize;
 use serde_json::Value;
-use spandrel_model::scenario::{Scenario, form_names};
+use spandrel_model::scenario::{BriefingPicture, Scenario, form_names};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
 use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
@@ -19,8 +19,8 @@ use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text as briefing_text};
 use spandrel_training::terms::scenario_title;
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, Purpose,
-    SCORE_NAMES, TraineeSummary,
+    BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress,
+    NextJob, Purpose, SCORE_NAMES, TraineeSummary,
 };
 use spandrel_view::path_guide::PathAids;
 use std::collections::BTreeMap;
@@ -47,12 +47,12 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>,
 
 /// Returns the job with this name or path in a language, with its briefing; `None` if it cannot be read.
 pub fn job_offer(name: String, language: Language) -> Option<JobOffer> {
-    let scenario = files::scenario(&name).ok()?.scenario;
+    let file = files::scenario(&name).ok()?;
     Some(JobOffer {
         name,
-        title: job_title(&scenario, language),
-        kind: contents_summary(&scenario, language),
-        briefing: job_briefing(&scenario, language),
+        title: job_title(&file.scenario, language),
+        kind: contents_summary(&file.scenario, language),
+        briefing: job_briefing(&file, language),
     })
 }
 
@@ -60,7 +60,8 @@ pub fn job_offer(name: String, language: Language) -> Option<JobOffer> {
 const FIRST_LESSON: &str = "first-flight";
 
 /// Returns what the window's briefing page shows.
-fn job_briefing(scenario: &Scenario, language: Language) -> JobBriefing {
+fn job_briefing(file: &ScenarioFile, language: Language) -> JobBriefing {
+    let scenario = &file.scenario;
     let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario), language);
     let task = |task: &TaskBriefing| {
         format!("{}  {}: {}, {}", task.id, task.name, task.place, briefing_text::task_numbers(task, language))
@@ -70,7 +71,17 @@ fn job_briefing(scenario: &Scenario, language: Language) -> JobBriefing {
         tasks: briefing.tasks.iter().map(task).collect(),
         hazards: briefing.hazards,
         site_check: briefing.site_check,
+        pictures: scenario.briefing_pictures.iter().filter_map(|picture| briefing_image(file, picture)).collect(),
     }
+}
+
+/// Returns a picture of the briefing; `None` if it cannot be used. A station, for example, has no pictures of the server's scenarios.
+fn briefing_image(file: &ScenarioFile, picture: &BriefingPicture) -> Option<BriefingImage> {
+    let found = file.picture(&picture.file);
+    let found = found.inspect_err(|error| tracing::warn!("the briefing has no picture {}: {error}", picture.file));
+    let (path, loaded) = found.ok()?;
+    let path = path.to_str()?.to_owned();
+    Some(BriefingImage { path, caption: picture.caption.clone(), size_px: loaded.info.size_px() })
 }
 
 /// Returns the title with the words that distinguish a form, or a level other than the standard one.
@@ -385,7 +396,10 @@ fn end_reason_text(end: &Value, session: &Path, language: Language) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::png::png;
+    use spandrel_model::scenario::edit::with_briefing_picture;
     use spandrel_view::flow::pipe::FlownBy;
+    use spandrel_view::picture::Picture;
 
     fn choice() -> FlightChoice {
         FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee }
@@ -402,6 +416,24 @@ mod tests {
         let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
         let offers = flight_options(&folder.path().join("none-yet"), &harder, None, Language::English);
         assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
+    }
+
+    #[test]
+    fn exact_briefing_has_the_pictures_that_can_be_loaded() {
+        let folder = tempfile::tempdir().unwrap();
+        let entry = |file: &str| BriefingPicture { file: file.into(), caption: file.to_uppercase() };
+        let add = |text: String, file: &&str| with_briefing_picture(&text, &entry(file)).unwrap();
+        let text = ["gate.png", "missing.png", "text.png"].iter().fold(shipped::PRACTICE.to_owned(), add);
+        let picture = png(&Picture { width: 3, height: 2, rgba: vec![9; 24] }).unwrap();
+        std::fs::write(folder.path().join("gate.png"), picture).unwrap();
+        std::fs::write(folder.path().join("text.png"), "text").unwrap();
+        let job = folder.path().join("job.toml");
+        std::fs::write(&job, text).unwrap();
+        let scenario = job.display().to_string();
+        let offers = flight_options(folder.path(), &FlightChoice { scenario, ..choice() }, None, Language::English);
+        let path = folder.path().join("gate.png").display().to_string();
+        let expected = BriefingImage { path, caption: "GATE.PNG".into(), size_px: (3, 2) };
+        assert_eq!(offers.scenarios.last().unwrap().briefing.pictures, [expected]);
     }
 
     #[test]

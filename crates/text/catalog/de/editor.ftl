@@ -38,6 +38,18 @@ editor-drawing = Zeichnung
 editor-show = Anzeigen
 editor-file-contents = Inhalt der Datei
 editor-delete-scenario = Dieses Szenario löschen
+editor-briefing-pictures = Bilder zur Einweisung
+editor-briefing-pictures-note = PNG oder JPEG, höchstens 4 MiB groß und 8192 px breit und hoch; höchstens { $most } Bilder.
+editor-briefing-picture-file = Bild
+editor-briefing-picture-add = Bild hinzufügen
+editor-briefing-picture-remove = Bild entfernen: { $caption }
+editor-briefing-picture-too-many = Es gibt schon { $most } Bilder: Entfernen Sie zuerst eines.
+editor-briefing-picture-unusable = { $file }: { $problem ->
+    [type] weder eine PNG- noch eine JPEG-Datei
+    [damaged] Die Datei ist beschädigt.
+   *[size] { $width } x { $height } px (zulässig: höchstens 8192 px breit und hoch)
+ }
+editor-briefing-picture-conflict = Jemand hat „{ $name }“ geändert, seit Sie diese Seite geöffnet haben. Es wurde nichts geändert: Prüfen Sie die Seite und versuchen Sie es noch einmal.
 editor-scenario-title = Szenario { $name }
 editor-briefing-title = Einweisung { $name }
 
@@ -137,6 +149,7 @@ editor-script-downloaded = { $status } Ohne die letzten Änderungen im Formular 
 editor-check-this = bitte prüfen
 
 editor-section-job = Auftrag
+editor-section-pictures = Bilder zur Einweisung
 editor-section-place = Ort
 editor-section-bridges = Brücken
 editor-section-tasks = Aufgaben
@@ -147,6 +160,7 @@ editor-section-gusts = Böen und Änderungen des Windes
 editor-section-light = Licht
 editor-section-rules = Regeln und Wertung
 editor-section-count = { $section } ({ $count })
+editor-pictures-note = Dateien werden auf der Seite des Szenarios hinzugefügt und entfernt. Ein gespeichertes Szenario behält nur die Dateien, die es nennt.
 editor-add-task = Aufgabe hinzufügen
 editor-add-bridge = Brücke hinzufügen
 editor-add-gust = Böe hinzufügen
@@ -187,6 +201,7 @@ editor-key-format = Format
 editor-key-name = Name
 editor-key-title = Titel
 editor-key-briefing = Einweisung
+editor-key-caption = Bildunterschrift
 editor-key-seed = Startwert
 editor-key-form = Variante
 editor-key-level = Stufe

@@ -42,6 +42,18 @@ editor-drawing = Drawing
 editor-show = Show
 editor-file-contents = File contents
 editor-delete-scenario = Delete this scenario
+editor-briefing-pictures = Pictures of the briefing
+editor-briefing-pictures-note = PNG or JPEG, at most 4 MiB and 8192 px wide and high; at most { $most } pictures.
+editor-briefing-picture-file = Picture
+editor-briefing-picture-add = Add the picture
+editor-briefing-picture-remove = Remove the picture: { $caption }
+editor-briefing-picture-too-many = There are already { $most } pictures: remove one first.
+editor-briefing-picture-unusable = { $file }: { $problem ->
+    [type] neither a PNG nor a JPEG file
+    [damaged] the file is damaged
+   *[size] { $width } x { $height } px (allowed: at most 8192 px wide and high)
+ }
+editor-briefing-picture-conflict = Somebody changed '{ $name }' since you opened this page. Nothing was changed: check the page, and try again.
 editor-scenario-title = Scenario { $name }
 editor-briefing-title = Briefing { $name }
 
@@ -153,6 +165,7 @@ editor-check-this = check this
 ## Form of the editor: sections and fields
 
 editor-section-job = Job
+editor-section-pictures = Pictures of the briefing
 editor-section-place = Place
 editor-section-bridges = Bridges
 editor-section-tasks = Tasks
@@ -163,6 +176,7 @@ editor-section-gusts = Gusts and changes of the wind
 editor-section-light = Light
 editor-section-rules = Rules and scoring
 editor-section-count = { $section } ({ $count })
+editor-pictures-note = Add and remove files on the scenario's page. A saved scenario keeps only the files that it lists.
 editor-add-task = Add a task
 editor-add-bridge = Add a bridge
 editor-add-gust = Add a gust
@@ -205,6 +219,7 @@ editor-key-format = Format
 editor-key-name = Name
 editor-key-title = Title
 editor-key-briefing = Briefing
+editor-key-caption = Caption
 editor-key-seed = Seed
 editor-key-form = Form
 editor-key-level = Level

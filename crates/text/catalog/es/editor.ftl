@@ -38,6 +38,18 @@ editor-drawing = Dibujo
 editor-show = Mostrar
 editor-file-contents = Contenido del archivo
 editor-delete-scenario = Eliminar este escenario
+editor-briefing-pictures = Imágenes de las instrucciones
+editor-briefing-pictures-note = PNG o JPEG, como máximo 4 MiB y 8192 px de ancho y de alto; como máximo { $most } imágenes.
+editor-briefing-picture-file = Imagen
+editor-briefing-picture-add = Agregar la imagen
+editor-briefing-picture-remove = Quitar la imagen: { $caption }
+editor-briefing-picture-too-many = Ya hay { $most } imágenes: quite una primero.
+editor-briefing-picture-unusable = { $file }: { $problem ->
+    [type] no es un archivo PNG ni JPEG
+    [damaged] el archivo está dañado
+   *[size] { $width } x { $height } px (permitido: como máximo 8192 px de ancho y de alto)
+ }
+editor-briefing-picture-conflict = Alguien cambió «{ $name }» después de que usted abriera esta página. No se cambió nada: revise la página e inténtelo de nuevo.
 editor-scenario-title = Escenario { $name }
 editor-briefing-title = Instrucciones de { $name }
 
@@ -137,6 +149,7 @@ editor-script-downloaded = { $status } Se descargó sin los últimos cambios del
 editor-check-this = revise esto
 
 editor-section-job = Trabajo
+editor-section-pictures = Imágenes de las instrucciones
 editor-section-place = Lugar
 editor-section-bridges = Puentes
 editor-section-tasks = Tareas
@@ -147,6 +160,7 @@ editor-section-gusts = Ráfagas y cambios del viento
 editor-section-light = Luz
 editor-section-rules = Reglas y puntuación
 editor-section-count = { $section } ({ $count })
+editor-pictures-note = Los archivos se agregan y se quitan en la página del escenario. Un escenario guardado conserva solo los archivos que nombra.
 editor-add-task = Agregar una tarea
 editor-add-bridge = Agregar un puente
 editor-add-gust = Agregar una ráfaga
@@ -187,6 +201,7 @@ editor-key-format = Formato
 editor-key-name = Nombre
 editor-key-title = Título
 editor-key-briefing = Instrucciones
+editor-key-caption = Leyenda
 editor-key-seed = Semilla
 editor-key-form = Variante
 editor-key-level = Nivel

@@ -10,7 +10,7 @@ pub use tasks::TaskBriefing;
 
 use crate::terms::scenario_title;
 use serde::Serialize;
-use spandrel_model::scenario::{Scenario, Task, WindModel};
+use spandrel_model::scenario::{BriefingPicture, Scenario, Task, WindModel};
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::score::certification::{job_time, requirements};
@@ -25,6 +25,8 @@ pub struct Briefing {
     pub title: String,
     /// The instructor's own words, one paragraph each.
     pub notes: Vec<String>,
+    /// The instructor's pictures, in their order.
+    pub pictures: Vec<BriefingPicture>,
     /// The tasks in the order in which they are flown.
     pub tasks: Vec<TaskBriefing>,
     /// Conditions of the job: a name and a value each.
@@ -67,6 +69,7 @@ impl Briefing {
             job: scenario.name_with_form(),
             title: scenario_title(&scenario.name, &scenario.title, language),
             notes: scenario.briefing.clone(),
+            pictures: scenario.briefing_pictures.clone(),
             tasks,
             conditions: conditions(scenario, vehicle, language),
             hazards,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::testing::untranslated_word;
+use spandrel_model::scenario::edit::with_briefing_picture;
 use spandrel_model::{scenario, shipped, vehicle};
 
 fn briefing(text: &str) -> Briefing {
@@ -50,6 +51,16 @@ fn exact_the_instructors_words_come_first() {
     assert_eq!(briefing.notes, ["Meet at the gate.", "Bring a vest."]);
     let shown = text::render(&briefing);
     assert!(shown.find("Meet at the gate.") < shown.find("Tasks, in this order"), "{shown}");
+}
+
+#[test]
+fn exact_pictures_follow_the_words_with_file_and_caption() {
+    let picture = BriefingPicture { file: "site/gate.jpg".into(), caption: "The gate, seen from the road".into() };
+    let briefing = briefing(&with_briefing_picture(shipped::TWO_BRIDGES, &picture).unwrap());
+    let shown = text::render(&briefing);
+    assert!(shown.contains("\nPictures\n  site/gate.jpg: The gate, seen from the road\n"), "{shown}");
+    assert!(!text::render(&self::briefing(shipped::TWO_BRIDGES)).contains("Pictures"));
+    assert_eq!(briefing.pictures, [picture]);
 }
 
 #[test]

@@ -23,6 +23,13 @@ pub fn render(briefing: &Briefing) -> String {
         put("", "");
         put(note, "");
     }
+    if !briefing.pictures.is_empty() {
+        put("", "");
+        put("Pictures", "");
+    }
+    for picture in &briefing.pictures {
+        put(&format!("{}: {}", picture.file, picture.caption), "  ");
+    }
     put("", "");
     for (name, value) in &briefing.conditions {
         put(&format!("{name:<10}{value}"), "  ");

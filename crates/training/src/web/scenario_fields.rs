@@ -36,6 +36,7 @@ pub fn input_texts(form: &ScenarioForm) -> Map<String, Value> {
 fn heading(language: Language, id: &str) -> String {
     match id {
         "job" => text!(language, "editor-section-job"),
+        "pictures" => text!(language, "editor-section-pictures"),
         "place" => text!(language, "editor-section-place"),
         "bridges" => text!(language, "editor-section-bridges"),
         "tasks" => text!(language, "editor-section-tasks"),
@@ -61,8 +62,9 @@ fn form_section(language: Language, section: &FormSection) -> Markup {
             p.field-problem id={ (id) "-problem" } lang="en" {}
             (all(language, &section.main, &section.more, &id))
             @for (k, group) in section.groups.iter().enumerate() { (field_group(language, group, k, count)) }
-            @if let Some(repeated) = section.repeated {
-                button type="button" data-edit=(json!({ "add": repeated })) { (add_label(language, repeated)) }
+            @if section.id == "pictures" { p.note { (text!(language, "editor-pictures-note")) } }
+            @if let Some((repeated, label)) = section.repeated.and_then(|repeated| Some((repeated, add_label(language, repeated)?))) {
+                button type="button" data-edit=(json!({ "add": repeated })) { (label) }
             }
         }
     }
@@ -73,11 +75,13 @@ fn check_this(language: Language) -> String {
     text!(language, "editor-check-this")
 }
 
-fn add_label(language: Language, repeated: &str) -> String {
+/// Returns the label of the button that adds a table; `None` if the form can't add one.
+fn add_label(language: Language, repeated: &str) -> Option<String> {
     match repeated {
-        "tasks" => text!(language, "editor-add-task"),
-        "bridges" => text!(language, "editor-add-bridge"),
-        _ => text!(language, "editor-add-gust"),
+        "tasks" => Some(text!(language, "editor-add-task")),
+        "bridges" => Some(text!(language, "editor-add-bridge")),
+        "wind.events" => Some(text!(language, "editor-add-gust")),
+        _ => None,
     }
 }
 

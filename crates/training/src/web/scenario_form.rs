@@ -5,7 +5,7 @@ use spandrel_model::key_table::KeyDescription;
 use spandrel_model::scenario::values::{KIND_KEYS, ScenarioValues, describe, key_descriptions, without_indices};
 use spandrel_model::toml::Problem;
 
-/// Maximum number of bridges, tasks or events with fields: as many as a job may have. Files with more have a problem anyway.
+/// Maximum number of pictures, bridges, tasks or events with fields: as many as a job may have. Files with more have a problem anyway.
 const MAX_GROUPS: usize = 64;
 
 /// A group of keys: those that most jobs need, and the tables whose other keys are under "More keys".
@@ -19,6 +19,12 @@ struct Layout {
 
 const LAYOUT: &[Layout] = &[
     Layout { id: "job", repeated: "", main: &["name", "title", "briefing"], tables: &[""] },
+    Layout {
+        id: "pictures",
+        repeated: "briefing_pictures",
+        main: &["briefing_pictures[].file", "briefing_pictures[].caption"],
+        tables: &[],
+    },
     Layout {
         id: "place",
         repeated: "",
@@ -143,7 +149,7 @@ pub struct Field {
 pub struct FieldGroup {
     /// Location of the table, such as `tasks[2]`.
     pub location: String,
-    /// Name of the bridge or task, or the kind of the event.
+    /// Name of the bridge, the task or the picture's file, or the kind of the event.
     pub name: String,
     /// Fields that most jobs need.
     pub main: Vec<Field>,
@@ -162,7 +168,7 @@ pub struct FormSection {
     pub main: Vec<Field>,
     /// All other fields.
     pub more: Vec<Field>,
-    /// Bridges, tasks or events.
+    /// Pictures, bridges, tasks or events.
     pub groups: Vec<FieldGroup>,
 }
 
@@ -234,7 +240,8 @@ fn section(layout: &'static Layout, values: &ScenarioValues) -> FormSection {
 fn group(layout: &Layout, k: usize, values: &ScenarioValues) -> FieldGroup {
     let location = format!("{}[{k}]", layout.repeated);
     let (main, more) = fields(layout, &location, values);
-    let name = ["name", "kind"].iter().find_map(|key| values.get(&format!("{location}.{key}"))).unwrap_or_default().to_owned();
+    let name =
+        ["name", "kind", "file"].iter().find_map(|key| values.get(&format!("{location}.{key}"))).unwrap_or_default().to_owned();
     FieldGroup { location, name, main, more }
 }
 
@@ -329,8 +336,8 @@ fn control(description: &KeyDescription, location: &str, values: &ScenarioValues
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_model::scenario;
-    use spandrel_model::scenario::edit::{Edit, apply};
+    use spandrel_model::scenario::edit::{Edit, apply, with_briefing_picture};
+    use spandrel_model::scenario::{self, BriefingPicture};
     use spandrel_model::shipped::{PRACTICE, SCENARIOS, TWO_BRIDGES};
 
     fn form(text: &str) -> ScenarioForm {
@@ -397,6 +404,16 @@ mod tests {
         assert_eq!(at("tasks[3]"), Some("field-tasks-3".into()));
         assert_eq!(at("tasks"), Some("section-tasks".into()));
         assert_eq!(at("lesson[0].step"), None);
+    }
+
+    #[test]
+    fn exact_pictures_of_the_briefing_have_a_group_each() {
+        let picture = BriefingPicture { file: "job/gate.png".into(), caption: "The gate".into() };
+        let form = form(&with_briefing_picture(PRACTICE, &picture).unwrap());
+        let section = form.sections.iter().find(|section| section.id == "pictures").unwrap();
+        let [group] = section.groups.as_slice() else { panic!("{section:?}") };
+        let values: Vec<&str> = group.main.iter().map(|field| field.value.as_str()).collect();
+        assert_eq!((group.name.as_str(), values, group.more.len()), ("job/gate.png", vec!["job/gate.png", "The gate"], 0));
     }
 
     #[test]

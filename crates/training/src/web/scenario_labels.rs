@@ -51,6 +51,7 @@ fn place_label(language: Language, name: &str) -> Option<String> {
         "name" => text!(language, "editor-key-name"),
         "title" => text!(language, "editor-key-title"),
         "briefing" => text!(language, "editor-key-briefing"),
+        "caption" => text!(language, "editor-key-caption"),
         "seed" => text!(language, "editor-key-seed"),
         "form" => text!(language, "editor-key-form"),
         "level" => text!(language, "editor-key-level"),
@@ -238,7 +239,8 @@ mod tests {
 
     #[test]
     fn prop_every_field_has_a_label_in_the_catalog() {
-        for (name, text) in SCENARIOS {
+        let pictures = "[[briefing_pictures]]\nfile = \"a.png\"\ncaption = \"a\"\n";
+        for (name, text) in SCENARIOS.iter().chain(&[("pictures", pictures)]) {
             for field in ScenarioForm::read(text).unwrap().fields() {
                 let key = field.location.rsplit('.').next().unwrap();
                 let stem = UNITS.iter().find_map(|(end, _)| key.strip_suffix(end).filter(|stem| !stem.is_empty())).unwrap_or(key);

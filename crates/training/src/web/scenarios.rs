@@ -5,11 +5,11 @@ use super::layout::{ELEMENT, Notice, message, page, section, table, token, with_
 use crate::briefing::Briefing;
 use crate::plan::level_settings;
 use crate::report::formatting;
-use crate::report::page::briefing_contents;
+use crate::report::page::{briefing_contents, briefing_picture};
 use crate::report::plots::job::job_plan;
 use crate::terms::{scenario_title, task_title};
 use maud::{Markup, html};
-use spandrel_model::scenario::{Difficulty, Scenario};
+use spandrel_model::scenario::{BriefingPicture, Difficulty, MAX_BRIEFING_PICTURES, MAX_CAPTION_CHARS, Scenario};
 use spandrel_model::site::Site;
 use spandrel_text::{Language, text};
 
@@ -107,11 +107,31 @@ fn edit_link(language: Language, named: &ScenarioEntry) -> Markup {
     }
 }
 
+/// Contents of a scenario's page.
+#[derive(Debug, Clone, Copy)]
+pub struct ScenarioPage<'a> {
+    /// Name, title and origin.
+    pub named: &'a ScenarioEntry,
+    /// The scenario.
+    pub scenario: &'a Scenario,
+    /// Its site.
+    pub site: &'a Site,
+    /// Source text (TOML).
+    pub text: &'a str,
+    /// Version of the text, by which a change to the pictures notices changes by others.
+    pub version: &'a str,
+    /// Address of each picture of the briefing; `None` if it is missing.
+    pub pictures: &'a [Option<String>],
+    /// Result of a change.
+    pub notice: Option<Notice<'a>>,
+}
+
 /// Renders one scenario's page. Only instructors see the file, because it contains the seed and thus reveals the
 /// defects.
 #[must_use]
-pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenario, site: &Site, text: &str) -> Markup {
+pub fn scenario_page(visitor: &Visitor, about: &ScenarioPage<'_>) -> Markup {
     let language = visitor.language;
+    let ScenarioPage { named, scenario, site, text, .. } = *about;
     let heads = [(text!(language, "editor-task"), false), (text!(language, "editor-tolerance"), true)];
     let briefing = html! { a href={ "/scenarios/" (named.name) "/briefing" } { (text!(language, "editor-briefing")) } };
     let rows = html! {
@@ -120,6 +140,7 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
         }
     };
     let body = html! {
+        @if let Some(notice) = about.notice { (notice.render()) }
         p.lead { (scenario_title(&scenario.name, &scenario.title, language)) }
         p { (with_element(&text!(language, "editor-briefing-link", briefing = ELEMENT), &briefing)) }
         @if visitor.satisfies(AccessLevel::Instructor) { p { (edit_link(language, named)) } }
@@ -128,6 +149,9 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
             (section("tasks", &text!(language, "editor-tasks"), &table(&text!(language, "editor-tolerances"), &heads, &rows)))
         }
         (section("site", &text!(language, "editor-site-plan"), &html! { figure.wide { div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-drawing")) { (job_plan(scenario, site, language)) } } }))
+        @if visitor.satisfies(AccessLevel::Instructor) && named.uploaded {
+            (section("pictures", &text!(language, "editor-briefing-pictures"), &pictures(visitor, about)))
+        }
         @if visitor.satisfies(AccessLevel::Instructor) { (section("file", &text!(language, "editor-file"), &html! {
             details { summary { (text!(language, "editor-show")) } div.scroll tabindex="0" role="region" aria-label=(text!(language, "editor-file-contents")) { pre { code { (text) } } } }
             @if named.uploaded {
@@ -138,10 +162,56 @@ pub fn scenario_page(visitor: &Visitor, named: &ScenarioEntry, scenario: &Scenar
     page(visitor, "/scenarios", &text!(language, "editor-scenario-title", name = named.name.as_str()), &body)
 }
 
-/// Renders the briefing for a scenario.
+/// Renders the pictures of the briefing with a button that removes each, and the form that adds one.
+fn pictures(visitor: &Visitor, about: &ScenarioPage<'_>) -> Markup {
+    let pictures = &about.scenario.briefing_pictures;
+    let addresses = about.pictures.iter().map(Option::as_deref).chain(std::iter::repeat(None));
+    html! {
+        p { (text!(visitor.language, "editor-briefing-pictures-note", most = MAX_BRIEFING_PICTURES)) }
+        @if !pictures.is_empty() {
+            div.briefing-pictures { @for (picture, address) in pictures.iter().zip(addresses) {
+                div { (briefing_picture(picture, address, visitor.language)) (remove_picture(visitor, about, picture)) }
+            } }
+        }
+        @if pictures.len() < MAX_BRIEFING_PICTURES { (add_picture(visitor, about)) }
+    }
+}
+
+fn remove_picture(visitor: &Visitor, about: &ScenarioPage<'_>, picture: &BriefingPicture) -> Markup {
+    let label = text!(visitor.language, "editor-briefing-picture-remove", caption = picture.caption.as_str());
+    html! {
+        form method="post" action={ "/scenarios/" (about.named.name) "/pictures/remove" } {
+            (token(visitor))
+            input type="hidden" name="version" value=(about.version);
+            input type="hidden" name="file" value=(picture.file);
+            button.danger type="submit" aria-label=(label) { (text!(visitor.language, "editor-remove")) }
+        }
+    }
+}
+
+fn add_picture(visitor: &Visitor, about: &ScenarioPage<'_>) -> Markup {
+    let language = visitor.language;
+    html! {
+        form.stacked method="post" action={ "/scenarios/" (about.named.name) "/pictures" } enctype="multipart/form-data" {
+            (token(visitor))
+            input type="hidden" name="version" value=(about.version);
+            label { (text!(language, "editor-briefing-picture-file")) input type="file" name="file" accept=".png,.jpg,.jpeg" required; }
+            label { (text!(language, "editor-key-caption")) input name="caption" required maxlength=(MAX_CAPTION_CHARS); }
+            button type="submit" { (text!(language, "editor-briefing-picture-add")) }
+        }
+    }
+}
+
+/// Renders the briefing for a scenario. `pictures` are the addresses of its pictures; `None` stands for a missing one.
 #[must_use]
-pub fn briefing_page(visitor: &Visitor, briefing: &Briefing, scenario: &Scenario, site: &Site) -> Markup {
-    let body = html! { p.lead { (briefing.title) } (briefing_contents(briefing, scenario, site, visitor.language)) };
+pub fn briefing_page(
+    visitor: &Visitor,
+    briefing: &Briefing,
+    (scenario, site): (&Scenario, &Site),
+    pictures: &[Option<String>],
+) -> Markup {
+    let contents = briefing_contents(briefing, (scenario, site), pictures, visitor.language);
+    let body = html! { p.lead { (briefing.title) } (contents) };
     page(visitor, "/scenarios", &text!(visitor.language, "editor-briefing-title", name = briefing.job.as_str()), &body)
 }
 
@@ -215,6 +285,34 @@ mod tests {
         assert!(there.contains("href=\"/sessions/s-1\"") && there.contains("a session by anna"), "{there}");
     }
 
+    fn shown<'a>(named: &'a ScenarioEntry, scenario: &'a Scenario, site: &'a Site) -> ScenarioPage<'a> {
+        ScenarioPage { named, scenario, site, text: "", version: "v1", pictures: &[], notice: None }
+    }
+
+    #[test]
+    fn exact_instructors_add_and_remove_the_pictures_of_uploaded_scenarios() {
+        let mut scenario =
+            spandrel_model::scenario::read("job.toml", spandrel_model::shipped::PRACTICE, &|_| Err(String::new())).unwrap();
+        let picture = |k: usize| BriefingPicture { file: format!("job/{k}.png"), caption: HOSTILE_NAME.into() };
+        let site = Site::without_defects(&scenario);
+        let entry = |uploaded| ScenarioEntry { name: "job".into(), title: "Job".into(), uploaded };
+        let count = |page: &str| (page.matches("/scenarios/job/pictures/remove").count(), page.matches("type=\"file\"").count());
+        for (pictures, forms) in [(0, 1), (2, 1), (MAX_BRIEFING_PICTURES, 0)] {
+            scenario.briefing_pictures = (0..pictures).map(picture).collect();
+            let (uploaded, shipped) = (entry(true), entry(false));
+            let addresses = [Some("/scenarios/job/pictures/0.png".to_owned()), None];
+            let about = ScenarioPage { pictures: &addresses, ..shown(&uploaded, &scenario, &site) };
+            let page = scenario_page(&administrator(), &about).into_string();
+            check(&page);
+            assert_eq!((count(&page), page.matches("<img").count()), ((pictures, forms), pictures.min(1)));
+            assert_eq!(page.matches("name=\"version\" value=\"v1\"").count(), pictures + forms);
+            let trainee = Visitor { role: Role::Trainee, ..administrator() };
+            assert_eq!(count(&scenario_page(&trainee, &about).into_string()), (0, 0));
+            let shipped = ScenarioPage { named: &shipped, ..about };
+            assert_eq!(count(&scenario_page(&administrator(), &shipped).into_string()), (0, 0));
+        }
+    }
+
     #[test]
     fn exact_titles_of_shipped_scenarios_are_translated() {
         let entry = |title: &str| ScenarioEntry { name: "drill-hover".into(), title: title.into(), uploaded: false };
@@ -240,9 +338,10 @@ mod tests {
         (scenario.title, scenario.tasks) = ("8".into(), Vec::new());
         let site = Site::without_defects(&scenario);
         for entry in [entry(true), entry(false)] {
-            let page = scenario_page(&visitor, &entry, &scenario, &site, "9").into_string();
-            check_translated(&page, &["mph", "min"]);
-            let german = scenario_page(&administrator_with(Language::German), &entry, &scenario, &site, "9").into_string();
+            let about = ScenarioPage { text: "9", ..shown(&entry, &scenario, &site) };
+            let page = scenario_page(&visitor, &about).into_string();
+            check_translated(&page, &["mph", "min", "PNG", "JPEG", "MiB"]);
+            let german = scenario_page(&administrator_with(Language::German), &about).into_string();
             assert!(german.contains("Zu findende Schäden") && german.contains("<h1>Szenario 7</h1>"), "{german}");
         }
     }

@@ -1,9 +1,9 @@
-//! Briefing page before the flight: drawings of the site with the tasks, hazards, and the site check, which the user acknowledges
-//! to start.
+//! Briefing page before the flight: drawings of the site with the tasks, hazards, the instructor's words and pictures, and the site
+//! check, which the user acknowledges to start.
 
 use super::menu::{self, MenuAction, MenuRow};
-use super::pipe::{JobBriefing, JobOffer};
-use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, fitted, wrap_text};
+use super::pipe::{BriefingImage, JobBriefing, JobOffer};
+use super::sheet::{LINE_SPACING, PageWriter, PictureSource, SMALL_TEXT_SIZE, fitted, wrap_text};
 use crate::hud::{HudColor, JobDrawing, TextAlign};
 use spandrel_text::{Language, text};
 use std::sync::Arc;
@@ -23,6 +23,12 @@ const DRAWING_HEIGHTS: (f64, f64) = (0.25, 0.8);
 const DRAWING_GAP: f64 = 0.015;
 /// Font size of the drawings' captions.
 const CAPTION_SIZE: f64 = 0.8 * SMALL_TEXT_SIZE;
+/// Maximum number of the instructor's pictures beside each other, their largest height, and the gap between them.
+const PICTURES_PER_ROW: usize = 3;
+const MAX_PICTURE_HEIGHT: f64 = 0.5;
+const PICTURE_GAP: f64 = 0.03;
+/// Gap between a picture and its caption.
+const PICTURE_CAPTION_GAP: f64 = 0.008;
 /// Space between two paragraphs and before a heading, in lines.
 const PARAGRAPH_GAP: f64 = 0.35;
 const HEADING_GAP: f64 = 0.6;
@@ -51,7 +57,8 @@ pub fn page(pen: &mut PageWriter, (job, drawing): (&JobOffer, Option<&Arc<JobDra
     };
     let width = if is_narrow { whole } else { 0.5 * (texts - COLUMN_GAP) };
     // A page that fits has its menu at the bottom; otherwise, it is scrolled.
-    let fits = fitting_size(&columns, width).filter(|_| !is_narrow && pen.height >= 1.0);
+    let pictures = &job.briefing.pictures;
+    let fits = fitting_size(&columns, width).filter(|_| !is_narrow && pen.height >= 1.0 && pictures.is_empty());
     let mut bottom = TOP;
     for (k, column) in columns.iter().enumerate() {
         let (x, top) = if is_narrow { (LEFT, bottom) } else { (LEFT + (width + COLUMN_GAP) * k as f64, TOP) };
@@ -61,6 +68,9 @@ pub fn page(pen: &mut PageWriter, (job, drawing): (&JobOffer, Option<&Arc<JobDra
         let (place, room) =
             if is_narrow { ((LEFT, bottom), f64::INFINITY) } else { ((LEFT + whole - drawn, TOP), MENU_TOP - TOP) };
         bottom = draw_site(pen, drawing, (place, drawn), room).max(bottom);
+    }
+    if !pictures.is_empty() {
+        bottom = draw_pictures(pen, pictures, ((LEFT, bottom + PICTURE_GAP), whole));
     }
     let menu_top = if fits.is_some() { MENU_TOP } else { bottom + 0.02 };
     menu::draw(pen, (LEFT, menu_top), whole, rows, focus);
@@ -85,6 +95,32 @@ fn draw_site(pen: &mut PageWriter, drawing: &JobDrawing, ((x, top), width): ((f6
         y += shrink * height + DRAWING_GAP;
     }
     y
+}
+
+/// Draws the instructor's pictures in rows. Returns the y position below.
+fn draw_pictures(pen: &mut PageWriter, pictures: &[BriefingImage], ((x, top), width): ((f64, f64), f64)) -> f64 {
+    let count = if pen.is_narrow() { 1 } else { pictures.len().clamp(1, PICTURES_PER_ROW) };
+    let column = (width + PICTURE_GAP) / count as f64 - PICTURE_GAP;
+    let mut y = top;
+    for row in pictures.chunks(count) {
+        let mut bottom = y;
+        for (k, picture) in row.iter().enumerate() {
+            let place = (x + (column + PICTURE_GAP) * k as f64, y);
+            bottom = draw_picture(pen, picture, (place, column)).max(bottom);
+        }
+        y = bottom + PICTURE_GAP;
+    }
+    y
+}
+
+/// Draws a picture in its own shape, as wide as its column or lower, with its caption below. Returns the y position below.
+fn draw_picture(pen: &mut PageWriter, picture: &BriefingImage, ((x, top), width): ((f64, f64), f64)) -> f64 {
+    let ratio = picture.height_ratio();
+    let height = (width * ratio).min(MAX_PICTURE_HEIGHT);
+    pen.picture_from(PictureSource::File(picture.path.clone()), (x, top), (height / ratio, height));
+    let half_line = 0.5 * LINE_SPACING * CAPTION_SIZE;
+    let first = top + height + PICTURE_CAPTION_GAP + half_line;
+    pen.lines((x, first), width, CAPTION_SIZE, HudColor::White, &picture.caption) - half_line
 }
 
 fn columns(briefing: &JobBriefing, language: Language) -> [Vec<Block<'_>>; 2] {

@@ -91,7 +91,7 @@ pub struct JobOffer {
     pub briefing: JobBriefing,
 }
 
-/// The briefing for a job, as text.
+/// The briefing for a job, as text and pictures.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct JobBriefing {
     /// The instructor's own words.
@@ -102,6 +102,29 @@ pub struct JobBriefing {
     pub hazards: Vec<String>,
     /// Items of the site check.
     pub site_check: Vec<String>,
+    /// The instructor's pictures.
+    #[serde(default)]
+    pub pictures: Vec<BriefingImage>,
+}
+
+/// A picture of the briefing: a PNG or JPEG file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BriefingImage {
+    /// Absolute path of the file.
+    pub path: String,
+    /// Caption.
+    pub caption: String,
+    /// Width and height as the picture is shown, px.
+    pub size_px: (u32, u32),
+}
+
+impl BriefingImage {
+    /// Returns the height relative to the width.
+    #[must_use]
+    pub fn height_ratio(&self) -> f64 {
+        let (width, height) = self.size_px;
+        f64::from(height.max(1)) / f64::from(width.max(1))
+    }
 }
 
 impl JobBriefing {

@@ -43,7 +43,7 @@ impl ClickArea {
 pub enum PictureSource {
     /// An embedded picture with this name.
     Embedded(&'static str),
-    /// A PNG file at this path. The program that hosts the window loads it.
+    /// A PNG or JPEG file at this path. The program that hosts the window loads it.
     File(String),
     /// The picture of a job, by the job's name or path.
     Job(String),

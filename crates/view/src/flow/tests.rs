@@ -1,8 +1,9 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight, JobBriefing,
-    JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
+    BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight,
+    JobBriefing, JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest, ToWindow,
+    TraineeSummary,
 };
 use super::sheet::{PageLayout, PictureSource};
 use super::{
@@ -884,6 +885,7 @@ fn long_briefing() -> JobBriefing {
         ),
         hazards: repeated("Wind: 1.0 m/s. The wind changes or gusts during the flight. Expect turbulence behind piers.", 6),
         site_check: repeated("Battery: full. I land with at least 20%, and fly home at the low-battery warning (30%).", 3),
+        pictures: Vec::new(),
     }
 }
 
@@ -955,8 +957,12 @@ fn exact_an_ordered_flight_ends_the_school_and_the_calibration() {
 
 /// Returns the window's briefing page without and with drawings of the site.
 fn briefings() -> [WindowFlow; 2] {
+    briefings_of(briefed_offers())
+}
+
+fn briefings_of(offers: FlightOptions) -> [WindowFlow; 2] {
     let mut flow = started();
-    flow.handle_message(ToWindow::Offers(briefed_offers()));
+    flow.handle_message(ToWindow::Offers(offers));
     press(&mut flow, &[KeyPress::Down, KeyPress::Down, KeyPress::Down, KeyPress::Enter, KeyPress::Enter]);
     let scenario = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
     let mut drawn = flow.clone();
@@ -1010,6 +1016,60 @@ fn prop_briefing_is_complete_and_does_not_overlap_at_any_aspect_ratio() {
             };
             assert!(!texts[..k].iter().any(|one| near(&one)), "aspect {aspect}: '{words}' overlaps another line");
         }
+    }
+}
+
+/// Returns the briefing pages with this number of the instructor's pictures: photographs, a panorama, and a portrait.
+fn pictured(count: usize) -> [WindowFlow; 2] {
+    let sizes = [(4000, 3000), (8000, 900), (3000, 4000), (1, 1), (800, 8000), (1024, 768)];
+    let picture = |k: usize| BriefingImage {
+        path: format!("/tmp/{k}.jpg"),
+        caption: format!("Picture {k}: the gate, where you meet the inspector and put on the vest").repeat(1 + k % 3),
+        size_px: sizes[k],
+    };
+    let mut offers = briefed_offers();
+    offers.scenarios[1].briefing.pictures = (0..count).map(picture).collect();
+    briefings_of(offers)
+}
+
+#[test]
+fn prop_pictures_of_the_briefing_keep_their_shape_and_overlap_nothing() {
+    let styles = TextScale::ALL.map(|text_scale| DisplayStyle { text_scale, ..DisplayStyle::default() });
+    let shown = [1, 2, 4, 6].into_iter().flat_map(pictured).flat_map(|flow| styles.map(|style| styled(&flow, style)));
+    for (flow, aspect) in shown.flat_map(|flow| ASPECTS.map(|aspect| (flow.clone(), aspect))) {
+        let sheet = flow.sheet(aspect);
+        let pictures = &flow.chosen_job().unwrap().briefing.pictures;
+        let what = format!("{} pictures, {:?}, aspect {aspect:.2}", pictures.len(), flow.style().text_scale);
+        let rect = |from: &ScreenPoint, to: &ScreenPoint| [from.x * aspect, from.y, to.x * aspect, to.y];
+        let mut taken: Vec<[f64; 4]> = text_places(&sheet, aspect).into_iter().map(|(place, _)| place).collect();
+        taken.extend(sheet.items.iter().filter_map(|item| match item {
+            // The scroll bar is at the right edge of the window.
+            DrawItem::Panel { from, to, .. } if to.x < 1.0 => Some(rect(from, to)),
+            DrawItem::Panel { .. } | DrawItem::Text { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        }));
+        assert_eq!(sheet.pictures.len(), pictures.len(), "{what}");
+        for (placed, picture) in sheet.pictures.iter().zip(pictures) {
+            assert_eq!(placed.source, PictureSource::File(picture.path.clone()), "{what}");
+            let [left, top, right, bottom] = rect(&placed.from, &placed.to);
+            assert!(left >= 0.0 && right <= aspect, "{what}: {placed:?}");
+            let ratio = (bottom - top) / (right - left);
+            assert!((ratio / picture.height_ratio() - 1.0).abs() < 1e-6, "{what}: {placed:?}");
+            let covers = |other: &[f64; 4]| left < other[2] && other[0] < right && top < other[3] && other[1] < bottom;
+            assert!(!taken.iter().any(covers), "{what}: {placed:?}");
+            taken.push([left, top, right, bottom]);
+        }
+    }
+}
+
+#[test]
+fn prop_pages_with_pictures_can_be_scrolled_to_their_end() {
+    for (mut flow, aspect) in pictured(6).into_iter().flat_map(|flow| ASPECTS.map(|aspect| (flow.clone(), aspect))) {
+        assert!(flow.sheet(aspect).bottom() > 1.0, "aspect {aspect}");
+        flow.scroll(100.0, aspect);
+        let sheet = flow.sheet(aspect);
+        let rows = flow.rows().len();
+        let visible = sheet.click_areas.iter().filter(|area| area.from.y >= 0.0 && area.to.y <= 1.0);
+        assert!(sheet.bottom() <= 1.0 + 1e-9 && visible.count() == rows, "aspect {aspect}");
     }
 }
 

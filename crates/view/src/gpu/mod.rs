@@ -11,6 +11,6 @@ mod targets;
 mod uniforms;
 
 pub use device::{Gpu, GpuError};
-pub use overlay::{Overlay, PageTextures, paint, paint_sheet};
+pub use overlay::{Overlay, PageTextures, decode_jpeg, paint, paint_sheet};
 pub use picture::{fill, picture_texture, read};
 pub use renderer::{DrawCounts, Renderer};

@@ -7,7 +7,7 @@ use crate::flow::{PICTURES, PageLayout};
 use crate::hud::{DrawItem, ScreenPoint, TextAlign};
 use crate::picture::Picture;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Draws text and shapes over pictures.
 pub struct Overlay {
@@ -97,6 +97,8 @@ pub struct PageTextures {
     textures: BTreeMap<PictureSource, egui::TextureHandle>,
     /// Pictures of jobs that are not textures yet.
     jobs: BTreeMap<String, Picture>,
+    /// Files that cannot be loaded, so that they are not read again for each frame.
+    unreadable: BTreeSet<String>,
     load: fn(&str) -> Option<Picture>,
 }
 
@@ -104,7 +106,7 @@ impl PageTextures {
     /// Creates an empty set. `load` reads the picture file at a path; `None` if that is impossible.
     #[must_use]
     pub fn new(load: fn(&str) -> Option<Picture>) -> Self {
-        Self { textures: BTreeMap::new(), jobs: BTreeMap::new(), load }
+        Self { textures: BTreeMap::new(), jobs: BTreeMap::new(), unreadable: BTreeSet::new(), load }
     }
 
     /// Adds the picture of a job, by the job's name or path.
@@ -120,19 +122,33 @@ impl PageTextures {
                     let (_, bytes) = PICTURES.iter().find(|known| known.0 == *name)?;
                     (*name, decode_jpeg(bytes)?)
                 }
-                PictureSource::File(path) => (path.as_str(), color_image(&(self.load)(path)?)),
-                PictureSource::Job(name) => (name.as_str(), color_image(&self.jobs.remove(name)?)),
+                PictureSource::File(path) => (path.as_str(), self.load_file(path)?),
+                PictureSource::Job(name) => (name.as_str(), self.jobs.remove(name)?),
             };
-            let texture = context.load_texture(name, image, egui::TextureOptions::LINEAR);
+            let texture = context.load_texture(name, color_image(&image), egui::TextureOptions::LINEAR);
             self.textures.insert(source.clone(), texture);
         }
         self.textures.get(source).map(egui::TextureHandle::id)
     }
 
-    /// Frees the pictures from files that a page does not show.
+    /// Loads a file, unless it could not be loaded before.
+    fn load_file(&mut self, path: &str) -> Option<Picture> {
+        if self.unreadable.contains(path) {
+            return None;
+        }
+        let picture = (self.load)(path);
+        if picture.is_none() {
+            self.unreadable.insert(path.to_owned());
+        }
+        picture
+    }
+
+    /// Frees the pictures from files that a page does not show. A file that could not be loaded is tried again when a page shows it
+    /// the next time.
     fn keep_files_of(&mut self, sheet: &PageLayout) {
         let is_shown = |source: &PictureSource| sheet.pictures.iter().any(|picture| picture.source == *source);
         self.textures.retain(|source, _| !matches!(source, PictureSource::File(_)) || is_shown(source));
+        self.unreadable.retain(|path| is_shown(&PictureSource::File(path.clone())));
     }
 }
 
@@ -141,12 +157,17 @@ fn color_image(picture: &Picture) -> egui::ColorImage {
     egui::ColorImage::from_rgba_unmultiplied([picture.width as usize, picture.height as usize], &picture.rgba)
 }
 
-/// Decodes a JPEG into an egui image.
-fn decode_jpeg(bytes: &[u8]) -> Option<egui::ColorImage> {
+/// Decodes a JPEG file; `None` if that is impossible. Does not apply its orientation.
+#[must_use]
+pub fn decode_jpeg(bytes: &[u8]) -> Option<Picture> {
     let mut decoder = zune_jpeg::JpegDecoder::new(zune_jpeg::zune_core::bytestream::ZCursor::new(bytes));
     let pixels = decoder.decode().ok()?;
     let (width, height) = decoder.dimensions()?;
-    (pixels.len() == 3 * width * height).then(|| egui::ColorImage::from_rgb([width, height], &pixels))
+    if pixels.len() != 3 * width * height {
+        return None;
+    }
+    let rgba = pixels.chunks_exact(3).flat_map(|pixel| [pixel[0], pixel[1], pixel[2], u8::MAX]).collect();
+    Some(Picture { width: u32::try_from(width).ok()?, height: u32::try_from(height).ok()?, rgba })
 }
 
 /// Paints a page into a rectangle.
@@ -211,7 +232,7 @@ mod tests {
     fn exact_tutorial_pictures_can_be_decoded() {
         for (name, bytes) in PICTURES {
             let picture = decode_jpeg(bytes).unwrap_or_else(|| panic!("{name}"));
-            assert!(picture.width() >= 400 && picture.height() >= 150, "{name}: {:?}", picture.size);
+            assert!(picture.width >= 400 && picture.height >= 150, "{name}: {} x {}", picture.width, picture.height);
         }
         assert!(decode_jpeg(b"no picture").is_none());
     }

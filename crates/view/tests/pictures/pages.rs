@@ -6,8 +6,8 @@ use spandrel_model::site::Site;
 use spandrel_model::{scenario, shipped};
 use spandrel_text::Language;
 use spandrel_view::flow::pipe::{
-    FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing, JobOffer, NextJob, Purpose,
-    SchoolPage, ToWindow, TraineeSummary,
+    BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing, JobOffer,
+    NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
 };
 use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
 use spandrel_view::gpu::{Gpu, Overlay, PageTextures, picture_texture, read};
@@ -52,6 +52,7 @@ fn job(name: &str, title: &str) -> JobOffer {
         tasks: vec!["1  Arch soffit: north arch, 152 m long, 12 to 24 m above the pad, stand-off 5.0 ± 1.5 m".into()],
         hazards: vec!["Wind: 4 m/s from 250°, gusts up to 7 m/s.".into(), "Traffic on both bridges.".into()],
         site_check: vec!["Battery at least 95%".into(), "Landing pad free of people".into()],
+        pictures: Vec::new(),
     };
     JobOffer { name: name.into(), title: title.into(), kind: "4 tasks, 10 defects".into(), briefing }
 }
@@ -167,6 +168,7 @@ fn pages(language: Language) -> Vec<(String, WindowFlow)> {
     let job = briefing.job_to_draw().unwrap().to_owned();
     briefing.add_job_drawing(job, drawing());
     pages.push(("briefing".to_owned(), briefing));
+    pages.push(("briefing-pictures".to_owned(), pictured(language)));
     let flight = |purpose| {
         let mut flow = started(language);
         flow.handle_message(flying(purpose));
@@ -188,12 +190,39 @@ fn pages(language: Language) -> Vec<(String, WindowFlow)> {
     pages
 }
 
+/// Returns the briefing with the instructor's pictures, scrolled to its end.
+fn pictured(language: Language) -> WindowFlow {
+    let picture = |(size_px, caption): ((u32, u32), &str)| BriefingImage {
+        path: format!("{}x{}", size_px.0, size_px.1),
+        caption: caption.into(),
+        size_px,
+    };
+    let pictures = [((400, 300), "The gate, seen from the road"), ((300, 400), "Begin at this pier"), ((900, 300), "The arch")];
+    let mut options = options();
+    options.scenarios[0].briefing.pictures = pictures.map(picture).to_vec();
+    let mut flow = on_page(language, |page| page == Page::Controls);
+    flow.handle_message(ToWindow::Offers(options));
+    flow.press(KeyPress::Enter);
+    assert_eq!(flow.page(), Page::Briefing);
+    flow.scroll(100.0, f64::from(COMMITTED_PX.0) / f64::from(COMMITTED_PX.1));
+    flow
+}
+
+/// Returns a picture of this size that shows which of its corners is which.
+fn corners(size: &str) -> Option<Picture> {
+    let (width, height) = size.split_once('x')?;
+    let (width, height): (u32, u32) = (width.parse().ok()?, height.parse().ok()?);
+    let shade = |k: u32, of: u32| (255 * k / of) as u8;
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [shade(x, width), shade(y, height), 128, 255]));
+    Some(Picture { width, height, rgba: pixels.flatten().collect() })
+}
+
 /// Renders a page.
 fn drawn(gpu: &Gpu, overlay: &mut Overlay, flow: &WindowFlow, size_px: (u32, u32)) -> Picture {
     let texture = picture_texture(gpu, size_px);
     let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let sheet = flow.sheet(f64::from(size_px.0) / f64::from(size_px.1));
-    overlay.draw_page(gpu, &sheet, &mut PageTextures::new(|_| None), &target, size_px);
+    overlay.draw_page(gpu, &sheet, &mut PageTextures::new(corners), &target, size_px);
     read(gpu, &texture).unwrap()
 }
 

@@ -7,27 +7,41 @@ use super::figure::{SLOT, filled};
 use super::{PageScripts, document};
 use crate::briefing::{Briefing, TaskBriefing};
 use maud::{Markup, html};
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{BriefingPicture, Scenario};
 use spandrel_model::site::Site;
 use spandrel_text::{Language, text};
 
-/// Renders the briefing as a complete document that works offline.
+/// Renders the briefing as a complete document. It works offline if the addresses of the pictures are data URIs; `None` stands for
+/// a missing picture.
 #[must_use]
-pub fn briefing(briefing: &Briefing, scenario: &Scenario, site: &Site, language: Language) -> String {
+pub fn briefing(
+    briefing: &Briefing,
+    (scenario, site): (&Scenario, &Site),
+    pictures: &[Option<String>],
+    language: Language,
+) -> String {
     let title = text!(language, "report-briefing-title", title = briefing.title.as_str());
     let lead = text!(language, "report-briefing-lead", job = SLOT);
     let body = html! {
         header { h1 { (briefing.title) } p.lead { (filled(&lead, &html! { code { (briefing.job) } })) } }
-        main { (contents(briefing, scenario, site, language)) }
+        main { (contents(briefing, (scenario, site), pictures, language)) }
     };
     document(language, &title, &PageScripts::None, &body)
 }
 
 /// Renders the sections of the briefing, for a document or a page of the web server.
 #[must_use]
-pub fn contents(briefing: &Briefing, scenario: &Scenario, site: &Site, language: Language) -> Markup {
+pub fn contents(
+    briefing: &Briefing,
+    (scenario, site): (&Scenario, &Site),
+    pictures: &[Option<String>],
+    language: Language,
+) -> Markup {
     html! {
         @if !briefing.notes.is_empty() { (section("notes", &text!(language, "report-briefing-notes"), &paragraphs(&briefing.notes))) }
+        @if !briefing.pictures.is_empty() {
+            (section("pictures", &text!(language, "report-briefing-pictures"), &figures(&briefing.pictures, pictures, language)))
+        }
         (section("site", &text!(language, "report-briefing-site"), &drawings(scenario, site, language)))
         @if !briefing.tasks.is_empty() { (section("tasks", &text!(language, "report-briefing-tasks"), &tasks(&briefing.tasks, language))) }
         (section("conditions", &text!(language, "report-briefing-conditions"), &conditions(&briefing.conditions)))
@@ -45,20 +59,39 @@ fn paragraphs(texts: &[String]) -> Markup {
     html! { @for text in texts { p { (text) } } }
 }
 
+fn figures(pictures: &[BriefingPicture], addresses: &[Option<String>], language: Language) -> Markup {
+    let addresses = addresses.iter().map(Option::as_deref).chain(std::iter::repeat(None));
+    html! { div.briefing-pictures { @for (picture, address) in pictures.iter().zip(addresses) { (figure(picture, address, language)) } } }
+}
+
+/// Renders a picture with its caption. Without an address, a note says that the picture is missing.
+#[must_use]
+pub fn figure(picture: &BriefingPicture, address: Option<&str>, language: Language) -> Markup {
+    html! {
+        figure {
+            @match address {
+                Some(address) => { img src=(address) alt=(picture.caption); }
+                None => { p.note { (text!(language, "report-briefing-picture-missing", file = picture.file.as_str())) } }
+            }
+            figcaption { (picture.caption) }
+        }
+    }
+}
+
 fn list(lines: &[String]) -> Markup {
     html! { ul { @for line in lines { li { (line) } } } }
 }
 
 fn drawings(scenario: &Scenario, site: &Site, language: Language) -> Markup {
-    let figure = |caption: &str, drawing: &Markup| {
+    let drawn = |caption: &str, drawing: &Markup| {
         html! { figure.wide { figcaption { (caption) } div.scroll tabindex="0" role="region" aria-label=(caption) { (drawing) } } }
     };
     html! {
-        (figure(&text!(language, "report-briefing-above"), &job_plan(scenario, site, language)))
+        (drawn(&text!(language, "report-briefing-above"), &job_plan(scenario, site, language)))
         @for bridge in &scenario.bridges {
-            (figure(&text!(language, "report-briefing-side", bridge = bridge.name.as_str()), &job_side(scenario, site, bridge, language)))
+            (drawn(&text!(language, "report-briefing-side", bridge = bridge.name.as_str()), &job_side(scenario, site, bridge, language)))
         }
-        @if scenario.bridges.is_empty() { (figure(&text!(language, "report-briefing-south"), &job_south(scenario, site, language))) }
+        @if scenario.bridges.is_empty() { (drawn(&text!(language, "report-briefing-south"), &job_south(scenario, site, language))) }
     }
 }
 
@@ -103,4 +136,36 @@ fn conditions(rows: &[(String, String)]) -> Markup {
 
 fn site_check(items: &[String]) -> Markup {
     html! { @for item in items { p { label { input type="checkbox"; " " (item) } } } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::scenario::edit::with_briefing_picture;
+    use spandrel_model::{scenario, shipped, vehicle};
+
+    fn page(pictures: &[BriefingPicture], addresses: &[Option<String>]) -> String {
+        let add = |text: String, picture: &BriefingPicture| with_briefing_picture(&text, picture).unwrap();
+        let text = pictures.iter().fold(shipped::PRACTICE.to_owned(), add);
+        let scenario = scenario::read("job.toml", &text, &|_| Err(String::new())).unwrap();
+        let (site, vehicle) = (Site::without_defects(&scenario), vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap());
+        let language = Language::English;
+        briefing(&Briefing::new(&scenario, &vehicle, &site, language), (&scenario, &site), addresses, language)
+    }
+
+    #[test]
+    fn exact_pictures_have_their_captions_and_missing_ones_are_named() {
+        let picture = |file: &str, caption: &str| BriefingPicture { file: file.into(), caption: caption.into() };
+        let pictures = [picture("gate.png", "The <gate>"), picture("pier.jpg", "The \"pier\"")];
+        let uri = "data:image/png;base64,AAAA";
+        let shown = page(&pictures, &[Some(uri.into()), None]);
+        assert!(
+            shown.contains(&format!("<img src=\"{uri}\" alt=\"The &lt;gate&gt;\"><figcaption>The &lt;gate&gt;</figcaption>"))
+        );
+        assert!(shown.contains("pier.jpg") && shown.contains("<figcaption>The &quot;pier&quot;</figcaption>"));
+        assert_eq!((shown.matches("<img").count(), shown.matches("<figcaption>The").count()), (1, 2));
+        assert!(shown.contains("img-src data:"), "the policy of the page allows the pictures");
+        assert_eq!(page(&pictures, &[]).matches("<img").count(), 0);
+        assert!(!page(&[], &[]).contains("id=\"pictures\""));
+    }
 }

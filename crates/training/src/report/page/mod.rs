@@ -22,7 +22,7 @@ mod tasks;
 mod to_do_better;
 pub mod within_error;
 
-pub use briefing::{briefing, contents as briefing_contents};
+pub use briefing::{briefing, contents as briefing_contents, figure as briefing_picture};
 pub use compare::comparison;
 
 use super::Review;
