@@ -78,7 +78,11 @@ def test_class_is_made_and_a_job_assigned_with_the_keyboard(browser, server, ses
     page.keyboard.press("Enter")
     page.wait_for_url("**/assign?class=spring-2027")
     page.focus("[name=scenario]")
-    page.keyboard.type("drill-hover")
+    page.keyboard.press("Home")
+    for _ in range(page.locator("[name=scenario] option").count()):
+        if page.input_value("[name=scenario]") == "drill-hover":
+            break
+        page.keyboard.press("ArrowDown")
     assert page.input_value("[name=scenario]") == "drill-hover" and page.input_value("[name=due]") == due_date()
     tab_to(page, "Assign")
     page.keyboard.press("Enter")

@@ -199,7 +199,9 @@ fn pictured(language: Language) -> WindowFlow {
     };
     let pictures = [((400, 300), "The gate, seen from the road"), ((300, 400), "Begin at this pier"), ((900, 300), "The arch")];
     let mut options = options();
-    options.scenarios[0].briefing.pictures = pictures.map(picture).to_vec();
+    for job in &mut options.scenarios {
+        job.briefing.pictures = pictures.map(picture).to_vec();
+    }
     let mut flow = on_page(language, |page| page == Page::Controls);
     flow.handle_message(ToWindow::Offers(options));
     flow.press(KeyPress::Enter);
