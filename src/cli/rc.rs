@@ -77,7 +77,8 @@ pub struct Args {
     /// Fly with the keyboard in the terminal
     #[arg(long, conflicts_with_all = ["replay", "device", "profile"])]
     keyboard: bool,
-    /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window]); the same file as for `spandrel view` [default: the keys in the window's settings]
+    /// Key bindings (TOML: format = 1, push, [sticks], [actions], [window]); the same file as for `spandrel view` [default: the
+    /// keys in the window's settings]
     #[arg(long, value_name = "FILE", requires = "keyboard")]
     keys: Option<PathBuf>,
     /// Record the device's input, or the input of --replay, to this file

@@ -74,8 +74,8 @@ pub struct Args {
     /// setting in flight
     #[arg(long, value_name = "on|off", default_value = "on")]
     camera: AnnouncedComponents,
-    /// Requests by MAVLink command to freeze, resume and rewind the flight, and to move the aircraft to a task (docs/src/reference/contract.md). Turn them
-    /// off for an assessment, as train does
+    /// Requests by MAVLink command to freeze, resume and rewind the flight, and to move the aircraft to a task
+    /// (docs/src/reference/contract.md). Turn them off for an assessment, as train does
     #[arg(long, value_name = "on|off", default_value = "on")]
     practice_controls: PracticeControls,
     /// Action after a crash. Use `scenario` when a monitor scores the flight, as train and demo do

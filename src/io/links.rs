@@ -99,8 +99,9 @@ impl Links {
         Ok(links)
     }
 
-    /// Opens the simulator interface and the MAVLink link of an external autopilot, on the loopback interface. A `port` of 0 selects
-    /// any free port. Returns the number of the simulator interface's port and of the port for the autopilot's MAVLink messages.
+    /// Opens the simulator interface and the MAVLink link of an external autopilot, on the loopback interface. A `port` of 0
+    /// selects any free port. Returns the number of the simulator interface's port and of the port for the autopilot's MAVLink
+    /// messages.
     ///
     /// # Errors
     /// Returns an error if a port cannot be opened.
@@ -148,8 +149,8 @@ impl Links {
         }
     }
 
-    /// Closes the connection to an autopilot's simulator interface, so that another process can connect. The serial port of a flight
-    /// controller stays open.
+    /// Closes the connection to an autopilot's simulator interface, so that another process can connect. The serial port of a
+    /// flight controller stays open.
     pub fn disconnect_autopilot(&mut self) {
         match &mut self.autopilot {
             Some(AutopilotConnection::Process(sockets)) => sockets.disconnect(),
@@ -236,8 +237,8 @@ impl Links {
         }
     }
 
-    /// Returns the number of bytes from TCP clients and serial ports that were not part of a frame. The vehicle counts such bytes in
-    /// datagrams.
+    /// Returns the number of bytes from TCP clients and serial ports that were not part of a frame. The vehicle counts such bytes
+    /// in datagrams.
     pub fn bad_bytes(&self) -> u64 {
         let from_controller = match &self.autopilot {
             Some(AutopilotConnection::FlightController(port)) => port.bad_bytes(),

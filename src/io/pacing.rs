@@ -17,8 +17,8 @@ const LOCKSTEP_REPEAT_INTERVAL: Duration = Duration::from_secs(4);
 /// Wall-clock delay beyond which the simulation does not catch up: the clock slips, and the program reports the slip.
 const SLIP_THRESHOLD: Duration = Duration::from_millis(250);
 
-/// The same for a flight controller. After a longer delay, its readings would arrive at once, as if no time passed between them, and
-/// its estimate of the attitude would be wrong (a flight with PX4 crashed after a delay of 0.2 s without this limit).
+/// The same for a flight controller. After a longer delay, its readings would arrive at once, as if no time passed between them,
+/// and its estimate of the attitude would be wrong (a flight with PX4 crashed after a delay of 0.2 s without this limit).
 const REAL_TIME_SLIP_THRESHOLD: Duration = Duration::from_millis(20);
 
 /// Simulation speed.

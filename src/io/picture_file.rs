@@ -46,7 +46,7 @@ impl PictureFormat {
     }
 }
 
-/// What the head of a picture says about it.
+/// Properties of a picture, from the head of its file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PictureInfo {
     /// Type.

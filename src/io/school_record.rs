@@ -47,7 +47,8 @@ pub fn save(sessions: &Path, trainee: &str, record: &SchoolRecord) -> Result<(),
     replace(&folder.join(FILE), record.text().as_bytes())
 }
 
-/// Returns the folders whose last answer is older than this time, s since the Unix epoch. Leaves out unreadable ones, and logs them.
+/// Returns the folders whose last answer is older than this time, s since the Unix epoch. Leaves out unreadable ones, and logs
+/// them.
 pub fn folders_older_than(sessions: &Path, limit_unix_s: u64) -> Vec<PathBuf> {
     let is_old = |folder: &PathBuf| match read(folder) {
         Ok(record) => record.is_some_and(|record| record.last_unix_s() < limit_unix_s),

@@ -156,8 +156,8 @@ impl VehicleShell {
         self.pause = still;
     }
 
-    /// Returns whether the simulation can pause. A flight controller's clock cannot be stopped: without readings, its estimator would
-    /// fail.
+    /// Returns whether the simulation can pause. A flight controller's clock cannot be stopped: without readings, its estimator
+    /// would fail.
     fn can_pause(&mut self) -> bool {
         let Some(autopilot) = self.autopilot.as_mut().filter(|autopilot| autopilot.host.is_flight_controller()) else {
             return true;

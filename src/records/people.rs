@@ -48,8 +48,8 @@ impl TraineeData {
     }
 }
 
-/// Returns all of a trainee's data: details, classes, assignments, sign-offs, sessions and answers from the database, and folder names. Returns `None`
-/// if there is no data.
+/// Returns all of a trainee's data: details, classes, assignments, sign-offs, sessions and answers from the database, and folder
+/// names. Returns `None` if there is no data.
 ///
 /// # Errors
 /// Returns an error if the database or a folder cannot be read.
@@ -160,8 +160,8 @@ pub fn erase_older_than(
     Ok((deleted, folders.len()))
 }
 
-/// Returns the session folders that started before this time (µs since the Unix epoch), and the folders of the defect school without
-/// a later answer.
+/// Returns the session folders that started before this time (µs since the Unix epoch), and the folders of the defect school
+/// without a later answer.
 ///
 /// # Errors
 /// Returns an error if the sessions folder cannot be read.

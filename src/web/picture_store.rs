@@ -1,5 +1,5 @@
-//! Pictures of the briefings of uploaded scenarios. Each scenario has a folder with its name for them beside its file, and refers to
-//! them as `NAME/FILE`, which is also their path for programs that read the scenario from its file.
+//! Pictures of the briefings of uploaded scenarios. Each scenario has a folder with its name for them beside its file, and refers
+//! to them as `NAME/FILE`, which is also their path for programs that read the scenario from its file.
 
 use super::safe_names::is_safe_file_name;
 use super::scenario_library::{StoredScenario, read, upload_path};
@@ -72,8 +72,8 @@ pub fn save_picture(folder: &Path, scenario: &Scenario, (sent, picture): (&str, 
     Ok(file)
 }
 
-/// Copies the pictures that a scenario has in common with another uploaded one, from which it was copied, into its own folder. Returns
-/// the text that refers to the copies.
+/// Copies the pictures that a scenario has in common with another uploaded one, from which it was copied, into its own folder.
+/// Returns the text that refers to the copies.
 ///
 /// # Errors
 /// Returns an error if a copy cannot be written.
@@ -97,8 +97,8 @@ fn others_picture(folder: &Path, scenario: &str, picture: &str) -> Option<Pictur
     PictureFile::read(&picture_path(folder, owner, picture).filter(|_| is_shown)?).ok()
 }
 
-/// Removes the pictures in a scenario's folder that are not among these, and the folder if it is empty then. Leaves other files, and
-/// those that cannot be removed, in place.
+/// Removes the pictures in a scenario's folder that are not among these, and the folder if it is empty then. Leaves other files,
+/// and those that cannot be removed, in place.
 pub fn remove_unlisted(folder: &Path, scenario: &str, listed: &[BriefingPicture]) {
     let own = folder.join(scenario);
     let entries = std::fs::read_dir(&own).into_iter().flatten().flatten();

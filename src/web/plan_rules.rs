@@ -19,7 +19,8 @@ const PAGE: &str = "/plan-rules";
 /// The server's own rules.
 const OWN: OwnFile = OwnFile { folder: "plan-rules", name: "rules.toml" };
 
-/// Returns the rules in use with the difficulty levels of the drills, which may be uploaded scenarios, and a note if the server's own rules can't be used.
+/// Returns the rules in use with the difficulty levels of the drills, which may be uploaded scenarios, and a note if the server's
+/// own rules can't be used.
 ///
 /// # Errors
 /// Returns an error if the shipped rules are invalid.

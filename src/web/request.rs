@@ -91,8 +91,8 @@ impl WebRequest {
         self.form_field(name).filter(|value| !value.is_empty()).ok_or_else(|| WebError::missing(self.visitor.language, name))
     }
 
-    /// Returns a form field that is one line of text, without spaces at both ends; a missing field is empty. `min` and `max` are its
-    /// length in characters.
+    /// Returns a form field that is one line of text, without spaces at both ends; a missing field is empty. `min` and `max` are
+    /// its length in characters.
     ///
     /// # Errors
     /// Returns an error if the text is too short or too long, or has control characters.

@@ -32,8 +32,8 @@ pub enum RouteKind {
     Compute,
     /// A form that changes data; it must contain the visitor's token.
     Change,
-    /// A form with a text of at most this many bytes; it must contain the visitor's token. The text is checked like an uploaded file,
-    /// so only one request runs at a time.
+    /// A form with a text of at most this many bytes; it must contain the visitor's token. The text is checked like an uploaded
+    /// file, so only one request runs at a time.
     Text(usize),
     /// A message from a training station (JSON). It contains the stations' key instead of the token.
     StationMessage,

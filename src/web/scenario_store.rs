@@ -51,8 +51,8 @@ impl From<AppError> for SaveError {
     }
 }
 
-/// Validates and saves an uploaded scenario, and returns its name. `shown` is the file name for messages, which are in this language
-/// unless they are about the contents of the file.
+/// Validates and saves an uploaded scenario, and returns its name. `shown` is the file name for messages, which are in this
+/// language unless they are about the contents of the file.
 ///
 /// # Errors
 /// Returns an error if the scenario or its name is invalid, the stored file is not the expected one, or writing fails.

@@ -1,4 +1,5 @@
-//! The jobs that an instructor can order at stations. Reading them means parsing all scenarios, so they are kept until a file changes.
+//! The jobs that an instructor can order at stations. Reading them means parsing all scenarios, so they are kept until a file
+//! changes.
 
 use super::lock::lock;
 use super::scenario_library::{self, StoredScenario};

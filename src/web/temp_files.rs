@@ -11,8 +11,8 @@ pub const IMPORT_FOLDER: &str = ".taking-in";
 /// any process ID, so this age must exceed the duration of any write.
 const STALE_AGE: Duration = Duration::from_secs(600);
 
-/// Removes stale temporary files from the sessions folders, from the session folders inside them, from the scenario folder, and from
-/// the folders inside it. Leaves files in place that it cannot check or remove; they are harmless.
+/// Removes stale temporary files from the sessions folders, from the session folders inside them, from the scenario folder, and
+/// from the folders inside it. Leaves files in place that it cannot check or remove; they are harmless.
 pub fn remove_stale(sessions: &[PathBuf], scenarios: &Path) {
     let here: Vec<PathBuf> = sessions.iter().filter(|folder| folder.is_dir()).cloned().collect();
     let inside = session_folders(&here).unwrap_or_default();

@@ -20,8 +20,8 @@ const END_M: f64 = 3.0;
 const CONTACT_M: f64 = 0.3;
 /// Distance between two samples of a line, m.
 const SPACING_M: f64 = 1.0;
-/// Distances and number of directions of the places that are tried around both ends, m (estimate: from the width of a narrow deck to
-/// that of a wide one, seen from its other edge).
+/// Distances and number of directions of the places that are tried around both ends, m (estimate: from the width of a narrow deck
+/// to that of a wide one, seen from its other edge).
 const DISTANCES_M: [f64; 5] = [6.0, 10.0, 16.0, 26.0, 42.0];
 const DIRECTIONS: u32 = 8;
 /// Height above the highest obstacle on the straight way at which it can be crossed, m (estimate).
@@ -44,7 +44,7 @@ const MAX_SHIFT_M: f64 = 5.0;
 pub struct DetourPlace {
     /// Position, m.
     pub place_m: Vec3<Enu>,
-    /// What leads there.
+    /// Maneuver to it.
     pub kind: DetourKind,
 }
 
@@ -186,7 +186,7 @@ impl FreeSpace<'_> {
         samples(line, 0.0).map(top_m).fold(f64::NEG_INFINITY, f64::max) + CROSSING_HEIGHT_M
     }
 
-    /// Returns what leads to the first place.
+    /// Returns the maneuver to the first place.
     fn kind(&self, from_m: Vec3<Enu>, place_m: Vec3<Enu>) -> DetourKind {
         let is_under = |p: Vec3<Enu>| self.geometry.ray(p, UP, MAX_ROOF_M).is_some_and(|hit| hit.surface == Surface::Bridge);
         let way_m = place_m - from_m;
@@ -256,7 +256,8 @@ mod tests {
         (under_m, top_m.map(|shape| shape.bounds().1.up()).fold(under_m.up() + hit.distance_m, f64::max))
     }
 
-    /// Flies where the guidance leads. Returns the kinds of detours in order, and whether the place was reached without a collision.
+    /// Flies where the guidance leads. Returns the kinds of detours in order, and whether the place was reached without a
+    /// collision.
     fn fly(geometry: &Geometry, from_m: Vec3<Enu>, to_m: Vec3<Enu>) -> (Vec<DetourKind>, bool) {
         let (mut finder, mut at_m, mut now, mut kinds) = (DetourFinder::default(), from_m, SimTime::ZERO, Vec::new());
         for _ in 0..4_000 {

@@ -236,7 +236,7 @@ impl HoldTimer {
 /// Interval at which the way to a task or home is repeated, for ground stations that show only texts (estimate).
 const REPETITION_INTERVAL: SimTime = SimTime::from_ms(10_000);
 
-/// What distinguishes announcements: step, task, and what leads around an obstacle.
+/// Announcements with the same step, task and detour are the same.
 type Announcement = (GuidanceStep, Option<u32>, Option<DetourKind>);
 
 /// Announces each new step once it has lasted, and repeats the way to a place while the drone is on its way.

@@ -361,7 +361,8 @@ impl Sim {
         self.controller.links_mut().request_lockstep(self.now);
     }
 
-    /// Sends the lockstep request again to the peers that have not responded: the datagram may be lost. Does not change the vehicle.
+    /// Sends the lockstep request again to the peers that have not responded: the datagram may be lost. Does not change the
+    /// vehicle.
     pub fn repeat_lockstep_requests(&mut self) {
         for link in self.pending_responses.keys() {
             self.controller.links_mut().repeat_lockstep_request(*link);

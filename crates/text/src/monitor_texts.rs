@@ -1,8 +1,10 @@
-//! The texts that the monitor sends during a flight, in the language of the window or of a web page. On the wire, they are in English.
+//! The texts that the monitor sends during a flight, in the language of the window or of a web page. On the wire, they are in
+//! English.
 
 use crate::language::Language;
 use crate::picture_reasons::PICTURE_REASONS;
 use crate::sentences::{MARK, Sentence, SentenceTable, values};
+use crate::terms::contact_title;
 use crate::text;
 use std::sync::LazyLock;
 
@@ -93,12 +95,7 @@ static CUES: LazyLock<[CueSentences; 6]> = LazyLock::new(|| {
 /// Returns the name of what the drone hit. Names from the scenario stay.
 fn object_words(object: &str, language: Language) -> String {
     match object {
-        "bridge" => return text!(language, "terms-contact-bridge"),
-        "ground" | "terrain" => return text!(language, "terms-contact-ground"),
-        "water" => return text!(language, "terms-contact-water"),
-        "vehicle" => return text!(language, "terms-contact-vehicle"),
-        "person" => return text!(language, "terms-contact-person"),
-        "other" => return text!(language, "terms-contact-other"),
+        "ground" => return text!(language, "terms-contact-ground"),
         "pad" => return text!(language, "flight-object-pad"),
         "inspector" => return text!(language, "flight-object-inspector"),
         "crew truck" => return text!(language, "flight-object-crew-truck"),
@@ -109,7 +106,7 @@ fn object_words(object: &str, language: Language) -> String {
         Some(("car", number)) => text!(language, "flight-object-car", number = number),
         Some(("truck", number)) => text!(language, "flight-object-truck", number = number),
         Some(("pedestrian", number)) => text!(language, "flight-object-pedestrian", number = number),
-        _ => object.to_owned(),
+        _ => contact_title(object, language),
     }
 }
 
@@ -142,7 +139,7 @@ fn one_direction(word: &str, language: Language) -> Option<String> {
     })
 }
 
-/// What went wrong in a step of a lesson.
+/// Remarks about mistakes in the steps of a lesson.
 static REMARKS: LazyLock<SentenceTable> = LazyLock::new(|| {
     let own = [
         Sentence::new(0, |l, _| text!(l, "flight-remark-motors-off")),
@@ -158,7 +155,7 @@ pub fn remark_words(remark: &str, language: Language) -> String {
     REMARKS.translate(remark, language).unwrap_or_else(|| remark.to_owned())
 }
 
-/// What the trainee does in the steps of a lesson.
+/// Instructions for the steps of a lesson.
 static INSTRUCTIONS: LazyLock<SentenceTable> = LazyLock::new(|| {
     SentenceTable::new([
         Sentence::new(0, |l, _| in_message(l, text!(l, "flight-lesson-arm"))),
@@ -216,17 +213,17 @@ static GUIDANCE: LazyLock<SentenceTable> = LazyLock::new(|| {
     ])
 });
 
-/// What leads around an obstacle.
+/// Maneuvers around an obstacle.
 static DETOURS: LazyLock<SentenceTable> = LazyLock::new(|| {
     SentenceTable::new([
-        Sentence::new(0, |l, _| text!(l, "flight-message-out-from-under")),
-        Sentence::new(0, |l, _| text!(l, "flight-message-climb")),
-        Sentence::new(0, |l, _| text!(l, "flight-message-descend")),
-        Sentence::new(0, |l, _| text!(l, "flight-message-around")),
+        Sentence::new(0, |l, _| text!(l, "flight-detour-out-from-under")),
+        Sentence::new(0, |l, _| text!(l, "flight-detour-climb")),
+        Sentence::new(0, |l, _| text!(l, "flight-detour-descend")),
+        Sentence::new(0, |l, _| text!(l, "flight-detour-around")),
     ])
 });
 
-/// Returns what leads around an obstacle, or a way; `None` for other words.
+/// Returns a maneuver around an obstacle, or a way; `None` for other words.
 fn detour_or_way(words: &str, language: Language) -> Option<String> {
     DETOURS.translate(words, language).or_else(|| way_words(words, language))
 }

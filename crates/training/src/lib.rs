@@ -1,7 +1,8 @@
 //! Before and after the flight, as pure functions: the briefing ([`briefing`]), session records ([`record`]), statistics
-//! ([`statistics`]), training plans ([`plan`]), things to do better ([`advice`]), the defect school ([`school`]), checks of scenarios ([`scenario_check`]), cohort analysis ([`cohort`]), questionnaires
-//! ([`questionnaire`]), statements for learning record stores ([`xapi`]), session reports ([`report`]) and web pages ([`web`]).
-//! The application reads the session folders, maintains the database and serves the pages.
+//! ([`statistics`]), training plans ([`plan`]), things to do better ([`advice`]), the defect school ([`school`]), checks of
+//! scenarios ([`scenario_check`]), cohort analysis ([`cohort`]), questionnaires ([`questionnaire`]), statements for learning record
+//! stores ([`xapi`]), session reports ([`report`]) and web pages ([`web`]). The application reads the session folders, maintains
+//! the database and serves the pages.
 //!
 //! ```
 //! use spandrel_training::statistics::paired_t;

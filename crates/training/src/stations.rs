@@ -2,8 +2,8 @@
 //! orders. Sans-IO: the caller supplies time and messages.
 //!
 //! A station sends a [`CheckIn`] and receives a [`CheckInReply`]. An order is repeated in every reply until the station has
-//! answered it, because a reply can be lost. A station with a window first shows the briefing, and answers again when the trainee has
-//! started or declined the flight.
+//! answered it, because a reply can be lost. A station with a window first shows the briefing, and answers again when the trainee
+//! has started or declined the flight.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

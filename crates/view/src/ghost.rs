@@ -56,8 +56,8 @@ struct GhostPoint {
 pub struct GhostPath(Vec<GhostPoint>);
 
 impl GhostPath {
-    /// Returns the path of a flight from its lift-off; `None` if it never lifted off. `pad_height_m` is the height of the pad in the
-    /// scenario's frame.
+    /// Returns the path of a flight from its lift-off; `None` if it never lifted off. `pad_height_m` is the height of the pad in
+    /// the scenario's frame.
     #[must_use]
     pub fn of(flight: &Flight, pad_height_m: f64, lift_off_height_m: f64) -> Option<Self> {
         let start = flight.lift_off(pad_height_m, lift_off_height_m)?;

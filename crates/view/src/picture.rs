@@ -51,8 +51,8 @@ impl Picture {
         Self { width, height, rgba: rgba.collect() }
     }
 
-    /// Turns and mirrors the stored pixels of a photograph upright. `orientation` is its EXIF orientation, 1 to 8 (EXIF 2.32, section
-    /// 4.6.4); any other number is treated as 1.
+    /// Turns and mirrors the stored pixels of a photograph upright. `orientation` is its EXIF orientation, 1 to 8 (EXIF 2.32,
+    /// section 4.6.4); any other number is treated as 1.
     #[must_use]
     pub fn upright(self, orientation: u16) -> Self {
         let (right, bottom) = (self.width.saturating_sub(1), self.height.saturating_sub(1));

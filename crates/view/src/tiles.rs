@@ -1,6 +1,6 @@
 //! Precomputed tiles for the cheaper presets. One texture contains several slow patterns of ground or concrete, so one
-//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_TILE_SIZE_M`] and [`CONCRETE_TILE_SIZE_M`]; the `lean`
-//! shader reads them.
+//! lookup replaces four or five noise lookups. The tiles repeat after [`GROUND_TILE_SIZE_M`] and [`CONCRETE_TILE_SIZE_M`]; the
+//! `lean` shader reads them.
 
 use spandrel_model::random::RandomStream;
 

@@ -57,8 +57,8 @@ pub struct Args {
     /// "small" folder, and rewrite the report
     #[arg(long, conflicts_with_all = ["at", "out", "view", "video"])]
     pub snapshots: bool,
-    /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it. Without FILE, the video goes to
-    /// the session folder, begins at lift-off, and appears in the report
+    /// Render a session's camera view as a video (MP4, H.264), with chapters in a .vtt file next to it. Without FILE, the video
+    /// goes to the session folder, begins at lift-off, and appears in the report
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["at", "out", "view"])]
     #[expect(clippy::option_option, reason = "clap's type for an option with an optional value")]
     pub video: Option<Option<PathBuf>>,

@@ -75,7 +75,8 @@ fn job_briefing(file: &ScenarioFile, language: Language) -> JobBriefing {
     }
 }
 
-/// Returns a picture of the briefing; `None` if it cannot be used. A station, for example, has no pictures of the server's scenarios.
+/// Returns a picture of the briefing; `None` if it cannot be used. A station, for example, has no pictures of the server's
+/// scenarios.
 fn briefing_image(file: &ScenarioFile, picture: &BriefingPicture) -> Option<BriefingImage> {
     let found = file.picture(&picture.file);
     let found = found.inspect_err(|error| tracing::warn!("the briefing has no picture {}: {error}", picture.file));

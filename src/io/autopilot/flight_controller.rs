@@ -9,8 +9,8 @@ use std::time::Duration;
 
 /// Component ID of the autopilot.
 const AUTOPILOT: u8 = 1;
-/// Silence after which the next frame comes from a flight controller that has rebooted. One that runs sends several hundred frames per
-/// second, and one that boots sends nothing for several seconds.
+/// Silence after which the next frame comes from a flight controller that has rebooted. One that runs sends several hundred frames
+/// per second, and one that boots sends nothing for several seconds.
 const REBOOT_SILENCE: Duration = Duration::from_secs(1);
 /// Time within which a flight controller acknowledges the command to reboot.
 const ACKNOWLEDGMENT_TIMEOUT: Duration = Duration::from_secs(3);

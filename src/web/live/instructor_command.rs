@@ -1,4 +1,4 @@
-//! An instructor's commands, and what became of them in words.
+//! An instructor's commands and their outcomes, in words.
 
 use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_text::{Language, text};
@@ -98,7 +98,7 @@ impl Rejection {
     }
 }
 
-/// What became of a command.
+/// Outcome of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CommandOutcome {
     /// It was carried out.
@@ -114,7 +114,7 @@ pub enum CommandOutcome {
 pub struct InstructorReport {
     /// The command.
     pub command: InstructorCommand,
-    /// What became of it.
+    /// Its outcome.
     pub outcome: CommandOutcome,
 }
 

@@ -49,8 +49,8 @@ const RETRY_INTERVAL_S: f64 = 1.5;
 const MAX_PAD_OFFSET_M: f64 = 2.5;
 /// Minimum height during the approach to the pad, m (estimate: clears the truck).
 const MIN_APPROACH_HEIGHT_M: f64 = 5.0;
-/// Time after a respawn at which the pilot checks whether the aircraft stands on the ground and must take off again, s of simulation
-/// time. The built-in autopilot respawns in the air, and an external one on the landing pad.
+/// Time after a respawn at which the pilot checks whether the aircraft stands on the ground and must take off again, s of
+/// simulation time. The built-in autopilot respawns in the air, and an external one on the landing pad.
 const RESPAWN_CHECK_DELAY_S: f64 = 3.0;
 /// Timeout for the vehicle to become ready, and for the aircraft to climb, s of simulation time.
 const START_TIMEOUT_S: f64 = 60.0;

@@ -79,7 +79,7 @@ pub enum TurnTo {
     Right(f64),
 }
 
-/// What leads around an obstacle on the straight way to the next place.
+/// The first maneuver if an obstacle blocks the straight way to the next place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DetourKind {
     /// Fly out from under the bridge.
@@ -121,7 +121,7 @@ impl DetourKind {
 /// The way around an obstacle on the straight way to the next place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detour {
-    /// What leads around the obstacle.
+    /// First maneuver.
     pub kind: DetourKind,
     /// The way to a place from which the rest of the way is clear.
     pub way: WayTo,

@@ -55,8 +55,8 @@ pub enum PracticeRequest {
 pub const MAX_TASK: u32 = 64;
 
 impl PracticeRequest {
-    /// Returns the command and its parameters. `number` tells the request from the sender's next one, so that the vehicle carries out
-    /// a repeated command only once; see [`request_number`]. 0: each command counts.
+    /// Returns the command and its parameters. `number` tells the request from the sender's next one, so that the vehicle carries
+    /// out a repeated command only once; see [`request_number`]. 0: each command counts.
     #[must_use]
     pub fn command(self, number: u32) -> (MavCmd, [f32; 7]) {
         let (command, value) = match self {

@@ -81,8 +81,8 @@ pub fn is_picture_name(name: &str) -> bool {
         && name.rsplit_once('.').is_some_and(has_extension)
 }
 
-/// Checks the files of a scenario's pictures. `check` loads the file with a name, or returns why it can't be used. Returns a problem
-/// for each file that can't be used; `allowed` describes the files that can.
+/// Checks the files of a scenario's pictures. `check` loads the file with a name, or returns why it can't be used. Returns a
+/// problem for each file that can't be used; `allowed` describes the files that can.
 #[must_use]
 pub fn check_picture_files(file: &str, text: &str, allowed: &str, check: &dyn Fn(&str) -> Result<(), String>) -> Vec<Problem> {
     let mut reader = Reader::new(file, text);

@@ -12,8 +12,8 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 /// Tolerance for the length of unit vectors that are rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
-/// Inserts a seed, placed defects and the difficulty level into the source text. Parsing the result yields the same job with exactly these defects.
-/// Invalid TOML is returned unchanged.
+/// Inserts a seed, placed defects and the difficulty level into the source text. Parsing the result yields the same job with
+/// exactly these defects. Invalid TOML is returned unchanged.
 #[must_use]
 pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_string() };
@@ -87,7 +87,8 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
 }
 
 /// Returns the CRC-32 of the text in canonical form. Excludes the seed and placed defects, so that a resolved file has
-/// the same CRC as its source, and the pictures of the briefing, which do not affect a flight. Each form of a job has a different CRC, and so does each difficulty level.
+/// the same CRC as its source, and the pictures of the briefing, which do not affect a flight. Each form of a job has a different
+/// CRC, and so does each difficulty level.
 #[must_use]
 pub fn crc(text: &str) -> u32 {
     let Ok(mut document) = text.parse::<DocumentMut>() else { return crc32fast::hash(text.as_bytes()) };

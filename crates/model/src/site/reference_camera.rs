@@ -52,7 +52,8 @@ pub(super) fn pose_toward(position_m: Vec3<Enu>, task: &Task, k: usize, share: f
     camera_aimed_at(task.path_m[k] + to.unit() * step, position_m)
 }
 
-/// Returns the poses from which a task's path offers views of a position, nearest first ([`super::defects::find_view`] tries the same ones).
+/// Returns the poses from which a task's path offers views of a position, nearest first ([`super::defects::find_view`] tries the
+/// same ones).
 pub(super) fn candidate_poses(position_m: Vec3<Enu>, task: &Task, share: f64) -> impl Iterator<Item = CameraPose> {
     nearest_points(position_m, task).into_iter().map(move |k| pose_toward(position_m, task, k, share))
 }

@@ -196,7 +196,8 @@ fn is_in_frame(px: (f64, f64), camera: &Camera, share: f64) -> bool {
     px.0.abs() <= 0.5 * share * f64::from(camera.width_px) && px.1.abs() <= 0.5 * share * f64::from(camera.height_px)
 }
 
-/// Returns the visible length of a defect in pixels. Each counted sample point inside the image represents an equal part of the length.
+/// Returns the visible length of a defect in pixels. Each counted sample point inside the image represents an equal part of the
+/// length.
 fn visible_px<'a>(
     pose: &CameraPose,
     camera: &Camera,

@@ -5,8 +5,8 @@ use spandrel_monitor::SessionOutput;
 use spandrel_monitor::measures::cue_validity::{CueLog, CueValidity};
 use spandrel_testkit::job::*;
 
-/// Leaves the path, lands at home, and compares the flight's cues with its frames. The monitor's own cues are ignored if `masks` (time in s,
-/// cue mask) replace them.
+/// Leaves the path, lands at home, and compares the flight's cues with its frames. The monitor's own cues are ignored if `masks`
+/// (time in s, cue mask) replace them.
 fn validity(mut tape: Tape, masks: Option<&[(f64, i32)]>) -> CueValidity {
     tape.fly((60.0, 30.0, 10.0), 4.0);
     tape.fly((0.0, 30.0, 10.0), 4.0);

@@ -239,7 +239,8 @@ impl Autopilot {
         self.navigator.mission.set_deferred(deferred);
     }
 
-    /// Jumps to a mission item. If `restart` is true, resets the mission's progress first. Returns false if the item does not exist.
+    /// Jumps to a mission item. If `restart` is true, resets the mission's progress first. Returns false if the item does not
+    /// exist.
     pub fn set_mission_current(&mut self, index: usize, restart: bool) -> bool {
         let known = self.navigator.set_mission_current(index, restart);
         self.update_status();

@@ -31,8 +31,8 @@ impl VehicleClock {
         if self.link_kind == LinkKind::Payload { at } else { at.saturating_sub(self.autopilot_boot_time) }
     }
 
-    /// Returns the response to a time request from a system and component. Uses the clock of the message timestamps, so that clients
-    /// can convert them.
+    /// Returns the response to a time request from a system and component. Uses the clock of the message timestamps, so that
+    /// clients can convert them.
     #[must_use]
     pub fn time_response(&self, request: &TIMESYNC_DATA, (target_system, target_component): (u8, u8)) -> MavMessage {
         let tc1 = self.since_boot(self.now).ns().max(1);

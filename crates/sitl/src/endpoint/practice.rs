@@ -1,5 +1,5 @@
-//! Requests that are allowed in practice only: to freeze, resume and rewind the flight, and to move the aircraft. The endpoint decides whether a
-//! request is accepted; the simulation carries it out.
+//! Requests that are allowed in practice only: to freeze, resume and rewind the flight, and to move the aircraft. The endpoint
+//! decides whether a request is accepted; the simulation carries it out.
 
 use super::refused_request::{RefusedRequest, queue_or_refuse};
 use super::text_queue::TextQueue;
@@ -23,8 +23,8 @@ pub struct PracticeInbox {
 }
 
 impl PracticeInbox {
-    /// Takes in a request; `None` for other commands and for mission items. A command that a sender repeats with the same number,
-    /// because the acknowledgment was lost, is acknowledged again but not carried out again. Returns the result for the
+    /// Accepts or refuses a request; `None` for other commands and for mission items. A command that a sender repeats with the same
+    /// number, because the acknowledgment was lost, is acknowledged again but not carried out again. Returns the result for the
     /// acknowledgment.
     pub fn take(&mut self, state: &PracticeState, c: &VehicleCommand, texts: &mut TextQueue) -> Option<MavResult> {
         let admitted = state.admit(c)?;

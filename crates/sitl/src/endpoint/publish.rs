@@ -54,8 +54,8 @@ impl Endpoint {
         self.vehicle.retry_plan_request(&inputs.vehicle, &mut self.links);
     }
 
-    /// Sends only heartbeats, texts and the values that report a freeze, while simulation time is stopped. The camera's heartbeat is sent only on links
-    /// that use the camera.
+    /// Sends only heartbeats, texts and the values that report a freeze, while simulation time is stopped. The camera's heartbeat
+    /// is sent only on links that use the camera.
     pub fn send_heartbeats(&mut self, aircraft: &SimulatedAircraft, autopilot: &Autopilot) {
         let input = payload_input(&self.vehicle, aircraft, autopilot);
         let inputs = StreamInputs::new(&self.vehicle, &self.payload, aircraft, autopilot, &input);

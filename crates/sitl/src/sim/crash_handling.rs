@@ -21,8 +21,8 @@ const GENTLE_CONTACT_SPEED_M_S: f64 = 1.0;
 /// Time without contact after which the vehicle counts as flying, s (estimate: a body at rest can rock off its contact for a step
 /// or two).
 const CONTACT_FREE_FLIGHT_TIME_S: f64 = 0.5;
-/// The same with an external autopilot, s. One that has not noticed the crash keeps the rotors turning, and the wreck hops (PX4 with a
-/// failed motor: for less than 1 s each).
+/// The same with an external autopilot, s. One that has not noticed the crash keeps the rotors turning, and the wreck hops (PX4
+/// with a failed motor: for less than 1 s each).
 const EXTERNAL_CONTACT_FREE_FLIGHT_TIME_S: f64 = 2.0;
 
 impl Sim {
@@ -102,8 +102,8 @@ impl Sim {
         landed && !wet && !self.hard_contact && !self.is_upside_down()
     }
 
-    /// Returns true if the vehicle has crashed near home and an external autopilot still considers it in flight. Gentle contact near
-    /// home is otherwise a landing.
+    /// Returns true if the vehicle has crashed near home and an external autopilot still considers it in flight. Gentle contact
+    /// near home is otherwise a landing.
     fn lies_with_running_motors(&self) -> bool {
         self.controller.external().is_some()
             && self.hard_contact

@@ -1,5 +1,5 @@
-//! Freeze, rewind, and moves to a task, in practice only. Simulation time never goes back: a freeze stops it, and a rewind puts only the
-//! aircraft and its battery back to an earlier state, while time, wind, traffic and all counters go on from the present.
+//! Freeze, rewind, and moves to a task, in practice only. Simulation time never goes back: a freeze stops it, and a rewind puts
+//! only the aircraft and its battery back to an earlier state, while time, wind, traffic and all counters go on from the present.
 //! No client therefore sees a clock that runs backward.
 
 use super::controller::Controller;

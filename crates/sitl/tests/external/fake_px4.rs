@@ -1,5 +1,5 @@
-//! A small autopilot that obeys the rules of PX4's simulator interface: it advances only with HIL_SENSOR 0 and answers each one with
-//! one HIL_ACTUATOR_CONTROLS. It holds its attitude with a rate controller and climbs with the throttle stick.
+//! A small autopilot that obeys the rules of PX4's simulator interface: it advances only with HIL_SENSOR 0 and answers each one
+//! with one HIL_ACTUATOR_CONTROLS. It holds its attitude with a rate controller and climbs with the throttle stick.
 
 use spandrel_mavlink::codec::{Decoder, Encoder, ReceivedFrame};
 use spandrel_mavlink::dialect::*;

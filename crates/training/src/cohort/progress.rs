@@ -93,8 +93,8 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario and level, sorted by descending number of tasks, then by name. Changes are labeled with
-/// the reliability of the measures on that job, as far as it is known.
+/// Groups one trainee's sessions by scenario and level, sorted by descending number of tasks, then by name. Changes are labeled
+/// with the reliability of the measures on that job, as far as it is known.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliability: &JobReliability) -> Vec<JobProgress> {
     let mut jobs: BTreeMap<String, Vec<&SessionRecord>> = BTreeMap::new();

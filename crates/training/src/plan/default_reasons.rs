@@ -1,5 +1,5 @@
-//! Names and reasons of the default rules in the language of a page. Rules files contain one language; a rule whose reason is the default one
-//! is translated by its name.
+//! Names and reasons of the default rules in the language of a page. Rules files contain one language; a rule whose reason is the
+//! default one is translated by its name.
 
 use spandrel_text::{Language, find};
 

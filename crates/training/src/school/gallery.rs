@@ -57,8 +57,8 @@ pub struct SchoolPicture {
 #[must_use]
 pub fn school_scenario(job: &Scenario, seed: u64) -> Scenario {
     let steel = Element::ALL.iter().filter(|element| element.material() == ElementMaterial::Steel).copied().collect();
-    // Few members that the job's paths reach are steel, and few defects of concrete are cracks. No camera can resolve fatigue cracks
-    // from the paths, so they are only possible answers.
+    // Few members that the job's paths reach are steel, and few defects of concrete are cracks. No camera can resolve fatigue
+    // cracks from the paths, so they are only possible answers.
     let sets = [(AREA_COUNT, 0, Vec::new()), (LINE_COUNT, LINE_COUNT, Vec::new()), (STEEL_COUNT, 0, steel)];
     let mut stream = RandomStream::new(seed, "school.defects");
     let mut placed = Vec::new();

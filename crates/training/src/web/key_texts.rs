@@ -1,5 +1,5 @@
-//! The documentation of scenario keys in the language of a page. The English texts are those of the reference (`scenarios/README.md`),
-//! which is their only source; the catalog contains the other languages.
+//! The documentation of scenario keys in the language of a page. The English texts are those of the reference
+//! (`scenarios/README.md`), which is their only source; the catalog contains the other languages.
 
 use spandrel_model::key_table::KeyDescription;
 use spandrel_text::{Language, Sentence, SentenceTable, text, translation};

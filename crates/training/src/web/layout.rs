@@ -276,8 +276,8 @@ pub(super) mod tests {
         }
     }
 
-    /// Panics if texts of a page are not in the catalogs: with the pseudo language, all letters of the catalogs have accents. Elements
-    /// with a `lang` attribute and `code` elements are not checked, nor are the given words, which are names or units.
+    /// Panics if texts of a page are not in the catalogs: with the pseudo language, all letters of the catalogs have accents.
+    /// Elements with a `lang` attribute and `code` elements are not checked, nor are the given words, which are names or units.
     pub(crate) fn check_translated(page: &str, names: &[&str]) {
         let body = page.split_once("<main").map_or(page, |(_, body)| body);
         let texts = visible_texts(body);

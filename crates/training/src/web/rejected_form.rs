@@ -17,7 +17,7 @@ pub struct RejectedForm<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FormField<'a> {
     name: &'a str,
-    /// What was entered; `None` if the form is new.
+    /// Entered value; `None` if the form is new.
     pub value: Option<&'a str>,
     problem: Option<&'a str>,
 }

@@ -5,7 +5,8 @@ use spandrel_model::key_table::KeyDescription;
 use spandrel_model::scenario::values::{KIND_KEYS, ScenarioValues, describe, key_descriptions, without_indices};
 use spandrel_model::toml::Problem;
 
-/// Maximum number of pictures, bridges, tasks or events with fields: as many as a job may have. Files with more have a problem anyway.
+/// Maximum number of pictures, bridges, tasks or events with fields: as many as a job may have. Files with more have a problem
+/// anyway.
 const MAX_GROUPS: usize = 64;
 
 /// A group of keys: those that most jobs need, and the tables whose other keys are under "More keys".

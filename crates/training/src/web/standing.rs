@@ -13,7 +13,8 @@ pub struct SessionStanding {
     pub change: Option<f64>,
 }
 
-/// Compares a session with the trainee's other records; `None` if it is incomplete, was frozen or rewound, or there is no other comparable session.
+/// Compares a session with the trainee's other records; `None` if it is incomplete, was frozen or rewound, or there is no other
+/// comparable session.
 #[must_use]
 pub fn standing(record: &SessionRecord, records: &[SessionRecord]) -> Option<SessionStanding> {
     let is_comparable = |other: &&SessionRecord| {

@@ -41,8 +41,8 @@ fn mode(hud: &Hud) -> String {
     if hud.mode == UNKNOWN_MODE { text!(hud.style.language, "flight-status-no-mode") } else { hud.mode.clone() }
 }
 
-/// Returns the active alarm, or a freeze, as a short line. While the link is lost, the satellite status is unknown, so only the link
-/// is reported.
+/// Returns the active alarm, or a freeze, as a short line. While the link is lost, the satellite status is unknown, so only the
+/// link is reported.
 pub fn alarm(hud: &Hud) -> Option<String> {
     let lost_fix = hud.gnss.filter(|gnss| !gnss.has_fix);
     if is_lost(hud) || hud.is_frozen { Some(link(hud)) } else { lost_fix.map(|gnss| satellites(gnss, hud.style.language)) }

@@ -114,8 +114,8 @@ impl DisplayUnits {
         format!("{} {}", format_limit((100.0 * unit.from_m_s(limit_m_s)).round() / 100.0), unit.symbol())
     }
 
-    /// Converts the lengths and speeds in a text that are in other units, such as "140 m, 30 deg left", "12 to 24 m" or "10 mph". Other
-    /// numbers stay.
+    /// Converts the lengths and speeds in a text that are in other units, such as "140 m, 30 deg left", "12 to 24 m" or "10 mph".
+    /// Other numbers stay.
     #[must_use]
     pub fn words(self, text: &str) -> String {
         let mut converted = String::with_capacity(text.len());

@@ -9,6 +9,7 @@ use super::text_metrics::{fitted, text_width};
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::guidance::{DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, TurnTo, WayTo};
 use spandrel_model::math;
+use spandrel_text::terms::capitalized;
 use spandrel_text::{Language, text};
 
 /// Top of the panel with normal text: just above the map, below the status text of the window.
@@ -104,14 +105,14 @@ fn title(guidance: &Guidance, language: Language) -> String {
     }
 }
 
-/// Returns what to do first if the straight way is blocked.
+/// Returns the first maneuver if the straight way is blocked.
 fn first_words(kind: DetourKind, language: Language) -> String {
-    match kind {
-        DetourKind::OutFromUnder => text!(language, "flight-first-out-from-under"),
-        DetourKind::Climb => text!(language, "flight-first-climb"),
-        DetourKind::Descend => text!(language, "flight-first-descend"),
-        DetourKind::Around => text!(language, "flight-first-around"),
-    }
+    capitalized(&match kind {
+        DetourKind::OutFromUnder => text!(language, "flight-detour-out-from-under"),
+        DetourKind::Climb => text!(language, "flight-detour-climb"),
+        DetourKind::Descend => text!(language, "flight-detour-descend"),
+        DetourKind::Around => text!(language, "flight-detour-around"),
+    })
 }
 
 /// Returns an arrow in the direction of a place, and the way in words.

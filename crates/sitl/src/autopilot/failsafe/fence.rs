@@ -51,7 +51,8 @@ impl FenceOutline {
                 let meet = |(start, end): ((f64, f64), (f64, f64))| {
                     let (side, gap) = ((end.0 - start.0, end.1 - start.1), (start.0 - from.0, start.1 - from.1));
                     let d = cross(path, side);
-                    // A side parallel to the path has no single intersection; the midpoint of the section along it is tested instead.
+                    // A side parallel to the path has no single intersection; the midpoint of the section along it is tested
+                    // instead.
                     let share = cross(gap, path) / d;
                     (d != 0.0 && (0.0..=1.0).contains(&share)).then(|| cross(gap, side) / d)
                 };

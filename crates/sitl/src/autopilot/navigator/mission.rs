@@ -165,7 +165,8 @@ impl Mission {
         (self.current + 1..self.steps.len()).find_map(|k| self.position_at(k))
     }
 
-    /// Waypoints from the current item up to the first at which the vehicle stops. `acceptance_radius_m` is the default acceptance radius.
+    /// Waypoints from the current item up to the first at which the vehicle stops. `acceptance_radius_m` is the default acceptance
+    /// radius.
     #[must_use]
     pub fn ahead(&self, acceptance_radius_m: f64) -> Vec<Waypoint> {
         let (mut at, mut jumps, mut speed) = (self.current, self.jumps_done.clone(), self.speed_m_s);

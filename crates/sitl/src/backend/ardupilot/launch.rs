@@ -13,11 +13,11 @@ const MAX_SPEEDUP: u32 = 100;
 /// Number of serial ports besides the first one. All of them stay closed: they would listen on TCP ports.
 const OTHER_SERIAL_PORTS: [u8; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
 
-/// Returns the arguments and files that start ArduPilot for an aircraft, in a working directory of its own. Errors if ArduPilot has no
-/// frame for the aircraft's rotors.
+/// Returns the arguments and files that start ArduPilot for an aircraft, in a working directory of its own. Errors if ArduPilot has
+/// no frame for the aircraft's rotors.
 ///
-/// ArduPilot listens on no fixed port. Its receiver binds one on all addresses even if the simulator provides the stick positions, but
-/// does not read it then; the operating system chooses its number, so that instances cannot collide.
+/// ArduPilot listens on no fixed port. Its receiver binds one on all addresses even if the simulator provides the stick positions,
+/// but does not read it then; the operating system chooses its number, so that instances cannot collide.
 pub fn launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Launch, FrameError> {
     let parameters = parameters(vehicle, settings)?;
     let file = LaunchFile { name: DEFAULTS_FILE.into(), text: defaults_text(&parameters), executable: false };

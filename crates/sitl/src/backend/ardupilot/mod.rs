@@ -18,6 +18,6 @@ pub use frame::{Frame, FrameError, frame};
 pub use interface::ArduPilotInterface;
 pub use launch::{DEFAULTS_FILE, launch};
 
-/// Rates at which ArduPilot can receive the state, Hz, the default first: whole numbers of physics ticks a frame. Its main loop runs
-/// at half the rate, because ArduPilot refuses to arm with readings that are less than 1.8 times as fast.
+/// Rates at which ArduPilot can receive the state, Hz, the default first: whole numbers of physics ticks a frame. Its main loop
+/// runs at half the rate, because ArduPilot refuses to arm with readings that are less than 1.8 times as fast.
 pub const RATES_HZ: [f64; 2] = [1000.0, 500.0];

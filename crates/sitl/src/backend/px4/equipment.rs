@@ -58,8 +58,8 @@ fn remaining_time(table: &mut ParamTable) {
     table.integer("RTL_TIME_MARGIN", RETURN_TIME_MARGIN_S, (RETURN_TIME_MARGIN_S, 3600.0));
 }
 
-/// Three inertial sensors, each with an estimator of its own. The estimators must run at the sensor rate: PX4's logger takes part in
-/// the lockstep once per estimator step, and with slower estimators, most readings would get no answer as soon as it starts.
+/// Three inertial sensors, each with an estimator of its own. The estimators must run at the sensor rate: PX4's logger takes part
+/// in the lockstep once per estimator step, and with slower estimators, most readings would get no answer as soon as it starts.
 fn inertial_sensors(table: &mut ParamTable, settings: &LaunchSettings) {
     table.integer("IMU_INTEG_RATE", settings.rate_hz, (100.0, 1000.0));
     table.integer("IMU_GYRO_RATEMAX", settings.rate_hz.max(RATE_CONTROL_HZ), (100.0, 2000.0));

@@ -1,5 +1,5 @@
-//! Hardware in the loop: the simulator's side of PX4's interface on a flight controller's serial link. The flight controller has its
-//! own clock and runs in real time, so nothing waits for its answers.
+//! Hardware in the loop: the simulator's side of PX4's interface on a flight controller's serial link. The flight controller has
+//! its own clock and runs in real time, so nothing waits for its answers.
 
 use super::flow_message::FlowIntegrator;
 use super::hil_plan::{ExtraSensors, HilPlan};

@@ -41,8 +41,8 @@ const PROCESS_ONLY: [&str; 5] = ["SIM_BAT_ENABLE", "IMU_", "EKF2_MULTI_IMU", "SE
 const PROCESS_OUTPUT: &str = "PWM_MAIN_FUNC";
 const HIL_OUTPUT: &str = "HIL_ACT_FUNC";
 
-/// Returns the file with the parameters with which a flight controller flies the aircraft, in QGroundControl's format. The user loads
-/// it: a simulator must not overwrite the parameters of real hardware.
+/// Returns the file with the parameters with which a flight controller flies the aircraft, in QGroundControl's format. The user
+/// loads it: a simulator must not overwrite the parameters of real hardware.
 #[must_use]
 pub fn hil_launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Launch {
     let system_id = settings.instance + 1;

@@ -1,5 +1,5 @@
-//! PX4's simulator interfaces: MAVLink over TCP in lockstep, where PX4 connects to the simulator, and MAVLink on the serial link of a
-//! flight controller (hardware in the loop).
+//! PX4's simulator interfaces: MAVLink over TCP in lockstep, where PX4 connects to the simulator, and MAVLink on the serial link of
+//! a flight controller (hardware in the loop).
 
 pub mod airframe;
 mod airframe_limits;

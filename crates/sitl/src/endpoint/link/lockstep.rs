@@ -62,8 +62,8 @@ impl Links {
         }
     }
 
-    /// Answers the time requests in a datagram at once, and removes them from it. MAVSDK answers lockstep requests only after one of its
-    /// own time requests was answered, and no tick processes them while simulation time waits for its first response.
+    /// Answers the time requests in a datagram at once, and removes them from it. MAVSDK answers lockstep requests only after one
+    /// of its own time requests was answered, and no tick processes them while simulation time waits for its first response.
     pub fn answer_time_requests(&mut self, id: LinkId, datagram: &mut ReceivedDatagram, clock: VehicleClock) {
         let mut policy = self.signing.clone();
         let Some(link) = self.peers.get_mut(&id) else { return };

@@ -44,8 +44,8 @@ impl PayloadLink {
         }
     }
 
-    /// Handles a message beside an external autopilot, which is the gimbal manager: addressed to the camera, to the gimbal device or
-    /// to all components.
+    /// Handles a message beside an external autopilot, which is the gimbal manager: addressed to the camera, to the gimbal device
+    /// or to all components.
     pub(crate) fn receive_beside_autopilot(&mut self, component: u8, frame: &ReceivedFrame, a: &mut PayloadMessage) {
         match (component, &frame.message) {
             (CAMERA, _) => self.receive_as_camera(frame, a),

@@ -124,7 +124,8 @@ impl AutopilotReport {
 
 /// Reads the version from a message with capability bits that the dialect does not know.
 fn unknown_capabilities(frame: &ReceivedFrame) -> Option<FirmwareVersion> {
-    // Layout: capabilities (8 bytes), uid (8), flight_sw_version (4), three more versions (12), vendor and product ID (4), hash (8).
+    // Layout: capabilities (8 bytes), uid (8), flight_sw_version (4), three more versions (12), vendor and product ID (4), hash
+    // (8).
     let payload = frame.payload(60);
     let [release_type, patch, minor, major] = payload.get(16..20)?.try_into().ok()?;
     let hash = payload.get(36..44)?.try_into().ok()?;

@@ -11,8 +11,8 @@ use spandrel_mavlink::dialect::{
 use spandrel_mavlink::station;
 use spandrel_model::time::SimTime;
 
-/// Messages that the simulator, the monitor and the displays need from the autopilot, and their rates, Hz: the rates of the built-in
-/// autopilot (docs/src/reference/wire.md, "Streams").
+/// Messages that the simulator, the monitor and the displays need from the autopilot, and their rates, Hz: the rates of the
+/// built-in autopilot (docs/src/reference/wire.md, "Streams").
 const STREAMS_HZ: [(u32, f32); 10] = [
     (SYS_STATUS_DATA::ID, 2.0),
     (EXTENDED_SYS_STATE_DATA::ID, 5.0),
@@ -26,8 +26,8 @@ const STREAMS_HZ: [(u32, f32); 10] = [
     (GIMBAL_MANAGER_STATUS_DATA::ID, 1.0),
 ];
 
-/// Interval after which unanswered requests are repeated, s (estimate). An autopilot drops requests while its start script runs, which
-/// takes several simulated seconds at a high simulation speed.
+/// Interval after which unanswered requests are repeated, s (estimate). An autopilot drops requests while its start script runs,
+/// which takes several simulated seconds at a high simulation speed.
 const REPEAT_INTERVAL_S: f64 = 2.0;
 
 impl RelayEndpoint {

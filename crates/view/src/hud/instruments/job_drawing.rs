@@ -55,9 +55,10 @@ impl JobDrawing {
     /// Returns the caption of a drawing; `None` if there is no drawing with this index.
     #[must_use]
     pub fn caption(&self, index: usize, language: Language) -> Option<String> {
-        let Some(side) = index.checked_sub(1) else { return Some(text!(language, "window-briefing-map")) };
-        let side = self.sides.get(side)?;
-        Some(match &side.bridge {
+        if index == 0 {
+            return Some(text!(language, "window-briefing-map"));
+        }
+        Some(match &self.side(index)?.bridge {
             Some(bridge) => text!(language, "window-briefing-side", bridge = bridge.as_str()),
             None => text!(language, "window-briefing-from-south"),
         })
@@ -70,43 +71,49 @@ impl JobDrawing {
     }
 
     fn bounds(&self, index: usize) -> Bounds {
-        let side = index.checked_sub(1).and_then(|side| self.sides.get(side));
-        side.map_or(self.outline.bounds, |side| side.view.bounds)
+        self.side(index).map_or(self.outline.bounds, |side| side.view.bounds)
+    }
+
+    /// Returns the side view that a drawing shows; `None` for the map.
+    fn side(&self, index: usize) -> Option<&Side> {
+        self.sides.get(index.checked_sub(1)?)
     }
 
     /// Draws the map (index 0) or a side view into an area.
     pub(crate) fn draw(&self, index: usize, style: DisplayStyle, pane: Pane, area: Area) -> Vec<DrawItem> {
         let font = (FONT_RATIO * area.width.min(area.height)).max(MIN_FONT);
         let scale = DrawingScale::fit(self.bounds(index), area.inside(font));
-        match index.checked_sub(1).and_then(|side| self.sides.get(side)) {
+        let mut items = vec![pane.panel((area.x, area.y), area.corner())];
+        items.extend(match self.side(index) {
             None => self.map(style, pane, area, (&scale, font)),
-            Some(side) => self.side(side, pane, area, (&scale, font)),
-        }
+            Some(side) => self.side_view(side, pane, area, (&scale, font)),
+        });
+        items
     }
 
     fn map(&self, style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
         let place = |point_m: Vec3<Enu>| map::place(scale, point_m);
-        let paths = Paths { tracks: &self.tracks, current: None, place: &place };
-        let mut items = vec![pane.panel((area.x, area.y), area.corner())];
-        items.extend(map::ground(&self.outline, pane, area, scale));
-        items.extend(paths.lines(pane, font));
-        items.extend(paths.directions(pane, area, font));
-        items.extend(paths.numbers(pane, area, font));
+        let mut items = map::ground(&self.outline, pane, area, scale);
+        items.extend(tasks(&Paths { tracks: &self.tracks, current: None, place: &place }, pane, area, font));
         items.push(map::pad(pane, place(self.pad_m), area, font));
         items.extend(map::legend(style, pane, area, (scale, font)));
         items
     }
 
-    fn side(&self, side: &Side, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
+    fn side_view(&self, side: &Side, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
         let place = |point_m: Vec3<Enu>| scale.place(side.view.view.at(point_m));
-        let paths = Paths { tracks: &side.tracks, current: None, place: &place };
-        let mut items = vec![pane.panel((area.x, area.y), area.corner())];
-        items.extend(profile::background(&side.view, self.outline.water_level_m, pane, area, scale));
-        items.extend(paths.lines(pane, font));
-        items.extend(paths.directions(pane, area, font));
-        items.extend(paths.numbers(pane, area, font));
+        let mut items = profile::background(&side.view, self.outline.water_level_m, pane, area, scale);
+        items.extend(tasks(&Paths { tracks: &side.tracks, current: None, place: &place }, pane, area, font));
         items
     }
+}
+
+/// Draws the tasks' paths with their directions and numbers.
+fn tasks(paths: &Paths<'_>, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+    let mut items = paths.lines(pane, font);
+    items.extend(paths.directions(pane, area, font));
+    items.extend(paths.numbers(pane, area, font));
+    items
 }
 
 /// Returns the side view of each bridge with a task, or the view from the south if there is none.

@@ -12,8 +12,8 @@ const GROUND_STATION: i64 = 255;
 const STATION_TIMEOUT_S: f64 = 5.0;
 const OVERRIDE_TIMEOUT_S: f64 = 3.0;
 
-/// Dead zone of the roll, pitch and yaw sticks, microseconds: ArduPilot's default. ArduPilot refuses to arm while a stick is outside it,
-/// and no hand or gamepad rests at the exact center.
+/// Dead zone of the roll, pitch and yaw sticks, microseconds: ArduPilot's default. ArduPilot refuses to arm while a stick is
+/// outside it, and no hand or gamepad rests at the exact center.
 const DEAD_ZONE_US: i64 = 20;
 
 /// Adds the parameters.
@@ -32,7 +32,8 @@ pub fn add(table: &mut Table, settings: &LaunchSettings) {
 fn add_links(table: &mut Table, settings: &LaunchSettings) {
     let system_id = i64::from(settings.instance) + 1;
     table.both(["SYSID_THISMAV", "MAV_SYSID"], system_id);
-    // ArduPilot takes sticks only from this ground station. 4.7's range of IDs (MAV_GCS_SYSID_HI) is missing in its development versions.
+    // ArduPilot takes sticks only from this ground station. 4.7's range of IDs (MAV_GCS_SYSID_HI) is missing in its development
+    // versions.
     table.both(["SYSID_MYGCS", "MAV_GCS_SYSID"], GROUND_STATION);
     table.integer("SERIAL0_PROTOCOL", 2);
     for port in 1..=7 {

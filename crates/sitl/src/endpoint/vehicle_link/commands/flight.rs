@@ -160,7 +160,8 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
     })
 }
 
-/// Handles commands that don't involve the autopilot: freeze and rewind, failure injection, calibration, storage, checks, and reboot.
+/// Handles commands that don't involve the autopilot: freeze and rewind, failure injection, calibration, storage, checks, and
+/// reboot.
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     if let Some(result) = v.practice_requests.take(&a.aircraft.practice, c, &mut v.texts) {
