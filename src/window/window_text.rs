@@ -3,6 +3,7 @@
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
 use super::panes::PaneContent;
+use spandrel_model::site::inspector_path::InspectorPosition;
 use spandrel_text::{Language, text};
 use spandrel_view::arrange::TextAnchor;
 use spandrel_view::flow::KeyNames;
@@ -101,6 +102,12 @@ pub fn frozen(names: &KeyNames, flies: bool, language: Language) -> String {
     }
 }
 
+/// Returns where the inspector walks and for how long; `None` while the inspector stands.
+pub fn walk(inspector: &InspectorPosition, language: Language) -> Option<String> {
+    let seconds = format!("{:.0}", inspector.remaining_s.ceil());
+    inspector.walks().then(|| text!(language, "window-flight-walk", place = inspector.place, seconds = seconds))
+}
+
 /// Paints a flight: both views with their displays, and the window's texts.
 pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText, (anchor, text_scale): (TextAnchor, TextScale)) {
     let area = ui.ctx().content_rect();
@@ -159,4 +166,25 @@ fn paint_lines(painter: &egui::Painter, area: egui::Rect, words: &str, (anchor, 
     let rect = egui::Rect::from_min_size(corner + egui::vec2(0.6 * size, down), galley.size());
     painter.rect_filled(rect.expand(0.3 * size), 0.2 * size, egui::Color32::from_black_alpha(160));
     painter.galley(rect.min, galley, egui::Color32::WHITE);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::frames::Vec3;
+
+    #[test]
+    fn exact_walk_is_shown_until_the_arrival() {
+        let standing = InspectorPosition {
+            feet_m: Vec3::zero(),
+            forward: Vec3::new(1.0, 0.0, 0.0),
+            velocity_m_s: Vec3::zero(),
+            place: 2,
+            remaining_s: 0.0,
+        };
+        let walking = InspectorPosition { remaining_s: 34.2, ..standing };
+        assert_eq!(walk(&walking, Language::English).as_deref(), Some("Inspector: walking to place 2, 35 s"));
+        assert!(walk(&walking, Language::German).is_some_and(|words| words.contains("Standort 2")));
+        assert_eq!(walk(&standing, Language::English), None);
+    }
 }

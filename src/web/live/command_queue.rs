@@ -3,6 +3,7 @@
 
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::contract::walk::WalkRequest;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
 use spandrel_mavlink::{instructor_note, station};
 use spandrel_monitor::sidecar::MONITOR_COMPONENT_ID as MONITOR;
@@ -40,6 +41,8 @@ pub enum InstructorCommand {
     },
     /// Freezes, resumes or rewinds a practice flight.
     Practice(PracticeRequest),
+    /// Sends the inspector to another place.
+    Walk(WalkRequest),
     /// Injects or clears a failure.
     Failure {
         /// The component's FAILURE_UNIT.
@@ -57,6 +60,7 @@ enum CommandStep {
     Parameter(&'static str, ParamNumber),
     Inject { unit: f32, kind: f32 },
     Practice(PracticeRequest),
+    Walk(WalkRequest),
     Note(String),
 }
 
@@ -123,6 +127,9 @@ impl CommandQueue {
                     PracticeRequest::MoveToTask { task } => format!("move to task {task}"),
                 };
                 (vec![CommandStep::Practice(request)], format!("instructor: {words}"))
+            }
+            InstructorCommand::Walk(request) => {
+                (vec![CommandStep::Walk(request)], format!("instructor: the inspector walks to place {}", request.place))
             }
             InstructorCommand::Failure { unit, words, fails } => {
                 let said = format!("instructor: {} {}", words.to_lowercase(), if fails { "fails" } else { "restored" });
@@ -202,6 +209,11 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), &'stati
         {
             result(ack.result)
         }
+        (CommandStep::Walk(request), MavMessage::COMMAND_ACK(ack))
+            if ack.command == request.command().0 && ours(ack.target_system, ack.target_component) =>
+        {
+            result(ack.result)
+        }
         _ => None,
     }
 }
@@ -246,12 +258,14 @@ fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, cast: bool) -> V
             let command: COMMAND_LONG_DATA = station::command(system, 1, MavCmd::MAV_CMD_INJECT_FAILURE, params);
             encoder.encode(&MavMessage::COMMAND_LONG(command))
         }
-        CommandStep::Practice(request) => {
-            let (command, params) = request.command();
-            encoder.encode(&MavMessage::COMMAND_LONG(station::command(system, 1, command, params)))
-        }
+        CommandStep::Practice(request) => request_frame(request.command(), encoder, system),
+        CommandStep::Walk(request) => request_frame(request.command(), encoder, system),
         CommandStep::Note(text) => instructor_note::encode(encoder, system, MONITOR, text),
     }
+}
+
+fn request_frame((command, params): (MavCmd, [f32; 7]), encoder: &mut Encoder, system: u8) -> Vec<u8> {
+    encoder.encode(&MavMessage::COMMAND_LONG(station::command(system, 1, command, params)))
 }
 
 #[cfg(test)]
@@ -413,6 +427,20 @@ mod tests {
         sent(&mut commands, 2);
         let refused = commands.handle_frame(&acknowledged(MavCmd::MAV_CMD_USER_2, MavResult::MAV_RESULT_DENIED));
         assert_eq!(refused.as_deref(), Some("instructor: rewind 10 s: rejected, the vehicle denied this command"));
+    }
+
+    #[test]
+    fn wire_walk_of_the_inspector_is_a_command() {
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Walk(WalkRequest { place: 3 }));
+        let (frames, _) = sent(&mut commands, 0);
+        let Some(MavMessage::COMMAND_LONG(command)) = &frames[0].message else { panic!("{frames:?}") };
+        assert_eq!((command.command, command.param1), (MavCmd::MAV_CMD_USER_4, 3.0));
+        let (target_system, target_component) = (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
+        let (command, result) = (MavCmd::MAV_CMD_USER_4, MavResult::MAV_RESULT_ACCEPTED);
+        let ack = COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::default() };
+        assert_eq!(commands.handle_frame(&received_frame(&MavMessage::COMMAND_ACK(ack))), None);
+        assert_eq!(sent(&mut commands, 1).1, ["instructor: the inspector walks to place 3"]);
     }
 
     #[test]

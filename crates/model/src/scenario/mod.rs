@@ -8,6 +8,7 @@ pub mod edit;
 mod forms;
 mod job;
 mod lesson;
+pub mod places;
 mod point;
 mod read;
 mod resolve;

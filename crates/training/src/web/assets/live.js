@@ -85,6 +85,7 @@ function show(now) {
     root.classList.add("live");
     move(now.place);
   }
+  moveWalker(root, now.inspector);
   put("task", now.task ?? texts.off_path);
   put("step", stepText(now) ?? "–");
   put("progress", now.progress === null ? "–" : `${Math.floor(100 * now.progress)}%`);

@@ -1,4 +1,4 @@
-//! Map of the site, north up: water, bridges, paths, landing pad, aircraft, and a scale.
+//! Map of the site, north up: water, bridges, paths, landing pad, inspector, aircraft, and a scale.
 
 use super::super::pane::Pane;
 use super::super::state::Hud;
@@ -26,10 +26,11 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     let scale = DrawingScale::fit(site.bounds, area.inside(0.5 * font));
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
     items.extend(ground(site, pane, area, &scale));
-    items.extend(tasks(hud, pane, area, &scale, font));
-    let (pad, side) = (clamp_point(place(&scale, hud.pad_m), area.inside(0.5 * font)), 0.35 * font);
-    let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
-    items.push(pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White));
+    let mut labels: Vec<Point> = Vec::new();
+    items.extend(tasks(hud, pane, area, (&scale, font), &mut labels));
+    items.extend(inspector(hud, pane, area, (&scale, font), &mut labels));
+    let pad = clamp_point(place(&scale, hud.pad_m), area.inside(0.5 * font));
+    items.push(square(pane, pad, 0.35 * font, HudColor::White));
     if let Some(ghost) = hud.ghost {
         let here = clamp_point(place(&scale, ghost.position_m), area.inside(font));
         items.push(pane.fill(&arrow(here, ghost.ned_from_frd.yaw_rad(), font), HudColor::Ghost));
@@ -58,7 +59,7 @@ fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &DrawingScale) -> V
     drawn.collect()
 }
 
-fn tasks(hud: &Hud, pane: Pane, area: Area, scale: &DrawingScale, font: f64) -> Vec<DrawItem> {
+fn tasks(hud: &Hud, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64), taken: &mut Vec<Point>) -> Vec<DrawItem> {
     let current = hud.guidance.and_then(|guidance| guidance.task);
     let mut items = Vec::new();
     for track in &hud.tracks {
@@ -68,14 +69,29 @@ fn tasks(hud: &Hud, pane: Pane, area: Area, scale: &DrawingScale, font: f64) -> 
         let width = if Some(track.id) == current { 0.28 } else { 0.16 };
         items.push(pane.line(&points, width * font, color));
     }
-    let mut taken: Vec<Point> = Vec::new();
     for track in &hud.tracks {
         let start = place(scale, track.path_m[0]);
-        let label = free_place((start.0, start.1 - 0.9 * font), &taken, area.inside(0.7 * font), font);
+        let label = free_place((start.0, start.1 - 0.9 * font), taken, area.inside(0.7 * font), font);
         items.push(disc(pane, label, 0.62 * font, HudColor::Black));
         items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
         taken.push(label);
     }
+    items
+}
+
+/// Returns the inspector, and squares with the numbers of the places.
+fn inspector(hud: &Hud, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64), taken: &mut Vec<Point>) -> Vec<DrawItem> {
+    let Some(marks) = &hud.inspector else { return Vec::new() };
+    let mut items = Vec::new();
+    for (number, place_m) in (1_u8..).zip(&marks.places_m) {
+        let label = free_place(place(scale, *place_m), taken, area.inside(0.7 * font), font);
+        items.push(square(pane, label, 0.58 * font, HudColor::Gray));
+        items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::Black, number.to_string()));
+        taken.push(label);
+    }
+    let here = clamp_point(place(scale, marks.position_m), area.inside(0.6 * font));
+    items.push(disc(pane, here, 0.5 * font, HudColor::Black));
+    items.push(disc(pane, here, 0.34 * font, HudColor::White));
     items
 }
 
@@ -89,6 +105,11 @@ fn free_place(wanted: Point, taken: &[Point], area: Area, font: f64) -> Point {
         [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0)];
     let places = offsets.map(|(right, down)| clamp_point((wanted.0 + right * step, wanted.1 + down * step), area));
     places.iter().copied().find(is_free).unwrap_or(places[0])
+}
+
+fn square(pane: Pane, (x, y): Point, half: f64, color: HudColor) -> DrawItem {
+    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+    pane.fill(&corners.map(|(right, down)| (x + right, y + down)), color)
 }
 
 fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
