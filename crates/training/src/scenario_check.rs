@@ -393,8 +393,11 @@ mod tests {
         );
         let high = problems("[[-124.0, 74.0, 7.0]]");
         assert!(high[0].contains("place 2 is 2.0 m above the ground (allowed: up 4.95 ± 0.5 m"), "{high:?}");
-        let beyond = problems("[[-120.0, 250.0, 0.0]]");
-        assert!(beyond.iter().all(|words| words.starts_with(&head)), "{beyond:?}");
+        // At the anchorage of the suspension bridge, and beyond the edge of the terrain.
+        let others = problems("[[-115.0, 150.0, 6.0], [-410.0, 78.0, 60.0]]");
+        let names: Vec<bool> =
+            ["a bridge", "the edge of the terrain"].iter().zip(&others).map(|(name, words)| words.contains(name)).collect();
+        assert_eq!(names, [true; 2], "{others:?}");
         // The straight way from place 1 leads over the landing pad.
         let over_pad = problems("[[-106.0, 82.0, 4.95]]");
         let words = format!("{head}place 1 to place 2: the landing pad is on the way at east -11");

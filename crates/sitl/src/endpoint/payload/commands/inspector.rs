@@ -93,6 +93,7 @@ mod tests {
         assert_eq!((admit(4, &site, now), admit(1, &site, now)), (Ok(4), Ok(1)));
         job.ground_team.places_m.clear();
         let alone = Site::without_defects(&job);
+        assert_eq!(usize::from(spandrel_mavlink::contract::walk::MAX_PLACE), scenario::places::MAX_PLACES);
         assert_eq!(refusal(&alone, 2, now), (denied, "Walk: this job has only place 1".to_owned()));
     }
 
