@@ -491,6 +491,7 @@ impl VehicleShell {
             SimEvent::Freeze => tracing::info!("{now}: frozen"),
             SimEvent::Rewind { undone } => tracing::info!("{now}: rewound by {:.0} s", undone.s()),
             SimEvent::MoveToTask { task } => tracing::info!("{now}: moved to the start of task {task}"),
+            SimEvent::Walk { place } => tracing::info!("{now}: the inspector walks to place {place}"),
             SimEvent::BatteryEmpty => tracing::info!("{now}: battery empty"),
             SimEvent::Ended { reason } => tracing::info!("{now}: flight ended: {reason}"),
         }

@@ -248,6 +248,7 @@ impl Cockpit {
             Some(WindowAction::Map) => self.map = !self.map,
             Some(WindowAction::Path) => self.path = !self.path,
             Some(WindowAction::Ghost) => self.toggle_ghost(),
+            Some(WindowAction::Walk) => self.walk_to_next_place(),
             Some(WindowAction::Follow) => self.inspector_camera = InspectorCamera::default(),
             Some(WindowAction::Pause) => self.flow.pause(),
             Some(WindowAction::Restart) => self.flow.restart(),
@@ -271,6 +272,19 @@ impl Cockpit {
         let words = text!(language, "window-flight-ghost", words = ghost.words.as_str());
         self.ghost = !self.ghost;
         self.flow.show_notice(if self.ghost { words } else { text!(language, "window-flight-ghost-hidden") });
+    }
+
+    /// Sends the inspector to the next place.
+    fn walk_to_next_place(&mut self) {
+        let flight = self.threads.flight.as_ref();
+        let Some((flight, now)) = flight.and_then(|flight| Some((flight, flight.now()?))) else { return };
+        match flight.next_place(&now) {
+            Some(place) => self.send_to_pilot(PilotCommand::Walk(place)),
+            None => {
+                let words = text!(self.flow.language(), "window-flight-no-places");
+                self.flow.show_notice(words);
+            }
+        }
     }
 
     /// Sends the language of the window to `train` and the pilot thread.

@@ -8,6 +8,7 @@ use crate::io::log_file::LogFile;
 use spandrel_mavlink::telemetry::Timeline;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
+use spandrel_model::site::inspector_path::{InspectorPath, InspectorPosition};
 use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::ViewRect;
 use spandrel_view::ghost::{Ghost, GhostPath};
@@ -149,6 +150,20 @@ impl FlightView {
     /// Returns the current state to render.
     pub fn now(&self) -> Option<LiveMoment> {
         self.listener.live().moment(self.listener.wall(), &self.job.1)
+    }
+
+    /// Returns the inspector: over the ground of the scene, once it is ready.
+    pub fn inspector(&self, now: &LiveMoment) -> InspectorPosition {
+        self.panes().map_or_else(|| self.inspector_path(now).at(now.moment.at), |panes| panes.inspector(now))
+    }
+
+    /// Returns the number of the place to which the inspector walks next; `None` if the job has only one place.
+    pub fn next_place(&self, now: &LiveMoment) -> Option<u8> {
+        self.inspector_path(now).next_place(now.moment.at)
+    }
+
+    fn inspector_path(&self, now: &LiveMoment) -> InspectorPath {
+        InspectorPath::new(&self.job.0.ground_team).with_walks(now.site_changes.walks.clone(), None)
     }
 
     /// Advances from waiting to building to rendering as data arrives, and returns to waiting if the simulator starts

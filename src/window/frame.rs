@@ -5,7 +5,7 @@ use super::flight_view::FlightView;
 use super::job_pictures::JobLook;
 use super::panes::{PaneContent, ViewOptions};
 use super::pilot::{PilotCommand, PilotThread};
-use super::window_text::{WindowText, frozen, help, paint_flight, waiting};
+use super::window_text::{WindowText, frozen, help, paint_flight, waiting, walk};
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::png::png;
@@ -82,14 +82,13 @@ impl Cockpit {
             self.speaker.silence();
             return;
         };
-        let team = &flight.job.0.ground_team;
         let mut live = flight.listener.live();
         if self.speaker.is_on() {
             live.request_rotor_outputs();
         }
         self.speaker.set(SoundInputs {
             rotors_rad_s: live.rotors_rad_s(&flight.job.1),
-            distance_m: (now.moment.drone.pose.position_m - team.inspector_m).norm(),
+            distance_m: (now.moment.drone.pose.position_m - flight.inspector(now).feet_m).norm(),
             cues: live.feed().cues(now.moment.at, false),
             cue_texts: live.feed().cue_texts().clone(),
             style: self.flow.style(),
@@ -296,7 +295,9 @@ impl Cockpit {
         let latest = self.notices.iter().skip(self.notices.len().saturating_sub(most));
         let is_frozen = moment.is_some_and(|moment| moment.hud.is_frozen);
         let frozen = is_frozen.then(|| frozen(self.flow.key_names(), self.threads.pilot.is_some(), style.language));
-        let lines: Vec<String> = frozen.into_iter().chain(latest.map(|(words, _)| style.units.words(words))).collect();
+        let walk = moment.and_then(|now| walk(&flight.inspector(now), style.language));
+        let lines: Vec<String> =
+            frozen.into_iter().chain(walk).chain(latest.map(|(words, _)| style.units.words(words))).collect();
         let shows_help = style.text_scale == TextScale::Normal || lines.is_empty();
         WindowText {
             waiting: waiting(&flight.scene, moment.is_some(), &flight.listener, style.language),

@@ -7,6 +7,7 @@ use spandrel_model::frames::Enu;
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_model::site::inspector_path::InspectorPosition;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::{ViewKind, ViewRect, render_size_px};
@@ -124,7 +125,12 @@ impl ViewPanes {
 
     /// Returns the vector from the inspector to the aircraft in meters.
     pub fn inspector_to_aircraft(&self, now: &LiveMoment) -> spandrel_model::frames::Vec3<spandrel_model::frames::Enu> {
-        now.moment.drone.pose.position_m - self.job.scenario.ground_team.inspector_m
+        now.moment.drone.pose.position_m - self.inspector(now).feet_m
+    }
+
+    /// Returns the inspector.
+    pub fn inspector(&self, now: &LiveMoment) -> InspectorPosition {
+        self.job.site.inspector().at(now.moment.at)
     }
 
     /// Frees the textures registered with the window's painter.
@@ -144,8 +150,8 @@ impl ViewPanes {
         feed: &Feed,
         options: &ViewOptions,
     ) -> Result<Vec<PaneContent>, AppError> {
-        if self.job.site.traffic().closures() != &now.closures {
-            self.job.site = self.job.site.with_closures(now.closures.clone());
+        if !self.job.site.has_changes(&now.site_changes) {
+            self.job.site = self.job.site.with_changes(now.site_changes.clone());
         }
         let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
         display.style = options.style;

@@ -37,6 +37,8 @@ pub enum PilotCommand {
     Fly(SocketAddr),
     /// Disconnect from the vehicle.
     Disconnect,
+    /// Send the inspector to the place with this number.
+    Walk(u8),
     /// Pause or resume: no actions are sent while the simulation is paused.
     SetPaused(bool),
     /// Search for a controller again.
@@ -241,6 +243,7 @@ impl PilotLoop {
                     send_message(message_sender, text!(self.language, "window-controls-message-keyboard", note = why));
                 }
             }
+            PilotCommand::Walk(place) => self.link.request_walk(place, now),
             PilotCommand::SetPaused(stands) => self.paused = stands,
             PilotCommand::Disconnect => (self.vehicle, self.link) = (None, ControllerLink::default()),
             PilotCommand::FindController => self.controller.find_device(),

@@ -3,6 +3,7 @@
 use super::flight_view::SceneLoading;
 use super::listener::TelemetryListener;
 use super::panes::PaneContent;
+use spandrel_model::site::inspector_path::InspectorPosition;
 use spandrel_text::{Language, MessageId, message_id, text};
 use spandrel_view::arrange::TextAnchor;
 use spandrel_view::flow::KeyNames;
@@ -52,6 +53,12 @@ const VIEW_KEYS: MessageId = message_id!("window-flight-keys-view");
 /// Returns the text for a frozen flight: how to continue, if the window can fly the vehicle.
 pub fn frozen(names: &KeyNames, flies: bool, language: Language) -> String {
     if flies { names.fill(language, message_id!("window-flight-frozen-keys")) } else { text!(language, "window-flight-frozen") }
+}
+
+/// Returns where the inspector walks and for how long; `None` while the inspector stands.
+pub fn walk(inspector: &InspectorPosition, language: Language) -> Option<String> {
+    let seconds = format!("{:.0}", inspector.remaining_s.ceil());
+    inspector.walks().then(|| text!(language, "window-flight-walk", place = inspector.place, seconds = seconds))
 }
 
 /// Paints a flight: both views with their displays, and the window's texts.
@@ -119,6 +126,7 @@ mod tests {
     use super::*;
     use spandrel_clients::rc::keyboard::KeyBindings;
     use spandrel_mavlink::contract::lesson::LessonTask;
+    use spandrel_model::frames::Vec3;
     use spandrel_view::hud::lesson_words::how_to;
 
     #[test]
@@ -139,5 +147,20 @@ mod tests {
             // A binding that does not exist is in braces.
             assert!(texts.iter().all(|text| !text.contains('{')), "{texts:?}");
         }
+    }
+
+    #[test]
+    fn exact_walk_is_shown_until_the_arrival() {
+        let standing = InspectorPosition {
+            feet_m: Vec3::zero(),
+            forward: Vec3::new(1.0, 0.0, 0.0),
+            velocity_m_s: Vec3::zero(),
+            place: 2,
+            remaining_s: 0.0,
+        };
+        let walking = InspectorPosition { remaining_s: 34.2, ..standing };
+        assert_eq!(walk(&walking, Language::English).as_deref(), Some("Inspector: walking to place 2, 35 s"));
+        assert!(walk(&walking, Language::German).is_some_and(|words| words.contains("Standort 2")));
+        assert_eq!(walk(&standing, Language::English), None);
     }
 }

@@ -316,7 +316,7 @@ pub fn assess_log(
     let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
     // The flight contains all the data that scoring needs. Keeping the timeline as well would double the memory use.
     drop(timeline);
-    let survey = attention::with_flight_closures(build(scenario, seed), &flight);
+    let survey = attention::with_flight_changes(build(scenario, seed), &flight);
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: survey.as_ref() })?;
     Ok(AssessedSession { assessment, frames, seed })
 }

@@ -36,7 +36,7 @@ use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::scenario::{AfterCrash, Scenario};
 use spandrel_model::site::Site;
-use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::site::wind::WindField;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::{SensorSpec, Vehicle};
@@ -116,6 +116,11 @@ pub enum SimEvent {
         /// Number of the task, from 1.
         task: u32,
     },
+    /// The inspector begins to walk to another place.
+    Walk {
+        /// Number of the place, from 1.
+        place: u8,
+    },
     /// The battery is empty.
     BatteryEmpty,
     /// The flight has ended.
@@ -162,8 +167,8 @@ pub struct Sim {
     faults: Faults,
     file_jobs: FileJobScheduler,
     instructor_settings: InstructorSettings,
-    /// Times at which traffic stopped and resumed.
-    closures: BridgeClosures,
+    /// Bridge closures and walks of the inspector.
+    site_changes: SiteChanges,
     practice: PracticeControls,
     /// Number of parameter changes already applied to the environment.
     applied_changes: u64,
@@ -230,7 +235,7 @@ impl Sim {
             file_jobs: FileJobScheduler::default(),
             applied_changes: 0,
             instructor_settings: InstructorSettings { wind: None, loss: 0.0, delay: SimTime::ZERO, open: true },
-            closures: BridgeClosures::default(),
+            site_changes: SiteChanges::default(),
             practice: PracticeControls::default(),
             events: VecDeque::new(),
             digest: Sha256::new(),

@@ -1,7 +1,9 @@
-//! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the defects can be placed, and what its
-//! forms, levels and certification require. `spandrel check` and the scenario editor show the results.
+//! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the inspector can stand and walk at the
+//! places, whether the defects can be placed, and what its forms, levels and certification require. `spandrel check` and the scenario editor show the results.
 
-use spandrel_model::scenario::{self, Scenario, SiblingLoader, Task};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{self, Scenario, SiblingLoader, Task, places};
+use spandrel_model::site::walkable::MAX_HEIGHT_ERROR_M;
 use spandrel_model::site::{Site, defects};
 use spandrel_model::toml::Problem;
 use spandrel_model::vehicle::Vehicle;
@@ -57,6 +59,7 @@ impl ScenarioText<'_> {
 /// Checks a valid scenario: clearance along its paths, placement of its defects, and the requirements for certification.
 pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
     findings.problems.extend(clearance_problems(source, scenario, options));
+    findings.problems.extend(place_problems(source, scenario, options));
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
     findings.warnings.extend(repeated_paths(source, scenario));
     findings.notes.extend(certification_notes(source, scenario, options.aircraft));
@@ -167,6 +170,61 @@ fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &
     scenario.tasks.iter().enumerate().take_while(|_| (options.may_continue)()).filter_map(tight).collect()
 }
 
+/// Returns the problems of the places to which the inspector can walk, and of the ways between them in the order of their numbers.
+fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
+    let team = &scenario.ground_team;
+    if !team.can_walk() || !(options.may_continue)() {
+        return Vec::new();
+    }
+    let site = Site::without_defects(scenario);
+    let places: Vec<Vec3<Enu>> = team.inspector_places_m().collect();
+    let problem = |value: String, allowed: String, message: String| Problem {
+        file: source.file.to_owned(),
+        line: key_line_number(source.text, places::KEY),
+        key: format!("ground_team.{}", places::KEY),
+        location: format!("ground_team.{}", places::KEY),
+        value,
+        allowed,
+        message,
+    };
+    let standing = (1..).zip(&places).skip(1).filter_map(|(number, place)| {
+        let (allowed, message) = place_problem(&site, *place)?;
+        Some(problem(places::shown(*place), allowed, format!("place {number} {message}")))
+    });
+    let found: Vec<Problem> = standing.collect();
+    if !found.is_empty() {
+        return found;
+    }
+    // The window sends the inspector from each place to the next one, and from the last one to the first one.
+    let ways = (1..).zip(&places).zip((2..=places.len()).zip(&places[1..]).chain([(1, &places[0])]));
+    let blocked = ways.filter_map(|((from, from_m), (to, to_m))| {
+        let (obstacle, [east, north, _]) = site.way_obstacle(*from_m, *to_m).map(|(obstacle, at)| (obstacle, at.array()))?;
+        let message = format!("{} is on the way at east {east:.1} m, north {north:.1} m", obstacle.name());
+        Some(problem(format!("place {from} to place {to}"), "a free straight way over land".to_owned(), message))
+    });
+    blocked.collect()
+}
+
+/// Returns what is allowed, and what is wrong with a place.
+fn place_problem(site: &Site, place_m: Vec3<Enu>) -> Option<(String, String)> {
+    if let Some(obstacle) = site.place_obstacle(place_m) {
+        let allowed = "on land, clear of water, bridges, the landing pad and the truck".to_owned();
+        return Some((allowed, format!("is in or too close to {}", obstacle.name())));
+    }
+    let ground_m = site.ground_up_m(place_m.east(), place_m.north());
+    let over_m = place_m.up() - ground_m;
+    (over_m.abs() > MAX_HEIGHT_ERROR_M).then(|| {
+        let allowed = format!("up {ground_m:.2} ± {MAX_HEIGHT_ERROR_M} m at this point");
+        (allowed, format!("is {:.1} m {} the ground", over_m.abs(), if over_m > 0.0 { "above" } else { "below" }))
+    })
+}
+
+/// Returns the number of the first line that sets a key; 1 if there is none.
+fn key_line_number(text: &str, key: &str) -> usize {
+    let sets = |line: &str| line.split_once('=').is_some_and(|(name, _)| name.trim().rsplit('.').next() == Some(key));
+    text.lines().position(sets).map_or(1, |k| k + 1)
+}
+
 /// Returns a warning for each task whose path an earlier task has, too, such as a copied task that was not changed.
 fn repeated_paths(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String> {
     let tasks = &scenario.tasks;
@@ -209,7 +267,6 @@ fn task_line_numbers(text: &str) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spandrel_model::frames::{Enu, Vec3};
     use spandrel_model::{shipped, vehicle};
 
     const ALWAYS: &dyn Fn() -> bool = &|| true;
@@ -309,6 +366,43 @@ mod tests {
         assert!(problem.contains("interlayer") || problem.contains("task 3"), "{problem}");
         assert!(problem.contains("allowed: at least 15.50 m") && problem.contains("up "), "{problem}");
         assert_eq!(findings.problems[2].location, "tasks[2]");
+    }
+
+    #[test]
+    fn exact_places_without_room_for_a_person_are_reported() {
+        let base = shipped_text("two-bridges");
+        let start = base.find("places_m").unwrap();
+        let (before, rest) = base.split_at(start);
+        let rest = &rest[rest.find("\ntruck_m").unwrap()..];
+        let line = before.lines().count() + 1;
+        let problems = |list: &str| -> Vec<String> {
+            let text = format!("{before}places_m = {list}{rest}");
+            let found = scenario_findings("two-bridges", &text, &aircraft()).problems;
+            assert!(found.iter().all(|problem| problem.location == "ground_team.places_m"), "{found:?}");
+            found.iter().map(ToString::to_string).collect()
+        };
+        let land = "on land, clear of water, bridges, the landing pad and the truck";
+        let head = format!("two-bridges.toml:{line}: ground_team.places_m = ");
+        assert_eq!(problems("[[-124.0, 74.0, 4.95]]"), Vec::<String>::new());
+        assert_eq!(
+            problems("[[0.0, 78.0, 0.0], [-121.0, 84.0, 4.95]]"),
+            [
+                format!("{head}[0, 78, 0]: place 2 is in or too close to the water (allowed: {land})"),
+                format!("{head}[-121, 84, 4.95]: place 3 is in or too close to the truck (allowed: {land})"),
+            ]
+        );
+        let high = problems("[[-124.0, 74.0, 7.0]]");
+        assert!(high[0].contains("place 2 is 2.0 m above the ground (allowed: up 4.95 ± 0.5 m"), "{high:?}");
+        // At the anchorage of the suspension bridge, and beyond the edge of the terrain.
+        let others = problems("[[-115.0, 150.0, 6.0], [-410.0, 78.0, 60.0]]");
+        let names: Vec<bool> =
+            ["a bridge", "the edge of the terrain"].iter().zip(&others).map(|(name, words)| words.contains(name)).collect();
+        assert_eq!(names, [true; 2], "{others:?}");
+        // The straight way from place 1 leads over the landing pad.
+        let over_pad = problems("[[-106.0, 82.0, 4.95]]");
+        let words = format!("{head}place 1 to place 2: the landing pad is on the way at east -11");
+        assert!(over_pad.len() == 2 && over_pad[0].starts_with(&words), "{over_pad:?}");
+        assert!(over_pad[1].contains("place 2 to place 1"), "{over_pad:?}");
     }
 
     #[test]

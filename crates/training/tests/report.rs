@@ -65,6 +65,32 @@ fn exact_instructor_note_is_reported_separately_from_messages() {
     assert!(page.contains("instructor's notes") && page.contains("note: watch the pier") && page.contains("class=\"note-dot\""));
 }
 
+/// Inserts a walk of the inspector, as the vehicle sends it, after a share of a tape.
+fn with_walk(mut tape: Tape, share: f64, from_s: i32, places: i32) -> Tape {
+    let at = (share * tape.datagrams.len() as f64) as usize;
+    let rest = tape.datagrams.split_off(at);
+    tape.int("walk", 10_000 * from_s + places);
+    tape.datagrams.extend(rest);
+    tape
+}
+
+/// The slab side of the arch bridge is hidden from the pad. From place 3, most of it is in sight.
+#[test]
+fn exact_walk_of_the_inspector_changes_only_the_time_out_of_sight() {
+    let (tape, job) = (record_inspection(&two_bridges(), 240.0, 9), two_bridges());
+    let plain = review(&tape, &job);
+    let walked = review(&with_walk(tape, 0.1, 20, 13), &job);
+    assert_eq!((&walked.assessment, &walked.frames), (&plain.assessment, &plain.frames), "scores do not depend on walks");
+    let (before, after) = (plain.out_of_sight, walked.out_of_sight);
+    assert!(before.total_s > 0.0 && after.total_s != before.total_s, "{before:?}, {after:?}");
+    let inspector = walked.site.inspector();
+    assert_eq!(inspector.at(walked.frames.last().unwrap().time).feet_m, job.ground_team.places_m[1]);
+    let (plain, walked) = (page::session(&plain), page::session(&walked));
+    let drawn = |page: &str| (page.matches("class=\"place\"").count(), page.matches("walks to place 3").count());
+    assert_eq!((drawn(&plain), drawn(&walked)), ((4, 0), (4, 1)));
+    assert!(walked.contains("Walks of the inspector: to place 3 at 0:") && !plain.contains("Walks of the inspector"));
+}
+
 #[test]
 fn exact_marks_are_on_the_timeline_and_change_nothing_else() {
     let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());

@@ -5,7 +5,7 @@ use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::ghost::GhostView;
 use super::hud::lesson_words::how_to;
-use super::hud::{DisplayStyle, DrawItem, Hud, LessonDisplay, MapPath, Obstacles, WayBack, marker};
+use super::hud::{DisplayStyle, DrawItem, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};
 use super::scene::{DronePose, Scene};
@@ -102,7 +102,7 @@ impl Stage<'_> {
         Shot { finish: SensorResponse::camera(shot.finish.exposure, Some(before)), ..shot }
     }
 
-    /// Returns the shot as seen by the inspector, who stands at the pad and looks at the aircraft.
+    /// Returns the shot as seen by the inspector, who looks at the aircraft.
     #[must_use]
     pub fn inspector(&self, moment: &SceneMoment, size_px: (u32, u32)) -> Shot {
         self.inspector_view(&InspectorCamera::default(), moment, size_px, &mut ExposureMeter::default())
@@ -117,7 +117,7 @@ impl Stage<'_> {
         size_px: (u32, u32),
         eyes: &mut ExposureMeter,
     ) -> Shot {
-        let stands = self.scenario.ground_team.inspector_m;
+        let stands = self.site.inspector().at(moment.at).feet_m;
         let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
         self.eye_shot(gaze.eye(stands, moment.drone.pose.position_m, aspect), moment, size_px, eyes)
     }
@@ -326,6 +326,10 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         }),
         way_back: way_back(stage, moment, feed, held),
         pad_m,
+        inspector: scenario.ground_team.can_walk().then(|| InspectorMarks {
+            position_m: stage.site.inspector().at(at).feet_m,
+            places_m: scenario.ground_team.inspector_places_m().collect(),
+        }),
         guidance: feed.guidance(at),
         lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
             how: how_to(status.task, Language::default(), &|binding| format!("{{{binding}}}")),

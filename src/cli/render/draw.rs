@@ -105,7 +105,7 @@ fn render_session(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pic
     let (first, last) = recorded.span();
     let at = sim_time_arg("at", args.at.unwrap_or(0.5 * (first.s() + last.s())))?;
     let moment = recorded.moment(at)?;
-    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_closures(recorded.closure_times());
+    let drawing = SceneDrawing::new(scenario, vehicle, recorded.seed(), quality, at)?.with_changes(recorded.site_changes());
     let stage = drawing.stage(scenario, vehicle);
     let mut views = Vec::new();
     if args.view != "camera" {

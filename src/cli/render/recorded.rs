@@ -10,7 +10,7 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use spandrel_monitor::assessment::flight_and_prior_runs;
@@ -109,9 +109,9 @@ impl RecordedFlight {
         self.scenario().seed.or(self.flight.seeds.all().first().map(|said| said.2)).unwrap_or_default()
     }
 
-    /// Returns the times when bridges were closed to traffic.
-    pub fn closure_times(&self) -> BridgeClosures {
-        attention::bridge_closures(&self.flight)
+    /// Returns the bridge closures and the inspector's walks.
+    pub fn site_changes(&self) -> SiteChanges {
+        attention::site_changes(&self.flight)
     }
 
     /// Returns the poses at this time in the flight.

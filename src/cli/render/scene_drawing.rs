@@ -4,7 +4,7 @@ use crate::errors::AppError;
 use crate::io::progress::ProgressLog;
 use spandrel_model::scenario::{PlacedDefect, Scenario};
 use spandrel_model::site::Site;
-use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_view::gpu::{Gpu, Overlay, Renderer};
@@ -51,9 +51,9 @@ impl SceneDrawing {
         Ok(Self { gpu, site, scene, quality })
     }
 
-    /// Sets the bridge closures to those of a recorded flight.
-    pub fn with_closures(self, closure_times: BridgeClosures) -> Self {
-        Self { site: self.site.with_closures(closure_times), ..self }
+    /// Sets the bridge closures and the inspector's walks to those of a recorded flight.
+    pub fn with_changes(self, changes: SiteChanges) -> Self {
+        Self { site: self.site.with_changes(changes), ..self }
     }
 
     /// Returns the static parts of the scene.

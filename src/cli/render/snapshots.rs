@@ -34,7 +34,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         return Ok(());
     }
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, taken[0].time)?;
-    let drawing = drawing.with_closures(recorded.closure_times());
+    let drawing = drawing.with_changes(recorded.site_changes());
     let camera = &recorded.vehicle().camera;
     let most = drawing.gpu.software.then_some(MAX_SOFTWARE_PIXELS);
     let size_px = match asked {

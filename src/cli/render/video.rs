@@ -86,7 +86,7 @@ fn render(
     let (from, to) = span(&recorded)?;
     let size_px = largest_even_size_px(within_px, recorded.vehicle().camera.aspect());
     let drawing = SceneDrawing::new(recorded.scenario(), recorded.vehicle(), recorded.seed(), preset, from)?;
-    let drawing = drawing.with_closures(recorded.closure_times());
+    let drawing = drawing.with_changes(recorded.site_changes());
     let bits_s = BITS_PER_PIXEL * f64::from(size_px.0) * f64::from(size_px.1) * args.fps;
     let mut encoder = H264Encoder::new(size_px, args.fps, bits_s as u32, (KEY_FRAME_INTERVAL_S * args.fps).ceil() as u32)?;
     let (mut film, head) = Mp4Writer::new(size_px, args.fps)?;

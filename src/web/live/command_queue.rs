@@ -4,6 +4,7 @@
 use super::instructor_command::{CommandOutcome, InstructorCommand, InstructorReport, Rejection};
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::practice::{PracticeRequest, request_number};
+use spandrel_mavlink::contract::walk::WalkRequest;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MavCmd, MavMessage, MavParamError, MavParamType, MavResult, PARAM_SET_DATA};
 use spandrel_mavlink::{instructor_note, station};
 use spandrel_monitor::sidecar::MONITOR_COMPONENT_ID as MONITOR;
@@ -28,6 +29,7 @@ enum CommandStep {
     Parameter(&'static str, ParamNumber),
     Inject { unit: f32, kind: f32 },
     Practice(PracticeRequest),
+    Walk(WalkRequest),
     Note(String),
 }
 
@@ -89,6 +91,7 @@ fn steps(command: &InstructorCommand) -> Vec<CommandStep> {
             vec![CommandStep::Parameter("SIM_TRAFFIC", ParamNumber::Integer(i32::from(*open)))]
         }
         InstructorCommand::Practice(request) => vec![CommandStep::Practice(*request)],
+        InstructorCommand::Walk(request) => vec![CommandStep::Walk(*request)],
         InstructorCommand::Failure { unit, fails } => {
             let kind = if *fails { FAILURE_TYPE_OFF } else { FAILURE_TYPE_OK };
             let inject = CommandStep::Inject { unit: unit.code(), kind };
@@ -178,6 +181,11 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), Rejecti
         {
             result(ack.result)
         }
+        (CommandStep::Walk(request), MavMessage::COMMAND_ACK(ack))
+            if ack.command == request.command().0 && ours(ack.target_system, ack.target_component) =>
+        {
+            result(ack.result)
+        }
         _ => None,
     }
 }
@@ -223,11 +231,15 @@ fn frame(step: &CommandStep, encoder: &mut Encoder, system: u8, (cast, first_sen
         }
         CommandStep::Practice(request) => {
             let number = request_number(u64::try_from(first_sent.as_millis()).unwrap_or_default());
-            let (command, params) = request.command(number);
-            encoder.encode(&MavMessage::COMMAND_LONG(station::command(system, 1, command, params)))
+            request_frame(request.command(number), encoder, system)
         }
+        CommandStep::Walk(request) => request_frame(request.command(), encoder, system),
         CommandStep::Note(text) => instructor_note::encode(encoder, system, MONITOR, text),
     }
+}
+
+fn request_frame((command, params): (MavCmd, [f32; 7]), encoder: &mut Encoder, system: u8) -> Vec<u8> {
+    encoder.encode(&MavMessage::COMMAND_LONG(station::command(system, 1, command, params)))
 }
 
 #[cfg(test)]
@@ -405,6 +417,20 @@ mod tests {
             other => panic!("{other:?}"),
         };
         assert_eq!([number(4_000), number(4_500)], [4_001.0, 4_001.0]);
+    }
+
+    #[test]
+    fn wire_walk_of_the_inspector_is_a_command() {
+        let mut commands = CommandQueue::default();
+        commands.push(InstructorCommand::Walk(WalkRequest { place: 3 }));
+        let (frames, _) = sent(&mut commands, 0);
+        let Some(MavMessage::COMMAND_LONG(command)) = &frames[0].message else { panic!("{frames:?}") };
+        assert_eq!((command.command, command.param1), (MavCmd::MAV_CMD_USER_4, 3.0));
+        let (target_system, target_component) = (INSTRUCTOR_SYSTEM, INSTRUCTOR_COMPONENT);
+        let (command, result) = (MavCmd::MAV_CMD_USER_4, MavResult::MAV_RESULT_ACCEPTED);
+        let ack = COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::default() };
+        assert_eq!(commands.handle_frame(&received_frame(&MavMessage::COMMAND_ACK(ack))), None);
+        assert_eq!(sent(&mut commands, 1).1, ["instructor: the inspector walks to place 3"]);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::web::response::{HandlerResult, WebError, WebResponse};
 use crate::web::state::ServerState;
 use serde_json::json;
 use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, MAX_TASK, PracticeRequest};
+use spandrel_mavlink::contract::walk::{MAX_PLACE, WalkRequest};
 use spandrel_text::text;
 use spandrel_training::web::live::{self as pages, FailingUnit};
 
@@ -24,6 +25,12 @@ fn task_number(request: &WebRequest) -> Result<u32, WebError> {
     let language = request.visitor.language;
     let allowed = || WebError::not_in_range(language, "task", 1, MAX_TASK);
     number.filter(|number| (1..=MAX_TASK).contains(number)).ok_or_else(allowed)
+}
+
+fn place_number(request: &WebRequest) -> Result<u8, WebError> {
+    let number: Option<u8> = request.required_field("place")?.parse().ok();
+    let allowed = || WebError::not_in_range(request.visitor.language, "place", 1, u32::from(MAX_PLACE));
+    number.filter(|number| (1..=MAX_PLACE).contains(number)).ok_or_else(allowed)
 }
 
 fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
@@ -49,12 +56,13 @@ fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
             "move" => PracticeRequest::MoveToTask { task: task_number(request)? },
             _ => return Err(WebError::unknown(language, "do", "freeze, resume, rewind, move")),
         })),
+        "walk" => Ok(InstructorCommand::Walk(WalkRequest { place: place_number(request)? })),
         "failure" => {
             let unit = FailingUnit::from_key(request.required_field("unit")?);
             let unit = unit.ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown", field = "unit")))?;
             let fails = request.required_field("fails")? == "yes";
             Ok(InstructorCommand::Failure { unit, fails })
         }
-        _ => Err(WebError::unknown(language, "act", "note, wind, traffic, practice, failure")),
+        _ => Err(WebError::unknown(language, "act", "note, wind, traffic, practice, walk, failure")),
     }
 }

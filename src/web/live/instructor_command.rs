@@ -1,6 +1,7 @@
 //! An instructor's commands and their outcomes, in words.
 
 use spandrel_mavlink::contract::practice::PracticeRequest;
+use spandrel_mavlink::contract::walk::WalkRequest;
 use spandrel_text::{Language, text};
 use spandrel_training::web::live::FailingUnit;
 
@@ -23,6 +24,8 @@ pub enum InstructorCommand {
     },
     /// Freezes, resumes or rewinds a practice flight.
     Practice(PracticeRequest),
+    /// Sends the inspector to another place.
+    Walk(WalkRequest),
     /// Injects or clears a failure.
     Failure {
         /// The component.
@@ -43,6 +46,7 @@ impl InstructorCommand {
             Self::Traffic { open: true } => text!(language, "live-report-bridges-open"),
             Self::Traffic { open: false } => text!(language, "live-report-bridges-closed"),
             Self::Practice(request) => practice_words(*request, language),
+            Self::Walk(WalkRequest { place }) => text!(language, "live-report-walk", place = place.to_string()),
             Self::Failure { unit, fails: true } => {
                 text!(language, "live-report-fails", unit = unit.name_in_sentence(language))
             }

@@ -65,6 +65,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             pad_heading_deg: 0.0,
             pad_half_m: 1.0,
             inspector_m: Vec3::new(-3.0, 0.0, 0.0),
+            places_m: Vec::new(),
             truck_m: Vec3::new(-6.0, 0.0, 0.0),
             truck_heading_deg: 0.0,
             home_radius_m: 5.0,

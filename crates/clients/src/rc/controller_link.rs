@@ -7,6 +7,7 @@ use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest, request_number};
+use spandrel_mavlink::contract::walk::WalkRequest;
 use spandrel_mavlink::dialect::{
     COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
 };
@@ -61,10 +62,30 @@ pub struct LastReported {
     pub frozen: bool,
 }
 
+/// Purpose of a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// An action of the user.
+    Action(ControllerAction),
+    /// A walk of the inspector.
+    Walk,
+    /// A request of streams.
+    Streams,
+}
+
+impl Purpose {
+    fn title(self, language: Language) -> String {
+        match self {
+            Self::Action(action) => action.short_title(language),
+            Self::Walk => text!(language, "keys-short-walk"),
+            Self::Streams => text!(language, "keys-message-telemetry"),
+        }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 struct PendingCommand {
-    /// The user's action; `None` for a request of streams.
-    action: Option<ControllerAction>,
+    purpose: Purpose,
     command: COMMAND_LONG_DATA,
     sent: u8,
     next: SimTime,
@@ -187,12 +208,12 @@ impl ControllerLink {
                 // Updates the state immediately, because the next heartbeat may be a second away.
                 self.vehicle.armed = done.command.param1 == 1.0;
             }
-            let known = done.action.is_none() && std::mem::replace(&mut self.streams_reported, true);
+            let known = done.purpose == Purpose::Streams && std::mem::replace(&mut self.streams_reported, true);
             if result != MavResult::MAV_RESULT_ACCEPTED && !known {
                 if command == MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW {
                     self.aim = None;
                 }
-                self.push_message(done.action, rejection_text(command, result, self.language));
+                self.push_message(done.purpose, rejection_text(command, result, self.language));
             }
         }
     }
@@ -200,7 +221,7 @@ impl ControllerLink {
     /// Requests an action from the vehicle. Queues a message if no vehicle is connected.
     pub fn request_action(&mut self, action: ControllerAction, now: SimTime) {
         let Some(system) = self.vehicle.system else {
-            return self.push_message(Some(action), text!(self.language, "keys-message-no-vehicle"));
+            return self.push_message(Purpose::Action(action), text!(self.language, "keys-message-no-vehicle"));
         };
         if action == ControllerAction::TakeOff && !self.vehicle.armed && !self.is_arming() {
             self.messages.push_back(match &self.arm_key {
@@ -210,15 +231,27 @@ impl ControllerLink {
             return;
         }
         let (component, command, params) = self.command_for(action, now);
-        let command = station::command(system, component, command, params);
+        self.queue(Purpose::Action(action), station::command(system, component, command, params), now);
+    }
+
+    /// Sends the inspector to a place. Queues a message if no vehicle is connected.
+    pub fn request_walk(&mut self, place: u8, now: SimTime) {
+        let Some(system) = self.vehicle.system else {
+            return self.push_message(Purpose::Walk, text!(self.language, "keys-message-no-vehicle"));
+        };
+        let (command, params) = WalkRequest { place }.command();
+        self.queue(Purpose::Walk, station::command(system, AUTOPILOT_COMPONENT, command, params), now);
+    }
+
+    fn queue(&mut self, purpose: Purpose, command: COMMAND_LONG_DATA, now: SimTime) {
         // A newer command of the same kind replaces the older one.
         self.pending.retain(|p| p.command.command != command.command);
-        self.pending.push(PendingCommand { action: Some(action), command, sent: 0, next: now });
+        self.pending.push(PendingCommand { purpose, command, sent: 0, next: now });
     }
 
     /// Checks whether an arm command is awaiting acknowledgment.
     fn is_arming(&self) -> bool {
-        self.pending.iter().any(|p| p.action == Some(ControllerAction::Arm))
+        self.pending.iter().any(|p| p.purpose == Purpose::Action(ControllerAction::Arm))
     }
 
     /// Sets the name of the arm key for the hint that appears when the user requests takeoff while disarmed.
@@ -243,7 +276,7 @@ impl ControllerLink {
             let params = [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0];
             let command = station::command(system, AUTOPILOT_COMPONENT, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, params);
             self.pending.retain(|p| p.command != command);
-            self.pending.push(PendingCommand { action: None, command, sent: 0, next: now });
+            self.pending.push(PendingCommand { purpose: Purpose::Streams, command, sent: 0, next: now });
         }
     }
 
@@ -337,8 +370,8 @@ impl ControllerLink {
             }
             if p.sent == MAX_TRANSMISSIONS {
                 // Stream requests are repeated anyway, and a vehicle that has responded before may simply be paused.
-                if p.action.is_some() || !std::mem::replace(&mut self.streams_reported, true) {
-                    self.push_message(p.action, text!(self.language, "keys-message-no-response"));
+                if p.purpose != Purpose::Streams || !std::mem::replace(&mut self.streams_reported, true) {
+                    self.push_message(p.purpose, text!(self.language, "keys-message-no-response"));
                 }
                 return false;
             }
@@ -351,10 +384,9 @@ impl ControllerLink {
         self.pending = pending;
     }
 
-    fn push_message(&mut self, action: Option<ControllerAction>, result: String) {
+    fn push_message(&mut self, purpose: Purpose, result: String) {
         let language = self.language;
-        let action = action.map_or_else(|| text!(language, "keys-message-telemetry"), |action| action.short_title(language));
-        self.messages.push_back(text!(language, "keys-message", action = action, result = result));
+        self.messages.push_back(text!(language, "keys-message", action = purpose.title(language), result = result));
     }
 
     fn send(&mut self, message: &MavMessage) {
@@ -488,6 +520,31 @@ mod tests {
         answer(&mut armed, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, MavResult::MAV_RESULT_ACCEPTED);
         armed.request_action(ControllerAction::TakeOff, at(0.1));
         assert_eq!((take_offs(&sent(&mut armed, 0.1, 0.2)), armed.poll_message()), (1, None));
+    }
+
+    #[test]
+    fn wire_walk_is_requested_until_it_is_answered() {
+        let walks = |messages: &[MavMessage]| -> Vec<f32> {
+            let place = |m: &MavMessage| match m {
+                MavMessage::COMMAND_LONG(c) if c.command == MavCmd::MAV_CMD_USER_4 => Some(c.param1),
+                _ => None,
+            };
+            messages.iter().filter_map(place).collect()
+        };
+        let mut link = known();
+        link.request_walk(2, at(0.0));
+        link.request_walk(3, at(0.0));
+        assert_eq!(walks(&sent(&mut link, 0.0, 0.7)), [3.0; 2], "the newer request replaces the older one");
+        answer(&mut link, MavCmd::MAV_CMD_USER_4, MavResult::MAV_RESULT_ACCEPTED);
+        assert_eq!((walks(&sent(&mut link, 0.7, 2.0)), link.poll_message()), (Vec::new(), None));
+        link.request_walk(9, at(2.0));
+        sent(&mut link, 2.0, 2.1);
+        answer(&mut link, MavCmd::MAV_CMD_USER_4, MavResult::MAV_RESULT_DENIED);
+        let denied = link.poll_message().unwrap();
+        assert!(denied.starts_with("walk: "), "{denied}");
+        let mut alone = ControllerLink::default();
+        alone.request_walk(2, at(0.0));
+        assert!(alone.poll_message().is_some_and(|words| words.starts_with("walk: ")), "no vehicle");
     }
 
     #[test]

@@ -107,6 +107,8 @@ pub enum WindowAction {
     Path,
     /// Toggles the ghost of an earlier flight.
     Ghost,
+    /// Sends the inspector to the next place.
+    Walk,
     /// Makes the inspector view follow the aircraft again.
     Follow,
     /// Turns the inspector view left.
@@ -137,6 +139,7 @@ impl WindowAction {
             Self::Map => text!(language, "keys-map"),
             Self::Path => text!(language, "keys-path"),
             Self::Ghost => text!(language, "keys-ghost"),
+            Self::Walk => text!(language, "keys-walk"),
             Self::Follow => text!(language, "keys-follow"),
             Self::LookLeft => text!(language, "keys-look-left"),
             Self::LookRight => text!(language, "keys-look-right"),
@@ -151,11 +154,12 @@ impl WindowAction {
     }
 }
 
-const WINDOW_BINDINGS: [(&str, WindowAction, &str); 14] = [
+const WINDOW_BINDINGS: [(&str, WindowAction, &str); 15] = [
     ("swap", WindowAction::Swap, "tab"),
     ("map", WindowAction::Map, "m"),
     ("path", WindowAction::Path, "v"),
     ("ghost", WindowAction::Ghost, "g"),
+    ("walk", WindowAction::Walk, "e"),
     ("follow", WindowAction::Follow, "f"),
     ("look_left", WindowAction::LookLeft, ","),
     ("look_right", WindowAction::LookRight, "."),
@@ -428,7 +432,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
 
 /// Functions that key files of earlier versions do not contain. Where such a file uses their default for something else, they give
 /// way.
-const LATER_FUNCTIONS: [&str; 3] = ["freeze", "rewind", "ghost"];
+const LATER_FUNCTIONS: [&str; 4] = ["freeze", "rewind", "ghost", "walk"];
 
 /// Returns the usual key, or the first free character if it is taken, and marks it as taken.
 fn free_key(usual: &str, name: &'static str, taken: &mut BTreeMap<String, &'static str>) -> String {
@@ -604,6 +608,9 @@ mod tests {
         let told = KeyBindings::read("keys.toml", "format = 1\n[sound]\nvolume = 7\nbells = true\n").unwrap_err().to_string();
         assert!(told.contains("keys.toml:3") && told.contains("0 to 1") && told.contains("bells"), "{told}");
         assert_eq!((board.keys().window_action("Tab"), board.keys().window_action("w")), (Some(WindowAction::Swap), None));
+        assert_eq!(board.keys().window_action("E"), Some(WindowAction::Walk));
+        let taken = KeyBindings::read("keys.toml", "format = 1\n[window]\nmap = \"e\"\n").unwrap();
+        assert_eq!((taken.window_action("e"), taken.of("walk")), (Some(WindowAction::Map), Some("c")), "it gives way");
         let told =
             KeyBindings::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
         assert!(told.contains("already bound to up") && told.contains("fly"), "{told}");

@@ -12,6 +12,7 @@
 //! | [`cue`] | bit flags of the monitor's cues |
 //! | [`guidance`] | the next step of the job and the way to it |
 //! | [`practice`] | requests that are allowed in practice only: freeze, resume, rewind |
+//! | [`walk`] | request that the inspector walks to another place |
 //! | [`modes`] | flight modes of PX4 and ArduCopter: name and control source |
 //! | [`sticks`] | conversion of stick positions |
 //! | [`continuity`] | detection of restarts and respawns |
@@ -27,6 +28,7 @@ pub mod named_values;
 pub mod practice;
 pub mod sticks;
 pub mod truth;
+pub mod walk;
 
 /// Interface version, incremented with every change that an older vehicle or monitor would misinterpret.
 pub const VERSION: u32 = 1;

@@ -26,6 +26,9 @@ pub enum NamedValue {
     /// `traffic`: time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     /// Sent on change, and every 5 s after the first closing.
     Traffic(i32),
+    /// `walk`: a walk of the inspector: its start in 1/100 s since simulation start, followed by two decimal digits for the place that
+    /// it starts from (0: on the way) and the one that it leads to. Sent on change, and every 5 s after the first walk.
+    Walk(i32),
     /// `seed`: session seed; the 32-bit field is interpreted as unsigned. Sent every 5 s.
     Seed(u32),
     /// `scn_crc`: CRC-32 of the active scenario. Sent every 5 s.
@@ -53,6 +56,7 @@ impl NamedValue {
             Self::Rewinds(_) => "rewinds",
             Self::Frozen(_) => "frozen",
             Self::Traffic(_) => "traffic",
+            Self::Walk(_) => "walk",
             Self::Seed(_) => "seed",
             Self::ScenarioCrc(_) => "scn_crc",
             Self::ClearanceM(_) => "clearance",
@@ -79,6 +83,7 @@ impl NamedValue {
             | Self::Freezes(value)
             | Self::Rewinds(value)
             | Self::Traffic(value)
+            | Self::Walk(value)
             | Self::Cues(value) => int(time_boot_ms, name, value),
             Self::Frozen(on) => int(time_boot_ms, name, i32::from(on)),
             Self::Seed(value) | Self::ScenarioCrc(value) => int(time_boot_ms, name, value.cast_signed()),
@@ -108,6 +113,7 @@ impl NamedValue {
             "rewinds" => Self::Rewinds(value),
             "frozen" => Self::Frozen(value != 0),
             "traffic" => Self::Traffic(value),
+            "walk" => Self::Walk(value),
             "seed" => Self::Seed(value.cast_unsigned()),
             "scn_crc" => Self::ScenarioCrc(value.cast_unsigned()),
             "cues" => Self::Cues(value),
@@ -153,6 +159,7 @@ mod tests {
             NamedValue::Rewinds(2),
             NamedValue::Frozen(true),
             NamedValue::Traffic(-95_000),
+            NamedValue::Walk(123_412),
             NamedValue::Seed(u32::MAX),
             NamedValue::ScenarioCrc(0xC0FF_EE00),
             NamedValue::ClearanceM(2.25),

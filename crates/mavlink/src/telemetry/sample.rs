@@ -50,6 +50,8 @@ pub enum SampleValue {
     Frozen(bool),
     /// Time at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     Traffic(i32),
+    /// Code of a walk of the inspector.
+    Walk(i32),
     /// Session seed.
     Seed(u64),
     /// CRC-32 of the active scenario.
@@ -281,6 +283,7 @@ fn stored_value(named: NamedValue) -> Option<SampleValue> {
         NamedValue::Rewinds(count) => SampleValue::Rewinds(count),
         NamedValue::Frozen(on) => SampleValue::Frozen(on),
         NamedValue::Traffic(code) => SampleValue::Traffic(code),
+        NamedValue::Walk(code) => SampleValue::Walk(code),
         NamedValue::Seed(seed) => SampleValue::Seed(u64::from(seed)),
         NamedValue::ScenarioCrc(crc) => SampleValue::ScenarioCrc(crc),
         NamedValue::ClearanceM(meters) => SampleValue::Clearance(meters),

@@ -371,6 +371,8 @@ pub struct Flight {
     pub rewinds: Signal<i32>,
     /// Times at which the bridges were closed to traffic (negative) or reopened, ms since simulation start.
     pub traffic: Signal<i32>,
+    /// Codes of the inspector's walks.
+    pub walks: Signal<i32>,
     /// Distance to the nearest surface, m.
     pub clearance: Signal<f64>,
     /// Gimbal pitch relative to the horizon, rad, up positive.
@@ -408,6 +410,7 @@ impl Flight {
             // While the flight is frozen, no time passes that a flight could contain.
             SampleValue::Frozen(_) => {}
             SampleValue::Traffic(v) => self.traffic.push(time, order, v),
+            SampleValue::Walk(v) => self.walks.push(time, order, v),
             SampleValue::Seed(v) => self.seeds.push(time, order, v),
             SampleValue::ScenarioCrc(v) => self.scenario_crcs.push(time, order, v),
             SampleValue::Clearance(v) => self.clearance.push(time, order, v),
@@ -440,6 +443,7 @@ impl Flight {
         self.freezes.sort();
         self.rewinds.sort();
         self.traffic.sort();
+        self.walks.sort();
         self.clearance.sort();
         self.gimbal.sort();
         self.field_of_view.sort();

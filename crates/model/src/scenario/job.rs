@@ -123,8 +123,10 @@ pub struct GroundTeam {
     pub pad_heading_deg: f64,
     /// Half the side length of the square pad, m.
     pub pad_half_m: f64,
-    /// Position of the inspector's feet, m (contact type: person).
+    /// Position of the inspector's feet at the start, m (contact type: person). It is the inspector's place 1.
     pub inspector_m: Vec3<Enu>,
+    /// Further places to which the inspector can walk, from place 2, positions of the feet, m.
+    pub places_m: Vec<Vec3<Enu>>,
     /// Center of the truck's footprint on the ground, m (contact type: vehicle).
     pub truck_m: Vec3<Enu>,
     /// Truck heading, degrees clockwise from north.
@@ -137,10 +139,15 @@ pub struct GroundTeam {
 pub const INSPECTOR_EYE_HEIGHT_M: f64 = 1.65;
 
 impl GroundTeam {
-    /// Returns the position of the inspector's eyes, m.
+    /// Returns all places of the inspector's feet in the order of their numbers, m. There is at least one.
+    pub fn inspector_places_m(&self) -> impl Iterator<Item = Vec3<Enu>> + Clone + '_ {
+        std::iter::once(self.inspector_m).chain(self.places_m.iter().copied())
+    }
+
+    /// Returns whether there is another place than the first one.
     #[must_use]
-    pub fn inspector_eye_m(&self) -> Vec3<Enu> {
-        self.inspector_m + Vec3::new(0.0, 0.0, INSPECTOR_EYE_HEIGHT_M)
+    pub fn can_walk(&self) -> bool {
+        !self.places_m.is_empty()
     }
 }
 

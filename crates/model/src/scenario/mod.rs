@@ -9,6 +9,7 @@ pub mod edit;
 mod forms;
 mod job;
 mod lesson;
+pub mod places;
 mod point;
 mod read;
 mod resolve;

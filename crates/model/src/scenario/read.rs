@@ -214,15 +214,19 @@ fn parse_heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
 
 fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {
     let mut s = r.section(root, "ground_team");
-    let team = GroundTeam {
+    let before = r.problems.len();
+    let mut team = GroundTeam {
         pad_m: point(r, &mut s, "pad_m", None),
         pad_heading_deg: r.number(&mut s, "pad_heading_deg", (0.0, 360.0), Some(0.0)),
         pad_half_m: r.number(&mut s, "pad_half_m", (0.5, 5.0), Some(1.0)),
         inspector_m: point(r, &mut s, "inspector_m", None),
+        places_m: Vec::new(),
         truck_m: point(r, &mut s, "truck_m", None),
         truck_heading_deg: r.number(&mut s, "truck_heading_deg", (0.0, 360.0), Some(0.0)),
         home_radius_m: r.number(&mut s, "home_radius_m", (1.0, 50.0), Some(5.0)),
     };
+    let is_valid = r.problems.len() == before;
+    team.places_m = super::places::read(r, &mut s, is_valid.then_some(&team));
     r.finish(&s);
     team
 }

@@ -201,6 +201,7 @@ mod tests {
                 pad_heading_deg: 0.0,
                 pad_half_m: 2.0,
                 inspector_m: Vec3::new(-156.0, 100.0, 2.0),
+                places_m: Vec::new(),
                 truck_m: Vec3::new(-165.0, 100.0, 2.0),
                 truck_heading_deg: 0.0,
                 home_radius_m: 5.0,

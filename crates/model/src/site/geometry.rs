@@ -92,6 +92,12 @@ impl Geometry {
         self.shapes.get(member)
     }
 
+    /// Returns the center of the landing pad and half its side length, m.
+    #[must_use]
+    pub fn pad_square_m(&self) -> (Vec3<Enu>, f64) {
+        (self.pad_m, self.pad_half_m)
+    }
+
     fn is_over_pad(&self, p: Vec3<Enu>) -> bool {
         (p.east() - self.pad_m.east()).abs() <= self.pad_half_m && (p.north() - self.pad_m.north()).abs() <= self.pad_half_m
     }

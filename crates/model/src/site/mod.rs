@@ -5,6 +5,7 @@
 pub mod boxes;
 pub mod bridge_closures;
 mod camera_pose;
+pub mod changes;
 pub mod close_up;
 pub mod convex;
 pub mod defects;
@@ -14,6 +15,8 @@ mod faces;
 pub mod geometry;
 pub mod gltf;
 pub mod heights;
+pub mod inspector_path;
+pub mod inspector_walks;
 mod lane_track;
 pub mod light;
 pub mod movers;
@@ -26,6 +29,7 @@ pub mod terrain;
 pub mod traffic;
 pub mod turbulence;
 pub mod visibility;
+pub mod walkable;
 pub mod wind;
 
 pub use camera_pose::CameraPose;
@@ -37,9 +41,10 @@ use crate::geodesy::LocalPlane;
 use crate::scenario::bridges::{Lane, Member};
 use crate::scenario::{DefectSpec, PlacedDefect, Scenario, Task};
 use crate::vehicle::{Camera, Lamp};
-use bridge_closures::BridgeClosures;
+use changes::SiteChanges;
 use dynamics::{Dynamics, StaticQueries};
 use geometry::Geometry;
+use inspector_path::InspectorPath;
 use std::sync::Arc;
 
 /// A job's site. It is immutable after construction; the positions of moving objects are a function of time.
@@ -121,12 +126,24 @@ impl Site {
         &self.dynamics.traffic
     }
 
-    /// Returns a copy of the site with other bridge closures. Both share the static geometry.
+    /// Returns a copy of the site with other bridge closures and walks. Both share the static geometry.
     #[must_use]
-    pub fn with_closures(&self, closures: BridgeClosures) -> Self {
+    pub fn with_changes(&self, changes: SiteChanges) -> Self {
         let mut other = self.clone();
-        other.dynamics.traffic.set_closures(closures);
+        other.dynamics.traffic.set_changes(changes, &|east_m, north_m| self.ground_up_m(east_m, north_m));
         other
+    }
+
+    /// Returns whether the site has these bridge closures and walks.
+    #[must_use]
+    pub fn has_changes(&self, changes: &SiteChanges) -> bool {
+        self.dynamics.traffic.has_changes(changes)
+    }
+
+    /// Returns the inspector's places and walks.
+    #[must_use]
+    pub fn inspector(&self) -> &InspectorPath {
+        self.dynamics.traffic.inspector()
     }
 
     /// Returns the defects of the session.

@@ -4,6 +4,8 @@
 
 use super::boxes::{OrientedBox, bounding_sphere};
 use super::bridge_closures::BridgeClosures;
+use super::changes::SiteChanges;
+use super::inspector_path::{GroundHeight, InspectorPath};
 use super::lane_track::{LaneTrack, arc_lengths, without_collinear_points};
 use super::movers::{MoverKind, MoverPlacement, boxes};
 use super::query_types::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
@@ -50,7 +52,8 @@ pub struct Mover {
 pub struct TrafficPlan {
     tracks: Vec<LaneTrack>,
     movers: Vec<Mover>,
-    crew: Vec<(ObjectId, Surface, OrientedBox)>,
+    inspector: InspectorPath,
+    truck: Vec<OrientedBox>,
     closures: BridgeClosures,
 }
 
@@ -60,8 +63,13 @@ impl TrafficPlan {
     #[must_use]
     pub fn new(lanes: &[Lane], settings: &TrafficSettings, team: &GroundTeam, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "site.traffic");
-        let mut plan =
-            Self { tracks: Vec::new(), movers: Vec::new(), crew: ground_crew(team), closures: BridgeClosures::default() };
+        let mut plan = Self {
+            tracks: Vec::new(),
+            movers: Vec::new(),
+            inspector: InspectorPath::new(team),
+            truck: crew_truck(team),
+            closures: BridgeClosures::default(),
+        };
         let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
         let walkways: Vec<&Lane> = lanes.iter().filter(|l| l.walkway && l.points_m.len() >= 2).collect();
         let mut vehicles = vec![MoverKind::Car; settings.cars];
@@ -124,15 +132,42 @@ impl TrafficPlan {
         });
     }
 
-    /// Sets the bridge closures.
-    pub fn set_closures(&mut self, gates: BridgeClosures) {
-        self.closures = gates;
+    /// Sets the bridge closures and the inspector's walks over this ground.
+    pub fn set_changes(&mut self, changes: SiteChanges, ground: GroundHeight) {
+        self.closures = changes.closures;
+        self.inspector = self.inspector.with_walks(changes.walks, Some(ground));
+    }
+
+    /// Returns whether the traffic and the inspector have these changes.
+    #[must_use]
+    pub fn has_changes(&self, changes: &SiteChanges) -> bool {
+        self.closures == changes.closures && self.inspector.walks() == &changes.walks
     }
 
     /// Returns the bridge closures.
     #[must_use]
     pub fn closures(&self) -> &BridgeClosures {
         &self.closures
+    }
+
+    /// Returns the inspector's places and walks.
+    #[must_use]
+    pub fn inspector(&self) -> &InspectorPath {
+        &self.inspector
+    }
+
+    /// Returns the boxes of the inspector and the truck at a time, with their velocities, m/s.
+    fn crew(&self, at: SimTime) -> impl Iterator<Item = (ObjectId, Surface, OrientedBox, Vec3<Enu>)> + '_ {
+        let inspector = self.inspector.at(at);
+        let velocity_m_s = inspector.velocity_m_s;
+        let placed = MoverPlacement { position_m: inspector.feet_m, forward: inspector.forward, velocity_m_s };
+        let person = boxes(MoverKind::Pedestrian, placed).map(move |solid| (INSPECTOR, Surface::Person, solid, velocity_m_s));
+        person.chain(self.truck.iter().map(|solid| (CREW_TRUCK, Surface::Vehicle, *solid, Vec3::zero())))
+    }
+
+    /// Returns whether a part of the standing crew is within a distance of a point.
+    pub(super) fn is_near_crew(&self, which: ObjectId, point_m: Vec3<Enu>, max_m: f64) -> bool {
+        self.crew(SimTime::ZERO).any(|(object, _, solid, _)| object == which && solid.nearest(point_m).0 < max_m)
     }
 
     /// Returns all moving objects in the plan.
@@ -156,7 +191,8 @@ impl TrafficPlan {
     /// Returns the boxes of all objects at a time, for rendering and tests.
     #[must_use]
     pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
-        let mut all = self.crew.clone();
+        let mut all: Vec<(ObjectId, Surface, OrientedBox)> =
+            self.crew(at).map(|(object, surface, solid, _)| (object, surface, solid)).collect();
         for (k, mover) in self.movers.iter().enumerate() {
             let Some(placed) = self.placement(mover, at) else { continue };
             all.extend(boxes(mover.kind, placed).map(|b| (ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), b)));
@@ -208,8 +244,8 @@ impl TrafficPlan {
                 best = Some(RayHit { distance_m, normal, surface, object });
             }
         };
-        for (object, surface, solid) in &self.crew {
-            test(*object, *surface, solid);
+        for (object, surface, solid, _) in self.crew(at) {
+            test(object, surface, &solid);
         }
         for track in self.tracks.iter().filter(|t| t.ray_may_hit(origin_m, direction, max_m)) {
             for k in track.first..track.first + track.count {
@@ -266,9 +302,9 @@ impl TrafficPlan {
         at: SimTime,
         mut visit: impl FnMut(ObjectId, Surface, &OrientedBox, Vec3<Enu>),
     ) {
-        for (object, surface, solid) in &self.crew {
+        for (object, surface, solid, velocity_m_s) in self.crew(at) {
             if (solid.center_m - point_m).norm() <= reach_m + solid.radius_m() {
-                visit(*object, *surface, solid, Vec3::zero());
+                visit(object, surface, &solid, velocity_m_s);
             }
         }
         for track in &self.tracks {
@@ -298,19 +334,16 @@ fn assign_lanes<'a>(lanes: &[&'a Lane], kinds: &[MoverKind]) -> Vec<(&'a Lane, V
     dealt
 }
 
-fn ground_crew(team: &GroundTeam) -> Vec<(ObjectId, Surface, OrientedBox)> {
-    let towards = |heading_deg: f64, feet: Vec3<Enu>| {
-        let (s, c) = math::sin_cos(heading_deg.to_radians());
-        MoverPlacement { position_m: feet, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() }
-    };
-    let inspector =
-        boxes(MoverKind::Pedestrian, towards(team.pad_heading_deg, team.inspector_m)).map(|b| (INSPECTOR, Surface::Person, b));
-    let truck = boxes(MoverKind::Truck, towards(team.truck_heading_deg, team.truck_m)).map(|b| (CREW_TRUCK, Surface::Vehicle, b));
-    inspector.chain(truck).collect()
+fn crew_truck(team: &GroundTeam) -> Vec<OrientedBox> {
+    let (s, c) = math::sin_cos(team.truck_heading_deg.to_radians());
+    let placed = MoverPlacement { position_m: team.truck_m, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() };
+    boxes(MoverKind::Truck, placed).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::inspector_path;
+    use super::super::inspector_walks::InspectorWalks;
     use super::*;
 
     fn lanes() -> Vec<Lane> {
@@ -331,6 +364,7 @@ mod tests {
             pad_heading_deg: 0.0,
             pad_half_m: 2.0,
             inspector_m: Vec3::new(-55.0, 0.0, 0.0),
+            places_m: vec![Vec3::new(-55.0, -14.0, 0.0)],
             truck_m: Vec3::new(-60.0, 8.0, 0.0),
             truck_heading_deg: 90.0,
             home_radius_m: 5.0,
@@ -388,7 +422,8 @@ mod tests {
         let open = plan(3);
         let (closed_s, opened_s) = (40.0, 130.0);
         let mut gated = open.clone();
-        gated.set_closures(BridgeClosures::from_codes([-40_000, 130_000]));
+        let closures = BridgeClosures::from_codes([-40_000, 130_000]);
+        gated.set_changes(SiteChanges { closures, ..SiteChanges::default() }, &|_, _| 0.0);
         // The closure lasts long enough for all vehicles to leave; the traffic recovers well before the end of the test.
         let (mut least, mut shown) = (usize::MAX, [None; 17]);
         for tenth in 0..4_000 {
@@ -483,5 +518,26 @@ mod tests {
         assert_eq!(down.surface, Surface::Vehicle);
         assert!((down.distance_m - 6.5).abs() < 1e-9);
         assert_eq!(plan.name(CREW_TRUCK).as_deref(), Some("crew truck"));
+    }
+
+    #[test]
+    fn exact_body_of_the_inspector_moves_with_the_walk() {
+        let mut plan = plan(1);
+        let standing = plan.solids(SimTime::ZERO);
+        // From 5 s on, 10 s to the south.
+        let walks = InspectorWalks::from_codes([50_012]);
+        plan.set_changes(SiteChanges { walks, ..SiteChanges::default() }, &|_, _| 0.0);
+        assert_eq!(plan.solids(SimTime::ZERO), standing, "before the walk");
+        let at = |s: f64| SimTime::from_s(s);
+        let nearest = |north: f64, s: f64| plan.nearest(Vec3::new(-55.0, north, 1.0), 0.3, at(s)).map(|near| near.object);
+        assert_eq!((nearest(0.0, 4.9), nearest(0.0, 10.0)), (Some(INSPECTOR), None));
+        assert_eq!([nearest(-7.0, 10.0), nearest(-14.0, 15.0), nearest(-14.0, 500.0)], [Some(INSPECTOR); 3]);
+        let ray = |s: f64| plan.ray(Vec3::new(-65.0, -7.0, 1.0), Vec3::new(1.0, 0.0, 0.0), 20.0, at(s)).map(|hit| hit.surface);
+        assert_eq!((ray(10.0), ray(15.0)), (Some(Surface::Person), None));
+        let mut contacts = Vec::new();
+        plan.contacts(&HullProbe::Ball { center_m: Vec3::new(-55.0, -7.2, 1.0), radius_m: 0.25 }, 0.01, at(10.0), &mut contacts);
+        assert_eq!(contacts.len(), 1, "{contacts:?}");
+        assert_eq!((contacts[0].object, contacts[0].velocity_m_s.up()), (INSPECTOR, 0.0));
+        assert!((contacts[0].velocity_m_s.north() + inspector_path::WALKING_SPEED_M_S).abs() < 1e-12, "{contacts:?}");
     }
 }

@@ -69,7 +69,7 @@ fn regress_unknown_key_is_reported_with_a_suggestion() {
     assert_message(
         "cloud_cover = 0.9",
         "cloud_covr = 0.9",
-        "job.toml:91: light.cloud_covr = 0.9: unknown key; did you mean cloud_cover? \
+        "job.toml:92: light.cloud_covr = 0.9: unknown key; did you mean cloud_cover? \
          (allowed: start_utc, cloud_cover, water_albedo, ground_albedo)",
     );
 }
@@ -98,6 +98,32 @@ fn regress_wrong_type_is_reported() {
 }
 
 #[test]
+fn exact_wrong_places_of_the_inspector_are_reported() {
+    let problems = |list: &str| {
+        let text = shipped_scenario();
+        let old = text.lines().find(|line| line.starts_with("places_m")).unwrap();
+        let text = text.replace(old, &format!("places_m = {list}"));
+        read_problems(&text).0.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let head = "job.toml:27: ground_team.places_m = ";
+    let many = format!("[{}]", (0..8).map(|k| format!("[-130.0, {}.0, 5.0]", 10 * k)).collect::<Vec<_>>().join(", "));
+    assert_eq!(problems(&many), [format!("{head}8 places: too many (allowed: at most 7 places)")]);
+    assert_eq!(
+        problems("[[-112.0, 579.0, 5.0], [-110.6, 78.0, 5.0], [-118.0, 75.0, 5.0], [-130.0, 70.0, 9.0], [-130.0, 71.0, 5.0]]"),
+        [
+            format!("{head}[-112, 579, 5]: place 2 is 501 m from the landing pad (allowed: at most 500 m from the landing pad)"),
+            format!(
+                "{head}[-110.6, 78, 5]: place 3 is on the landing pad (allowed: at least 0.5 m from the edge of the landing pad)"
+            ),
+            format!("{head}[-118, 75, 5]: place 4 is 1.0 m from place 1 (allowed: at least 2 m from every other place)"),
+            format!("{head}[-130, 71, 5]: place 6 is 1.0 m from place 5 (allowed: at least 2 m from every other place)"),
+        ]
+    );
+    let shape = "not a valid list (allowed: list of [east, north, up], each -5000 to 5000)";
+    assert_eq!(problems("[-130.0, 70.0, 9.0]"), [format!("{head}[-130.0, 70.0, 9.0]: {shape}")]);
+}
+
+#[test]
 fn regress_missing_key_is_reported() {
     assert_message("longitude_deg = 8.3814\n", "", "job.toml:6: origin.longitude_deg: missing (allowed: -180 to 180)");
 }
@@ -107,7 +133,7 @@ fn regress_unknown_bridge_is_reported() {
     assert_message(
         "bridge = \"suspension\"",
         "bridge = \"suspenson\"",
-        "job.toml:64: tasks[].bridge = suspenson: unknown bridge (allowed: a bridge in this file: arch, suspension)",
+        "job.toml:65: tasks[].bridge = suspenson: unknown bridge (allowed: a bridge in this file: arch, suspension)",
     );
 }
 
@@ -122,7 +148,7 @@ fn regress_inconsistent_numbers_are_reported() {
     assert_message(
         "centre_m = [0.0, 0.0, 34.0]\n",
         "centre_m = [0.0, 0.0, 34.0]\narch = { floorbeam_depth_m = 3.0 }\n",
-        "job.toml:35: bridges[].arch.floorbeam_depth_m = 3: inconsistent with other values \
+        "job.toml:36: bridges[].arch.floorbeam_depth_m = 3: inconsistent with other values \
          (allowed: crown_gap_m minus 0.5 m: at most 2.90)",
     );
 }

@@ -1,6 +1,7 @@
 //! Tests that all shipped scenario and vehicle files can be read, and that task paths have sufficient clearance.
 
-use spandrel_model::scenario::{Scenario, TaskKind};
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::scenario::{INSPECTOR_EYE_HEIGHT_M, Scenario, TaskKind};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
@@ -44,6 +45,58 @@ fn val_all_numbers_in_vehicle_files_have_a_source() {
                 key != "format" && value.starts_with(['[', '-', '0', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
             });
             assert!(!number || line.contains("# source:") || line.contains("# estimate"), "{}:{}: {line}", path.display(), k + 1);
+        }
+    }
+}
+
+/// Objects this near in front of the drone do not count as hiding it, m (the same as in the report).
+const DRONE_CLEARANCE_M: f64 = 0.5;
+
+#[test]
+fn val_places_of_the_inspector_show_what_is_hidden_from_the_pad() {
+    // Least share of the hidden part of the paths that another place of the job shows.
+    const MIN_SHOWN: f64 = 0.9;
+    for path in toml_files("scenarios") {
+        let (name, scenario) = (path.display(), read_scenario(&path));
+        let site = Site::without_defects(&scenario);
+        let sees = |place: Vec3<Enu>, point: Vec3<Enu>| {
+            let eye_m = place + Vec3::new(0.0, 0.0, INSPECTOR_EYE_HEIGHT_M);
+            !site.geometry().hides(eye_m, point, DRONE_CLEARANCE_M)
+        };
+        let team = &scenario.ground_team;
+        let points = scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
+        let hidden: Vec<Vec3<Enu>> = points.filter(|point| !sees(team.inspector_m, *point)).collect();
+        assert_eq!(hidden.is_empty(), !team.can_walk(), "{name}: {} hidden points", hidden.len());
+        let shown = hidden.iter().filter(|point| team.places_m.iter().any(|place| sees(*place, **point))).count();
+        assert!(shown as f64 >= MIN_SHOWN * hidden.len() as f64, "{name}: {shown} of {} hidden points", hidden.len());
+    }
+}
+
+#[test]
+fn val_inspector_can_stand_at_and_walk_between_the_places() {
+    // Largest height of the feet above or below the ground, m: heights have two decimals.
+    const MAX_HEIGHT_M: f64 = 0.01;
+    // Steepest way, as rise over run, averaged over two meters (estimate: a steep meadow).
+    const MAX_SLOPE: f64 = 0.5;
+    for path in toml_files("scenarios") {
+        let (name, scenario) = (path.display(), read_scenario(&path));
+        let site = Site::without_defects(&scenario);
+        let places: Vec<Vec3<Enu>> = scenario.ground_team.inspector_places_m().collect();
+        for place in &places[1..] {
+            assert_eq!(site.place_obstacle(*place), None, "{name}: {place:?}");
+            let over_m = place.up() - site.ground_up_m(place.east(), place.north());
+            assert!(over_m.abs() < MAX_HEIGHT_M, "{name}: {place:?} is {over_m} m over the ground");
+        }
+        for (from, to) in places.iter().zip(places.iter().cycle().skip(1)) {
+            assert_eq!(site.way_obstacle(*from, *to), None, "{name}: {from:?} to {to:?}");
+            let steps = (0.5 * (*to - *from).horizontal_norm()).ceil().max(1.0);
+            let height = |k: f64| {
+                let at = from.lerp(*to, k / steps);
+                site.ground_up_m(at.east(), at.north())
+            };
+            let steepest = (0..steps as u32).map(|k| 0.5 * (height(f64::from(k) + 1.0) - height(f64::from(k))).abs());
+            let steepest = steepest.fold(0.0, f64::max);
+            assert!(steepest < MAX_SLOPE, "{name}: {steepest} from {from:?} to {to:?}");
         }
     }
 }

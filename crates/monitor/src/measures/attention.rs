@@ -6,7 +6,9 @@ use spandrel_mavlink::telemetry::{Flight, Frame};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::site::geometry::Geometry;
+use spandrel_model::site::inspector_walks::InspectorWalks;
 use spandrel_model::site::{CameraPose, DefectView, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Lamp, Vehicle};
@@ -25,23 +27,26 @@ pub trait SiteSurvey: std::fmt::Debug + Send + Sync {
     fn geometry(&self) -> Option<&Geometry> {
         None
     }
-    /// Returns a copy of the site with these bridge closures; `None` if the site has no moving traffic.
-    fn with_closures(&self, _: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
+    /// Returns a copy of the site with these bridge closures and walks of the inspector; `None` if nothing moves on the site.
+    fn with_changes(&self, _: SiteChanges) -> Option<Arc<dyn SiteSurvey>> {
         None
     }
 }
 
-/// Applies the bridge closures that were active during a flight.
+/// Applies the changes of the site during a flight.
 #[must_use]
-pub fn with_flight_closures(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
-    let gates = bridge_closures(flight);
-    if gates.is_empty() { survey } else { survey.with_closures(gates).unwrap_or(survey) }
+pub fn with_flight_changes(survey: Arc<dyn SiteSurvey>, flight: &Flight) -> Arc<dyn SiteSurvey> {
+    let changes = site_changes(flight);
+    if changes.is_empty() { survey } else { survey.with_changes(changes).unwrap_or(survey) }
 }
 
-/// Returns the bridge closures that were active during a flight.
+/// Returns the bridge closures and the walks of the inspector during a flight.
 #[must_use]
-pub fn bridge_closures(flight: &Flight) -> BridgeClosures {
-    BridgeClosures::from_codes(flight.traffic.all().iter().map(|said| said.2))
+pub fn site_changes(flight: &Flight) -> SiteChanges {
+    SiteChanges {
+        closures: BridgeClosures::from_codes(flight.traffic.all().iter().map(|said| said.2)),
+        walks: InspectorWalks::from_codes(flight.walks.all().iter().map(|said| said.2)),
+    }
 }
 
 impl SiteSurvey for Site {
@@ -57,8 +62,8 @@ impl SiteSurvey for Site {
     fn geometry(&self) -> Option<&Geometry> {
         Some(Self::geometry(self))
     }
-    fn with_closures(&self, gates: BridgeClosures) -> Option<Arc<dyn SiteSurvey>> {
-        Some(Arc::new(Self::with_closures(self, gates)))
+    fn with_changes(&self, changes: SiteChanges) -> Option<Arc<dyn SiteSurvey>> {
+        Some(Arc::new(Self::with_changes(self, changes)))
     }
 }
 

@@ -29,7 +29,7 @@ use spandrel_mavlink::telemetry::{Timeline, tlog};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::{GuidancePolicy, Scenario};
 use spandrel_model::site::Site;
-use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use std::collections::{BTreeMap, VecDeque};
@@ -136,7 +136,7 @@ struct LiveState {
     respawns: Option<i32>,
     /// Latest number of freezes and of rewinds, by event name.
     practice_aids: BTreeMap<&'static str, i32>,
-    closures: BridgeClosures,
+    changes: SiteChanges,
 }
 
 /// Returns whether the monitor guides the pilot in a session with this purpose.
@@ -445,7 +445,7 @@ impl LiveState {
             cues_sent: None,
             respawns: None,
             practice_aids: BTreeMap::new(),
-            closures: BridgeClosures::default(),
+            changes: SiteChanges::default(),
         }
     }
 }

@@ -22,6 +22,7 @@ use spandrel_mavlink::telemetry::frame::MIN_GAP;
 use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
 use spandrel_mavlink::telemetry::timeline::FrameDisposition;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::inspector_walks::Walk;
 use spandrel_model::time::SimTime;
 use spandrel_text::Language;
 impl Monitor {
@@ -96,6 +97,7 @@ impl Monitor {
             SampleValue::Contact(contact) => self.handle_contact(contact),
             SampleValue::Respawns(count) => self.handle_respawns(count),
             SampleValue::Traffic(code) => self.handle_traffic(code),
+            SampleValue::Walk(code) => self.handle_walk(code),
             SampleValue::Seed(seed) => self.handle_seed(seed),
             SampleValue::ScenarioCrc(crc) => {
                 if let Err(error) = assessment::check_scenario(&self.config.scenario, crc) {
@@ -125,7 +127,7 @@ impl Monitor {
         self.seed = Some(seed);
         if self.survey.is_none() {
             let survey = (self.config.survey_builder)(&self.config.scenario, seed);
-            self.survey = Some(survey.with_closures(self.live.closures.clone()).unwrap_or(survey));
+            self.survey = Some(survey.with_changes(self.live.changes.clone()).unwrap_or(survey));
             self.event("seed", json!({ "seed": seed }));
         }
     }
@@ -141,13 +143,26 @@ impl Monitor {
 
     /// Applies bridge closures and openings so that the names of nearby objects match the simulator's traffic.
     fn handle_traffic(&mut self, code: i32) {
-        let before = self.live.closures.clone();
-        self.live.closures.apply_code(code);
-        if self.live.closures == before {
-            return;
+        let before = self.live.changes.closures.clone();
+        self.live.changes.closures.apply_code(code);
+        if self.live.changes.closures != before {
+            self.event("traffic", json!({ "open": code > 0 }));
+            self.apply_site_changes();
         }
-        self.event("traffic", json!({ "open": code > 0 }));
-        self.survey = self.survey.take().map(|survey| survey.with_closures(self.live.closures.clone()).unwrap_or(survey));
+    }
+
+    /// Applies a walk so that the inspector is where the simulator's inspector is.
+    fn handle_walk(&mut self, code: i32) {
+        let before = self.live.changes.walks.clone();
+        self.live.changes.walks.apply_code(code);
+        if let Some(walk) = Walk::from_code(code).filter(|_| self.live.changes.walks != before) {
+            self.event("walk", json!({ "place": walk.to, "from_s": walk.at.s() }));
+            self.apply_site_changes();
+        }
+    }
+
+    fn apply_site_changes(&mut self) {
+        self.survey = self.survey.take().map(|survey| survey.with_changes(self.live.changes.clone()).unwrap_or(survey));
     }
 
     fn handle_respawns(&mut self, count: i32) {
@@ -296,7 +311,7 @@ impl Monitor {
         let flight = assessment::scored_flight(timeline, &config.scenario, &config.vehicle);
         let seed = assessment::check_identity(&flight, &config.scenario, self.seed)?;
         let survey = survey.get_or_insert_with(|| (config.survey_builder)(&config.scenario, seed)).clone();
-        let survey = attention::with_flight_closures(survey, &flight);
+        let survey = attention::with_flight_changes(survey, &flight);
         let job = ScoringJob { scenario: &config.scenario, vehicle: &config.vehicle, survey: survey.as_ref() };
         let (assessment, frames) = assessment::assess(&flight, &job)?;
         Ok(AssessedSession { assessment, frames, seed })

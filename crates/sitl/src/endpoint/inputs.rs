@@ -19,6 +19,7 @@ pub(super) fn payload_input<'v>(
         clock: aircraft.clock,
         vehicle: aircraft.vehicle,
         plane: aircraft.plane,
+        site: aircraft.site,
         position_m: estimate.position_m,
         heading_rad: estimate.attitude.yaw_rad(),
         home_m: autopilot.status().home_m,

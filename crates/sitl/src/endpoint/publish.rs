@@ -84,7 +84,7 @@ impl Endpoint {
             }
         }
         for warning in warnings {
-            self.vehicle.push_text(MavSeverity::MAV_SEVERITY_WARNING, warning);
+            self.vehicle.push_text(MavSeverity::MAV_SEVERITY_WARNING, &warning);
         }
     }
 

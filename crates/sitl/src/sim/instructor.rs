@@ -1,9 +1,10 @@
-//! Applies instructor inputs during a flight: failures, weather and radio impairment.
+//! Applies inputs of the instructor and the inspector during a flight: failures, weather, radio impairment, traffic and walks.
 
-use super::Sim;
+use super::{Sim, SimEvent};
 use crate::endpoint::{FailureInjection, LinkId, LinkKind};
 use crate::faults::{FailureUnit, Faults};
 use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::inspector_walks::Walk;
 use spandrel_model::time::SimTime;
 use std::sync::Arc;
 
@@ -46,10 +47,25 @@ impl Sim {
             self.wind.add_change(self.now, WIND_TRANSITION_TIME, speed_m_s, from_deg);
         }
         if world.open != self.instructor_settings.open {
-            self.closures.apply_code(BridgeClosures::code(self.now, world.open));
-            self.site = Arc::new(self.site.with_closures(self.closures.clone()));
-            self.scoring.traffic = self.closures.last_codes();
+            self.site_changes.closures.apply_code(BridgeClosures::code(self.now, world.open));
+            self.apply_site_changes();
         }
         self.instructor_settings = world;
+    }
+
+    /// Starts the walk that a client has requested. The site may have changed since the request was accepted.
+    pub(super) fn apply_walk_request(&mut self) {
+        let Some(place) = self.controller.payload_mut().equipment.take_walk_request() else { return };
+        let walk = self.site.inspector().walk_to(place, self.now);
+        let Some(code) = walk.and_then(Walk::code) else { return };
+        self.site_changes.walks.apply_code(code);
+        self.apply_site_changes();
+        self.events.push_back(SimEvent::Walk { place });
+    }
+
+    fn apply_site_changes(&mut self) {
+        self.site = Arc::new(self.site.with_changes(self.site_changes.clone()));
+        self.scoring.traffic = self.site_changes.closures.last_codes();
+        self.scoring.walks = self.site_changes.walks.last_codes();
     }
 }

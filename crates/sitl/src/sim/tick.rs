@@ -14,6 +14,7 @@ impl Sim {
     pub(super) fn tick(&mut self) {
         let start = self.now;
         self.apply_instructor_inputs();
+        self.apply_walk_request();
         self.controller.set_accepts_sticks(self.faults.passes_manual_control(start));
         self.step_wind(start);
         if self.control_due.fire(start) {

@@ -2,6 +2,7 @@
 
 use spandrel_mavlink::dialect::*;
 use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::site::traffic::CREW_TRUCK;
 use spandrel_model::site::{Site, Surface};
 use spandrel_sitl::endpoint::flavor::{Flavor, ardupilot, generic, px4};
@@ -335,10 +336,10 @@ fn wire_telemetry_reproduces_traffic_on_closed_bridges() {
     for (open, wait_ms) in [(0, 90_000), (1, 90_000)] {
         set_whole(&mut station, "SIM_TRAFFIC", open);
         station.run_ms(wait_ms);
-        let heard = BridgeClosures::from_codes(codes(&station));
-        assert_eq!(station.sim.site().traffic().closures(), &heard);
+        let closures = BridgeClosures::from_codes(codes(&station));
+        assert_eq!(station.sim.site().traffic().closures(), &closures);
         // A program that has the scenario, the seed and the telemetry must be able to compute the same cars.
-        let theirs = Site::build(&scenario("two-bridges"), 7).with_closures(heard);
+        let theirs = Site::build(&scenario("two-bridges"), 7).with_changes(SiteChanges { closures, ..SiteChanges::default() });
         let now = station.sim.now();
         let (here, there) = (station.sim.site().traffic().solids(now), theirs.traffic().solids(now));
         assert_eq!(here, there);

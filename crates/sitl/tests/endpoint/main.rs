@@ -36,3 +36,4 @@ mod restart_and_logs;
 mod signing;
 mod simple_clients;
 mod vehicle;
+mod walks;

@@ -2,7 +2,9 @@
 
 use crate::rig::{AUTOPILOT, MONITOR, Rig, STATION};
 use mavlink::MessageData;
+use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::*;
+use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::AfterCrash;
 use std::collections::BTreeSet;
 
@@ -61,6 +63,26 @@ fn wire_commands_reach_the_component_that_executes_them() {
     for own in [MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, MavCmd::MAV_CMD_INJECT_FAILURE, MavCmd::MAV_CMD_IMAGE_START_CAPTURE] {
         assert!(!seen.contains(&own), "the autopilot must not execute {own:?} as well");
     }
+}
+
+/// The inspector belongs to the site, so the simulator answers instead of the autopilot.
+#[test]
+fn wire_inspector_walks_beside_another_autopilot() {
+    let mut rig = Rig::with_job(AfterCrash::Continue, |job| {
+        job.ground_team.places_m = vec![job.ground_team.inspector_m + Vec3::new(-14.0, 0.0, 0.0)];
+    });
+    for (place, result) in [(3.0, MavResult::MAV_RESULT_DENIED), (2.0, MavResult::MAV_RESULT_ACCEPTED)] {
+        rig.command(1, MavCmd::MAV_CMD_USER_4, &[place]);
+        rig.run_s(0.1);
+        assert_eq!(rig.last_ack(MavCmd::MAV_CMD_USER_4), Some((1, result)));
+    }
+    assert!(!rig.px4.commands().contains(&MavCmd::MAV_CMD_USER_4), "the autopilot must not execute the request as well");
+    let named =
+        rig.heard(MONITOR, NAMED_VALUE_INT_DATA::ID).into_iter().filter_map(|frame| NamedValue::of(frame.message.as_ref()?));
+    let walks: Vec<i32> = named.filter_map(|value| if let NamedValue::Walk(code) = value { Some(code) } else { None }).collect();
+    assert_eq!(walks.first().map(|code| code % 100), Some(12), "{walks:?}");
+    rig.run_s(11.0);
+    assert_eq!(rig.sim.site().inspector().at(rig.sim.now()).feet_m, rig.sim.site().inspector().place_m(2).unwrap());
 }
 
 /// Simulation time can stop, because the autopilot runs in lockstep, but its estimator cannot be put back.

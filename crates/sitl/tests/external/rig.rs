@@ -33,6 +33,10 @@ pub struct Rig {
     pub events: Vec<SimEvent>,
 }
 
+fn job() -> Scenario {
+    spandrel_model::scenario::read("drill-hover.toml", shipped::DRILL_HOVER, &|_| Err("none".into())).unwrap()
+}
+
 impl Rig {
     /// Creates a vehicle whose autopilot has not connected.
     pub fn new(after_crash: AfterCrash) -> Self {
@@ -41,8 +45,19 @@ impl Rig {
 
     /// Creates a vehicle whose autopilot has not connected and takes sticks only from this sender.
     pub fn with_stick_sender(after_crash: AfterCrash, stick_sender: Option<(u8, u8)>) -> Self {
-        let text = shipped::DRILL_HOVER;
-        let scenario: Scenario = spandrel_model::scenario::read("drill-hover.toml", text, &|_| Err("none".into())).unwrap();
+        Self::with_scenario(job(), after_crash, stick_sender)
+    }
+
+    /// Creates a vehicle in a changed job, whose autopilot is ready.
+    pub fn with_job(after_crash: AfterCrash, change: impl FnOnce(&mut Scenario)) -> Self {
+        let mut scenario = job();
+        change(&mut scenario);
+        let mut rig = Self::with_scenario(scenario, after_crash, None);
+        rig.start();
+        rig
+    }
+
+    fn with_scenario(scenario: Scenario, after_crash: AfterCrash, stick_sender: Option<(u8, u8)>) -> Self {
         let vehicle = Arc::new(vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap());
         let site = Arc::new(Site::build(&scenario, 1));
         let interface = Box::new(Px4Interface::new(&vehicle, 250.0).unwrap());

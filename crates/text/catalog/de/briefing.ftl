@@ -95,3 +95,7 @@ briefing-to-be-certified = Für die Zertifizierung: { $requirement }.
 briefing-check-risk = Risiko: Ich kenne die Gefahren und breche ab, wenn jemand den Flugbereich betritt.
 briefing-check-battery = Akku: voll. Ich lande mit mindestens { $least }% und fliege bei der Akkuwarnung ({ $low }%) zurück.
 briefing-check-landing = Landeplatz: { $away } m vom Prüfer entfernt. Eine Landung im Umkreis von { $radius } m gilt als Landung am Landeplatz.
+briefing-check-places = Sichtverbindung: Ich behalte die Drohne im Blick. Dafür kann ich zu { $count ->
+        [one] einem weiteren Standort
+       *[other] { $count } weiteren Standorten
+    } auf dem Plan gehen.

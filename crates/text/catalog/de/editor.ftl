@@ -222,6 +222,7 @@ editor-key-pad = Landeplatz
 editor-key-pad-heading = Ausrichtung des Landeplatzes
 editor-key-pad-half = Halbe Seite des Landeplatzes
 editor-key-inspector = Prüfer
+editor-key-places = Weitere Standorte des Prüfers
 editor-key-truck = Einsatzfahrzeug
 editor-key-truck-heading = Ausrichtung des Einsatzfahrzeugs
 editor-key-home-radius = Radius um den Landeplatz

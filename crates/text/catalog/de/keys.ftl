@@ -27,6 +27,7 @@ keys-swap = Ansichten wechseln
 keys-map = Karte ein oder aus
 keys-path = Bahn ein oder aus
 keys-ghost = Geist ein oder aus
+keys-walk = zum nächsten Standort gehen
 keys-follow = Drohne folgen
 keys-look-left = nach links sehen
 keys-look-right = nach rechts sehen
@@ -57,6 +58,7 @@ keys-short-camera-zoom-in = Zoom größer
 keys-short-camera-zoom-out = Zoom kleiner
 keys-short-freeze = einfrieren
 keys-short-rewind = zurückspulen
+keys-short-walk = gehen
 
 ## Names of keys
 

@@ -89,6 +89,9 @@ report-telemetry-covers = Die Telemetrie deckt { $share }% der Sitzung ab.
 report-practice-aids = Diese Sitzung wurde { $aids }. Sie zählt als Übungsflug: Sie wird weder zertifiziert noch mit anderen verglichen.
 report-of-max = von { $max }
 report-out-of-sight = Für { $total } außer Sicht des Prüfers, davon am längsten für { $longest } ab { $from }.
+report-walks = Wege des Prüfers: { $walks }.
+report-walk = zu Standort { $place } ab { $moment }
+report-walk-before = zu Standort { $place } vor dem Abheben
 
 ## Scores
 

@@ -240,6 +240,7 @@ editor-key-pad = Pad
 editor-key-pad-heading = Pad heading
 editor-key-pad-half = Half width of the pad
 editor-key-inspector = Inspector position
+editor-key-places = Inspector's other places
 editor-key-truck = Crew truck
 editor-key-truck-heading = Crew truck heading
 editor-key-home-radius = Landing radius around the pad

@@ -27,6 +27,7 @@ keys-swap = change the layout
 keys-map = map on or off
 keys-path = path on or off
 keys-ghost = ghost on or off
+keys-walk = walk to the next place
 keys-follow = follow the drone
 keys-look-left = look left
 keys-look-right = look right
@@ -57,6 +58,7 @@ keys-short-camera-zoom-in = camera zoom in
 keys-short-camera-zoom-out = camera zoom out
 keys-short-freeze = freeze
 keys-short-rewind = rewind
+keys-short-walk = walk
 
 ## Names of keys
 

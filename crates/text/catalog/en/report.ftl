@@ -89,6 +89,9 @@ report-telemetry-covers = The telemetry covers { $share }% of the session.
 report-practice-aids = This session was { $aids }. It counts as practice: it is neither certified nor compared with others.
 report-of-max = of { $max }
 report-out-of-sight = Out of the inspector's sight for { $total }; longest for { $longest }, from { $from }.
+report-walks = Walks of the inspector: { $walks }.
+report-walk = to place { $place } at { $moment }
+report-walk-before = to place { $place } before lift-off
 
 ## Scores
 

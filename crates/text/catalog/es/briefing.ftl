@@ -95,3 +95,7 @@ briefing-to-be-certified = Para la certificación: { $requirement }.
 briefing-check-risk = Riesgo: conozco los peligros y me detengo si alguien entra en el área de vuelo.
 briefing-check-battery = Batería: llena. Aterrizo con al menos { $least }% y regreso a la base con el aviso de batería baja ({ $low }%).
 briefing-check-landing = Lugar de aterrizaje: la plataforma, a { $away } m del inspector. Los aterrizajes a menos de { $radius } m de ella cuentan como en la base.
+briefing-check-places = Línea de vista: mantengo el dron a la vista. Para ello puedo caminar a { $count ->
+        [one] otro punto
+       *[other] otros { $count } puntos
+    } del plano.

@@ -222,6 +222,7 @@ editor-key-pad = Plataforma de aterrizaje
 editor-key-pad-heading = Rumbo de la plataforma
 editor-key-pad-half = Medio lado de la plataforma
 editor-key-inspector = Inspector
+editor-key-places = Otros puntos del inspector
 editor-key-truck = Camioneta
 editor-key-truck-heading = Rumbo de la camioneta
 editor-key-home-radius = Radio de la base

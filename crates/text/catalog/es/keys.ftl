@@ -27,6 +27,7 @@ keys-swap = cambiar las vistas
 keys-map = mapa sí/no
 keys-path = trayectoria sí/no
 keys-ghost = fantasma sí/no
+keys-walk = caminar al siguiente punto
 keys-follow = seguir al dron
 keys-look-left = mirar a la izquierda
 keys-look-right = mirar a la derecha
@@ -57,6 +58,7 @@ keys-short-camera-zoom-in = acercar zoom
 keys-short-camera-zoom-out = alejar zoom
 keys-short-freeze = congelar
 keys-short-rewind = rebobinar
+keys-short-walk = caminar
 
 ## Names of keys
 

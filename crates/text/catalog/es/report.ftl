@@ -89,6 +89,9 @@ report-telemetry-covers = La telemetría cubre el { $share }% de la sesión.
 report-practice-aids = Esta sesión fue { $aids }. Cuenta como práctica: no se certifica ni se compara con otras.
 report-of-max = de { $max }
 report-out-of-sight = Fuera de la vista del inspector durante { $total }; lo más largo, { $longest }, desde { $from }.
+report-walks = Recorridos del inspector: { $walks }.
+report-walk = al punto { $place } desde { $moment }
+report-walk-before = al punto { $place } antes del despegue
 
 ## Scores
 

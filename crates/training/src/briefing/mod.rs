@@ -160,11 +160,15 @@ fn site_check(scenario: &Scenario, language: Language) -> Vec<String> {
     let radius = format!("{:.0}", team.home_radius_m);
     let least = format!("{:.0}", scenario.certification.min_battery_pct);
     let low = format!("{:.0}", scenario.rules.low_battery_pct);
-    vec![
+    let mut lines = vec![
         text!(language, "briefing-check-risk"),
         text!(language, "briefing-check-battery", least = least, low = low),
         text!(language, "briefing-check-landing", away = away, radius = radius),
-    ]
+    ];
+    if team.can_walk() {
+        lines.push(text!(language, "briefing-check-places", count = team.places_m.len()));
+    }
+    lines
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
-//! Time during which a bridge or the ground hid the drone from the inspector. In the U.S., the pilot or an observer must be able
-//! to see the drone throughout the flight (14 CFR 107.31).
+//! Time during which a bridge or the ground hid the drone from the inspector, who may walk. In the U.S., the pilot or an observer
+//! must be able to see the drone throughout the flight (14 CFR 107.31).
 
 use super::formatting;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_model::site::inspector_walks::Walk;
+use spandrel_model::time::SimTime;
 use spandrel_text::{Language, text};
 
 /// Time between two checks, s.
@@ -27,15 +28,15 @@ pub struct OutOfSight {
 }
 
 impl OutOfSight {
-    /// Measures a flight.
+    /// Measures a flight on a site with the walks of the flight.
     #[must_use]
-    pub fn measure(scenario: &Scenario, site: &Site, frames: &[Frame]) -> Self {
-        let eye_m = scenario.ground_team.inspector_eye_m();
+    pub fn measure(site: &Site, frames: &[Frame]) -> Self {
         let Some(first) = frames.first() else { return Self::default() };
         let mut checks: Vec<(f64, bool)> = Vec::new();
         for frame in frames {
             let t_s = (frame.time - first.time).s();
             if checks.last().is_none_or(|(last_s, _)| t_s - last_s >= CHECK_INTERVAL_S) {
+                let eye_m = site.inspector().at(frame.time).eye_m();
                 checks.push((t_s, is_hidden(site, eye_m, frame.position_m)));
             }
         }
@@ -76,6 +77,23 @@ impl OutOfSight {
     }
 }
 
+/// Returns the walks of the inspector up to the end of a flight as a sentence; `None` if the inspector stayed.
+#[must_use]
+pub fn walks_sentence(site: &Site, frames: &[Frame], language: Language) -> Option<String> {
+    let (first, last) = (frames.first()?.time, frames.last()?.time);
+    let walks = site.inspector().ways_m().map(|(walk, ..)| *walk).filter(|walk| walk.at < last);
+    let words: Vec<String> = walks.map(|walk| walk_words(walk, first, language)).collect();
+    (!words.is_empty()).then(|| text!(language, "report-walks", walks = words.join(", ")))
+}
+
+fn walk_words(walk: Walk, lift_off: SimTime, language: Language) -> String {
+    if walk.at < lift_off {
+        text!(language, "report-walk-before", place = walk.to)
+    } else {
+        text!(language, "report-walk", place = walk.to, moment = formatting::clock((walk.at - lift_off).s()))
+    }
+}
+
 fn is_hidden(site: &Site, eye_m: Vec3<Enu>, drone_m: Vec3<Enu>) -> bool {
     site.geometry().hides(eye_m, drone_m, DRONE_CLEARANCE_M)
 }
@@ -83,6 +101,10 @@ fn is_hidden(site: &Site, eye_m: Vec3<Enu>, drone_m: Vec3<Enu>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_mavlink::contract::contact::ContactKind;
+    use spandrel_model::scenario::INSPECTOR_EYE_HEIGHT_M;
+    use spandrel_model::site::changes::SiteChanges;
+    use spandrel_model::site::inspector_walks::InspectorWalks;
     use spandrel_model::{scenario, shipped};
 
     #[test]
@@ -101,11 +123,59 @@ mod tests {
     fn exact_ground_and_deck_hide_a_drone_but_nothing_is_above_the_pad() {
         let job = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
         let site = Site::without_defects(&job);
-        let (eye_m, pad_m) = (job.ground_team.inspector_eye_m(), job.ground_team.pad_m);
+        let (eye_m, pad_m) = (site.inspector().at(SimTime::ZERO).eye_m(), job.ground_team.pad_m);
         assert!(!is_hidden(&site, eye_m, pad_m + Vec3::new(0.0, 0.0, 5.0)));
         assert!(is_hidden(&site, eye_m, pad_m - Vec3::new(0.0, 0.0, 5.0)), "below the ground");
         // The inspector looks at the arch bridge from below, so that its deck hides what is just above it.
         let deck_m = job.bridges[0].center_m;
         assert!(is_hidden(&site, eye_m, deck_m + Vec3::new(0.0, 0.0, 0.7)), "behind the deck");
+    }
+
+    /// Returns frames of a drone that stays at a point for 60 s, from 10 s after the start of the simulation on.
+    fn hovering(position_m: Vec3<Enu>) -> Vec<Frame> {
+        let frame = |k: i64| Frame {
+            index: 1 + k as u32,
+            time: SimTime::from_ms(10_000 + 100 * k),
+            sticks: [0.0; 4],
+            light: false,
+            snapshot: false,
+            position_m,
+            velocity_m_s: Vec3::zero(),
+            battery_pct: 90.0,
+            contact: ContactKind::None,
+            missing: false,
+            interpolated: false,
+            clearance_m: None,
+            armed: Some(true),
+            on_ground: false,
+        };
+        (0..=600).map(frame).collect()
+    }
+
+    #[test]
+    fn exact_walk_brings_a_hidden_drone_into_sight() {
+        let job = scenario::read("job.toml", shipped::TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap();
+        let still = Site::without_defects(&job);
+        let hidden_from = |number: u8, point_m: Vec3<Enu>| {
+            let eye_m = still.inspector().place_m(number).unwrap() + Vec3::new(0.0, 0.0, INSPECTOR_EYE_HEIGHT_M);
+            is_hidden(&still, eye_m, point_m)
+        };
+        let mut points = job.tasks.iter().flat_map(|task| task.path_m.iter().copied());
+        let drone_m = points.find(|point| hidden_from(1, *point) && !hidden_from(2, *point)).expect("a hidden part of a path");
+        let frames = hovering(drone_m);
+        // The checks are up to 0.6 s apart, because frames come every 0.1 s.
+        assert!(OutOfSight::measure(&still, &frames).total_s > 59.0);
+        assert_eq!(walks_sentence(&still, &frames, Language::English), None);
+        // The walk begins at 25 s, 15 s after lift-off, and takes 24 s.
+        let walks = InspectorWalks::from_codes([250_012]);
+        let site = still.with_changes(SiteChanges { walks, ..SiteChanges::default() });
+        let found = OutOfSight::measure(&site, &frames);
+        assert!((14.4..=39.6).contains(&found.total_s), "hidden at least until the walk, at most until its end: {found:?}");
+        let words = walks_sentence(&site, &frames, Language::English).unwrap();
+        assert_eq!(words, "Walks of the inspector: to place 2 at 0:15.");
+        assert_eq!(
+            walks_sentence(&site, &frames[400..], Language::English).unwrap(),
+            "Walks of the inspector: to place 2 before lift-off."
+        );
     }
 }

@@ -139,7 +139,7 @@ impl Review {
         let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
         let link = timeline.counts();
         drop(timeline);
-        let site = Site::build(scenario, seed).with_closures(attention::bridge_closures(&flight));
+        let site = Site::build(scenario, seed).with_changes(attention::site_changes(&flight));
         let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: &site })?;
         let assessed_session = AssessedSession { assessment, frames, seed };
         let (assessment, frames) = (&assessed_session.assessment, &assessed_session.frames);
@@ -154,7 +154,7 @@ impl Review {
             (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, assessment));
         let scored = ScoredFlight { scene, metadata: &metadata, assessed_session: &assessed_session };
         let (next, advice) = scored.plan_and_advice(&defects);
-        let out_of_sight = line_of_sight::OutOfSight::measure(scenario, &site, frames);
+        let out_of_sight = line_of_sight::OutOfSight::measure(&site, frames);
         let AssessedSession { assessment, frames, .. } = assessed_session;
         Ok(Self {
             crashes,
@@ -214,7 +214,7 @@ pub fn advice_of(
     timeline.push_log(log)?;
     let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
     drop(timeline);
-    let site = Site::build(scenario, seed).with_closures(attention::bridge_closures(&flight));
+    let site = Site::build(scenario, seed).with_changes(attention::site_changes(&flight));
     let (assessment, frames) = assess(&flight, &ScoringJob { scenario, vehicle, survey: &site })?;
     let assessed_session = AssessedSession { assessment, frames, seed };
     let scene = ReviewContext { flight: &flight, frames: &assessed_session.frames, scenario, vehicle, site: &site };

@@ -6,6 +6,7 @@ use super::layout::{ELEMENT, page_with_script, script_texts, section, token, wit
 use crate::terms::contact_title;
 use maud::{Markup, PreEscaped, html};
 use spandrel_mavlink::contract::practice::MAX_TASK;
+use spandrel_mavlink::contract::walk::MAX_PLACE;
 use spandrel_text::{Language, text};
 
 /// Maximum length of an instructor's note, characters. A note must fit in one MAVLink message.
@@ -302,6 +303,11 @@ fn actions(visitor: &Visitor, vehicle: usize) -> Markup {
             button type="submit" name="do" value="move" { (text!(language, "live-move")) }
         }
         form.stacked method="post" action="/live/act" data-act {
+            (hidden("walk"))
+            label { (text!(language, "live-place")) input type="number" name="place" required min="1" max=(MAX_PLACE) value="2"; }
+            button type="submit" { (text!(language, "live-walk")) }
+        }
+        form.stacked method="post" action="/live/act" data-act {
             (hidden("failure"))
             label { (text!(language, "live-component")) select name="unit" { @for unit in FailingUnit::ALL { option value=(unit.key()) { (unit.name(language)) } } } }
             div.row {
@@ -343,8 +349,8 @@ mod tests {
         };
         let text = live(&administrator(), Some(&drawn), &choice).into_string();
         check(&text);
-        assert_eq!(text.matches("action=\"/live/act\"").count(), 6);
-        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 6);
+        assert_eq!(text.matches("action=\"/live/act\"").count(), 7);
+        assert_eq!(text.matches("name=\"vehicle\" value=\"2\"").count(), 7);
         assert!(text.contains("href=\"/live?vehicle=2\" aria-current=\"page\""), "{text}");
         let text = live(&administrator(), None, &VehicleSelection::default()).into_string();
         assert!(!text.contains("data-live") && text.contains("No vehicle configured"), "no vehicle to connect to: {text}");

@@ -12,9 +12,11 @@ use spandrel_mavlink::contract::truth::Truth;
 use spandrel_mavlink::dialect::{MavAutopilot, MavMessage, MavSeverity};
 use spandrel_mavlink::telemetry::sample;
 use spandrel_mavlink::telemetry::sample::{Sample, SampleContent, SampleValue};
+use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::scenario::Scenario;
-use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
+use spandrel_model::site::inspector_path::InspectorPath;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::measures::on_path::ReferencePaths;
 use spandrel_text::monitor_texts::{Warning, message_words, way_words};
@@ -46,6 +48,8 @@ struct TrackedJob {
     paths: ReferencePaths,
     /// Task numbers and names.
     tasks: Vec<(u32, String)>,
+    /// The inspector's places, without walks.
+    inspector: InspectorPath,
 }
 
 /// Words of a message with their language: texts of the vehicle itself are in English.
@@ -90,7 +94,7 @@ pub struct LiveFlightState {
     contact: ContactKind,
     armed: bool,
     is_frozen: bool,
-    gates: BridgeClosures,
+    changes: SiteChanges,
     cues: i32,
     cue_texts: CueTexts,
     /// Simulation time, s, and text of the latest displayed cue, which may have ended.
@@ -126,7 +130,7 @@ impl LiveFlightState {
             contact: ContactKind::None,
             armed: false,
             is_frozen: false,
-            gates: BridgeClosures::default(),
+            changes: SiteChanges::default(),
             cues: 0,
             cue_texts: CueTexts::default(),
             last_cue: None,
@@ -154,8 +158,14 @@ impl LiveFlightState {
     /// Sets the job after the application has loaded its scenario.
     pub fn set_job(&mut self, key: JobIdentity, scenario: &Scenario) {
         let tasks = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
-        let (name, plane) = (scenario.name.clone(), LocalPlane::new(scenario.origin));
-        self.job = Some(TrackedJob { key, scenario: name, plane, paths: ReferencePaths::new(scenario), tasks });
+        self.job = Some(TrackedJob {
+            key,
+            scenario: scenario.name.clone(),
+            plane: LocalPlane::new(scenario.origin),
+            paths: ReferencePaths::new(scenario),
+            tasks,
+            inspector: InspectorPath::new(&scenario.ground_team),
+        });
         self.truth = None;
     }
 
@@ -213,7 +223,8 @@ impl LiveFlightState {
             SampleValue::Contact(contact) => self.contact = contact,
             SampleValue::Clearance(meters) => self.clearance_m = Some(meters),
             SampleValue::Heartbeat { armed, .. } => self.armed = armed,
-            SampleValue::Traffic(code) => self.gates.apply_code(code),
+            SampleValue::Traffic(code) => self.changes.closures.apply_code(code),
+            SampleValue::Walk(code) => self.changes.walks.apply_code(code),
             SampleValue::Seed(seed) => self.seed = Some(seed),
             SampleValue::ScenarioCrc(crc) => self.crc = Some(crc),
             SampleValue::Frozen(on) => self.is_frozen = on,
@@ -236,7 +247,7 @@ impl LiveFlightState {
         let Some(job) = &self.job else { return };
         // If the clock jumps backward, a new flight has started. Earlier messages remain visible.
         if self.truth.is_some_and(|before| truth.time < before.time) {
-            (self.current_task, self.cues, self.gates) = (None, 0, BridgeClosures::default());
+            (self.current_task, self.cues, self.changes) = (None, 0, SiteChanges::default());
             (self.cue_texts, self.last_cue, self.guidance) = (CueTexts::default(), None, None);
         }
         self.current_task = job.paths.task_on_path(truth.motion.position_m, self.current_task).map(|(task, _)| task);
@@ -277,14 +288,17 @@ impl LiveFlightState {
         Some(format!("{id} · {}", task_title(&job.scenario, name, language)))
     }
 
+    /// Returns the position of the inspector's feet, once the job is known.
+    fn inspector(&self) -> Option<Value> {
+        let (job, now) = (self.job.as_ref()?, self.truth?.time);
+        Some(point(job.inspector.with_walks(self.changes.walks.clone(), None).at(now).feet_m))
+    }
+
     /// Returns the current state for the page's script in a language. `heard` indicates whether telemetry was received recently.
     #[must_use]
     pub fn to_json(&self, heard: bool, language: Language) -> Value {
         let key = self.job().map(|key| format!("{:08x}-{}", key.crc, key.seed));
-        let place = self.truth.map(|truth| {
-            let [e, n, u] = truth.motion.position_m.array().map(|m| (m * 100.0).round() / 100.0);
-            json!([e, n, u])
-        });
+        let place = self.truth.map(|truth| point(truth.motion.position_m));
         let line = |line: &LogLine| {
             let LogWords { language, words } = line.words.get(language);
             json!({ "id": line.id, "t_s": line.t_s, "kind": line.kind, "lang": language.tag(), "words": words })
@@ -294,13 +308,14 @@ impl LiveFlightState {
         let last_cue = self.last_cue.as_ref().map(|(t_s, text)| json!({ "t_s": t_s, "words": cue_words(text, language) }));
         let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
         let guidance = self.guidance.filter(|(at, _)| now.saturating_sub(*at) <= guidance::TIMEOUT).map(|(_, guidance)| guidance);
-        let open = self.gates.is_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
+        let open = self.changes.closures.is_open_at(self.truth.map_or(f64::INFINITY, |truth| truth.time.s()));
         json!({
             "heard": heard,
             "traffic": if open { "open" } else { "closed" },
             "job": key,
             "t_s": self.truth.map(|truth| truth.time.s()),
             "place": place,
+            "inspector": self.inspector(),
             "speed_m_s": self.truth.map(|truth| truth.motion.velocity_m_s.norm()),
             "height_m": self.truth.map(|truth| truth.motion.position_m.up()),
             "battery_pct": self.battery_pct,
@@ -334,6 +349,12 @@ fn step_words(guidance: &Guidance, language: Language) -> String {
         Some(way) => format!("{step}: {way}"),
         None => step,
     }
+}
+
+/// Returns a position with centimeters.
+fn point(position_m: Vec3<Enu>) -> Value {
+    let [e, n, u] = position_m.array().map(|m| (m * 100.0).round() / 100.0);
+    json!([e, n, u])
 }
 
 #[cfg(test)]
@@ -388,6 +409,14 @@ mod tests {
         number(&mut live_state, "traffic", -1_500);
         let moment = live_state.to_json(true, Language::English);
         assert_eq!(moment["traffic"], json!("closed"));
+        let team = &scenario.ground_team;
+        assert_eq!(moment["inspector"], point(team.inspector_m));
+        // Half a second before this moment.
+        number(&mut live_state, "walk", 15_012);
+        let walked = &live_state.to_json(true, Language::English)["inspector"];
+        let walked: Vec<f64> = walked.as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+        let way_m = spandrel_model::math::hypot(walked[0] - team.inspector_m.east(), walked[1] - team.inspector_m.north());
+        assert!((way_m - 0.7).abs() < 0.02, "{walked:?}");
         // The resolution is about 1 cm for degE7 and 1 mm for MAVLink altitudes.
         let place: Vec<f64> = moment["place"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
         assert!(place[0].abs() < 0.02 && place[1].abs() < 0.02 && (place[2] - 12.0).abs() < 0.02, "{moment}");

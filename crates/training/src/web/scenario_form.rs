@@ -38,6 +38,7 @@ const LAYOUT: &[Layout] = &[
             "terrain.water_level_m",
             "ground_team.pad_m",
             "ground_team.inspector_m",
+            "ground_team.places_m",
             "ground_team.truck_m",
         ],
         tables: &["origin", "terrain", "ground_team"],

@@ -72,6 +72,7 @@ fn place_label(language: Language, name: &str) -> Option<String> {
         "pad_heading" => text!(language, "editor-key-pad-heading"),
         "pad_half" => text!(language, "editor-key-pad-half"),
         "inspector" => text!(language, "editor-key-inspector"),
+        "places" => text!(language, "editor-key-places"),
         "truck" => text!(language, "editor-key-truck"),
         "truck_heading" => text!(language, "editor-key-truck-heading"),
         "home_radius" => text!(language, "editor-key-home-radius"),

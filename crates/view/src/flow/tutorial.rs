@@ -250,6 +250,7 @@ fn example(cues: i32, style: DisplayStyle) -> Hud {
         pitch_rad: 0.0,
         obstacles: None,
         way_back: None,
+        inspector: None,
         pad_m: Vec3::new(-120.0, 60.0, 5.0),
         guidance: None,
         lesson: None,

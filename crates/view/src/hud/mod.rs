@@ -30,7 +30,7 @@ pub use instruments::{JobDrawing, SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub(crate) use pane::Pane;
-pub use state::{GnssStatus, Hud, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
+pub use state::{GnssStatus, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
 pub use status::LINK_TIMEOUT_S;
 pub use style::{DisplayStyle, DisplayUnits, TextScale};
 

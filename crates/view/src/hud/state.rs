@@ -75,6 +75,15 @@ pub struct WayBack {
     pub direction_rad: f64,
 }
 
+/// The inspector on the map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InspectorMarks {
+    /// Position of the feet, ENU, m.
+    pub position_m: Vec3<Enu>,
+    /// Places to which the inspector can walk, in the order of their numbers, ENU, m.
+    pub places_m: Vec<Vec3<Enu>>,
+}
+
 impl MapPath {
     /// Returns the paths of a job's tasks.
     #[must_use]
@@ -141,6 +150,8 @@ pub struct Hud {
     pub way_back: Option<WayBack>,
     /// Position of the pad, ENU, m.
     pub pad_m: Vec3<Enu>,
+    /// The inspector and the numbered places; `None` if the job has only one place.
+    pub inspector: Option<InspectorMarks>,
     /// The next step of the job; `None` if the monitor does not guide the pilot.
     pub guidance: Option<Guidance>,
     /// The current step of a lesson.

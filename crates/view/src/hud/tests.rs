@@ -45,6 +45,7 @@ pub(super) fn hud() -> Hud {
         pitch_rad: 0.0,
         obstacles: None,
         way_back: None,
+        inspector: None,
         pad_m: Vec3::new(-100.0, 60.0, 5.0),
         guidance: None,
         lesson: None,

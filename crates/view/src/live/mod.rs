@@ -26,7 +26,7 @@ use spandrel_mavlink::telemetry::sample::{self, Sample, SampleContent, SampleVal
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
-use spandrel_model::site::bridge_closures::BridgeClosures;
+use spandrel_model::site::changes::SiteChanges;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
 use std::collections::{BTreeSet, VecDeque};
@@ -103,18 +103,18 @@ struct SimulatorRun {
     next_takeoff_request: Option<SimTime>,
     pictures: BTreeSet<(i32, Option<SimTime>)>,
     last_picture: Option<SimTime>,
-    closures: BridgeClosures,
+    site_changes: SiteChanges,
 }
 
-/// The moment to draw, with its HUD inputs and bridge closures.
+/// The moment to draw, with its HUD inputs and the changes of the site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LiveMoment {
     /// State of the aircraft and its camera.
     pub moment: SceneMoment,
     /// Additional HUD inputs.
     pub hud: HudInputs,
-    /// Times when traffic was stopped and released.
-    pub closures: BridgeClosures,
+    /// Bridge closures and walks of the inspector.
+    pub site_changes: SiteChanges,
 }
 
 impl LiveMoment {
@@ -274,7 +274,8 @@ impl LiveFlight {
                 }
             }
             SampleValue::Frozen(on) => state.is_frozen = on,
-            SampleValue::Traffic(code) => state.closures.apply_code(code),
+            SampleValue::Traffic(code) => state.site_changes.closures.apply_code(code),
+            SampleValue::Walk(code) => state.site_changes.walks.apply_code(code),
             SampleValue::Seed(seed) => self.handle_seed(seed),
             SampleValue::ScenarioCrc(crc) => self.scenario_crc = Some(crc),
             SampleValue::Sticks(_)
@@ -430,7 +431,7 @@ impl LiveFlight {
             blink_time_s: wall.s(),
             is_frozen: state.is_frozen,
         };
-        Some(LiveMoment { moment, hud: told, closures: state.closures.clone() })
+        Some(LiveMoment { moment, hud: told, site_changes: state.site_changes.clone() })
     }
 }
 

@@ -48,7 +48,7 @@ pub fn shallow_triangles(scenario: &Scenario, site: &Site, triangles: &[[u32; 3]
 fn viewpoints_m(scenario: &Scenario) -> Vec<Vec3<Enu>> {
     let team = &scenario.ground_team;
     let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().step_by(4).copied());
-    paths.chain([team.pad_m, team.truck_m, team.inspector_m]).collect()
+    paths.chain([team.pad_m, team.truck_m]).chain(team.inspector_places_m()).collect()
 }
 
 struct GroundField<'a> {

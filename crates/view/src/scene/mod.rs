@@ -234,9 +234,10 @@ impl Scene {
             MoverModel::Truck,
             place_on_ground(team.truck_m, facing(team.truck_heading_deg), OPEN_AIR_LIGHT).with_material(props::CREW_TRUCK_COLOR),
         ));
+        let inspector = site.inspector().at(at);
         all.push((
             MoverModel::Person,
-            place_on_ground(team.inspector_m, facing(team.pad_heading_deg), OPEN_AIR_LIGHT).with_material(props::VEST_COLOR),
+            place_on_ground(inspector.feet_m, inspector.forward, OPEN_AIR_LIGHT).with_material(props::VEST_COLOR),
         ));
         if let Some(drone) = drone {
             self.aircraft(site, drone, at, &mut all);

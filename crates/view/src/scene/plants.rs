@@ -125,7 +125,8 @@ fn free_ground_point(scenario: &Scenario, site: &Site, east: f64, north: f64, he
     let fits = up - scenario.terrain.water_level_m >= height_over_water_m && normal.up() >= MIN_NORMAL_UP;
     let clear = |p: &Vec3<Enu>, room_m: f64| math::hypot(p.east() - east, p.north() - north) >= room_m;
     let team = &scenario.ground_team;
-    let from_team = clear(&team.pad_m, PAD_CLEARANCE_M) && clear(&team.truck_m, 12.0) && clear(&team.inspector_m, 12.0);
+    let from_inspector = || team.inspector_places_m().all(|place| clear(&place, 12.0));
+    let from_team = clear(&team.pad_m, PAD_CLEARANCE_M) && clear(&team.truck_m, 12.0) && from_inspector();
     let from_paths = || scenario.tasks.iter().flat_map(|t| t.path_m.iter().step_by(4)).all(|p| clear(p, PATH_CLEARANCE_M));
     let from_bridges = || {
         let lifted = Vec3::new(east, north, up + 5.0);

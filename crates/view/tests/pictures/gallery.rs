@@ -268,6 +268,7 @@ fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         pitch_rad: 0.0,
         obstacles: None,
         way_back: None,
+        inspector: None,
         pad_m: studio.scenario.ground_team.pad_m,
         guidance: None,
         lesson: None,

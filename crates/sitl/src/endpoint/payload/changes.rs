@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PayloadChange {
     messages: BTreeSet<u32>,
-    warnings: BTreeSet<&'static str>,
+    warnings: BTreeSet<String>,
 }
 
 impl PayloadChange {
@@ -16,12 +16,12 @@ impl PayloadChange {
     }
 
     /// Adds a warning text.
-    pub fn add_warning(&mut self, text: &'static str) {
-        self.warnings.insert(text);
+    pub fn add_warning(&mut self, text: &str) {
+        self.warnings.insert(text.to_owned());
     }
 
     /// Removes and returns all messages and warnings.
-    pub fn take(&mut self) -> (BTreeSet<u32>, BTreeSet<&'static str>) {
+    pub fn take(&mut self) -> (BTreeSet<u32>, BTreeSet<String>) {
         (std::mem::take(&mut self.messages), std::mem::take(&mut self.warnings))
     }
 }

@@ -1,4 +1,4 @@
-//! The equipment: camera, gimbal and lamp, and the changes that they report.
+//! The equipment: camera, gimbal and lamp, the changes that they report, and the request for a walk of the inspector.
 
 use super::camera::CameraState;
 use super::changes::PayloadChange;
@@ -19,6 +19,8 @@ pub struct Payload {
     pub lamp: LampState,
     /// Changes to report.
     pub changes: PayloadChange,
+    /// Number of the place to which a client has sent the inspector.
+    walk_request: Option<u8>,
 }
 
 impl Payload {
@@ -30,7 +32,18 @@ impl Payload {
             gimbal: GimbalState::new(),
             lamp: LampState::OFF,
             changes: PayloadChange::default(),
+            walk_request: None,
         }
+    }
+
+    /// Sends the inspector to a place with the next tick.
+    pub fn request_walk(&mut self, place: u8) {
+        self.walk_request = Some(place);
+    }
+
+    /// Removes and returns the number of the place to which a client has sent the inspector.
+    pub fn take_walk_request(&mut self) -> Option<u8> {
+        self.walk_request.take()
     }
 
     /// Advances the gimbal, camera and lamp by `dt_s` seconds.

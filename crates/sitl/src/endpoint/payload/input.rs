@@ -7,6 +7,7 @@ use crate::endpoint::clock::VehicleClock;
 use crate::physics::{BatteryState, RigidState};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
+use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
 
 /// The aircraft at one instant.
@@ -18,6 +19,8 @@ pub struct PayloadInput<'a> {
     pub vehicle: &'a Vehicle,
     /// Local tangent plane.
     pub plane: &'a LocalPlane,
+    /// The site.
+    pub site: &'a Site,
     /// Estimated position, site frame, m.
     pub position_m: Vec3<Ned>,
     /// Estimated heading, rad.

@@ -23,8 +23,8 @@ impl ScoringFeed {
         Self { contact: at(10.0), clearance: at(30.0), lux: at(5.0), slow: at(0.2), last: ScoringTruth::default() }
     }
 
-    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns, practice values and traffic on
-    /// change and with the slow values.
+    /// Returns the values that are due: contact on change and at 10 Hz; hits, respawns, practice values, traffic and
+    /// walks on change and with the slow values.
     pub fn take_due(&mut self, truth: &ScoringTruth, speed_factor: f64, now: SimTime) -> Vec<NamedValue> {
         let mut out = Vec::new();
         if self.contact.fire(now) | (truth.contact != self.last.contact) {
@@ -44,6 +44,9 @@ impl ScoringFeed {
         // Traffic that has never been stopped is omitted.
         if slow || truth.traffic != self.last.traffic {
             out.extend(truth.traffic.into_iter().filter(|code| *code != 0).map(NamedValue::Traffic));
+        }
+        if slow || truth.walks != self.last.walks {
+            out.extend(truth.walks.into_iter().filter(|code| *code != 0).map(NamedValue::Walk));
         }
         if slow {
             out.push(NamedValue::Seed(truth.seed.cast_unsigned()));

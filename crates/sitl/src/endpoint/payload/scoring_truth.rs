@@ -1,6 +1,7 @@
 //! Ground truth and counters for scoring.
 
 use spandrel_mavlink::contract::contact::ContactKind;
+use spandrel_model::site::inspector_walks::MAX_TURNS;
 
 /// Scoring data other than the motion (docs/src/reference/wire.md, "Scoring data").
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,6 +20,8 @@ pub struct ScoringTruth {
     pub is_frozen: bool,
     /// The last two traffic changes, encoded as on the wire; 0 if there was no change.
     pub traffic: [i32; 2],
+    /// The inspector's last walk and its turns, encoded as on the wire; 0 if there are fewer.
+    pub walks: [i32; MAX_TURNS],
     /// The session's seed.
     pub seed: i32,
     /// CRC of the scenario.

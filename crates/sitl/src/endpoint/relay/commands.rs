@@ -46,7 +46,8 @@ impl RelayEndpoint {
         match c.component {
             CAMERA => payload_commands::handle_camera(c, input, equipment).or(unsupported),
             LAMP => payload_commands::handle_lamp(c, input, equipment).or(unsupported),
-            0 | AUTOPILOT => payload_commands::handle_lamp(c, input, equipment),
+            0 | AUTOPILOT => payload_commands::handle_lamp(c, input, equipment)
+                .or_else(|| payload_commands::handle_inspector(c, input, equipment)),
             other if self.links.is_own(other) => unsupported,
             _ => None,
         }

@@ -176,6 +176,7 @@ impl RelayEndpoint {
             clock: aircraft.clock,
             vehicle: aircraft.vehicle,
             plane: aircraft.plane,
+            site: aircraft.site,
             position_m: aircraft.truth.position_m,
             heading_rad: aircraft.truth.attitude.yaw_rad(),
             home_m: Some(self.home_m),

@@ -47,7 +47,7 @@ impl RelayEndpoint {
             }
         }
         for warning in warnings {
-            self.push_text(MavSeverity::MAV_SEVERITY_WARNING, warning);
+            self.push_text(MavSeverity::MAV_SEVERITY_WARNING, &warning);
         }
     }
 

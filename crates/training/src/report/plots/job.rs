@@ -1,7 +1,7 @@
 //! Drawings of a job without a flight, used on the scenario page and as the background of the live page.
 
 use super::backdrop::{ground, lake};
-use super::map::{extent, near_bridge_data, north, pad, reference_paths, scale, structure, task_numbers};
+use super::map::{extent, near_bridge_data, north, pad, places, reference_paths, scale, structure, task_numbers};
 use super::plot_map::PlotMap;
 use super::{coord, svg_figure};
 use maud::{Markup, html};
@@ -57,8 +57,10 @@ fn plan(scenario: &Scenario, site: &Site, map: &PlotMap, marks: &Markup, languag
             (reference_paths(scenario, map, None, language))
             (task_numbers(scenario, map, None))
             (pad(scenario, map, language))
+            (places(scenario, map, language))
             (marks)
             (north(map, language))
+            (inspector(scenario, map))
             (drone(map, None))
             (scale(map))
         },
@@ -117,6 +119,13 @@ pub fn job_south(scenario: &Scenario, site: &Site, language: Language) -> Markup
     svg_figure(map.size, &text!(language, "plot-job-south"), "map", &body)
 }
 
+/// Draws the inspector, which a script moves; nothing in a job with only one place.
+fn inspector(scenario: &Scenario, map: &PlotMap) -> Markup {
+    html! {
+        @if scenario.ground_team.can_walk() { g.walker data-matrix=(map.matrix()) { circle r="5" {} circle.core r="2.5" {} } }
+    }
+}
+
 /// Draws the drone and its trail, which a script updates. They are hidden until the script runs and, in a bridge's side
 /// view, while the drone is far from that bridge.
 fn drone(map: &PlotMap, bridge: Option<&Bridge>) -> Markup {
@@ -145,6 +154,8 @@ mod tests {
         assert_eq!((plan.matches("reference path of task").count(), plan.matches("data-near").count()), (4, 0));
         assert_eq!(plan.matches("class=\"start\"").count(), 4, "each path has its number");
         assert!(plan.contains("class=\"lake\"") && plan.contains("class=\"structure\""));
+        let count = plan.matches("class=\"place\"").count();
+        assert_eq!((count, plan.matches("class=\"walker\"").count()), (scenario.ground_team.places_m.len() + 1, 1));
         let wide = editor_plan(&scenario, &site, language).into_string();
         assert!(wide.contains("inspector") && wide.contains("truck") && wide.contains("data-matrix") && wide != plan);
         for bridge in &scenario.bridges {
@@ -155,5 +166,7 @@ mod tests {
         }
         let (scenario, site) = job(include_str!("../../../../../scenarios/drill-hover.toml"));
         assert!(job_south(&scenario, &site, language).into_string().contains("data-matrix"));
+        let plan = job_plan(&scenario, &site, language).into_string();
+        assert!(!plan.contains("class=\"place\"") && !plan.contains("walker"), "a job with only one place");
     }
 }

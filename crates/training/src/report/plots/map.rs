@@ -14,6 +14,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::{Bridge, Scenario, Task};
 use spandrel_model::site::Site;
+use spandrel_model::site::inspector_walks::Walk;
 use spandrel_model::site::outline::{ParallelView, outlines};
 use spandrel_monitor::measures::crash::Crash;
 use spandrel_text::{Language, text};
@@ -33,6 +34,8 @@ pub fn plan(review: &Review) -> Markup {
     let body = html! {
         (lake(&review.scenario, &review.site, &map))
         (structure(&review.site, &map, None))
+        (places(&review.scenario, &map, review.metadata.language))
+        (walks(review, &map))
         (job(review, &map, None, &all))
         (north(&map, review.metadata.language))
     };
@@ -153,6 +156,39 @@ pub fn findings(review: &Review, bridge: &Bridge, view: ParallelView, title: &st
     )
 }
 
+/// Draws the numbers of the places to which the inspector can walk; nothing in a job with only one place.
+pub(super) fn places(scenario: &Scenario, map: &PlotMap, language: Language) -> Markup {
+    let team = &scenario.ground_team;
+    html! {
+        @if team.can_walk() {
+            @for (number, place_m) in (1..).zip(team.inspector_places_m()) {
+                @let (x, y) = map.at(place_m);
+                g.place transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
+                    path d="M-8 -8H8V8H-8Z" {}
+                    text.mark y="4" text-anchor="middle" { (number) }
+                    title { (text!(language, "plot-place", place = number)) }
+                }
+            }
+        }
+    }
+}
+
+/// Draws the walks of the inspector up to the end of the flight.
+fn walks(review: &Review, map: &PlotMap) -> Markup {
+    let (language, last) = (review.metadata.language, review.frames.last().map(|frame| frame.time));
+    let lift_off = review.frames.first().map_or(0.0, |frame| frame.time.s());
+    let moment = |walk: &Walk| formatting::clock((walk.at.s() - lift_off).max(0.0));
+    html! {
+        g.walk {
+            @for (walk, from_m, to_m) in review.site.inspector().ways_m().filter(|(walk, ..)| Some(walk.at) < last) {
+                path d=(line(&[map.at(from_m), map.at(to_m)], false)) {
+                    title { (text!(language, "plot-walk", place = walk.to, moment = moment(walk))) }
+                }
+            }
+        }
+    }
+}
+
 pub(super) fn bounding_points(review: &Review) -> Vec<Vec3<Enu>> {
     let mut all = extent(&review.scenario, &review.site);
     let water_m = review.scenario.terrain.water_level_m;
@@ -165,7 +201,13 @@ pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     let water_m = scenario.terrain.water_level_m;
     let members = site.members().iter().flat_map(|member| member.solid.vertices_m.iter().copied());
     let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
-    members.chain(paths).chain([scenario.ground_team.pad_m]).filter(|point| point.up() > water_m - 6.0).collect()
+    let team = &scenario.ground_team;
+    members
+        .chain(paths)
+        .chain([team.pad_m])
+        .chain(team.places_m.iter().copied())
+        .filter(|point| point.up() > water_m - 6.0)
+        .collect()
 }
 
 pub(super) fn structure(site: &Site, map: &PlotMap, prefix: Option<&str>) -> Markup {

@@ -84,6 +84,7 @@ function show(now) {
     root.classList.add("live");
     move(now.place);
   }
+  moveWalker(root, now.inspector);
   put("task", now.task ?? texts.off_path);
   put("step", now.step ?? "–");
   put("progress", now.progress === null ? "–" : `${Math.floor(100 * now.progress)}%`);

@@ -15,6 +15,12 @@ function moveDrone(drone, place) {
   drone.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
 }
 
+// The inspector in the drawings, if the job has places to walk to.
+function moveWalker(root, place) {
+  if (!place) return;
+  root.querySelectorAll(".walker").forEach((walker) => moveDrone(walker, place));
+}
+
 // Each image has a unique URL and is requested once; the previous image stays until the new one has loaded.
 function showPicture(camera, version, address) {
   camera.hidden = version === null;

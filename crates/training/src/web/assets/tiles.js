@@ -31,6 +31,7 @@ function show(tile, now) {
   if (!now.place) return;
   tile.classList.add("live");
   for (const drone of map.querySelectorAll(".drone")) moveDrone(drone, now.place);
+  moveWalker(map, now.inspector);
 }
 
 function disconnected(words) {

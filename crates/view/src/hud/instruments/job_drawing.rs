@@ -112,7 +112,7 @@ impl JobDrawing {
 fn tasks(paths: &Paths<'_>, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     let mut items = paths.lines(pane, font);
     items.extend(paths.directions(pane, area, font));
-    items.extend(paths.numbers(pane, area, font));
+    items.extend(paths.numbers(pane, area, font, &mut Vec::new()));
     items
 }
 

@@ -1,8 +1,9 @@
-//! Map of the site, north up: water, bridges, paths, landing pad, aircraft, and a scale.
+//! Map of the site, north up: water, bridges, paths, landing pad, inspector, aircraft, and a scale.
 
 use super::super::pane::Pane;
 use super::super::state::Hud;
 use super::super::style::DisplayStyle;
+use super::super::text_metrics::text_width;
 use super::super::{DrawItem, HudColor, MapPath, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
@@ -29,8 +30,10 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     items.extend(ground(site, pane, area, &scale));
     let current = hud.guidance.and_then(|guidance| guidance.task);
     let paths = Paths { tracks: &hud.tracks, current, place: &|point_m| place(&scale, point_m) };
+    let mut labels = legend_texts(hud.style, area, (&scale, font));
     items.extend(paths.lines(pane, font));
-    items.extend(paths.numbers(pane, area, font));
+    items.extend(paths.numbers(pane, area, font, &mut labels));
+    items.extend(inspector(hud, pane, area, (&scale, font), &mut labels));
     items.push(pad(pane, place(&scale, hud.pad_m), area, font));
     if let Some(ghost) = hud.ghost {
         let here = clamp_point(place(&scale, ghost.position_m), area.inside(font));
@@ -63,9 +66,7 @@ pub(super) fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &Drawing
 
 /// Returns the landing pad, at the edge of the area if it is outside.
 pub(super) fn pad(pane: Pane, at: Point, area: Area, font: f64) -> DrawItem {
-    let (pad, side) = (clamp_point(at, area.inside(0.5 * font)), 0.35 * font);
-    let square = [(-side, -side), (side, -side), (side, side), (-side, side)];
-    pane.fill(&square.map(|(right, down)| (pad.0 + right, pad.1 + down)), HudColor::White)
+    square(pane, clamp_point(at, area.inside(0.5 * font)), 0.35 * font, HudColor::White)
 }
 
 /// The tasks' paths in a drawing.
@@ -93,14 +94,14 @@ impl Paths<'_> {
         self.tracks.iter().map(line).collect()
     }
 
-    /// Returns the tasks' numbers beside the starts of their paths.
-    pub fn numbers(&self, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+    /// Returns the tasks' numbers beside the starts of their paths. Adds their places to those that labels take.
+    pub fn numbers(&self, pane: Pane, area: Area, font: f64, taken: &mut Vec<Point>) -> Vec<DrawItem> {
         let mut items = Vec::new();
-        let mut taken: Vec<Point> = Vec::new();
         for track in self.tracks {
             let Some(start_m) = track.path_m.first() else { continue };
             let start = (self.place)(*start_m);
-            let label = free_place((start.0, start.1 - 0.9 * font), &taken, area.inside(0.7 * font), font);
+            let (wanted, inside) = ((start.0, start.1 - 0.9 * font), area.inside(0.7 * font));
+            let label = free_place(wanted, taken, inside, font).unwrap_or_else(|| clamp_point(wanted, inside));
             items.push(disc(pane, label, 0.62 * font, HudColor::Black));
             items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
             taken.push(label);
@@ -131,8 +132,29 @@ fn direction(points: &[Point]) -> Option<(Point, f64)> {
     (length2(&longest) > 0.0).then(|| (middle, math::atan2(to.0 - from.0, from.1 - to.1)))
 }
 
-/// Returns the place for a task's number: the wanted one, or the next free one to the right and down.
-fn free_place(wanted: Point, taken: &[Point], area: Area, font: f64) -> Point {
+/// Returns the inspector, and squares with the numbers of the places.
+fn inspector(hud: &Hud, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64), taken: &mut Vec<Point>) -> Vec<DrawItem> {
+    let Some(marks) = &hud.inspector else { return Vec::new() };
+    let mut items = Vec::new();
+    for (number, place_m) in (1_u8..).zip(&marks.places_m) {
+        let here = place(scale, *place_m);
+        let Some(label) = free_place(here, taken, area.inside(0.7 * font), font) else {
+            // With large text, a small map has no room for all numbers.
+            items.push(square(pane, clamp_point(here, area.inside(0.5 * font)), 0.3 * font, HudColor::Gray));
+            continue;
+        };
+        items.push(square(pane, label, 0.58 * font, HudColor::Gray));
+        items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::Black, number.to_string()));
+        taken.push(label);
+    }
+    let here = clamp_point(place(scale, marks.position_m), area.inside(0.6 * font));
+    items.push(disc(pane, here, 0.5 * font, HudColor::Black));
+    items.push(disc(pane, here, 0.34 * font, HudColor::White));
+    items
+}
+
+/// Returns the place for a number: the wanted one, or the next free one to the right and down; `None` if there is none nearby.
+fn free_place(wanted: Point, taken: &[Point], area: Area, font: f64) -> Option<Point> {
     let step = 1.3 * font;
     let is_free = |here: &Point| {
         taken.iter().all(|other| (here.0 - other.0).abs() >= 0.99 * step || (here.1 - other.1).abs() >= 0.99 * step)
@@ -140,7 +162,12 @@ fn free_place(wanted: Point, taken: &[Point], area: Area, font: f64) -> Point {
     let offsets =
         [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0)];
     let places = offsets.map(|(right, down)| clamp_point((wanted.0 + right * step, wanted.1 + down * step), area));
-    places.iter().copied().find(is_free).unwrap_or(places[0])
+    places.into_iter().find(is_free)
+}
+
+fn square(pane: Pane, (x, y): Point, half: f64, color: HudColor) -> DrawItem {
+    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+    pane.fill(&corners.map(|(right, down)| (x + right, y + down)), color)
 }
 
 fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
@@ -151,12 +178,25 @@ fn disc(pane: Pane, (x, y): Point, radius: f64, color: HudColor) -> DrawItem {
     pane.fill(&(0..16).map(corner).collect::<Vec<_>>(), color)
 }
 
+/// Returns the length of the scale, m.
+fn scale_length_m(style: DisplayStyle, area: Area, scale: &DrawingScale) -> f64 {
+    let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
+    let lengths_m = SCALE_LENGTHS.map(|length| length * style.units.length_unit_m());
+    lengths_m.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(lengths_m[0])
+}
+
+/// Returns points on the texts of the legend, which other texts must not cover.
+fn legend_texts(style: DisplayStyle, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<Point> {
+    let words = style.units.length(scale_length_m(style, area, scale), 0);
+    let (left, y) = (area.x + 0.8 * font, area.y + area.height - 1.75 * font);
+    let count = (text_width(&words, font) / font).ceil() as u32;
+    let scale_text = (0..=count).map(|k| (left + f64::from(k) * font, y));
+    scale_text.chain([(area.x + area.width - 1.1 * font, area.y + 2.3 * font)]).collect()
+}
+
 /// Returns the north arrow and the scale.
 pub(super) fn legend(style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
-    let units = style.units;
-    let most_m = MAX_SCALE_SHARE * area.width / scale.px_per_m;
-    let lengths_m = SCALE_LENGTHS.map(|length| length * units.length_unit_m());
-    let length_m = lengths_m.into_iter().rev().find(|length_m| *length_m <= most_m).unwrap_or(lengths_m[0]);
+    let (units, length_m) = (style.units, scale_length_m(style, area, scale));
     let (left, bottom) = (area.x + 0.8 * font, area.y + area.height - 0.8 * font);
     let right = left + length_m * scale.px_per_m;
     let bar = [(left, bottom - 0.4 * font), (left, bottom), (right, bottom), (right, bottom - 0.4 * font)];

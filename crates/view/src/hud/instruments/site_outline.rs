@@ -58,7 +58,8 @@ impl SiteOutline {
     #[must_use]
     pub fn new(scenario: &Scenario, site: &Site) -> Self {
         let plan = ParallelView::plan();
-        let shown = scenario.tasks.iter().flat_map(|task| task.path_m.iter()).chain([&scenario.ground_team.pad_m]);
+        let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter());
+        let shown = paths.chain([&scenario.ground_team.pad_m]).chain(&scenario.ground_team.places_m);
         let bounds = bounds(shown.map(|point_m| plan.at(*point_m)));
         let sides = (0..scenario.bridges.len()).map(|bridge| side_view(scenario, site, Some(bridge)));
         Self {

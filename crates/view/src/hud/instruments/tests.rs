@@ -2,7 +2,7 @@
 
 use super::super::tests::hud;
 use super::super::text_metrics::text_width;
-use super::super::{DisplayStyle, DisplayUnits, HudColor, Obstacles, TextAlign, TextScale};
+use super::super::{DisplayStyle, DisplayUnits, HudColor, InspectorMarks, Obstacles, TextAlign, TextScale};
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout, WindowShape};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
@@ -42,6 +42,10 @@ fn flying(job: &Scenario) -> Hud {
         guidance: Some(guidance),
         obstacles: Some(Obstacles { sectors_m, nearest_m: None, range_m: 12.0, too_close_m: 1.5 }),
         pad_m: job.ground_team.pad_m,
+        inspector: Some(InspectorMarks {
+            position_m: job.ground_team.inspector_m,
+            places_m: job.ground_team.inspector_places_m().collect(),
+        }),
         position_m: Vec3::new(20.0, -10.0, 30.0),
         roll_rad: 0.3,
         pitch_rad: -0.2,
@@ -121,6 +125,31 @@ fn exact_an_assessment_shows_neither_map_nor_profile() {
     assert!(!has_color(&assessment, HudColor::Structure) && has_color(&assessment, HudColor::Sky));
     let words: Vec<String> = texts(&assessment, size_px).into_iter().map(|(words, _)| words).collect();
     assert_eq!(words, ["N", "E", "S", "W", "069°", "obstacle 1.2 m"]);
+}
+
+#[test]
+fn exact_places_of_the_inspector_are_numbered_on_the_map() {
+    let (mut job, site) = job();
+    let here_m = job.ground_team.inspector_m;
+    job.ground_team.places_m = vec![here_m + Vec3::new(0.0, -60.0, 0.0), here_m + Vec3::new(0.0, 60.0, 0.0)];
+    let size_px = (320.0, 480.0);
+    let marks = |hud: &Hud| {
+        let squares = instruments(hud, &site, size_px).into_iter().filter_map(|item| match item {
+            DrawItem::Fill { points, color: HudColor::Gray } if points.len() == 4 => Some(points[0]),
+            DrawItem::Fill { .. } | DrawItem::Panel { .. } | DrawItem::Text { .. } | DrawItem::Line { .. } => None,
+        });
+        squares.collect::<Vec<_>>()
+    };
+    let hud = flying(&job);
+    let found = marks(&hud);
+    assert_eq!(found.len(), 3);
+    assert!(found[1].y > found[0].y && found[2].y < found[0].y, "north is up: {found:?}");
+    assert!(marks(&Hud { inspector: None, ..hud.clone() }).is_empty(), "a job with only one place");
+    let walked = Hud {
+        inspector: Some(InspectorMarks { position_m: job.ground_team.places_m[0], ..hud.inspector.clone().unwrap() }),
+        ..hud.clone()
+    };
+    assert_ne!(instruments(&walked, &site, size_px), instruments(&hud, &site, size_px));
 }
 
 #[test]

@@ -1,8 +1,10 @@
-//! Camera, gimbal and lamp commands: one row per command, used for received commands and for mission items.
+//! Camera, gimbal and lamp commands: one row per command, used for received commands and for mission items. Also the command that
+//! sends the inspector to another place, which is no mission item.
 
 mod camera;
 mod gimbal;
 mod handler;
+mod inspector;
 mod lamp;
 pub(crate) mod region_of_interest;
 
@@ -32,6 +34,11 @@ pub(crate) fn handle_camera(c: &VehicleCommand, input: &PayloadInput, payload: &
 /// Handles a command addressed to the lamp.
 pub(crate) fn handle_lamp(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
     Some(row(c.number, lamp::ROWS)?(c, input, payload))
+}
+
+/// Handles a command for the inspector; `None` for other commands and for mission items.
+pub(crate) fn handle_inspector(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
+    inspector::handle(c, input, payload)
 }
 
 /// Handles a command addressed to the autopilot component.

@@ -18,6 +18,7 @@ pub(crate) fn execute(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMe
     let result = flight::handle(c, v, a)
         .or_else(|| point_at(c, v, a))
         .or_else(|| payload::handle(c, a.input, a.payload))
+        .or_else(|| payload::handle_inspector(c, a.input, a.payload))
         .unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED);
     if v.params.changes() != before {
         v.parameters_changed(a.autopilot, a.payload, a.links);
