@@ -326,10 +326,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         }),
         way_back: way_back(stage, moment, feed, held),
         pad_m,
-        inspector: scenario.ground_team.can_walk().then(|| InspectorMarks {
-            position_m: stage.site.inspector().at(at).feet_m,
-            places_m: scenario.ground_team.inspector_places_m().collect(),
-        }),
+        inspector: InspectorMarks::new(&scenario.ground_team, stage.site.inspector().at(at).feet_m),
         guidance: feed.guidance(at),
         lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
             how: how_to(status.task, Language::default(), &|binding| format!("{{{binding}}}")),

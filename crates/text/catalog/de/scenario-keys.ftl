@@ -27,6 +27,7 @@ scenario-keys-ground-team-pad-m = Mitte der Oberseite des Landeplatzes, m. Der B
 scenario-keys-ground-team-pad-heading-deg = Richtung der Drohne auf dem Landeplatz, Grad im Uhrzeigersinn von Norden.
 scenario-keys-ground-team-pad-half-m = Halbe Seitenlänge des quadratischen Landeplatzes, m.
 scenario-keys-ground-team-inspector-m = Standort des Prüfers (Füße), m; der Prüfer zählt als Person.
+scenario-keys-ground-team-places-m = Bis zu 7 weitere Standorte, zu denen der Prüfer gehen kann, gezählt ab 2; Standort 1 ist `inspector_m`. Jede Position ist die der Füße auf dem Boden, höchstens 500 m vom Landeplatz und mindestens 2 m von jedem anderen Standort. `check` meldet Standorte und gerade Wege vom einen zum nächsten, die im Wasser, in einer Brücke, auf dem Landeplatz oder am Einsatzfahrzeug liegen.
 scenario-keys-ground-team-truck-m = Mitte der Grundfläche des Einsatzfahrzeugs auf dem Boden, m; es zählt als Fahrzeug.
 scenario-keys-ground-team-truck-heading-deg = Richtung des Einsatzfahrzeugs, Grad im Uhrzeigersinn von Norden.
 scenario-keys-ground-team-home-radius-m = Größter waagerechter Abstand von der Mitte des Landeplatzes, bei dem eine Landung als Landung am Landeplatz zählt, m.

@@ -27,6 +27,7 @@ scenario-keys-ground-team-pad-m = Centro de la superficie superior de la platafo
 scenario-keys-ground-team-pad-heading-deg = Rumbo del dron en la plataforma, grados en sentido horario desde el norte.
 scenario-keys-ground-team-pad-half-m = Mitad del lado de la plataforma cuadrada, m.
 scenario-keys-ground-team-inspector-m = Posición de los pies del inspector, m; el inspector cuenta como persona.
+scenario-keys-ground-team-places-m = Hasta 7 puntos más a los que el inspector puede caminar, numerados desde 2; el punto 1 es `inspector_m`. Cada posición es la de los pies en el suelo, a no más de 500 m de la plataforma y a no menos de 2 m de cualquier otro punto. `check` informa de los puntos, y de los caminos rectos de uno al siguiente, que están en el agua, en un puente, en la plataforma o en la camioneta.
 scenario-keys-ground-team-truck-m = Centro de la huella de la camioneta en el suelo, m; la camioneta cuenta como vehículo.
 scenario-keys-ground-team-truck-heading-deg = Rumbo de la camioneta, grados en sentido horario desde el norte.
 scenario-keys-ground-team-home-radius-m = Distancia horizontal máxima al centro de la plataforma a la que un aterrizaje cuenta como aterrizaje en la base, m.

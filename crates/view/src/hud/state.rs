@@ -6,7 +6,7 @@ use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Pose;
-use spandrel_model::scenario::{Scenario, Task};
+use spandrel_model::scenario::{GroundTeam, Scenario, Task};
 
 /// Name of the flight mode before it has been received.
 pub const UNKNOWN_MODE: &str = "no mode";
@@ -82,6 +82,14 @@ pub struct InspectorMarks {
     pub position_m: Vec3<Enu>,
     /// Places to which the inspector can walk, in the order of their numbers, ENU, m.
     pub places_m: Vec<Vec3<Enu>>,
+}
+
+impl InspectorMarks {
+    /// Returns the marks for an inspector at a position; `None` if the job has only one place.
+    #[must_use]
+    pub fn new(team: &GroundTeam, position_m: Vec3<Enu>) -> Option<Self> {
+        team.can_walk().then(|| Self { position_m, places_m: team.inspector_places_m().collect() })
+    }
 }
 
 impl MapPath {

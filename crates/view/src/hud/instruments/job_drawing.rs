@@ -3,12 +3,12 @@
 
 use super::super::pane::Pane;
 use super::super::style::DisplayStyle;
-use super::super::{DrawItem, MapPath};
+use super::super::{DrawItem, InspectorMarks, MapPath};
 use super::area::Area;
 use super::map::{self, Paths};
 use super::profile;
 use super::scale::DrawingScale;
-use super::site_outline::{Bounds, SideView, SiteOutline};
+use super::site_outline::{Bounds, Point, SideView, SiteOutline};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
@@ -33,6 +33,7 @@ pub struct JobDrawing {
     outline: SiteOutline,
     tracks: Vec<MapPath>,
     pad_m: Vec3<Enu>,
+    inspector: Option<InspectorMarks>,
     sides: Vec<Side>,
 }
 
@@ -43,7 +44,8 @@ impl JobDrawing {
         let outline = SiteOutline::new(scenario, site);
         let tracks = MapPath::all(scenario);
         let sides = sides(scenario, &outline, &tracks);
-        Self { outline, tracks, pad_m: scenario.ground_team.pad_m, sides }
+        let team = &scenario.ground_team;
+        Self { outline, tracks, pad_m: team.pad_m, inspector: InspectorMarks::new(team, team.inspector_m), sides }
     }
 
     /// Returns the number of drawings.
@@ -94,7 +96,11 @@ impl JobDrawing {
     fn map(&self, style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
         let place = |point_m: Vec3<Enu>| map::place(scale, point_m);
         let mut items = map::ground(&self.outline, pane, area, scale);
-        items.extend(tasks(&Paths { tracks: &self.tracks, current: None, place: &place }, pane, area, font));
+        let mut labels = map::legend_texts(style, area, (scale, font));
+        items.extend(tasks(&Paths { tracks: &self.tracks, current: None, place: &place }, pane, area, font, &mut labels));
+        if let Some(marks) = &self.inspector {
+            items.extend(map::inspector(marks, pane, area, (scale, font), &mut labels));
+        }
         items.push(map::pad(pane, place(self.pad_m), area, font));
         items.extend(map::legend(style, pane, area, (scale, font)));
         items
@@ -103,16 +109,17 @@ impl JobDrawing {
     fn side_view(&self, side: &Side, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
         let place = |point_m: Vec3<Enu>| scale.place(side.view.view.at(point_m));
         let mut items = profile::background(&side.view, self.outline.water_level_m, pane, area, scale);
-        items.extend(tasks(&Paths { tracks: &side.tracks, current: None, place: &place }, pane, area, font));
+        let paths = Paths { tracks: &side.tracks, current: None, place: &place };
+        items.extend(tasks(&paths, pane, area, font, &mut Vec::new()));
         items
     }
 }
 
-/// Draws the tasks' paths with their directions and numbers.
-fn tasks(paths: &Paths<'_>, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+/// Draws the tasks' paths with their directions and numbers. Adds the places of the numbers to those that labels take.
+fn tasks(paths: &Paths<'_>, pane: Pane, area: Area, font: f64, labels: &mut Vec<Point>) -> Vec<DrawItem> {
     let mut items = paths.lines(pane, font);
     items.extend(paths.directions(pane, area, font));
-    items.extend(paths.numbers(pane, area, font, &mut Vec::new()));
+    items.extend(paths.numbers(pane, area, font, labels));
     items
 }
 
@@ -149,9 +156,12 @@ mod tests {
         JobDrawing::new(&scenario, &Site::without_defects(&scenario))
     }
 
-    fn numbers(items: &[DrawItem]) -> Vec<String> {
+    /// Returns the numbers with this color: white for tasks, black for places of the inspector.
+    fn numbers(items: &[DrawItem], shown: HudColor) -> Vec<String> {
         let number = |item: &DrawItem| match item {
-            DrawItem::Text { words, side: TextAlign::Center, .. } if words.parse::<u32>().is_ok() => Some(words.clone()),
+            DrawItem::Text { words, side: TextAlign::Center, color, .. } if *color == shown && words.parse::<u32>().is_ok() => {
+                Some(words.clone())
+            }
             DrawItem::Text { .. } | DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
         };
         items.iter().filter_map(number).collect()
@@ -161,8 +171,9 @@ mod tests {
     fn exact_map_shows_all_tasks_and_each_side_view_those_of_its_bridge() {
         let drawing = drawing(shipped::TWO_BRIDGES);
         let style = DisplayStyle::default();
-        let shown: Vec<Vec<String>> =
-            (0..drawing.count()).map(|index| numbers(&drawing.draw(index, style, PANE, AREA))).collect();
+        let drawn: Vec<Vec<DrawItem>> = (0..drawing.count()).map(|index| drawing.draw(index, style, PANE, AREA)).collect();
+        let shown: Vec<Vec<String>> = drawn.iter().map(|items| numbers(items, HudColor::White)).collect();
+        assert_eq!(numbers(&drawn[0], HudColor::Black), ["1", "2", "3", "4"], "places of the inspector");
         let mut of_sides = shown[1..].concat();
         of_sides.sort();
         assert_eq!((shown[0].clone(), of_sides), (vec!["1".into(), "2".into(), "3".into(), "4".into()], shown[0].clone()));

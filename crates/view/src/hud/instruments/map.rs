@@ -1,7 +1,7 @@
 //! Map of the site, north up: water, bridges, paths, landing pad, inspector, aircraft, and a scale.
 
 use super::super::pane::Pane;
-use super::super::state::Hud;
+use super::super::state::{Hud, InspectorMarks};
 use super::super::style::DisplayStyle;
 use super::super::text_metrics::text_width;
 use super::super::{DrawItem, HudColor, MapPath, TextAlign};
@@ -33,7 +33,9 @@ pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f
     let mut labels = legend_texts(hud.style, area, (&scale, font));
     items.extend(paths.lines(pane, font));
     items.extend(paths.numbers(pane, area, font, &mut labels));
-    items.extend(inspector(hud, pane, area, (&scale, font), &mut labels));
+    if let Some(marks) = &hud.inspector {
+        items.extend(inspector(marks, pane, area, (&scale, font), &mut labels));
+    }
     items.push(pad(pane, place(&scale, hud.pad_m), area, font));
     if let Some(ghost) = hud.ghost {
         let here = clamp_point(place(&scale, ghost.position_m), area.inside(font));
@@ -132,10 +134,17 @@ fn direction(points: &[Point]) -> Option<(Point, f64)> {
     (length2(&longest) > 0.0).then(|| (middle, math::atan2(to.0 - from.0, from.1 - to.1)))
 }
 
-/// Returns the inspector, and squares with the numbers of the places.
-fn inspector(hud: &Hud, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64), taken: &mut Vec<Point>) -> Vec<DrawItem> {
-    let Some(marks) = &hud.inspector else { return Vec::new() };
-    let mut items = Vec::new();
+/// Returns the inspector, and squares with the numbers of the places. Adds their places to those that labels take.
+pub(super) fn inspector(
+    marks: &InspectorMarks,
+    pane: Pane,
+    area: Area,
+    (scale, font): (&DrawingScale, f64),
+    taken: &mut Vec<Point>,
+) -> Vec<DrawItem> {
+    let at = clamp_point(place(scale, marks.position_m), area.inside(0.6 * font));
+    let mut items = vec![disc(pane, at, 0.5 * font, HudColor::Black), disc(pane, at, 0.34 * font, HudColor::White)];
+    taken.push(at);
     for (number, place_m) in (1_u8..).zip(&marks.places_m) {
         let here = place(scale, *place_m);
         let Some(label) = free_place(here, taken, area.inside(0.7 * font), font) else {
@@ -147,9 +156,6 @@ fn inspector(hud: &Hud, pane: Pane, area: Area, (scale, font): (&DrawingScale, f
         items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::Black, number.to_string()));
         taken.push(label);
     }
-    let here = clamp_point(place(scale, marks.position_m), area.inside(0.6 * font));
-    items.push(disc(pane, here, 0.5 * font, HudColor::Black));
-    items.push(disc(pane, here, 0.34 * font, HudColor::White));
     items
 }
 
@@ -186,7 +192,7 @@ fn scale_length_m(style: DisplayStyle, area: Area, scale: &DrawingScale) -> f64 
 }
 
 /// Returns points on the texts of the legend, which other texts must not cover.
-fn legend_texts(style: DisplayStyle, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<Point> {
+pub(super) fn legend_texts(style: DisplayStyle, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<Point> {
     let words = style.units.length(scale_length_m(style, area, scale), 0);
     let (left, y) = (area.x + 0.8 * font, area.y + area.height - 1.75 * font);
     let count = (text_width(&words, font) / font).ceil() as u32;
