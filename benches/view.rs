@@ -181,11 +181,10 @@ fn measure_simulator_while_rendering(views: &mut Views) -> (f64, f64, Lateness) 
 
 fn main() {
     let best = std::env::var("SPANDREL_BENCH_DEVICE").is_ok_and(|device| device == "best");
-    let presets = if best { ["low", "high"] } else { ["low", "low"] };
     let start = now();
     let gpu = if best { Gpu::open() } else { Gpu::open_software() }.expect("a device must be available");
     println!("device: {}", gpu.name);
-    let mut views = Views::on(gpu, presets[0]);
+    let mut views = Views::on(gpu, "low");
     let built = start.elapsed();
     let (_, from, look) = viewpoints()[1];
     let first = views.frame((from, look), (640, 360));
@@ -194,22 +193,23 @@ fn main() {
         built.as_secs_f64(),
         first.frame.as_secs_f64()
     );
-    let (small, _) = measure(&mut views, (640, 360), presets[0]);
+    let (small, _) = measure(&mut views, (640, 360), "low");
     let (pace, rate_hz, late) = measure_simulator_while_rendering(&mut views);
     println!(
         "simulator during continuous rendering at {rate_hz:.1} frames/s: {pace:.4} simulated seconds per real second (minimum {MIN_SPEED_FACTOR}), \
          longest tick delay {:.1} ms, {} clock slips (maximum {MAX_SLIPS})",
         late.latest_ms, late.slips
     );
-    if presets[1] != presets[0] {
-        views = Views::on(views.studio.gpu, presets[1]);
-    }
-    let (_, large_hz) = measure(&mut views, (1920, 1080), presets[1]);
     let card = views.secondary.is_none();
+    let (_, mut large_hz) = measure(&mut views, (1920, 1080), "low");
+    for preset in if card { &["medium", "high"][..] } else { &[] } {
+        views = Views::on(views.studio.gpu, preset);
+        large_hz = measure(&mut views, (1920, 1080), preset).1;
+    }
     let kept = if card { large_hz >= MIN_GPU_FRAME_RATE_HZ } else { small.is_none_or(|cpu| cpu <= MAX_FRAME_CPU_TIME_S) };
     let verdict = if kept { "ok" } else { "MISSED" };
     if card {
-        println!("2 x 1920 x 1080, {}: minimum {MIN_GPU_FRAME_RATE_HZ:.0} frames/s: {verdict}", presets[1]);
+        println!("2 x 1920 x 1080, high: minimum {MIN_GPU_FRAME_RATE_HZ:.0} frames/s: {verdict}");
     } else {
         println!(
             "2 x 640 x 360: target {TARGET_FRAME_RATE_HZ:.0} frames/s; limit {MAX_FRAME_CPU_TIME_S} s CPU time per frame: {verdict}"

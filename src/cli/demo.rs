@@ -93,7 +93,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
         [args::common_args(&job, quiet), args.flavor.to_args(), autopilot_args, sim_args(args, monitor_port, pilot_port)];
     let mut sim = Child::start("sim", &sim_args.concat())?;
     let ports = sim.read_announcement()?;
-    let mut window = if args.view { open_window(&job, &ports, quiet) } else { None };
+    let mut window = if args.view { open_window(&job, &ports, log) } else { None };
     tracing::info!("seed {seed}, {} pilot, speed {}", args.skill.name(), args.chosen_speed());
     let lost = wait_for_end(&mut monitor, &mut pilot, &mut sim, &stop);
     monitor.finish();
