@@ -13,8 +13,8 @@ use spandrel_training::scenario_check::{self, CheckOptions, Findings, ScenarioTe
 ///
 /// Reports all errors at once, each with file, line, key, value and allowed range. For a scenario, it also builds the
 /// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
-/// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It also reports every place of the inspector, and every
-/// way from one to the next, in water, in a bridge, on the landing pad or at the truck. It loads the pictures of the
+/// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It also reports places of the inspector, and straight
+/// paths from each to the next, that are in water, in a bridge, on the landing pad or at the truck. It loads the pictures of the
 /// briefing. It warns if it cannot place as many defects as the scenario requests. For each form of a scenario, it prints
 /// the predicted detection of the defects; for each difficulty level, it prints what the level changes.
 #[derive(Debug, clap::Args)]

@@ -278,12 +278,11 @@ impl Cockpit {
     fn walk_to_next_place(&mut self) {
         let flight = self.threads.flight.as_ref();
         let Some((flight, now)) = flight.and_then(|flight| Some((flight, flight.now()?))) else { return };
-        match flight.next_place(&now) {
-            Some(place) => self.send_to_pilot(PilotCommand::Walk(place)),
-            None => {
-                let words = text!(self.flow.language(), "window-flight-no-places");
-                self.flow.show_notice(words);
-            }
+        let language = self.flow.language();
+        match (flight.next_place(&now), &self.threads.pilot) {
+            (Some(place), Some(pilot)) => pilot.send_command(PilotCommand::Walk(place)),
+            (Some(_), None) => self.flow.show_notice(text!(language, "window-flight-walk-not-here")),
+            (None, _) => self.flow.show_notice(text!(language, "window-flight-no-places")),
         }
     }
 

@@ -25,6 +25,7 @@ fn exact_contract_page_lists_every_name_code_and_bit() {
         NamedValue::Rewinds(0),
         NamedValue::Frozen(false),
         NamedValue::Traffic(0),
+        NamedValue::Walk(0),
         NamedValue::Seed(0),
         NamedValue::ScenarioCrc(0),
         NamedValue::ClearanceM(0.0),

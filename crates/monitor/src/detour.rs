@@ -44,7 +44,7 @@ const MAX_SHIFT_M: f64 = 5.0;
 pub struct DetourPlace {
     /// Position, m.
     pub place_m: Vec3<Enu>,
-    /// Maneuver to it.
+    /// First maneuver on the way to it.
     pub kind: DetourKind,
 }
 

@@ -236,7 +236,7 @@ impl HoldTimer {
 /// Interval at which the way to a task or home is repeated, for ground stations that show only texts (estimate).
 const REPETITION_INTERVAL: SimTime = SimTime::from_ms(10_000);
 
-/// Announcements with the same step, task and detour are the same.
+/// Identity of an announcement: step, task and detour.
 type Announcement = (GuidanceStep, Option<u32>, Option<DetourKind>);
 
 /// Announces each new step once it has lasted, and repeats the way to a place while the drone is on its way.

@@ -1,5 +1,6 @@
 //! Checks a scenario beyond its syntax: whether the aircraft fits along the paths, whether the inspector can stand and walk at the
-//! places, whether the defects can be placed, and what its forms, levels and certification require. `spandrel check` and the scenario editor show the results.
+//! places, whether the defects can be placed, and what its forms, levels and certification require. `spandrel check` and the
+//! scenario editor show the results.
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{self, Scenario, SiblingLoader, Task, places};
@@ -170,6 +171,9 @@ fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &
     scenario.tasks.iter().enumerate().take_while(|_| (options.may_continue)()).filter_map(tight).collect()
 }
 
+/// Key of the inspector's first place.
+const FIRST_PLACE_KEY: &str = "inspector_m";
+
 /// Returns the problems of the places to which the inspector can walk, and of the ways between them in the order of their numbers.
 fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
     let team = &scenario.ground_team;
@@ -178,18 +182,19 @@ fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &Chec
     }
     let site = Site::without_defects(scenario);
     let places: Vec<Vec3<Enu>> = team.inspector_places_m().collect();
-    let problem = |value: String, allowed: String, message: String| Problem {
+    let problem = |key: &str, value: String, allowed: String, message: String| Problem {
         file: source.file.to_owned(),
-        line: key_line_number(source.text, places::KEY),
-        key: format!("ground_team.{}", places::KEY),
-        location: format!("ground_team.{}", places::KEY),
+        line: key_line_number(source.text, key),
+        key: format!("ground_team.{key}"),
+        location: format!("ground_team.{key}"),
         value,
         allowed,
         message,
     };
-    let standing = (1..).zip(&places).skip(1).filter_map(|(number, place)| {
+    let standing = (1..).zip(&places).filter_map(|(number, place)| {
         let (allowed, message) = place_problem(&site, *place)?;
-        Some(problem(places::shown(*place), allowed, format!("place {number} {message}")))
+        let key = if number == 1 { FIRST_PLACE_KEY } else { places::KEY };
+        Some(problem(key, places::shown(*place), allowed, format!("place {number} {message}")))
     });
     let found: Vec<Problem> = standing.collect();
     if !found.is_empty() {
@@ -200,7 +205,8 @@ fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &Chec
     let blocked = ways.filter_map(|((from, from_m), (to, to_m))| {
         let (obstacle, [east, north, _]) = site.way_obstacle(*from_m, *to_m).map(|(obstacle, at)| (obstacle, at.array()))?;
         let message = format!("{} is on the way at east {east:.1} m, north {north:.1} m", obstacle.name());
-        Some(problem(format!("place {from} to place {to}"), "a free straight way over land".to_owned(), message))
+        let allowed = "a straight path over land, clear of obstacles".to_owned();
+        Some(problem(places::KEY, format!("place {from} to place {to}"), allowed, message))
     });
     blocked.collect()
 }

@@ -5,7 +5,8 @@ use super::traffic::CREW_TRUCK;
 use crate::frames::{Enu, Vec3};
 use crate::scenario::places::is_on_pad;
 
-/// Distance between two checked points of a way, m (estimate: half the width of the narrowest obstacle, a column, and a person).
+/// Distance between two checked points of a way, m (estimate: less than twice `CLEARANCE_M`, so that no column fits
+/// between two points).
 const STEP_M: f64 = 0.5;
 /// Minimum distance of a person's axis from an obstacle, m (estimate: half the breadth of the shoulders and some room).
 const CLEARANCE_M: f64 = 0.4;

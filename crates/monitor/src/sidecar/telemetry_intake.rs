@@ -65,6 +65,7 @@ impl Monitor {
             return;
         }
         self.live = LiveState::new(&self.config, &self.paths);
+        self.apply_site_changes();
         self.feedback = FeedbackRules::new(&self.config.scenario);
         self.texts = TextQueue::default();
         self.announcer = StepAnnouncer::default();

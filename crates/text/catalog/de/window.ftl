@@ -232,6 +232,7 @@ window-flight-frozen = Eingefroren.
 window-flight-frozen-keys = Eingefroren. { $freeze }: weiter    { $rewind }: 10 s zurückspulen
 window-flight-walk = Prüfer: unterwegs zu Standort { $place }, noch { $seconds } s
 window-flight-no-places = In diesem Auftrag hat der Prüfer nur einen Standort.
+window-flight-walk-not-here = Nur ein Fenster, das die Drohne fliegt, kann den Prüfer schicken.
 window-flight-loading = { $what } laden ... { $pct }%
 window-flight-loading-site = Einsatzort und Schäden
 window-flight-loading-bridges = Brücken
@@ -244,7 +245,7 @@ window-flight-waiting-vehicle = Warten auf das Fluggerät unter { $address } ...
 window-flight-keys-view = { $swap } Ansichten    { $map } Karte    { $path } Bahn    Ziehen oder { $look_left } { $look_right } umsehen    Mausrad Zoom    { $follow } Drohne folgen
 window-flight-keys-flight =
     { $arm } Motoren    { $take_off } starten    { $up } { $down } hoch, runter    { $turn_left } { $turn_right } drehen    { $forward } { $back } { $left } { $right } fliegen    { $lamp } Licht    { $snapshot } Foto    { $land } landen
-    { $freeze } einfrieren    { $rewind } 10 s zurückspulen
+    { $freeze } einfrieren    { $rewind } 10 s zurückspulen    { $walk } gehen
 window-flight-keys-short = { $arm } Motoren    { $take_off } starten    { $pause } Pause; Tasten siehe dort
 window-flight-keys-short-view = { $swap } Ansichten    { $map } Karte    { $follow } Drohne folgen
 

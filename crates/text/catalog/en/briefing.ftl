@@ -103,7 +103,7 @@ briefing-to-be-certified = To be certified: { $requirement }.
 briefing-check-risk = Risk: I know the hazards, and I stop if somebody enters the flight area.
 briefing-check-battery = Battery: full. I land with at least { $least }%, and fly home at the low-battery warning ({ $low }%).
 briefing-check-landing = Landing place: the pad, { $away } m from the inspector. Landings within { $radius } m of it count as home.
-briefing-check-places = Line of sight: I keep the drone in sight. For that, I can walk to { $count ->
-        [one] one other place
-       *[other] { $count } other places
+briefing-check-places = Line of sight: I keep the drone in sight. If necessary, I walk to { $count ->
+        [one] the other place
+       *[other] one of the { $count } other places
     } on the plan.

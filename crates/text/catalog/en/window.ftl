@@ -236,6 +236,7 @@ window-flight-frozen = Frozen.
 window-flight-frozen-keys = Frozen. { $freeze }: continue    { $rewind }: rewind 10 s
 window-flight-walk = Inspector: walking to place { $place }, { $seconds } s
 window-flight-no-places = In this job, the inspector has only one place.
+window-flight-walk-not-here = Only a window that flies the drone can send the inspector.
 window-flight-loading = Loading { $what } ... { $pct }%
 window-flight-loading-site = site and defects
 window-flight-loading-bridges = bridges
@@ -249,7 +250,7 @@ window-flight-waiting-vehicle = Waiting for the vehicle at { $address } ...
 window-flight-keys-view = { $swap } views    { $map } map    { $path } path    drag or { $look_left } { $look_right } look around    wheel zoom    { $follow } follow the drone
 window-flight-keys-flight =
     { $arm } arm    { $take_off } take off    { $up } { $down } up and down    { $turn_left } { $turn_right } turn    { $forward } { $back } { $left } { $right } fly    { $lamp } lamp    { $snapshot } picture    { $land } land
-    { $freeze } freeze    { $rewind } rewind 10 s
+    { $freeze } freeze    { $rewind } rewind 10 s    { $walk } walk
 # Where larger text leaves no room for all keys.
 window-flight-keys-short = { $arm } arm    { $take_off } take off    { $pause } pause; see the keys there
 window-flight-keys-short-view = { $swap } views    { $map } map    { $follow } follow the drone

@@ -232,6 +232,7 @@ window-flight-frozen = Congelado.
 window-flight-frozen-keys = Congelado. { $freeze }: continuar    { $rewind }: rebobinar 10 s
 window-flight-walk = Inspector: caminando al punto { $place }, { $seconds } s
 window-flight-no-places = En este trabajo, el inspector solo tiene un punto.
+window-flight-walk-not-here = Solo una ventana que pilota el dron puede enviar al inspector.
 window-flight-loading = Cargando: { $what } ... { $pct }%
 window-flight-loading-site = sitio y defectos
 window-flight-loading-bridges = puentes
@@ -244,7 +245,7 @@ window-flight-waiting-vehicle = Esperando al vehículo en { $address } ...
 window-flight-keys-view = { $swap } vistas    { $map } mapa    { $path } trayectoria    arrastrar o { $look_left } { $look_right } mirar    rueda zoom    { $follow } seguir al dron
 window-flight-keys-flight =
     { $arm } armar    { $take_off } despegar    { $up } { $down } subir, bajar    { $turn_left } { $turn_right } girar    { $forward } { $back } { $left } { $right } volar    { $lamp } foco    { $snapshot } foto    { $land } aterrizar
-    { $freeze } congelar    { $rewind } rebobinar 10 s
+    { $freeze } congelar    { $rewind } rebobinar 10 s    { $walk } caminar
 window-flight-keys-short = { $arm } armar    { $take_off } despegar    { $pause } pausa; vea allí las teclas
 window-flight-keys-short-view = { $swap } vistas    { $map } mapa    { $follow } seguir al dron
 

@@ -25,7 +25,7 @@ fn exact_briefing_of_the_paper_job_names_order_direction_and_hazards() {
     let lamp: Vec<String> = briefing.tasks.iter().filter(|task| task.lamp).map(|task| task.id.to_string()).collect();
     assert!(briefing.hazards.contains(&format!("Darkness: the lamp is needed in tasks {}.", lamp.join(", "))));
     assert_eq!(briefing.site_check.len(), 4);
-    assert!(briefing.site_check[3].contains("walk to 3 other places"), "{}", briefing.site_check[3]);
+    assert!(briefing.site_check[3].contains("walk to one of the 3 other places"), "{}", briefing.site_check[3]);
     let total_m: f64 = briefing.tasks.iter().map(|task| task.length_m).sum();
     let tasks = briefing.conditions.iter().find(|(name, _)| name == "tasks").map(|(_, value)| value.clone());
     assert_eq!(tasks, Some(format!("4, {total_m:.0} m of path")));

@@ -167,6 +167,8 @@ impl LiveFlightState {
             inspector: InspectorPath::new(&scenario.ground_team),
         });
         self.truth = None;
+        // The vehicle repeats its current changes.
+        self.changes = SiteChanges::default();
     }
 
     /// Updates the state from a received frame.

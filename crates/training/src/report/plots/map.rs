@@ -205,7 +205,7 @@ pub(super) fn extent(scenario: &Scenario, site: &Site) -> Vec<Vec3<Enu>> {
     members
         .chain(paths)
         .chain([team.pad_m])
-        .chain(team.places_m.iter().copied())
+        .chain(team.inspector_places_m().filter(|_| team.can_walk()))
         .filter(|point| point.up() > water_m - 6.0)
         .collect()
 }

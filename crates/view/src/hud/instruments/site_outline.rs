@@ -58,9 +58,10 @@ impl SiteOutline {
     #[must_use]
     pub fn new(scenario: &Scenario, site: &Site) -> Self {
         let plan = ParallelView::plan();
-        let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter());
-        let shown = paths.chain([&scenario.ground_team.pad_m]).chain(&scenario.ground_team.places_m);
-        let bounds = bounds(shown.map(|point_m| plan.at(*point_m)));
+        let team = &scenario.ground_team;
+        let paths = scenario.tasks.iter().flat_map(|task| task.path_m.iter().copied());
+        let shown = paths.chain([team.pad_m]).chain(team.inspector_places_m().filter(|_| team.can_walk()));
+        let bounds = bounds(shown.map(|point_m| plan.at(point_m)));
         let sides = (0..scenario.bridges.len()).map(|bridge| side_view(scenario, site, Some(bridge)));
         Self {
             water: water_strips(scenario, site),

@@ -8,7 +8,6 @@ use crate::endpoint::vehicle_command::VehicleCommand;
 use spandrel_mavlink::contract::walk::WalkRequest;
 use spandrel_mavlink::dialect::MavResult;
 use spandrel_model::site::Site;
-use spandrel_model::site::inspector_walks::MAX_TURNS;
 use spandrel_model::time::SimTime;
 
 /// Handles the command; `None` for other commands and for mission items.
@@ -42,11 +41,11 @@ fn admit(place: u8, site: &Site, now: SimTime) -> Result<u8, RefusedRequest> {
         return Err(denied("Walk: too late in this simulation".to_owned()));
     }
     if !inspector.may_turn(now) {
-        let text = Some(format!("Walk: {MAX_TURNS} turns, wait for the arrival"));
+        let text = Some("Walk: too many turns; wait for the arrival".to_owned());
         return Err(RefusedRequest { result: MavResult::MAV_RESULT_TEMPORARILY_REJECTED, text });
     }
     match site.way_obstacle(inspector.at(walk.at).feet_m, place_m) {
-        Some((obstacle, _)) => Err(denied(format!("No way to place {place}: {}", obstacle.name()))),
+        Some((obstacle, _)) => Err(denied(format!("Way to place {place} blocked by {}", obstacle.name()))),
         None => Ok(place),
     }
 }
@@ -62,7 +61,7 @@ mod tests {
     use spandrel_model::scenario::{self, Scenario};
     use spandrel_model::shipped::TWO_BRIDGES;
     use spandrel_model::site::changes::SiteChanges;
-    use spandrel_model::site::inspector_walks::{InspectorWalks, Walk};
+    use spandrel_model::site::inspector_walks::{InspectorWalks, MAX_TURNS, Walk};
 
     fn job() -> Scenario {
         scenario::read("job.toml", TWO_BRIDGES, &|file| Err(file.to_owned())).unwrap()
@@ -87,7 +86,7 @@ mod tests {
         let now = SimTime::from_ms(5_000);
         let denied = MavResult::MAV_RESULT_DENIED;
         assert_eq!(refusal(&site, 5, now), (denied, "No place 5 (allowed: 1 to 4)".to_owned()));
-        assert_eq!(refusal(&site, 2, now), (denied, "No way to place 2: the landing pad".to_owned()));
+        assert_eq!(refusal(&site, 2, now), (denied, "Way to place 2 blocked by the landing pad".to_owned()));
         assert_eq!(refusal(&site, 3, now).0, denied);
         assert_eq!(refusal(&site, 4, SimTime::from_s(215_000.0)), (denied, "Walk: too late in this simulation".to_owned()));
         assert_eq!((admit(4, &site, now), admit(1, &site, now)), (Ok(4), Ok(1)));

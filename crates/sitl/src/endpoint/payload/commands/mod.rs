@@ -1,5 +1,5 @@
 //! Camera, gimbal and lamp commands: one row per command, used for received commands and for mission items. Also the command that
-//! sends the inspector to another place, which is no mission item.
+//! sends the inspector to another place, which is not a mission item.
 
 mod camera;
 mod gimbal;
