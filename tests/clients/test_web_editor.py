@@ -99,6 +99,12 @@ def test_wire_instructor_makes_a_job_from_practice(browser, server, sessions):
     assert abs(float(east.input_value()) + 100) <= 1 and abs(float(north.input_value()) - 60) <= 1 and up.input_value() == "5.0"
     assert page.evaluate("document.activeElement.dataset.place") == "ground_team.pad_m"
     expect(page.locator("#text")).to_have_value(re.compile(r"pad_m = \[-\d+(\.\d)?, \d+(\.\d)?, 5\.0\]"))
+    # The level ground moved with the pad, so the inspector's place is in the slope now.
+    wait_until_checked(page, "1 problem")
+    expect(page.locator("#field-ground_team-inspector_m-problem")).to_contain_text(re.compile(r"place 1 is \d\.\d m below the ground"))
+    page.click("[data-place='ground_team.inspector_m']")
+    page.mouse.click(*plan_point(page, -106, 56))
+    wait_until_checked(page)
     # A task more, above the last one.
     open_section(page, "tasks")
     page.click("text=Add a task")

@@ -59,8 +59,7 @@ impl ScenarioText<'_> {
 
 /// Checks a valid scenario: clearance along its paths, placement of its defects, and the requirements for certification.
 pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
-    findings.problems.extend(clearance_problems(source, scenario, options));
-    findings.problems.extend(place_problems(source, scenario, options));
+    findings.problems.extend(site_problems(source, scenario, options));
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
     findings.warnings.extend(repeated_paths(source, scenario));
     findings.notes.extend(certification_notes(source, scenario, options.aircraft));
@@ -112,8 +111,9 @@ pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &
     for level in [1, levels].into_iter().filter(|level| requested.is_none() && *level != difficulty.level) {
         let Some(job) = source.read(&scenario::select_level(source.text, level)) else { continue };
         let at_level = |words: &str| format!("at level {level}: {words}");
-        let problems = clearance_problems(source, &job, options).into_iter();
-        findings.problems.extend(problems.map(|problem| Problem { message: at_level(&problem.message), ..problem }));
+        let site = built_site(&job, options);
+        let problems = site.map_or_else(Vec::new, |site| clearance_problems(source, &job, &site, options));
+        findings.problems.extend(problems.into_iter().map(|problem| Problem { message: at_level(&problem.message), ..problem }));
         findings.warnings.extend(missing_defects_warning(source, &job, options).map(|warning| at_level(&warning)));
     }
 }
@@ -140,13 +140,24 @@ fn count(number: usize, what: &str) -> String {
     if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
 }
 
-fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
+/// Returns the site of a scenario; `None` after the time limit.
+fn built_site(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Site> {
+    (options.may_continue)().then(|| Site::without_defects(scenario))
+}
+
+/// Returns the problems that only the built site shows: of the tasks' paths and of the inspector's places.
+fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
+    let Some(site) = built_site(scenario, options) else { return Vec::new() };
+    let mut problems = clearance_problems(source, scenario, &site, options);
+    if (options.may_continue)() {
+        problems.extend(place_problems(source, scenario, &site));
+    }
+    problems
+}
+
+fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
     let aircraft = options.aircraft;
     let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
-    if !(options.may_continue)() {
-        return Vec::new();
-    }
-    let site = Site::without_defects(scenario);
     let lines: Vec<usize> = task_line_numbers(source.text);
     let tight = |(k, task): (usize, &Task)| {
         let (at_m, near) = site.min_path_clearance(task, needed_m)?;
@@ -175,12 +186,11 @@ fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &
 const FIRST_PLACE_KEY: &str = "inspector_m";
 
 /// Returns the problems of the places to which the inspector can walk, and of the ways between them in the order of their numbers.
-fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
+fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site) -> Vec<Problem> {
     let team = &scenario.ground_team;
-    if !team.can_walk() || !(options.may_continue)() {
+    if !team.can_walk() {
         return Vec::new();
     }
-    let site = Site::without_defects(scenario);
     let places: Vec<Vec3<Enu>> = team.inspector_places_m().collect();
     let problem = |key: &str, value: String, allowed: String, message: String| Problem {
         file: source.file.to_owned(),
@@ -192,7 +202,7 @@ fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &Chec
         message,
     };
     let standing = (1..).zip(&places).filter_map(|(number, place)| {
-        let (allowed, message) = place_problem(&site, *place)?;
+        let (allowed, message) = place_problem(site, *place)?;
         let key = if number == 1 { FIRST_PLACE_KEY } else { places::KEY };
         Some(problem(key, places::shown(*place), allowed, format!("place {number} {message}")))
     });
@@ -437,7 +447,7 @@ mod tests {
             let mut aircraft = aircraft();
             aircraft.hull.tip_to_tip_m = tip_to_tip_m;
             let check = |source: &ScenarioText, options: &CheckOptions, findings: &mut Findings| {
-                findings.problems = clearance_problems(source, &scenario, options);
+                findings.problems = clearance_problems(source, &scenario, &Site::without_defects(&scenario), options);
             };
             found("drill-gap", &text, &aircraft, check).problems
         };

@@ -33,6 +33,18 @@ enum CommandStep {
     Note(String),
 }
 
+impl CommandStep {
+    /// Returns the command that the vehicle acknowledges; `None` for other messages.
+    fn command(&self) -> Option<MavCmd> {
+        match self {
+            Self::Inject { .. } => Some(MavCmd::MAV_CMD_INJECT_FAILURE),
+            Self::Practice(request) => Some(request.command(0).0),
+            Self::Walk(request) => Some(request.command().0),
+            Self::Parameter(..) | Self::Note(_) => None,
+        }
+    }
+}
+
 /// Parameter value with its type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum ParamNumber {
@@ -171,18 +183,8 @@ fn answer(step: &CommandStep, message: &MavMessage) -> Option<Result<(), Rejecti
             let it = error.param_id.to_str().is_ok_and(|id| id == *name) && ours(error.target_system, error.target_component);
             it.then(|| Err(param_rejection(error.error)))
         }
-        (CommandStep::Inject { .. }, MavMessage::COMMAND_ACK(ack))
-            if ack.command == MavCmd::MAV_CMD_INJECT_FAILURE && ours(ack.target_system, ack.target_component) =>
-        {
-            result(ack.result)
-        }
-        (CommandStep::Practice(request), MavMessage::COMMAND_ACK(ack))
-            if ack.command == request.command(0).0 && ours(ack.target_system, ack.target_component) =>
-        {
-            result(ack.result)
-        }
-        (CommandStep::Walk(request), MavMessage::COMMAND_ACK(ack))
-            if ack.command == request.command().0 && ours(ack.target_system, ack.target_component) =>
+        (step, MavMessage::COMMAND_ACK(ack))
+            if step.command() == Some(ack.command) && ours(ack.target_system, ack.target_component) =>
         {
             result(ack.result)
         }

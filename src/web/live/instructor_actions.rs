@@ -10,6 +10,7 @@ use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, MAX_TASK, PracticeReq
 use spandrel_mavlink::contract::walk::{MAX_PLACE, WalkRequest};
 use spandrel_text::text;
 use spandrel_training::web::live::{self as pages, FailingUnit};
+use std::str::FromStr;
 
 /// Starts an instructor's action. The result appears later in the stream.
 pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
@@ -20,17 +21,11 @@ pub fn run_action(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(if request.expects_json { WebResponse::json(&json!({ "under_way": true })) } else { WebResponse::redirect(&back) })
 }
 
-fn task_number(request: &WebRequest) -> Result<u32, WebError> {
-    let number = request.required_field("task")?.parse().ok();
-    let language = request.visitor.language;
-    let allowed = || WebError::not_in_range(language, "task", 1, MAX_TASK);
-    number.filter(|number| (1..=MAX_TASK).contains(number)).ok_or_else(allowed)
-}
-
-fn place_number(request: &WebRequest) -> Result<u8, WebError> {
-    let number: Option<u8> = request.required_field("place")?.parse().ok();
-    let allowed = || WebError::not_in_range(request.visitor.language, "place", 1, u32::from(MAX_PLACE));
-    number.filter(|number| (1..=MAX_PLACE).contains(number)).ok_or_else(allowed)
+/// Returns the whole number in a field, from 1 to `most`.
+fn number<N: FromStr + Into<u32> + PartialOrd + From<u8>>(request: &WebRequest, field: &str, most: N) -> Result<N, WebError> {
+    let number: Option<N> = request.required_field(field)?.parse().ok();
+    let number = number.filter(|number| (&N::from(1)..=&most).contains(&number));
+    number.ok_or_else(|| WebError::not_in_range(request.visitor.language, field, 1, most.into()))
 }
 
 fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
@@ -53,10 +48,10 @@ fn parse_command(request: &WebRequest) -> Result<InstructorCommand, WebError> {
             "freeze" => PracticeRequest::Freeze,
             "resume" => PracticeRequest::Resume,
             "rewind" => PracticeRequest::Rewind { by: DEFAULT_REWIND },
-            "move" => PracticeRequest::MoveToTask { task: task_number(request)? },
+            "move" => PracticeRequest::MoveToTask { task: number(request, "task", MAX_TASK)? },
             _ => return Err(WebError::unknown(language, "do", "freeze, resume, rewind, move")),
         })),
-        "walk" => Ok(InstructorCommand::Walk(WalkRequest { place: place_number(request)? })),
+        "walk" => Ok(InstructorCommand::Walk(WalkRequest { place: number(request, "place", MAX_PLACE)? })),
         "failure" => {
             let unit = FailingUnit::from_key(request.required_field("unit")?);
             let unit = unit.ok_or_else(|| WebError::BadRequest(text!(language, "web-error-unknown", field = "unit")))?;

@@ -26,9 +26,11 @@ impl WalkRequest {
     /// Returns a text with the allowed values if the parameter is invalid.
     #[must_use]
     pub fn of(number: u16, param: f64) -> Option<Result<Self, &'static str>> {
+        if number != MavCmd::MAV_CMD_USER_4 as u16 {
+            return None;
+        }
         let is_valid = (1.0..=f64::from(MAX_PLACE)).contains(&param) && param.fract() == 0.0;
-        let request = if is_valid { Ok(Self { place: param as u8 }) } else { Err("Walk: parameter 1 must be 1 to 8") };
-        (number == MavCmd::MAV_CMD_USER_4 as u16).then_some(request)
+        Some(if is_valid { Ok(Self { place: param as u8 }) } else { Err("Walk: parameter 1 must be 1 to 8") })
     }
 }
 

@@ -27,9 +27,9 @@ pub(super) fn read(r: &mut Reader, s: &mut Section, team: Option<&GroundTeam>) -
         r.add_problem(s, KEY, &given, &format!("at most {} places", MAX_PLACES - 1), "too many");
     }
     let Some(team) = team else { return places };
-    for (k, place) in places.iter().enumerate() {
-        let before: Vec<Vec3<Enu>> = std::iter::once(team.inspector_m).chain(places[..k].iter().copied()).collect();
-        if let Some((allowed, message)) = problem(*place, k + 2, &before, team) {
+    let all: Vec<Vec3<Enu>> = std::iter::once(team.inspector_m).chain(places.iter().copied()).collect();
+    for (k, place) in all.iter().enumerate().skip(1) {
+        if let Some((allowed, message)) = problem(*place, k + 1, &all[..k], team) {
             r.add_problem(s, KEY, &shown(*place), &allowed, &message);
         }
     }

@@ -5,7 +5,7 @@
 use super::boxes::{OrientedBox, bounding_sphere};
 use super::bridge_closures::BridgeClosures;
 use super::changes::SiteChanges;
-use super::inspector_path::{GroundHeight, InspectorPath};
+use super::inspector_path::{GroundHeight, InspectorPath, InspectorPosition};
 use super::lane_track::{LaneTrack, arc_lengths, without_collinear_points};
 use super::movers::{MoverKind, MoverPlacement, boxes};
 use super::query_types::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
@@ -53,7 +53,7 @@ pub struct TrafficPlan {
     tracks: Vec<LaneTrack>,
     movers: Vec<Mover>,
     inspector: InspectorPath,
-    truck: Vec<OrientedBox>,
+    truck: MoverPlacement,
     closures: BridgeClosures,
 }
 
@@ -67,7 +67,7 @@ impl TrafficPlan {
             tracks: Vec::new(),
             movers: Vec::new(),
             inspector: InspectorPath::new(team),
-            truck: crew_truck(team),
+            truck: parked_truck(team),
             closures: BridgeClosures::default(),
         };
         let roads: Vec<&Lane> = lanes.iter().filter(|l| !l.walkway && l.points_m.len() >= 2).collect();
@@ -156,18 +156,16 @@ impl TrafficPlan {
         &self.inspector
     }
 
-    /// Returns the boxes of the inspector and the truck at a time, with their velocities, m/s.
-    fn crew(&self, at: SimTime) -> impl Iterator<Item = (ObjectId, Surface, OrientedBox, Vec3<Enu>)> + '_ {
-        let inspector = self.inspector.at(at);
-        let velocity_m_s = inspector.velocity_m_s;
-        let placed = MoverPlacement { position_m: inspector.feet_m, forward: inspector.forward, velocity_m_s };
-        let person = boxes(MoverKind::Pedestrian, placed).map(move |solid| (INSPECTOR, Surface::Person, solid, velocity_m_s));
-        person.chain(self.truck.iter().map(|solid| (CREW_TRUCK, Surface::Vehicle, *solid, Vec3::zero())))
+    /// Returns the inspector and the truck at a time.
+    fn crew(&self, at: SimTime) -> [(ObjectId, MoverKind, MoverPlacement); 2] {
+        let InspectorPosition { feet_m: position_m, forward, velocity_m_s, .. } = self.inspector.at(at);
+        let inspector = MoverPlacement { position_m, forward, velocity_m_s };
+        [(INSPECTOR, MoverKind::Pedestrian, inspector), (CREW_TRUCK, MoverKind::Truck, self.truck)]
     }
 
-    /// Returns whether a part of the standing crew is within a distance of a point.
-    pub(super) fn is_near_crew(&self, which: ObjectId, point_m: Vec3<Enu>, max_m: f64) -> bool {
-        self.crew(SimTime::ZERO).any(|(object, _, solid, _)| object == which && solid.nearest(point_m).0 < max_m)
+    /// Returns whether the crew's truck is within a distance of a point.
+    pub(super) fn is_truck_near(&self, point_m: Vec3<Enu>, max_m: f64) -> bool {
+        boxes(MoverKind::Truck, self.truck).any(|solid| solid.nearest(point_m).0 < max_m)
     }
 
     /// Returns all moving objects in the plan.
@@ -191,13 +189,12 @@ impl TrafficPlan {
     /// Returns the boxes of all objects at a time, for rendering and tests.
     #[must_use]
     pub fn solids(&self, at: SimTime) -> Vec<(ObjectId, Surface, OrientedBox)> {
-        let mut all: Vec<(ObjectId, Surface, OrientedBox)> =
-            self.crew(at).map(|(object, surface, solid, _)| (object, surface, solid)).collect();
-        for (k, mover) in self.movers.iter().enumerate() {
-            let Some(placed) = self.placement(mover, at) else { continue };
-            all.extend(boxes(mover.kind, placed).map(|b| (ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), b)));
-        }
-        all
+        let moving = self.movers.iter().enumerate().filter_map(|(k, mover)| {
+            let placed = self.placement(mover, at)?;
+            Some((ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind, placed))
+        });
+        let all = self.crew(at).into_iter().chain(moving);
+        all.flat_map(|(object, kind, placed)| boxes(kind, placed).map(move |solid| (object, kind.surface(), solid))).collect()
     }
 
     /// Returns the nearest point of traffic or crew within `max_m`.
@@ -238,28 +235,28 @@ impl TrafficPlan {
     #[must_use]
     pub fn ray(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64, at: SimTime) -> Option<RayHit> {
         let mut best: Option<RayHit> = None;
-        let mut test = |object, surface, solid: &OrientedBox| {
-            let reach = best.map_or(max_m, |b| b.distance_m);
-            if let Some((distance_m, normal)) = solid.ray(origin_m, direction, reach) {
-                best = Some(RayHit { distance_m, normal, surface, object });
+        let mut test = |object, kind: MoverKind, placed: MoverPlacement| {
+            let to = placed.position_m - origin_m;
+            let along = to.dot(direction).clamp(0.0, max_m);
+            let reach = kind.reach_m();
+            if (to - direction * along).norm_squared() > reach * reach {
+                return;
+            }
+            for solid in boxes(kind, placed) {
+                let reach = best.map_or(max_m, |b| b.distance_m);
+                if let Some((distance_m, normal)) = solid.ray(origin_m, direction, reach) {
+                    best = Some(RayHit { distance_m, normal, surface: kind.surface(), object });
+                }
             }
         };
-        for (object, surface, solid, _) in self.crew(at) {
-            test(object, surface, &solid);
+        for (object, kind, placed) in self.crew(at) {
+            test(object, kind, placed);
         }
         for track in self.tracks.iter().filter(|t| t.ray_may_hit(origin_m, direction, max_m)) {
             for k in track.first..track.first + track.count {
                 let mover = &self.movers[k];
                 let Some(placed) = self.placement(mover, at) else { continue };
-                let to = placed.position_m - origin_m;
-                let along = to.dot(direction).clamp(0.0, max_m);
-                let reach = mover.kind.reach_m();
-                if (to - direction * along).norm_squared() > reach * reach {
-                    continue;
-                }
-                for solid in boxes(mover.kind, placed) {
-                    test(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), &solid);
-                }
+                test(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind, placed);
             }
         }
         best
@@ -302,10 +299,15 @@ impl TrafficPlan {
         at: SimTime,
         mut visit: impl FnMut(ObjectId, Surface, &OrientedBox, Vec3<Enu>),
     ) {
-        for (object, surface, solid, velocity_m_s) in self.crew(at) {
-            if (solid.center_m - point_m).norm() <= reach_m + solid.radius_m() {
-                visit(object, surface, &solid, velocity_m_s);
+        let mut visit_object = |object, kind: MoverKind, placed: MoverPlacement| {
+            if (placed.position_m - point_m).norm() <= reach_m + kind.reach_m() {
+                for solid in boxes(kind, placed) {
+                    visit(object, kind.surface(), &solid, placed.velocity_m_s);
+                }
             }
+        };
+        for (object, kind, placed) in self.crew(at) {
+            visit_object(object, kind, placed);
         }
         for track in &self.tracks {
             if track.distance_m(point_m) > reach_m + track.reach_m {
@@ -314,12 +316,7 @@ impl TrafficPlan {
             for k in track.first..track.first + track.count {
                 let mover = &self.movers[k];
                 let Some(placed) = self.placement(mover, at) else { continue };
-                if (placed.position_m - point_m).norm() > reach_m + mover.kind.reach_m() {
-                    continue;
-                }
-                for solid in boxes(mover.kind, placed) {
-                    visit(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind.surface(), &solid, placed.velocity_m_s);
-                }
+                visit_object(ObjectId(FIRST_TRAFFIC_OBJECT + k as u32), mover.kind, placed);
             }
         }
     }
@@ -334,10 +331,9 @@ fn assign_lanes<'a>(lanes: &[&'a Lane], kinds: &[MoverKind]) -> Vec<(&'a Lane, V
     dealt
 }
 
-fn crew_truck(team: &GroundTeam) -> Vec<OrientedBox> {
+fn parked_truck(team: &GroundTeam) -> MoverPlacement {
     let (s, c) = math::sin_cos(team.truck_heading_deg.to_radians());
-    let placed = MoverPlacement { position_m: team.truck_m, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() };
-    boxes(MoverKind::Truck, placed).collect()
+    MoverPlacement { position_m: team.truck_m, forward: Vec3::new(s, c, 0.0), velocity_m_s: Vec3::zero() }
 }
 
 #[cfg(test)]

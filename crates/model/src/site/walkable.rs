@@ -1,7 +1,6 @@
 //! Where a person can stand and walk: on the ground, clear of water, bridges, the landing pad and the truck.
 
 use super::Site;
-use super::traffic::CREW_TRUCK;
 use crate::frames::{Enu, Vec3};
 use crate::scenario::places::is_on_pad;
 
@@ -60,8 +59,7 @@ impl Site {
         if body.iter().any(|point| self.geometry().nearest_member(*point, CLEARANCE_M).is_some()) {
             return Some(WalkObstacle::Bridge);
         }
-        let near_truck = |point: &Vec3<Enu>| self.traffic().is_near_crew(CREW_TRUCK, *point, CLEARANCE_M);
-        body.iter().any(near_truck).then_some(WalkObstacle::Truck)
+        body.iter().any(|point| self.traffic().is_truck_near(*point, CLEARANCE_M)).then_some(WalkObstacle::Truck)
     }
 
     /// Returns the first obstacle on a straight way over the ground, and its position on the way; `None` if the way is free.

@@ -77,12 +77,17 @@ impl OutOfSight {
     }
 }
 
+/// Returns the walks of the inspector that begin before the end of a flight, each with its ends: from, to, m.
+pub fn flown_walks<'s>(site: &'s Site, frames: &[Frame]) -> impl Iterator<Item = (&'s Walk, Vec3<Enu>, Vec3<Enu>)> {
+    let last = frames.last().map(|frame| frame.time);
+    site.inspector().ways_m().filter(move |(walk, ..)| Some(walk.at) < last)
+}
+
 /// Returns the walks of the inspector up to the end of a flight as a sentence; `None` if the inspector stayed.
 #[must_use]
 pub fn walks_sentence(site: &Site, frames: &[Frame], language: Language) -> Option<String> {
-    let (first, last) = (frames.first()?.time, frames.last()?.time);
-    let walks = site.inspector().ways_m().map(|(walk, ..)| *walk).filter(|walk| walk.at < last);
-    let words: Vec<String> = walks.map(|walk| walk_words(walk, first, language)).collect();
+    let lift_off = frames.first()?.time;
+    let words: Vec<String> = flown_walks(site, frames).map(|(walk, ..)| walk_words(*walk, lift_off, language)).collect();
     (!words.is_empty()).then(|| text!(language, "report-walks", walks = words.join(", ")))
 }
 

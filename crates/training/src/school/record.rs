@@ -129,8 +129,8 @@ impl SchoolRecord {
         self.last_unix_s = now_unix_s;
     }
 
-    /// Returns up to `count` of the available cards in the order in which to ask them: those that are due, lowest box first; then
-    /// new ones from near to far; then those that are due soonest.
+    /// Returns up to `count` of the available cards in the order in which to ask them: due cards from the lowest box up, then new
+    /// cards, nearest first, then the others, soonest due first.
     #[must_use]
     pub fn choose(&self, available: &[Card], count: usize, now_unix_s: u64) -> Vec<Card> {
         let rank = |card: &Card| match self.progress(*card) {

@@ -7,6 +7,7 @@ use super::plot_map::{PlotMap, TRACK_TOLERANCE};
 use super::{coord, line, simplify_polyline, svg_figure};
 use crate::report::Review;
 use crate::report::formatting;
+use crate::report::line_of_sight::flown_walks;
 use crate::terms::contact_title;
 use maud::{Markup, html};
 use spandrel_mavlink::telemetry::Frame;
@@ -175,12 +176,12 @@ pub(super) fn places(scenario: &Scenario, map: &PlotMap, language: Language) -> 
 
 /// Draws the walks of the inspector up to the end of the flight.
 fn walks(review: &Review, map: &PlotMap) -> Markup {
-    let (language, last) = (review.metadata.language, review.frames.last().map(|frame| frame.time));
+    let language = review.metadata.language;
     let lift_off = review.frames.first().map_or(0.0, |frame| frame.time.s());
     let moment = |walk: &Walk| formatting::clock((walk.at.s() - lift_off).max(0.0));
     html! {
         g.walk {
-            @for (walk, from_m, to_m) in review.site.inspector().ways_m().filter(|(walk, ..)| Some(walk.at) < last) {
+            @for (walk, from_m, to_m) in flown_walks(&review.site, &review.frames) {
                 path d=(line(&[map.at(from_m), map.at(to_m)], false)) {
                     title { (text!(language, "plot-walk", place = walk.to, moment = moment(walk))) }
                 }

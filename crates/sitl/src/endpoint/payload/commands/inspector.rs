@@ -11,7 +11,7 @@ use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 
 /// Handles the command; `None` for other commands and for mission items.
-pub(super) fn handle(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
+pub(crate) fn handle(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
     if c.own {
         return None;
     }

@@ -12,6 +12,7 @@ use super::equipment::Payload;
 use super::input::PayloadInput;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use handler::{PayloadCommand, PayloadHandler};
+pub(crate) use inspector::handle as handle_inspector;
 use spandrel_mavlink::dialect::{MavCmd, MavResult};
 
 /// Commands accepted only by the autopilot component, which owns the gimbal and the lamp.
@@ -34,11 +35,6 @@ pub(crate) fn handle_camera(c: &VehicleCommand, input: &PayloadInput, payload: &
 /// Handles a command addressed to the lamp.
 pub(crate) fn handle_lamp(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
     Some(row(c.number, lamp::ROWS)?(c, input, payload))
-}
-
-/// Handles a command for the inspector; `None` for other commands and for mission items.
-pub(crate) fn handle_inspector(c: &VehicleCommand, input: &PayloadInput, payload: &mut Payload) -> Option<MavResult> {
-    inspector::handle(c, input, payload)
 }
 
 /// Handles a command addressed to the autopilot component.
