@@ -19,7 +19,7 @@ use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
 use spandrel_text::text;
 use spandrel_view::arrange::{ViewKind, WindowShape};
 use spandrel_view::flow::pipe::FromWindow;
-use spandrel_view::flow::{Page, WindowFlow};
+use spandrel_view::flow::{Page, PageLayout, WindowFlow};
 use spandrel_view::gpu::PageTextures;
 use spandrel_view::hud;
 use spandrel_view::inspector_camera::InspectorCamera;
@@ -35,8 +35,12 @@ use winit::window::{Fullscreen, WindowId};
 const MAX_FRAME_RATE_HZ: (f64, f64) = (120.0, 25.0);
 /// Frame rate of pages, 1/s. Pages change only on key and stick input.
 const PAGE_FRAME_RATE_HZ: f64 = 20.0;
-/// Pause after each frame as a fraction of the frame time, without a graphics card. It lets other processes run.
-const IDLE_TIME_FRACTION: f64 = 0.25;
+/// An unchanged page is rendered again after this time, in case the system's request to render it coincides with one of the window's
+/// own (estimate).
+pub(super) const PAGE_REFRESH_INTERVAL: Duration = Duration::from_secs(1);
+/// Pause after each frame as a fraction of the frame time, without a graphics card. It lets other processes run where the window's
+/// priority cannot be lowered.
+const IDLE_TIME_FRACTION: f64 = if cfg!(unix) { 0.0 } else { 0.25 };
 /// Zoom factor per mouse wheel notch.
 const ZOOM_FACTOR_PER_NOTCH: f64 = 1.15;
 /// Scroll distance per mouse wheel notch and per press of Page up or Page down, as fractions of the window's height.
@@ -55,6 +59,12 @@ pub struct WindowThreads {
     pub stream: Option<StreamSender>,
 }
 
+/// The page that the window shows.
+pub(super) struct ShownPage {
+    pub(super) sheet: PageLayout,
+    pub(super) at: Duration,
+}
+
 /// The window and its state.
 pub struct Cockpit {
     pub(super) plan: WindowConfig,
@@ -67,6 +77,8 @@ pub struct Cockpit {
     pub(super) screen: Option<WindowSurface>,
     pub(super) pictures: PageTextures,
     pub(super) job_pictures: JobPictures,
+    /// `None` while the window shows something else, or a page without its last changes.
+    pub(super) shown_page: Option<ShownPage>,
     pub(super) inspector_camera: InspectorCamera,
     pub(super) map: bool,
     /// Whether the path is drawn into the pictures.
@@ -82,6 +94,8 @@ pub struct Cockpit {
     pub(super) stopwatch: Stopwatch,
     pub(super) last_frame_at: Duration,
     next_frame_at: Duration,
+    /// Whether the window itself has requested the next frame.
+    frame_requested: bool,
     failed: Option<AppError>,
 }
 
@@ -109,6 +123,7 @@ impl Cockpit {
             screen: None,
             pictures: PageTextures::new(super::page_picture::read),
             job_pictures: JobPictures::default(),
+            shown_page: None,
             inspector_camera: InspectorCamera::default(),
             held: HeldKeys::default(),
             was_paused: false,
@@ -118,6 +133,7 @@ impl Cockpit {
             stopwatch: Stopwatch::start(),
             last_frame_at: Duration::ZERO,
             next_frame_at: Duration::ZERO,
+            frame_requested: false,
             failed: None,
         }
     }
@@ -147,7 +163,7 @@ impl Cockpit {
             let wall = flight.listener.wall();
             flight.listener.live().set_video_status(None, wall);
             let watch = self.stopwatch;
-            flight.end(self.screen.as_mut(), |first| watch.elapsed().saturating_sub(first));
+            flight.end(|first| watch.elapsed().saturating_sub(first));
         }
     }
 
@@ -339,14 +355,18 @@ impl Cockpit {
 
     fn redraw(&mut self, events: &ActiveEventLoop) {
         let started = self.stopwatch.elapsed();
+        // The system requests a frame if something else was drawn over the window.
+        if !std::mem::take(&mut self.frame_requested) {
+            self.shown_page = None;
+        }
         if let Err(error) = self.frame() {
             self.failed = Some(error);
             events.exit();
         }
         let software = self.screen.as_ref().is_some_and(|screen| screen.gpu.software);
-        let took = self.stopwatch.elapsed().saturating_sub(started);
         let shown = if software { MAX_FRAME_RATE_HZ.1 } else { MAX_FRAME_RATE_HZ.0 };
         let most_hz = if self.is_flying() { shown } else { PAGE_FRAME_RATE_HZ };
+        let took = self.stopwatch.elapsed().saturating_sub(started);
         let rest = if software { took.mul_f64(IDLE_TIME_FRACTION) } else { Duration::ZERO };
         self.next_frame_at = started + Duration::from_secs_f64(1.0 / most_hz).max(took + rest);
     }
@@ -381,6 +401,7 @@ impl ApplicationHandler for Cockpit {
         match event {
             WindowEvent::CloseRequested => events.exit(),
             WindowEvent::RedrawRequested => self.redraw(events),
+            WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Occluded(_) => self.shown_page = None,
             WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(&event, is_synthetic),
             WindowEvent::Focused(false) => {
                 self.held.clear();
@@ -413,6 +434,7 @@ impl ApplicationHandler for Cockpit {
         if now >= self.next_frame_at {
             if let Some(screen) = &self.screen {
                 screen.window.request_redraw();
+                self.frame_requested = true;
             }
             self.next_frame_at = now + Duration::from_millis(100);
         }

@@ -79,8 +79,6 @@ pub struct FlightView {
     /// Scene state.
     pub scene: SceneLoading,
     session: SceneSeed,
-    /// An earlier session's views, kept until their textures can be freed.
-    previous_panes: Option<Box<ViewPanes>>,
     /// Time of the first rendered frame.
     pub first_frame_at: Option<Duration>,
     /// Number of rendered frames.
@@ -112,7 +110,6 @@ impl FlightView {
             listener,
             scene: SceneLoading::Waiting,
             session,
-            previous_panes: None,
             first_frame_at: None,
             frame_count: 0,
             ghost: GhostLoading::None,
@@ -222,8 +219,8 @@ impl FlightView {
         if let Some((built, said)) = self.session.built_seed_mismatch(said) {
             tracing::info!("the simulator now uses seed {said} instead of {built}; rebuilding defects and traffic");
             self.session.built_seed = None;
-            if let SceneLoading::Ready(panes) = std::mem::replace(&mut self.scene, SceneLoading::Waiting) {
-                self.previous_panes = Some(panes);
+            if matches!(self.scene, SceneLoading::Ready(_)) {
+                self.scene = SceneLoading::Waiting;
             }
         }
     }
@@ -234,14 +231,11 @@ impl FlightView {
     /// Returns an error if a device fails.
     pub fn draw(
         &mut self,
-        screen: &mut WindowSurface,
+        screen: &WindowSurface,
         places: &[ViewRect],
         now: Option<&LiveMoment>,
         options: &ViewOptions,
     ) -> Result<Vec<PaneContent>, AppError> {
-        if let Some(previous_panes) = self.previous_panes.take() {
-            previous_panes.close(screen);
-        }
         let (SceneLoading::Ready(panes), Some(now)) = (&mut self.scene, now) else { return Ok(Vec::new()) };
         let feed = self.listener.live().feed().clone();
         panes.draw(screen, places, now, &feed, options)
@@ -255,23 +249,14 @@ impl FlightView {
         }
     }
 
-    /// Frees the textures and logs the frame rate.
-    pub fn end(self, screen: Option<&mut WindowSurface>, lasted_since: impl Fn(Duration) -> Duration) {
-        if let Some(first) = self.first_frame_at {
-            let seconds = lasted_since(first).as_secs_f64();
-            tracing::info!(
-                "rendered {} frames of both views ({:.1} frames per second)",
-                self.frame_count,
-                f64::from(self.frame_count) / seconds.max(1e-3)
-            );
-        }
-        let Some(screen) = screen else { return };
-        if let SceneLoading::Ready(panes) = self.scene {
-            panes.close(screen);
-        }
-        if let Some(previous_panes) = self.previous_panes {
-            previous_panes.close(screen);
-        }
+    /// Logs the frame rate.
+    pub fn end(self, lasted_since: impl Fn(Duration) -> Duration) {
+        let Some(first) = self.first_frame_at else { return };
+        tracing::info!(
+            "rendered {} frames of both views ({:.1} frames per second)",
+            self.frame_count,
+            f64::from(self.frame_count) / lasted_since(first).as_secs_f64().max(1e-3)
+        );
     }
 }
 

@@ -1,6 +1,6 @@
 //! Renders one window frame (a page, or a flight with its displays) and handles the pages' requests.
 
-use super::cockpit::Cockpit;
+use super::cockpit::{Cockpit, PAGE_REFRESH_INTERVAL, ShownPage};
 use super::flight_view::FlightView;
 use super::job_pictures::JobLook;
 use super::panes::{PaneContent, ViewOptions};
@@ -180,16 +180,25 @@ impl Cockpit {
         while let Some(JobLook { job, picture, drawing }) = self.job_pictures.poll() {
             self.flow.add_job_drawing(job.clone(), drawing);
             self.pictures.add_job(job, picture);
+            self.shown_page = None;
         }
         if let Some(job) = self.flow.job_to_draw() {
             self.job_pictures.request(job);
         }
         let sheet = self.flow.sheet(self.shape().window);
         let (Some(screen), pictures) = (&mut self.screen, &mut self.pictures) else { return Ok(()) };
-        screen.show(|ui| paint_page(ui, &sheet, pictures))
+        let at = self.stopwatch.elapsed();
+        let is_current = |shown: &ShownPage| shown.sheet == sheet && at.saturating_sub(shown.at) < PAGE_REFRESH_INTERVAL;
+        if self.shown_page.as_ref().is_some_and(is_current) {
+            return Ok(());
+        }
+        let is_presented = screen.show(|ui| paint_page(ui, &sheet, pictures))?;
+        self.shown_page = is_presented.then_some(ShownPage { sheet, at });
+        Ok(())
     }
 
     fn fly(&mut self) -> Result<(), AppError> {
+        self.shown_page = None;
         let started = self.stopwatch.elapsed();
         let step_s = started.saturating_sub(self.last_frame_at).as_secs_f64();
         self.last_frame_at = started;

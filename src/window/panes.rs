@@ -14,7 +14,7 @@ use spandrel_view::arrange::{ViewKind, ViewRect, render_size_px};
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
 use spandrel_view::flow::KeyNames;
-use spandrel_view::gpu::{Renderer, fill, picture_texture, read};
+use spandrel_view::gpu::{PanePicture, Renderer, fill, picture_texture, read};
 use spandrel_view::hud::lesson_words::how_to;
 use spandrel_view::hud::{self, DisplayStyle, DrawItem, Hud};
 use spandrel_view::inspector_camera::InspectorCamera;
@@ -67,7 +67,7 @@ impl RenderJob {
 struct ViewPane {
     whole: wgpu::Texture,
     texture: wgpu::TextureView,
-    id: egui::TextureId,
+    picture: PanePicture,
     size_px: (u32, u32),
 }
 
@@ -105,8 +105,8 @@ pub struct ViewOptions<'a> {
 pub struct PaneContent {
     /// Position in the window.
     pub view_rect: ViewRect,
-    /// egui texture with the rendered image; `None` for instruments.
-    pub picture: Option<egui::TextureId>,
+    /// Rendered image; `None` for instruments.
+    pub picture: Option<PanePicture>,
     /// The view's overlay.
     pub items: Vec<DrawItem>,
 }
@@ -133,18 +133,13 @@ impl ViewPanes {
         self.job.site.inspector().at(now.moment.at)
     }
 
-    /// Frees the textures registered with the window's painter.
-    pub fn close(self, screen: &mut WindowSurface) {
-        self.panes.values().for_each(|pane| screen.painter.free_texture(&pane.id));
-    }
-
     /// Renders both views.
     ///
     /// # Errors
     /// Returns an error if a device fails.
     pub fn draw(
         &mut self,
-        screen: &mut WindowSurface,
+        screen: &WindowSurface,
         places: &[ViewRect],
         now: &LiveMoment,
         feed: &Feed,
@@ -174,7 +169,7 @@ impl ViewPanes {
             let view_rect = self.fit_view(screen, *view_rect);
             let (shot, items) = self.render(screen, &view_rect, now, &display, options);
             let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
-            shown.push(PaneContent { view_rect, picture: Some(pane.id), items });
+            shown.push(PaneContent { view_rect, picture: Some(pane.picture.clone()), items });
             match &self.secondary {
                 Some(aside) if view_rect.which == ViewKind::Camera => {
                     aside.start(shot)?;
@@ -267,21 +262,13 @@ fn logical_size_px(screen: &WindowSurface, view_rect: &ViewRect) -> (f64, f64) {
 }
 
 /// Returns a view's texture, and recreates it if the size has changed.
-fn pane<'a>(
-    panes: &'a mut BTreeMap<u8, ViewPane>,
-    screen: &mut WindowSurface,
-    which: ViewKind,
-    size_px: (u32, u32),
-) -> &'a ViewPane {
+fn pane<'a>(panes: &'a mut BTreeMap<u8, ViewPane>, screen: &WindowSurface, which: ViewKind, size_px: (u32, u32)) -> &'a ViewPane {
     let key = which as u8;
     if panes.get(&key).is_none_or(|pane| pane.size_px != size_px) {
-        if let Some(old) = panes.remove(&key) {
-            screen.painter.free_texture(&old.id);
-        }
         let whole = picture_texture(&screen.gpu, size_px);
         let texture = whole.create_view(&wgpu::TextureViewDescriptor::default());
-        let id = screen.painter.register_native_texture(&screen.gpu.device, &texture, wgpu::FilterMode::Linear);
-        panes.insert(key, ViewPane { whole, texture, id, size_px });
+        let picture = screen.painter.picture(&screen.gpu, &texture);
+        panes.insert(key, ViewPane { whole, texture, picture, size_px });
     }
     &panes[&key]
 }

@@ -1,7 +1,7 @@
 //! A window with a surface to render to, and its connection to egui.
 
 use crate::errors::AppError;
-use spandrel_view::gpu::{Gpu, GpuError};
+use spandrel_view::gpu::{Gpu, GpuError, PaintArea, Painter};
 use std::sync::Arc;
 use winit::dpi::PhysicalSize;
 use winit::event::WindowEvent;
@@ -21,8 +21,8 @@ pub struct WindowSurface {
     pub window: Arc<Window>,
     /// Graphics device that renders to the window.
     pub gpu: Gpu,
-    /// egui's painter. The views' textures are registered with it.
-    pub painter: egui_wgpu::Renderer,
+    /// Draws egui's output and the views' images.
+    pub painter: Painter,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     input: egui_winit::State,
@@ -74,7 +74,7 @@ impl WindowSurface {
             None,
             Some(gpu.device.limits().max_texture_dimension_2d as usize),
         );
-        let painter = egui_wgpu::Renderer::new(&gpu.device, format, egui_wgpu::RendererOptions::default());
+        let painter = Painter::new(&gpu, format);
         Ok(Self { window, gpu, painter, surface, config, input, freed_textures: Vec::new() })
     }
 
@@ -87,17 +87,17 @@ impl WindowSurface {
         self.input.on_window_event(&self.window, event).consumed
     }
 
-    /// Runs egui and shows the result.
-    pub fn show(&mut self, ui: impl FnMut(&mut egui::Ui)) -> Result<(), AppError> {
+    /// Runs egui and shows the result. Returns whether the system has accepted it.
+    pub fn show(&mut self, ui: impl FnMut(&mut egui::Ui)) -> Result<bool, AppError> {
         use wgpu::CurrentSurfaceTexture as Current;
         let jobs = self.run(ui);
         let frame = match self.surface.get_current_texture() {
             Current::Success(frame) => frame,
             Current::Suboptimal(frame) => frame,
-            Current::Timeout | Current::Occluded => return Ok(()),
+            Current::Timeout | Current::Occluded => return Ok(false),
             Current::Outdated | Current::Lost => {
                 self.surface.configure(&self.gpu.device, &self.config);
-                return Ok(());
+                return Ok(false);
             }
             Current::Validation => return Err(AppError::failed("the graphics device rejected the window's surface")),
         };
@@ -105,7 +105,7 @@ impl WindowSurface {
         self.paint(&jobs, &view);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
-        Ok(())
+        Ok(true)
     }
 
     /// Runs egui and returns the result as an image.
@@ -138,42 +138,23 @@ impl WindowSurface {
         let mut changes = std::mem::take(&mut output.textures_delta);
         for (id, deltas) in &changes.set {
             for delta in deltas {
-                self.painter.update_texture(&self.gpu.device, &self.gpu.queue, *id, delta);
+                self.painter.update_texture(&self.gpu, *id, delta);
             }
         }
         let jobs = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
-        // The previous frame may still be using these textures.
+        // The frame that is painted next may still show the textures that it frees.
         for id in std::mem::replace(&mut self.freed_textures, changes.free.iter().copied().collect()) {
-            self.painter.free_texture(&id);
+            self.painter.free_texture(id);
         }
         changes.clear();
         jobs
     }
 
-    fn paint(&mut self, jobs: &[egui::ClippedPrimitive], target: &wgpu::TextureView) {
-        let screen = egui_wgpu::ScreenDescriptor {
-            size_in_pixels: [self.config.width, self.config.height],
-            pixels_per_point: self.input.egui_ctx().pixels_per_point(),
+    fn paint(&self, jobs: &[egui::ClippedPrimitive], target: &wgpu::TextureView) {
+        let area = PaintArea {
+            size_px: (self.config.width, self.config.height),
+            px_per_point: self.input.egui_ctx().pixels_per_point(),
         };
-        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let before = self.painter.update_buffers(device, queue, &mut encoder, jobs, &screen);
-        {
-            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("window"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-                })],
-                depth_stencil_attachment: None,
-                timestamp_writes: None,
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            self.painter.render(&mut pass.forget_lifetime(), jobs, &screen);
-        }
-        queue.submit(before.into_iter().chain([encoder.finish()]));
+        self.painter.paint(&self.gpu, jobs, (target, wgpu::LoadOp::Clear(wgpu::Color::BLACK)), area);
     }
 }

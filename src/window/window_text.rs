@@ -72,9 +72,8 @@ pub fn paint_flight(ui: &mut egui::Ui, shown: &[PaneContent], text: &WindowText,
             at(view_rect.left, view_rect.top),
             at(view_rect.left + view_rect.width, view_rect.top + view_rect.height),
         );
-        let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));
-        if let Some(picture) = view.picture {
-            painter.image(picture, rect, whole, egui::Color32::WHITE);
+        if let Some(picture) = &view.picture {
+            painter.add(picture.shape(rect));
         }
         paint(&painter.with_clip_rect(rect), &view.items, rect);
         let edge = egui::Stroke::new(1.0, egui::Color32::from_gray(20));

@@ -29,6 +29,7 @@ pub fn all() -> Vec<ShaderSource> {
     let lean = [COMMON, include_str!("shaders/surface.wgsl"), include_str!("shaders/lean.wgsl")].join("\n");
     sources.push(ShaderSource { name: "lean", text: lean });
     sources.push(ShaderSource { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
+    sources.push(ShaderSource { name: "painter", text: include_str!("shaders/painter.wgsl").to_owned() });
     let develop = include_str!("shaders/develop.wgsl");
     sources.push(ShaderSource { name: "develop", text: develop.to_owned() });
     let sampled = develop.replace("texture_depth_2d;", "texture_depth_multisampled_2d;");

@@ -3,6 +3,7 @@
 mod device;
 mod lru_cache;
 mod overlay;
+mod painter;
 mod pass;
 mod picture;
 mod pipelines;
@@ -12,5 +13,6 @@ mod uniforms;
 
 pub use device::{Gpu, GpuError};
 pub use overlay::{Overlay, PageTextures, decode_jpeg, paint, paint_sheet};
+pub use painter::{PaintArea, Painter, PanePicture};
 pub use picture::{fill, picture_texture, read};
 pub use renderer::{DrawCounts, Renderer};

@@ -1,6 +1,7 @@
 //! Head-up display over a rendered picture.
 
 use super::device::Gpu;
+use super::painter::{PaintArea, Painter};
 use super::pipelines::COLOR_FORMAT;
 use crate::flow::sheet::PictureSource;
 use crate::flow::{PICTURES, PageLayout};
@@ -12,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Draws text and shapes over pictures.
 pub struct Overlay {
     context: egui::Context,
-    renderer: egui_wgpu::Renderer,
+    painter: Painter,
 }
 
 impl std::fmt::Debug for Overlay {
@@ -25,8 +26,7 @@ impl Overlay {
     /// Creates an overlay for picture textures.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
-        let renderer = egui_wgpu::Renderer::new(&gpu.device, COLOR_FORMAT, egui_wgpu::RendererOptions::default());
-        Self { context: egui::Context::default(), renderer }
+        Self { context: egui::Context::default(), painter: Painter::new(gpu, COLOR_FORMAT) }
     }
 
     /// Draws items over the contents of `target`; the size is in px.
@@ -60,33 +60,14 @@ impl Overlay {
         let mut changes = std::mem::take(&mut output.textures_delta);
         for (id, deltas) in &changes.set {
             for delta in deltas {
-                self.renderer.update_texture(&gpu.device, &gpu.queue, *id, delta);
+                self.painter.update_texture(gpu, *id, delta);
             }
         }
         let shapes = std::mem::take(&mut output.shapes);
         let jobs = self.context.tessellate(shapes, 1.0);
-        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: [size_px.0, size_px.1], pixels_per_point: 1.0 };
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let before = self.renderer.update_buffers(&gpu.device, &gpu.queue, &mut encoder, &jobs, &screen);
-        {
-            let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("hud"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
-                })],
-                depth_stencil_attachment: None,
-                timestamp_writes: None,
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
-            self.renderer.render(&mut pass.forget_lifetime(), &jobs, &screen);
-        }
-        gpu.queue.submit(before.into_iter().chain([encoder.finish()]));
+        self.painter.paint(gpu, &jobs, (target, wgpu::LoadOp::Load), PaintArea { size_px, px_per_point: 1.0 });
         for id in &changes.free {
-            self.renderer.free_texture(id);
+            self.painter.free_texture(*id);
         }
         changes.clear();
     }
