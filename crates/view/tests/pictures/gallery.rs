@@ -239,7 +239,7 @@ fn regress_tutorial_shows_defects_at_true_scale() {
 }
 
 /// Returns the HUD during a normal flight.
-fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
+pub(super) fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
     Hud {
         speed_m_s: 2.4,
         limit_m_s: 4.4704,

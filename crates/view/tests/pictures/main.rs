@@ -5,6 +5,7 @@
 
 mod compare;
 mod contrast;
+mod flight_states;
 mod gallery;
 mod masks;
 mod pages;

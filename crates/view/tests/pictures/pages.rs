@@ -20,7 +20,7 @@ use std::path::Path;
 /// Size of the committed pictures: small, because there are many.
 const COMMITTED_PX: (u32, u32) = (400, 226);
 /// Sizes of the album's pictures.
-const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
+pub(super) const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
 /// Functions whose keys the pages mention.
 const KEYS: [&str; 19] = [
     "up",
