@@ -7,7 +7,7 @@ use super::pilot::SkillArgs;
 use super::table;
 use crate::errors::{AUTOPILOT_EXIT_CODES, AppError};
 use crate::io::addresses;
-use crate::io::children::{Child, early_exit, software_renderer_threads};
+use crate::io::children::{Child, early_exit};
 use crate::io::clock::Stopwatch;
 use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
@@ -126,7 +126,7 @@ fn open_window(job: &JobArgs, ports: &serde_json::Value, log: tracing::Level) ->
     }
     let payload = format!("127.0.0.1:{}", ports["payload_port"].as_u64()?);
     let view_args = [args::common_args(job, log), vec!["--connect".to_owned(), payload]].concat();
-    let opened = Child::start_with_env("view", &view_args, &[software_renderer_threads()]);
+    let opened = Child::start("view", &view_args);
     opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()
 }
 

@@ -42,21 +42,12 @@ impl Child {
     /// # Errors
     /// Returns an error if the process cannot be started.
     pub fn start(name: &'static str, args: &[String]) -> Result<Self, AppError> {
-        Self::start_with_env(name, args, &[])
-    }
-
-    /// Starts `spandrel NAME ARGS` with additional environment variables.
-    ///
-    /// # Errors
-    /// Returns an error if the process cannot be started.
-    pub fn start_with_env(name: &'static str, args: &[String], environment: &[(&str, String)]) -> Result<Self, AppError> {
         let failed = |error: std::io::Error| AppError::failed(format!("cannot start the {name}: {error}"));
         let program = std::env::current_exe().map_err(failed)?;
         let mut process = Command::new(program)
             .arg(name)
             .args(args)
             .args(["--announce", "--leash"])
-            .envs(environment.iter().map(|(key, value)| (key, value)))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -147,13 +138,6 @@ impl Drop for Child {
             self.finish();
         }
     }
-}
-
-/// Returns the environment variable that limits Mesa's software renderer to half of the CPUs; the simulator and the
-/// monitor need the other half.
-pub fn software_renderer_threads() -> (&'static str, String) {
-    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    ("LP_NUM_THREADS", (all / 2).max(1).to_string())
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::window::WindowProcess;
 use crate::cli::args::{JobArgs, common_args};
 use crate::cli::autopilot_args::AUTOPILOT_FOLDER;
 use crate::errors::AppError;
-use crate::io::children::{Child, early_exit, software_renderer_threads};
+use crate::io::children::{Child, early_exit};
 use crate::io::files;
 use crate::io::pause::{PAUSE_LINE, RESUME_LINE};
 use crate::io::stop::StopRequest;
@@ -142,7 +142,7 @@ impl FlightProcesses {
             }
             Purpose::Assessment => words.push("--no-map".to_owned()),
         }
-        let opened = Child::start_with_env("view", &words, &[software_renderer_threads()]);
+        let opened = Child::start("view", &words);
         self.second_window = opened.inspect_err(|error| tracing::warn!("no window on the second screen: {error}")).ok();
     }
 

@@ -1,7 +1,6 @@
 //! Renders a flight's photographs and its video in the background, for its folder and its report.
 
 use super::args::VideoMode;
-use crate::io::children::software_renderer_threads;
 use crate::io::stop::StopRequest;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -88,11 +87,16 @@ impl PictureJobs {
     }
 }
 
+/// Returns the number of threads for Mesa's software renderer: half of the CPUs. A window that shows a flight beside it needs the
+/// other half.
+fn software_renderer_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, |all| (all.get() / 2).max(1))
+}
+
 impl PictureJob {
     fn start(&self) -> std::io::Result<Child> {
-        let (threads, few) = software_renderer_threads();
         let mut command = Command::new(std::env::current_exe()?);
         command.args(["--log", "warn", "render"]).arg(&self.session).args(&self.options).arg("--nice");
-        command.env(threads, few).stdin(Stdio::null()).stdout(Stdio::null()).spawn()
+        command.env("LP_NUM_THREADS", software_renderer_threads().to_string()).stdin(Stdio::null()).stdout(Stdio::null()).spawn()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::{Args, camera_file};
 use crate::io::addresses::PortChoice;
-use crate::io::children::{Child, software_renderer_threads};
+use crate::io::children::Child;
 use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
 use crate::io::user_language::user_language;
@@ -39,7 +39,7 @@ impl WindowProcess {
             tracing::warn!("no window: it requires the payload port, but --payload-port is none");
             return None;
         }
-        let opened = Child::start_with_env("view", &window_args(args, log), &[software_renderer_threads()]);
+        let opened = Child::start("view", &window_args(args, log));
         let child = opened.inspect_err(|error| tracing::warn!("no window: {error}")).ok()?;
         Some(Self::from_child(child))
     }
