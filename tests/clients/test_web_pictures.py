@@ -60,6 +60,7 @@ def server(tmp_path_factory):
 
 def screenshot(page):
     """Returns a picture of the visible part of a page, at the size of the committed pictures."""
+    page.wait_for_function("[...document.images].every(image => image.complete)")
     image = Image.open(io.BytesIO(page.screenshot(animations="disabled", caret="hide", style=FONT))).convert("RGB")
     return image.resize((image.width // SCALE, image.height // SCALE), Image.Resampling.BOX)
 
