@@ -136,11 +136,7 @@ impl WindowSurface {
         let mut output = context.run_ui(raw, |root| ui(root));
         self.input.handle_platform_output(&self.window, std::mem::take(&mut output.platform_output));
         let mut changes = std::mem::take(&mut output.textures_delta);
-        for (id, deltas) in &changes.set {
-            for delta in deltas {
-                self.painter.update_texture(&self.gpu, *id, delta);
-            }
-        }
+        self.painter.update_textures(&self.gpu, &changes);
         let jobs = context.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
         // The frame that is painted next may still show the textures that it frees.
         for id in std::mem::replace(&mut self.freed_textures, changes.free.iter().copied().collect()) {

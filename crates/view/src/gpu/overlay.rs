@@ -58,11 +58,7 @@ impl Overlay {
         let input = egui::RawInput { screen_rect: Some(rect), ..egui::RawInput::default() };
         let mut output = self.context.run_ui(input, |ui| contents(&ui.ctx().layer_painter(egui::LayerId::background()), rect));
         let mut changes = std::mem::take(&mut output.textures_delta);
-        for (id, deltas) in &changes.set {
-            for delta in deltas {
-                self.painter.update_texture(gpu, *id, delta);
-            }
-        }
+        self.painter.update_textures(gpu, &changes);
         let shapes = std::mem::take(&mut output.shapes);
         let jobs = self.context.tessellate(shapes, 1.0);
         self.painter.paint(gpu, &jobs, (target, wgpu::LoadOp::Load), PaintArea { size_px, px_per_point: 1.0 });

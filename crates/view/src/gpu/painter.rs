@@ -4,19 +4,15 @@
 //! pixel, so it spent more time on the displays of a flight than on its views.
 
 use super::device::Gpu;
-use super::pass::upload;
-use crate::shaders;
+use super::pass::{begin_loading, uniform, upload};
+use super::pipelines::PainterPipelines;
 use egui::epaint::{ClippedPrimitive, ImageData, ImageDelta, PaintCallback, Primitive, Vertex};
-use egui::{Rect, TextureId};
+use egui::{Rect, TextureId, TexturesDelta};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Size of the uniform buffer, bytes: two numbers.
-const UNIFORM_BYTES: u64 = 8;
-/// Vertices: position and texture coordinates as two numbers each, color as four bytes.
-const VERTEX_ATTRIBUTES: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
-/// Colors are premultiplied with their opacity.
-const BLEND: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+/// Size of the uniform buffer, bytes: width and height.
+const SIZE_BYTES: usize = size_of::<[f32; 2]>();
 
 /// Size of a target and its pixels per point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,10 +26,7 @@ pub struct PaintArea {
 /// Draws egui's output. Textures are filtered linearly and not repeated.
 #[derive(Debug)]
 pub struct Painter {
-    meshes: wgpu::RenderPipeline,
-    pictures: wgpu::RenderPipeline,
-    texture_layout: wgpu::BindGroupLayout,
-    sampler: wgpu::Sampler,
+    pipelines: PainterPipelines,
     size: wgpu::Buffer,
     size_binding: wgpu::BindGroup,
     textures: BTreeMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
@@ -54,60 +47,14 @@ impl Painter {
     /// Creates a painter for targets of a pixel format.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let device = &gpu.device;
-        let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
-        let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("painter"), entries })
-        };
-        let buffer =
-            wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: true },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
-        let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
-        let size_layout = layout(&[entry(0, wgpu::ShaderStages::VERTEX, buffer)]);
-        let pixels = wgpu::ShaderStages::FRAGMENT;
-        let texture_layout = layout(&[entry(0, pixels, texture), entry(1, pixels, sampler)]);
-        let pipelines = PipelineParts {
-            gpu,
-            format,
-            module: device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("painter"),
-                source: wgpu::ShaderSource::Wgsl(shaders::source("painter").into()),
-            }),
-            layout: device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("painter"),
-                bind_group_layouts: &[Some(&size_layout), Some(&texture_layout)],
-                immediate_size: 0,
-            }),
-        };
-        let size = device.create_buffer(&wgpu::BufferDescriptor {
+        let pipelines = PainterPipelines::new(gpu, format);
+        let size = uniform(gpu, SIZE_BYTES);
+        let size_binding = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("painter"),
-            size: UNIFORM_BYTES,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let size_binding = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("painter"),
-            layout: &size_layout,
+            layout: &pipelines.size_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: size.as_entire_binding() }],
         });
-        Self {
-            meshes: pipelines.meshes(),
-            pictures: pipelines.pictures(),
-            texture_layout,
-            sampler: device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some("painter"),
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                ..Default::default()
-            }),
-            size,
-            size_binding,
-            textures: BTreeMap::new(),
-        }
+        Self { pipelines, size, size_binding, textures: BTreeMap::new() }
     }
 
     /// Prepares a rendered picture. It shows what its texture contains when the shapes are drawn.
@@ -116,8 +63,14 @@ impl Painter {
         PanePicture(self.bind(gpu, texture))
     }
 
-    /// Sets or changes one of egui's textures.
-    pub fn update_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &ImageDelta) {
+    /// Sets and changes egui's textures. The textures to free are freed by the caller, after painting.
+    pub fn update_textures(&mut self, gpu: &Gpu, changes: &TexturesDelta) {
+        for (id, deltas) in &changes.set {
+            deltas.iter().for_each(|delta| self.update_texture(gpu, *id, delta));
+        }
+    }
+
+    fn update_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &ImageDelta) {
         let ImageData::Color(image) = &delta.image;
         let [width, height] = image.size.map(|side| side as u32);
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
@@ -163,19 +116,7 @@ impl Painter {
         let buffers = MeshBuffers::of(gpu, jobs);
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("painter"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-                })],
-                depth_stencil_attachment: None,
-                timestamp_writes: None,
-                occlusion_query_set: None,
-                multiview_mask: None,
-            });
+            let mut pass = begin_loading(&mut encoder, (target, load), None, None);
             pass.set_bind_group(0, &self.size_binding, &[]);
             self.draw(&mut pass, jobs, &buffers, area);
         }
@@ -193,7 +134,7 @@ impl Painter {
                     let Some((_, texture)) = self.textures.get(&mesh.texture_id).filter(|_| !clip.is_empty()) else { continue };
                     pass.set_viewport(0.0, 0.0, area.size_px.0 as f32, area.size_px.1 as f32, 0.0, 1.0);
                     clip.apply_as_scissor(pass);
-                    pass.set_pipeline(&self.meshes);
+                    pass.set_pipeline(&self.pipelines.meshes);
                     pass.set_bind_group(1, texture, &[]);
                     buffers.bind(pass);
                     pass.draw_indexed(indices, base, 0..1);
@@ -204,9 +145,9 @@ impl Painter {
                     let Some(PanePicture(texture)) = picture.filter(|_| !clip.is_empty() && !place.is_empty()) else { continue };
                     place.apply_as_viewport(pass);
                     clip.apply_as_scissor(pass);
-                    pass.set_pipeline(&self.pictures);
+                    pass.set_pipeline(&self.pipelines.pictures);
                     pass.set_bind_group(1, texture, &[]);
-                    pass.draw(0..4, 0..1);
+                    pass.draw(0..6, 0..1);
                 }
             }
         }
@@ -215,66 +156,11 @@ impl Painter {
     fn bind(&self, gpu: &Gpu, texture: &wgpu::TextureView) -> wgpu::BindGroup {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("painter"),
-            layout: &self.texture_layout,
+            layout: &self.pipelines.texture_layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(texture) },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&self.sampler) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&self.pipelines.smooth) },
             ],
-        })
-    }
-}
-
-/// What both pipelines share.
-struct PipelineParts<'a> {
-    gpu: &'a Gpu,
-    format: wgpu::TextureFormat,
-    module: wgpu::ShaderModule,
-    layout: wgpu::PipelineLayout,
-}
-
-impl PipelineParts<'_> {
-    fn meshes(&self) -> wgpu::RenderPipeline {
-        let vertices = wgpu::VertexBufferLayout {
-            array_stride: size_of::<Vertex>() as u64,
-            step_mode: wgpu::VertexStepMode::Vertex,
-            attributes: &VERTEX_ATTRIBUTES,
-        };
-        self.build(("mesh_corner", "mesh"), &[Some(vertices)], Some(BLEND), wgpu::PrimitiveTopology::TriangleList)
-    }
-
-    fn pictures(&self) -> wgpu::RenderPipeline {
-        self.build(("picture_corner", "picture"), &[], None, wgpu::PrimitiveTopology::TriangleStrip)
-    }
-
-    fn build(
-        &self,
-        (corner, pixel): (&str, &str),
-        buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
-        blend: Option<wgpu::BlendState>,
-        topology: wgpu::PrimitiveTopology,
-    ) -> wgpu::RenderPipeline {
-        let constants = [("SRGB_TARGET", f64::from(u8::from(self.format.is_srgb())))];
-        let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("painter"),
-            layout: Some(&self.layout),
-            vertex: wgpu::VertexState {
-                module: &self.module,
-                entry_point: Some(corner),
-                compilation_options: options(),
-                buffers,
-            },
-            primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-            depth_stencil: None,
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &self.module,
-                entry_point: Some(pixel),
-                compilation_options: options(),
-                targets: &[Some(wgpu::ColorTargetState { format: self.format, blend, write_mask: wgpu::ColorWrites::ALL })],
-            }),
-            multiview_mask: None,
-            cache: None,
         })
     }
 }

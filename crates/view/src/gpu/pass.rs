@@ -26,6 +26,16 @@ pub fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffe
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: bytes, usage })
 }
 
+/// Creates a uniform buffer of a size in bytes.
+pub fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: size as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
 impl GpuMesh {
     /// Uploads a mesh; returns `None` if it is empty.
     pub fn new(gpu: &Gpu, mesh: &Mesh) -> Option<Self> {
@@ -113,13 +123,23 @@ pub fn begin<'a>(
     resolved: Option<&wgpu::TextureView>,
     depth: Option<&wgpu::TextureView>,
 ) -> wgpu::RenderPass<'a> {
+    begin_loading(encoder, (color, wgpu::LoadOp::Clear(wgpu::Color::BLACK)), resolved, depth)
+}
+
+/// Same as [`begin`], but with what the color target contains before.
+pub fn begin_loading<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    (color, load): (&wgpu::TextureView, wgpu::LoadOp<wgpu::Color>),
+    resolved: Option<&wgpu::TextureView>,
+    depth: Option<&wgpu::TextureView>,
+) -> wgpu::RenderPass<'a> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: None,
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
             view: color,
             depth_slice: None,
             resolve_target: resolved,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
         })],
         depth_stencil_attachment: depth.map(cleared_depth),
         timestamp_writes: None,

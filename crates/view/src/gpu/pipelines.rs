@@ -1,6 +1,7 @@
 //! Render pipelines.
 
 mod labels;
+mod painter;
 
 use super::device::Gpu;
 use crate::material_groups::MaterialGroup;
@@ -12,6 +13,7 @@ use spandrel_model::defect_codes;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
 
 pub use labels::LabelPipelines;
+pub use painter::PainterPipelines;
 
 /// Format of radiance targets.
 pub const RADIANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

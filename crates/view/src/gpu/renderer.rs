@@ -7,7 +7,7 @@ mod static_cells;
 
 use super::device::Gpu;
 use super::lru_cache::LruCache;
-use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, upload};
+use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, uniform, upload};
 use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, Pipelines};
 use super::targets::{RenderTargets, noise_texture, tile_texture};
 use super::uniforms::{DevelopUniforms, Globals, MAX_SHADOW_MAPS, ShadowMaps};
@@ -346,15 +346,6 @@ fn solids<'a>(
 ) -> impl Iterator<Item = (&'a GpuMesh, &'a MeshInstances)> {
     let of = |(model, copies): &'a (MoverModel, MeshInstances)| Some((models.get(*model as usize)?.as_ref()?, copies));
     moving.iter().filter(|(model, _)| *model != MoverModel::PropellerDisk).filter_map(of)
-}
-
-fn uniform(gpu: &Gpu, size: usize) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: size as u64,
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
 }
 
 /// Creates the shadow map array, with at least two layers because some drivers do not treat a single layer as an array.

@@ -1,6 +1,7 @@
 //! Render targets for one picture size.
 
 use super::device::Gpu;
+use super::pass::uniform;
 use super::pipelines::{DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
 use crate::quality::Quality;
 
@@ -49,12 +50,7 @@ impl RenderTargets {
         let small = if quality.reflection > 0.0 { (part(size.0), part(size.1)) } else { (1, 1) };
         let mirror = texture(gpu, small, RADIANCE_FORMAT, 1);
         let mirror_depth = texture(gpu, small, DEPTH_FORMAT, 1);
-        let develop_data = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("develop"),
-            size: size_of::<super::uniforms::DevelopUniforms>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let develop_data = uniform(gpu, size_of::<super::uniforms::DevelopUniforms>());
         let view = |view| wgpu::BindingResource::TextureView(view);
         let sampler = wgpu::BindingResource::Sampler(&pipelines.smooth);
         let entry = |binding: u32, resource| wgpu::BindGroupEntry { binding, resource };

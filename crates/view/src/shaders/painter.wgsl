@@ -21,10 +21,12 @@ fn mesh_corner(@location(0) position: vec2<f32>, @location(1) uv: vec2<f32>, @lo
     return Corner(vec4<f32>(clip, 0.0, 1.0), uv, color);
 }
 
-// Fills the viewport.
+// Fills the viewport with two triangles.
 @vertex
 fn picture_corner(@builtin(vertex_index) index: u32) -> Corner {
-    let uv = vec2<f32>(f32(index & 1u), f32(index >> 1u));
+    // Corners 0, 1, 2, then 1, 2, 3.
+    let corner = index - 2u * (index / 3u);
+    let uv = vec2<f32>(f32(corner & 1u), f32(corner >> 1u));
     let clip = vec2<f32>(2.0, -2.0) * uv + vec2<f32>(-1.0, 1.0);
     return Corner(vec4<f32>(clip, 0.0, 1.0), uv, vec4<f32>(1.0));
 }

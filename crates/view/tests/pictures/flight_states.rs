@@ -51,8 +51,8 @@ type State = (&'static str, fn(&mut Hud));
 
 const STATES: [State; 11] = [
     ("take-off", |hud| {
-        let needs = Guidance { task: Some(1), tasks_done: 0, flown_s: 0.0, ..guidance(GuidanceStep::TakeOff, (0.0, 0.0, 5.0)) };
-        (hud.guidance, hud.height_m, hud.home_distance_m) = (Some(needs), 0.0, 0.0);
+        let upward = Guidance { task: Some(1), tasks_done: 0, flown_s: 0.0, ..guidance(GuidanceStep::TakeOff, (0.0, 0.0, 5.0)) };
+        (hud.guidance, hud.height_m, hud.home_distance_m) = (Some(upward), 0.0, 0.0);
     }),
     ("way-to-task", |hud| hud.guidance = Some(guidance(GuidanceStep::FlyToTask, (140.0, -30.0, 12.0)))),
     ("detour", |hud| {
