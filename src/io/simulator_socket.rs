@@ -1,6 +1,7 @@
 //! Socket of an external autopilot's simulator interface. The vehicle's thread reads and writes it without a helper thread: the
 //! exchange runs in lockstep, so every handover to another thread would delay every step.
 
+use super::clock::Stopwatch;
 use super::link_event::LinkEvent;
 use super::net::{ERROR_DELAY, MAX_DATAGRAM_BYTES, listen, port_in_use};
 use super::vehicle_ports::local;
@@ -16,6 +17,9 @@ pub const LOOPBACK: IpAddr = IpAddr::V4(Ipv4Addr::LOCALHOST);
 pub const PORT_OPTION: &str = "--autopilot-port";
 /// Maximum time to wait for an answer before the other sockets are read.
 const MAX_ANSWER_WAIT: Duration = Duration::from_millis(2);
+/// Time to poll for an answer before the thread sleeps. Most answers arrive earlier, and waking a thread takes about as long as
+/// answering does.
+const POLL_TIME: Duration = Duration::from_micros(200);
 /// Maximum time that a connection with a full buffer delays the vehicle.
 const MAX_SEND_WAIT: Duration = Duration::from_millis(1);
 /// Maximum amount of unsent data. An autopilot that does not read loses further messages.
@@ -112,10 +116,29 @@ impl SimulatorSocket {
     pub fn wait(&mut self) -> Vec<LinkEvent> {
         let mut events = self.accept();
         if self.is_connected() {
-            let received = self.receive();
+            let received = match self.receive_without_sleep() {
+                Received::Nothing => self.receive(),
+                received => received,
+            };
             events.extend(self.events(received));
         }
         events
+    }
+
+    /// Polls for data for a short time and lets other threads run meanwhile.
+    fn receive_without_sleep(&mut self) -> Received {
+        if !self.set_nonblocking(true) {
+            return Received::Nothing;
+        }
+        let watch = Stopwatch::start();
+        let received = loop {
+            match self.receive() {
+                Received::Nothing if watch.elapsed() < POLL_TIME => std::thread::yield_now(),
+                received => break received,
+            }
+        };
+        self.set_nonblocking(false);
+        received
     }
 
     /// Returns the data that has arrived, without waiting.

@@ -58,7 +58,7 @@ fn exact_layer_diagram_matches_the_imports() {
     let same = std::fs::read_to_string(&path).is_ok_and(|committed| committed == drawn);
     assert!(
         same,
-        "docs/src/images/layers.svg does not match the imports in the code; regenerate it with SPANDREL_REFERENCE=write"
+        "docs/src/images/layers.svg does not match the imports in the code; regenerate it with SPANDREL_REFERENCE=write cargo test --test layers"
     );
 }
 

@@ -31,7 +31,7 @@ fn check(page: &str, text: &str) {
     let now = text.lines().nth(differs).unwrap_or_default();
     assert!(
         committed == text,
-        "{page}, line {}: expected `{now}`; regenerate the page with SPANDREL_REFERENCE=write",
+        "{page}, line {}: expected `{now}`; regenerate the page with SPANDREL_REFERENCE=write cargo test --test reference",
         differs + 1
     );
 }

@@ -12,6 +12,7 @@ mod practice;
 mod practice_controls;
 mod radio;
 mod tick;
+mod wake_wind;
 
 pub use external::AutopilotState;
 
@@ -25,7 +26,7 @@ use super::endpoint::{
 use super::faults::Faults;
 use super::log::FlightRecorder;
 use super::physics::{self, Actuators, AirState, AirframeModel};
-use super::sensors::{Readings, Sensors};
+use super::sensors::{Readings, SensorSite, Sensors};
 use controller::{BuiltinController, Controller};
 use file_jobs::FileJobScheduler;
 use inbox::Inbox;
@@ -42,6 +43,7 @@ use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::{SensorSpec, Vehicle};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
+use wake_wind::WakeWind;
 
 /// Physics time step.
 pub const STEP: SimTime = SimTime::from_ms(1);
@@ -140,6 +142,7 @@ pub struct Sim {
     sensors: Sensors,
     controller: Controller,
     wind: WindField,
+    wakes: Option<WakeWind>,
     now: SimTime,
     /// Boot time of the autopilot.
     boot_time: SimTime,
@@ -201,9 +204,10 @@ impl Sim {
         Self {
             model: Arc::new(AirframeModel::new(vehicle, scenario.rules.battery)),
             state: physics::PhysicsState::at_rest(start, yaw),
-            sensors: Sensors::new(&with_sensors(vehicle, sensors), scenario.rules.gnss_shadow, scenario.origin, seed),
+            sensors: Sensors::new(&with_sensors(vehicle, sensors), SensorSite::of(scenario, site.members()), seed),
             controller,
             wind: WindField::new(&scenario.wind, seed),
+            wakes: WakeWind::of(scenario, site.members(), &vehicle.rotors, seed),
             now: SimTime::ZERO,
             boot_time: SimTime::ZERO,
             readings: Readings::default(),

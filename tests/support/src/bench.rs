@@ -11,7 +11,7 @@ use spandrel_sitl::autopilot::{
 };
 use spandrel_sitl::faults::Faults;
 use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, PhysicsState, PowerLoad};
-use spandrel_sitl::sensors::{BatteryReading, Readings, SensorInputs, Sensors};
+use spandrel_sitl::sensors::{BatteryReading, Readings, SensorInputs, SensorSite, Sensors};
 
 pub const VEHICLES: [&str; 4] = ["phantom2", "f450", "m30", "elios3"];
 const STEP: SimTime = SimTime::from_ms(1);
@@ -51,7 +51,7 @@ impl Bench {
             site: Site::build(&scenario, seed),
             model: AirframeModel::new(vehicle, BatteryModel::Physical),
             state: PhysicsState::at_rest(Vec3::new(0.0, 0.0, -feet - 0.02), 0.0),
-            sensors: Sensors::new(vehicle, false, scenario.origin, seed),
+            sensors: Sensors::new(vehicle, SensorSite::open(scenario.origin), seed),
             autopilot: Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default()),
             air: AirState::STILL,
             now: SimTime::ZERO,

@@ -11,7 +11,7 @@ use spandrel_sitl::autopilot::estimator::align::ROCKING_BIAS_FRACTION;
 use spandrel_sitl::autopilot::estimator::covariance::P;
 use spandrel_sitl::autopilot::estimator::{Estimator, SimulatedTruth};
 use spandrel_sitl::physics::{MAX_ROTORS, RigidState};
-use spandrel_sitl::sensors::{self, FlatGround, Readings, Sensors, Surroundings};
+use spandrel_sitl::sensors::{self, FlatGround, Readings, SensorSite, Sensors, Surroundings};
 
 const ORIGIN: Geo = Geo { latitude_deg: 46.5, longitude_deg: 8.25, altitude_m: 430.0 };
 const TICK: SimTime = SimTime::from_us(2500);
@@ -102,7 +102,7 @@ impl EstimatorRun {
         Self {
             rigid,
             rocking_rate_rad_s: Vec3::new(x, y, z) * (ROCKING_BIAS_FRACTION * vehicle.sensors.gyro_bias_rad_s),
-            sensors: Sensors::new(vehicle, true, ORIGIN, seed),
+            sensors: Sensors::new(vehicle, SensorSite { gnss_shadow: true, ..SensorSite::open(ORIGIN) }, seed),
             filter: Estimator::new(&vehicle.sensors, ORIGIN),
             site,
             now: SimTime::ZERO,

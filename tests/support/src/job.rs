@@ -84,6 +84,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             events: Vec::new(),
         },
         light: LightSpec { start_unix_s: 0, cloud_cover: 0.0, water_albedo: 0.1, ground_albedo: 0.2 },
+        hazards: HazardSpec::default(),
         rules: SessionRules {
             after_crash: AfterCrash::Respawn,
             battery: BatteryModel::Paper,

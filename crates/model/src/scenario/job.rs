@@ -51,6 +51,8 @@ pub struct Scenario {
     pub light: LightSpec,
     /// Session rules for crashes, battery and GNSS.
     pub rules: SessionRules,
+    /// Effects of the bridges on the vehicle.
+    pub hazards: HazardSpec,
     /// Thresholds for in-flight feedback.
     pub feedback: FeedbackThresholds,
     /// Scoring parameters.
@@ -400,6 +402,15 @@ pub struct SessionRules {
     pub gnss_shadow: bool,
     /// Simulation time before a crashed drone is respawned.
     pub respawn_after: SimTime,
+}
+
+/// Effects of the bridges on the vehicle that a job can switch on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct HazardSpec {
+    /// True if steel members distort the magnetic field at the compass.
+    pub compass: bool,
+    /// True if the wind has wakes behind piers, towers and columns.
+    pub wakes: bool,
 }
 
 /// Action after a crash into a bridge, the terrain or the water.

@@ -25,7 +25,7 @@ pub use certification::CertificationParams;
 pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
-    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION, HazardSpec,
     INSPECTOR_EYE_HEIGHT_M, LightSpec, PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task,
     TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };

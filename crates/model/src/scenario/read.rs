@@ -2,8 +2,8 @@
 
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
-    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, LightSpec, Scenario,
-    ScoringParams, SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
+    AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HazardSpec, LightSpec,
+    Scenario, ScoringParams, SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
 };
 use super::point::point;
 use crate::elements::Element;
@@ -103,6 +103,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         wind: super::weather::read(r, root),
         light: light(r, root),
         rules: rules(r, root),
+        hazards: hazards(r, root),
         feedback: feedback(r, root),
         scoring: scoring(r, root),
         certification: super::certification::read(r, root),
@@ -327,6 +328,13 @@ fn rules(r: &mut Reader, root: &mut Section) -> SessionRules {
     }
     r.finish(&s);
     rules
+}
+
+fn hazards(r: &mut Reader, root: &mut Section) -> HazardSpec {
+    let mut s = r.section(root, "hazards");
+    let hazards = HazardSpec { compass: r.boolean(&mut s, "compass", false), wakes: r.boolean(&mut s, "wakes", false) };
+    r.finish(&s);
+    hazards
 }
 
 fn feedback(r: &mut Reader, root: &mut Section) -> FeedbackThresholds {

@@ -221,6 +221,7 @@ mod tests {
             },
             light: LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 },
             rules,
+            hazards: HazardSpec::default(),
             feedback,
             scoring,
             certification: CertificationParams::default(),

@@ -24,11 +24,13 @@ mod nearest_points;
 pub mod outline;
 mod query_types;
 mod reference_camera;
+pub mod steel;
 pub mod sun;
 pub mod terrain;
 pub mod traffic;
 pub mod turbulence;
 pub mod visibility;
+pub mod wakes;
 pub mod walkable;
 pub mod wind;
 

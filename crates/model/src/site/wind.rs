@@ -2,8 +2,8 @@
 //! low altitude).
 //!
 //! Turbulence depends on the motion of the vehicle and therefore has state, which is plain data and part of a snapshot.
-//! Shelter, wakes and acceleration near structures are not modeled: the mean profile is that of open water or, below 20
-//! ft over land, that of grass.
+//! The mean profile is that of open water or, below 20 ft over land, that of grass. [`super::wakes`] adds the wakes of piers; other
+//! effects of structures are not modeled.
 
 use super::turbulence::{Dryden, FirstOrderFilter, SecondOrderFilter};
 use crate::frames::{Ned, Vec3};

@@ -82,7 +82,8 @@ fn derivative(
     // FRAME: the stage's quaternion is the body's attitude, and its velocity is the NED velocity over ground.
     let attitude = Rotation::<Frd, Ned>::assume(attitude);
     let air_velocity = attitude.inverse() * (Vec3::assume(y.v) - air.velocity_m_s);
-    let wrench = wrench(model, air_velocity, Vec3::assume(y.w), rotors, air.density_kg_m3, effect);
+    let at_rotors = air.rotors_m_s.map(|winds| winds.map(|wind| attitude.inverse() * wind));
+    let wrench = wrench(model, (air_velocity, at_rotors), Vec3::assume(y.w), rotors, air.density_kg_m3, effect);
     let force = (attitude * wrench.force_n + air.force_n).raw();
     let acceleration = force * model.inverse_mass + Vector3::new(0.0, 0.0, GRAVITY_M_S2 * model.gravity_scale);
     let momentum = model.inertia.component_mul(&y.w) + model.rotor_momentum(&rotors.speed);
@@ -91,9 +92,10 @@ fn derivative(
     IntegratedState { p: y.v, v: acceleration, q: q_dot, w: spin }
 }
 
+/// Returns the wrench for a velocity relative to the air at the center of mass, and the wind at each rotor minus the wind there.
 fn wrench(
     model: &AirframeModel,
-    air_velocity_m_s: Vec3<Frd>,
+    (air_velocity_m_s, at_rotors_m_s): (Vec3<Frd>, Option<[Vec3<Frd>; MAX_ROTORS]>),
     rates_rad_s: Vec3<Frd>,
     rotors: &RotorInstant,
     density_kg_m3: f64,
@@ -103,6 +105,7 @@ fn wrench(
     for (i, rotor) in model.rotors.iter().enumerate() {
         let (speed, acceleration) = (rotors.speed[i], rotors.acceleration[i]);
         let hub = air_velocity_m_s + rates_rad_s.cross(rotor.position_m);
+        let hub = at_rotors_m_s.map_or(hub, |winds| hub - winds[i]);
         let one = model.rotor_wrench(i, hub, speed, acceleration, effect[i]);
         total.force_n += one.force_n;
         total.torque_n_m += one.torque_n_m;

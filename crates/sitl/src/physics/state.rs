@@ -39,8 +39,10 @@ pub const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// The air around the aircraft, constant over one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AirState {
-    /// Wind at the aircraft, m/s.
+    /// Wind at the center of mass, m/s.
     pub velocity_m_s: Vec3<Ned>,
+    /// Wind at each rotor minus the wind at the center of mass, m/s; `None` if they are equal.
+    pub rotors_m_s: Option<[Vec3<Ned>; MAX_ROTORS]>,
     /// Air density, kg/m³.
     pub density_kg_m3: f64,
     /// External force at the center of mass, N (TASBID's wind model).
@@ -49,7 +51,8 @@ pub struct AirState {
 
 impl AirState {
     /// Still air at sea level.
-    pub const STILL: Self = Self { velocity_m_s: Vec3::zero(), density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
+    pub const STILL: Self =
+        Self { velocity_m_s: Vec3::zero(), rotors_m_s: None, density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
 }
 
 /// Battery model inputs for one step.

@@ -17,8 +17,12 @@ use crate::physics::RigidState;
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
+use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::bridges::Member;
+use spandrel_model::site::steel::SteelField;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::{Lamp, Vehicle};
+use std::sync::Arc;
 
 /// True state that the sensors measure in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,10 +57,37 @@ const POWER_MODULE_RATE_HZ: f64 = 10.0;
 /// Update rate of ambient light for the flow sensor, Hz.
 const AMBIENT_LIGHT_RATE_HZ: f64 = 2.0;
 
-impl Sensors {
-    /// Creates the sensors. `gnss_shadow` and `origin` come from the scenario.
+/// What the site does to the sensors.
+#[derive(Debug, Clone)]
+pub struct SensorSite {
+    /// Origin of the site.
+    pub origin: Geo,
+    /// True if structures hide satellites.
+    pub gnss_shadow: bool,
+    /// Steel that distorts the magnetic field; `None` if none does.
+    pub steel: Option<Arc<SteelField>>,
+}
+
+impl SensorSite {
+    /// Returns a site whose structures don't affect the sensors.
     #[must_use]
-    pub fn new(vehicle: &Vehicle, gnss_shadow: bool, origin: Geo, seed: u64) -> Self {
+    pub fn open(origin: Geo) -> Self {
+        Self { origin, gnss_shadow: false, steel: None }
+    }
+
+    /// Returns the effects that a job has switched on.
+    #[must_use]
+    pub fn of(scenario: &Scenario, members: &[Member]) -> Self {
+        let steel = scenario.hazards.compass.then(|| Arc::new(SteelField::new(members)));
+        Self { origin: scenario.origin, gnss_shadow: scenario.rules.gnss_shadow, steel }
+    }
+}
+
+impl Sensors {
+    /// Creates the sensors of an aircraft.
+    #[must_use]
+    pub fn new(vehicle: &Vehicle, site: SensorSite, seed: u64) -> Self {
+        let SensorSite { origin, gnss_shadow, steel } = site;
         let spec = &vehicle.sensors;
         let fitted = spec.flow_velocity_m_s > 0.0;
         Self {
@@ -66,7 +97,7 @@ impl Sensors {
             imu: imu::Imu::new(spec, seed),
             gnss: gnss::GnssReceiver::new(spec, gnss_shadow, seed),
             baro: baro::Barometer::new(spec, origin.altitude_m, seed),
-            magnetometer: magnetometer::Magnetometer::new(spec, origin, seed),
+            magnetometer: magnetometer::Magnetometer::new(spec, origin, steel, seed),
             ranges: rangefinder::RangeFinders::new(spec, seed),
             flow: flow::OpticalFlow::new(spec, seed),
             lamp: vehicle.lamp,

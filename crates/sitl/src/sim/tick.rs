@@ -42,8 +42,16 @@ impl Sim {
             self.wind.set_over_ground(ground_up_m > water_up_m);
             let height_m = (up - ground_up_m.max(water_up_m)).max(0.3);
             self.wind.update(now, height_m, self.state.rigid.velocity_m_s);
+            if let Some(wakes) = &mut self.wakes {
+                wakes.sample(&self.state.rigid, self.wind.mean_velocity(now, height_m), now);
+            }
         }
         self.air.velocity_m_s = self.wind.air_velocity(now);
+        if let Some(wakes) = &self.wakes {
+            let added = wakes.at(now);
+            self.air.velocity_m_s += added.center_m_s;
+            self.air.rotors_m_s = Some(added.rotors_m_s);
+        }
         self.air.force_n = if self.has_lifted_off { self.wind.paper_force_n() } else { Vec3::zero() };
     }
 

@@ -1,3 +1,4 @@
+job-certification = Zertifizierung: zwei Brücken, 26 Schäden
 job-drill-curve-under-arch = Übung: Kurve unter dem Bogen
 job-drill-framing = Übung: Bildausschnitt
 job-drill-gap = Übung: Engstelle

@@ -1,6 +1,7 @@
 # Titles and task names of the shipped jobs, and states of assigned jobs.
 
 # Titles. The English ones are those in the scenario files.
+job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
 job-drill-gap = Drill: gap

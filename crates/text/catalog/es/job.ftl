@@ -1,3 +1,4 @@
+job-certification = Certificación: dos puentes, 26 defectos
 job-drill-curve-under-arch = Ejercicio: curva bajo el arco
 job-drill-framing = Ejercicio: encuadre
 job-drill-gap = Ejercicio: paso estrecho

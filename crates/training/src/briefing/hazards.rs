@@ -36,6 +36,12 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     if scenario.rules.gnss_shadow {
         lines.push(text!(language, "briefing-satellites"));
     }
+    if scenario.hazards.wakes {
+        lines.push(text!(language, "briefing-wakes"));
+    }
+    if scenario.hazards.compass {
+        lines.push(text!(language, "briefing-compass"));
+    }
     if is_over_water(scenario, site) {
         lines.push(text!(language, "briefing-water"));
     }

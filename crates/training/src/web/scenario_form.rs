@@ -103,11 +103,13 @@ const LAYOUT: &[Layout] = &[
             "rules.battery",
             "rules.low_battery_return",
             "rules.gnss_shadow",
+            "hazards.compass",
+            "hazards.wakes",
             "scoring.speed_limit_mph",
             "scoring.time_best_min",
             "scoring.time_max_min",
         ],
-        tables: &["rules", "scoring", "feedback", "certification"],
+        tables: &["rules", "hazards", "scoring", "feedback", "certification"],
     },
 ];
 

@@ -173,6 +173,8 @@ fn rule_label(language: Language, name: &str) -> Option<String> {
         "low_battery_return" => text!(language, "editor-key-low-battery-return"),
         "low_battery" => text!(language, "editor-key-low-battery"),
         "critical_battery" => text!(language, "editor-key-critical-battery"),
+        "wakes" => text!(language, "editor-key-wakes"),
+        "compass" => text!(language, "editor-key-compass"),
         "gnss_shadow" => text!(language, "editor-key-gnss-shadow"),
         "respawn_after" => text!(language, "editor-key-respawn-after"),
         "too_close_clear" => text!(language, "editor-key-too-close-clear"),

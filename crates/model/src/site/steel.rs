@@ -1,0 +1,232 @@
+//! Distortion of the Earth's magnetic field by the steel members of bridges.
+//!
+//! Each steel member stands for an infinitely permeable elliptic cylinder with the same half widths, in a uniform field across
+//! its axis. The field around it follows exactly from a conformal mapping. Estimates: members don't magnetize each other, the
+//! field along a member's axis and permanent magnetization have no effect, and the finite length scales the result.
+
+use crate::elements::ElementMaterial;
+use crate::frames::{Enu, Vec3};
+use crate::math;
+use crate::scenario::bridges::Member;
+use crate::scenario::bridges::solid::Solid;
+use nalgebra::Complex;
+use std::collections::BTreeMap;
+
+/// Relative distortion below which a member is ignored: it turns the compass by less than 0.1 degrees.
+const MIN_DISTORTION: f64 = 0.002;
+/// Edge length of the cells in which members are found, m.
+const CELL_M: f64 = 4.0;
+
+/// All steel members of a site.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SteelField {
+    cylinders: Vec<EllipticCylinder>,
+    /// Indices of the cylinders that matter in a cell, by the cell's lowest corner in units of [`CELL_M`].
+    cells: BTreeMap<[i32; 3], Vec<u32>>,
+}
+
+/// A member's axes, longest first, and its half extents along them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct EllipticCylinder {
+    center_m: Vec3<Enu>,
+    axes: [Vec3<Enu>; 3],
+    half_m: [f64; 3],
+}
+
+impl SteelField {
+    /// Collects the steel members.
+    #[must_use]
+    pub fn new(members: &[Member]) -> Self {
+        let steel = members.iter().filter(|member| member.element.material() == ElementMaterial::Steel);
+        let cylinders: Vec<EllipticCylinder> = steel.filter_map(|member| EllipticCylinder::of(&member.solid)).collect();
+        let mut cells = BTreeMap::<_, Vec<u32>>::new();
+        for (index, cylinder) in (0..).zip(&cylinders) {
+            for cell in cylinder.cells() {
+                cells.entry(cell).or_default().push(index);
+            }
+        }
+        Self { cylinders, cells }
+    }
+
+    /// Returns the distortion at a position: the field there minus the undisturbed field. The unit is that of the field.
+    #[must_use]
+    pub fn distortion(&self, position_m: Vec3<Enu>, undisturbed: Vec3<Enu>) -> Vec3<Enu> {
+        let near = self.cells.get(&cell_of(position_m)).map_or(&[][..], Vec::as_slice);
+        near.iter().fold(Vec3::zero(), |sum, index| sum + self.cylinders[*index as usize].distortion(position_m, undisturbed))
+    }
+}
+
+fn cell_of(position_m: Vec3<Enu>) -> [i32; 3] {
+    position_m.array().map(|value| (value / CELL_M).floor() as i32)
+}
+
+impl EllipticCylinder {
+    /// Returns the cylinder for a prism, whose longest edge is its axis; `None` without a volume.
+    fn of(solid: &Solid) -> Option<Self> {
+        let edges: Vec<Vec3<Enu>> = solid.faces.iter().flat_map(|face| face_edges(solid, face)).collect();
+        let axis = longest(edges.iter().copied())?.unit();
+        let side = longest(edges.iter().map(|edge| *edge - axis * edge.dot(axis)))?.unit();
+        let axes = [axis, side, axis.cross(side)];
+        let ranges = axes.map(|axis| {
+            let along = solid.vertices_m.iter().map(|vertex| vertex.dot(axis));
+            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+        });
+        let half_m = ranges.map(|(low, high)| 0.5 * (high - low));
+        let middle = |sum: Vec3<Enu>, (axis, (low, high)): (Vec3<Enu>, (f64, f64))| sum + axis * (0.5 * (low + high));
+        let center_m = axes.into_iter().zip(ranges).fold(Vec3::zero(), middle);
+        half_m.into_iter().all(|half| half > 0.0).then_some(Self { center_m, axes, half_m })
+    }
+
+    /// Returns the distance from the axis beyond which the distortion is negligible, m.
+    fn range_m(&self) -> f64 {
+        // Far away, the relative distortion is at most b (b + c) / (2 r²).
+        let [_, b, c] = self.half_m;
+        let wide = b.max(c);
+        (wide * (b + c) / (2.0 * MIN_DISTORTION)).sqrt()
+    }
+
+    /// Returns the cells that may contain points in range.
+    fn cells(&self) -> impl Iterator<Item = [i32; 3]> + use<> {
+        let reach = [self.half_m[0], 0.0, 0.0].map(|half| half + self.range_m());
+        let extent = |k: usize| (0..3).map(|i| self.axes[i].array()[k].abs() * reach[i]).sum::<f64>();
+        let extent = Vec3::new(extent(0), extent(1), extent(2));
+        let (low, high) = (cell_of(self.center_m - extent), cell_of(self.center_m + extent));
+        (low[0]..=high[0]).flat_map(move |x| (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z])))
+    }
+
+    fn distortion(&self, position_m: Vec3<Enu>, undisturbed: Vec3<Enu>) -> Vec3<Enu> {
+        let [axis, x, y] = self.axes;
+        let from_center = position_m - self.center_m;
+        let (along, at) = (from_center.dot(axis), Complex::new(from_center.dot(x), from_center.dot(y)));
+        let [half_length, b, c] = self.half_m;
+        let across = Complex::new(undisturbed.dot(x), -undisturbed.dot(y));
+        let added = plane_field(at, (b, c), across) - across;
+        let share = length_share(along, math::hypot(at.re, at.im), half_length);
+        (x * added.re - y * added.im) * share
+    }
+}
+
+/// Returns the field outside an infinitely permeable elliptic cylinder in a uniform field. Both fields are Bx - i By. Points inside
+/// the ellipse get the field at its surface.
+fn plane_field(at: Complex<f64>, (b, c): (f64, f64), uniform: Complex<f64>) -> Complex<f64> {
+    // z = w + k²/w maps the circle |w| = R to the ellipse.
+    let (radius, k_squared) = (0.5 * (b + c), 0.25 * (b * b - c * c));
+    let root = square_root(at * at - 4.0 * k_squared);
+    let outer = if at.re * root.re + at.im * root.im < 0.0 { at - root } else { at + root };
+    let w = outer * 0.5;
+    let distance = math::hypot(w.re, w.im);
+    let w = if distance <= 0.0 { Complex::new(radius, 0.0) } else { w * (radius / distance).max(1.0) };
+    let w_squared = w * w;
+    (uniform + uniform.conj() * (radius * radius) / w_squared) / (Complex::new(1.0, 0.0) - k_squared / w_squared)
+}
+
+/// Returns the principal square root.
+fn square_root(z: Complex<f64>) -> Complex<f64> {
+    let size = math::hypot(z.re, z.im);
+    let (re, im) = ((0.5 * (size + z.re)).max(0.0).sqrt(), (0.5 * (size - z.re)).max(0.0).sqrt());
+    Complex::new(re, im.copysign(z.im))
+}
+
+/// Returns the field of a line of equal dipoles of finite length, divided by that of an infinitely long line, at a distance from
+/// the line and from its middle, for the component along the dipoles' direction across the line of sight.
+fn length_share(along_m: f64, distance_m: f64, half_length_m: f64) -> f64 {
+    let end = |to_m: f64| to_m / math::hypot(distance_m, to_m).max(f64::MIN_POSITIVE);
+    0.5 * (end(half_length_m - along_m) + end(half_length_m + along_m))
+}
+
+fn face_edges(solid: &Solid, face: &[u32]) -> Vec<Vec3<Enu>> {
+    let next = face.iter().skip(1).chain(face.first());
+    face.iter().zip(next).map(|(a, b)| solid.vertices_m[*b as usize] - solid.vertices_m[*a as usize]).collect()
+}
+
+fn longest(edges: impl Iterator<Item = Vec3<Enu>>) -> Option<Vec3<Enu>> {
+    edges.max_by(|a, b| a.norm().total_cmp(&b.norm())).filter(|edge| edge.norm() > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elements::Element;
+    use crate::scenario::bridges::solid::{MemberBuilder, Placement};
+
+    /// Rounding tolerance, relative to the undisturbed field.
+    const ROUNDING: f64 = 1e-12;
+    /// Half a unit of the last digit in docs/src/reference/domain.md, µT.
+    const PUBLISHED_TOLERANCE_UT: f64 = 0.05;
+
+    /// A long steel pile of circular section, approximated by a square one of the same half width.
+    fn pile(half_width_m: f64, half_length_m: f64) -> EllipticCylinder {
+        let axes = [Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
+        EllipticCylinder { center_m: Vec3::zero(), axes, half_m: [half_length_m, half_width_m, half_width_m] }
+    }
+
+    #[test]
+    fn exact_round_member_distorts_by_its_radius_over_the_distance_squared() {
+        let (member, field) = (pile(0.5, 1e9), Vec3::new(0.0, 0.3, -0.4));
+        for distance_m in [0.5, 1.0, 2.0, 5.0] {
+            let share = 0.25 / (distance_m * distance_m);
+            let ahead = member.distortion(Vec3::new(0.0, distance_m, 3.0), field);
+            assert!((ahead - Vec3::new(0.0, 0.3 * share, 0.0)).norm() < ROUNDING, "{ahead:?}");
+            let beside = member.distortion(Vec3::new(distance_m, 0.0, 3.0), field);
+            assert!((beside + Vec3::new(0.0, 0.3 * share, 0.0)).norm() < ROUNDING, "{beside:?}");
+        }
+    }
+
+    #[test]
+    fn val_steel_pile_disturbs_the_field_as_published() {
+        // docs/src/reference/domain.md, "Compass near steel": 50 µT, a = 0.5 m.
+        let (member, field) = (pile(0.5, 1e9), Vec3::new(0.0, 50.0, 0.0));
+        for (distance_m, expected_ut) in [(1.0, 12.5), (2.0, 3.1)] {
+            let found = member.distortion(Vec3::new(0.6 * distance_m, 0.8 * distance_m, 0.0), field).norm();
+            assert!((found - expected_ut).abs() <= PUBLISHED_TOLERANCE_UT, "{found} at {distance_m} m");
+        }
+    }
+
+    #[test]
+    fn exact_field_enters_a_permeable_plate_at_right_angles() {
+        // Half widths of a flange of 400 by 20 mm.
+        let (b, c) = (0.2, 0.01);
+        for k in 0..64 {
+            let (s, c_angle) = math::sin_cos(math::TAU * (f64::from(k) + 0.5) / 64.0);
+            let at = Complex::new(b * c_angle, c * s);
+            let field = plane_field(at, (b, c), Complex::new(0.6, -0.8));
+            // Tangent of the ellipse; the field is Bx - i By.
+            let (tangent_x, tangent_y) = (-b * s, c * c_angle);
+            let along = (field.re * tangent_x - field.im * tangent_y) / math::hypot(tangent_x, tangent_y);
+            assert!(along.abs() < 1e-9, "{along} at {at}");
+        }
+    }
+
+    #[test]
+    fn exact_short_member_distorts_with_the_third_power_of_the_distance() {
+        let (member, north) = (pile(0.1, 0.5), Vec3::new(0.0, 1.0, 0.0));
+        let at = |distance_m: f64| member.distortion(Vec3::new(distance_m, 0.0, 0.0), north).norm();
+        let ratio = at(200.0) / at(100.0);
+        assert!((ratio - 0.125).abs() < 1e-5, "{ratio}");
+    }
+
+    /// Returns a bridge with a steel beam along x and a concrete one beside it.
+    fn members() -> Vec<Member> {
+        let mut builder = MemberBuilder::new("test", Placement::new(Vec3::new(3.0, -2.0, 10.0), 30.0));
+        builder.add_box("steel", Element::from_number(107), [-15.0, -0.2, -1.0], [15.0, 0.2, -0.5]);
+        builder.add_rod("hanger", Element::from_number(148), [0.0, 4.0, -3.0], [0.0, 4.0, 6.0], 0.05, 8);
+        builder.add_box("concrete", Element::from_number(110), [-15.0, 2.0, -1.0], [15.0, 2.5, -0.5]);
+        builder.finish()
+    }
+
+    #[test]
+    fn prop_cells_contain_all_members_that_matter_and_concrete_never_does() {
+        let field = SteelField::new(&members());
+        assert_eq!(field.cylinders.len(), 2);
+        let undisturbed = Vec3::new(0.02, 0.2, -0.4);
+        for k in 0..2000 {
+            let (s, c) = math::sin_cos(f64::from(k) * 0.7);
+            let distance_m = 0.5 + f64::from(k % 97) * 0.2;
+            let position_m = Vec3::new(3.0 + distance_m * s, -2.0 + distance_m * c, 4.0 + f64::from(k % 13));
+            let every = field.cylinders.iter().fold(Vec3::zero(), |sum, one| sum + one.distortion(position_m, undisturbed));
+            let found = field.distortion(position_m, undisturbed);
+            let most = 2.0 * MIN_DISTORTION * undisturbed.norm();
+            assert!((every - found).norm() <= most, "{every:?} {found:?} at {position_m:?}");
+        }
+    }
+}
