@@ -325,7 +325,7 @@ mod tests {
     fn exact_unknown_form_is_reported_with_the_existing_ones() {
         let message = |argument: &str| scenario(argument).map(|_| ()).unwrap_err().to_string();
         assert_eq!(message("pilot-study@X"), "pilot-study.toml has no form 'X' (allowed: A, B, C, H)");
-        let none = "two-bridges.toml has no forms, so --form A does not apply to it (shipped scenarios with forms: pilot-study)";
+        let none = "two-bridges.toml has no forms, so --form A does not apply to it (shipped scenarios with forms: certification, pilot-study)";
         assert_eq!(message("two-bridges@A"), none);
     }
 

@@ -55,6 +55,12 @@ enum Received {
     Closed,
 }
 
+impl Received {
+    fn is_nothing(&self) -> bool {
+        matches!(self, Self::Nothing)
+    }
+}
+
 impl SimulatorSocket {
     /// Opens a port on the loopback interface; 0 selects any free port.
     ///
@@ -116,10 +122,8 @@ impl SimulatorSocket {
     pub fn wait(&mut self) -> Vec<LinkEvent> {
         let mut events = self.accept();
         if self.is_connected() {
-            let received = match self.receive_without_sleep() {
-                Received::Nothing => self.receive(),
-                received => received,
-            };
+            let early = self.receive_without_sleep();
+            let received = if early.is_nothing() { self.receive() } else { early };
             events.extend(self.events(received));
         }
         events
@@ -131,12 +135,11 @@ impl SimulatorSocket {
             return Received::Nothing;
         }
         let watch = Stopwatch::start();
-        let received = loop {
-            match self.receive() {
-                Received::Nothing if watch.elapsed() < POLL_TIME => std::thread::yield_now(),
-                received => break received,
-            }
-        };
+        let mut received = self.receive();
+        while received.is_nothing() && watch.elapsed() < POLL_TIME {
+            std::thread::yield_now();
+            received = self.receive();
+        }
         self.set_nonblocking(false);
         received
     }
@@ -147,7 +150,7 @@ impl SimulatorSocket {
         if self.set_nonblocking(true) {
             loop {
                 let received = self.receive();
-                if matches!(received, Received::Nothing) {
+                if received.is_nothing() {
                     break;
                 }
                 events.extend(self.events(received));

@@ -360,6 +360,16 @@ fn element_texts(page: &str, tag: &str) -> Vec<String> {
 /// Letters that the pseudo language does not change.
 const UNCHANGED_LETTERS: &str = "mqvxMQVX";
 
+/// Length of the longest unit in a sentence, such as `min`.
+const LONGEST_UNIT: usize = 3;
+
+/// Returns whether a text has a word without accents that is longer than a unit and not part of a member's name, which has slashes.
+fn has_plain_word(text: &str) -> bool {
+    let words = text.split_whitespace().filter(|piece| !piece.contains('/'));
+    let letters = words.flat_map(|piece| piece.split(|letter: char| !letter.is_alphabetic()));
+    letters.into_iter().any(|word| word.len() > LONGEST_UNIT && word.chars().all(is_plain))
+}
+
 /// Returns true for letters that do not occur in texts of the pseudo language.
 fn is_plain(letter: char) -> bool {
     letter.is_ascii_alphabetic() && !UNCHANGED_LETTERS.contains(letter)
@@ -404,8 +414,9 @@ fn exact_labels_of_a_report_are_in_the_catalog() {
     // Names of the site and of tasks are the scenario's.
     let names = review.scenario.bridges.iter().map(|bridge| bridge.name.clone());
     let names = names.chain(review.scenario.tasks.iter().map(|task| task.name.clone()));
-    // The header names the trainee, the time zone and the aircraft.
-    let names: Vec<String> = names.chain(["anna", "UTC", "Phantom 2 class"].map(str::to_owned)).collect();
+    // The header names the trainee, the time zone and the aircraft; advice names jobs by their files.
+    let jobs = spandrel_model::shipped::SCENARIOS.iter().map(|(file, _)| file.trim_end_matches(".toml").to_owned());
+    let names: Vec<String> = names.chain(["anna", "UTC", "Phantom 2 class"].map(str::to_owned)).chain(jobs).collect();
     for (page, tags) in [
         (session, ["h2", "h3", "p", "caption", "summary", "figcaption", "legend", "button", "dt", "nav"].as_slice()),
         (comparison, ["h2", "caption", "summary", "option", "label"].as_slice()),
@@ -415,7 +426,8 @@ fn exact_labels_of_a_report_are_in_the_catalog() {
             assert!(!texts.is_empty(), "{tag}");
             for text in texts {
                 let rest = names.iter().fold(text.clone(), |rest, name| rest.replace(name.as_str(), ""));
-                assert!(!rest.contains(is_plain), "{tag}: {text}");
+                let plain = if *tag == "p" { has_plain_word(&rest) } else { rest.contains(is_plain) };
+                assert!(!plain, "{tag}: {text}");
             }
         }
     }

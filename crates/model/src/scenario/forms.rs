@@ -118,8 +118,8 @@ mod tests {
         assert_eq!(form_names(PILOT_STUDY), ["A", "B", "C", "H"]);
         let job = |form: &str| parse(&select_form(PILOT_STUDY, form)).unwrap();
         let defects = |form: &str| (job(form).defects.seed, job(form).defects.mean_detection);
-        assert_eq!(defects("B"), (Some(2), Some(0.75)), "the detection of [defects]");
-        assert_eq!(defects("H"), (Some(4), Some(0.55)), "the detection of the form");
+        assert_eq!(defects("B"), (Some(2), Some(0.95)), "the detection of [defects]");
+        assert_eq!(defects("H"), (Some(4), Some(0.25)), "the detection of the form");
         assert_eq!((job("H").name_with_form(), job("H").name), ("pilot-study@H".to_owned(), "pilot-study".to_owned()));
         assert_eq!(parse(TWO_BRIDGES).unwrap().name_with_form(), "two-bridges");
     }
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(problem("name = \"B\"", "name = \"A\""), "forms[].name = A: duplicate name (allowed: a unique name)");
         let invalid = "forms[].name = B 2: invalid name (allowed: 1 to 8 characters: A-Z, a-z and 0-9)";
         assert_eq!(problem("name = \"B\"", "name = \"B 2\""), invalid);
-        let missing = problem("lines = 2\ndetection_pct = 75", "lines = 2");
+        let missing = problem("lines = 2\ndetection_pct = 95", "lines = 2");
         assert!(missing.starts_with("forms[].detection_pct"), "{missing}");
         let lines = problem("lines = 2", "lines = 11");
         assert_eq!(lines, "defects.lines = 11: too many (allowed: at most count)");
