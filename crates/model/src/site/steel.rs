@@ -12,7 +12,8 @@ use crate::scenario::bridges::solid::Solid;
 use nalgebra::Complex;
 use std::collections::BTreeMap;
 
-/// Relative distortion below which a member is ignored: it turns the compass by less than 0.1 degrees.
+/// Distortion, relative to the total field, below which a member is ignored: where the field is inclined by 63 degrees, it turns the
+/// compass by at most 0.25 degrees.
 const MIN_DISTORTION: f64 = 0.002;
 /// Edge length of the cells in which members are found, m.
 const CELL_M: f64 = 4.0;

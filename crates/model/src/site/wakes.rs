@@ -1,11 +1,11 @@
 //! Wakes behind piers, towers and columns: the mean wind is weaker there, and vortices that the body sheds make the air sway across
 //! the wind.
 //!
-//! The mean velocity is that of a plane turbulent wake (Schlichting, *Boundary-Layer Theory*), continued up to the body so that the
-//! air directly behind it stands still (estimate). The bodies have sharp edges, so that their drag and Strouhal number hardly
+//! The mean velocity is that of a plane turbulent wake (Schlichting, *Boundary-Layer Theory*), continued up to a quarter of a width
+//! behind the body's rearmost corner (estimate); closer to the body, the air has the full wind. The bodies have sharp edges, so that their drag and Strouhal number hardly
 //! depend on the wind speed. The flow ahead of a body and the additional small-scale turbulence are missing.
 
-use crate::elements::ElementGroup;
+use crate::elements::Element;
 use crate::frames::{Enu, Ned, Vec3};
 use crate::math;
 use crate::random::RandomStream;
@@ -20,7 +20,7 @@ pub const STROUHAL_NUMBER: f64 = 0.13;
 const DEFICIT: f64 = 0.976;
 /// Half width of a plane wake at x = C_D D, in units of C_D D (Schlichting: √10 · 0.18).
 const HALF_WIDTH: f64 = 0.569;
-/// Deficit directly behind the body (estimate: the air there stands still on average).
+/// Deficit of the continued wake at the body (estimate: the air behind it hardly moves on average).
 const MAX_DEFICIT: f64 = 1.0;
 /// Amplitude of the sway two widths behind the body, relative to the wind (estimate).
 const SWAY: f64 = 0.5;
@@ -28,12 +28,22 @@ const SWAY: f64 = 0.5;
 const SWAY_HALF_WIDTHS: f64 = 1.5;
 /// Speed at which vortices move downstream, relative to the wind (estimate; measured values are 0.75 to 0.9).
 const VORTEX_SPEED: f64 = 0.8;
+/// Elements that stand free in the wind.
+const STANDING: [Element; 6] = [
+    Element::SteelColumn,
+    Element::PscColumn,
+    Element::RcColumn,
+    Element::SteelTower,
+    Element::RcPierWall,
+    Element::MasonryPierWall,
+];
 /// Smallest width and height of a body with a wake, m: that of a column (estimate: thinner wakes are narrower than a drone).
 const MIN_SIZE_M: (f64, f64) = (0.5, 3.0);
 /// Wind below which there are no wakes, m/s.
 const MIN_WIND_M_S: f64 = 0.2;
-/// Length of a wake in body widths. Its deficit is then below a fifth (estimate: the turbulence of the wind has dissolved it).
-const MAX_LENGTH_WIDTHS: f64 = 50.0;
+/// Length of a wake, and the length over which it ends, in body widths. Its deficit is then about a fifth (estimate: the turbulence of
+/// the wind dissolves it).
+const LENGTH_WIDTHS: (f64, f64) = (50.0, 10.0);
 
 /// Wakes of a site, with the phase of the vortices that each body sheds.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,9 +120,9 @@ struct Wake {
 }
 
 impl BluffBody {
-    /// Returns the body of a column, tower or pier.
+    /// Returns the body of a column, tower or pier; `None` for other members.
     fn of(member: &Member) -> Option<Self> {
-        let is_support = matches!(member.element.group(), ElementGroup::Substructure);
+        let is_support = STANDING.contains(&member.element);
         let corners_m = member.solid.vertices_m.clone();
         let range = |value: fn(&Vec3<Enu>) -> f64| {
             let values = corners_m.iter().map(value);
@@ -142,13 +152,15 @@ impl BluffBody {
         }
         let width_m = self.extent_m(wind.left);
         let behind_m = ahead_m - 0.5 * self.extent_m(wind.along);
-        if behind_m <= 0.0 || behind_m > MAX_LENGTH_WIDTHS * width_m {
+        if behind_m <= 0.0 || behind_m > LENGTH_WIDTHS.0 * width_m {
             return None;
         }
         let across_m = from_center.dot(wind.left);
         let half_width_m = half_width_m(behind_m, width_m);
         // The wake begins within a quarter of the width and fades within half a width at the ends of the body (estimates).
-        let within = (4.0 * behind_m / width_m).min(1.0) * self.share_at_height(position_m.up(), width_m);
+        let start = (4.0 * behind_m / width_m).min(1.0);
+        let end = ((LENGTH_WIDTHS.0 - behind_m / width_m) / LENGTH_WIDTHS.1).min(1.0);
+        let within = start * end * self.share_at_height(position_m.up(), width_m);
         let off_axis = (across_m / half_width_m).abs();
         if within <= 0.0 || off_axis >= SWAY_HALF_WIDTHS {
             return None;
@@ -191,7 +203,6 @@ fn squared(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elements::Element;
     use crate::scenario::bridges::solid::{MemberBuilder, Placement};
 
     const WIND_M_S: f64 = 6.0;
@@ -267,7 +278,7 @@ mod tests {
         for k in 0..400 {
             let (s, c) = math::sin_cos(f64::from(k) * 0.37);
             let wind = Vec3::new(WIND_M_S * s, WIND_M_S * c, 0.0);
-            let distance_m = 2.2 + f64::from(k % 50);
+            let distance_m = 2.2 + f64::from(k % 50) * 4.0;
             let at = Vec3::new(distance_m * c, distance_m * s, 5.0);
             for shift in [Vec3::new(STEP_M, 0.0, 0.0), Vec3::new(0.0, STEP_M, 0.0), Vec3::new(0.0, 0.0, STEP_M)] {
                 let (here, there) = (field.velocity(at, wind), field.velocity(at + shift, wind));

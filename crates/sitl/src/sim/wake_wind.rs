@@ -78,13 +78,17 @@ mod tests {
     use spandrel_model::frames::{Enu, Rotation};
     use spandrel_model::scenario::Bridge;
 
+    const JOB: &str = include_str!("../../../../scenarios/two-bridges.toml");
     /// Wind toward the east, m/s.
     const WIND_M_S: f64 = 6.0;
 
     /// Returns the wakes of the shipped job's suspension bridge, and a point on the wind's shadow edge behind its first pier.
     fn behind_a_pier(hazards: &str) -> (Option<WakeWind>, Vec3<Enu>) {
-        let text = format!("{}\n[hazards]\n{hazards}\n", include_str!("../../../../scenarios/two-bridges.toml"));
-        let job = spandrel_model::scenario::read("job.toml", &text, &|file| Err(format!("no {file}"))).unwrap();
+        wakes_of(&format!("{JOB}\n[hazards]\n{hazards}\n"))
+    }
+
+    fn wakes_of(text: &str) -> (Option<WakeWind>, Vec3<Enu>) {
+        let job = spandrel_model::scenario::read("job.toml", text, &|file| Err(format!("no {file}"))).unwrap();
         let members: Vec<Member> = job.bridges.iter().flat_map(Bridge::members).collect();
         let pier = members.iter().find(|member| member.name.contains("pier-")).unwrap();
         let high = |value: fn(&Vec3<Enu>) -> f64| pier.solid.vertices_m.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
@@ -136,5 +140,7 @@ mod tests {
     fn regress_jobs_without_wakes_have_none() {
         assert_eq!(behind_a_pier("").0, None);
         assert_eq!(behind_a_pier("wakes = false").0, None);
+        let paper = JOB.replace("model = \"physical\"", "model = \"paper\"");
+        assert_eq!(wakes_of(&format!("{paper}\n[hazards]\nwakes = true\n")).0, None);
     }
 }

@@ -275,3 +275,23 @@ fn exact_physical_battery_follows_ohms_law_and_integrates_charge() {
     }
     assert!((1.0 - state.battery.charge - drawn_as / (b.capacity_ah * 3600.0)).abs() < ROUNDING_TOLERANCE);
 }
+
+#[test]
+fn exact_wind_at_all_rotors_equals_a_uniform_wind_for_an_aircraft_without_body_drag() {
+    // Speed tolerance, m/s: the two sums differ in rounding.
+    const TOLERANCE: f64 = 1e-12;
+    let mut vehicle = quad();
+    vehicle.drag.area_m2 = [0.0; 3];
+    let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
+    let wind = Vec3::<Ned>::new(4.0, -3.0, 1.0);
+    let actuators = Actuators { motors: [0.6; MAX_ROTORS], armed: true };
+    let end = |air: AirState| {
+        let mut state = start();
+        run(&model, &mut state, &actuators, &air, DT, 500);
+        state.rigid.velocity_m_s
+    };
+    let uniform = end(AirState { velocity_m_s: wind, ..AirState::STILL });
+    let at_rotors = end(AirState { rotors_m_s: Some([wind; MAX_ROTORS]), ..AirState::STILL });
+    assert!((uniform - at_rotors).norm() < TOLERANCE, "{uniform:?} {at_rotors:?}");
+    assert!((uniform - end(AirState::STILL)).norm() > 0.1, "the wind has an effect");
+}

@@ -75,7 +75,7 @@ briefing-people = Personen: { $count ->
        *[other] { $count } Fußgänger
     } auf den Gehwegen. Fliegen Sie nie über Personen.
 briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter dem Überbau kann die Position abdriften.
-briefing-compass = Kompass: Stahl verzerrt das Magnetfeld. Nahe an Stahlteilen kann der Kurs drehen und die Position abdriften.
+briefing-compass = Kompass: Stahl verzerrt das Magnetfeld. In der Nähe von Stahlteilen kann die Richtungsanzeige falsch sein und die Position abdriften.
 briefing-wakes = Nachlauf: Hinter Pfeilern und Pylonen ist der Wind schwächer und schwankt.
 briefing-water = Wasser: Teile der Bahnen liegen über Wasser. Bei einer Notlandung dort geht das Fluggerät verloren.
 briefing-crash-ends = Eine Kollision beendet die Sitzung.

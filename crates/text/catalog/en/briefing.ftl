@@ -81,8 +81,8 @@ briefing-people = People: { $count ->
        *[other] { $count } pedestrians
     } on the walkways. Never fly above them.
 briefing-satellites = GNSS: the structure blocks satellites. Under the deck, the position can drift.
-briefing-compass = Compass: steel distorts the magnetic field. Near steel members, the heading can turn and the position drift.
-briefing-wakes = Wakes: behind piers and towers, the wind is weaker and sways.
+briefing-compass = Compass: steel distorts the magnetic field. Near steel members, the indicated heading can be wrong, and the position can drift.
+briefing-wakes = Wakes: behind piers and towers, the wind is weaker and swings from side to side.
 briefing-water = Water: parts of the paths are above water. An emergency landing there loses the aircraft.
 briefing-crash-ends = A crash ends the session.
 briefing-wind-force = Wind: a force of { $force } N.{ $changes ->

@@ -75,7 +75,7 @@ briefing-people = Personas: { $count ->
        *[other] { $count } peatones
     } en las aceras. Nunca vuele sobre personas.
 briefing-satellites = GNSS: la estructura bloquea los satélites. Bajo el tablero, la posición puede derivar.
-briefing-compass = Brújula: el acero distorsiona el campo magnético. Cerca de elementos de acero, el rumbo puede girar y la posición derivar.
+briefing-compass = Brújula: el acero distorsiona el campo magnético. Cerca de elementos de acero, el rumbo indicado puede desviarse y la posición, derivar.
 briefing-wakes = Estelas: detrás de pilas y torres, el viento es más débil y oscila.
 briefing-water = Agua: partes de las trayectorias están sobre el agua. Un aterrizaje de emergencia allí supone perder la aeronave.
 briefing-crash-ends = Una colisión termina la sesión.

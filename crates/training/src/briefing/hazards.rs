@@ -36,7 +36,7 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     if scenario.rules.gnss_shadow {
         lines.push(text!(language, "briefing-satellites"));
     }
-    if scenario.hazards.wakes {
+    if scenario.hazards.wakes && scenario.wind.model == WindModel::Physical {
         lines.push(text!(language, "briefing-wakes"));
     }
     if scenario.hazards.compass {
