@@ -95,6 +95,11 @@ pub fn wrap_pi(angle_rad: f64) -> f64 {
     let turned = angle_rad - TAU * (angle_rad / TAU).round();
     if turned <= -PI { turned + TAU } else { turned }
 }
+/// Returns the smallest and the largest value; infinity and minus infinity without values.
+#[must_use]
+pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+}
 /// Interpolates linearly: `t` = 0 yields `a`, 1 yields `b`.
 #[must_use]
 pub fn lerp(a: f64, b: f64, t: f64) -> f64 {

@@ -2,6 +2,7 @@
 //! at the easiest and at the hardest level. At the standard level, the file's own values apply.
 
 use super::job::{Difficulty, Scenario, WindModel};
+use crate::math;
 use crate::numbers::format_limit;
 use crate::toml::{Adjustment, Problem, Problems, Reader, Section};
 use toml_edit::{DocumentMut, Item, value};
@@ -264,7 +265,7 @@ fn unmet_condition(quantity: Quantity, own: &[f64], scenario: &Scenario) -> Opti
 fn describe(keys: &QuantityKeys, values: &[f64]) -> String {
     let (name, unit) = keys.display;
     let shown = |value: f64| format_limit((value * DISPLAY_STEPS).round() / DISPLAY_STEPS);
-    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
+    let (low, high) = math::range(values.iter().copied());
     if low < high { format!("{name} {} to {}{unit}", shown(low), shown(high)) } else { format!("{name} {}{unit}", shown(low)) }
 }
 

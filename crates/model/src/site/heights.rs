@@ -4,6 +4,7 @@
 use super::convex::SurfacePoint;
 use super::nearest_points::{nearest_on_crease, nearest_on_triangle};
 use crate::frames::{Enu, Vec3};
+use crate::math;
 
 /// Number of cells along each side of a block. Queries use the minimum and maximum heights of blocks to skip cells.
 const BLOCK_CELLS: i64 = 8;
@@ -96,7 +97,7 @@ impl HeightGrid {
         let span = |block: usize| block * BLOCK_CELLS as usize..=((block + 1) * BLOCK_CELLS as usize).min(self.side - 1);
         let heights =
             span(block_row).flat_map(|row| span(block_column).map(move |column| self.heights_m[row * self.side + column]));
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+        math::range(heights)
     }
 
     /// Returns the minimum and maximum heights of a block. Blocks outside the grid have the same heights as the nearest

@@ -116,7 +116,7 @@ pub fn outlines<'a>(members: impl Iterator<Item = &'a Member>, view: &ParallelVi
 /// Returns the longer side of the vertices' bounding box in meters.
 fn extent(corners: &[(f64, f64)]) -> f64 {
     let span = |f: fn(&(f64, f64)) -> f64| {
-        let (low, high) = corners.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+        let (low, high) = math::range(corners.iter().map(f));
         high - low
     };
     span(|c| c.0).max(span(|c| c.1))

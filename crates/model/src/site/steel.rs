@@ -68,10 +68,7 @@ impl EllipticCylinder {
         let axis = longest(edges.iter().copied())?.unit();
         let side = longest(edges.iter().map(|edge| *edge - axis * edge.dot(axis)))?.unit();
         let axes = [axis, side, axis.cross(side)];
-        let ranges = axes.map(|axis| {
-            let along = solid.vertices_m.iter().map(|vertex| vertex.dot(axis));
-            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-        });
+        let ranges = axes.map(|axis| math::range(solid.vertices_m.iter().map(|vertex| vertex.dot(axis))));
         let half_m = ranges.map(|(low, high)| 0.5 * (high - low));
         let middle = |sum: Vec3<Enu>, (axis, (low, high)): (Vec3<Enu>, (f64, f64))| sum + axis * (0.5 * (low + high));
         let center_m = axes.into_iter().zip(ranges).fold(Vec3::zero(), middle);

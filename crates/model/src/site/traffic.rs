@@ -118,7 +118,7 @@ impl TrafficPlan {
             self.movers.push(Mover { kind: *kind, number: *number, track: self.tracks.len(), phase_m });
         }
         let reach_m = kinds.iter().map(|k| k.reach_m() + k.half_length_m()).fold(0.0, f64::max);
-        let height_range_m = points_m.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.up()), b.1.max(p.up())));
+        let height_range_m = math::range(points_m.iter().map(|point| point.up()));
         self.tracks.push(LaneTrack {
             height_range_m,
             points_m,

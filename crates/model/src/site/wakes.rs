@@ -124,10 +124,7 @@ impl BluffBody {
     fn of(member: &Member) -> Option<Self> {
         let is_support = STANDING.contains(&member.element);
         let corners_m = member.solid.vertices_m.clone();
-        let range = |value: fn(&Vec3<Enu>) -> f64| {
-            let values = corners_m.iter().map(value);
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-        };
+        let range = |value: fn(&Vec3<Enu>) -> f64| math::range(corners_m.iter().map(value));
         let (east, north, up) = (range(|corner| corner.east()), range(|corner| corner.north()), range(|corner| corner.up()));
         let size_m = (east.1 - east.0).min(north.1 - north.0);
         let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
@@ -138,8 +135,7 @@ impl BluffBody {
 
     /// Returns the extent in a horizontal direction, m.
     fn extent_m(&self, direction: Vec3<Enu>) -> f64 {
-        let along = self.corners_m.iter().map(|corner| (*corner - self.center_m).dot(direction));
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) = math::range(self.corners_m.iter().map(|corner| (*corner - self.center_m).dot(direction)));
         high - low
     }
 

@@ -14,7 +14,8 @@ use crate::time::SimTime;
 
 /// Sample rate of the wind, Hz. Linear interpolation between samples delays the wind by one sample (10 ms).
 pub const SAMPLE_RATE_HZ: i64 = 100;
-const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
+/// Interval between wind samples.
+pub const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
 /// Roughness length of open water, m (estimate; typical order of magnitude for calm to moderate sea, see
 /// docs/src/reference/domain.md, "Wind and turbulence").
 const WATER_ROUGHNESS_M: f64 = 0.0003;

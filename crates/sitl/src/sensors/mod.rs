@@ -57,7 +57,7 @@ const POWER_MODULE_RATE_HZ: f64 = 10.0;
 /// Update rate of ambient light for the flow sensor, Hz.
 const AMBIENT_LIGHT_RATE_HZ: f64 = 2.0;
 
-/// What the site does to the sensors.
+/// Properties of a site that affect the sensors.
 #[derive(Debug, Clone)]
 pub struct SensorSite {
     /// Origin of the site.

@@ -5,11 +5,9 @@ use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Scenario, WindModel};
 use spandrel_model::site::wakes::WakeField;
-use spandrel_model::site::wind::SAMPLE_RATE_HZ;
+use spandrel_model::site::wind::SAMPLE_PERIOD;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Rotor;
-
-const SAMPLE_PERIOD: SimTime = SimTime::from_ms(1000 / SAMPLE_RATE_HZ);
 
 /// Added velocities at one time, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -41,7 +41,7 @@ impl TaskBriefing {
     pub(super) fn new(task: &Task, scenario: &Scenario, site: &Site, language: Language) -> Self {
         let pad_up_m = scenario.ground_team.pad_m.up();
         let heights_m = task.path_m.iter().map(|point| point.up() - pad_up_m);
-        let (low_m, high_m) = heights_m.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), up| (low.min(up), high.max(up)));
+        let (low_m, high_m) = math::range(heights_m);
         Self {
             id: task.id,
             name: task_title(&scenario.name, &task.name, language),

@@ -262,7 +262,7 @@ impl SketchCanvas {
         if area > -1e-9 || !area.is_finite() {
             return;
         }
-        let (low, high) = p.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), q| (l.min(q.1), h.max(q.1)));
+        let (low, high) = math::range(p.iter().map(|q| q.1));
         for y in low.floor().clamp(0.0, h) as usize..high.ceil().clamp(0.0, h) as usize {
             let cy = y as f64 + 0.5;
             // Barycentric coordinates at the first pixel's center, and their change per pixel.

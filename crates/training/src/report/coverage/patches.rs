@@ -87,9 +87,7 @@ fn sample_polygon(corners: &[Vec3<Enu>], normal: Vec3<Enu>) -> Vec<Vec3<Enu>> {
     let u = (corners[1] - corners[0]).unit();
     let v = normal.cross(u);
     let flat: Vec<(f64, f64)> = corners.iter().map(|c| ((*c - corners[0]).dot(u), (*c - corners[0]).dot(v))).collect();
-    let span = |f: fn(&(f64, f64)) -> f64| {
-        flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
+    let span = |f: fn(&(f64, f64)) -> f64| math::range(flat.iter().map(f));
     let ((u_low, u_high), (v_low, v_high)) = (span(|p| p.0), span(|p| p.1));
     let steps = |low: f64, high: f64| ((high - low) / PATCH_SIZE_M).ceil().max(1.0) as usize;
     let (columns, rows) = (steps(u_low, u_high), steps(v_low, v_high));

@@ -1,6 +1,7 @@
 //! A site projection fitted to a drawing.
 
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
 use spandrel_model::site::outline::ParallelView;
 
 /// Width of a drawing, in drawing units.
@@ -30,7 +31,7 @@ impl PlotMap {
     pub fn around(view: ParallelView, points_m: &[Vec3<Enu>]) -> Self {
         let flat: Vec<(f64, f64)> = points_m.iter().map(|point| view.at(*point)).collect();
         let span = |f: fn(&(f64, f64)) -> f64| {
-            let (low, high) = flat.iter().map(f).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let (low, high) = math::range(flat.iter().map(f));
             if low <= high { (low, high) } else { (-1.0, 1.0) }
         };
         let ((left, right), (low, high)) = (span(|p| p.0), span(|p| p.1));

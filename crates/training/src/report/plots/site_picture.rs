@@ -6,6 +6,7 @@ use crate::report::assets::base64;
 use crate::report::sketch::{SketchExposure, SketchLens, Sketcher, WIDTH_PX};
 use maud::{Markup, html};
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
 use spandrel_model::scenario::{Scenario, Task};
 use spandrel_model::site::outline::ParallelView;
 use spandrel_model::site::{CameraPose, Site};
@@ -72,10 +73,7 @@ impl Viewer {
         let toward = view.toward_viewer();
         let shown = extent(scenario, site);
         let middle = |axis: Vec3<Enu>| {
-            let (low, high) = shown
-                .iter()
-                .map(|point| point.dot(axis))
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+            let (low, high) = math::range(shown.iter().map(|point| point.dot(axis)));
             axis * (0.5 * (low + high))
         };
         let center_m = middle(view.right) + middle(view.up) + middle(toward);
