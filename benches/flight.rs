@@ -7,7 +7,7 @@ mod best;
 
 use best::best;
 use spandrel_model::time::SimTime;
-use spandrel_sitl::sensors::{BatteryReading, Readings, SensorInputs};
+use spandrel_sitl::sensors::{BatteryReading, FeltMotion, Readings, SensorInputs};
 use spandrel_testkit::bench::Bench;
 use spandrel_testkit::shipped::vehicle;
 use std::hint::black_box;
@@ -27,11 +27,12 @@ fn print_cost(what: &str, taken: Duration) {
 fn recorded_readings(start: &Bench) -> Vec<(SimTime, Readings)> {
     let mut sensors = start.sensors.clone();
     let battery = BatteryReading { voltage_v: 11.5, current_a: 12.0, remaining_pct: 80.0 };
-    let truth = SensorInputs { rigid: &start.state.rigid, battery, lamp_on: false };
+    let rigid = &start.state.rigid;
+    let truth = SensorInputs { rigid, air_velocity_m_s: rigid.velocity_m_s, battery, lamp_on: false };
     let mut now = start.now;
     (0..(SIMULATED_SECONDS * 400.0) as usize)
         .map(|_| {
-            sensors.integrate_imu(start.state.specific_force_m_s2, start.state.rigid.rates_rad_s, TICK_DURATION);
+            sensors.integrate_imu(&FeltMotion::of(&start.state), TICK_DURATION);
             now += TICK_DURATION;
             (now, sensors.sample(&truth, &start.site, now))
         })

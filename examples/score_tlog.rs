@@ -20,9 +20,9 @@ pub fn score(arguments: &[String]) -> Result<(), Box<dyn Error>> {
         println!("usage: score_tlog TLOG SCENARIO VEHICLE");
         return Ok(());
     };
-    // If the scenario uses a height field, its file must be in the same folder.
+    // The files that the scenario names, such as a height field, must be in the same folder.
     let beside = Path::new(job).parent().unwrap_or(Path::new(".")).to_owned();
-    let sibling = |name: &str| fs::read_to_string(beside.join(name)).map_err(|error| error.to_string());
+    let sibling = |name: &str| fs::read(beside.join(name)).map_err(|error| error.to_string());
     let scenario = scenario::read(job, &fs::read_to_string(job)?, &sibling)?;
     let vehicle = vehicle::read(aircraft, &fs::read_to_string(aircraft)?)?;
     let assessed_session = assess_log(&fs::read(log)?, &scenario, &vehicle, build_site)?;

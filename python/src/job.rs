@@ -42,7 +42,9 @@ pub fn read_variant_with_crc(argument: &str, crc: u32) -> PyResult<Option<Scenar
         return Ok(None);
     }
     let text = read_text(argument, "scenario", shipped::SCENARIOS)?;
-    scenario::variant_with_crc(&text, crc).map(|variant| parse_scenario(argument, &variant)).transpose()
+    scenario::variant_with_crc(&text, &|file| read_sibling(argument, file), crc)
+        .map(|variant| parse_scenario(argument, &variant))
+        .transpose()
 }
 
 /// Splits an argument into the scenario and its form or difficulty level, if it selects one.
@@ -53,11 +55,15 @@ fn split_variant(argument: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// Parses a scenario. Height maps are read from the file's folder.
+/// Parses a scenario. The files that it names, such as height maps, are read from its folder.
 fn parse_scenario(name: &str, text: &str) -> PyResult<Scenario> {
+    scenario::read(&file_name(name), text, &|file| read_sibling(name, file)).map_err(|problems| errors::problems(&problems))
+}
+
+/// Reads a file in the folder of a scenario.
+fn read_sibling(name: &str, file: &str) -> Result<Vec<u8>, String> {
     let folder = Path::new(name).parent().unwrap_or(Path::new("."));
-    let sibling = |file: &str| fs::read_to_string(folder.join(file)).map_err(|error| error.to_string());
-    scenario::read(&file_name(name), text, &sibling).map_err(|problems| errors::problems(&problems))
+    fs::read(folder.join(file)).map_err(|error| error.to_string())
 }
 
 /// Reads a vehicle by shipped name or file path.

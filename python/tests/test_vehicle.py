@@ -115,8 +115,8 @@ def test_exact_every_problem_of_a_file_is_listed(tmp_path):
 
 
 def test_exact_rejected_command_raises_an_error_with_the_result():
-    with pytest.raises(spandrel.RefusedError, match="MAV_CMD_USER_5 returned MAV_RESULT_UNSUPPORTED"):
-        spandrel.Vehicle().command(31014)
+    with pytest.raises(spandrel.RefusedError, match="MAV_CMD_DO_PARACHUTE returned MAV_RESULT_UNSUPPORTED"):
+        spandrel.Vehicle().command(208)
     with pytest.raises(ValueError, match="unknown MAV_CMD 65000"):
         spandrel.Vehicle().command(65000)
 

@@ -10,6 +10,7 @@ mod cohort;
 mod demo;
 mod export;
 mod generate;
+mod import;
 mod invocation;
 mod monitor;
 #[cfg(feature = "view")]
@@ -60,6 +61,7 @@ enum Command {
     Rc(rc::Args),
     Assess(assess::Args),
     Export(export::Args),
+    Import(import::Args),
     Questionnaire(questionnaire::Args),
     Records(records::Args),
     Plan(plan::Args),
@@ -101,6 +103,7 @@ fn run(cli: &Cli) -> Result<(), AppError> {
         Command::Rc(args) => rc::run(args),
         Command::Assess(args) => assess::run(args),
         Command::Export(args) => export::run(args),
+        Command::Import(args) => import::run(args),
         Command::Questionnaire(args) => questionnaire::run(args),
         Command::Records(args) => records::run(args),
         Command::Plan(args) => plan::run(args),

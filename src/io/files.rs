@@ -1,8 +1,9 @@
 //! Loads scenario and vehicle files from a path, from a session folder, or from the program itself.
 
-use super::picture_file::{ALLOWED_PICTURES, PictureFile};
+use super::picture_file::{ALLOWED_PICTURES, PictureFile, PictureInfo};
 use crate::errors::AppError;
 use spandrel_clients::pilot::{Skill, skill_file};
+use spandrel_model::scenario::bridges::model::MAX_MODEL_BYTES;
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
@@ -17,8 +18,8 @@ use std::path::{Component, Path, PathBuf};
 pub struct ScenarioFile {
     /// Scenario source text (TOML).
     pub text: String,
-    /// Files that the scenario refers to (height fields), by their names in the scenario.
-    pub referenced_files: BTreeMap<String, String>,
+    /// Files that the scenario refers to (height fields, almanacs, models of bridges), by their names in the scenario.
+    pub referenced_files: BTreeMap<String, Vec<u8>>,
     /// Scenario parsed from the text.
     pub scenario: Scenario,
     /// File name to use in messages.
@@ -30,8 +31,8 @@ impl ScenarioFile {
     /// Returns the form or difficulty level of this scenario with this CRC; `None` if it has none.
     #[must_use]
     pub fn variant_with_crc(&self, crc: u32) -> Option<Self> {
-        let text = scenario::variant_with_crc(&self.text, crc)?;
         let referenced = |name: &str| self.referenced_files.get(name).cloned().ok_or_else(|| format!("{name}: not loaded"));
+        let text = scenario::variant_with_crc(&self.text, &referenced, crc)?;
         let scenario = scenario::read(&self.scenario.name, &text, &referenced).ok()?;
         Some(Self { text, scenario, ..self.clone() })
     }
@@ -45,14 +46,14 @@ impl ScenarioFile {
         if problems.is_empty() { Ok(pictures) } else { Err(Problems(problems).into()) }
     }
 
-    /// Loads one picture of the briefing. Returns its absolute path with it.
+    /// Finds one picture of the briefing. Returns its absolute path, and its type and size from the head of the file.
     ///
     /// # Errors
     /// Returns a message if it cannot be used.
-    pub fn picture(&self, name: &str) -> Result<(PathBuf, PictureFile), String> {
+    pub fn find_picture(&self, name: &str) -> Result<(PathBuf, PictureInfo), String> {
         let path = std::path::absolute(self.folder.path_of(name)?).map_err(|error| error.to_string())?;
-        let picture = self.folder.read_picture(name)?;
-        Ok((path, picture))
+        let info = PictureFile::read_info(&path).map_err(|error| error.to_string())?;
+        Ok((path, info))
     }
 }
 
@@ -83,7 +84,7 @@ impl SourceFolder {
     fn path_of(&self, name: &str) -> Result<PathBuf, String> {
         let Some(folder) = &self.0 else { return Err("a shipped scenario cannot refer to other files".into()) };
         if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) {
-            return Err("only files in the scenario's folder or below are allowed".into());
+            return Err("only files in the same folder or below are allowed".into());
         }
         Ok(folder.join(name))
     }
@@ -159,9 +160,9 @@ pub fn vehicle_with_id(path: &Path, id: &str) -> Result<VehicleFile, AppError> {
 pub fn scenario_from(source: SourceFile) -> Result<ScenarioFile, AppError> {
     let seen = RefCell::new(BTreeMap::new());
     let read_referenced_file = |name: &str| {
-        let text = source.read_referenced_file(name)?;
-        seen.borrow_mut().insert(name.to_owned(), text.clone());
-        Ok(text)
+        let bytes = source.read_referenced_file(name)?;
+        seen.borrow_mut().insert(name.to_owned(), bytes.clone());
+        Ok(bytes)
     };
     let scenario = scenario::read(&source.file, &source.text, &read_referenced_file)?;
     let SourceFile { file, text, folder } = source;
@@ -274,14 +275,42 @@ pub fn write(target: &str, bytes: &[u8]) -> Result<(), AppError> {
 
 impl SourceFile {
     /// Reads a file that another file refers to. Only files in the same folder or below are allowed.
-    pub fn read_referenced_file(&self, name: &str) -> Result<String, String> {
-        std::fs::read_to_string(self.folder.path_of(name)?).map_err(|error| error.to_string())
+    pub fn read_referenced_file(&self, name: &str) -> Result<Vec<u8>, String> {
+        read_limited(&self.folder.path_of(name)?, MAX_MODEL_BYTES)
     }
 
     /// Returns the problems of the pictures of the briefing. The scenario must be valid.
     pub fn picture_problems(&self) -> Vec<Problem> {
         load_pictures(&self.file, &self.text, &self.folder).1
     }
+}
+
+/// Reads a file in a folder or below, as scenarios in the folder may.
+///
+/// # Errors
+/// Returns a message if the file is elsewhere or cannot be read.
+pub fn read_from_folder(folder: &Path, name: &str) -> Result<Vec<u8>, String> {
+    read_limited(&path_in_folder(folder, name)?, MAX_MODEL_BYTES)
+}
+
+/// Returns the path of a file in a folder or below.
+///
+/// # Errors
+/// Returns a message if the file is elsewhere.
+pub fn path_in_folder(folder: &Path, name: &str) -> Result<PathBuf, String> {
+    SourceFolder(Some(folder.to_path_buf())).path_of(name)
+}
+
+/// Reads a file of at most this size, bytes.
+///
+/// # Errors
+/// Returns a message if the file is larger or cannot be read.
+pub fn read_limited(path: &Path, max_bytes: usize) -> Result<Vec<u8>, String> {
+    let length = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
+    if length > max_bytes as u64 {
+        return Err(format!("{length} bytes, but at most {max_bytes} are allowed"));
+    }
+    std::fs::read(path).map_err(|error| error.to_string())
 }
 
 /// Returns the site as a binary glTF file.
@@ -353,7 +382,7 @@ mod tests {
         std::fs::write(folder.path().join("heights.csv"), "1,2").unwrap();
         let source_folder = SourceFolder(Some(folder.path().into()));
         let source = SourceFile { file: "s.toml".into(), text: String::new(), folder: source_folder };
-        assert_eq!(source.read_referenced_file("heights.csv"), Ok("1,2".into()));
+        assert_eq!(source.read_referenced_file("heights.csv"), Ok(b"1,2".to_vec()));
         for bad in ["../heights.csv", "/etc/hostname"] {
             assert!(source.read_referenced_file(bad).is_err(), "{bad}");
         }
@@ -376,8 +405,8 @@ mod tests {
         std::fs::write(folder.path().join("site/gate.png"), &bytes).unwrap();
         let scenario = scenario(&job).unwrap();
         assert_eq!(scenario.load_pictures().unwrap().into_iter().map(|picture| picture.bytes).collect::<Vec<_>>(), [bytes]);
-        let (path, picture) = scenario.picture("site/gate.png").unwrap();
-        assert!(path.is_absolute() && path.is_file() && picture.info.size_px() == (2, 1), "{}", path.display());
+        let (path, info) = scenario.find_picture("site/gate.png").unwrap();
+        assert!(path.is_absolute() && path.is_file() && info.size_px() == (2, 1), "{}", path.display());
         assert_eq!(any_source(&job).unwrap().picture_problems(), []);
     }
 

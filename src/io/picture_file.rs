@@ -12,6 +12,9 @@ pub const MAX_PICTURE_BYTES: usize = 4 * 1024 * 1024;
 const MAX_SIDE_PX: u32 = 8_192;
 /// Description of the allowed files, for messages.
 pub const ALLOWED_PICTURES: &str = "a PNG or JPEG file of at most 4 MiB and 8192 x 8192 px";
+/// Bytes that are read first to find the size of a picture: more than a JPEG file's EXIF data, which has at most 64 KiB and comes
+/// first. A file with more before its size is read further.
+const HEAD_BYTES: u64 = 96 * 1024;
 /// First bytes of a PNG file.
 const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 /// First bytes of a JPEG file: start of image, and the beginning of the next marker.
@@ -120,9 +123,36 @@ impl PictureFile {
         Self::new(bytes)
     }
 
+    /// Reads type and size of a picture from the head of its file.
+    ///
+    /// # Errors
+    /// Returns the same errors as [`Self::read`].
+    pub fn read_info(path: &Path) -> Result<PictureInfo, PictureError> {
+        let unreadable = |error: std::io::Error| PictureError::Unreadable(error.to_string());
+        let file = std::fs::File::open(path).map_err(unreadable)?;
+        if file.metadata().map_err(unreadable)?.len() > MAX_PICTURE_BYTES as u64 {
+            return Err(PictureError::TooLarge);
+        }
+        read_head(file).map_err(unreadable)?
+    }
+
     /// Returns the picture as an address that needs no file.
     pub fn data_uri(&self) -> String {
         format!("data:{};base64,{}", self.info.format.media_type(), STANDARD.encode(&self.bytes))
+    }
+}
+
+/// Reads as much of a picture as its head requires, and no more than [`MAX_PICTURE_BYTES`].
+fn read_head(mut file: impl Read) -> std::io::Result<Result<PictureInfo, PictureError>> {
+    let (mut bytes, mut wanted) = (Vec::new(), HEAD_BYTES);
+    loop {
+        let read = (&mut file).take(wanted).read_to_end(&mut bytes)? as u64;
+        let found = inspect(&bytes);
+        let is_complete = read < wanted || bytes.len() >= MAX_PICTURE_BYTES;
+        if found != Err(PictureError::Damaged) || is_complete {
+            return Ok(found);
+        }
+        wanted = bytes.len().min(MAX_PICTURE_BYTES - bytes.len()) as u64;
     }
 }
 
@@ -300,6 +330,55 @@ mod tests {
             accepted += usize::from(PictureFile::new(bytes).is_ok());
         }
         assert!((2_000..19_000).contains(&accepted), "{accepted}");
+    }
+
+    /// Counts the bytes that are read from a file.
+    struct Counted<'a>(&'a [u8], &'a mut usize);
+
+    impl Read for Counted<'_> {
+        fn read(&mut self, to: &mut [u8]) -> std::io::Result<usize> {
+            let count = self.0.read(to)?;
+            *self.1 += count;
+            Ok(count)
+        }
+    }
+
+    #[test]
+    fn exact_only_the_head_of_a_file_is_read_for_its_size() {
+        let head_of = |bytes: &[u8]| {
+            let mut read = 0;
+            let info = read_head(Counted(bytes, &mut read)).unwrap();
+            (info, read)
+        };
+        let large = |mut bytes: Vec<u8>| {
+            bytes.resize(MAX_PICTURE_BYTES, 0);
+            bytes
+        };
+        for bytes in [png(40, 30), jpeg(40, 30), turned(6, true)] {
+            assert_eq!(head_of(&large(bytes.clone())), (inspect(&bytes), HEAD_BYTES as usize));
+        }
+        // Five comments of the largest size come before the picture's size.
+        let comment = [&[0xff, 0xfe, 0xff, 0xff][..], &[0; 65_533]].concat();
+        let mut late = jpeg(40, 30);
+        late.splice(2..2, comment.repeat(5));
+        let (info, read) = head_of(&large(late.clone()));
+        assert_eq!((info, read), (inspect(&late), 4 * HEAD_BYTES as usize));
+        assert_eq!(head_of(&late[..200_000]), (Err(PictureError::Damaged), 200_000));
+        assert_eq!(head_of(b"GIF89a").0, Err(PictureError::WrongType));
+    }
+
+    #[test]
+    fn exact_size_from_the_head_has_the_same_errors_as_the_whole_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let both = || (PictureFile::read_info(&path), PictureFile::read(&path).map(|file| file.info));
+        let (head, whole) = both();
+        assert!(head == whole && matches!(head, Err(PictureError::Unreadable(_))), "{head:?}");
+        for bytes in [png(3, 2), jpeg(40, 30), b"text".to_vec(), png(9, 9)[..20].to_vec(), vec![0x89; MAX_PICTURE_BYTES + 1]] {
+            std::fs::write(&path, bytes).unwrap();
+            let (head, whole) = both();
+            assert_eq!(head, whole);
+        }
     }
 
     #[test]

@@ -69,12 +69,12 @@ impl SessionFolder {
         std::fs::create_dir_all(sessions).map_err(|error| io_error(sessions, &error))?;
         let stem = format!("{compact}-{trainee}-{}", scenario.scenario.name);
         let path = new_folder(sessions, &stem, started_unix_us)?;
-        for (name, text) in &scenario.referenced_files {
+        for (name, bytes) in &scenario.referenced_files {
             let file = path.join(name);
             if let Some(folder) = file.parent() {
                 std::fs::create_dir_all(folder).map_err(|error| io_error(folder, &error))?;
             }
-            replace_durably(&file, text.as_bytes())?;
+            replace_durably(&file, bytes)?;
         }
         replace_durably(&path.join(SCENARIO), scenario.text.as_bytes())?;
         replace_durably(&path.join(VEHICLE), vehicle.text.as_bytes())?;

@@ -18,7 +18,7 @@ mod marks;
 mod own_file;
 pub mod passwords;
 mod person;
-mod picture_store;
+pub mod picture_store;
 mod plan_rules;
 mod questions;
 mod request;

@@ -92,7 +92,7 @@ pub fn adopt(folder: &Path, scenario: &Scenario, text: &str) -> Result<String, A
 fn others_picture(folder: &Path, scenario: &str, picture: &str) -> Option<PictureFile> {
     let (owner, _) = split(picture).filter(|(owner, _)| *owner != scenario)?;
     let text = files::read(&upload_path(folder, owner)).ok()?;
-    let other = read(owner, &text).ok()?;
+    let other = read(folder, owner, &text).ok()?;
     let is_shown = other.briefing_pictures.iter().any(|shown| shown.file == picture);
     PictureFile::read(&picture_path(folder, owner, picture).filter(|_| is_shown)?).ok()
 }
@@ -126,7 +126,7 @@ mod tests {
     }
 
     fn scenario(text: &str) -> Scenario {
-        read("job.toml", text).unwrap()
+        read(Path::new(""), "job.toml", text).unwrap()
     }
 
     fn entry(file: &str) -> BriefingPicture {

@@ -158,6 +158,7 @@ pub const ROUTES: &[Route] = &[
         required_access: AccessLevel::Public,
         handler: stations::check_in,
     },
+    show("/stations/pictures/{name}/{file}", AccessLevel::Public, stations::picture),
     show("/live", AccessLevel::Instructor, live::page),
     show("/live/all", AccessLevel::Instructor, live::all_page),
     show("/live/all.json", AccessLevel::Instructor, live::all_now),
@@ -191,7 +192,8 @@ mod tests {
                 "/logout",
                 "/language",
                 "/tiles/{name}/{z}/{x}/{y}",
-                "/stations/check-in"
+                "/stations/check-in",
+                "/stations/pictures/{name}/{file}"
             ]
         );
     }

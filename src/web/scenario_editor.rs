@@ -9,7 +9,7 @@ use super::scenario_store::{self, Expected, SaveError, version};
 use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::clock::Stopwatch;
-use crate::io::files;
+use crate::io::files::{self, read_from_folder};
 use axum::http::StatusCode;
 use spandrel_model::scenario::edit;
 use spandrel_model::scenario::values::ScenarioValues;
@@ -75,7 +75,7 @@ fn text_field(request: &WebRequest) -> Result<String, WebError> {
 }
 
 /// Applies edits to a text and checks it. Responds to the page's script with JSON, and to the button with the page.
-pub fn check(_: &ServerState, request: &WebRequest) -> HandlerResult {
+pub fn check(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let (begun, language) = (Stopwatch::start(), request.visitor.language);
     let text = text_field(request)?;
     let edits = editor_edits::parse(request.form_field("edits").unwrap_or("[]")).map_err(WebError::BadRequest)?;
@@ -84,17 +84,18 @@ pub fn check(_: &ServerState, request: &WebRequest) -> HandlerResult {
         Ok(edited) => (edited, None),
         Err(words) => (text, Some(text!(language, "editor-not-changed", reason = words))),
     };
-    let checked = CheckedScenario { rejected, ..checked(text, begun, language)? };
+    let checked = CheckedScenario { rejected, ..checked(state, text, begun, language)? };
     if request.expects_json {
         return Ok(WebResponse::json(&checked.json(language, request.form_field("shape").unwrap_or_default())));
     }
     respond_with_editor(request, &checked.text, (None, false), Some(&checked))
 }
 
-fn checked(text: String, begun: Stopwatch, language: Language) -> Result<CheckedScenario, WebError> {
+fn checked(state: &ServerState, text: String, begun: Stopwatch, language: Language) -> Result<CheckedScenario, WebError> {
     let aircraft = files::vehicle(DEFAULT_VEHICLE)?.vehicle;
     let options = CheckOptions { aircraft: &aircraft, may_continue: &|| begun.elapsed() < CHECK_TIME };
-    Ok(check_text(&file_name(&text), text, &options, language))
+    let siblings = |name: &str| read_from_folder(&state.scenarios, name);
+    Ok(check_text(&file_name(&text), (text, &siblings), &options, language))
 }
 
 /// Returns the file name for messages and downloads.

@@ -3,10 +3,9 @@
 use super::response::WebError;
 use super::safe_names::is_safe_file_name;
 use crate::errors::AppError;
-use crate::io::files;
+use crate::io::files::{self, read_from_folder};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_text::{Language, text};
-use spandrel_training::web::scenario_check_result::no_siblings;
 use spandrel_training::web::scenarios::ScenarioEntry;
 use std::path::{Path, PathBuf};
 
@@ -25,36 +24,47 @@ pub struct StoredScenario {
     pub scenario: Scenario,
     /// Scenario source text (TOML).
     pub text: String,
+    /// Folder of the uploaded scenarios.
+    folder: PathBuf,
 }
 
 impl StoredScenario {
     /// Returns the form or difficulty level of this scenario with this CRC; `None` if it has none.
     #[must_use]
     pub fn variant_with_crc(&self, crc: u32) -> Option<Scenario> {
-        read(&self.named.name, &scenario::variant_with_crc(&self.text, crc)?).ok()
+        let referenced = |name: &str| read_from_folder(&self.folder, name);
+        read(&self.folder, &self.named.name, &scenario::variant_with_crc(&self.text, &referenced, crc)?).ok()
     }
 }
 
 /// Returns all shipped scenarios, then the uploaded ones.
 pub fn all(folder: &Path) -> Vec<StoredScenario> {
-    let shipped = files::scenario_names().into_iter().filter_map(|name| {
-        let file = files::scenario(name).ok()?;
-        Some(StoredScenario { named: named(&file.scenario, false), scenario: file.scenario, text: file.text })
-    });
-    let uploaded = uploaded(folder).into_iter().filter_map(|path| {
-        let text = files::read(&path).ok()?;
-        let scenario = read(&path.display().to_string(), &text).ok()?;
-        Some(StoredScenario { named: named(&scenario, true), scenario, text })
-    });
-    shipped.chain(uploaded).collect()
+    let shipped = files::scenario_names().into_iter().filter_map(|name| shipped(folder, name));
+    shipped.chain(uploaded(folder).iter().filter_map(|path| stored(folder, path))).collect()
 }
 
-/// Finds a scenario by name.
+/// Finds a scenario by name. Reads no other scenario, because one with a large model takes time.
 pub fn find(folder: &Path, name: &str) -> Option<StoredScenario> {
     if !is_safe_file_name(name) {
         return None;
     }
-    all(folder).into_iter().find(|job| job.named.name == name)
+    if files::scenario_names().contains(&name) {
+        return shipped(folder, name);
+    }
+    stored(folder, &upload_path(folder, name)).filter(|job| job.named.name == name)
+}
+
+fn shipped(folder: &Path, name: &str) -> Option<StoredScenario> {
+    let file = files::scenario(name).ok()?;
+    let named = named(&file.scenario, false);
+    Some(StoredScenario { named, scenario: file.scenario, text: file.text, folder: folder.to_path_buf() })
+}
+
+/// Reads an uploaded scenario; `None` if it is invalid.
+fn stored(folder: &Path, path: &Path) -> Option<StoredScenario> {
+    let text = files::read(path).ok()?;
+    let scenario = read(folder, &path.display().to_string(), &text).ok()?;
+    Some(StoredScenario { named: named(&scenario, true), scenario, text, folder: folder.to_path_buf() })
 }
 
 fn named(scenario: &Scenario, uploaded: bool) -> ScenarioEntry {
@@ -69,9 +79,9 @@ pub fn uploaded(folder: &Path) -> Vec<PathBuf> {
     paths
 }
 
-/// Parses an uploaded scenario. It cannot refer to other files.
-pub fn read(file: &str, text: &str) -> Result<Scenario, AppError> {
-    Ok(scenario::read(file, text, &no_siblings)?)
+/// Parses an uploaded scenario. It can refer to files in the folder of uploaded scenarios or below, where the administrator puts them.
+pub fn read(folder: &Path, file: &str, text: &str) -> Result<Scenario, AppError> {
+    Ok(scenario::read(file, text, &|name| read_from_folder(folder, name))?)
 }
 
 /// Returns the argument that identifies the scenario to other functions: the path of an uploaded scenario, or the name

@@ -77,7 +77,7 @@ pub fn save_locked(
     (shown, text): (&str, &str),
     expected: Expected<'_>,
 ) -> Result<String, SaveError> {
-    let name = read(shown, text)?.name;
+    let name = read(&state.scenarios, shown, text)?.name;
     check_name(language, shown, &name).map_err(SaveError::Refused)?;
     let target = upload_path(&state.scenarios, &name);
     check_expected(language, &target, &name, expected)?;
@@ -86,9 +86,9 @@ pub fn save_locked(
     }
     std::fs::create_dir_all(&state.scenarios)
         .map_err(|error| AppError::failed(format!("{}: cannot create the folder: {error}", state.scenarios.display())))?;
-    let text = picture_store::adopt(&state.scenarios, &read(shown, text)?, text)?;
+    let text = picture_store::adopt(&state.scenarios, &read(&state.scenarios, shown, text)?, text)?;
     replace(&target, text.as_bytes())?;
-    picture_store::remove_unlisted(&state.scenarios, &name, &read(shown, &text)?.briefing_pictures);
+    picture_store::remove_unlisted(&state.scenarios, &name, &read(&state.scenarios, shown, &text)?.briefing_pictures);
     Ok(name)
 }
 

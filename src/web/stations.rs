@@ -3,6 +3,7 @@
 use super::lock::lock;
 use super::request::WebRequest;
 use super::response::{HandlerResult, WebError, WebResponse};
+use super::scenario_pictures;
 use super::state::ServerState;
 use crate::io::clock;
 use crate::io::station_key::StationKey;
@@ -33,8 +34,19 @@ pub fn check_in(state: &ServerState, request: &WebRequest) -> HandlerResult {
     Ok(WebResponse::json(&value).with_status(status))
 }
 
+/// Returns whether a request contains the stations' key.
+fn is_from_station(request: &WebRequest, key: &StationKey) -> bool {
+    request.authorization.as_deref().is_some_and(|sent| constant_time_eq(sent, &key.authorization()))
+}
+
+/// Responds to a station with a picture of an uploaded scenario's briefing.
+pub fn picture(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    state.station_key.as_ref().filter(|key| is_from_station(request, key)).ok_or(WebError::NotFound)?;
+    scenario_pictures::show(state, request)
+}
+
 fn reply(state: &ServerState, request: &WebRequest, key: &StationKey) -> Result<CheckInReply, (String, StatusCode)> {
-    if !request.authorization.as_deref().is_some_and(|sent| constant_time_eq(sent, &key.authorization())) {
+    if !is_from_station(request, key) {
         return Err(("wrong station key (--station-key)".to_owned(), StatusCode::FORBIDDEN));
     }
     let invalid = |why: String| (why, StatusCode::UNPROCESSABLE_ENTITY);

@@ -4,6 +4,8 @@ use super::display;
 use super::flight_view::FlightView;
 use super::job_pictures::JobPictures;
 use super::keys::{self, HeldKeys, KeyChange};
+use super::page_pictures::PagePictures;
+use super::page_refresh::ShownPage;
 use super::picture_writer::PictureWriter;
 use super::pilot::{PilotCommand, PilotThread};
 use super::screen::WindowSurface;
@@ -19,7 +21,7 @@ use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
 use spandrel_text::text;
 use spandrel_view::arrange::{ViewKind, WindowShape};
 use spandrel_view::flow::pipe::FromWindow;
-use spandrel_view::flow::{Page, PageLayout, WindowFlow};
+use spandrel_view::flow::{Page, WindowFlow};
 use spandrel_view::gpu::PageTextures;
 use spandrel_view::hud;
 use spandrel_view::inspector_camera::InspectorCamera;
@@ -35,9 +37,6 @@ use winit::window::{Fullscreen, WindowId};
 const MAX_FRAME_RATE_HZ: (f64, f64) = (120.0, 25.0);
 /// Frame rate of pages, 1/s. Pages change only on key and stick input.
 const PAGE_FRAME_RATE_HZ: f64 = 20.0;
-/// An unchanged page is rendered again after this time, in case the system's request to render it coincides with one of the window's
-/// own (estimate).
-pub(super) const PAGE_REFRESH_INTERVAL: Duration = Duration::from_secs(1);
 /// Pause after each frame as a fraction of the frame time, without a graphics card. It lets other processes run where the window's
 /// priority cannot be lowered.
 const IDLE_TIME_FRACTION: f64 = if cfg!(unix) { 0.0 } else { 0.25 };
@@ -59,12 +58,6 @@ pub struct WindowThreads {
     pub stream: Option<StreamSender>,
 }
 
-/// The page that the window shows.
-pub(super) struct ShownPage {
-    pub(super) sheet: PageLayout,
-    pub(super) at: Duration,
-}
-
 /// The window and its state.
 pub struct Cockpit {
     pub(super) plan: WindowConfig,
@@ -76,6 +69,7 @@ pub struct Cockpit {
     pub(super) stop: StopRequest,
     pub(super) screen: Option<WindowSurface>,
     pub(super) pictures: PageTextures,
+    pub(super) page_pictures: PagePictures,
     pub(super) job_pictures: JobPictures,
     /// `None` while the window shows something else, or a page without its last changes.
     pub(super) shown_page: Option<ShownPage>,
@@ -121,7 +115,8 @@ impl Cockpit {
             speaker,
             stop,
             screen: None,
-            pictures: PageTextures::new(super::page_picture::read),
+            pictures: PageTextures::default(),
+            page_pictures: PagePictures::default(),
             job_pictures: JobPictures::default(),
             shown_page: None,
             inspector_camera: InspectorCamera::default(),

@@ -1,8 +1,9 @@
 //! Renders one window frame (a page, or a flight with its displays) and handles the pages' requests.
 
-use super::cockpit::{Cockpit, PAGE_REFRESH_INTERVAL, ShownPage};
+use super::cockpit::Cockpit;
 use super::flight_view::FlightView;
 use super::job_pictures::JobLook;
+use super::page_refresh::{ShownPage, must_render};
 use super::panes::{PaneContent, ViewOptions};
 use super::pilot::{PilotCommand, PilotThread};
 use super::window_text::{WindowText, frozen, help, paint_flight, waiting, walk};
@@ -185,11 +186,17 @@ impl Cockpit {
         if let Some(job) = self.flow.job_to_draw() {
             self.job_pictures.request(job);
         }
+        while let Some((path, picture)) = self.page_pictures.poll() {
+            self.pictures.add_file(path, picture);
+            self.shown_page = None;
+        }
         let sheet = self.flow.sheet(self.shape().window);
+        for path in self.pictures.missing_files(&sheet) {
+            self.page_pictures.request(path);
+        }
         let (Some(screen), pictures) = (&mut self.screen, &mut self.pictures) else { return Ok(()) };
         let at = self.stopwatch.elapsed();
-        let is_current = |shown: &ShownPage| shown.sheet == sheet && at.saturating_sub(shown.at) < PAGE_REFRESH_INTERVAL;
-        if self.shown_page.as_ref().is_some_and(is_current) {
+        if !must_render(self.shown_page.as_ref(), &sheet, at) {
             return Ok(());
         }
         let is_presented = screen.show(|ui| paint_page(ui, &sheet, pictures))?;

@@ -1,19 +1,19 @@
 //! Pictures of jobs for the start page and drawings for their briefings, made in the background when they are first needed.
 
+use super::worker::Worker;
 use crate::io::files;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_view::gpu::PageImage;
 use spandrel_view::hud::JobDrawing;
 use spandrel_view::job_picture;
-use spandrel_view::picture::Picture;
 use std::collections::BTreeSet;
-use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Draws the pictures of jobs. The thread starts with the first request and ends with the window.
-#[derive(Debug, Default)]
+/// Draws the pictures of jobs.
+#[derive(Debug)]
 pub struct JobPictures {
     requested: BTreeSet<String>,
-    thread: Option<DrawingThread>,
+    worker: Worker<Option<JobLook>>,
 }
 
 /// How a job looks.
@@ -22,52 +22,40 @@ pub struct JobLook {
     /// Name or path of the job.
     pub job: String,
     /// Picture for the start page.
-    pub picture: Picture,
+    pub picture: PageImage,
     /// Drawings for the briefing.
     pub drawing: JobDrawing,
 }
 
-/// The thread's ends: for requests, and for finished jobs.
-type DrawingThread = (Sender<String>, Receiver<JobLook>);
+impl Default for JobPictures {
+    fn default() -> Self {
+        Self { requested: BTreeSet::new(), worker: Worker::new(draw) }
+    }
+}
 
 impl JobPictures {
     /// Requests the picture and the drawings of a job, given by its name or path, unless it was requested before.
     pub fn request(&mut self, job: &str) {
-        if !self.requested.insert(job.to_owned()) {
-            return;
+        if self.requested.insert(job.to_owned()) {
+            self.worker.request(job.to_owned());
         }
-        let (jobs, _) = self.thread.get_or_insert_with(start);
-        // The thread runs as long as this end exists.
-        let _ = jobs.send(job.to_owned());
     }
 
     /// Returns the next finished job.
     pub fn poll(&self) -> Option<JobLook> {
-        self.thread.as_ref().and_then(|(_, drawn)| drawn.try_recv().ok())
+        std::iter::from_fn(|| self.worker.poll()).find_map(|(_, look)| look)
     }
 }
 
-fn start() -> DrawingThread {
-    let (jobs, wanted) = channel::<String>();
-    let (sender, drawn) = channel();
-    std::thread::spawn(move || {
-        for job in wanted {
-            match files::scenario(&job) {
-                Ok(file) => {
-                    // Sending fails only if the window has since been closed.
-                    let _ = sender.send(look(job, &file.scenario));
-                }
-                // The start page works without the picture, and starting the job reports the error.
-                Err(error) => tracing::debug!("no picture of {job}: {error}"),
-            }
-        }
-    });
-    (jobs, drawn)
+fn draw(job: &str) -> Option<JobLook> {
+    // The start page works without the picture, and starting the job reports the error.
+    let file = files::scenario(job).inspect_err(|error| tracing::debug!("no picture of {job}: {error}")).ok()?;
+    Some(look(job.to_owned(), &file.scenario))
 }
 
 fn look(job: String, scenario: &Scenario) -> JobLook {
     let site = Site::without_defects(scenario);
-    JobLook { job, picture: job_picture::draw(scenario, &site), drawing: JobDrawing::new(scenario, &site) }
+    JobLook { job, picture: PageImage::new(&job_picture::draw(scenario, &site)), drawing: JobDrawing::new(scenario, &site) }
 }
 
 #[cfg(test)]
@@ -81,9 +69,9 @@ mod tests {
         for job in ["no such job", "drill-hover", "drill-hover", "drill-gap"] {
             pictures.request(job);
         }
-        let (_, drawn) = pictures.thread.take().unwrap();
+        let (_, drawn) = pictures.worker.thread.take().unwrap();
         // The thread ends when nobody can request another picture.
-        let names: Vec<String> = drawn.iter().map(|look| look.job).collect();
+        let names: Vec<String> = drawn.iter().filter_map(|(_, look)| Some(look?.job)).collect();
         assert_eq!(names, ["drill-hover", "drill-gap"]);
     }
 }

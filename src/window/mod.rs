@@ -9,7 +9,8 @@ mod frame;
 mod job_pictures;
 mod keys;
 mod listener;
-mod page_picture;
+mod page_pictures;
+mod page_refresh;
 mod panes;
 mod picture_writer;
 mod pilot;
@@ -22,6 +23,7 @@ mod train_pipe;
 mod window_config;
 mod window_settings;
 mod window_text;
+mod worker;
 
 use crate::errors::AppError;
 use crate::io::clock;

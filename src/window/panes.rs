@@ -24,7 +24,8 @@ use spandrel_view::picture::Picture;
 use spandrel_view::quality::Quality;
 use spandrel_view::scene::{LoadingStep, Scene};
 use spandrel_view::shot::Shot;
-use spandrel_view::stage::{self, Stage};
+use spandrel_view::stage::{self, SceneMoment, Stage};
+use spandrel_view::video_link::{ReceivedFrame, VideoReceiver};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -82,6 +83,8 @@ pub struct ViewPanes {
     last_image: Option<Picture>,
     /// Exposure meters for the inspector's view and the camera's view.
     exposure_meters: [ExposureMeter; 2],
+    /// Receiver of the camera's picture.
+    video: VideoReceiver,
 }
 
 /// The user's view settings.
@@ -120,7 +123,15 @@ impl ViewPanes {
         };
         let aside = if screen.gpu.software { open().ok() } else { None };
         let renderer = Renderer::new(&screen.gpu, quality, &job.scene);
-        Self { renderer, secondary: aside, job, panes: BTreeMap::new(), last_image: None, exposure_meters: Default::default() }
+        Self {
+            renderer,
+            secondary: aside,
+            job,
+            panes: BTreeMap::new(),
+            last_image: None,
+            exposure_meters: Default::default(),
+            video: VideoReceiver::default(),
+        }
     }
 
     /// Returns the vector from the inspector to the aircraft in meters.
@@ -154,6 +165,7 @@ impl ViewPanes {
         if let Some(lesson) = &mut display.lesson {
             lesson.how = how_to(lesson.status.task, options.style.language, &|binding| options.key_names.name(binding));
         }
+        let video = self.video.receive(&now.moment, feed.video_margin_db(now.moment.at));
         let mut shown = Vec::new();
         if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Instruments) {
             let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(screen, view_rect));
@@ -167,7 +179,7 @@ impl ViewPanes {
         let mut begun = false;
         for view_rect in order {
             let view_rect = self.fit_view(screen, *view_rect);
-            let (shot, items) = self.render(screen, &view_rect, now, &display, options);
+            let (shot, items) = self.render(screen, &view_rect, (&now.moment, &video), &display, options);
             let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
             shown.push(PaneContent { view_rect, picture: Some(pane.picture.clone()), items });
             match &self.secondary {
@@ -221,14 +233,13 @@ impl ViewPanes {
         &mut self,
         screen: &WindowSurface,
         view_rect: &ViewRect,
-        now: &LiveMoment,
+        (moment, video): (&SceneMoment, &ReceivedFrame),
         display: &Hud,
         options: &ViewOptions,
     ) -> (Shot, Vec<DrawItem>) {
         let window = screen.window.inner_size();
         let on_screen = (view_rect.width * f64::from(window.width), view_rect.height * f64::from(window.height));
         let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PIXELS));
-        let moment = &now.moment;
         let (stage, [eyes, film]) = (self.job.stage(), &mut self.exposure_meters);
         // A lesson explains the ribbon and the gates.
         let aids =
@@ -243,7 +254,8 @@ impl ViewPanes {
                 (shot, items)
             }
             ViewKind::Camera => {
-                let shot = stage.camera_frame(moment, size_px, film);
+                let moment = &video.moment;
+                let shot = stage.camera_frame(moment, size_px, film).with_lost_blocks(video.lost_blocks);
                 let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
                 items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
                 items.extend(stage.ghost_items(&shot, options.ghost));

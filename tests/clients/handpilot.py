@@ -37,7 +37,16 @@ def sticks_towards(here, yaw, target, look_yaw, cruise=CRUISE_M_S):
     right = ve * math.cos(yaw) - vn * math.sin(yaw)
     climb = vu / (FULL_CLIMB_M_S if vu > 0 else FULL_DESCENT_M_S)
     turn = YAW_GAIN * wrap_angle(look_yaw - yaw) / FULL_YAW_RAD_S
-    return tuple(max(-1.0, min(1.0, s)) for s in (forward / FULL_STICK_M_S, right / FULL_STICK_M_S, climb, turn))
+    return tuple(deflection(fraction) for fraction in (forward / FULL_STICK_M_S, right / FULL_STICK_M_S, climb, turn))
+
+
+def deflection(fraction):
+    """Returns the stick deflection for a fraction of the full speed, with the stick curve of position mode (60% cubic)."""
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = (low + high) / 2
+        low, high = (middle, high) if 0.4 * middle + 0.6 * middle**3 < abs(fraction) else (low, middle)
+    return math.copysign(low, fraction)
 
 
 def distance(a, b):

@@ -23,6 +23,10 @@ import spandrel
 DEGREE_M = 111_170.0
 # Speed of vehicle time relative to wall time.
 SPEED = 5
+# With a real PX4. MAVSDK's timers use wall time, and a busy computer is slower than five times real time.
+REAL_SPEED = 2
+# A real PX4 withdraws its readiness for up to 2 s after its first one, and never becomes ready again in a stick mode without sticks.
+REAL_PAUSE_S = 5.0
 # Polling interval, wall seconds.
 LOOK_S = 0.01
 # Wall seconds without progress on the vehicle's clock before a test gives up.
@@ -34,10 +38,13 @@ STICK_RATE_HZ = 50
 class Tester:
     """A simulator and MAVSDK's plugins for it."""
 
-    def __init__(self, folder, scenario):
+    def __init__(self, folder, scenario, instance=None):
+        """With an instance number, a real PX4 flies, otherwise the built-in autopilot."""
         folder.mkdir(parents=True, exist_ok=True)
         port = spandrel.free_udp_port()
-        self.process = spandrel.start_sim(folder, port, scenario=scenario, speed=SPEED)
+        self.pause_s = 0.0 if instance is None else REAL_PAUSE_S
+        real = [] if instance is None else ["--autopilot", "px4", "--autopilot-dir", str(folder / "work"), "--instance", str(instance)]
+        self.process = spandrel.start_sim(folder, port, *real, scenario=scenario, speed=SPEED if instance is None else REAL_SPEED)
         self.mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.GROUND_STATION))
         self.mavsdk.add_any_connection(f"udpin://127.0.0.1:{port}")
         system = self.mavsdk.first_autopilot(30.0)
@@ -115,6 +122,7 @@ class Tester:
         self.wait("telemetry", lambda: self.now_s() > 0, math.inf)
         self.wait("healthy", self.telemetry.health_all_ok, 30)
         self.wait("armable", lambda: self.telemetry.health().is_armable, 45)
+        self.pass_time(self.pause_s)
 
     def store_home(self):
         """Stores the current position from ground truth."""

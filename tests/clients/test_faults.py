@@ -54,6 +54,7 @@ def flown(tmp_path_factory):
     place = ["--sessions", str(sessions), "--database", str(sessions.parent / "records.sqlite")]
     spandrel.run("records", "import", *place)
     (sessions.parent / "records.jsonl").write_text(spandrel.run("records", "export", *place), encoding="utf-8")
+    spandrel.run("export", "drill-gap", "--glb", str(sessions.parent / "bridge.glb"))
     return next(path for path in sessions.iterdir() if path.is_dir())
 
 
@@ -77,6 +78,7 @@ COMMANDS = {
     "report": (["report", "{d}"], ""),
     "frames": (["export", "{d}", "--frames", "{o}/frames.csv"], ""),
     "geometry": (["export", "{d}", "--glb", "{o}/site.glb"], ""),
+    "bridge": (["import", "{b}", "--out", "{o}/bridge", "--overwrite"], ""),
     "plan": (["export", "{d}", "--plan", "{o}/tasks.plan"], ""),
     "recording": (["export", "{d}", "--mcap", "{o}/flight.mcap"], ""),
     "parquet": (["export", "{d}", "--parquet", "{o}/frames.parquet"], ""),
@@ -93,7 +95,7 @@ COMMANDS = {
     ),
 }
 # Databases and recordings contain times and IDs that differ between runs; the command's own check validates them.
-COMPARED = (".json", ".csv", ".glb", ".plan", ".parquet", ".zip", ".jsonl", ".html", ".params")
+COMPARED = (".toml", ".json", ".csv", ".glb", ".plan", ".parquet", ".zip", ".jsonl", ".html", ".params")
 
 
 class SessionCopy:
@@ -103,13 +105,14 @@ class SessionCopy:
         self.root = folder
         self.sessions, self.out = folder / "sessions", folder / "out"
         self.session, self.records = self.sessions / flown.name, flown.parents[1] / "records.jsonl"
+        self.bridge = flown.parents[1] / "bridge.glb"
         shutil.copytree(flown, self.session)
         self.out.mkdir(exist_ok=True)
 
     def run(self, name, env=None):
         """Runs a command in this folder."""
         words, typed = COMMANDS[name]
-        args = [word.format(s=self.sessions, d=self.session, o=self.out, r=self.records) for word in words]
+        args = [word.format(s=self.sessions, d=self.session, o=self.out, r=self.records, b=self.bridge) for word in words]
         return subprocess.run(
             [spandrel.PROGRAM, *args], input=typed, env=env, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False
         )

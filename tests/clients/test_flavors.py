@@ -141,7 +141,7 @@ def test_wire_mavproxy_flies_arducopter(copter):
     typed.repeat_until("mode loiter", "Mode LOITER")
     typed.enter_command("relay set 0 1", "DO_SET_RELAY: ACCEPTED")
     typed.enter_command("rc 2 1300", None)
-    typed.repeat_until("status VFR_HUD", "groundspeed : 5.")
+    typed.repeat_until("status VFR_HUD", "groundspeed : 2.")
     typed.enter_command("rc 2 1500", None)
     typed.repeat_until("mode rtl", "Mode RTL")
     typed.wait("DISARMED")

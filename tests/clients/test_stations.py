@@ -1,5 +1,6 @@
 """An instructor starts flights at training stations from the web, in a real browser."""
 
+import base64
 import json
 import pathlib
 import subprocess
@@ -13,6 +14,8 @@ from test_flow import ENTER, ESCAPE, Training, in_flight, is_start_page, other_p
 from test_web import BrowserUser, browser  # noqa: F401 (a fixture)
 
 KEY = "0123456789abcdef-stations"
+# A white pixel (PNG).
+PICTURE = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTj2FAAAAABJRU5ErkJggg==")
 # Time limit for a change on the page on a busy machine: a check-in and an update of the page take 4 s, ms.
 PATIENCE_MS = 120_000
 LIMIT_S = PATIENCE_MS / 1000
@@ -44,11 +47,14 @@ class Station:
 
 @pytest.fixture
 def server(tmp_path):
-    """A server with an instructor, a trainee, and an own scenario."""
+    """A server with an instructor, a trainee, and an own scenario with a picture."""
     sessions = tmp_path / "sessions"
     (sessions / "scenarios").mkdir(parents=True)
     text = (spandrel.ROOT / "scenarios" / "practice.toml").read_text(encoding="utf-8")
-    (sessions / "scenarios" / "windy.toml").write_text(text.replace('name = "practice"', 'name = "windy"'), encoding="utf-8")
+    text = text.replace('name = "practice"', 'name = "windy"') + '\n[[briefing_pictures]]\nfile = "windy/gate.png"\ncaption = "The gate"\n'
+    (sessions / "scenarios" / "windy.toml").write_text(text, encoding="utf-8")
+    (sessions / "scenarios" / "windy").mkdir()
+    (sessions / "scenarios" / "windy" / "gate.png").write_bytes(PICTURE)
     key = tmp_path / "station.key"
     key.write_text(KEY, encoding="utf-8")
     webserver.set_passwords(sessions, "zoe")
@@ -82,6 +88,8 @@ def test_instructor_starts_flights_at_a_station(browser, server, tmp_path):
         facts = json.loads((session / "session.json").read_text(encoding="utf-8"))
         assert (facts["trainee"], facts["purpose"]) == ("zoe", "practice")
         assert 'name = "windy"' in (session / "scenario.toml").read_text(encoding="utf-8")
+        received = stations[0].sessions / "scenarios" / "from-server" / "windy" / "gate.png"
+        assert received.read_bytes() == PICTURE and "shown without" not in stations[0].output()
         # A station with a flight in progress cannot be selected, and a late form is refused.
         expect(page.locator("[name=station] option[value=s1]")).to_be_disabled(timeout=PATIENCE_MS)
         form = {"station": "s1", "trainee": "zoe", "scenario": "drill-hover", "purpose": "practice"}
@@ -120,6 +128,14 @@ def test_only_stations_with_the_key_check_in(server):
         assert stranger.ask("/stations/check-in", body=bad, headers=known)[0] == 422, bad
     assert stranger.ask("/stations/check-in", body=b"x" * 100_000, headers=known)[0] == 413
     assert stranger.ask("/stations/check-in", headers=known)[0] in (403, 404, 405)
+    # Stations receive the pictures of briefings, and nobody else receives them without a login.
+    address = "/stations/pictures/windy/gate.png"
+    status, answer, _ = stranger.ask(address, headers=known)
+    assert (status, answer["Content-Type"], answer["Content-Length"]) == (200, "image/png", str(len(PICTURE)))
+    for headers in ({}, {"Authorization": "Bearer wrong"}):
+        assert stranger.ask(address, headers=headers)[0] == 404
+    for other in ("windy/other.png", "practice/gate.png", "windy/..%2F..%2Fwindy.toml"):
+        assert stranger.ask(f"/stations/pictures/{other}", headers=known)[0] == 404, other
     # Trainees see no stations, and instructors only on a server that accepts stations.
     zoe, ida = webserver.Browser(server.address), webserver.Browser(server.address)
     zoe.log_in("zoe")

@@ -4,6 +4,7 @@ all live flights on one page."""
 import datetime
 import html
 import json
+import re
 import subprocess
 import threading
 
@@ -357,6 +358,7 @@ def test_two_live_flights_have_a_tile_each(browser, tmp_path):
         page.wait_for_function(f"before => {place} !== before", arg=first)
         expect(tiles.nth(1).locator("[data-now=battery]")).to_contain_text("%")
         expect(tiles.nth(1).locator("[data-now=task]")).to_contain_text("Task")
+        expect(tiles.nth(1).locator("[data-hazards]")).to_have_text("none")
         for size, (width, height) in SIZES.items():
             for scheme in ("light", "dark"):
                 page.set_viewport_size({"width": width, "height": height})
@@ -367,6 +369,12 @@ def test_two_live_flights_have_a_tile_each(browser, tmp_path):
         page.keyboard.press("Enter")
         page.wait_for_url("**/live?vehicle=2")
         page.wait_for_selector(".live-page.live")
+        expect(page.locator("[data-now=wind]")).to_contain_text("m/s from")
+        expect(page.locator("[data-now=gnss]")).to_contain_text("satellites, HDOP")
+        # The job simulates neither a compass error nor the radio.
+        expect(page.locator("[data-now=compass]")).to_have_text(re.compile("off by"))
+        expect(page.locator("[data-now=radio]")).to_have_text("–")
+        person.check()
         page.click("text=All flights")
         page.wait_for_url("**/live/all")
         tiles.nth(0).locator("h2 a").click()

@@ -11,8 +11,12 @@ use std::process::{Child, ChildStdout, Command, Output, Stdio};
 const PROGRAM: &str = env!("CARGO_BIN_EXE_spandrel");
 
 fn demo(sessions: &Path, seed: &str) -> Command {
+    demo_of("drill-hover", sessions, seed)
+}
+
+fn demo_of(scenario: &str, sessions: &Path, seed: &str) -> Command {
     let mut command = Command::new(PROGRAM);
-    command.args(["demo", "--scenario", "drill-hover", "--skill", "expert", "--speed", "max", "--seed", seed, "--sessions"]);
+    command.args(["demo", "--scenario", scenario, "--skill", "expert", "--speed", "max", "--seed", seed, "--sessions"]);
     command.arg(sessions).stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -57,6 +61,21 @@ fn wire_demo_session_is_complete_and_reproducible() {
     assert!(frames.lines().count() > 30);
     assert_eq!(frames, stdout_of(&["export", &b, "--frames", "-"]));
     assert_eq!(json(&Path::new(&a).join("assessment.json"))["end"]["reason"], "landed");
+}
+
+#[test]
+fn flight_expert_completes_the_girder_bridge_without_contact() {
+    // Least number of the ten defects that the expert finds.
+    const MIN_FOUND: u64 = 7;
+    let folder = tempfile::tempdir().unwrap();
+    successful_stdout(&demo_of("girder", folder.path(), "3").output().unwrap());
+    let assessment = json(&only_session(folder.path()).join("assessment.json"));
+    assert_eq!(assessment["end"]["reason"], "landed");
+    assert_eq!(assessment["crashes"]["other"], 0, "{}", assessment["crashes"]);
+    let states: Vec<&str> = assessment["tasks"].as_array().unwrap().iter().filter_map(|task| task["state"].as_str()).collect();
+    assert_eq!(states, ["done"; 4]);
+    let found = assessment["snapshots"]["defects_found"].as_u64().unwrap_or(0);
+    assert!(found >= MIN_FOUND, "{found} defects found");
 }
 
 #[test]

@@ -8,6 +8,9 @@ use spandrel_clients::pilot::skill::{FIELDS, LEARNING_EXPONENT, SkillFactor};
 const ABOUT: &str = "A pilot file sets the numbers of a synthetic trainee. `pilot`, `demo` and `study` read it with `--pilot FILE`. Errors of a synthetic
 trainee result from these numbers; none are scripted.
 
+The trainee flies with the [response to the sticks](../how-to/controllers.md#response-to-the-sticks) `sport`, with which its numbers were adjusted, and
+selects it before takeoff.
+
     format = 1
     base = \"novice\"             # novice, trained or expert: the values of all numbers that the file doesn't set
     noise = 1.6

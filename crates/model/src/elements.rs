@@ -208,6 +208,9 @@ elements! {
 }
 
 impl Element {
+    /// A deck drain. The MBEI leaves drains to the agencies, which number their own elements from 800 on (the number is an estimate).
+    pub const DECK_DRAIN: Self = Self::Unlisted(850);
+
     /// Returns the defect codes permitted on the element; empty if the simulator has no defects for its material.
     #[must_use]
     pub const fn permitted_defects(self) -> &'static [u32] {

@@ -51,7 +51,12 @@ impl LocalPlane {
     /// Converts a geographic position to local coordinates in meters.
     #[must_use]
     pub fn enu_from_geo(&self, geo: Geo) -> Vec3<Enu> {
-        let p = ecef_from_geo(geo);
+        self.enu_from_ecef(ecef_from_geo(geo))
+    }
+
+    /// Converts earth-centered, earth-fixed coordinates in meters to local coordinates in meters.
+    #[must_use]
+    pub fn enu_from_ecef(&self, p: [f64; 3]) -> Vec3<Enu> {
         let d = [p[0] - self.origin_ecef_m[0], p[1] - self.origin_ecef_m[1], p[2] - self.origin_ecef_m[2]];
         let (sl, cl) = self.sin_cos_lat;
         let (so, co) = self.sin_cos_lon;

@@ -89,6 +89,11 @@ pub fn cbrt(x: f64) -> f64 {
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }
+/// Returns the direction of a horizontal vector, clockwise from north, in [0, 360] degrees; 360 only by rounding.
+#[must_use]
+pub fn bearing_deg(east: f64, north: f64) -> f64 {
+    atan2(east, north).to_degrees().rem_euclid(360.0)
+}
 /// Wraps an angle to (-π, π].
 #[must_use]
 pub fn wrap_pi(angle_rad: f64) -> f64 {

@@ -321,17 +321,36 @@ pub fn assess_log(
     Ok(AssessedSession { assessment, frames, seed })
 }
 
+/// A flight that belongs to a scenario, and its seed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IdentifiedFlight {
+    /// Number of earlier simulator runs in the timeline.
+    pub epoch: usize,
+    /// The flight.
+    pub flight: Flight,
+    /// The session's seed.
+    pub seed: u64,
+}
+
+/// Returns the flight to score.
+///
+/// # Errors
+/// Fails if the telemetry belongs to a different scenario or seed, or contains no session.
+pub fn identified_flight(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<IdentifiedFlight, AssessError> {
+    let (epoch, flight) = flight_and_prior_runs(timeline, scenario, vehicle);
+    if flight.truths.is_empty() {
+        return Err(AssessError::NoTruth);
+    }
+    let seed = check_identity(&flight, scenario, None)?;
+    Ok(IdentifiedFlight { epoch, flight, seed })
+}
+
 /// Returns the flight to score and its seed.
 ///
 /// # Errors
 /// Fails if the telemetry belongs to a different scenario or seed, or contains no session.
 pub fn flight_with_seed(timeline: &Timeline, scenario: &Scenario, vehicle: &Vehicle) -> Result<(Flight, u64), AssessError> {
-    let flight = scored_flight(timeline, scenario, vehicle);
-    if flight.truths.is_empty() {
-        return Err(AssessError::NoTruth);
-    }
-    let seed = check_identity(&flight, scenario, None)?;
-    Ok((flight, seed))
+    identified_flight(timeline, scenario, vehicle).map(|IdentifiedFlight { flight, seed, .. }| (flight, seed))
 }
 
 /// Returns the flight to score: the first one with a lift-off or, if none has one, the last.

@@ -11,6 +11,7 @@ mod instructor;
 mod practice;
 mod practice_controls;
 mod radio;
+mod radio_shadow;
 mod tick;
 mod wake_wind;
 
@@ -21,17 +22,20 @@ use super::backend::Phase;
 use super::endpoint::flavor::Flavor;
 use super::endpoint::params::{AircraftValues, BatteryThresholds, InstructorSettings};
 use super::endpoint::{
-    Endpoint, LinkId, LinkKind, LockstepState, ReceivedDatagram, ScoringTruth, SimulatedAircraft, Transmit, VehicleClock,
+    Endpoint, HazardTruth, LinkId, LinkKind, LockstepState, ReceivedDatagram, ScoringTruth, SimulatedAircraft, Transmit,
+    VehicleClock,
 };
 use super::faults::Faults;
 use super::log::FlightRecorder;
 use super::physics::{self, Actuators, AirState, AirframeModel};
+use super::sensors::sky::receiver_spec;
 use super::sensors::{Readings, SensorSite, Sensors};
 use controller::{BuiltinController, Controller};
 use file_jobs::FileJobScheduler;
 use inbox::Inbox;
 use practice_controls::PracticeControls;
 use radio::RadioLink;
+use radio_shadow::RadioShadow;
 use sha2::{Digest, Sha256};
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::frames::{Ned, Vec3};
@@ -49,6 +53,8 @@ use wake_wind::WakeWind;
 pub const STEP: SimTime = SimTime::from_ms(1);
 /// Interval between lockstep requests to peers.
 pub const LOCKSTEP: SimTime = SimTime::from_ms(20);
+/// Rate at which the disturbance of the compass is computed for reports, Hz.
+const HAZARD_RATE_HZ: f64 = 10.0;
 /// Search radius for surfaces near the vehicle, m, and therefore the largest clearance that the vehicle publishes.
 pub const CLEARANCE_SEARCH_RADIUS_M: f64 = 30.0;
 
@@ -143,6 +149,8 @@ pub struct Sim {
     controller: Controller,
     wind: WindField,
     wakes: Option<WakeWind>,
+    radio_shadow: Option<RadioShadow>,
+    hazards: HazardTruth,
     now: SimTime,
     /// Boot time of the autopilot.
     boot_time: SimTime,
@@ -152,6 +160,7 @@ pub struct Sim {
     control_due: Schedule,
     wind_due: Schedule,
     clearance_due: Schedule,
+    hazards_due: Schedule,
     lux_due: Schedule,
     air: AirState,
     last_safe_hover: (Vec3<Ned>, f64),
@@ -191,6 +200,7 @@ impl Sim {
     /// Creates the vehicle on its landing pad with motors off.
     #[must_use]
     pub fn new(config: SimConfig, site: Arc<Site>) -> Self {
+        let config = with_receiver(config);
         let controller = Controller::Builtin(Box::new(builtin_controller(&config)));
         let sensor_spec = config.vehicle.sensors;
         Self::with_controller(config, site, controller, &sensor_spec)
@@ -202,12 +212,16 @@ impl Sim {
         let (start, yaw) = place_on_pad(&config);
         let at = |hz| Schedule::new(SimTime::ZERO, hz);
         Self {
-            model: Arc::new(AirframeModel::new(vehicle, scenario.rules.battery)),
+            model: Arc::new(
+                AirframeModel::new(vehicle, scenario.rules.battery).with_battery_at(scenario.rules.battery_temperature_c),
+            ),
             state: physics::PhysicsState::at_rest(start, yaw),
             sensors: Sensors::new(&with_sensors(vehicle, sensors), SensorSite::of(scenario, site.members()), seed),
             controller,
             wind: WindField::new(&scenario.wind, seed),
             wakes: WakeWind::of(scenario, site.members(), &vehicle.rotors, seed),
+            radio_shadow: RadioShadow::of(scenario, seed),
+            hazards: HazardTruth::default(),
             now: SimTime::ZERO,
             boot_time: SimTime::ZERO,
             readings: Readings::default(),
@@ -221,6 +235,7 @@ impl Sim {
             control_due: at(CONTROL_HZ),
             wind_due: at(100.0),
             clearance_due: at(30.0),
+            hazards_due: at(HAZARD_RATE_HZ),
             lux_due: at(5.0),
             air: AirState::STILL,
             last_safe_hover: (start, yaw),
@@ -323,7 +338,7 @@ impl Sim {
     /// Receives a datagram. It is processed at the next tick, or later if its link exceeds the per-tick limits of [`inbox`]. In
     /// lockstep, datagrams are processed in link order once all responses have arrived.
     pub fn handle_datagram(&mut self, link: LinkId, bytes: &[u8]) {
-        if self.is_over_radio(link) && !self.is_frozen() {
+        if self.is_over_radio(link) && !self.is_frozen() && !self.bypasses_silence(bytes) {
             self.radio.receive(link, bytes, self.now);
             return;
         }
@@ -404,7 +419,7 @@ impl Sim {
     pub fn poll_transmit(&mut self) -> Option<Transmit> {
         while let Some(transmit) = self.controller.links_mut().poll() {
             // While simulation time is stopped, nothing that the radio link delays would arrive.
-            if !self.is_over_radio(transmit.link) || self.is_frozen() {
+            if !self.is_over_radio(transmit.link) || self.is_frozen() || self.bypasses_silence(&transmit.bytes) {
                 return Some(transmit);
             }
             self.radio.send(transmit, self.now);
@@ -525,6 +540,7 @@ impl Sim {
             actuators: &self.actuators,
             wind_m_s: self.air.velocity_m_s,
             scoring: &self.scoring,
+            hazards: self.hazards,
             practice,
         };
         Interface { aircraft, controller: &mut self.controller, recorder: &mut self.recorder }
@@ -581,6 +597,15 @@ fn place_on_pad(config: &SimConfig) -> (Vec3<Ned>, f64) {
     (start, spandrel_model::math::wrap_pi(team.pad_heading_deg.to_radians()))
 }
 
+/// Replaces the GNSS receiver by the one that a job with the real sky has, also for the estimator, which knows its receiver.
+fn with_receiver(config: SimConfig) -> SimConfig {
+    if !config.scenario.hazards.sky {
+        return config;
+    }
+    let sensors = receiver_spec(&config.vehicle.sensors);
+    SimConfig { vehicle: Arc::new(with_sensors(&config.vehicle, &sensors)), ..config }
+}
+
 fn with_sensors(vehicle: &Vehicle, sensors: &SensorSpec) -> Vehicle {
     Vehicle { sensors: *sensors, ..vehicle.clone() }
 }
@@ -594,6 +619,7 @@ fn builtin_controller(config: &SimConfig) -> BuiltinController {
         capacity_mah: 1000.0 * vehicle.battery.capacity_ah,
         thresholds: BatteryThresholds { low_charge_pct: rules.low_battery_pct, critical_charge_pct: rules.critical_battery_pct },
         returns_on_low_battery: rules.low_battery_return,
+        stick_response: rules.stick_response,
         frame: autopilot.airframe_envelope(),
     };
     let mut endpoint = Endpoint::new(config.instance + 1, pack, config.flavor);

@@ -3,7 +3,8 @@
 //! scenario editor show the results.
 
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::{self, Scenario, SiblingLoader, Task, places};
+use spandrel_model::scenario::bridges::ElementQuantity;
+use spandrel_model::scenario::{self, Bridge, Scenario, SiblingLoader, Task, places};
 use spandrel_model::site::walkable::MAX_HEIGHT_ERROR_M;
 use spandrel_model::site::{Site, defects};
 use spandrel_model::toml::Problem;
@@ -57,11 +58,13 @@ impl ScenarioText<'_> {
     }
 }
 
-/// Checks a valid scenario: clearance along its paths, placement of its defects, and the requirements for certification.
+/// Checks a valid scenario: clearance along its paths, placement of its defects, the quantities of its bridges' elements, and the
+/// requirements for certification.
 pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
     findings.problems.extend(site_problems(source, scenario, options));
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
     findings.warnings.extend(repeated_paths(source, scenario));
+    findings.notes.extend(quantity_notes(source, scenario));
     findings.notes.extend(certification_notes(source, scenario, options.aircraft));
 }
 
@@ -116,6 +119,18 @@ pub fn check_levels(source: &ScenarioText<'_>, requested: Option<u8>, options: &
         findings.problems.extend(problems.into_iter().map(|problem| Problem { message: at_level(&problem.message), ..problem }));
         findings.warnings.extend(missing_defects_warning(source, &job, options).map(|warning| at_level(&warning)));
     }
+}
+
+/// Lists the total quantity of each element of each bridge, as an inspection report does.
+fn quantity_notes(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String> {
+    let of_bridge = |bridge: &Bridge| {
+        let line = |quantity: &ElementQuantity| {
+            let (element, amount) = (quantity.element, quantity.text());
+            format!("{}: bridge {}: element {}, {}: {amount}", source.file, bridge.name, element.number(), element.name())
+        };
+        bridge.quantities().iter().map(line).collect::<Vec<_>>()
+    };
+    scenario.bridges.iter().flat_map(of_bridge).collect()
 }
 
 /// Explains what a flight must reach to be certified in this job, and which defects the aircraft's camera can't resolve.

@@ -82,6 +82,10 @@ pub fn task_title(scenario: &str, task: &str, language: Language) -> String {
         "Arch-shaped bottom" => text!(language, "job-task-arch"),
         "Interlayer between deck and arch" => text!(language, "job-task-interlayer"),
         "Pier of the suspension bridge near the water" => text!(language, "job-task-pier"),
+        "Outer girder and deck edge" => text!(language, "job-task-outer-girder"),
+        "Girder bays of the last span" => text!(language, "job-task-girder-bays"),
+        "Bearings on the start abutment" => text!(language, "job-task-bearings"),
+        "Cap of the first pier" => text!(language, "job-task-pier-cap"),
         _ => task.to_owned(),
     }
 }

@@ -3,7 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins};
+use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, GPS_RAW_INT_DATA, GpsFixType, MavMessage, WIND_COV_DATA};
 use spandrel_mavlink::instructor_note;
+use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::radio::RadioWay;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 use spandrel_monitor::assess_log;
@@ -16,6 +20,8 @@ use spandrel_training::marks::{TimelineMark, marks_key};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
 use spandrel_training::report::feedback::KINDS;
+use spandrel_training::report::navigation_errors::NavigationErrors;
+use spandrel_training::report::radio_losses::RadioLosses;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page};
 use spandrel_training::testing::perfect_record;
 use std::sync::OnceLock;
@@ -89,6 +95,83 @@ fn exact_walk_of_the_inspector_changes_only_the_time_out_of_sight() {
     let drawn = |page: &str| (page.matches("class=\"place\"").count(), page.matches("walks to place 3").count());
     assert_eq!((drawn(&plain), drawn(&walked)), ((4, 0), (4, 1)));
     assert!(walked.contains("Walks of the inspector: to place 3 at 0:") && !plain.contains("Walks of the inspector"));
+}
+
+/// Inserts a report of the GNSS receiver after a share of a tape.
+fn with_gnss(mut tape: Tape, share: f64, has_fix: bool) -> Tape {
+    let rest = tape.datagrams.split_off((share * tape.datagrams.len() as f64) as usize);
+    let fix_type = if has_fix { GpsFixType::GPS_FIX_TYPE_3D_FIX } else { GpsFixType::GPS_FIX_TYPE_NO_FIX };
+    let satellites_visible = if has_fix { 14 } else { 3 };
+    tape.send(&MavMessage::GPS_RAW_INT(GPS_RAW_INT_DATA { fix_type, satellites_visible, ..GPS_RAW_INT_DATA::default() }));
+    tape.datagrams.extend(rest);
+    tape
+}
+
+/// Inserts an estimate of the autopilot after a share of a tape: at the origin of the site, heading north. Its clock is wrong, so that
+/// it gets the time of the truth before it.
+fn with_estimate(mut tape: Tape, share: f64) -> Tape {
+    let rest = tape.datagrams.split_off((share * tape.datagrams.len() as f64) as usize);
+    let origin = two_bridges().origin;
+    tape.send(&MavMessage::GLOBAL_POSITION_INT(GLOBAL_POSITION_INT_DATA {
+        time_boot_ms: u32::MAX,
+        lat: (origin.latitude_deg * 1e7).round() as i32,
+        lon: (origin.longitude_deg * 1e7).round() as i32,
+        alt: (origin.altitude_m * 1e3).round() as i32,
+        hdg: 0,
+        ..GLOBAL_POSITION_INT_DATA::default()
+    }));
+    tape.datagrams.extend(rest);
+    tape
+}
+
+#[test]
+fn exact_report_says_how_wrong_the_drones_own_position_was_and_when_gnss_was_lost() {
+    let (tape, job) = (record_inspection(&two_bridges(), 240.0, 9), two_bridges());
+    let plain = review(&tape, &job);
+    assert_eq!(plain.navigation, NavigationErrors::default(), "without reports, there are no errors");
+    let flown = review(&with_estimate(with_gnss(with_gnss(tape, 0.9, true), 0.6, false), 0.5), &job);
+    assert_eq!((&flown.assessment, &flown.frames), (&plain.assessment, &plain.frames), "scores do not depend on estimates");
+    let errors = flown.navigation;
+    // A report counts for at most 3 s, and the next one is much later.
+    assert!((errors.gnss_lost.total_s - 3.0).abs() < 1e-9 && errors.fewest_satellites == Some(3), "{errors:?}");
+    let first = flown.frames[0].time.s();
+    let late = |frame: &&Frame| frame.time.s() - first >= errors.position_m.at_s;
+    let true_m = flown.frames.iter().find(late).unwrap().position_m;
+    // The time of a frame is within 33 ms of the estimate's, at less than 6 m/s.
+    assert!((errors.position_m.value - true_m.horizontal_norm()).abs() < 0.2, "{errors:?} {true_m:?}");
+    assert!((errors.height_m.value - true_m.up().abs()).abs() < 0.2 && errors.height_m.value > 1.5, "{errors:?}");
+    let pages = [&plain, &flown].map(page::session);
+    assert!(pages[1].contains("No GNSS position for 0:03") && pages[1].contains("position was wrong by up to"));
+    assert!(!pages[0].contains("No GNSS position") && !pages[0].contains("position was wrong"));
+}
+
+/// Inserts a report on the radio and one of the wind after a share of a tape. The wind blows toward the east.
+fn with_radio(mut tape: Tape, share: f64, video_db: f64, losses: u32) -> Tape {
+    let rest = tape.datagrams.split_off((share * tape.datagrams.len() as f64) as usize);
+    let radio = RadioMargins { control_db: video_db + 20.0, video_db, way: RadioWay::AroundEdge, losses };
+    tape.send(&HazardReport { compass_rad: None, radio: Some(radio) }.message(0));
+    tape.send(&MavMessage::WIND_COV(WIND_COV_DATA { time_usec: u64::MAX, wind_y: 4.5, ..WIND_COV_DATA::default() }));
+    tape.datagrams.extend(rest);
+    tape
+}
+
+#[test]
+fn exact_report_says_when_the_radio_was_weak_and_draws_the_wind() {
+    let (tape, job) = (record_inspection(&two_bridges(), 240.0, 9), two_bridges());
+    let plain = review(&tape, &job);
+    assert_eq!((plain.radio, plain.has_wind()), (RadioLosses::default(), false), "without reports, there is nothing to say");
+    let flown = review(&with_radio(with_radio(with_radio(tape, 0.9, 5.0, 2), 0.7, -1.0, 2), 0.5, -9.0, 0), &job);
+    assert_eq!((&flown.assessment, &flown.frames), (&plain.assessment, &plain.frames), "scores do not depend on reports");
+    // Each report counts for at most 1.5 s, and the next one is much later.
+    let RadioLosses { video_poor, control_losses } = flown.radio;
+    assert!((video_poor.total_s - 3.0).abs() < 1e-9 && control_losses == 2, "{:?}", flown.radio);
+    let winds: Vec<(f64, f64)> = (0..flown.frames.len()).filter_map(|frame| flown.wind(frame)).collect();
+    assert!(!winds.is_empty() && winds.iter().all(|wind| *wind == (4.5, 270.0)), "{winds:?}");
+    let pages = [&plain, &flown].map(page::session);
+    assert!(pages[1].contains("Video link poor for 0:03") && pages[1].contains("Control link lost 2 times."));
+    assert!(!pages[0].contains("Video link") && !pages[0].contains("Control link"));
+    let has_chart = |page: &str| (page.contains("id=\"chart-wind\""), page.contains("wind from (deg)"));
+    assert_eq!((has_chart(&pages[0]), has_chart(&pages[1])), ((false, false), (true, true)));
 }
 
 #[test]

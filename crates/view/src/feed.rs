@@ -5,13 +5,15 @@ use mavlink::MessageData;
 use spandrel_mavlink::codec::{Decoder, ReceivedFrame};
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::{self, Guidance};
+use spandrel_mavlink::contract::hazards::{self, HazardReport, RadioMargins};
 use spandrel_mavlink::contract::lesson::{self, LessonStatus};
 use spandrel_mavlink::contract::modes;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::{
-    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, MavFrame, MavMessage, NAMED_VALUE_FLOAT_DATA,
-    NAMED_VALUE_INT_DATA, OBSTACLE_DISTANCE_DATA, STATUSTEXT_DATA,
+    DEBUG_FLOAT_ARRAY_DATA, GPS_RAW_INT_DATA, HEARTBEAT_DATA, MavFrame, MavMessage, NAMED_VALUE_FLOAT_DATA, NAMED_VALUE_INT_DATA,
+    OBSTACLE_DISTANCE_DATA, STATUSTEXT_DATA,
 };
+use spandrel_mavlink::telemetry::GnssReport;
 use spandrel_model::time::SimTime;
 
 /// Timeout for a cue that is not repeated; the monitor repeats active cues at 5 Hz.
@@ -35,6 +37,7 @@ pub struct Feed {
     /// Distance to the nearest surface in any direction, m.
     clearance_m: Option<(SimTime, f64)>,
     lesson: Option<(SimTime, LessonStatus)>,
+    hazards: Option<(SimTime, HazardReport)>,
     /// Last remark about a lesson, without its prefix.
     lesson_remark: Option<(SimTime, String)>,
 }
@@ -84,11 +87,8 @@ impl Feed {
                 self.mode = Some(modes::name(beat.autopilot as u8, beat.custom_mode));
             }
             MavMessage::GPS_RAW_INT(gps) => {
-                let fixed = !matches!(
-                    gps.fix_type,
-                    GpsFixType::GPS_FIX_TYPE_NO_GPS | GpsFixType::GPS_FIX_TYPE_NO_FIX | GpsFixType::GPS_FIX_TYPE_2D_FIX
-                );
-                self.gnss = Some(GnssStatus { has_fix: fixed, satellites: gps.satellites_visible });
+                let has_fix = GnssReport::of(gps).has_fix;
+                self.gnss = Some(GnssStatus { has_fix, satellites: gps.satellites_visible });
             }
             MavMessage::NAMED_VALUE_INT(named) => {
                 if let Some(NamedValue::Cues(cues)) = NamedValue::from_int(named) {
@@ -106,6 +106,8 @@ impl Feed {
                     self.guidance = Some((now, guidance));
                 } else if let Some(status) = LessonStatus::from_message(message) {
                     self.set_lesson(now, status);
+                } else if let Some(report) = HazardReport::of(message) {
+                    self.hazards = Some((now, report));
                 }
             }
             MavMessage::STATUSTEXT(text) if component != 1 => {
@@ -157,6 +159,19 @@ impl Feed {
     #[must_use]
     pub fn clearance_m(&self, now: SimTime) -> Option<f64> {
         self.clearance_m.filter(|(heard, _)| now.saturating_sub(*heard) <= OBSTACLE_TIMEOUT).map(|(_, clearance_m)| clearance_m)
+    }
+
+    /// Returns the margins of the radio links; `None` if the job does not simulate them.
+    #[must_use]
+    pub fn radio(&self, now: SimTime) -> Option<RadioMargins> {
+        let recent = self.hazards.filter(|(heard, _)| now.saturating_sub(*heard) <= hazards::TIMEOUT);
+        recent.and_then(|(_, report)| report.radio)
+    }
+
+    /// Returns the margin of the video link, dB; `None` if the job does not simulate it.
+    #[must_use]
+    pub fn video_margin_db(&self, now: SimTime) -> Option<f64> {
+        self.radio(now).map(|radio| radio.video_db)
     }
 
     /// Returns the current step of a lesson, and what went wrong in it; `None` if there is none, or the monitor has stopped.
@@ -230,7 +245,8 @@ mod tests {
     use super::*;
     use spandrel_mavlink::codec::Encoder;
     use spandrel_mavlink::contract::cue;
-    use spandrel_mavlink::dialect::{GPS_RAW_INT_DATA, HEARTBEAT_DATA, NAMED_VALUE_INT_DATA};
+    use spandrel_mavlink::dialect::{GPS_RAW_INT_DATA, GpsFixType, HEARTBEAT_DATA, NAMED_VALUE_INT_DATA};
+    use spandrel_model::radio::RadioWay;
 
     #[test]
     fn exact_frames_set_mode_satellites_and_cues() {
@@ -264,6 +280,18 @@ mod tests {
         assert!(Feed::is_relevant(NAMED_VALUE_FLOAT_DATA::ID));
         assert_eq!(feed.clearance_m(now + OBSTACLE_TIMEOUT), Some(2.25));
         assert_eq!(feed.clearance_m(now + OBSTACLE_TIMEOUT + SimTime::from_ms(1)), None);
+    }
+
+    #[test]
+    fn exact_margin_of_the_video_link_is_known_while_its_reports_continue() {
+        let radio = RadioMargins { control_db: 12.0, video_db: -1.5, way: RadioWay::AroundEdge, losses: 0 };
+        let now = SimTime::from_ms(5_000);
+        let mut feed = Feed::default();
+        assert_eq!(feed.video_margin_db(now), None);
+        let report = HazardReport { compass_rad: None, radio: Some(radio) };
+        feed.handle_datagram(&Encoder::new(1, 1).encode(&report.message(5_000_000)), now);
+        assert_eq!(feed.video_margin_db(now + hazards::TIMEOUT), Some(-1.5));
+        assert_eq!(feed.video_margin_db(now + hazards::TIMEOUT + SimTime::from_ms(1)), None);
     }
 
     #[test]

@@ -49,3 +49,5 @@ pub mod stage;
 pub mod tiles;
 #[cfg(feature = "gpu")]
 pub mod video;
+pub mod video_link;
+pub mod visible_wind;

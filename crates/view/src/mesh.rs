@@ -17,9 +17,9 @@ pub enum Material {
     Cable = 3,
     /// Grass, rock, and shore. `aux` is the height above the water, m.
     Ground = 4,
-    /// Conifer foliage.
+    /// Conifer foliage. `aux` is the height between the tree's foot (0) and top (1).
     Foliage = 5,
-    /// Tree bark.
+    /// Tree bark. `aux` as for foliage.
     Bark = 6,
     /// Boulders.
     Rock = 7,

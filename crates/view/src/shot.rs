@@ -4,6 +4,7 @@ use super::camera::PinholeCamera;
 use super::exposure::Exposure;
 use super::scene::{Instance, MoverModel};
 use super::sky::Sky;
+use super::visible_wind::VisibleWind;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::CameraPose;
@@ -57,13 +58,16 @@ pub struct SensorResponse {
     pub vignette: f64,
     /// Camera when the shutter opened, if it has moved since.
     pub before: Option<PinholeCamera>,
+    /// Share of the picture's blocks that a video link has lost, 0 to 1.
+    pub lost_blocks: f64,
 }
 
 impl SensorResponse {
     /// Returns the response of the aircraft's camera. `moved` is the camera when the shutter opened.
     #[must_use]
     pub fn camera(exposure: Exposure, moved: Option<PinholeCamera>) -> Self {
-        Self { exposure, noise: NOISE_AT_ISO_100 * (exposure.iso / 100.0).sqrt(), vignette: VIGNETTE_STRENGTH, before: moved }
+        let noise = NOISE_AT_ISO_100 * (exposure.iso / 100.0).sqrt();
+        Self { exposure, noise, vignette: VIGNETTE_STRENGTH, before: moved, lost_blocks: 0.0 }
     }
 
     /// Checks whether this is a camera, with sensor noise and vignetting, rather than an eye.
@@ -72,10 +76,16 @@ impl SensorResponse {
         self.noise > 0.0 || self.vignette > 0.0
     }
 
+    /// Checks whether this is a camera over a video link that loses blocks.
+    #[must_use]
+    pub fn has_lost_blocks(&self) -> bool {
+        self.is_camera() && self.lost_blocks > 0.0
+    }
+
     /// Returns the response of a person's eyes: no noise, no blur.
     #[must_use]
     pub fn eyes(exposure: Exposure) -> Self {
-        Self { exposure, noise: 0.0, vignette: 0.0, before: None }
+        Self { exposure, noise: 0.0, vignette: 0.0, before: None, lost_blocks: 0.0 }
     }
 }
 
@@ -94,23 +104,22 @@ pub struct Shot {
     pub finish: SensorResponse,
     /// Simulation time, s; animates waves and clouds.
     pub time_s: f64,
-    /// Wind over the water: velocity toward the east and north, m/s.
-    pub wind_m_s: (f64, f64),
+    /// Wind over the lake.
+    pub wind: VisibleWind,
     /// Models and instances of the moving objects.
     pub moving: Vec<(MoverModel, Instance)>,
 }
 
 impl Shot {
+    /// Returns the shot as it arrives over a video link that loses a share of its blocks.
+    #[must_use]
+    pub fn with_lost_blocks(self, lost_blocks: f64) -> Self {
+        Self { finish: SensorResponse { lost_blocks, ..self.finish }, ..self }
+    }
+
     /// Returns width over height.
     #[must_use]
     pub fn aspect(&self) -> f64 {
         f64::from(self.size_px.0) / f64::from(self.size_px.1.max(1))
     }
-}
-
-/// Returns a scenario's mean wind at 20 ft: velocity toward the east and north, in m/s.
-#[must_use]
-pub fn wind(scenario: &spandrel_model::scenario::Scenario) -> (f64, f64) {
-    let (s, c) = math::sin_cos(scenario.wind.from_deg.to_radians());
-    (-s * scenario.wind.speed_m_s, -c * scenario.wind.speed_m_s)
 }

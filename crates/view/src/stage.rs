@@ -9,8 +9,9 @@ use super::hud::{DisplayStyle, DrawItem, Hud, InspectorMarks, LessonDisplay, Map
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};
 use super::scene::{DronePose, Scene};
-use super::shot::{LampBeam, SensorResponse, Shot, wind};
+use super::shot::{LampBeam, SensorResponse, Shot};
 use super::sky::Sky;
+use super::visible_wind::VisibleWind;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::telemetry::Flight;
@@ -213,7 +214,7 @@ impl Stage<'_> {
             beam: lamp.and_then(|pose| LampBeam::of(&self.vehicle.lamp, pose)),
             finish: finish(self.metered_luminance(&eye, lamp, &sky, (at, size_px))),
             time_s: at.s(),
-            wind_m_s: wind(self.scenario),
+            wind: VisibleWind::at(&self.scenario.wind, at),
             moving: self.scene.moving(self.scenario, self.site, drone, at),
             sky,
         }
@@ -305,6 +306,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         home_distance_m: from_pad.horizontal_norm(),
         mode: feed.mode().to_owned(),
         gnss: feed.gnss(),
+        radio: feed.radio(at),
         telemetry_age_s: inputs.telemetry_age_s,
         is_frozen: inputs.is_frozen,
         gimbal_rad: math::asin(moment.camera.forward.up().clamp(-1.0, 1.0)),

@@ -158,7 +158,7 @@ fn fingerprint(scenario: &ScenarioFile, vehicle: &VehicleFile, pilot: &PilotSpec
         env!("CARGO_PKG_VERSION").to_owned(),
         SCORER_VERSION.to_string(),
         scenario.text.clone(),
-        scenario.referenced_files.values().cloned().collect::<String>(),
+        scenario.referenced_files.values().map(|bytes| sha256_hex(bytes)).collect::<String>(),
         vehicle.text.clone(),
         format!("{:?}", pilot.skill),
     ];

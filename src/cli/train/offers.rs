@@ -71,18 +71,43 @@ fn job_briefing(file: &ScenarioFile, language: Language) -> JobBriefing {
         tasks: briefing.tasks.iter().map(task).collect(),
         hazards: briefing.hazards,
         site_check: briefing.site_check,
-        pictures: scenario.briefing_pictures.iter().filter_map(|picture| briefing_image(file, picture)).collect(),
+        pictures: briefing_images(file),
     }
 }
 
-/// Returns a picture of the briefing; `None` if it cannot be used. A station, for example, has no pictures of the server's
-/// scenarios.
-fn briefing_image(file: &ScenarioFile, picture: &BriefingPicture) -> Option<BriefingImage> {
-    let found = file.picture(&picture.file);
-    let found = found.inspect_err(|error| tracing::warn!("the briefing has no picture {}: {error}", picture.file));
-    let (path, loaded) = found.ok()?;
-    let path = path.to_str()?.to_owned();
-    Some(BriefingImage { path, caption: picture.caption.clone(), size_px: loaded.info.size_px() })
+/// Returns the pictures of the briefing that can be used. The others are logged in one line.
+fn briefing_images(file: &ScenarioFile) -> Vec<BriefingImage> {
+    let listed = &file.scenario.briefing_pictures;
+    let (mut found, mut missing) = (Vec::new(), Vec::new());
+    for picture in listed {
+        match briefing_image(file, picture) {
+            Ok(image) => found.push(image),
+            Err(error) => missing.push((picture.file.as_str(), error)),
+        }
+    }
+    if let Some(words) = missing_pictures(&file.scenario.name, listed.len(), &missing) {
+        tracing::warn!("{words}");
+    }
+    found
+}
+
+/// Returns the line for the log about the pictures of a briefing that cannot be used; `None` if there are none.
+fn missing_pictures(scenario: &str, count: usize, missing: &[(&str, String)]) -> Option<String> {
+    let (_, first) = missing.first()?;
+    let names: Vec<&str> = missing.iter().map(|(name, _)| *name).collect();
+    let reasons = if missing.iter().all(|(_, error)| error == first) {
+        format!("{}: {first}", names.join(", "))
+    } else {
+        missing.iter().map(|(name, error)| format!("{name}: {error}")).collect::<Vec<_>>().join("; ")
+    };
+    Some(format!("the briefing of {scenario} is shown without {} of its {count} pictures ({reasons})", missing.len()))
+}
+
+/// Returns a picture of the briefing. The window loads it when it shows the page.
+fn briefing_image(file: &ScenarioFile, picture: &BriefingPicture) -> Result<BriefingImage, String> {
+    let (path, info) = file.find_picture(&picture.file)?;
+    let path = path.to_str().ok_or("the path is not UTF-8 text")?.to_owned();
+    Ok(BriefingImage { path, caption: picture.caption.clone(), size_px: info.size_px() })
 }
 
 /// Returns the title with the words that distinguish a form, or a level other than the standard one.
@@ -435,6 +460,21 @@ mod tests {
         let path = folder.path().join("gate.png").display().to_string();
         let expected = BriefingImage { path, caption: "GATE.PNG".into(), size_px: (3, 2) };
         assert_eq!(offers.scenarios.last().unwrap().briefing.pictures, [expected]);
+    }
+
+    #[test]
+    fn exact_all_missing_pictures_of_a_briefing_are_one_line() {
+        let line = |missing: &[(&str, &str)]| {
+            let missing: Vec<(&str, String)> = missing.iter().map(|(name, why)| (*name, (*why).to_owned())).collect();
+            missing_pictures("job", 3, &missing)
+        };
+        assert_eq!(line(&[]), None);
+        let same = line(&[("a.png", "cannot read: no such file"), ("b.png", "cannot read: no such file")]);
+        let expected = "the briefing of job is shown without 2 of its 3 pictures (a.png, b.png: cannot read: no such file)";
+        assert_eq!(same.as_deref(), Some(expected));
+        let different = line(&[("a.png", "damaged"), ("b.png", "too large")]);
+        let expected = "the briefing of job is shown without 2 of its 3 pictures (a.png: damaged; b.png: too large)";
+        assert_eq!(different.as_deref(), Some(expected));
     }
 
     #[test]

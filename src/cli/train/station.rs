@@ -1,11 +1,15 @@
 //! Connection of a training station to the web server: checks in, and receives the flights that an instructor orders.
 
 use crate::errors::AppError;
+use crate::io::clock::Stopwatch;
 use crate::io::files::{self, FORM_SEPARATOR};
+use crate::io::picture_file::{MAX_PICTURE_BYTES, PictureFile};
 use crate::io::replace::replace;
 use crate::io::station_key::StationKey;
 use crate::io::trainee_id::TraineeId;
+use crate::web::picture_store::{picture_path, remove_unlisted};
 use crate::web::scenario_library::{self, MAX_SCENARIO_BYTES, UPLOAD_FOLDER, upload_path};
+use spandrel_model::scenario::Scenario;
 use spandrel_text::{Language, text};
 use spandrel_training::stations::{
     CHECK_IN_INTERVAL_S, CheckIn, CheckInRefusal, CheckInReply, FlightOrder, OrderAnswer, StationFlight,
@@ -20,6 +24,8 @@ use ureq::tls::{PemItem, RootCerts, TlsConfig};
 
 /// Timeout for a request.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(10);
+/// Limit for all pictures of an order together (estimate): the server takes a station that does not check in for 10 s for lost.
+const PICTURES_TIMEOUT: Duration = Duration::from_secs(6);
 /// Interval at which the thread checks whether it must stop.
 const STOP_CHECK_INTERVAL: Duration = Duration::from_millis(100);
 /// Folder for scenarios from the server, inside the folder for the station's own scenarios: it never replaces those.
@@ -34,10 +40,17 @@ struct Shared {
     answer: Option<OrderAnswer>,
 }
 
+/// An order with the pictures of its briefing, by their names in the scenario.
+#[derive(Debug)]
+struct ReceivedOrder {
+    order: FlightOrder,
+    pictures: Vec<(String, PictureFile)>,
+}
+
 /// A station's connection.
 pub struct StationLink {
     shared: Arc<Mutex<Shared>>,
-    orders: Receiver<FlightOrder>,
+    orders: Receiver<ReceivedOrder>,
     /// ID of the order whose flight is about to start.
     starting: Option<String>,
     stop: Arc<AtomicBool>,
@@ -83,7 +96,7 @@ impl StationLink {
         match self.starting.take() {
             Some(order) => self.answer(order, None),
             None => {
-                if let Some(order) = self.orders.try_iter().last() {
+                if let Some(ReceivedOrder { order, .. }) = self.orders.try_iter().last() {
                     self.answer(order.id, Some(text!(Language::English, "stations-refusal-flying")));
                 }
             }
@@ -114,9 +127,13 @@ impl StationLink {
 
     /// Returns the next flight that an instructor has ordered. The order is answered once the flight has started.
     pub fn next_flight(&mut self) -> Option<FlightChoice> {
-        let order = self.orders.try_iter().last()?;
+        let ReceivedOrder { order, pictures } = self.orders.try_iter().last()?;
         match choice(&order, &self.sessions) {
             Ok(choice) => {
+                if let Err(error) = save_pictures(&order, &pictures, &server_folder(&self.sessions)) {
+                    // The briefing is shown without them.
+                    tracing::warn!("the pictures of {} were not saved: {error}", order.flight.scenario);
+                }
                 tracing::info!("the instructor starts {} for {}", order.flight.scenario, order.flight.trainee);
                 self.starting = Some(order.id);
                 Some(choice)
@@ -153,12 +170,17 @@ fn choice(order: &FlightOrder, sessions: &Path) -> Result<FlightChoice, AppError
     let purpose = [Purpose::Practice, Purpose::Assessment].into_iter().find(|purpose| purpose.word() == flight.purpose);
     let purpose = purpose.ok_or_else(|| AppError::invalid(format!("unknown purpose '{}'", flight.purpose)))?;
     let scenario = match &order.scenario_text {
-        Some(text) => save_scenario(&flight.scenario, text, &sessions.join(UPLOAD_FOLDER).join(SERVER_FOLDER))?,
+        Some(text) => save_scenario(&flight.scenario, text, &server_folder(sessions))?,
         None if files::scenario_names().contains(&split(&flight.scenario).0) => flight.scenario.clone(),
         None => return Err(AppError::invalid(format!("'{}' is not a shipped scenario", flight.scenario))),
     };
     files::scenario(&scenario)?;
     Ok(FlightChoice { trainee: flight.trainee.clone(), scenario, purpose, by: FlownBy::Trainee })
+}
+
+/// Returns the folder for scenarios from the server.
+fn server_folder(sessions: &Path) -> PathBuf {
+    sessions.join(UPLOAD_FOLDER).join(SERVER_FOLDER)
 }
 
 /// Returns the name of a job from its argument, which may be a path, with the form or level.
@@ -178,7 +200,7 @@ fn save_scenario(name: &str, text: &str, folder: &Path) -> Result<String, AppErr
     let (stem, variant) = split(name);
     // The name becomes a file name.
     stem.parse::<TraineeId>().map_err(AppError::invalid)?;
-    let scenario = scenario_library::read(stem, text)?;
+    let scenario = scenario_library::read(folder, stem, text)?;
     if scenario.name != stem {
         return Err(AppError::invalid(format!("the scenario is named '{}' and not '{stem}'", scenario.name)));
     }
@@ -188,13 +210,36 @@ fn save_scenario(name: &str, text: &str, folder: &Path) -> Result<String, AppErr
     Ok(files::with_variant(&path.display().to_string(), variant, None))
 }
 
+/// Returns the scenario of an order, unless it is shipped or invalid.
+fn ordered_scenario(folder: &Path, order: &FlightOrder) -> Option<Scenario> {
+    let (stem, _) = split(&order.flight.scenario);
+    scenario_library::read(folder, stem, order.scenario_text.as_deref()?).ok().filter(|scenario| scenario.name == stem)
+}
+
+/// Saves the pictures of an order's briefing beside its scenario, and removes those of an earlier version.
+fn save_pictures(order: &FlightOrder, pictures: &[(String, PictureFile)], folder: &Path) -> Result<(), AppError> {
+    let Some(scenario) = ordered_scenario(folder, order) else { return Ok(()) };
+    for (name, picture) in pictures {
+        let Some(path) = picture_path(folder, &scenario.name, name) else { continue };
+        let own = folder.join(&scenario.name);
+        std::fs::create_dir_all(&own).map_err(|error| AppError::failed(format!("{}: {error}", own.display())))?;
+        replace(&path, &picture.bytes)?;
+    }
+    remove_unlisted(folder, &scenario.name, &scenario.briefing_pictures);
+    Ok(())
+}
+
 /// The part that talks to the server, in a thread of its own.
 struct StationClient {
     agent: ureq::Agent,
+    /// Address of the server, without a slash at the end.
+    server: String,
     url: String,
     authorization: String,
     name: String,
     instance: u64,
+    /// Folder for scenarios from the server.
+    folder: PathBuf,
 }
 
 impl StationClient {
@@ -214,15 +259,17 @@ impl StationClient {
             .map_err(|error| AppError::failed(format!("the system's random number generator failed: {error}")))?;
         Ok(Self {
             agent: config.into(),
+            server: setup.server.trim_end_matches('/').to_owned(),
             url: format!("{}/stations/check-in", setup.server.trim_end_matches('/')),
             authorization: StationKey::read(setup.key)?.authorization(),
             name: setup.name.as_str().to_owned(),
             instance: u64::from_le_bytes(instance),
+            folder: server_folder(setup.sessions),
         })
     }
 
     /// Checks in until the connection is dropped. Reports only changes of the connection.
-    fn run(&self, shared: &Mutex<Shared>, orders: &Sender<FlightOrder>, stop: &AtomicBool) {
+    fn run(&self, shared: &Mutex<Shared>, orders: &Sender<ReceivedOrder>, stop: &AtomicBool) {
         let (mut connected, mut last_order) = (None, None);
         while !stop.load(Ordering::SeqCst) {
             match self.check_in(shared) {
@@ -233,7 +280,8 @@ impl StationClient {
                     connected = Some(true);
                     if let Some(order) = reply.order.filter(|order| last_order.as_ref() != Some(&order.id)) {
                         last_order = Some(order.id.clone());
-                        if orders.send(order).is_err() {
+                        let pictures = self.pictures(&order);
+                        if orders.send(ReceivedOrder { order, pictures }).is_err() {
                             return;
                         }
                     }
@@ -251,6 +299,35 @@ impl StationClient {
                 waited += STOP_CHECK_INTERVAL;
             }
         }
+    }
+
+    /// Fetches the pictures of an order's briefing. After the first one that fails, the briefing is shown without the rest.
+    fn pictures(&self, order: &FlightOrder) -> Vec<(String, PictureFile)> {
+        let Some(scenario) = ordered_scenario(&self.folder, order) else { return Vec::new() };
+        let listed = scenario.briefing_pictures.into_iter().map(|picture| picture.file);
+        // Only pictures in the scenario's own folder are on the server. Their names need no escapes in a URL.
+        let own = listed.filter(|name| picture_path(Path::new(""), &scenario.name, name).is_some());
+        let waiting = Stopwatch::start();
+        let fetch = |name: String| match self.picture(&name, PICTURES_TIMEOUT.saturating_sub(waiting.elapsed())) {
+            Ok(picture) => Some((name, picture)),
+            Err(why) => {
+                tracing::debug!("cannot fetch the picture {name}: {why}");
+                None
+            }
+        };
+        own.map_while(fetch).collect()
+    }
+
+    fn picture(&self, name: &str, timeout: Duration) -> Result<PictureFile, String> {
+        let request = self.agent.get(&format!("{}/stations/pictures/{name}", self.server));
+        let request = request.config().timeout_global(Some(timeout)).build();
+        let mut answer = request.header("Authorization", &self.authorization).call().map_err(|error| error.to_string())?;
+        if answer.status().as_u16() != 200 {
+            return Err(format!("status {}", answer.status().as_u16()));
+        }
+        let limit = MAX_PICTURE_BYTES as u64 + 1;
+        let bytes = answer.body_mut().with_config().limit(limit).read_to_vec().map_err(|error| error.to_string())?;
+        PictureFile::new(bytes).map_err(|error| error.to_string())
     }
 
     fn check_in(&self, shared: &Mutex<Shared>) -> Result<CheckInReply, String> {
@@ -300,7 +377,10 @@ fn certificates(file: &Path) -> Result<RootCerts, AppError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::scenario::BriefingPicture;
+    use spandrel_model::scenario::edit::with_briefing_picture;
     use spandrel_model::shipped;
+    use spandrel_view::picture::Picture;
 
     fn order(scenario: &str, purpose: &str, text: Option<&str>) -> FlightOrder {
         let flight = StationFlight { trainee: "anna".into(), scenario: scenario.into(), purpose: purpose.into() };
@@ -317,6 +397,37 @@ mod tests {
         let path = sessions.path().join(UPLOAD_FOLDER).join(SERVER_FOLDER).join("windy.toml");
         assert_eq!(own.scenario, path.display().to_string());
         assert_eq!(std::fs::read_to_string(path).unwrap(), text);
+    }
+
+    #[test]
+    fn exact_pictures_of_an_order_are_saved_where_its_scenario_expects_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = |files: &[&str]| {
+            let add = |text: String, file: &&str| {
+                with_briefing_picture(&text, &BriefingPicture { file: (*file).into(), caption: "The gate".into() }).unwrap()
+            };
+            files.iter().fold(shipped::PRACTICE.replace("name = \"practice\"", "name = \"windy\""), add)
+        };
+        let png = crate::io::png::png(&Picture { width: 1, height: 1, rgba: vec![9; 4] }).unwrap();
+        let picture = |name: &str| (name.to_owned(), PictureFile::new(png.clone()).unwrap());
+        let names = || {
+            let entries = std::fs::read_dir(folder.path().join("windy")).into_iter().flatten().flatten();
+            let mut names: Vec<_> = entries.map(|entry| entry.file_name().into_string().unwrap()).collect();
+            names.sort();
+            names
+        };
+        let save = |files: &[&str], pictures: &[(String, PictureFile)]| {
+            let order = order("windy@5", "practice", Some(&text(files)));
+            save_pictures(&order, pictures, folder.path()).unwrap();
+        };
+        let sent = [picture("windy/a.png"), picture("windy/b.png"), picture("other/c.png"), picture("../d.png")];
+        save(&["windy/a.png", "windy/b.png"], &sent);
+        assert_eq!(names(), ["a.png", "b.png"]);
+        assert_eq!(std::fs::read(folder.path().join("windy/a.png")).unwrap(), png);
+        save(&["windy/b.png"], &[]);
+        assert_eq!(names(), ["b.png"], "those of an earlier version are removed");
+        save_pictures(&order("drill-hover", "practice", None), &sent, folder.path()).unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "a shipped scenario has none");
     }
 
     #[test]

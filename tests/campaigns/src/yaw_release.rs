@@ -1,6 +1,5 @@
 //! The nose stops turning when the yaw stick is released, for every shipped aircraft, in every manual mode.
 
-use spandrel_model::math;
 use spandrel_sitl::autopilot::{AutopilotRequest, FlightMode, Sticks};
 use spandrel_testkit::bench::{Bench, VEHICLES};
 use spandrel_testkit::shipped::vehicle;
@@ -12,15 +11,7 @@ fn release_yaw(bench: &mut Bench, yaw: f64) -> (f64, f64) {
     const SETTLED_S: f64 = 5.0;
     bench.sticks = Some(Sticks { yaw, ..Sticks::default() });
     bench.run(HELD_S, |_| ());
-    bench.sticks = Some(Sticks::default());
-    let (mut last, mut turned, mut farthest) = (bench.state.rigid.attitude.yaw_rad(), 0.0_f64, 0.0_f64);
-    bench.run(SETTLED_S, |b| {
-        let now = b.state.rigid.attitude.yaw_rad();
-        turned += math::wrap_pi(now - last) * yaw.signum();
-        last = now;
-        farthest = farthest.max(turned);
-    });
-    (farthest - turned, turned)
+    bench.end_turn(yaw, SETTLED_S)
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 use spandrel_model::frames::Vec3;
 use spandrel_model::math;
-use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
+use spandrel_model::vehicle::{
+    Aerodynamics, BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle,
+};
 
 /// Returns a 1.3 kg quadrotor about the size of a Phantom.
 #[expect(clippy::too_many_lines, reason = "one value, field by field")]
@@ -27,6 +29,7 @@ pub fn quad() -> Vehicle {
             efficiency: 0.5,
         },
         drag: Drag { area_m2: [0.03, 0.03, 0.05], angular_damping_n_m_s: [0.003, 0.003, 0.003] },
+        aerodynamics: Aerodynamics::default(),
         hull: Hull {
             tip_to_tip_m: 0.59,
             has_propeller_guard: false,
@@ -60,13 +63,17 @@ pub fn quad() -> Vehicle {
             accel_bias_m_s2: 0.05,
             gyro_noise_density: 1e-4,
             gyro_bias_rad_s: 0.003,
+            accel_vibration_m_s2: 0.0,
+            gyro_vibration_rad_s: 0.0,
             gnss_rate_hz: 5.0,
             gnss_horizontal_noise_m: 0.5,
             gnss_vertical_noise_m: 0.8,
             gnss_velocity_noise_m_s: 0.1,
+            gnss_delay_s: 0.0,
             baro_rate_hz: 50.0,
             baro_noise_m: 0.1,
             baro_drift_m_sqrt_s: 0.005,
+            baro_airflow: 0.0,
             mag_rate_hz: 50.0,
             mag_noise_gauss: 0.003,
             mag_bias_gauss: 0.001,

@@ -2,8 +2,10 @@
 
 use crate::shipped::scenario;
 use spandrel_model::frames::{Ned, Vec3};
+use spandrel_model::math;
 use spandrel_model::scenario::{BatteryModel, SessionRules};
 use spandrel_model::site::Site;
+use spandrel_model::stick_response::StickResponse;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::Vehicle;
 use spandrel_sitl::autopilot::{
@@ -11,7 +13,7 @@ use spandrel_sitl::autopilot::{
 };
 use spandrel_sitl::faults::Faults;
 use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, PhysicsState, PowerLoad};
-use spandrel_sitl::sensors::{BatteryReading, Readings, SensorInputs, SensorSite, Sensors};
+use spandrel_sitl::sensors::{BatteryReading, FeltMotion, Readings, SensorInputs, SensorSite, Sensors};
 
 pub const VEHICLES: [&str; 4] = ["phantom2", "f450", "m30", "elios3"];
 const STEP: SimTime = SimTime::from_ms(1);
@@ -46,14 +48,16 @@ impl Bench {
     pub fn with_rules(vehicle: &Vehicle, seed: u64, change: impl Fn(&mut SessionRules)) -> Self {
         let mut scenario = scenario("drill-hover");
         change(&mut scenario.rules);
+        let model = AirframeModel::new(vehicle, BatteryModel::Physical);
+        let density_kg_m3 = model.air_density_kg_m3(scenario.origin.altitude_m);
         let feet = vehicle.hull.feet_m.iter().map(|f| f.down()).fold(0.0, f64::max);
         Self {
             site: Site::build(&scenario, seed),
-            model: AirframeModel::new(vehicle, BatteryModel::Physical),
+            model,
             state: PhysicsState::at_rest(Vec3::new(0.0, 0.0, -feet - 0.02), 0.0),
             sensors: Sensors::new(vehicle, SensorSite::open(scenario.origin), seed),
             autopilot: Autopilot::new(vehicle, &scenario.rules, scenario.origin, Tuning::default()),
-            air: AirState::STILL,
+            air: AirState { density_kg_m3, ..AirState::STILL },
             now: SimTime::ZERO,
             sticks: None,
             actuators: Actuators::default(),
@@ -77,7 +81,9 @@ impl Bench {
             if self.control.fire(self.now) {
                 let b = &self.state.battery;
                 let battery = BatteryReading { voltage_v: b.voltage_v, current_a: b.current_a, remaining_pct: b.remaining_pct() };
-                let truth = SensorInputs { rigid: &self.state.rigid, battery, lamp_on: false };
+                let rigid = &self.state.rigid;
+                let air_velocity_m_s = rigid.velocity_m_s - self.air.velocity_m_s;
+                let truth = SensorInputs { rigid, air_velocity_m_s, battery, lamp_on: false };
                 let mut readings = self.sensors.sample(&truth, &self.site, self.now);
                 readings.gnss = readings.gnss.filter(|_| !self.gnss_lost);
                 readings.flow = readings.flow.filter(|_| !self.flow_lost);
@@ -89,7 +95,7 @@ impl Bench {
             }
             let load = PowerLoad { lamp_on: false, airborne: true };
             self.model.advance(&mut self.state, &self.actuators, &self.air, &self.site, load, self.now, STEP);
-            self.sensors.integrate_imu(self.state.specific_force_m_s2, self.state.rigid.rates_rad_s, STEP);
+            self.sensors.integrate_imu(&FeltMotion::of(&self.state), STEP);
             self.now += STEP;
             each(self);
         }
@@ -138,6 +144,27 @@ impl Bench {
         bench.ask(AutopilotRequest::SetMode(FlightMode::Position));
         bench.run(2.0, |_| ());
         bench
+    }
+
+    /// The same with sticks that command speeds in proportion, as quickly as the airframe allows.
+    pub fn in_sport_mode(vehicle: &Vehicle, seed: u64, height_m: f64) -> Self {
+        let mut bench = Self::in_position_mode(vehicle, seed, height_m);
+        bench.autopilot.tuning.stick_response = StickResponse::Sport;
+        bench
+    }
+
+    /// Centers the sticks during a turn, clockwise for a positive `direction`, and waits. Returns the angle by which the nose swings back
+    /// and the angle by which it first keeps turning, in rad.
+    pub fn end_turn(&mut self, direction: f64, seconds: f64) -> (f64, f64) {
+        self.sticks = Some(Sticks::default());
+        let (mut last, mut turned, mut farthest) = (self.state.rigid.attitude.yaw_rad(), 0.0_f64, 0.0_f64);
+        self.run(seconds, |b| {
+            let now = b.state.rigid.attitude.yaw_rad();
+            turned += math::wrap_pi(now - last) * direction.signum();
+            last = now;
+            farthest = farthest.max(turned);
+        });
+        (farthest - turned, turned)
     }
 
     /// Resets the clock to an earlier time, to continue from a saved state.

@@ -90,7 +90,11 @@ impl EstimatorRun {
         Self::with_vehicle(seed, site, &vehicle)
     }
 
+    /// The rotors are stopped, so nothing vibrates. Airflow does not affect the barometer, because the filter has no model of that error.
     pub fn with_vehicle(seed: u64, site: ShadowedPlain, vehicle: &Vehicle) -> Self {
+        let mut vehicle = vehicle.clone();
+        (vehicle.sensors.accel_vibration_m_s2, vehicle.sensors.gyro_vibration_rad_s) = (0.0, 0.0);
+        vehicle.sensors.baro_airflow = 0.0;
         let rigid = RigidState {
             position_m: Vec3::new(3.0, -2.0, -1.0),
             velocity_m_s: Vec3::zero(),
@@ -102,7 +106,7 @@ impl EstimatorRun {
         Self {
             rigid,
             rocking_rate_rad_s: Vec3::new(x, y, z) * (ROCKING_BIAS_FRACTION * vehicle.sensors.gyro_bias_rad_s),
-            sensors: Sensors::new(vehicle, SensorSite { gnss_shadow: true, ..SensorSite::open(ORIGIN) }, seed),
+            sensors: Sensors::new(&vehicle, SensorSite { gnss_shadow: true, ..SensorSite::open(ORIGIN) }, seed),
             filter: Estimator::new(&vehicle.sensors, ORIGIN),
             site,
             now: SimTime::ZERO,
@@ -124,11 +128,17 @@ impl EstimatorRun {
             self.rigid.velocity_m_s = b;
             self.rigid.rates_rad_s = rates(self.now.s(), self.rocking_rate_rad_s);
             self.rigid.attitude = self.rigid.attitude.rotated_by(self.rigid.rates_rad_s * dt.s());
-            self.sensors.integrate_imu(felt, self.rigid.rates_rad_s, dt);
+            let felt = sensors::FeltMotion {
+                specific_force_m_s2: felt,
+                rates_rad_s: self.rigid.rates_rad_s,
+                rotor_rad_s: self.rigid.rotor_rad_s,
+            };
+            self.sensors.integrate_imu(&felt, dt);
             self.now += dt;
         }
         let battery = sensors::BatteryReading { voltage_v: 12.0, current_a: 0.0, remaining_pct: 100.0 };
-        let truth = sensors::SensorInputs { rigid: &self.rigid, battery, lamp_on: false };
+        let air_velocity_m_s = self.rigid.velocity_m_s;
+        let truth = sensors::SensorInputs { rigid: &self.rigid, air_velocity_m_s, battery, lamp_on: false };
         let mut readings = self.sensors.sample(&truth, &self.site, self.now);
         change(&mut readings, self.now);
         self.filter.step(&readings, self.now);

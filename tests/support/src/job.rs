@@ -8,6 +8,7 @@ use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::scenario::*;
 use spandrel_model::site::{CameraPose, DefectView};
 use spandrel_model::speed_unit::SpeedUnit;
+use spandrel_model::stick_response::StickResponse;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::*;
 use spandrel_monitor::assessment::{AssessedSession, assess_log};
@@ -86,6 +87,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
         light: LightSpec { start_unix_s: 0, cloud_cover: 0.0, water_albedo: 0.1, ground_albedo: 0.2 },
         hazards: HazardSpec::default(),
         rules: SessionRules {
+            battery_temperature_c: 25.0,
             after_crash: AfterCrash::Respawn,
             battery: BatteryModel::Paper,
             low_battery_return: false,
@@ -93,6 +95,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             critical_battery_pct: 10.0,
             gnss_shadow: false,
             respawn_after: SimTime::from_ms(3_000),
+            stick_response: StickResponse::Position,
         },
         feedback: feedback(),
         scoring: ScoringParams {
@@ -153,6 +156,7 @@ pub fn vehicle() -> Vehicle {
             efficiency: 0.6,
         },
         drag: Drag { area_m2: [0.01; 3], angular_damping_n_m_s: [0.0; 3] },
+        aerodynamics: Aerodynamics::default(),
         hull: Hull {
             tip_to_tip_m: 0.6,
             has_propeller_guard: false,
@@ -186,13 +190,17 @@ pub fn vehicle() -> Vehicle {
             accel_bias_m_s2: 0.0,
             gyro_noise_density: 0.0,
             gyro_bias_rad_s: 0.0,
+            accel_vibration_m_s2: 0.0,
+            gyro_vibration_rad_s: 0.0,
             gnss_rate_hz: 5.0,
             gnss_horizontal_noise_m: 0.0,
             gnss_vertical_noise_m: 0.0,
             gnss_velocity_noise_m_s: 0.0,
+            gnss_delay_s: 0.0,
             baro_rate_hz: 50.0,
             baro_noise_m: 0.0,
             baro_drift_m_sqrt_s: 0.0,
+            baro_airflow: 0.0,
             mag_rate_hz: 50.0,
             mag_noise_gauss: 0.0,
             mag_bias_gauss: 0.0,

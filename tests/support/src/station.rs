@@ -242,7 +242,7 @@ impl Station {
         assert_eq!(self.command(1, MavCmd::MAV_CMD_DO_SET_MODE, p(&[1.0, 3.0])), MavResult::MAV_RESULT_ACCEPTED);
         assert_eq!(self.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, one(1.0)), MavResult::MAV_RESULT_ACCEPTED);
         for _ in 0..150 {
-            self.sticks(0, 0, 750, 0);
+            self.sticks(0, 0, 850, 0);
             self.run_ms(20);
         }
     }

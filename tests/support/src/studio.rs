@@ -38,6 +38,14 @@ pub fn sunny_job() -> Scenario {
     scenario
 }
 
+/// Returns the girder bridge's job on a sunny morning.
+pub fn girder_job() -> Scenario {
+    let text = spandrel_model::shipped::GIRDER;
+    let mut scenario = spandrel_model::scenario::read("girder.toml", text, &|_| Err("none".into())).unwrap();
+    scenario.light.cloud_cover = 0.2;
+    scenario
+}
+
 /// Returns the TASBID job at dusk: forty minutes after its start time, just after sunset.
 pub fn dusk_job() -> Scenario {
     let mut scenario = two_bridges();

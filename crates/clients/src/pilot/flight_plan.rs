@@ -115,7 +115,7 @@ impl PlanWriter {
             if let Some(look) = look {
                 self.tilt_gimbal(math::atan2(look.up(), look.horizontal_norm()).to_degrees());
             }
-            let yaw_deg = look.map(|look| math::atan2(look.east(), look.north()).to_degrees().rem_euclid(360.0));
+            let yaw_deg = look.map(|look| math::bearing_deg(look.east(), look.north()));
             let accept_m = if task { TASK_ACCEPTANCE_RADIUS_M } else { TRANSIT_ACCEPTANCE_RADIUS_M };
             self.waypoint(leg.points_m[k], accept_m, yaw_deg);
         }

@@ -3,11 +3,11 @@
 use super::config::PilotConfig;
 use super::goals::{FlightGoal, PlanningContext};
 use super::guidance_state::LookDirection;
+use super::hand_motion::StickAxes;
 use super::hold::{Hold, distance_to_path_m};
 use super::perception::MotionState;
 use super::setbacks::SetbackDecision;
 use super::stick_command::{MIN_HORIZONTAL, aim_error_rad, heading_and_elevation, sticks};
-use super::stick_response::StickAxes;
 use super::track::TrackCommand;
 use super::{Pilot, PilotPhase};
 use spandrel_mavlink::contract::contact::ContactKind;
@@ -18,6 +18,8 @@ use spandrel_model::time::SimTime;
 
 /// Minimum time without progress before the aircraft counts as stuck, s.
 const STUCK_TIMEOUT_S: f64 = 6.0;
+/// Time without progress away from obstacles after which the pilot goes on behind the next turn of the leg, s (estimate).
+const STALL_TIMEOUT_S: f64 = 15.0;
 /// Duration of the back-off maneuver after a contact or getting stuck, s (estimate).
 const BACK_OFF_DURATION_S: f64 = 2.5;
 /// Speed of the back-off maneuver, away from the surface and up, m/s (estimate).
@@ -193,6 +195,10 @@ impl Pilot {
     fn follow(&mut self, belief: &MotionState) -> Option<TrackCommand> {
         let flight = &mut self.guidance;
         let (job, leg) = flight.leg.as_ref()?;
+        if (self.now - flight.best_since).s() > STALL_TIMEOUT_S {
+            leg.pass_turn(&mut flight.progress);
+            flight.best_since = self.now;
+        }
         let wish = leg.command(&mut flight.progress, belief, &self.config.skill, flight.pace_m_s);
         let holding = flight.hold.is_some();
         let pausing = holding || flight.target.is_some() || self.now < flight.look_until || self.now < flight.back_off_until;

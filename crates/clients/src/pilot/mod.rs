@@ -5,10 +5,10 @@
 
 mod config;
 pub mod goals;
+pub mod hand_motion;
 pub mod perception;
 pub mod route_search;
 pub mod skill;
-pub mod stick_response;
 pub mod track;
 pub mod vehicle_link;
 pub mod visual_search;
@@ -29,6 +29,7 @@ pub use skill::{Skill, SkillFactor};
 
 use goals::FlightGoal;
 use guidance_state::Guidance;
+use hand_motion::HandMotion;
 use orientation::Orientation;
 use perception::{MAX_JUDGED_DISTANCE_M, MotionState, NearSurface, Perception};
 use spandrel_mavlink::dialect::MavCmd;
@@ -37,7 +38,6 @@ use spandrel_model::site::Site;
 use spandrel_model::time::{Schedule, SimTime};
 use std::collections::VecDeque;
 use std::sync::Arc;
-use stick_response::StickResponse;
 use track::TrackCommand;
 use vehicle_link::{VehicleLink, VehicleUpdate};
 use visual_search::VisualSearch;
@@ -92,7 +92,7 @@ pub struct Pilot {
     site: Option<Arc<Site>>,
     link: VehicleLink,
     perception: Perception,
-    stick_response: StickResponse,
+    hand_motion: HandMotion,
     visual_search: VisualSearch,
     orientation: Orientation,
     /// Random choices that are neither perception nor motor noise.
@@ -123,7 +123,7 @@ impl Pilot {
             site: None,
             link: VehicleLink::new(),
             perception: Perception::new(config.seed),
-            stick_response: StickResponse::new(config.seed),
+            hand_motion: HandMotion::new(config.seed),
             visual_search: VisualSearch::new(config.seed),
             orientation: Orientation::new(config.seed),
             choices: RandomStream::new(config.seed, "pilot choices"),
@@ -220,7 +220,7 @@ impl Pilot {
                 self.enter(PilotPhase::Descend);
             }
             self.perception.reset();
-            self.stick_response.release();
+            self.hand_motion.release();
             self.orientation.reset();
             self.guidance.replan();
             self.respawned_at = Some(self.now);
@@ -239,7 +239,8 @@ impl Pilot {
             }
             PilotPhase::Prepare | PilotPhase::Climb | PilotPhase::Descend | PilotPhase::Done => axes,
         };
-        let axes = self.stick_response.step(axes, &skill, self.now, dt_s);
+        let axes = stick_command::deflections(axes, &self.config.vehicle.limits, self.link.status.stick_response());
+        let axes = self.hand_motion.step(axes, &skill, self.now, dt_s);
         self.link.send_sticks(axes);
     }
 
@@ -272,7 +273,7 @@ impl Pilot {
         (self.now - self.phase_since).s()
     }
 
-    fn fly_phase(&mut self, belief: &MotionState) -> stick_response::StickAxes {
+    fn fly_phase(&mut self, belief: &MotionState) -> hand_motion::StickAxes {
         match self.phase {
             PilotPhase::Prepare => self.prepare(),
             PilotPhase::Climb => self.climb(belief),
@@ -298,7 +299,7 @@ impl Pilot {
         }
     }
 
-    fn prepare(&mut self) -> stick_response::StickAxes {
+    fn prepare(&mut self) -> hand_motion::StickAxes {
         if self.link.status.armed && self.site.is_some() {
             self.enter(PilotPhase::Climb);
         } else if self.link.status.ready && self.site.is_some() && self.phase_time_s() > 1.0 {
@@ -310,7 +311,7 @@ impl Pilot {
         [0.0; 4]
     }
 
-    fn climb(&mut self, belief: &MotionState) -> stick_response::StickAxes {
+    fn climb(&mut self, belief: &MotionState) -> hand_motion::StickAxes {
         let up = goals::hover_point_over_pad(&self.config.scenario).up();
         if !self.link.status.armed && self.phase_time_s() > 2.0 {
             self.arm();
@@ -326,7 +327,7 @@ impl Pilot {
 
     /// Descends manually: centers over the pad, slows near the ground, then holds the stick down until the vehicle
     /// reports a landing. Takes off again if it landed outside the home circle.
-    fn descend(&mut self, belief: &MotionState) -> stick_response::StickAxes {
+    fn descend(&mut self, belief: &MotionState) -> hand_motion::StickAxes {
         let team = &self.config.scenario.ground_team;
         let off = team.pad_m - belief.position_m;
         let level = spandrel_model::frames::Vec3::new(off.east(), off.north(), 0.0);

@@ -1,8 +1,8 @@
 //! Lost orientation: episodes in which the pilot moves sticks the wrong way, until they notice it, let go of the sticks and
 //! look. Episodes are more frequent while the drone faces the pilot, because left and right are then reversed.
 
+use super::hand_motion::StickAxes;
 use super::skill::Skill;
-use super::stick_response::StickAxes;
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::SimTime;

@@ -138,7 +138,9 @@ impl Perception {
             offset[axis] = drift.step(dt_s, &mut self.random) * skill.position_error_m;
         }
         let offset_m = damped_near(Vec3::new(offset[0], offset[1], offset[2]), surface);
-        let perceived_ratio = skill.distance_ratio * math::exp(skill.distance_error * self.distance.step(dt_s, &mut self.random));
+        let upward = surface.map_or(1.0, |near| upward_factor(skill.upward_distance_ratio, near.normal));
+        let error = math::exp(skill.distance_error * self.distance.step(dt_s, &mut self.random));
+        let perceived_ratio = skill.distance_ratio * upward * error;
         let judged = surface.map_or(Vec3::zero(), |near| near.normal * ((perceived_ratio - 1.0) * near.distance_m));
         let follow = 1.0 - math::exp(-dt_s / JUDGMENT_TAU_S);
         self.uncertainty += (if cued { CUED_UNCERTAINTY } else { 1.0 } - self.uncertainty) * follow;
@@ -177,6 +179,12 @@ impl Perception {
         self.history.clear();
         self.judged_offset_m = Vec3::zero();
     }
+}
+
+/// Returns the factor of the perceived distance to a surface with this normal: `ratio` for one straight above, 1 for a wall or the
+/// ground, and in between in proportion to the cosine of the angle from straight above.
+fn upward_factor(ratio: f64, normal: Vec3<Enu>) -> f64 {
+    1.0 + (ratio - 1.0) * (-normal.up()).clamp(0.0, 1.0)
 }
 
 /// Reduces the part of a position error that points toward a nearby surface.
@@ -223,6 +231,13 @@ mod tests {
         }
         let north = belief.expect("observed").position_m.north();
         assert!((north - 3.0).abs() < 1e-9, "{north}");
+    }
+
+    #[test]
+    fn exact_only_distances_to_surfaces_above_look_longer() {
+        let facing = |up: f64| upward_factor(1.2, Vec3::new((1.0_f64 - up * up).sqrt(), 0.0, up));
+        assert_eq!((facing(0.0), facing(1.0)), (1.0, 1.0));
+        assert!((facing(-1.0) - 1.2).abs() < 1e-12 && (facing(-0.5) - 1.1).abs() < 1e-12);
     }
 
     #[test]

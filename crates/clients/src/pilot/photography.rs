@@ -67,7 +67,7 @@ impl Pilot {
     /// Examines the picture with one fixation, if it is due.
     fn fixate(&mut self, task: Option<usize>, belief: &MotionState) {
         let skill = self.config.skill;
-        let busy = self.guidance.target.is_some() || self.stick_response.is_lapsed(self.now);
+        let busy = self.guidance.target.is_some() || self.hand_motion.is_lapsed(self.now);
         let (Some(task), false, true) = (task, busy, self.visual_search.is_due(self.now)) else { return };
         let (Some(picture), Some(site)) = (self.perception.delayed_view(skill.delay_s), &self.site) else { return };
         let vehicle = &self.config.vehicle;

@@ -72,6 +72,8 @@ pub struct Skill {
     pub panel_growth_m: f64,
     /// Perceived distance to a surface divided by the true distance.
     pub distance_ratio: f64,
+    /// Perceived distance to a surface above, divided by that to one beside at the same true distance.
+    pub upward_distance_ratio: f64,
     /// Drifting relative error of perceived distances (1 sigma).
     pub distance_error: f64,
     /// Drifting error of the perceived position, m (1 sigma per axis).
@@ -183,7 +185,7 @@ macro_rules! field {
 
 /// All numbers, in the order of the reference page.
 #[rustfmt::skip]
-pub const FIELDS: [SkillField; 32] = [
+pub const FIELDS: [SkillField; 33] = [
     field!(delay_s, "s", 0.0 to 0.9, Delay, "delay from an event to the control response", "Pfeiffer and Scaramuzza: 220 ms; others estimate"),
     field!(gain, "", 0.1 to 2.0, Gain, "gain of the position and heading loops, relative to the trained pilot", "estimate"),
     field!(noise, "", 0.0 to 6.0, Noise, "noise of perceived speed and heading, and of the hands, relative to the trained pilot", "estimate; McRuer and Jex for the trained pilot's hands"),
@@ -214,6 +216,7 @@ pub const FIELDS: [SkillField; 32] = [
     field!(recovery_s, "s", 0.1 to 20.0, Orientation, "mean time until the pilot notices the wrong direction", "estimate"),
     field!(panel_growth_m, "m", 0.0 to 20.0, Orientation, "growth of the distance to the next place on the task panel at which the pilot notices the wrong direction; 0: does not look at the panel", "estimate: the panel shows whole meters"),
     field!(distance_ratio, "", 0.3 to 1.5, Judgment, "perceived distance to a surface divided by the true distance", "Renner et al. 2013: 0.74 on average in virtual environments; with feedback near 1 (estimate)"),
+    field!(upward_distance_ratio, "", 0.5 to 3.0, Judgment, "perceived distance to a surface above, divided by that to one beside at the same true distance", "Klein, Li and Durgin 2016: large vertical extents look 15 to 25% longer; Stefanucci and Proffitt 2009; the levels' value is an estimate: pilots use the range finder"),
     field!(distance_error, "", 0.0 to 1.0, Judgment, "drifting relative error of perceived distances (1 sigma)", "estimate"),
     field!(position_error_m, "m", 0.0 to 5.0, Judgment, "drifting error of the perceived position (1 sigma per axis)", "estimate"),
 ];
@@ -251,6 +254,7 @@ impl Skill {
         recovery_s: 3.0,
         panel_growth_m: 0.0,
         distance_ratio: 0.8,
+        upward_distance_ratio: 1.0,
         distance_error: 0.25,
         position_error_m: 1.0,
     };
@@ -286,6 +290,7 @@ impl Skill {
         recovery_s: 0.9,
         panel_growth_m: 0.0,
         distance_ratio: 0.92,
+        upward_distance_ratio: 1.0,
         distance_error: 0.12,
         position_error_m: 0.4,
     };
@@ -321,6 +326,7 @@ impl Skill {
         recovery_s: 0.6,
         panel_growth_m: 0.0,
         distance_ratio: 1.0,
+        upward_distance_ratio: 1.0,
         distance_error: 0.06,
         position_error_m: 0.25,
     };

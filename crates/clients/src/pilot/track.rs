@@ -12,6 +12,9 @@ const BRAKING_DECELERATION_M_S2: f64 = 1.2;
 /// Minimum distance to the aim point, m (estimate).
 const MIN_AIM_DISTANCE_M: f64 = 1.0;
 
+/// Speed factor for bends below which a leg turns back: for a bend of more than a right angle.
+const TURNING_BACK_FACTOR: f64 = 0.65;
+
 /// A polyline to fly, with a target speed and line of sight at each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackLeg {
@@ -160,6 +163,14 @@ impl TrackLeg {
         0.65 + 0.35 * into.dot(out)
     }
 
+    /// Moves the progress to the next point at which the leg turns back. Before such a point, the aim point can be where the aircraft is,
+    /// so that the pilot would stay there.
+    pub fn pass_turn(&self, progress: &mut LegProgress) {
+        let turns_back = |at: &usize| self.bend_speed_factor(*at) < TURNING_BACK_FACTOR;
+        let Some(turn) = (progress.next.max(1)..self.points_m.len() - 1).find(turns_back) else { return };
+        *progress = LegProgress { next: turn + 1, along_m: (1..=turn).map(|k| self.segment_m(k)).sum() };
+    }
+
     /// Returns the pilot's command for the perceived motion, no faster than `pace_m_s` along the leg.
     pub fn command(&self, progress: &mut LegProgress, motion: &MotionState, skill: &Skill, pace_m_s: f64) -> TrackCommand {
         self.advance(progress, motion.position_m);
@@ -241,5 +252,32 @@ mod tests {
         let novice = leg.command(&mut a, &at(16.5, 0.0), &Skill::NOVICE, PACE_M_S).velocity_m_s.east();
         let expert = leg.command(&mut b, &at(16.5, 0.0), &Skill::EXPERT, PACE_M_S).velocity_m_s.east();
         assert!(novice > expert, "{novice} {expert}");
+    }
+
+    #[test]
+    fn regress_a_leg_that_turns_back_is_flown_to_its_end() {
+        // A transit that ends in almost the opposite direction of the task's path, as below the girders of a bridge.
+        let mut leg = TrackLeg::new();
+        (0..=7).rev().for_each(|k| leg.push(Vec3::new(3.0 * f64::from(k), -0.5 * f64::from(k), 5.0), 2.5, None, None));
+        (1..=25).for_each(|k| leg.push(Vec3::new(0.8 * f64::from(k), 0.0, 5.0), 2.5, None, Some(0)));
+        let mut motion = MotionState { velocity_m_s: Vec3::zero(), ..at(21.0, -3.5) };
+        let (mut progress, mut best, mut passed) = (LegProgress { next: 1, along_m: 0.0 }, (0.0, 0), 0);
+        for step in 0..4_000 {
+            if step - best.1 > 750 {
+                leg.pass_turn(&mut progress);
+                (best.1, passed) = (step, passed + 1);
+            }
+            let wish = leg.command(&mut progress, &motion, &Skill::EXPERT, PACE_M_S);
+            if wish.done {
+                break;
+            }
+            motion.velocity_m_s = wish.velocity_m_s;
+            motion.position_m += motion.velocity_m_s * 0.02;
+            if progress.along_m > best.0 + 0.3 {
+                best = (progress.along_m, step);
+            }
+        }
+        assert_eq!(passed, 1, "the pilot waits before the turn once");
+        assert!((motion.position_m - Vec3::new(20.0, 0.0, 5.0)).norm() < 2.5, "{:?}", motion.position_m);
     }
 }

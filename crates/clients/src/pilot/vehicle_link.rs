@@ -4,19 +4,22 @@ use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::named_values::NamedValue;
+use spandrel_mavlink::contract::stick_request::{self, StickRequest};
 use spandrel_mavlink::contract::truth::{self, Truth};
 use spandrel_mavlink::dialect::{
-    MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor, TIMESYNC_DATA,
+    MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavLandedState, MavMessage, MavModeFlag, MavSysStatusSensor,
+    PARAM_REQUEST_READ_DATA, TIMESYNC_DATA,
 };
 use spandrel_mavlink::station;
 use spandrel_model::frames::Rotation;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::math;
+use spandrel_model::stick_response::StickResponse;
 use spandrel_model::time::SimTime;
 use std::collections::VecDeque;
 
+use super::hand_motion::StickAxes;
 use super::perception::MotionState;
-use super::stick_response::StickAxes;
 
 /// System and component ID of a ground station (QGroundControl's values).
 const SYSTEM_ID: u8 = 255;
@@ -25,6 +28,9 @@ const AUTOPILOT_COMPONENT: u8 = 1;
 /// Messages that the pilot needs (ground truth, system status, landed state, battery, gimbal) and their rates, Hz
 /// (PX4's rates for a ground station).
 const REQUESTED_STREAMS: [(u32, f32); 5] = [(115, 50.0), (1, 2.0), (245, 5.0), (147, 2.0), (285, 10.0)];
+
+/// Number of requests for the parameter of the response to the sticks after which the vehicle is taken not to have it.
+const MAX_RESPONSE_REQUESTS: u8 = 10;
 
 /// Latest state reported by the vehicle.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -51,8 +57,20 @@ pub struct VehicleStatus {
     pub contact: ContactKind,
     /// Gimbal pitch, rad.
     pub gimbal_pitch_rad: f64,
+    /// Response to the sticks, as soon as the vehicle has reported it.
+    stick_response: Option<StickResponse>,
+    /// Number of requests for the parameter of the response.
+    response_requests: u8,
     /// Distance to the next place in the monitor's latest guidance, m; `None` without guidance or without a place.
     pub guided_distance_m: Option<f64>,
+}
+
+impl VehicleStatus {
+    /// Returns the response to the sticks. A vehicle without the parameter responds in proportion to them.
+    #[must_use]
+    pub fn stick_response(&self) -> StickResponse {
+        self.stick_response.unwrap_or(StickResponse::Sport)
+    }
 }
 
 /// Encoder, decoder, and outgoing datagrams.
@@ -99,7 +117,13 @@ impl VehicleLink {
                     if !std::mem::take(&mut self.status.truth_received) {
                         self.request_streams();
                     }
+                    self.request_stick_response();
                     self.status.armed = beat.base_mode.contains(MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED);
+                }
+                Some(MavMessage::PARAM_VALUE(value))
+                    if from_autopilot && value.param_id.to_str() == Ok(stick_request::PARAMETER) =>
+                {
+                    self.status.stick_response = StickResponse::from_number(whole(value.param_value));
                 }
                 Some(message) => self.update_status(&message),
                 None => {}
@@ -145,6 +169,23 @@ impl VehicleLink {
         for (id, rate_hz) in REQUESTED_STREAMS {
             self.send_command(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, [id as f32, 1e6 / rate_hz, 0.0, 0.0, 0.0, 0.0, 0.0]);
         }
+    }
+
+    /// Selects the response to the sticks for which the pilot's numbers were adjusted, and asks whether the vehicle has it. Lost messages
+    /// are repeated with the next heartbeat.
+    fn request_stick_response(&mut self) {
+        if self.status.stick_response.is_some() || self.status.response_requests >= MAX_RESPONSE_REQUESTS {
+            return;
+        }
+        self.status.response_requests += 1;
+        let (command, params) = StickRequest::Select(StickResponse::Sport).command(0);
+        self.send_command(command, params);
+        self.send(&MavMessage::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA {
+            target_system: self.status.system.unwrap_or(1),
+            target_component: AUTOPILOT_COMPONENT,
+            param_index: -1,
+            param_id: stick_request::PARAMETER.into(),
+        }));
     }
 
     /// Requests position mode, where the sticks command velocity.
@@ -209,6 +250,11 @@ impl Default for VehicleLink {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// Returns a small whole parameter value, which PX4 sends as the bits of an integer and ArduPilot as a float.
+fn whole(wire: f32) -> i32 {
+    if wire >= 1.0 { wire as i32 } else { wire.to_bits().cast_signed() }
 }
 
 fn motion(truth: &Truth) -> MotionState {

@@ -35,10 +35,12 @@ pub enum ControllerAction {
     Freeze,
     /// Rewinds the flight by 10 s. In practice only.
     Rewind,
+    /// Selects the next response to the sticks.
+    StickResponse,
 }
 
 /// All actions and their names in configuration files.
-pub const ALL: [(&str, ControllerAction); 15] = [
+pub const ALL: [(&str, ControllerAction); 16] = [
     ("lamp", ControllerAction::Lamp),
     ("snapshot", ControllerAction::Snapshot),
     ("arm", ControllerAction::Arm),
@@ -54,6 +56,7 @@ pub const ALL: [(&str, ControllerAction); 15] = [
     ("camera_zoom_out", ControllerAction::CameraZoomOut),
     ("freeze", ControllerAction::Freeze),
     ("rewind", ControllerAction::Rewind),
+    ("stick_response", ControllerAction::StickResponse),
 ];
 
 impl ControllerAction {
@@ -82,6 +85,7 @@ impl ControllerAction {
             Self::CameraZoomOut => text!(language, "keys-camera-zoom-out"),
             Self::Freeze => text!(language, "keys-freeze"),
             Self::Rewind => text!(language, "keys-rewind"),
+            Self::StickResponse => text!(language, "keys-stick-response"),
         }
     }
 
@@ -104,6 +108,7 @@ impl ControllerAction {
             Self::CameraZoomOut => text!(language, "keys-short-camera-zoom-out"),
             Self::Freeze => text!(language, "keys-short-freeze"),
             Self::Rewind => text!(language, "keys-short-rewind"),
+            Self::StickResponse => text!(language, "keys-short-stick-response"),
         }
     }
 

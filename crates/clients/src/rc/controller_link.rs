@@ -7,6 +7,7 @@ use super::{ControllerAction, Sticks};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::practice::{DEFAULT_REWIND, PracticeRequest, request_number};
+use spandrel_mavlink::contract::stick_request::StickRequest;
 use spandrel_mavlink::contract::walk::WalkRequest;
 use spandrel_mavlink::dialect::{
     COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavAutopilot, MavCmd, MavMessage, MavModeFlag, MavResult,
@@ -310,6 +311,10 @@ impl ControllerLink {
             ControllerAction::Freeze if self.vehicle.frozen => practice(PracticeRequest::Resume, now),
             ControllerAction::Freeze => practice(PracticeRequest::Freeze, now),
             ControllerAction::Rewind => practice(PracticeRequest::Rewind { by: DEFAULT_REWIND }, now),
+            ControllerAction::StickResponse => {
+                let (command, params) = StickRequest::Next.command(request_number(clock_ms(now)));
+                (AUTOPILOT_COMPONENT, command, params)
+            }
         }
     }
 
@@ -407,8 +412,12 @@ impl ControllerLink {
 
 /// Returns a request that is allowed in practice only. Its number lets the vehicle recognize a retransmitted command.
 fn practice(request: PracticeRequest, now: SimTime) -> (u8, MavCmd, [f32; 7]) {
-    let (command, params) = request.command(request_number(u64::try_from(now.ms()).unwrap_or_default()));
+    let (command, params) = request.command(request_number(clock_ms(now)));
     (AUTOPILOT_COMPONENT, command, params)
+}
+
+fn clock_ms(now: SimTime) -> u64 {
+    u64::try_from(now.ms()).unwrap_or_default()
 }
 
 fn rejection_text(command: MavCmd, result: MavResult, language: Language) -> String {

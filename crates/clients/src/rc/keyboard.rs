@@ -78,7 +78,7 @@ const STICK_BINDINGS: [(&str, StickDirection, &str); 8] = [
     ("turn_right", StickDirection::TurnRight, "d"),
 ];
 
-const ACTION_BINDINGS: [(ControllerAction, &str); 15] = [
+const ACTION_BINDINGS: [(ControllerAction, &str); 16] = [
     (ControllerAction::Lamp, "b"),
     (ControllerAction::Snapshot, "p"),
     (ControllerAction::Arm, "1"),
@@ -94,6 +94,7 @@ const ACTION_BINDINGS: [(ControllerAction, &str); 15] = [
     (ControllerAction::CameraZoomOut, "["),
     (ControllerAction::Freeze, "x"),
     (ControllerAction::Rewind, "z"),
+    (ControllerAction::StickResponse, "j"),
 ];
 
 /// Key action in the viewer window; not available in a terminal.
@@ -432,7 +433,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
 
 /// Functions that key files of earlier versions do not contain. Where such a file uses their default for something else, they give
 /// way.
-const LATER_FUNCTIONS: [&str; 4] = ["freeze", "rewind", "ghost", "walk"];
+const LATER_FUNCTIONS: [&str; 5] = ["freeze", "rewind", "ghost", "walk", "stick_response"];
 
 /// Returns the usual key, or the first free character if it is taken, and marks it as taken.
 fn free_key(usual: &str, name: &'static str, taken: &mut BTreeMap<String, &'static str>) -> String {

@@ -419,7 +419,8 @@ fn button_prompt(action: ControllerAction, language: Language) -> String {
         | ControllerAction::CameraZoomIn
         | ControllerAction::CameraZoomOut
         | ControllerAction::Freeze
-        | ControllerAction::Rewind => action.title(language),
+        | ControllerAction::Rewind
+        | ControllerAction::StickResponse => action.title(language),
     }
 }
 

@@ -11,10 +11,13 @@
 //! | [`contact`] | contact codes and their order of severity |
 //! | [`cue`] | bit flags of the monitor's cues |
 //! | [`guidance`] | the next step of the job and the way to it |
+//! | [`hazards`] | disturbance of compass and radio at the aircraft |
+//! | [`radio_status`] | RADIO_STATUS in the scale of SiK radios |
 //! | [`practice`] | requests that are allowed in practice only: freeze, resume, rewind |
 //! | [`walk`] | request that the inspector walks to another place |
 //! | [`modes`] | flight modes of PX4 and ArduCopter: name and control source |
 //! | [`sticks`] | conversion of stick positions |
+//! | [`stick_request`] | request to change the response to the sticks |
 //! | [`continuity`] | detection of restarts and respawns |
 
 pub mod contact;
@@ -22,13 +25,19 @@ pub mod continuity;
 pub mod cue;
 mod float_array;
 pub mod guidance;
+pub mod hazards;
 pub mod lesson;
 pub mod modes;
 pub mod named_values;
 pub mod practice;
+pub mod radio_status;
+pub mod stick_request;
 pub mod sticks;
 pub mod truth;
 pub mod walk;
+
+/// Component ID of the simulator beside an external autopilot, which then sends what the built-in autopilot sends otherwise.
+pub const SIMULATOR_COMPONENT: u8 = 192;
 
 /// Interface version, incremented with every change that an older vehicle or monitor would misinterpret.
 pub const VERSION: u32 = 1;

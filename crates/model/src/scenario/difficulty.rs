@@ -1,7 +1,7 @@
 //! Difficulty levels of a job: the `[difficulty]` table states which numbers of the file change with the level, and their values
 //! at the easiest and at the hardest level. At the standard level, the file's own values apply.
 
-use super::job::{Difficulty, Scenario, WindModel};
+use super::job::{Difficulty, HazardSpec, Scenario, WindModel};
 use crate::math;
 use crate::numbers::format_limit;
 use crate::toml::{Adjustment, Problem, Problems, Reader, Section};
@@ -31,6 +31,7 @@ enum Quantity {
     CrownGap,
     Detection,
     DefectSize,
+    HazardSeverity,
     TimeBest,
     TimeMax,
 }
@@ -50,7 +51,7 @@ struct QuantityKeys {
     display: (&'static str, &'static str),
 }
 
-const QUANTITIES: [QuantityKeys; 8] = [
+const QUANTITIES: [QuantityKeys; 9] = [
     QuantityKeys {
         quantity: Quantity::WindSpeed,
         key: "wind_speed_m_s",
@@ -98,6 +99,14 @@ const QUANTITIES: [QuantityKeys; 8] = [
         range: (0.2, 5.0),
         more_is_harder: false,
         display: ("defect size factor", ""),
+    },
+    QuantityKeys {
+        quantity: Quantity::HazardSeverity,
+        key: "hazard_severity",
+        changes: "hazards.severity",
+        range: HazardSpec::SEVERITY_RANGE,
+        more_is_harder: true,
+        display: ("hazard severity", ""),
     },
     QuantityKeys {
         quantity: Quantity::TimeBest,
@@ -256,6 +265,10 @@ fn unmet_condition(quantity: Quantity, own: &[f64], scenario: &Scenario) -> Opti
         Quantity::Detection => (!own.is_empty() && defects.count > 0, "only with defects and defects.detection_pct"),
         Quantity::DefectSize => {
             (defects.mean_detection.is_none() && defects.count > 0, "only with defects and without defects.detection_pct")
+        }
+        Quantity::HazardSeverity => {
+            let HazardSpec { compass, sky, radio, .. } = &scenario.hazards;
+            (*compass || *sky || *radio, "only with hazards.compass, hazards.sky or hazards.radio")
         }
         Quantity::Threshold | Quantity::TimeBest | Quantity::TimeMax => (true, ""),
     };

@@ -214,14 +214,14 @@ fn new_task(values: &ScenarioValues) -> Entries {
     let name = format!("Task {}", values.count("tasks") + 1);
     let bridge = values.get("bridges[0].name");
     let kind = match (bridge, values.get("bridges[0].type")) {
-        (None, _) => "free",
+        (None, _) | (Some(_), Some("model")) => "free",
         (Some(_), Some("suspension")) => "pier_circle",
         (Some(_), _) => "slab_side",
     };
     let mut entries = vec![("name", Value::from(name)), ("kind", Value::from(kind))];
     match bridge {
-        Some(bridge) => entries.push(("bridge", Value::from(bridge))),
-        None => {
+        Some(bridge) if kind != "free" => entries.push(("bridge", Value::from(bridge))),
+        Some(_) | None => {
             let corner = |east: f64, north: f64| -> Value { [east, north, 10.0].into_iter().collect::<Array>().into() };
             entries.push(("points_m", Value::Array([corner(0.0, 0.0), corner(20.0, 0.0)].into_iter().collect())));
         }

@@ -103,8 +103,12 @@ mod tests {
     use crate::shipped::{PILOT_STUDY, TWO_BRIDGES};
     use crate::toml::Problems;
 
+    fn no_file(file: &str) -> Result<Vec<u8>, String> {
+        Err(format!("no file {file}"))
+    }
+
     fn parse(text: &str) -> Result<Scenario, Problems> {
-        read("job.toml", text, &|file| Err(format!("no file {file}")))
+        read("job.toml", text, &no_file)
     }
 
     fn problem(from: &str, to: &str) -> String {
@@ -134,13 +138,13 @@ mod tests {
         assert_eq!(parse(PILOT_STUDY).unwrap().crc, checksums[0], "the first form is the default");
         assert!((0..4).all(|k| !checksums[..k].contains(&checksums[k])), "{checksums:?}");
         for (form, crc) in ["A", "B", "C", "H"].into_iter().zip(checksums) {
-            let found = variant_with_crc(PILOT_STUDY, crc).unwrap();
+            let found = variant_with_crc(PILOT_STUDY, &no_file, crc).unwrap();
             assert_eq!(parse(&found).unwrap().form.unwrap().name, form);
         }
-        assert_eq!(variant_with_crc(PILOT_STUDY, checksums[0] ^ 1), None);
+        assert_eq!(variant_with_crc(PILOT_STUDY, &no_file, checksums[0] ^ 1), None);
         assert_eq!(variant_names(PILOT_STUDY), ["A", "B", "C", "H"]);
         assert_eq!((variant_names(TWO_BRIDGES), select_variant(TWO_BRIDGES, "1")), (Vec::new(), None));
-        assert_eq!(variant_with_crc(TWO_BRIDGES, parse(TWO_BRIDGES).unwrap().crc).as_deref(), Some(TWO_BRIDGES));
+        assert_eq!(variant_with_crc(TWO_BRIDGES, &no_file, parse(TWO_BRIDGES).unwrap().crc).as_deref(), Some(TWO_BRIDGES));
     }
 
     #[test]

@@ -9,8 +9,11 @@ use super::lesson::LessonStep;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
+use crate::satellites::Almanac;
 use crate::speed_unit::SpeedUnit;
+use crate::stick_response::StickResponse;
 use crate::time::SimTime;
+use std::sync::Arc;
 
 /// A job: the content of a scenario file, parsed and validated.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +62,8 @@ pub struct Scenario {
     pub scoring: ScoringParams,
     /// Requirements of the certification profile.
     pub certification: CertificationParams,
-    /// CRC-32 (IEEE) of the file without seed, placed defects and pictures of the briefing, sent as `scn_crc`.
+    /// CRC-32 (IEEE) of the file without seed, placed defects and pictures of the briefing, and of the models and elements files of imported
+    /// bridges; sent as `scn_crc`.
     pub crc: u32,
 }
 
@@ -162,7 +166,7 @@ pub struct Task {
     pub name: String,
     /// Index into [`Scenario::bridges`], or `None` for a free path (drills).
     pub bridge: Option<usize>,
-    /// Path type: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, or `free`.
+    /// Path type: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `girder_soffit`, `bearing_line`, `pier_cap`, or `free`.
     pub kind: TaskKind,
     /// On-path threshold, m; less than 8.
     pub threshold_m: f64,
@@ -398,19 +402,44 @@ pub struct SessionRules {
     pub low_battery_pct: f64,
     /// Critical battery level, %, that triggers a landing if `low_battery_return` is true.
     pub critical_battery_pct: f64,
+    /// Temperature of the battery, °C.
+    pub battery_temperature_c: f64,
     /// True if structures block GNSS satellites; the fraction of open sky determines the number of visible satellites.
     pub gnss_shadow: bool,
     /// Simulation time before a crashed drone is respawned.
     pub respawn_after: SimTime,
+    /// Response to the sticks in position mode at the start.
+    pub stick_response: StickResponse,
 }
 
 /// Effects of the bridges on the vehicle that a job can switch on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HazardSpec {
     /// True if steel members distort the magnetic field at the compass.
     pub compass: bool,
-    /// True if the wind has wakes behind piers, towers and columns.
+    /// True if the wind has wakes behind piers, towers and columns, and separates at decks.
     pub wakes: bool,
+    /// True if optical flow and the range finder that looks down fail over water.
+    pub water: bool,
+    /// True if the GNSS receiver sees the satellites of an almanac, and their signals' reflections off water and walls.
+    pub sky: bool,
+    /// The almanac that the job states; `None` for the nominal orbits.
+    pub almanac: Option<Arc<Almanac>>,
+    /// True if the bridges attenuate the control and video radio.
+    pub radio: bool,
+    /// Factor for compass errors and for the amplitude of reflected satellite signals; the radio signal is weaker by its square.
+    pub severity: f64,
+}
+
+impl HazardSpec {
+    /// Range of the severity. Errors and losses beyond the double are not plausible for real bridges (estimate).
+    pub(super) const SEVERITY_RANGE: (f64, f64) = (0.5, 2.0);
+}
+
+impl Default for HazardSpec {
+    fn default() -> Self {
+        Self { compass: false, wakes: false, water: false, sky: false, almanac: None, radio: false, severity: 1.0 }
+    }
 }
 
 /// Action after a crash into a bridge, the terrain or the water.

@@ -13,6 +13,7 @@ pub mod places;
 mod point;
 mod read;
 mod resolve;
+mod siblings;
 pub mod tasks;
 mod toml_text;
 pub mod values;
@@ -30,5 +31,6 @@ pub use job::{
     TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
-pub use read::{FORMAT, SiblingLoader, read, read_with_keys};
+pub use read::{FORMAT, MAX_NAME_CHARS, MAX_TERRAIN_M, is_name, is_name_char, read, read_with_keys};
 pub use resolve::{resolve, select_variant, variant_names, variant_with_crc};
+pub use siblings::SiblingLoader;

@@ -1,30 +1,38 @@
 //! Parses scenario files into [`Scenario`]. Defines each key with its unit, range and default.
 
+use super::bridges::element_map::ElementMap;
+use super::bridges::model::{MAX_MODEL_BYTES, Model};
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HazardSpec, LightSpec,
     Scenario, ScoringParams, SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
 };
 use super::point::point;
+use super::siblings::{SiblingLoader, sibling_text};
 use crate::elements::Element;
 use crate::geodesy::Geo;
 use crate::math::M_S_PER_MPH;
+use crate::satellites::{self, Almanac};
 use crate::speed_unit::SpeedUnit;
+use crate::stick_response::StickResponse;
 use crate::time::SimTime;
 use crate::toml::{DocumentedKey, Problems, Reader, Section};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
 /// Maximum number of height grid cells per side. Building 4 million cells takes about one second and 32 MB.
 const MAX_CELLS_PER_SIDE: f64 = 2_000.0;
+/// Maximum width of the terrain, m.
+pub const MAX_TERRAIN_M: f64 = 4_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MAX_BRIDGES: usize = 16;
 /// Maximum length of a paragraph of the briefing, characters (estimate: longer ones belong in a document of their own).
 const MAX_BRIEFING_CHARS: usize = 1_000;
 
-/// Function that loads a file by name from the scenario's folder and returns its text or an error message.
-pub type SiblingLoader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+/// Value of `hazards.almanac` for the orbits that ship with Spandrel.
+const NOMINAL_ALMANAC: &str = "nominal";
 
 /// Parses a scenario file. `file` is the file name used in messages.
 ///
@@ -54,7 +62,7 @@ fn read_level(file: &str, text: &str, siblings: SiblingLoader) -> (Result<Scenar
         let mut root = reader.root(&document);
         let mut scenario = read_scenario(&mut reader, &mut root, siblings);
         reader.finish(&root);
-        scenario.crc = super::resolve::crc(text);
+        scenario.crc = super::resolve::crc_with_models(text, siblings);
         scenario
     });
     let result = match scenario {
@@ -76,7 +84,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let origin = origin(r, root);
     let terrain = terrain(r, root, siblings);
     let ground_team = ground_team(r, root);
-    let bridges = read_bridges(r, root);
+    let bridges = read_bridges(r, root, siblings);
     if bridges.len() > MAX_BRIDGES {
         r.add_problem(root, "bridges", &bridges.len().to_string(), "at most 16 [[bridges]]", "too many");
     }
@@ -103,7 +111,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         wind: super::weather::read(r, root),
         light: light(r, root),
         rules: rules(r, root),
-        hazards: hazards(r, root),
+        hazards: hazards(r, root, siblings),
         feedback: feedback(r, root),
         scoring: scoring(r, root),
         certification: super::certification::read(r, root),
@@ -123,13 +131,26 @@ fn read_briefing(r: &mut Reader, root: &mut Section) -> Vec<String> {
     words
 }
 
-/// Reads a machine-readable name of 1 to 40 lowercase letters, digits and hyphens.
+/// Maximum length of a machine-readable name, characters.
+pub const MAX_NAME_CHARS: usize = 40;
+
+/// Returns whether a character is allowed in a machine-readable name.
+#[must_use]
+pub const fn is_name_char(c: char) -> bool {
+    c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-'
+}
+
+/// Returns whether a text is a machine-readable name: 1 to 40 lowercase letters, digits and hyphens.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    (1..=MAX_NAME_CHARS).contains(&text.len()) && text.chars().all(is_name_char)
+}
+
+/// Reads a machine-readable name.
 fn read_name(r: &mut Reader, s: &mut Section, key: &'static str) -> String {
     let before = r.problems.len();
     let name = r.text(s, key, None);
-    let legal =
-        !name.is_empty() && name.len() <= 40 && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
-    if !legal && r.problems.len() == before {
+    if !is_name(&name) && r.problems.len() == before {
         r.add_problem(s, key, &name, "1 to 40 characters: a-z, 0-9 and -", "invalid name");
     }
     name
@@ -155,7 +176,7 @@ enum TerrainSourceKind {
 
 fn terrain(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> TerrainSpec {
     let mut s = r.section(root, "terrain");
-    let size_m = r.number(&mut s, "size_m", (50.0, 4_000.0), Some(800.0));
+    let size_m = r.number(&mut s, "size_m", (50.0, MAX_TERRAIN_M), Some(800.0));
     let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
     if size_m / spacing_m > MAX_CELLS_PER_SIDE {
         let allowed = format!("at least {} for this size_m", size_m / MAX_CELLS_PER_SIDE);
@@ -189,7 +210,7 @@ fn read_height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) ->
     if r.problems.len() > before {
         return TerrainSource::Flat { height_m: 0.0 };
     }
-    let rows = siblings(&file).and_then(|text| parse_heights(&text));
+    let rows = sibling_text(siblings, &file).and_then(|text| parse_heights(&text));
     let heights_m = rows.unwrap_or_else(|problem| {
         r.add_problem(s, "file", &file, "rows of comma-separated heights in meters", &problem);
         vec![vec![0.0]]
@@ -232,7 +253,7 @@ fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {
     team
 }
 
-fn read_bridges(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
+fn read_bridges(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> Vec<Bridge> {
     let mut out: Vec<Bridge> = Vec::new();
     for mut s in r.sections(root, "bridges") {
         let bridge_name = read_name(r, &mut s, "name");
@@ -241,9 +262,12 @@ fn read_bridges(r: &mut Reader, root: &mut Section) -> Vec<Bridge> {
         }
         let center_m = point(r, &mut s, "centre_m", None);
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
-        let types = BridgeKind::TYPES.map(|bridge| (bridge.name, bridge));
-        let bridge = r.keyword(&mut s, "type", &types, None);
-        let kind = read_dimensions(r, &mut s, &bridge);
+        let with_dimensions = BridgeKind::TYPES.iter().map(|bridge| (bridge.name, Some(bridge)));
+        let types: Vec<_> = with_dimensions.chain([(Model::TYPE, None)]).collect();
+        let kind = match r.keyword(&mut s, "type", &types, None) {
+            Some(bridge) => read_dimensions(r, &mut s, bridge),
+            None => BridgeKind::Model(read_model(r, &mut s, siblings)),
+        };
         r.finish(&s);
         out.push(Bridge { name: bridge_name, center_m, heading_deg, kind });
     }
@@ -260,6 +284,39 @@ fn read_dimensions(r: &mut Reader, s: &mut Section, bridge: &BridgeType) -> Brid
     }
     r.finish(&s);
     kind
+}
+
+/// Reads an imported bridge from the files that its table names. Problems in the elements file have that file's name and lines.
+fn read_model(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> Model {
+    let mut s = r.section(s, Model::TYPE);
+    let before = r.problems.len();
+    let file = r.text(&mut s, "file", None);
+    let elements = r.text(&mut s, "elements", Some(""));
+    r.describe_default(&s, "elements", "none");
+    r.finish(&s);
+    let map = if elements.is_empty() { ElementMap::default() } else { read_elements(r, &s, &elements, siblings) };
+    if r.problems.len() > before {
+        return Model::default();
+    }
+    siblings(&file).and_then(|bytes| Model::read(&file, &bytes, &map)).unwrap_or_else(|problem| {
+        let allowed = format!("a file written by `spandrel import`, at most {MAX_MODEL_BYTES} bytes");
+        r.add_problem(&s, "file", &file, &allowed, &problem);
+        Model::default()
+    })
+}
+
+fn read_elements(r: &mut Reader, s: &Section, file: &str, siblings: SiblingLoader) -> ElementMap {
+    let text = match sibling_text(siblings, file) {
+        Ok(text) => text,
+        Err(problem) => {
+            r.add_problem(s, "elements", file, "an elements file in the scenario's folder", &problem);
+            return ElementMap::default();
+        }
+    };
+    ElementMap::read(file, &text).unwrap_or_else(|Problems(problems)| {
+        r.problems.extend(problems);
+        ElementMap::default()
+    })
 }
 
 fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
@@ -319,8 +376,10 @@ fn rules(r: &mut Reader, root: &mut Section) -> SessionRules {
         low_battery_return: r.boolean(&mut s, "low_battery_return", false),
         low_battery_pct: r.number(&mut s, "low_battery_pct", (1.0, 90.0), Some(30.0)),
         critical_battery_pct: r.number(&mut s, "critical_battery_pct", (0.0, 50.0), Some(10.0)),
+        battery_temperature_c: r.number(&mut s, "battery_temperature_c", (-20.0, 45.0), Some(25.0)),
         gnss_shadow: r.boolean(&mut s, "gnss_shadow", false),
         respawn_after: SimTime::from_s(r.number(&mut s, "respawn_after_s", (0.5, 60.0), Some(3.0))),
+        stick_response: r.keyword(&mut s, "stick_response", &StickResponse::ALL, Some(0)),
     };
     if rules.critical_battery_pct > rules.low_battery_pct {
         let critical = rules.critical_battery_pct.to_string();
@@ -330,11 +389,41 @@ fn rules(r: &mut Reader, root: &mut Section) -> SessionRules {
     rules
 }
 
-fn hazards(r: &mut Reader, root: &mut Section) -> HazardSpec {
+fn hazards(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> HazardSpec {
     let mut s = r.section(root, "hazards");
-    let hazards = HazardSpec { compass: r.boolean(&mut s, "compass", false), wakes: r.boolean(&mut s, "wakes", false) };
+    let hazards = HazardSpec {
+        compass: r.boolean(&mut s, "compass", false),
+        wakes: r.boolean(&mut s, "wakes", false),
+        water: r.boolean(&mut s, "water", false),
+        sky: r.boolean(&mut s, "sky", false),
+        almanac: read_almanac(r, &mut s, siblings),
+        radio: r.boolean(&mut s, "radio", false),
+        severity: r.number(&mut s, "severity", HazardSpec::SEVERITY_RANGE, Some(1.0)),
+    };
     r.finish(&s);
     hazards
+}
+
+/// Reads the almanac file that the job names. Its own problems have the almanac's name and lines.
+fn read_almanac(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> Option<Arc<Almanac>> {
+    let file = r.text(s, "almanac", Some(NOMINAL_ALMANAC));
+    if file == NOMINAL_ALMANAC {
+        return None;
+    }
+    let text = match sibling_text(siblings, &file) {
+        Ok(text) => text,
+        Err(problem) => {
+            r.add_problem(s, "almanac", &file, "nominal, or a YUMA almanac file in the scenario's folder", &problem);
+            return None;
+        }
+    };
+    match satellites::read(&file, &text) {
+        Ok(almanac) => Some(Arc::new(almanac)),
+        Err(Problems(problems)) => {
+            r.problems.extend(problems);
+            None
+        }
+    }
 }
 
 fn feedback(r: &mut Reader, root: &mut Section) -> FeedbackThresholds {

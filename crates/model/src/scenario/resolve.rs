@@ -1,8 +1,10 @@
 //! Resolved scenario files: the source text plus the seed and placed defects of a session. A resolved file has the same
 //! CRC as its source.
 
+use super::bridges::model::Model;
 use super::job::PlacedDefect;
 use super::point::point;
+use super::siblings::SiblingLoader;
 use super::{briefing_pictures, difficulty, forms};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
@@ -103,6 +105,36 @@ pub fn crc(text: &str) -> u32 {
     crc32fast::hash(canonical_form(document.as_item()).as_bytes())
 }
 
+/// Returns the CRC-32 of the text, and of the files of the imported bridges if there are any.
+#[must_use]
+pub(super) fn crc_with_models(text: &str, siblings: SiblingLoader) -> u32 {
+    add_files(crc(text), &model_files(text, siblings))
+}
+
+/// Continues a CRC with the lengths and bytes of files. Without files, it stays the same.
+fn add_files(crc: u32, files: &[Vec<u8>]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new_with_initial(crc);
+    for bytes in files {
+        hasher.update(&(bytes.len() as u64).to_le_bytes());
+        hasher.update(bytes);
+    }
+    hasher.finalize()
+}
+
+/// Loads the elements file and the model of each imported bridge, in the order in which they are read. Leaves out files that cannot be
+/// read, which are problems of the scenario.
+fn model_files(text: &str, siblings: SiblingLoader) -> Vec<Vec<u8>> {
+    let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
+    let Some(bridges) = document.get("bridges").cloned().and_then(|item| item.into_array_of_tables().ok()) else {
+        return Vec::new();
+    };
+    let models = bridges.iter().filter(|bridge| bridge.get("type").and_then(Item::as_str) == Some(Model::TYPE));
+    let tables = models.filter_map(|bridge| bridge.get(Model::TYPE)?.as_table_like());
+    let names =
+        tables.flat_map(|table| ["elements", "file"].map(|key| table.get(key).and_then(Item::as_str).unwrap_or_default()));
+    names.filter(|name| !name.is_empty()).filter_map(|name| siblings(name).ok()).collect()
+}
+
 /// Returns the names of a scenario's variants: its forms, or its difficulty levels as numbers; empty if it has neither.
 #[must_use]
 pub fn variant_names(text: &str) -> Vec<String> {
@@ -122,11 +154,12 @@ pub fn select_variant(text: &str, name: &str) -> Option<String> {
 }
 
 /// Returns the text of the variant with this CRC, as announced by a vehicle or recorded in its telemetry; `None` if there is
-/// none. A scenario without variants is its own only one.
+/// none. A scenario without variants is its own only one. `siblings` loads the files of imported bridges.
 #[must_use]
-pub fn variant_with_crc(text: &str, crc: u32) -> Option<String> {
+pub fn variant_with_crc(text: &str, siblings: SiblingLoader, crc: u32) -> Option<String> {
+    let files = model_files(text, siblings);
     let variants = variant_names(text).into_iter().filter_map(|name| select_variant(text, &name));
-    std::iter::once(text.to_owned()).chain(variants).find(|variant| self::crc(variant) == crc)
+    std::iter::once(text.to_owned()).chain(variants).find(|variant| add_files(self::crc(variant), &files) == crc)
 }
 
 /// Returns the canonical form of a TOML item: sorted keys without comments or formatting.

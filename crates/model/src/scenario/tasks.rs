@@ -1,7 +1,8 @@
 //! Reads a job's tasks. Their reference paths are derived from a bridge or listed point by point.
 
 use super::bridges::Bridge;
-use super::bridges::path::{SPACING_M, TaskKind, TaskPath};
+use super::bridges::path::{PathPlace, SPACING_M, TaskKind, TaskPath};
+use super::bridges::solid::{LocalPoint, Placement};
 use super::job::{StandOff, Task};
 use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
@@ -25,11 +26,20 @@ pub const MAX_TASKS: usize = 64;
 /// typo.
 const MAX_PATH_LENGTH_M: f64 = 20_000.0;
 
-const TASK_KINDS: [(&str, TaskKind); 5] = [
+/// Maximum number of spans of a bridge.
+const MAX_SPANS: i64 = 8;
+
+/// Key of a free path that names the bridge in whose axes its points are.
+const RELATIVE_TO: &str = "points_relative_to";
+
+const TASK_KINDS: [(&str, TaskKind); 8] = [
     ("slab_side", TaskKind::SlabSide),
     ("arch_bottom", TaskKind::ArchBottom),
     ("interlayer", TaskKind::Interlayer),
     ("pier_circle", TaskKind::PierCircle),
+    ("girder_soffit", TaskKind::GirderSoffit),
+    ("bearing_line", TaskKind::BearingLine),
+    ("pier_cap", TaskKind::PierCap),
     ("free", TaskKind::Free),
 ];
 
@@ -37,9 +47,9 @@ const TASK_KINDS: [(&str, TaskKind); 5] = [
 /// TASBID paper specifies none).
 fn default_threshold_m(kind: TaskKind) -> f64 {
     match kind {
-        TaskKind::SlabSide | TaskKind::ArchBottom => 3.0,
+        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::GirderSoffit => 3.0,
         TaskKind::Interlayer => 1.75,
-        TaskKind::PierCircle | TaskKind::Free => 2.0,
+        TaskKind::PierCircle | TaskKind::BearingLine | TaskKind::PierCap | TaskKind::Free => 2.0,
     }
 }
 
@@ -65,26 +75,27 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
 fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let name = r.text(s, "name", None);
     let kind = r.keyword(s, "kind", &TASK_KINDS, None);
-    let bridge = read_bridge_index(r, s, kind, bridges);
+    let (bridge, axes) = read_bridge_index(r, s, kind, bridges);
     let stand_off_m = r.number(s, "stand_off_m", (MIN_STAND_OFF_M, 50.0), Some(DEFAULT_STAND_OFF_M));
     let threshold_m = r.number(s, "threshold_m", (0.2, MAX_THRESHOLD_M), Some(default_threshold_m(kind)));
-    r.describe_default(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 2");
+    r.describe_default(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 3, 2, 2, 2");
+    let place = read_place(r, s, kind);
     let closed = r.boolean(s, "closed", false);
     let points = r.points(s, "points_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
     let look_at = r.points(s, "look_at_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
-    let path = match bridge {
-        Some(index) => bridges[index].task_path(kind, stand_off_m).unwrap_or_else(|problem| {
+    let path = match bridge.filter(|_| kind != TaskKind::Free) {
+        Some(index) => bridges[index].task_path_at(kind, stand_off_m, &place).unwrap_or_else(|problem| {
             r.add_problem(s, "kind", "", &problem, "not available for this bridge");
             TaskPath { path_m: Vec::new(), viewing_directions: Vec::new(), closed }
         }),
-        None => free_path(r, s, kind, &points, &look_at, closed),
+        None => free_path(r, s, kind, (&points, &look_at), axes, closed),
     };
     let tolerance_m = r.number(s, "stand_off_tolerance_m", (0.2, 20.0), Some(threshold_m));
     r.describe_default(s, "stand_off_tolerance_m", "threshold_m");
     let stand_off =
         toward_surface(kind, &path).map(|toward_surface| StandOff { recommended_m: stand_off_m, tolerance_m, toward_surface });
-    let dark = r.boolean(s, "dark", matches!(kind, TaskKind::ArchBottom | TaskKind::Interlayer));
-    r.describe_default(s, "dark", "true for arch_bottom and interlayer");
+    let dark = r.boolean(s, "dark", is_dark(kind));
+    r.describe_default(s, "dark", "true for arch_bottom, interlayer, girder_soffit and bearing_line");
     let too_close_m = r.optional_number(s, "too_close_m", (0.2, 20.0));
     if stand_off_m < DEFAULT_STAND_OFF_M && too_close_m.is_none_or(|limit| limit > stand_off_m - WARNING_MARGIN_M) {
         let allowed = format!("at least 4, or too_close_m at most {}", stand_off_m - WARNING_MARGIN_M);
@@ -106,17 +117,50 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     }
 }
 
-fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]) -> Option<usize> {
-    if kind == TaskKind::Free {
-        return None;
+/// Reads the span or the support of a task at a girder bridge. Other kinds of tasks have no such keys.
+fn read_place(r: &mut Reader, s: &mut Section, kind: TaskKind) -> PathPlace {
+    let mut number = |key: &'static str, min: i64, default: &str| {
+        let value = r.optional_integer(s, key, (min, MAX_SPANS));
+        r.describe_default(s, key, default);
+        value.and_then(|value| usize::try_from(value).ok())
+    };
+    match kind {
+        TaskKind::GirderSoffit => PathPlace { span: number("span_number", 1, "the middle span"), support: None },
+        TaskKind::BearingLine | TaskKind::PierCap => {
+            PathPlace { span: None, support: number("support_number", 0, "the first pier") }
+        }
+        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle | TaskKind::Free => {
+            PathPlace::default()
+        }
     }
-    let wanted = r.text(s, "bridge", None);
+}
+
+/// Returns true for paths below a deck, which need the lamp by default.
+fn is_dark(kind: TaskKind) -> bool {
+    match kind {
+        TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::GirderSoffit | TaskKind::BearingLine => true,
+        TaskKind::SlabSide | TaskKind::PierCircle | TaskKind::PierCap | TaskKind::Free => false,
+    }
+}
+
+/// Reads the bridge of a task. Returns its index and its axes; `None` for a free path in the axes of the site.
+fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &[Bridge]) -> (Option<usize>, Option<Placement>) {
+    let (key, wanted) = if kind == TaskKind::Free {
+        let wanted = r.text(s, RELATIVE_TO, Some(""));
+        r.describe_default(s, RELATIVE_TO, "none");
+        if wanted.is_empty() {
+            return (None, None);
+        }
+        (RELATIVE_TO, wanted)
+    } else {
+        ("bridge", r.text(s, "bridge", None))
+    };
     let found = bridges.iter().position(|b| b.name == wanted);
     if found.is_none() {
         let names = bridges.iter().map(|b| b.name.as_str()).collect::<Vec<_>>().join(", ");
-        r.add_problem(s, "bridge", &wanted, &format!("a bridge in this file: {names}"), "unknown bridge");
+        r.add_problem(s, key, &wanted, &format!("a bridge in this file: {names}"), "unknown bridge");
     }
-    found
+    (found, found.map(|index| bridges[index].placement()))
 }
 
 /// Returns unit vectors from the path points toward the inspected surface and perpendicular to it; `None` if the path has
@@ -124,9 +168,13 @@ fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &
 fn toward_surface(kind: TaskKind, path: &TaskPath) -> Option<Vec<Vec3<Enu>>> {
     match kind {
         TaskKind::SlabSide | TaskKind::PierCircle => Some(path.viewing_directions.clone()),
-        // The path is parallel to the underside of the arch, which is above it. The camera also looks ahead and to the sides.
-        TaskKind::ArchBottom => Some((0..path.path_m.len()).map(|k| above(&path.path_m, k)).collect()),
-        TaskKind::Interlayer | TaskKind::Free => None,
+        // The path is parallel to the underside of the arch or girders, which is above it. The camera also looks ahead and to the sides.
+        TaskKind::ArchBottom | TaskKind::GirderSoffit => Some((0..path.path_m.len()).map(|k| above(&path.path_m, k)).collect()),
+        // The camera looks up at the cap, whose sides are vertical.
+        TaskKind::PierCap => {
+            Some(path.viewing_directions.iter().map(|view| Vec3::new(view.east(), view.north(), 0.0).unit()).collect())
+        }
+        TaskKind::BearingLine | TaskKind::Interlayer | TaskKind::Free => None,
     }
 }
 
@@ -139,17 +187,18 @@ fn above(path_m: &[Vec3<Enu>], k: usize) -> Vec3<Enu> {
     if normal.norm() > 1e-9 { normal.unit() } else { up }
 }
 
-/// Creates a path by resampling the points in the file. The camera points along the path unless the file specifies a
-/// target.
+/// Creates a path by resampling the points in the file, which are in the given axes. The camera points along the path unless the file
+/// specifies a target, or a target for each point.
 fn free_path(
     r: &mut Reader,
     s: &mut Section,
     kind: TaskKind,
-    points: &[[f64; 3]],
-    look_at: &[[f64; 3]],
+    (points, look_at): (&[LocalPoint], &[LocalPoint]),
+    axes: Option<Placement>,
     closed: bool,
 ) -> TaskPath {
-    let points: Vec<Vec3<Enu>> = points.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+    let to_site = |p: &LocalPoint| axes.map_or(Vec3::new(p[0], p[1], p[2]), |axes| axes.point(*p));
+    let [points, look_at] = [points, look_at].map(|list| list.iter().map(to_site).collect::<Vec<Vec3<Enu>>>());
     if points.is_empty() && kind == TaskKind::Free {
         r.add_problem(s, "points_m", "", "one or more [east, north, up]", "a free path without points");
     }
@@ -159,8 +208,9 @@ fn free_path(
         return TaskPath { path_m: Vec::new(), viewing_directions: Vec::new(), closed };
     }
     let path_m = resample(&points, closed);
-    let target = look_at.first().map(|p| Vec3::new(p[0], p[1], p[2]));
-    let viewing_directions = (0..path_m.len()).map(|k| look_direction(&path_m, k, target)).collect();
+    let targets = targets(&points, &look_at, closed);
+    let viewing_directions =
+        (0..path_m.len()).map(|k| look_direction(&path_m, k, targets.get(k).or(look_at.first()).copied())).collect();
     TaskPath { path_m, viewing_directions, closed }
 }
 
@@ -173,19 +223,36 @@ fn look_direction(path: &[Vec3<Enu>], k: usize, target: Option<Vec3<Enu>>) -> Ve
     if ahead.norm() > 1e-9 { ahead.unit() } else { Vec3::new(0.0, 1.0, 0.0) }
 }
 
+/// Returns the target of each point of a resampled path; empty if the file does not list a target for each of its points.
+fn targets(points: &[Vec3<Enu>], look_at: &[Vec3<Enu>], closed: bool) -> Vec<Vec3<Enu>> {
+    if look_at.len() != points.len() || points.len() < 2 {
+        return Vec::new();
+    }
+    resample_shares(points, closed)
+        .into_iter()
+        .map(|(k, share)| look_at[k].lerp(look_at[(k + 1) % look_at.len()], share))
+        .collect()
+}
+
 /// Resamples a polyline so that its points are at most [`SPACING_M`] apart. A closed polyline does not repeat its first point.
 #[must_use]
 pub fn resample(points: &[Vec3<Enu>], closed: bool) -> Vec<Vec3<Enu>> {
     let n = points.len();
+    resample_shares(points, closed).into_iter().map(|(k, share)| points[k].lerp(points[(k + 1) % n], share)).collect()
+}
+
+/// Returns the points of a resampled polyline, each as the number of the corner before it and the share of the way to the next corner.
+fn resample_shares(points: &[Vec3<Enu>], closed: bool) -> Vec<(usize, f64)> {
+    let n = points.len();
     let mut out = Vec::new();
     let pairs = if closed && n > 1 { n } else { n.saturating_sub(1) };
     for k in 0..pairs {
-        let (a, b) = (points[k], points[(k + 1) % n]);
-        let steps = ((b - a).norm() / SPACING_M).ceil().max(1.0) as usize;
-        out.extend((0..steps).map(|step| a.lerp(b, step as f64 / steps as f64)));
+        let length_m = (points[(k + 1) % n] - points[k]).norm();
+        let steps = (length_m / SPACING_M).ceil().max(1.0) as usize;
+        out.extend((0..steps).map(|step| (k, step as f64 / steps as f64)));
     }
-    if !closed || n == 1 {
-        out.extend(points.last());
+    if n > 0 && (!closed || n == 1) {
+        out.push((n - 1, 0.0));
     }
     out
 }

@@ -149,9 +149,16 @@ fn try_place(
 ) -> Option<PlacedDefect> {
     let n = stream.below(task.path_m.len());
     let direction = match task.kind {
-        // On a free path the camera does not necessarily point toward a structure.
-        TaskKind::Free => draw_direction_in_cone(UP, math::PI, stream),
-        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle => {
+        // On a free path without a target, the camera does not necessarily point toward a structure.
+        TaskKind::Free if !task.inspects_surface => draw_direction_in_cone(UP, math::PI, stream),
+        TaskKind::SlabSide
+        | TaskKind::ArchBottom
+        | TaskKind::Interlayer
+        | TaskKind::PierCircle
+        | TaskKind::GirderSoffit
+        | TaskKind::BearingLine
+        | TaskKind::PierCap
+        | TaskKind::Free => {
             draw_direction_in_cone(task.viewing_directions.get(n).copied().unwrap_or(UP), SEARCH_CONE_HALF_ANGLE_RAD, stream)
         }
     };

@@ -92,6 +92,7 @@ mod tests {
     use crate::scenario::bridges::{arch::Arch, suspension::Suspension};
     use crate::scenario::*;
     use crate::speed_unit::SpeedUnit;
+    use crate::stick_response::StickResponse;
 
     /// Number of seeds used to check the placement.
     const SEED_COUNT: u64 = 50;
@@ -139,6 +140,7 @@ mod tests {
 
     fn rules() -> (SessionRules, FeedbackThresholds, ScoringParams) {
         let rules = SessionRules {
+            battery_temperature_c: 25.0,
             after_crash: AfterCrash::Continue,
             battery: BatteryModel::Paper,
             low_battery_return: false,
@@ -146,6 +148,7 @@ mod tests {
             critical_battery_pct: 10.0,
             gnss_shadow: false,
             respawn_after: SimTime::from_s(3.0),
+            stick_response: StickResponse::Position,
         };
         let feedback = FeedbackThresholds {
             too_close_m: 2.5,

@@ -42,6 +42,30 @@ fn vector(v: Vec3<Enu>) -> Vector {
     Vector::new(v.east(), v.north(), v.up())
 }
 
+/// Part of a ray that is inside a member.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Passage {
+    /// Index of the member.
+    pub member: usize,
+    /// Distance along the ray at which it enters the member, m.
+    pub enter_m: f64,
+    /// Distance along the ray at which it leaves the member, m.
+    pub leave_m: f64,
+}
+
+fn inverse_of(direction: Vec3<Enu>) -> Vector {
+    Vector::new(1.0 / direction.east(), 1.0 / direction.north(), 1.0 / direction.up())
+}
+
+/// Returns where a ray enters and leaves a node's box. The ray misses the box if the first distance is larger.
+fn box_interval(node: &BvhNode, from: Vector, inverse: Vector) -> (f64, f64) {
+    let (low, high) = ((node.mins() - from) * inverse, (node.maxs() - from) * inverse);
+    // A zero direction component yields 0/0 if the origin is on a side of the box; min and max ignore NaN.
+    let enter = low.x.min(high.x).max(low.y.min(high.y)).max(low.z.min(high.z)).max(0.0);
+    let leave = low.x.max(high.x).min(low.y.max(high.y)).min(low.z.max(high.z));
+    (enter, leave)
+}
+
 /// A leaf found in the bounding-volume tree, ordered by distance.
 struct LeafHit<T> {
     distance_m: f64,
@@ -207,12 +231,9 @@ impl Geometry {
 
     fn ray_member(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {
         let from = vector(origin);
-        let inverse = Vector::new(1.0 / direction.east(), 1.0 / direction.north(), 1.0 / direction.up());
+        let inverse = inverse_of(direction);
         let to_box = |node: &BvhNode, best_m: f64| {
-            let (low, high) = ((node.mins() - from) * inverse, (node.maxs() - from) * inverse);
-            // A zero direction component yields 0/0 if the origin is on a side of the box; min and max ignore NaN.
-            let enter = low.x.min(high.x).max(low.y.min(high.y)).max(low.z.min(high.z)).max(0.0);
-            let leave = low.x.max(high.x).min(low.y.max(high.y)).min(low.z.max(high.z));
+            let (enter, leave) = box_interval(node, from, inverse);
             if enter <= leave && enter <= best_m { enter } else { f64::MAX }
         };
         let to_member = |leaf: u32, best_m: f64| {
@@ -221,6 +242,35 @@ impl Geometry {
         };
         let (leaf, found) = self.tree.find_best(max_m.next_up(), to_box, to_member)?;
         Some(RayHit { distance_m: found.distance_m, normal: found.result, surface: Surface::Bridge, object: ObjectId(leaf) })
+    }
+
+    /// Returns the parts of a ray that are inside members, sorted by the entry.
+    #[must_use]
+    pub fn passages(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, length_m: f64) -> Vec<Passage> {
+        let (from, inverse) = (vector(origin), inverse_of(direction));
+        let is_crossed = |node: &BvhNode| {
+            let (enter, leave) = box_interval(node, from, inverse);
+            enter <= leave && enter <= length_m
+        };
+        let end = origin + direction * length_m;
+        let inside = |leaf: u32| {
+            let shape = &self.shapes[leaf as usize];
+            let (enter_m, _) = shape.ray(origin, direction, length_m)?;
+            let (leave_m, _) = shape.ray(end, -direction, length_m)?;
+            Some(Passage { member: leaf as usize, enter_m, leave_m: length_m - leave_m })
+        };
+        let mut passages: Vec<Passage> = self.tree.leaves(is_crossed).filter_map(inside).collect();
+        passages.sort_by(|a, b| a.enter_m.total_cmp(&b.enter_m).then(a.member.cmp(&b.member)));
+        passages
+    }
+
+    /// Returns the distance at which a ray hits the ground or the water within `max_m`, m.
+    #[must_use]
+    pub fn ground_hit_m(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<f64> {
+        let ground = self.terrain.ground.ray(origin, direction, max_m).map(|(distance_m, _)| distance_m);
+        let water = Some((self.terrain.water_m - origin.up()) / direction.up());
+        let water = water.filter(|at_m| direction.up() < 0.0 && (0.0..=max_m).contains(at_m));
+        ground.into_iter().chain(water).min_by(f64::total_cmp)
     }
 
     /// Returns whether something hides a point from another one. Objects within `margin_m` of the point do not count.

@@ -1,14 +1,16 @@
-//! Exports the collision geometry as binary glTF 2.0: one named node per bridge member with its element number in `extras`, plus
-//! ground, water and landing pad. Positions are 32-bit floats (3e-5 m at 500 m). The axes follow the glTF convention: x east, y
-//! up, z south.
+//! Exports the collision geometry as binary glTF 2.0, and the parts of imported bridges in the same form: one named node per bridge
+//! member with its element number in `extras`, plus ground, water and landing pad. Positions are 32-bit floats (3e-5 m at 500 m). The
+//! axes follow the glTF convention: x east, y up, z south.
 
 use super::Site;
+use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
+use crate::mesh::Mesh;
 use gltf::binary::{Glb, Header};
 use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, Type};
 use gltf::json::buffer::{Buffer, Stride, Target, View};
 use gltf::json::material::{Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
-use gltf::json::mesh::{Mesh, Mode, Primitive, Semantic};
+use gltf::json::mesh::{Mesh as GltfMesh, Mode, Primitive, Semantic};
 use gltf::json::scene::{Node, Scene};
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{Asset, Index, Root};
@@ -65,6 +67,20 @@ pub fn glb(site: &Site) -> Result<Vec<u8>, gltf::Error> {
     parts.finish()
 }
 
+/// Returns parts as a binary glTF file, each with its name, its element and its mesh, in axes with z up.
+///
+/// # Errors
+///
+/// The file would be longer than 4 GiB, the limit of the format.
+pub fn parts_glb<'a>(parts: impl Iterator<Item = (&'a str, Element, Mesh)>) -> Result<Vec<u8>, gltf::Error> {
+    let mut file = GlbWriter::default();
+    for (name, element, mesh) in parts {
+        let corners: Vec<Vec3<Enu>> = mesh.vertices_m.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+        file.add(name, &corners, &mesh.triangles, Surface::Structure, &json!({ "element": element }));
+    }
+    file.finish()
+}
+
 /// Vertex indices of the two upward-facing triangles that form a square.
 const SQUARE_TRIANGLES: [[u32; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
@@ -93,7 +109,7 @@ impl GlbWriter {
             mode: Valid(Mode::Triangles),
             targets: None,
         };
-        let mesh = self.root.push(Mesh {
+        let mesh = self.root.push(GltfMesh {
             extensions: None,
             extras: None,
             name: Some(name.to_owned()),

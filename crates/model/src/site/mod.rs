@@ -4,6 +4,7 @@
 
 pub mod boxes;
 pub mod bridge_closures;
+pub mod bridge_import;
 mod camera_pose;
 pub mod changes;
 pub mod close_up;
@@ -23,7 +24,9 @@ pub mod movers;
 mod nearest_points;
 pub mod outline;
 mod query_types;
+pub mod radio_path;
 mod reference_camera;
+pub mod reflectors;
 pub mod steel;
 pub mod sun;
 pub mod terrain;
@@ -194,6 +197,13 @@ impl Site {
     #[must_use]
     pub fn ground_up_m(&self, east_m: f64, north_m: f64) -> f64 {
         self.geometry.ground_up_m(east_m, north_m)
+    }
+
+    /// Returns the height of the water's surface in meters above the origin; `None` on land.
+    #[must_use]
+    pub fn water_up_m(&self, east_m: f64, north_m: f64) -> Option<f64> {
+        let water_m = self.geometry.terrain.water_m;
+        (self.ground_up_m(east_m, north_m) < water_m).then_some(water_m)
     }
 
     /// Returns the height of the ground (without the pad) in meters above the origin; `None` outside of the terrain's grid.

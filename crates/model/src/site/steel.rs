@@ -21,6 +21,8 @@ const CELL_M: f64 = 4.0;
 /// All steel members of a site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteelField {
+    /// Size of the distortion relative to that of the cylinders.
+    factor: f64,
     cylinders: Vec<EllipticCylinder>,
     /// Indices of the cylinders that matter in a cell, by the cell's lowest corner in units of [`CELL_M`].
     cells: BTreeMap<[i32; 3], Vec<u32>>,
@@ -35,9 +37,9 @@ struct EllipticCylinder {
 }
 
 impl SteelField {
-    /// Collects the steel members.
+    /// Collects the steel members. `factor` scales the distortion.
     #[must_use]
-    pub fn new(members: &[Member]) -> Self {
+    pub fn new(members: &[Member], factor: f64) -> Self {
         let steel = members.iter().filter(|member| member.element.material() == ElementMaterial::Steel);
         let cylinders: Vec<EllipticCylinder> = steel.filter_map(|member| EllipticCylinder::of(&member.solid)).collect();
         let mut cells = BTreeMap::<_, Vec<u32>>::new();
@@ -46,14 +48,15 @@ impl SteelField {
                 cells.entry(cell).or_default().push(index);
             }
         }
-        Self { cylinders, cells }
+        Self { factor, cylinders, cells }
     }
 
     /// Returns the distortion at a position: the field there minus the undisturbed field. The unit is that of the field.
     #[must_use]
     pub fn distortion(&self, position_m: Vec3<Enu>, undisturbed: Vec3<Enu>) -> Vec3<Enu> {
         let near = self.cells.get(&cell_of(position_m)).map_or(&[][..], Vec::as_slice);
-        near.iter().fold(Vec3::zero(), |sum, index| sum + self.cylinders[*index as usize].distortion(position_m, undisturbed))
+        let sum = |sum, index: &u32| sum + self.cylinders[*index as usize].distortion(position_m, undisturbed);
+        near.iter().fold(Vec3::zero(), sum) * self.factor
     }
 }
 
@@ -214,7 +217,7 @@ mod tests {
 
     #[test]
     fn prop_cells_contain_all_members_that_matter_and_concrete_never_does() {
-        let field = SteelField::new(&members());
+        let field = SteelField::new(&members(), 1.0);
         assert_eq!(field.cylinders.len(), 2);
         let undisturbed = Vec3::new(0.02, 0.2, -0.4);
         for k in 0..2000 {
@@ -226,5 +229,26 @@ mod tests {
             let most = 2.0 * MIN_DISTORTION * undisturbed.norm();
             assert!((every - found).norm() <= most, "{every:?} {found:?} at {position_m:?}");
         }
+    }
+
+    #[test]
+    fn prop_girder_bridge_distorts_the_field_between_its_girders_more_than_below_them() {
+        use crate::scenario::bridges::girder::Girder;
+        // In a bay, webs are less than 2 m away on both sides; 4 m below the girders, the compass turns by a few degrees at most.
+        const IN_BAY: f64 = 0.05;
+        const BELOW: f64 = 0.05;
+        let girder = Girder::default();
+        let mut builder = MemberBuilder::new("test", Placement::new(Vec3::zero(), 30.0));
+        girder.build(&mut builder);
+        let field = SteelField::new(&builder.finish(), 1.0);
+        let undisturbed = Vec3::new(0.02, 0.2, -0.4);
+        let at = |z: f64| {
+            let position_m = Placement::new(Vec3::zero(), 30.0).point([3.0, 0.0, z]);
+            field.distortion(position_m, undisturbed).norm() / undisturbed.norm()
+        };
+        let (bay, below) = (at(girder.girder_bottom_z_m() + 0.5), at(girder.girder_bottom_z_m() - 4.0));
+        assert!(bay > IN_BAY && below < BELOW && below > 0.0, "{bay} {below}");
+        let far = Placement::new(Vec3::zero(), 30.0).point([3.0, 40.0, -2.0]);
+        assert_eq!(field.distortion(far, undisturbed), Vec3::zero());
     }
 }

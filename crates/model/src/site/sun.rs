@@ -67,7 +67,7 @@ mod tests {
     const TOLERANCE_DEG: f64 = 0.1;
 
     fn azimuth_deg(d: Vec3<Enu>) -> f64 {
-        math::atan2(d.east(), d.north()).to_degrees().rem_euclid(360.0)
+        math::bearing_deg(d.east(), d.north())
     }
 
     #[test]

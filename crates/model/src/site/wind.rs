@@ -2,8 +2,8 @@
 //! low altitude).
 //!
 //! Turbulence depends on the motion of the vehicle and therefore has state, which is plain data and part of a snapshot.
-//! The mean profile is that of open water or, below 20 ft over land, that of grass. [`super::wakes`] adds the wakes of piers; other
-//! effects of structures are not modeled.
+//! The mean profile is that of open water or, below 20 ft over land, that of grass. [`super::wakes`] adds the wakes of piers
+//! and the flow around decks; other effects of structures are not modeled.
 
 use super::turbulence::{Dryden, FirstOrderFilter, SecondOrderFilter};
 use crate::frames::{Ned, Vec3};
@@ -28,6 +28,8 @@ const REFERENCE_HEIGHT_M: f64 = 6.096;
 const MIN_TURBULENCE_HEIGHT_M: f64 = 3.048;
 /// Height below which the profile is constant, m (estimate: wave height).
 const MIN_PROFILE_HEIGHT_M: f64 = 0.5;
+/// Number of intervals in which a change of the wind is integrated.
+const DRIFT_INTERVALS: u32 = 8;
 /// Minimum drift speed of the turbulence past the vehicle, m/s (estimate; keeps the time scale finite in still air).
 const MIN_DRIFT_SPEED_M_S: f64 = 0.1;
 
@@ -166,7 +168,8 @@ impl WindField {
 }
 
 /// Returns the unit vector in the direction of air motion, for wind from `from_rad` (clockwise from north).
-fn direction_toward(from_rad: f64) -> Vec3<Ned> {
+#[must_use]
+pub fn direction_toward(from_rad: f64) -> Vec3<Ned> {
     let (s, c) = math::sin_cos(from_rad);
     Vec3::new(-c, -s, 0.0)
 }
@@ -197,6 +200,41 @@ pub fn mean_at(wind: &WindSpec, at: SimTime) -> MeanWind {
         mean.from_rad += math::wrap_pi(from_deg.to_radians() - mean.from_rad) * share;
     }
     mean
+}
+
+/// Returns the horizontal air velocity at 20 ft, m/s, with gusts and changes of the mean wind but without turbulence.
+#[must_use]
+pub fn velocity_at(wind: &WindSpec, at: SimTime) -> Vec3<Ned> {
+    let mean = mean_at(wind, at);
+    direction_toward(mean.from_rad) * mean.speed_m_s + gusts_at(wind, at)
+}
+
+/// Returns the displacement of the air at 20 ft from the simulation's start to a time, m.
+#[must_use]
+pub fn drift_m(wind: &WindSpec, at: SimTime) -> Vec3<Ned> {
+    let end_s = at.s().max(0.0);
+    let changes = wind.events.iter().flat_map(|event| match event {
+        WindEvent::Gust { at, duration, .. } => [at.s(), (*at + *duration).s()],
+        WindEvent::Change { at, over, .. } => [at.s(), (*at + *over).s()],
+    });
+    let mut times_s: Vec<f64> = changes.filter(|time_s| (0.0..end_s).contains(time_s)).chain([0.0, end_s]).collect();
+    times_s.sort_by(f64::total_cmp);
+    times_s.windows(2).fold(Vec3::zero(), |sum, pair| sum + drift_between(wind, (pair[0], pair[1])))
+}
+
+/// Integrates the velocity between two times, s, with two Gauss points in each interval. They are inside, so that a jump at an end
+/// causes no error; a constant or linear velocity is exact.
+fn drift_between(wind: &WindSpec, (from_s, to_s): (f64, f64)) -> Vec3<Ned> {
+    let step_s = (to_s - from_s) / f64::from(DRIFT_INTERVALS);
+    let reach = 0.5 / 3.0_f64.sqrt();
+    let times_s = (0..DRIFT_INTERVALS).flat_map(|k| [-reach, reach].map(|side| from_s + step_s * (f64::from(k) + 0.5 + side)));
+    times_s.fold(Vec3::zero(), |sum, time_s| sum + velocity_at(wind, SimTime::from_s(time_s)) * (0.5 * step_s))
+}
+
+/// Returns the standard deviation of the wind speed at 20 ft relative to the mean speed.
+#[must_use]
+pub fn gust_intensity(wind: &WindSpec) -> f64 {
+    Dryden::at(REFERENCE_HEIGHT_M, 1.0).sigma_horizontal_m_s * wind.turbulence
 }
 
 /// Returns the sum of all 1-cosine gusts at a time. A gust has the speed peak/2 (1 - cos(2 pi t/duration)) while it lasts.
@@ -299,6 +337,27 @@ mod tests {
         assert!((speed(true, 1.0) - 0.6598).abs() < 1e-3, "{}", speed(true, 1.0));
         assert!((speed(true, REFERENCE_HEIGHT_M) - 1.0).abs() < 1e-12);
         assert_eq!(speed(true, 20.0), speed(false, 20.0));
+    }
+
+    #[test]
+    fn exact_drift_is_the_integral_of_the_wind_with_its_changes_and_gusts() {
+        // Gauss points in eight intervals: rounding errors for linear changes, and less for a whole period of a cosine.
+        const TOLERANCE_M: f64 = 1e-6;
+        let mut w = wind();
+        w.speed_m_s = 2.0;
+        assert!((drift_m(&w, SimTime::from_s(100.0)) - Vec3::new(-200.0, 0.0, 0.0)).norm() < TOLERANCE_M);
+        assert_eq!(drift_m(&w, SimTime::from_s(-5.0)), Vec3::zero());
+        w.events = vec![
+            WindEvent::Change { at: SimTime::from_s(10.0), over: SimTime::from_s(20.0), speed_m_s: 6.0, from_deg: 0.0 },
+            WindEvent::Gust { at: SimTime::from_s(40.0), duration: SimTime::from_s(4.0), peak_speed_m_s: 5.0, from_deg: 270.0 },
+            WindEvent::Change { at: SimTime::from_s(50.0), over: SimTime::ZERO, speed_m_s: 3.0, from_deg: 90.0 },
+        ];
+        // South: 10 s at 2 m/s, 20 s at 4 m/s on average, 20 s at 6 m/s. East: half the peak times the duration, minus 10 s at 3 m/s.
+        let expected = Vec3::new(-220.0, 10.0 - 30.0, 0.0);
+        assert!((drift_m(&w, SimTime::from_s(60.0)) - expected).norm() < TOLERANCE_M, "{:?}", drift_m(&w, SimTime::from_s(60.0)));
+        // The displacement has no jumps.
+        let before = drift_m(&w, SimTime::from_s(49.999));
+        assert!((drift_m(&w, SimTime::from_s(50.001)) - before).norm() < 0.02);
     }
 
     #[test]

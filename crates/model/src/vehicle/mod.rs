@@ -1,9 +1,14 @@
 //! Aircraft parameters: one TOML file per aircraft in `vehicle-params/`, parsed into validated types. Each key includes its unit;
 //! each number has a source or is marked as an estimate (vehicle-params/README.md, which a test compares with this code).
 
+mod aerodynamics;
 mod control_authority;
 mod read;
 
+pub use aerodynamics::{
+    Aerodynamics, AirDensity, MAX_TRANSLATIONAL_LIFT, SEA_LEVEL_AIR_DENSITY_KG_M3, SurfaceEffects, standard_density_kg_m3,
+    standard_temperature_ratio,
+};
 pub use read::{FORMAT, read, read_with_keys};
 
 use crate::frames::{Frd, Vec3};
@@ -26,6 +31,8 @@ pub struct Vehicle {
     pub rotor: RotorModel,
     /// Aerodynamic body drag.
     pub drag: Drag,
+    /// Effects of the air on the rotors.
+    pub aerodynamics: Aerodynamics,
     /// Collision hull and contact behavior.
     pub hull: Hull,
     /// Battery parameters.
@@ -38,6 +45,36 @@ pub struct Vehicle {
     pub camera: Camera,
     /// Lamp aligned with the camera.
     pub lamp: Lamp,
+}
+
+impl Vehicle {
+    /// Returns the aircraft with the rotor coefficients and drag areas that act in the air at an altitude above mean sea level. If
+    /// its file assumes sea-level density everywhere, they don't change.
+    #[must_use]
+    pub fn at_altitude(&self, altitude_m: f64) -> Self {
+        let ratio = self.aerodynamics.air_density.kg_m3(altitude_m) / SEA_LEVEL_AIR_DENSITY_KG_M3;
+        let mut out = self.clone();
+        out.rotor.thrust_coefficient_n_s2 *= ratio;
+        out.rotor.torque_coefficient_n_m_s2 *= ratio;
+        out.rotor.drag_coefficient_n_s2_m *= ratio;
+        out.aerodynamics.inflow_coefficient_n_s2_m *= ratio;
+        out.aerodynamics.translational_lift_n_s2_m2 *= ratio;
+        out.drag.area_m2 = out.drag.area_m2.map(|area_m2| area_m2 * ratio);
+        out
+    }
+
+    /// Returns the vertical damping in hover through the rotors' inflow, divided by the mass, 1/s (the magnitude of Z_w).
+    #[must_use]
+    pub fn heave_damping_1_s(&self) -> f64 {
+        let inflow_n_s2_m = self.aerodynamics.inflow_coefficient_n_s2_m;
+        self.rotors.len() as f64 * inflow_n_s2_m * self.hover_rotor_rad_s() / self.mass_kg
+    }
+
+    /// Returns the rotor speed in a hover, in rad/s.
+    #[must_use]
+    pub fn hover_rotor_rad_s(&self) -> f64 {
+        self.rotor.hover_speed_rad_s(self.mass_kg, self.rotors.len())
+    }
 }
 
 /// Position and rotation direction of one rotor.
@@ -71,6 +108,15 @@ pub struct RotorModel {
     pub drag_coefficient_n_s2_m: f64,
     /// Fraction of electrical power that becomes induced power in hover, 0 to 1.
     pub efficiency: f64,
+}
+
+impl RotorModel {
+    /// Returns the speed at which so many rotors carry a mass at rest, in rad/s.
+    #[must_use]
+    pub fn hover_speed_rad_s(&self, mass_kg: f64, rotors: usize) -> f64 {
+        let per_rotor_n = mass_kg * math::GRAVITY_M_S2 / rotors as f64;
+        (per_rotor_n / self.thrust_coefficient_n_s2).sqrt()
+    }
 }
 
 /// Quadratic body drag, F = -½ rho CdA |v_air| v_air per axis, and linear angular damping.
@@ -153,6 +199,10 @@ pub struct SensorSpec {
     pub gyro_noise_density: f64,
     /// Gyroscope bias at startup, rad/s.
     pub gyro_bias_rad_s: f64,
+    /// Vibration at the accelerometer in a hover, m/s² (standard deviation per axis).
+    pub accel_vibration_m_s2: f64,
+    /// Vibration at the gyroscope in a hover, rad/s (standard deviation per axis).
+    pub gyro_vibration_rad_s: f64,
     /// GNSS rate, Hz.
     pub gnss_rate_hz: f64,
     /// GNSS horizontal position noise under an open sky, m.
@@ -161,12 +211,17 @@ pub struct SensorSpec {
     pub gnss_vertical_noise_m: f64,
     /// GNSS velocity noise, m/s.
     pub gnss_velocity_noise_m_s: f64,
+    /// Time from the instant that a GNSS reading describes until the autopilot gets it, s.
+    pub gnss_delay_s: f64,
     /// Barometer rate, Hz.
     pub baro_rate_hz: f64,
     /// Barometer noise, m.
     pub baro_noise_m: f64,
     /// Barometer drift (random walk), m/sqrt(s).
     pub baro_drift_m_sqrt_s: f64,
+    /// Static pressure error of the barometer, as a fraction of the dynamic pressure of the horizontal airflow. With a positive
+    /// value, the pressure is too low and the height too large.
+    pub baro_airflow: f64,
     /// Magnetometer rate, Hz.
     pub mag_rate_hz: f64,
     /// Magnetometer noise, gauss.

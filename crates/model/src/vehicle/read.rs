@@ -1,6 +1,9 @@
 //! Parses vehicle files into [`Vehicle`]. Defines each key with its unit, range and default.
 
-use super::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
+use super::{
+    Aerodynamics, AirDensity, BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, SurfaceEffects,
+    Vehicle,
+};
 use crate::frames::Vec3;
 use crate::math::{self, GRAVITY_M_S2};
 use crate::toml::{DocumentedKey, Problems, Reader, Section};
@@ -67,6 +70,7 @@ fn read_vehicle(r: &mut Reader, root: &mut Section, file: &str) -> Vehicle {
         rotors,
         rotor,
         drag: drag(r, root),
+        aerodynamics: aerodynamics(r, root),
         hull: hull(r, root),
         battery: battery(r, root),
         limits: limits(r, root),
@@ -110,6 +114,27 @@ fn drag(r: &mut Reader, root: &mut Section) -> Drag {
     };
     r.finish(&s);
     drag
+}
+
+/// Names of the density models; the first is the default.
+const AIR_DENSITIES: [(&str, AirDensity); 2] = [("sea-level", AirDensity::SeaLevel), ("altitude", AirDensity::Altitude)];
+/// Names of the models of surface effects; the first is the default.
+const SURFACE_EFFECTS: [(&str, SurfaceEffects); 2] =
+    [("single-rotor", SurfaceEffects::SingleRotor), ("multirotor", SurfaceEffects::Multirotor)];
+
+fn aerodynamics(r: &mut Reader, root: &mut Section) -> Aerodynamics {
+    let mut s = r.section(root, "aerodynamics");
+    let aerodynamics = Aerodynamics {
+        inflow_coefficient_n_s2_m: r.number(&mut s, "inflow_coefficient_n_s2_m", (0.0, 0.01), Some(0.0)),
+        translational_lift_n_s2_m2: r.number(&mut s, "translational_lift_n_s2_m2", (0.0, 0.5), Some(0.0)),
+        vortex_ring_loss: r.number(&mut s, "vortex_ring_loss", (0.0, 0.5), Some(0.0)),
+        air_density: r.keyword(&mut s, "air_density", &AIR_DENSITIES, Some(0)),
+        surface_effects: r.keyword(&mut s, "surface_effects", &SURFACE_EFFECTS, Some(0)),
+        wall_suction: r.number(&mut s, "wall_suction", (0.0, 0.3), Some(0.0)),
+        recirculation_loss: r.number(&mut s, "recirculation_loss", (0.0, 0.3), Some(0.0)),
+    };
+    r.finish(&s);
+    aerodynamics
 }
 
 /// Minimum number of feet for a stable stance on the ground.
@@ -186,13 +211,17 @@ fn sensors(r: &mut Reader, root: &mut Section) -> SensorSpec {
         accel_bias_m_s2: n("accel_bias_m_s2", (0.0, 2.0), 0.05),
         gyro_noise_density: n("gyro_noise_density_rad_s_sqrt_hz", (0.0, 0.1), 1e-4),
         gyro_bias_rad_s: n("gyro_bias_rad_s", (0.0, 0.2), 0.003),
+        accel_vibration_m_s2: n("accel_vibration_m_s2", (0.0, 10.0), 0.0),
+        gyro_vibration_rad_s: n("gyro_vibration_rad_s", (0.0, 1.0), 0.0),
         gnss_rate_hz: n("gnss_rate_hz", (1.0, 20.0), 5.0),
         gnss_horizontal_noise_m: n("gnss_horizontal_m", (0.0, 20.0), 0.5),
         gnss_vertical_noise_m: n("gnss_vertical_m", (0.0, 40.0), 0.8),
         gnss_velocity_noise_m_s: n("gnss_velocity_m_s", (0.0, 2.0), 0.1),
+        gnss_delay_s: n("gnss_delay_s", (0.0, 0.3), 0.0),
         baro_rate_hz: n("baro_rate_hz", (5.0, 200.0), 50.0),
         baro_noise_m: n("baro_noise_m", (0.0, 10.0), 0.1),
         baro_drift_m_sqrt_s: n("baro_drift_m_sqrt_s", (0.0, 1.0), 0.005),
+        baro_airflow: n("baro_airflow", (-2.0, 2.0), 0.0),
         mag_rate_hz: n("mag_rate_hz", (5.0, 200.0), 50.0),
         mag_noise_gauss: n("mag_noise_gauss", (0.0, 0.2), 0.003),
         mag_bias_gauss: n("mag_bias_gauss", (0.0, 0.1), 0.001),

@@ -1,8 +1,10 @@
 //! Tests of bridge geometry against independent formulas, and of task paths against the geometry.
 
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::bridges::{BridgeField, Member, Solid, TaskPath};
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
@@ -26,6 +28,10 @@ fn suspension() -> Bridge {
     bridge(BridgeKind::Suspension(Suspension::default()))
 }
 
+fn girder() -> Bridge {
+    bridge(BridgeKind::Girder(Girder::default()))
+}
+
 /// Returns random values near the defaults, within their ranges.
 fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> {
     let near_default = |f: &BridgeField| (f.default * random.range(0.6, 1.7)).clamp(f.min, f.max);
@@ -33,11 +39,25 @@ fn random_values(fields: &[BridgeField], random: &mut RandomStream) -> Vec<f64> 
         .iter()
         .map(near_default)
         .zip(fields)
-        .map(|(v, f)| if ["panels", "stringers"].contains(&f.key) { v.round() } else { v })
+        .map(|(v, f)| if f.meaning.ends_with("a whole number.") { v.round() } else { v })
         .collect()
 }
 
-/// Returns bridges of both types, with default and random dimensions. Omits inconsistent bridges.
+/// Returns girder bridges with default and random dimensions, half of them with simple spans. Omits inconsistent bridges.
+fn random_girders() -> Vec<Bridge> {
+    let mut random = RandomStream::new(5, "girders");
+    let mut out = vec![girder()];
+    for k in 0..120 {
+        let values = random_values(Girder::FIELDS, &mut random);
+        let kind = Girder { simple_spans: f64::from(k % 2), round_columns: f64::from(k / 2 % 2), ..Girder::from_values(&values) };
+        out.push(bridge(BridgeKind::Girder(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
+/// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
     let mut out = vec![arch(), suspension()];
@@ -48,6 +68,7 @@ fn random_bridges() -> Vec<Bridge> {
     out.retain(|b| b.kind.inconsistencies().is_empty());
     let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
     assert!(arches >= 10 && out.len() - arches >= 10, "{arches} of {}", out.len());
+    out.extend(random_girders().into_iter().take(12));
     out
 }
 
@@ -233,6 +254,25 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 let hangers: f64 = (1..n as u32).map(|k| z(x(f64::from(k))) + s.slab_m).sum();
                 close(sum(&members, "hanger"), 2.0 * hexagon * hangers);
             }
+            BridgeKind::Model(_) => panic!("an imported bridge"),
+            BridgeKind::Girder(g) => {
+                let joints = if g.simple_spans > 0.0 { g.spans - 1.0 } else { 0.0 };
+                // The girders and the deck extend 0.4 m beyond the outer bearings.
+                let run_m = g.length_m() + 0.8 - joints * g.joint_gap_m;
+                let width_m = (g.girders - 1.0) * g.girder_spacing_m + 2.0 * g.overhang_m;
+                close(sum(&members, "slab"), run_m * width_m * g.slab_m);
+                close(sum(&members, "haunch"), g.girders * run_m * g.flange_width_m * g.haunch_m);
+                close(
+                    sum(&members, "girder"),
+                    g.girders * run_m * (2.0 * g.flange_width_m * g.flange_m + g.web_depth_m * g.web_m),
+                );
+                let barrier_m2 = 0.5 * (0.4 + 0.2) * g.barrier_m;
+                close(sum(&members, "barrier"), 2.0 * barrier_m2 * (g.deck_length_m() - (2.0 + joints) * g.joint_gap_m));
+                // A prism of 16 sides around a circle of the column's diameter.
+                let share = if g.round_columns > 0.0 { 2.0 * math::sin(math::TAU / 16.0) } else { 1.0 };
+                let columns = (g.spans - 1.0) * g.columns * share * g.column_m * g.column_m * g.column_height_m;
+                close(sum(&members, "column").max(1e-9), columns.max(1e-9));
+            }
         }
     }
 }
@@ -317,12 +357,16 @@ fn assert_smooth(path: &TaskPath) {
     }
 }
 
+/// Paths at a constant height that keep the stand-off from all members.
+const LEVEL_PATHS: [TaskKind; 5] =
+    [TaskKind::SlabSide, TaskKind::PierCircle, TaskKind::GirderSoffit, TaskKind::BearingLine, TaskKind::PierCap];
+
 #[test]
 fn prop_paths_keep_the_stand_off_distance() {
     for bridge in random_bridges() {
         let shapes = solids(&bridge.members());
         for stand_off_m in [4.0, 6.5] {
-            for kind in [TaskKind::SlabSide, TaskKind::ArchBottom, TaskKind::PierCircle] {
+            for kind in LEVEL_PATHS.into_iter().chain([TaskKind::ArchBottom]) {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
                 let gap = min_clearance_m(&shapes, &path);
@@ -331,7 +375,9 @@ fn prop_paths_keep_the_stand_off_distance() {
                     "{kind:?}: {gap} m, expected {stand_off_m} m, {:?}",
                     bridge.kind
                 );
-                assert!(kind == TaskKind::ArchBottom || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
+                // Below the arch and below the bays, the path is not directly under the nearest member.
+                let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit);
+                assert!(is_beside || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
     }
@@ -382,6 +428,10 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (arch(), TaskKind::ArchBottom, 0.95),
         (arch(), TaskKind::Interlayer, 0.6),
         (suspension(), TaskKind::PierCircle, 0.9),
+        (girder(), TaskKind::SlabSide, 1.0),
+        (girder(), TaskKind::GirderSoffit, 1.0),
+        (girder(), TaskKind::BearingLine, 1.0),
+        (girder(), TaskKind::PierCap, 0.9),
     ] {
         let shapes = solids(&bridge.members());
         let path = bridge.task_path(kind, 4.5).unwrap();
@@ -411,9 +461,9 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 18] = [
-    (12, &["slab"]),
-    (107, &["girder"]),
+const MEMBER_NAMES: [(u16, &[&str]); 23] = [
+    (12, &["slab", "haunch"]),
+    (107, &["girder", "stiffener", "cross-frame"]),
     (113, &["stringer"]),
     (116, &["stringer"]),
     (144, &["rib", "strut"]),
@@ -424,26 +474,37 @@ const MEMBER_NAMES: [(u16, &[&str]); 18] = [
     (205, &["column"]),
     (207, &["tower"]),
     (210, &["pier"]),
-    (215, &["abutment", "skewback"]),
-    (220, &["anchorage"]),
+    (215, &["abutment", "skewback", "pedestal"]),
+    (220, &["anchorage", "footing"]),
+    (234, &["cap", "pedestal"]),
+    (300, &["joint"]),
+    (310, &["bearing"]),
     (311, &["bearing"]),
     (313, &["bearing"]),
+    (321, &["approach-slab"]),
     (330, &["post", "rail"]),
-    (331, &["post", "rail"]),
+    (331, &["post", "rail", "barrier"]),
+    // Deck drains have no MBEI element.
+    (850, &["drain"]),
 ];
 
 #[test]
 fn exact_every_member_has_the_correct_element() {
-    let steel = [107, 113, 147, 148, 152, 207, 311, 313, 330];
+    let steel = [107, 113, 147, 148, 152, 207, 310, 311, 313, 330];
     for bridge in random_bridges() {
         for member in bridge.members() {
             let part = member.name.split('/').nth(1).unwrap();
             let names = MEMBER_NAMES.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
-            // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are.
-            let concrete =
-                matches!(bridge.kind, BridgeKind::Arch(_)) || ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n));
+            // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
+            // the girders with their stiffeners and cross-frames and the bearings are steel.
+            let concrete = match bridge.kind {
+                BridgeKind::Arch(_) => true,
+                BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
+                BridgeKind::Model(_) => panic!("an imported bridge"),
+                BridgeKind::Girder(_) => !["girder", "stiffener", "cross-frame", "bearing"].iter().any(|n| part.starts_with(n)),
+            };
             assert_eq!(
                 concrete,
                 !steel.contains(&member.element.number()),

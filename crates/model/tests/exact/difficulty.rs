@@ -47,7 +47,7 @@ fn exact_levels_interpolate_from_the_ends_to_the_files_own_values() {
 fn exact_gap_and_defects_follow_the_level() {
     let gap_m = |level: u8| match &at(DRILL_GAP, level).bridges[0].kind {
         BridgeKind::Arch(arch) => arch.crown_gap_m,
-        BridgeKind::Suspension(_) => panic!("not an arch"),
+        BridgeKind::Suspension(_) | BridgeKind::Girder(_) | BridgeKind::Model(_) => panic!("not an arch"),
     };
     assert_eq!([1, 5, 9].map(gap_m), [5.0, 3.4, 2.8]);
     assert_eq!([1, 5, 9].map(|level| at(DRILL_SEARCH, level).defects.mean_detection), [Some(0.8), Some(0.5), Some(0.25)]);
@@ -63,6 +63,17 @@ fn exact_standard_level_is_the_file_without_the_table() {
     }
     assert_eq!(at(DRILL_HOVER, 7).name_with_form(), "drill-hover@7");
     assert_eq!((level_count(DRILL_HOVER), level_count(TWO_BRIDGES)), (Some(9), None));
+}
+
+#[test]
+fn exact_severity_of_hazards_follows_the_level() {
+    let text = DRILL_HOVER.replacen("wind_speed_m_s = [0.0, 8.0]", "hazard_severity = [0.5, 2.0]", 1);
+    let text = format!("{text}\n[hazards]\nradio = true\n");
+    let severity = |level: u8| parse(&select_level(&text, level)).unwrap().hazards.severity;
+    assert_eq!([1, 5, 7, 9].map(severity), [0.5, 1.0, 1.5, 2.0]);
+    assert!(parse(&text).unwrap().difficulty.unwrap().settings_at(9).contains("hazard severity 2"));
+    let wrong = parse(&text.replace("radio = true", "radio = true\nseverity = 3.0")).unwrap_err().to_string();
+    assert!(wrong.contains("hazards.severity = 3.0: ") && wrong.contains("0.5 to 2"), "{wrong}");
 }
 
 #[test]
@@ -115,6 +126,8 @@ fn regress_wrong_ends_are_reported() {
     assert_eq!(gap, "difficulty.crown_gap_m = [5, 2.8]: has no effect in this job (allowed: only with an arch bridge)");
     let defects = wind("detection_pct = [90.0, 30.0]");
     assert!(defects.contains("allowed: only with defects and defects.detection_pct"), "{defects}");
+    let hazards = wind("hazard_severity = [0.5, 2.0]");
+    assert!(hazards.contains("allowed: only with hazards.compass, hazards.sky or hazards.radio"), "{hazards}");
     let paper = problem("level = \"light\"", "level = \"light\"\nmodel = \"paper\"");
     assert!(paper.contains("allowed: only with the physical wind model"), "{paper}");
     assert!(wind("wind_sped_m_s = [0.0, 8.0]").contains("did you mean wind_speed_m_s?"));

@@ -87,7 +87,8 @@ fn exact_shipped_jobs_have_only_permitted_defects() {
             placed += 1;
         }
         for member in site.members() {
-            assert!(Element::ALL.contains(&member.element), "{}: {}", job.name, member.name);
+            let is_known = Element::ALL.contains(&member.element) || member.element == Element::DECK_DRAIN;
+            assert!(is_known, "{}: {}", job.name, member.name);
         }
     }
     assert!(placed >= 10, "{placed}");

@@ -1,9 +1,12 @@
 //! Tests of bridge geometry, terrain and site queries against closed-form and brute-force results.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
+mod almanac;
 mod bridges;
 mod difficulty;
 mod elements;
 mod geometry;
+mod girder;
 mod ground;
+mod imported;
 mod site;

@@ -263,6 +263,33 @@ fn exact_ground_meets_the_decks_and_clears_the_spans() {
 }
 
 #[test]
+fn exact_ground_of_the_girder_bridge_holds_its_footings_and_leaves_its_bearings_free() {
+    // Minimum height of the bearings above the ground beside the abutments, m.
+    const MIN_OPEN_M: f64 = 1.0;
+    let scenario = scenario(spandrel_model::shipped::GIRDER);
+    let geometry = Geometry::new(&scenario);
+    let low = |name: &str| {
+        let members = geometry.members().iter().filter(|m| m.name.starts_with(name));
+        let corners = members.flat_map(|m| m.solid.vertices_m.iter().copied());
+        corners.min_by(|a, b| a.up().total_cmp(&b.up())).unwrap()
+    };
+    for name in ["footing-1", "footing-2", "abutment-start/stem", "abutment-end/stem", "abutment-end/wing-left"] {
+        let p = low(&format!("girder/{name}"));
+        assert!(p.up() < geometry.ground_up_m(p.east(), p.north()), "{name} does not reach the ground");
+    }
+    for member in geometry.members().iter().filter(|m| m.name.contains("/bearing-")) {
+        let clear = |p: &Vec3<Enu>| p.up() - geometry.ground_up_m(p.east(), p.north());
+        assert!(member.solid.vertices_m.iter().all(|p| clear(p) > MIN_OPEN_M), "{} is in the ground", member.name);
+    }
+    let bridge = &scenario.bridges[0];
+    for side in [-1.0, 1.0] {
+        let p = bridge.placement().point([side * (0.5 * bridge.deck_length_m() + 5.0), 0.0, 0.0]);
+        let step = bridge.center_m.up() - geometry.ground_up_m(p.east(), p.north());
+        assert!(step.abs() < 0.5, "the road is {step} m below the deck");
+    }
+}
+
+#[test]
 fn exact_pier_path_is_two_to_four_meters_above_the_water() {
     let scenario = two_bridges();
     let task = scenario.tasks.iter().find(|t| t.kind == TaskKind::PierCircle).unwrap();

@@ -184,3 +184,32 @@ fn regress_caged_vehicle_requires_feet_below_its_cage() {
     let problems = spandrel_model::vehicle::read("elios3.toml", &short).unwrap_err().to_string();
     assert!(problems.contains("feet_m") && problems.contains("at least 0.24 m below the center"), "{problems}");
 }
+
+#[test]
+fn exact_keys_of_aerodynamics_have_ranges_and_are_off_by_default() {
+    use spandrel_model::vehicle::{AirDensity, SurfaceEffects, read};
+    let base = spandrel_model::shipped::PHANTOM2;
+    let base = base.split_once("[aerodynamics]\n").map_or(base.to_owned(), |(before, rest)| {
+        let (_, after) = rest.split_once("\n[").unwrap();
+        format!("{before}[{after}")
+    });
+    assert_eq!(read("a.toml", &base).unwrap().aerodynamics, spandrel_model::vehicle::Aerodynamics::default());
+    let with = |keys: &str| read("a.toml", &format!("{base}\n[aerodynamics]\n{keys}\n"));
+    let keys = "inflow_coefficient_n_s2_m = 3e-4\ntranslational_lift_n_s2_m2 = 5e-3\nvortex_ring_loss = 0.2\n\
+                air_density = \"altitude\"\nsurface_effects = \"multirotor\"";
+    let air = with(keys).unwrap().aerodynamics;
+    assert_eq!((air.inflow_coefficient_n_s2_m, air.translational_lift_n_s2_m2, air.vortex_ring_loss), (3e-4, 5e-3, 0.2));
+    assert_eq!((air.air_density, air.surface_effects), (AirDensity::Altitude, SurfaceEffects::Multirotor));
+    let line = base.lines().count() + 3;
+    for (keys, problem) in [
+        ("inflow_coefficient_n_s2_m = 0.02", "aerodynamics.inflow_coefficient_n_s2_m = 0.02: out of range (allowed: 0 to 0.01)"),
+        ("translational_lift_n_s2_m2 = -1.0", "aerodynamics.translational_lift_n_s2_m2 = -1.0: out of range (allowed: 0 to 0.5)"),
+        ("vortex_ring_loss = 0.6", "aerodynamics.vortex_ring_loss = 0.6: out of range (allowed: 0 to 0.5)"),
+        ("air_density = \"high\"", "aerodynamics.air_density = \"high\": unknown keyword (allowed: sea-level, altitude)"),
+        ("surface_effects = 4", "aerodynamics.surface_effects = 4: unknown keyword (allowed: single-rotor, multirotor)"),
+        ("inflow = 1.0", "aerodynamics.inflow"),
+    ] {
+        let problems = with(keys).unwrap_err().to_string();
+        assert!(problems.contains(&format!("a.toml:{line}: {problem}")), "{problems}");
+    }
+}

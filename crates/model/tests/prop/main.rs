@@ -2,4 +2,5 @@
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod error_messages;
+mod imported_models;
 mod mutated_files;

@@ -5,6 +5,7 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::{DefectSpec, Scenario, TerrainSpec};
 use spandrel_model::site::Site;
@@ -191,7 +192,11 @@ fn prop_mutated_vehicles_are_valid_or_rejected_with_a_line() {
 }
 
 fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
-    let task = if kind == "arch" { "interlayer" } else { "pier_circle" };
+    let task = match kind {
+        "arch" => "interlayer",
+        "suspension" => "pier_circle",
+        _ => "girder_soffit",
+    };
     let numbers: Vec<String> = values.iter().map(|(key, value)| format!("{key} = {value:?}")).collect();
     format!(
         "format = 1\nname = \"one\"\ntitle = \"One\"\n\
@@ -215,7 +220,7 @@ fn dimension_sets(fields: &'static [BridgeField]) -> Vec<Vec<(&'static str, f64)
             let draw = random.range(-1.0, 1.0);
             let towards = if draw < 0.0 { f.min } else { f.max };
             let value = f.default + (towards - f.default) * (draw * draw * draw).abs();
-            if ["panels", "stringers"].contains(&f.key) { value.round() } else { value }
+            if f.meaning.ends_with("a whole number.") { value.round() } else { value }
         };
         sets.push(fields.iter().map(|f| (f.key, near(f))).collect());
     }
@@ -259,4 +264,9 @@ fn prop_all_valid_arches_build_with_positive_volumes() {
 #[test]
 fn prop_all_valid_suspension_bridges_build_with_positive_volumes() {
     assert_random_bridges_build("suspension", Suspension::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_girder_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("girder", Girder::FIELDS);
 }

@@ -13,7 +13,7 @@ type Keys = BTreeMap<String, DocumentedKey>;
 /// values are checked.
 const EXTRA_FRAGMENTS: [&str; 3] = [
     "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n[[briefing_pictures]]\n",
-    "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"arch\"\n[[bridges]]\ntype = \"suspension\"\n",
+    "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"arch\"\n[[bridges]]\ntype = \"suspension\"\n[[bridges]]\ntype = \"girder\"\n[[bridges]]\ntype = \"model\"\n",
     "[terrain]\nsource = \"file\"\n[[tasks]]\nkind = \"free\"\n[[tasks]]\nkind = \"interlayer\"\nbridge = \"none\"\n",
 ];
 

@@ -1,6 +1,7 @@
-//! Tests of the shipped scenario and vehicle files and their documentation.
+//! Tests of the shipped scenario and vehicle files and their documentation, and of the standard atmosphere.
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
+mod air;
 mod documentation;
 mod forms;
 mod levels;

@@ -1,15 +1,14 @@
 //! A row of the frame export: a frame with attitude, gimbal, task, path distance, wind and estimated position.
 
-use crate::assessment::{AssessError, check_identity, flight_and_prior_runs};
+use crate::assessment::{AssessError, IdentifiedFlight, identified_flight};
 use crate::measures::on_path::{OnPath, ReferencePaths};
 use crate::session::Session;
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
-use spandrel_mavlink::telemetry::{Flight, Frame, Navigation, NavigationReader, Timeline};
+use spandrel_mavlink::telemetry::{Flight, Frame, Navigation, NavigationReader};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
-use std::ops::ControlFlow;
 
 /// The drone's distance from a task's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,19 +51,8 @@ pub fn frame_rows(
     scenario: &Scenario,
     vehicle: &Vehicle,
 ) -> Result<Vec<FrameRow>, AssessError> {
-    let plane = LocalPlane::new(scenario.origin);
-    let mut timeline = Timeline::new(plane.clone());
-    let mut navigation = NavigationReader::new(plane);
-    log.for_each_record(&mut |record| {
-        timeline.push(record.frame);
-        navigation.take(record.frame, &timeline);
-        ControlFlow::Continue(())
-    })?;
-    let (epoch, flight) = flight_and_prior_runs(&timeline, scenario, vehicle);
-    if flight.truths.is_empty() {
-        return Err(AssessError::NoTruth);
-    }
-    check_identity(&flight, scenario, None)?;
+    let (timeline, navigation) = NavigationReader::read_log(log, LocalPlane::new(scenario.origin))?;
+    let IdentifiedFlight { epoch, flight, .. } = identified_flight(&timeline, scenario, vehicle)?;
     let session = Session::from_flight(&flight, scenario, vehicle).ok_or(AssessError::NeverFlown)?;
     Ok(rows(session.frames, &flight, &navigation.of(epoch), scenario))
 }

@@ -118,7 +118,7 @@ fn regress_reaching_hold_position_completes_task() {
 #[test]
 fn prop_flying_all_shipped_paths_completes_all_tasks() {
     let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("scenarios");
-    let beside = |name: &str| std::fs::read_to_string(folder.join(name)).map_err(|error| error.to_string());
+    let beside = |name: &str| std::fs::read(folder.join(name)).map_err(|error| error.to_string());
     let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
     let mut jobs = 0;
     for file in files.filter(|file| file.extension().is_some_and(|ending| ending == "toml")) {

@@ -1,5 +1,7 @@
 //! Tests of the frame export: compares every column with known values from a recorded flight.
 
+use spandrel_mavlink::codec::Encoder;
+use spandrel_mavlink::contract::SIMULATOR_COMPONENT;
 use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, MavMessage, WIND_COV_DATA};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
@@ -26,14 +28,19 @@ fn send_estimate(tape: &mut Tape) {
     }));
 }
 
-fn wind(tape: &mut Tape, [north, east, down]: [f32; 3]) {
-    tape.send(&MavMessage::WIND_COV(WIND_COV_DATA {
+fn wind_message(tape: &Tape, [north, east, down]: [f32; 3]) -> MavMessage {
+    MavMessage::WIND_COV(WIND_COV_DATA {
         time_usec: u64::from(tape.now_ms) * 1000,
         wind_x: north,
         wind_y: east,
         wind_z: down,
         ..Default::default()
-    }));
+    })
+}
+
+fn wind(tape: &mut Tape, velocity_m_s: [f32; 3]) {
+    let message = wind_message(tape, velocity_m_s);
+    tape.send(&message);
 }
 
 /// Records a flight along 30 m of the path, with a wind report at 15 m. The drone then flies 5 m north, sends no
@@ -99,6 +106,22 @@ fn exact_task_and_distance_match_flown_path() {
     assert_eq!((task.id, off.on_path), (1, false));
     assert!((task.distance_m.unwrap() - off.frame.position_m.north()).abs() < POSITION_TOLERANCE_M);
     assert_eq!(off.clearance_m, Some(2.5));
+}
+
+#[test]
+fn exact_wind_is_the_simulators_if_it_reports_one() {
+    let mut tape = Tape::new();
+    tape.hold(1.0);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    let truth = wind_message(&tape, [3.0, 4.0, 0.0]);
+    tape.datagrams.push(Encoder::new(1, SIMULATOR_COMPONENT).encode(&truth));
+    // The autopilot's estimate comes later.
+    wind(&mut tape, [1.0, 2.0, -0.5]);
+    tape.fly((4.0, 0.0, 10.0), 4.0);
+    tape.land();
+    let rows = rows(&tape);
+    let winds: Vec<_> = rows.iter().filter_map(|row| row.wind_m_s).map(|wind| wind.array()).collect();
+    assert!(!winds.is_empty() && winds.iter().all(|wind| *wind == [4.0, 3.0, 0.0]), "{winds:?}");
 }
 
 #[test]

@@ -85,7 +85,7 @@ pub struct Autopilot {
 }
 
 impl Autopilot {
-    /// Starts the autopilot on the ground. `origin` is the origin of the local frame, used for the magnetic model.
+    /// Starts the autopilot on the ground. `origin` is the origin of the local frame, used for the magnetic model and the air density.
     #[must_use]
     pub fn new(vehicle: &Vehicle, rules: &SessionRules, origin: Geo, mut tuning: Tuning) -> Self {
         if rules.low_battery_return {
@@ -99,7 +99,7 @@ impl Autopilot {
             estimator,
             navigator: Navigator::default(),
             failsafe: Failsafe::new(&vehicle.sensors),
-            control: Control::new(vehicle),
+            control: Control::new(&vehicle.at_altitude(origin.altitude_m)),
             unfused: UnfusedReadings::default(),
             armed: false,
             status: AutopilotStatus::at_boot(),
@@ -111,7 +111,12 @@ impl Autopilot {
     /// Returns the operator settings for a scenario, whose rules define the battery thresholds.
     #[must_use]
     pub fn default_tuning(rules: &SessionRules) -> Tuning {
-        Tuning { battery_low_pct: rules.low_battery_pct, battery_critical_pct: rules.critical_battery_pct, ..Tuning::default() }
+        Tuning {
+            battery_low_pct: rules.low_battery_pct,
+            battery_critical_pct: rules.critical_battery_pct,
+            stick_response: rules.stick_response,
+            ..Tuning::default()
+        }
     }
 
     /// Returns true if the vehicle is armed and receives no stick input.

@@ -1,7 +1,9 @@
 //! Test aircraft: a Phantom-sized quadrotor with round numbers (estimates).
 
 use spandrel_model::frames::Vec3;
-use spandrel_model::vehicle::{BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle};
+use spandrel_model::vehicle::{
+    Aerodynamics, BatterySpec, Camera, Drag, FlightLimits, Hull, Lamp, Rotor, RotorModel, SensorSpec, Vehicle,
+};
 
 /// Returns the test aircraft with these sensors.
 #[must_use]
@@ -25,6 +27,7 @@ pub fn vehicle_with(sensors: SensorSpec) -> Vehicle {
             efficiency: 0.55,
         },
         drag: Drag { area_m2: [0.015, 0.018, 0.03], angular_damping_n_m_s: [0.003, 0.003, 0.003] },
+        aerodynamics: Aerodynamics::default(),
         hull: Hull {
             tip_to_tip_m: 0.59,
             has_propeller_guard: false,

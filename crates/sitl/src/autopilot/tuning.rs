@@ -2,6 +2,7 @@
 
 use super::failsafe::operator_rules::{FenceAction, OperatorRules};
 use super::navigator::follow::FollowRule;
+use spandrel_model::stick_response::StickResponse;
 
 /// Action on link loss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,6 +126,8 @@ pub struct Tuning {
     pub start_unix_s: i64,
     /// `MPC_HOLD_DZ`: stick deadband as a fraction of full deflection.
     pub stick_deadband: f64,
+    /// `SPAN_RESPONSE`: response to the sticks in position mode.
+    pub stick_response: StickResponse,
     /// Other operator settings.
     pub rules: OperatorRules,
 }
@@ -189,6 +192,7 @@ impl Default for Tuning {
             follow: FollowRule::default(),
             start_unix_s: 0,
             stick_deadband: 0.03,
+            stick_response: StickResponse::default(),
             rules: OperatorRules::default(),
         }
     }

@@ -119,11 +119,14 @@ impl ExternalAutopilot {
         }
     }
 
-    /// Returns the readings of all inertial sensors; `first` is the reading of the aircraft's own sensor.
-    pub fn read_imus(&mut self, first: ImuReading) -> [ImuReading; IMU_COUNT] {
+    /// Returns the readings of all inertial sensors; `first` is the reading of the aircraft's own sensor, and `vibration` the part of
+    /// it that the frame shakes in all of them.
+    pub fn read_imus(&mut self, first: ImuReading, vibration: ImuReading) -> [ImuReading; IMU_COUNT] {
         let mut readings = [first; IMU_COUNT];
         for (reading, imu) in readings.iter_mut().skip(1).zip(&mut self.more_imus) {
-            *reading = imu.read().unwrap_or(first);
+            if let Some(own) = imu.read() {
+                *reading = own + vibration;
+            }
         }
         readings
     }

@@ -29,6 +29,7 @@ pub(super) fn payload_input<'v>(
         specific_force_m_s2: aircraft.specific_force_m_s2,
         wind_m_s: aircraft.wind_m_s,
         scoring: aircraft.scoring,
+        hazards: aircraft.hazards,
         battery: aircraft.battery,
         components: PayloadComponents::BUILTIN,
     }

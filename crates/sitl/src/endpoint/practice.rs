@@ -1,25 +1,19 @@
 //! Requests that are allowed in practice only: to freeze, resume and rewind the flight, and to move the aircraft. The endpoint
 //! decides whether a request is accepted; the simulation carries it out.
 
+use super::numbered_requests::{NumberedRequests, RequestNumber};
 use super::refused_request::{RefusedRequest, queue_or_refuse};
 use super::text_queue::TextQueue;
 use super::vehicle_command::VehicleCommand;
-use spandrel_mavlink::contract::practice::{PracticeRequest, number_in};
+use spandrel_mavlink::contract::practice::PracticeRequest;
 use spandrel_mavlink::dialect::MavResult;
-use std::collections::{BTreeMap, VecDeque};
-
-/// Number of senders whose last request is known.
-const MAX_SENDERS: usize = 64;
-
-/// A sender's last request with a number: the command and the number.
-type NumberedRequest = (u16, u32);
+use std::collections::VecDeque;
 
 /// The accepted requests.
 #[derive(Debug, Clone, Default)]
 pub struct PracticeInbox {
     requests: VecDeque<PracticeRequest>,
-    /// By the sender's system and component ID.
-    numbered: BTreeMap<(u8, u8), NumberedRequest>,
+    numbered: NumberedRequests,
 }
 
 impl PracticeInbox {
@@ -28,25 +22,18 @@ impl PracticeInbox {
     /// acknowledgment.
     pub fn take(&mut self, state: &PracticeState, c: &VehicleCommand, texts: &mut TextQueue) -> Option<MavResult> {
         let admitted = state.admit(c)?;
-        let number = match number_in(c.p[1]) {
-            Ok(number) => number.map(|number| (c.number, number)),
+        let number = match RequestNumber::of(c) {
+            Ok(number) => number,
             Err(text) => return Some(queue_or_refuse(Err(RefusedRequest::denied(text.to_owned())), &mut self.requests, texts)),
         };
-        if number.is_some() && self.numbered.get(&c.from) == number.as_ref() {
+        if self.numbered.is_repeated(number) {
             return Some(MavResult::MAV_RESULT_ACCEPTED);
         }
         let result = queue_or_refuse(admitted, &mut self.requests, texts);
-        if let (Some(number), MavResult::MAV_RESULT_ACCEPTED) = (number, result) {
-            self.remember(c.from, number);
+        if result == MavResult::MAV_RESULT_ACCEPTED {
+            self.numbered.remember(number);
         }
         Some(result)
-    }
-
-    fn remember(&mut self, from: (u8, u8), request: NumberedRequest) {
-        if self.numbered.len() >= MAX_SENDERS && !self.numbered.contains_key(&from) {
-            self.numbered.pop_first();
-        }
-        self.numbered.insert(from, request);
     }
 
     /// Removes and returns the next request.
@@ -124,6 +111,7 @@ impl PracticeState {
 
 #[cfg(test)]
 mod tests {
+    use super::super::numbered_requests::MAX_SENDERS;
     use super::*;
     use spandrel_mavlink::contract::practice::MAX_TASK;
     use spandrel_mavlink::dialect::MavCmd;
@@ -154,7 +142,7 @@ mod tests {
         for system in 0..=255 {
             ask(rewind, (system, 1), [10.0, 3.0]);
         }
-        assert!(inbox.numbered.len() <= MAX_SENDERS);
+        assert!(inbox.numbered.last.len() <= MAX_SENDERS);
     }
 
     #[test]

@@ -47,6 +47,7 @@ impl Endpoint {
         self.announce_changes(&inputs);
         self.send_due_streams(&inputs);
         self.payload.send_scoring(&input, &mut self.links);
+        self.payload.send_hazards(&input, &mut self.links);
         self.vehicle.send_messages(&inputs.vehicle, &mut self.links);
         self.payload.send_files(&mut self.links);
         self.vehicle.send_logs(&mut self.links);

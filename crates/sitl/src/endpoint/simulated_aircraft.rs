@@ -1,7 +1,7 @@
 //! The simulated aircraft as seen by the interface, independent of the autopilot.
 
 use super::clock::VehicleClock;
-use super::payload::ScoringTruth;
+use super::payload::{HazardTruth, ScoringTruth};
 use super::practice::PracticeState;
 use crate::physics::{Actuators, BatteryState, RigidState};
 use crate::sensors::Readings;
@@ -35,6 +35,8 @@ pub struct SimulatedAircraft<'a> {
     pub wind_m_s: Vec3<Ned>,
     /// Counters and ground truth for scoring.
     pub scoring: &'a ScoringTruth,
+    /// State of the hazards that the job simulates.
+    pub hazards: HazardTruth,
     /// Whether the flight can be frozen and rewound.
     pub practice: PracticeState,
 }

@@ -1,11 +1,18 @@
 //! Constants of one aircraft, precomputed for the models.
 
 use super::hull;
+use super::inflow::Inflow;
+use super::multirotor_surfaces::RotorLayout;
 use super::state::{Actuators, BatteryState, MAX_ROTORS};
-use nalgebra::Vector3;
+use super::vortex_ring::VortexRing;
+use super::walls::Walls;
+use nalgebra::{Vector2, Vector3};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
-use spandrel_model::vehicle::{BatterySpec, Lamp, Rotor, RotorModel, Vehicle};
+use spandrel_model::vehicle::{AirDensity, BatterySpec, Lamp, Rotor, RotorModel, SurfaceEffects, Vehicle};
+
+/// Temperature for which aircraft files state the battery's resistance, °C (estimate: data sheets use 20 to 25 °C).
+const BATTERY_REFERENCE_C: f64 = 25.0;
 
 /// Constants of an aircraft in the form that the physics models use.
 #[derive(Debug, Clone)]
@@ -19,6 +26,12 @@ pub struct AirframeModel {
     pub gravity_scale: f64,
     pub(super) rotors: Vec<Rotor>,
     pub(super) rotor: RotorModel,
+    pub(super) inflow: Option<Inflow>,
+    pub(super) vortex_ring: Option<VortexRing>,
+    pub(super) walls: Option<Walls>,
+    pub(super) surface_effects: SurfaceEffects,
+    pub(super) layout: RotorLayout,
+    air_density: AirDensity,
     pub(super) drag_area_m2: Vector3<f64>,
     pub(super) angular_damping: Vector3<f64>,
     pub(super) probes: Vec<hull::BodyProbe>,
@@ -45,6 +58,15 @@ impl AirframeModel {
             gravity_scale: 1.0,
             rotors: vehicle.rotors.clone(),
             rotor: vehicle.rotor,
+            inflow: Inflow::of(&vehicle.aerodynamics),
+            vortex_ring: VortexRing::of(vehicle),
+            walls: Walls::of(vehicle),
+            surface_effects: vehicle.aerodynamics.surface_effects,
+            layout: RotorLayout {
+                hubs_m: vehicle.rotors.iter().map(|r| Vector2::new(r.position_m.forward(), r.position_m.right())).collect(),
+                radius_m: vehicle.rotor.radius_m,
+            },
+            air_density: vehicle.aerodynamics.air_density,
             drag_area_m2: Vector3::from(vehicle.drag.area_m2),
             angular_damping: Vector3::from(vehicle.drag.angular_damping_n_m_s),
             probes,
@@ -55,6 +77,24 @@ impl AirframeModel {
             battery_model,
             lamp: vehicle.lamp,
         }
+    }
+
+    /// Returns the model with a battery at a temperature, °C. The aircraft file's resistance is that at 25 °C. It grows with cold by an
+    /// Arrhenius law, R = 1.1e-6 exp(3131 K / T) (measured with packs of two lithium polymer cells), and so the voltage sags.
+    #[must_use]
+    pub fn with_battery_at(mut self, temperature_c: f64) -> Self {
+        const ACTIVATION_K: f64 = 3131.0;
+        const ZERO_CELSIUS_K: f64 = 273.15;
+        let kelvin = |celsius: f64| celsius + ZERO_CELSIUS_K;
+        self.battery.internal_resistance_ohm *=
+            math::exp(ACTIVATION_K * (1.0 / kelvin(temperature_c) - 1.0 / kelvin(BATTERY_REFERENCE_C)));
+        self
+    }
+
+    /// Returns the density of the air around the aircraft at an altitude above mean sea level, kg/m³.
+    #[must_use]
+    pub fn air_density_kg_m3(&self, altitude_m: f64) -> f64 {
+        self.air_density.kg_m3(altitude_m)
     }
 
     pub(super) fn decay(&self, dt_s: f64) -> f64 {
@@ -68,8 +108,7 @@ impl AirframeModel {
     /// Returns the rotor speed at hover, in rad/s.
     #[must_use]
     pub fn hover_rotor_rad_s(&self) -> f64 {
-        let per_rotor = self.mass_kg * math::GRAVITY_M_S2 / self.rotors.len() as f64;
-        (per_rotor / self.rotor.thrust_coefficient_n_s2).sqrt()
+        self.rotor.hover_speed_rad_s(self.mass_kg, self.rotors.len())
     }
 
     /// Returns the motor command (0 to 1) at hover with a full battery.

@@ -2,7 +2,7 @@
 //! fixed endurance from the TASBID paper.
 
 use super::airframe::AirframeModel;
-use super::state::{PhysicsState as Physics, PowerLoad};
+use super::state::{AirState, PhysicsState as Physics, PowerLoad};
 use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 
@@ -19,17 +19,17 @@ pub fn open_circuit_v(battery: &spandrel_model::vehicle::BatterySpec, charge: f6
 }
 
 /// Returns the total electrical power draw, in W.
-fn power_w(model: &AirframeModel, physics: &Physics, load: PowerLoad) -> f64 {
+fn power_w(model: &AirframeModel, physics: &Physics, air: &AirState, load: PowerLoad) -> f64 {
     let rotor = &model.rotor;
     let shaft: f64 = physics.rigid.rotor_rad_s.iter().map(|w| rotor.torque_coefficient_n_m_s2 * w * w * w).sum();
     let lamp = if load.lamp_on && model.lamp.luminous_flux_lm > 0.0 { model.battery.lamp_power_w } else { 0.0 };
-    shaft / rotor.efficiency + model.battery.avionics_power_w + lamp
+    shaft * air.density_ratio() / rotor.efficiency + model.battery.avionics_power_w + lamp
 }
 
 /// Advances charge, voltage and voltage sag by one step.
-pub fn advance(model: &AirframeModel, physics: &mut Physics, load: PowerLoad, dt_s: f64) {
+pub fn advance(model: &AirframeModel, physics: &mut Physics, air: &AirState, load: PowerLoad, dt_s: f64) {
     let battery = &model.battery;
-    let power = power_w(model, physics, load);
+    let power = power_w(model, physics, air, load);
     let state = &mut physics.battery;
     let whole = open_circuit_v(battery, state.charge);
     let live = state.working_cells(battery.cells);

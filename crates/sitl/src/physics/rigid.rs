@@ -3,7 +3,7 @@
 
 use super::airframe::AirframeModel;
 use super::state::{AirState, MAX_ROTORS, RigidState};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 
@@ -14,6 +14,29 @@ pub struct Wrench {
     pub force_n: Vec3<Frd>,
     /// Torque, N m.
     pub torque_n_m: Vec3<Frd>,
+}
+
+/// Motion and surroundings of one rotor at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotorConditions {
+    /// Velocity of the hub relative to the air, m/s.
+    pub hub_air_m_s: Vec3<Frd>,
+    /// Rotor speed, rad/s.
+    pub speed_rad_s: f64,
+    /// Acceleration of the rotor speed, rad/s².
+    pub acceleration_rad_s2: f64,
+    /// Thrust factor of surfaces and the vortex ring state; 1 without them.
+    pub effect: f64,
+    /// Air density divided by the one at sea level.
+    pub density_ratio: f64,
+}
+
+impl RotorConditions {
+    /// A rotor that turns at a constant speed and rests in open air at sea level.
+    #[must_use]
+    pub const fn at_rest(speed_rad_s: f64) -> Self {
+        Self { hub_air_m_s: Vec3::zero(), speed_rad_s, acceleration_rad_s2: 0.0, effect: 1.0, density_ratio: 1.0 }
+    }
 }
 
 /// The numerically integrated part of the state. The quaternion is not normalized between stages.
@@ -82,8 +105,9 @@ fn derivative(
     // FRAME: the stage's quaternion is the body's attitude, and its velocity is the NED velocity over ground.
     let attitude = Rotation::<Frd, Ned>::assume(attitude);
     let air_velocity = attitude.inverse() * (Vec3::assume(y.v) - air.velocity_m_s);
-    let at_rotors = air.rotors_m_s.map(|winds| winds.map(|wind| attitude.inverse() * wind));
-    let wrench = wrench(model, (air_velocity, at_rotors), Vec3::assume(y.w), rotors, air.density_kg_m3, effect);
+    // One matrix for all rotors takes less time than a quaternion for each.
+    let to_body = air.rotors_m_s.as_ref().map(|_| attitude.inverse().matrix());
+    let wrench = wrench(model, (air_velocity, to_body), Vec3::assume(y.w), rotors, air, effect);
     let force = (attitude * wrench.force_n + air.force_n).raw();
     let acceleration = force * model.inverse_mass + Vector3::new(0.0, 0.0, GRAVITY_M_S2 * model.gravity_scale);
     let momentum = model.inertia.component_mul(&y.w) + model.rotor_momentum(&rotors.speed);
@@ -92,25 +116,47 @@ fn derivative(
     IntegratedState { p: y.v, v: acceleration, q: q_dot, w: spin }
 }
 
-/// Returns the wrench for a velocity relative to the air at the center of mass, and the wind at each rotor minus the wind there.
+/// Returns the wrench for a velocity relative to the air at the center of mass, and the rotation to the body if the wind differs at the
+/// rotors.
 fn wrench(
     model: &AirframeModel,
-    (air_velocity_m_s, at_rotors_m_s): (Vec3<Frd>, Option<[Vec3<Frd>; MAX_ROTORS]>),
+    (air_velocity_m_s, to_body): (Vec3<Frd>, Option<Matrix3<f64>>),
     rates_rad_s: Vec3<Frd>,
     rotors: &RotorInstant,
-    density_kg_m3: f64,
+    air: &AirState,
     effect: &[f64; MAX_ROTORS],
 ) -> Wrench {
-    let mut total = body_drag(model, air_velocity_m_s, rates_rad_s, density_kg_m3);
+    let mut total = body_drag(model, air_velocity_m_s, rates_rad_s, air.density_kg_m3);
+    let density_ratio = air.density_ratio();
     for (i, rotor) in model.rotors.iter().enumerate() {
-        let (speed, acceleration) = (rotors.speed[i], rotors.acceleration[i]);
-        let hub = air_velocity_m_s + rates_rad_s.cross(rotor.position_m);
-        let hub = at_rotors_m_s.map_or(hub, |winds| hub - winds[i]);
-        let one = model.rotor_wrench(i, hub, speed, acceleration, effect[i]);
+        let (speed_rad_s, acceleration_rad_s2) = (rotors.speed[i], rotors.acceleration[i]);
+        // FRAME: the matrix turns NED into body axes.
+        let added_m_s = to_body.zip(air.rotors_m_s.as_ref()).map(|(to_body, winds)| Vec3::assume(to_body * winds[i].raw()));
+        let hub_air_m_s = hub_velocity(air_velocity_m_s, rates_rad_s, rotor.position_m, added_m_s);
+        let conditions = RotorConditions { hub_air_m_s, speed_rad_s, acceleration_rad_s2, effect: effect[i], density_ratio };
+        let one = model.rotor_wrench(i, &conditions);
         total.force_n += one.force_n;
         total.torque_n_m += one.torque_n_m;
     }
     total
+}
+
+/// Returns the velocity of a rotor's hub relative to the air, m/s.
+pub(super) fn hub_air_velocity(rigid: &RigidState, air: &AirState, index: usize, position_m: Vec3<Frd>) -> Vec3<Frd> {
+    let to_body = rigid.attitude.inverse();
+    let added_m_s = air.rotors_m_s.as_ref().map(|added| to_body * added[index]);
+    hub_velocity(to_body * (rigid.velocity_m_s - air.velocity_m_s), rigid.rates_rad_s, position_m, added_m_s)
+}
+
+/// Returns the velocity of a hub relative to the air, from that of the center of mass and the wind that is added at the hub, m/s.
+fn hub_velocity(
+    air_velocity_m_s: Vec3<Frd>,
+    rates_rad_s: Vec3<Frd>,
+    position_m: Vec3<Frd>,
+    added_m_s: Option<Vec3<Frd>>,
+) -> Vec3<Frd> {
+    let hub = air_velocity_m_s + rates_rad_s.cross(position_m);
+    added_m_s.map_or(hub, |wind| hub - wind)
 }
 
 fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Vec3<Frd>, density_kg_m3: f64) -> Wrench {
@@ -147,15 +193,25 @@ impl AirframeModel {
     /// Returns the wrench of one rotor about the center of mass: thrust, in-plane drag, drag torque and the reaction to
     /// its acceleration.
     #[must_use]
-    pub fn rotor_wrench(&self, index: usize, hub_air_m_s: Vec3<Frd>, speed: f64, acceleration: f64, effect: f64) -> Wrench {
+    pub fn rotor_wrench(&self, index: usize, at: &RotorConditions) -> Wrench {
         let rotor = &self.rotors[index];
         let m = &self.rotor;
-        let squared = speed * speed;
-        let h = -m.drag_coefficient_n_s2_m * speed;
-        let force_n =
-            Vec3::new(h * hub_air_m_s.forward(), h * hub_air_m_s.right(), -m.thrust_coefficient_n_s2 * squared * effect);
-        let yaw = rotor.spin * (m.torque_coefficient_n_m_s2 * squared + m.inertia_kg_m2 * acceleration);
+        let squared = at.speed_rad_s * at.speed_rad_s;
+        let h = -m.drag_coefficient_n_s2_m * at.speed_rad_s * at.density_ratio;
+        let thrust_n = self.thrust_n(at) * at.density_ratio;
+        let force_n = Vec3::new(h * at.hub_air_m_s.forward(), h * at.hub_air_m_s.right(), -thrust_n);
+        let torque = m.torque_coefficient_n_m_s2 * squared * at.density_ratio;
+        let yaw = rotor.spin * (torque + m.inertia_kg_m2 * at.acceleration_rad_s2);
         let torque_n_m = rotor.position_m.cross(force_n) + Vec3::new(0.0, 0.0, yaw);
         Wrench { force_n, torque_n_m }
+    }
+
+    /// Returns the thrust of a rotor at sea-level density, N.
+    fn thrust_n(&self, at: &RotorConditions) -> f64 {
+        let static_n = self.rotor.thrust_coefficient_n_s2 * (at.speed_rad_s * at.speed_rad_s) * at.effect;
+        match &self.inflow {
+            None => static_n,
+            Some(inflow) => static_n + inflow.change_n(at.hub_air_m_s, at.speed_rad_s, static_n),
+        }
     }
 }

@@ -6,6 +6,7 @@ use spandrel_model::frames::{Enu, Frd, Ned, Rotation, Vec3};
 use spandrel_model::math;
 use spandrel_model::site::{ObjectId, Surface};
 use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::SEA_LEVEL_AIR_DENSITY_KG_M3;
 
 /// Maximum number of rotors.
 pub const MAX_ROTORS: usize = 8;
@@ -34,8 +35,6 @@ pub struct Actuators {
     pub armed: bool,
 }
 
-/// Sea-level air density, kg/m³ (ISA, 15 °C, 1013.25 hPa).
-pub const AIR_DENSITY_KG_M3: f64 = 1.225;
 /// The air around the aircraft, constant over one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AirState {
@@ -52,7 +51,13 @@ pub struct AirState {
 impl AirState {
     /// Still air at sea level.
     pub const STILL: Self =
-        Self { velocity_m_s: Vec3::zero(), rotors_m_s: None, density_kg_m3: AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
+        Self { velocity_m_s: Vec3::zero(), rotors_m_s: None, density_kg_m3: SEA_LEVEL_AIR_DENSITY_KG_M3, force_n: Vec3::zero() };
+
+    /// Returns the density divided by the one at sea level, at which the coefficients of the rotors apply.
+    #[must_use]
+    pub fn density_ratio(&self) -> f64 {
+        self.density_kg_m3 / SEA_LEVEL_AIR_DENSITY_KG_M3
+    }
 }
 
 /// Battery model inputs for one step.
@@ -158,6 +163,8 @@ pub struct PhysicsState {
     pub contact: ContactReport,
     pub(super) initial_guess: WarmStart,
     pub(super) effect: [f64; MAX_ROTORS],
+    /// Force of walls as a fraction of the thrust.
+    pub(super) wall_pull: Vec3<Ned>,
     pub(super) effect_due: SimTime,
     pub(super) clear_sphere: ClearSphere,
 }
@@ -195,6 +202,7 @@ impl PhysicsState {
             contact: ContactReport::default(),
             initial_guess: WarmStart::default(),
             effect: [1.0; MAX_ROTORS],
+            wall_pull: Vec3::zero(),
             effect_due: SimTime::ZERO,
             clear_sphere: ClearSphere { center_m: Vec3::zero(), radius_m: -1.0, since: SimTime::ZERO },
         }

@@ -1,19 +1,25 @@
 //! Ground and ceiling effects on each rotor, as a thrust factor at a given rotor speed.
 
 use super::airframe::AirframeModel;
+use super::multirotor_surfaces;
 use super::obstacles::Obstacles;
 use super::state::{MAX_ROTORS, RigidState};
 use spandrel_model::frames::{Frd, Vec3};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
+use spandrel_model::vehicle::SurfaceEffects;
 
-/// Range of surface effects in rotor radii. Farther surfaces change thrust by less than 0.3% (Cheeseman-Bennett at 5 R: 1.0025).
+/// Range of the effects on a single rotor in rotor radii. Farther surfaces change thrust by less than 0.3% (Cheeseman-Bennett at 5 R: 1.0025).
 const RANGE_ROTOR_RADII: f64 = 5.0;
 
 /// Returns the range of surface effects, in meters.
 #[must_use]
 pub fn reach_m(model: &AirframeModel) -> f64 {
-    RANGE_ROTOR_RADII * model.rotor.radius_m
+    let radii = match model.surface_effects {
+        SurfaceEffects::SingleRotor => RANGE_ROTOR_RADII,
+        SurfaceEffects::Multirotor => multirotor_surfaces::RANGE_ROTOR_RADII,
+    };
+    radii * model.rotor.radius_m
 }
 
 /// Returns the thrust in ground effect divided by the thrust out of ground effect at equal power, after Cheeseman and
@@ -40,26 +46,58 @@ pub fn ceiling_factor(distance_over_radius: f64) -> f64 {
     g * g
 }
 
-/// Returns each rotor's thrust factor, based on the surfaces below and above its hub along the rotor axis.
-pub fn factors(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> [f64; MAX_ROTORS] {
-    let mut out = [1.0; MAX_ROTORS];
+/// Distances from the hubs to the surfaces below and above them along the rotor axes, m; `None` if there is none within reach.
+#[derive(Debug, Clone, Copy)]
+pub struct SurfaceDistances {
+    below_m: [Option<f64>; MAX_ROTORS],
+    above_m: [Option<f64>; MAX_ROTORS],
+}
+
+impl SurfaceDistances {
+    /// Returns the smallest distances above and below, m.
+    pub fn nearest_m(&self) -> [Option<f64>; 2] {
+        [&self.above_m, &self.below_m].map(|distances| distances.iter().flatten().copied().reduce(f64::min))
+    }
+}
+
+/// Casts rays up and down from each hub.
+pub fn distances(model: &AirframeModel, rigid: &RigidState, obstacles: &impl Obstacles, at: SimTime) -> SurfaceDistances {
+    let mut out = SurfaceDistances { below_m: [None; MAX_ROTORS], above_m: [None; MAX_ROTORS] };
     let down = (rigid.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).enu();
-    let radius = model.rotor.radius_m;
     for (i, rotor) in model.rotors.iter().enumerate() {
         let hub = (rigid.position_m + rigid.attitude * rotor.position_m).enu();
-        if let Some(hit) = obstacles.ray(hub, down, reach_m(model), at) {
-            out[i] *= ground_factor(hit.distance_m / radius);
-        }
-        if let Some(hit) = obstacles.ray(hub, -down, reach_m(model), at) {
-            out[i] *= ceiling_factor(hit.distance_m / radius);
-        }
+        out.below_m[i] = obstacles.ray(hub, down, reach_m(model), at).map(|hit| hit.distance_m);
+        out.above_m[i] = obstacles.ray(hub, -down, reach_m(model), at).map(|hit| hit.distance_m);
     }
     out
+}
+
+/// Returns each rotor's thrust factor, based on the surfaces below and above its hub along the rotor axis.
+#[must_use]
+pub fn factors(model: &AirframeModel, found: &SurfaceDistances) -> [f64; MAX_ROTORS] {
+    let radius = model.rotor.radius_m;
+    match model.surface_effects {
+        SurfaceEffects::SingleRotor => combine(
+            found.below_m.map(|below_m| below_m.map_or(1.0, |m| ground_factor(m / radius))),
+            found.above_m.map(|above_m| above_m.map_or(1.0, |m| ceiling_factor(m / radius))),
+        ),
+        SurfaceEffects::Multirotor => combine(
+            model.layout.ground_factors(&found.below_m),
+            found.above_m.map(|above_m| above_m.map_or(1.0, |m| model.layout.ceiling_factor(m))),
+        ),
+    }
+}
+
+/// Returns the products of the factors of ground and ceiling.
+fn combine(mut ground: [f64; MAX_ROTORS], ceiling: [f64; MAX_ROTORS]) -> [f64; MAX_ROTORS] {
+    ground.iter_mut().zip(ceiling).for_each(|(factor, other)| *factor *= other);
+    ground
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::RotorConditions;
     use spandrel_model::frames::Enu;
     use spandrel_model::site::{ObjectId, RayHit, Surface};
 
@@ -106,13 +144,14 @@ mod tests {
     #[test]
     fn exact_each_rotor_uses_surfaces_above_and_below_it() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
-        let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
+        let mut vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
+        vehicle.aerodynamics.surface_effects = SurfaceEffects::SingleRotor;
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
         let radius = vehicle.rotor.radius_m;
         // The hubs are 3 cm above the center. The ceiling is one radius away, and the floor two radii.
         let slabs = FloorAndCeiling(0.03 - 2.0 * radius, 0.03 + radius);
         let state = crate::physics::PhysicsState::at_rest(Vec3::zero(), 0.0);
-        let got = factors(&model, &state.rigid, &slabs, SimTime::ZERO);
+        let got = factors(&model, &distances(&model, &state.rigid, &slabs, SimTime::ZERO));
         let beside = ground_factor(2.0) * ceiling_factor(1.0);
         for (i, rotor) in vehicle.rotors.iter().enumerate() {
             let expected = if rotor.position_m.forward() > 0.0 { beside } else { 1.0 };
@@ -122,11 +161,29 @@ mod tests {
     }
 
     #[test]
+    fn exact_multirotor_model_is_selected_by_the_vehicle_file() {
+        let text = include_str!("../../../../vehicle-params/phantom2.toml");
+        let mut vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
+        let radius = vehicle.rotor.radius_m;
+        let slabs = FloorAndCeiling(0.03 - 2.0 * radius, 0.03 + radius);
+        let state = crate::physics::PhysicsState::at_rest(Vec3::zero(), 0.0);
+        let mut got = |kind| {
+            vehicle.aerodynamics.surface_effects = kind;
+            let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
+            (reach_m(&model) / radius, factors(&model, &distances(&model, &state.rigid, &slabs, SimTime::ZERO))[0])
+        };
+        let ((near, single), (far, multi)) = (got(SurfaceEffects::SingleRotor), got(SurfaceEffects::Multirotor));
+        assert!((near - 5.0).abs() < 1e-12 && (far - 10.0).abs() < 1e-12, "{near} {far}");
+        // Two of four rotors over the floor: the effect of the ground is between the one of a single rotor and the one of four.
+        assert!((1.016 * 1.02 - single).abs() < 1e-3 && multi > 1.02 * 1.09 && multi < 1.12 * 1.09, "{multi}, {single} alone");
+    }
+
+    #[test]
     fn exact_thrust_factor_scales_only_thrust() {
         let text = include_str!("../../../../vehicle-params/phantom2.toml");
         let vehicle = spandrel_model::vehicle::read("phantom2.toml", text).expect("shipped");
         let model = AirframeModel::new(&vehicle, spandrel_model::scenario::BatteryModel::Paper);
-        let wrench = |effect| model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, effect);
+        let wrench = |effect| model.rotor_wrench(0, &RotorConditions { effect, ..RotorConditions::at_rest(500.0) });
         let (open, near) = (wrench(1.0), wrench(1.25));
         assert!((near.force_n - open.force_n * 1.25).norm() < 1e-12);
         assert!((near.torque_n_m.down() - open.torque_n_m.down()).abs() < 1e-12);

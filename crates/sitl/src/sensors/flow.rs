@@ -3,7 +3,7 @@
 //! the dark.
 
 use super::readings::FlowReading;
-use crate::physics::RigidState;
+use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
@@ -47,14 +47,14 @@ impl OpticalFlow {
     }
 
     /// Returns the reading for a surface at the distance `nearest_m` with the illuminance `lux`, or `None` if tracking
-    /// is impossible.
-    pub fn read(&mut self, rigid: &RigidState, nearest_m: f64, lux: f64) -> Option<FlowReading> {
+    /// is impossible. `velocity_m_s` is relative to the surface.
+    pub fn read(&mut self, velocity_m_s: Vec3<Ned>, yaw_rad: f64, nearest_m: f64, lux: f64) -> Option<FlowReading> {
         let (a, b) = (self.stream.normal(), self.stream.normal());
         if lux < MIN_ILLUMINANCE_LUX || nearest_m >= self.reach_m {
             return None;
         }
-        let (s, c) = math::sin_cos(rigid.attitude.yaw_rad());
-        let v = rigid.velocity_m_s;
+        let (s, c) = math::sin_cos(yaw_rad);
+        let v = velocity_m_s;
         Some(FlowReading {
             forward_m_s: (c * v.north() + s * v.east()) * self.scale + a * self.noise_m_s,
             right_m_s: (c * v.east() - s * v.north()) * self.scale + b * self.noise_m_s,

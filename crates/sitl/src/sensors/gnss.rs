@@ -1,27 +1,22 @@
-//! GNSS receiver with a fixed satellite constellation. Structures hide satellites, and the dilution of precision
+//! GNSS receiver with a fixed satellite constellation, or, in jobs with `hazards.sky`, with the real sky ([`super::sky`]). In the fixed
+//! constellation, structures hide satellites, and the dilution of precision
 //! follows from the visible ones. Position errors combine slow drift, white noise, and multipath that grows with the
-//! hidden fraction of the sky.
+//! hidden fraction of the sky. Receivers of both kinds need a while for a solution: a reading describes an earlier instant.
 
+use super::dilution::{BLOCKING_RANGE_M, ELEVATION_MASK_RAD, MAX_HDOP, MIN_SATELLITES, dilution};
 use super::readings::GnssReading;
+use super::sky::SkyReceiver;
 use super::surroundings::Surroundings;
 use crate::physics::RigidState;
-use nalgebra::{Matrix4, Vector4};
 use spandrel_model::frames::{Enu, Ned, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle;
+use std::collections::VecDeque;
 
 /// Satellites above the elevation mask (estimate: four constellations, one frequency).
 pub const SATELLITE_COUNT: usize = 22;
-/// Elevation mask, rad (10 degrees, common in receivers).
-const ELEVATION_MASK_RAD: f64 = 0.174_533;
-/// Minimum number of satellites for a fix (four for the four unknowns, and one for a consistency check).
-const MIN_SATELLITES: usize = 5;
-/// Maximum horizontal dilution of precision for a fix (estimate: receivers flag larger values as unusable).
-const MAX_HDOP: f64 = 8.0;
-/// Range within which structures hide satellites, m (larger than any site).
-const BLOCKING_RANGE_M: f64 = 400.0;
 /// Slowly drifting fraction of the position noise; the white-noise fraction accounts for the remaining variance.
 pub const DRIFT_FRACTION: f64 = 0.8;
 /// White-noise fraction of the position noise: `DRIFT_FRACTION`² + `WHITE_NOISE_FRACTION`² = 1.
@@ -38,6 +33,9 @@ pub struct GnssReceiver {
     stream: RandomStream,
     due: Schedule,
     period_s: f64,
+    delay: SimTime,
+    /// Readings that the autopilot has not got yet, with the time at which it gets them.
+    pending: VecDeque<(SimTime, GnssReading)>,
     shadow: bool,
     horizontal_m: f64,
     vertical_m: f64,
@@ -47,18 +45,21 @@ pub struct GnssReceiver {
     drift: Vec3<Ned>,
     multipath: Vec3<Ned>,
     multipath_variance_m2: f64,
+    real_sky: Option<Box<SkyReceiver>>,
 }
 
 impl GnssReceiver {
-    /// Creates the receiver. With `shadow`, structures hide satellites.
+    /// Creates the receiver. With `shadow`, structures hide satellites. With `real_sky`, all readings come from it.
     #[must_use]
-    pub fn new(sensors: &vehicle::SensorSpec, shadow: bool, seed: u64) -> Self {
+    pub fn new(sensors: &vehicle::SensorSpec, shadow: bool, real_sky: Option<Box<SkyReceiver>>, seed: u64) -> Self {
         let mut stream = RandomStream::new(seed, "gnss");
         let sky = sky();
         let open = dilution(sky.iter().copied()).unwrap_or((1.0, 1.0));
         let mut gnss = Self {
             due: Schedule::new(SimTime::ZERO, sensors.gnss_rate_hz),
             period_s: 1.0 / sensors.gnss_rate_hz,
+            delay: SimTime::from_s(sensors.gnss_delay_s),
+            pending: VecDeque::new(),
             shadow,
             horizontal_m: sensors.gnss_horizontal_noise_m,
             vertical_m: sensors.gnss_vertical_noise_m,
@@ -68,6 +69,7 @@ impl GnssReceiver {
             drift: Vec3::zero(),
             multipath: Vec3::zero(),
             multipath_variance_m2: 0.0,
+            real_sky,
             stream: stream.clone(),
         };
         gnss.drift = gnss.random_error(&mut stream, DRIFT_FRACTION);
@@ -75,10 +77,26 @@ impl GnssReceiver {
         gnss
     }
 
-    /// Returns a reading if one is due.
+    /// Returns a reading if one is due: that of the instant one delay ago.
     pub fn read<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<GnssReading> {
+        if let Some(reading) = self.measure(rigid, site, now) {
+            self.pending.push_back((now + self.delay, reading));
+        }
+        self.pending.pop_front_if(|(due, _)| *due <= now).map(|(_, reading)| reading)
+    }
+
+    /// Discards what the receiver has measured but not sent, because the aircraft is now at another place.
+    pub fn discard_pending(&mut self) {
+        self.pending.clear();
+    }
+
+    /// Returns a reading of this instant if a measurement is due.
+    fn measure<S: Surroundings>(&mut self, rigid: &RigidState, site: &S, now: SimTime) -> Option<GnssReading> {
         if !self.due.fire(now) {
             return None;
+        }
+        if let Some(sky) = &mut self.real_sky {
+            return Some(sky.read(rigid, site, now));
         }
         let position_m = rigid.position_m.enu();
         let visible: Vec<Vec3<Enu>> = self.sky.iter().copied().filter(|d| self.is_visible(position_m, *d, site, now)).collect();
@@ -116,7 +134,7 @@ impl GnssReceiver {
         let satellites = u8::try_from(visible.len()).unwrap_or(u8::MAX);
         let dop = dilution(visible.iter().copied()).filter(|(h, _)| *h < MAX_HDOP && visible.len() >= MIN_SATELLITES);
         let Some((hdop, vdop)) = dop else {
-            return GnssReading { fix: 0, satellites, ..no_fix() };
+            return GnssReading::without_fix(satellites);
         };
         let (sh, sv) = (hdop / self.open.0, vdop / self.open.1);
         let stretch = |v: Vec3<Ned>| Vec3::<Ned>::new(v.north() * sh, v.east() * sh, v.down() * sv);
@@ -136,26 +154,13 @@ impl GnssReceiver {
     /// Returns the current drift in meters, for estimator tests.
     #[must_use]
     pub fn drift_m(&self) -> Vec3<Ned> {
-        self.drift
+        self.real_sky.as_ref().map_or(self.drift, |sky| sky.drift_m())
     }
 }
 
 fn normal3(stream: &mut RandomStream) -> Vec3<Ned> {
     let [n, e, d] = stream.normal3();
     Vec3::new(n, e, d)
-}
-
-fn no_fix() -> GnssReading {
-    GnssReading {
-        fix: 0,
-        satellites: 0,
-        position_m: Vec3::zero(),
-        velocity_m_s: Vec3::zero(),
-        hdop: 99.99,
-        vdop: 99.99,
-        eph_m: f64::INFINITY,
-        epv_m: f64::INFINITY,
-    }
 }
 
 /// Returns unit vectors to the satellites, spread evenly above the mask with the golden angle.
@@ -172,32 +177,9 @@ fn sky() -> Vec<Vec3<Enu>> {
         .collect()
 }
 
-/// Returns the horizontal and vertical dilution of precision, or `None` with too few satellites or a degenerate
-/// geometry.
-fn dilution(sky: impl Iterator<Item = Vec3<Enu>>) -> Option<(f64, f64)> {
-    let normal: Matrix4<f64> = sky.fold(Matrix4::zeros(), |sum, d| {
-        let row = Vector4::new(-d.east(), -d.north(), -d.up(), 1.0);
-        sum + row * row.transpose()
-    });
-    let inverse = normal.try_inverse()?;
-    let (h2, v2) = (inverse[(0, 0)] + inverse[(1, 1)], inverse[(2, 2)]);
-    (h2.is_finite() && h2 > 0.0 && v2 > 0.0).then(|| (h2.sqrt(), v2.sqrt()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn exact_four_satellites_have_textbook_dilution() {
-        // One at the zenith and three at 120 degrees on the horizon: HDOP² = 4/3 and VDOP² = 4/3.
-        let third = math::TAU / 3.0;
-        let low = (0..3).map(|i| Vec3::new(math::sin(third * f64::from(i)), math::cos(third * f64::from(i)), 0.0));
-        let all = low.chain(std::iter::once(Vec3::new(0.0, 0.0, 1.0)));
-        let expected = (4.0_f64 / 3.0).sqrt();
-        let (h, v) = dilution(all).unwrap_or((0.0, 0.0));
-        assert!((h - expected).abs() < 1e-12 && (v - expected).abs() < 1e-12, "{h} {v}");
-    }
 
     struct CoveredSky;
     impl Surroundings for CoveredSky {
@@ -210,10 +192,33 @@ mod tests {
     }
 
     #[test]
+    fn exact_reading_describes_the_instant_one_delay_ago() {
+        let delay = SimTime::from_ms(110);
+        let sensors =
+            vehicle::SensorSpec { gnss_delay_s: delay.s(), gnss_rate_hz: 10.0, ..crate::sensors::tests::error_free_sensors() };
+        let mut receiver = GnssReceiver::new(&sensors, false, None, 1);
+        let mut received = Vec::new();
+        for ms in 0..1000 {
+            let now = SimTime::from_ms(ms);
+            let mut rigid = crate::sensors::tests::still();
+            rigid.position_m = Vec3::new(now.s(), 0.0, 0.0);
+            if let Some(reading) = receiver.read(&rigid, &CoveredSky, now) {
+                received.push((now, reading.position_m.north()));
+            }
+        }
+        assert_eq!(received.len(), 9);
+        for (now, north_m) in received {
+            assert!((north_m - (now - delay).s()).abs() < 1e-12, "{now:?}: {north_m}");
+        }
+        receiver.discard_pending();
+        assert_eq!(receiver.read(&crate::sensors::tests::still(), &CoveredSky, SimTime::from_ms(1010)), None);
+    }
+
+    #[test]
     fn prop_covered_sky_prevents_fix_only_with_shadowing() {
         let sensors = crate::sensors::tests::error_free_sensors();
         let rigid = crate::sensors::tests::still();
-        let fix = |shadow| GnssReceiver::new(&sensors, shadow, 1).read(&rigid, &CoveredSky, SimTime::ZERO).map(|r| r.fix);
+        let fix = |shadow| GnssReceiver::new(&sensors, shadow, None, 1).read(&rigid, &CoveredSky, SimTime::ZERO).map(|r| r.fix);
         assert_eq!(fix(false), Some(3));
         assert_eq!(fix(true), Some(0));
     }

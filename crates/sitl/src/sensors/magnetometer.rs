@@ -62,6 +62,13 @@ impl Magnetometer {
         self.steel.as_ref().map_or(field, |steel| field + steel.distortion(position_m.enu(), field.enu()).ned())
     }
 
+    /// Returns by how much the field's horizontal direction at a position differs from the undisturbed one, rad, clockwise positive.
+    #[must_use]
+    pub fn direction_error_rad(&self, position_m: Vec3<Ned>) -> f64 {
+        let direction_rad = |field: Vec3<Ned>| math::atan2(field.east(), field.north());
+        math::wrap_pi(direction_rad(self.field_gauss(position_m)) - direction_rad(self.field_gauss))
+    }
+
     /// Returns the field in body axes, in gauss, if a sample is due.
     pub fn read(&mut self, rigid: &RigidState, now: SimTime) -> Option<Vec3<Frd>> {
         if !self.due.fire(now) {
@@ -77,6 +84,7 @@ impl Magnetometer {
 mod tests {
     use super::*;
     use crate::sensors::tests::{error_free_sensors, still};
+    use spandrel_model::shipped;
 
     #[test]
     fn exact_bias_rotates_with_body_and_has_specified_spread() {
@@ -102,7 +110,7 @@ mod tests {
         // A trainee 1 m beside a steel member must see the compass turn, and at 30 m not.
         const NEAR_DEG: f64 = 2.0;
         const FAR_DEG: f64 = 0.2;
-        let text = include_str!("../../../../scenarios/two-bridges.toml");
+        let text = shipped::without_hazards(shipped::TWO_BRIDGES);
         let turn_deg = |hazards: &str, clearance_m: f64| {
             let text = format!("{text}\n[hazards]\n{hazards}\n");
             let job = spandrel_model::scenario::read("job.toml", &text, &|file| Err(format!("no {file}"))).unwrap();

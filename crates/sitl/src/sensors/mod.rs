@@ -2,19 +2,24 @@
 //! the vehicle.
 
 pub mod baro;
+mod dilution;
 pub mod flow;
 pub mod gnss;
 pub mod imu;
 pub mod magnetometer;
 pub mod rangefinder;
 mod readings;
+pub mod sky;
 mod surroundings;
+pub mod vibration;
+pub mod water;
 
 pub use readings::{BatteryReading, FlowReading, GnssReading, ImuReading, Readings};
 pub use surroundings::{FlatGround, Surroundings};
 
-use crate::physics::RigidState;
-use spandrel_model::frames::{Frd, Vec3};
+use crate::physics::{MAX_ROTORS, PhysicsState, RigidState};
+use rangefinder::RangeReadings;
+use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
@@ -29,10 +34,32 @@ use std::sync::Arc;
 pub struct SensorInputs<'a> {
     /// Motion state.
     pub rigid: &'a RigidState,
+    /// Velocity relative to the air, m/s.
+    pub air_velocity_m_s: Vec3<Ned>,
     /// Battery terminal values.
     pub battery: BatteryReading,
     /// Whether the lamp is on.
     pub lamp_on: bool,
+}
+
+/// Motion that the inertial sensors feel in one physics step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeltMotion {
+    /// Specific force, m/s².
+    pub specific_force_m_s2: Vec3<Frd>,
+    /// Angular rates, rad/s.
+    pub rates_rad_s: Vec3<Frd>,
+    /// Rotor speeds, rad/s.
+    pub rotor_rad_s: [f64; MAX_ROTORS],
+}
+
+impl FeltMotion {
+    /// Returns the motion of an aircraft's last physics step.
+    #[must_use]
+    pub fn of(state: &PhysicsState) -> Self {
+        let rigid = &state.rigid;
+        Self { specific_force_m_s2: state.specific_force_m_s2, rates_rad_s: rigid.rates_rad_s, rotor_rad_s: rigid.rotor_rad_s }
+    }
 }
 
 /// All sensors of one aircraft, as plain data.
@@ -42,11 +69,14 @@ pub struct Sensors {
     power_due: Schedule,
     light_due: Schedule,
     imu: imu::Imu,
+    vibration: Option<vibration::RotorVibration>,
     gnss: gnss::GnssReceiver,
     baro: baro::Barometer,
     magnetometer: magnetometer::Magnetometer,
     ranges: rangefinder::RangeFinders,
     flow: flow::OpticalFlow,
+    water: Option<water::WaterSurface>,
+    below: water::Below,
     lamp: Lamp,
     nearest_m: f64,
     ambient_lux: f64,
@@ -66,20 +96,26 @@ pub struct SensorSite {
     pub gnss_shadow: bool,
     /// Steel that distorts the magnetic field; `None` if none does.
     pub steel: Option<Arc<SteelField>>,
+    /// True if water disturbs the optical flow and the range finder that looks down.
+    pub water: bool,
+    /// Real sky above the site; `None` for the fixed constellation.
+    pub sky: Option<Arc<sky::Sky>>,
 }
 
 impl SensorSite {
     /// Returns a site whose structures don't affect the sensors.
     #[must_use]
     pub fn open(origin: Geo) -> Self {
-        Self { origin, gnss_shadow: false, steel: None }
+        Self { origin, gnss_shadow: false, steel: None, water: false, sky: None }
     }
 
     /// Returns the effects that a job has switched on.
     #[must_use]
     pub fn of(scenario: &Scenario, members: &[Member]) -> Self {
-        let steel = scenario.hazards.compass.then(|| Arc::new(SteelField::new(members)));
-        Self { origin: scenario.origin, gnss_shadow: scenario.rules.gnss_shadow, steel }
+        let steel = scenario.hazards.compass.then(|| Arc::new(SteelField::new(members, scenario.hazards.severity)));
+        let sky = scenario.hazards.sky.then(|| Arc::new(sky::Sky::new(scenario, members)));
+        let (gnss_shadow, water) = (scenario.rules.gnss_shadow, scenario.hazards.water);
+        Self { origin: scenario.origin, gnss_shadow, steel, water, sky }
     }
 }
 
@@ -87,29 +123,42 @@ impl Sensors {
     /// Creates the sensors of an aircraft.
     #[must_use]
     pub fn new(vehicle: &Vehicle, site: SensorSite, seed: u64) -> Self {
-        let SensorSite { origin, gnss_shadow, steel } = site;
+        let SensorSite { origin, gnss_shadow, steel, water, sky } = site;
         let spec = &vehicle.sensors;
+        let real_sky = sky.map(|sky| Box::new(sky::SkyReceiver::new(spec, sky, seed)));
         let fitted = spec.flow_velocity_m_s > 0.0;
         Self {
             imu_due: Schedule::new(SimTime::ZERO, spec.imu_rate_hz),
             power_due: Schedule::new(SimTime::ZERO, POWER_MODULE_RATE_HZ),
             light_due: Schedule::new(SimTime::ZERO, if fitted { AMBIENT_LIGHT_RATE_HZ } else { 0.0 }),
             imu: imu::Imu::new(spec, seed),
-            gnss: gnss::GnssReceiver::new(spec, gnss_shadow, seed),
+            vibration: vibration::RotorVibration::of(vehicle, seed),
+            gnss: gnss::GnssReceiver::new(spec, gnss_shadow, real_sky, seed),
             baro: baro::Barometer::new(spec, origin.altitude_m, seed),
             magnetometer: magnetometer::Magnetometer::new(spec, origin, steel, seed),
             ranges: rangefinder::RangeFinders::new(spec, seed),
             flow: flow::OpticalFlow::new(spec, seed),
+            water: water.then(|| water::WaterSurface::new(seed)),
+            below: water::Below::Solid,
             lamp: vehicle.lamp,
             nearest_m: f64::INFINITY,
             ambient_lux: 0.0,
         }
     }
 
+    /// Returns by how much steel turns the direction of a compass at a position, rad, clockwise positive.
+    #[must_use]
+    pub fn compass_error_rad(&self, position_m: Vec3<Ned>) -> f64 {
+        self.magnetometer.direction_error_rad(position_m)
+    }
+
     /// Integrates the inertial sensors. Call it after every physics step, so that they capture all motion between two
     /// samples.
-    pub fn integrate_imu(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
-        self.imu.integrate(specific_force_m_s2, rates_rad_s, dt);
+    pub fn integrate_imu(&mut self, motion: &FeltMotion, dt: SimTime) {
+        self.imu.integrate(motion.specific_force_m_s2, motion.rates_rad_s, dt);
+        if let Some(vibration) = &mut self.vibration {
+            vibration.advance(&motion.rotor_rad_s, dt);
+        }
     }
 
     /// Returns all readings that are due at `now`.
@@ -119,30 +168,48 @@ impl Sensors {
         let mut out = Readings::default();
         if self.imu_due.fire(now) {
             out.imu = self.imu.read();
+            if let (Some(vibration), Some(reading)) = (&mut self.vibration, &mut out.imu) {
+                vibration.add_to(reading);
+            }
         }
         out.gnss = self.gnss.read(rigid, site, now);
-        if let Some((up_m, pressure_pa)) = self.baro.read(position_m.up(), now) {
+        if let Some((up_m, pressure_pa)) = self.baro.read(position_m.up(), truth.air_velocity_m_s, now) {
             out.baro_up_m = Some(up_m);
             out.pressure_pa = Some(pressure_pa);
         }
         out.mag_gauss = self.magnetometer.read(rigid, now);
-        if let Some(ranges) = self.ranges.read(rigid, site, now) {
+        if let Some(mut ranges) = self.ranges.read(rigid, site, now) {
+            if let Some(water) = &mut self.water {
+                self.below = water.look_down(position_m, &mut ranges.down_m, site);
+            }
             out.range_down_m = Some(ranges.down_m);
             out.range_up_m = Some(ranges.up_m);
             out.range_around_m = Some(ranges.around_m);
-            self.nearest_m = ranges.min_range_m();
+            self.nearest_m = match self.below {
+                water::Below::Solid | water::Below::NearWater => ranges.min_range_m(),
+                water::Below::FarWater => RangeReadings { down_m: f64::INFINITY, ..ranges }.min_range_m(),
+            };
         }
         if self.light_due.fire(now) {
             self.ambient_lux = site.lux(position_m, now);
         }
         if self.flow.due(now) {
             let lux = self.ambient_lux + self.lamp_lux(truth.lamp_on);
-            out.flow = self.flow.read(rigid, self.nearest_m, lux);
+            let surface_m_s = self.surface_velocity_m_s(rigid.velocity_m_s - truth.air_velocity_m_s);
+            out.flow = self.flow.read(rigid.velocity_m_s - surface_m_s, rigid.attitude.yaw_rad(), self.nearest_m, lux);
         }
         if self.power_due.fire(now) {
             out.battery = Some(truth.battery);
         }
         out
+    }
+
+    /// Returns the velocity of the surface that the flow camera tracks, in a wind, m/s.
+    fn surface_velocity_m_s(&mut self, wind_m_s: Vec3<Ned>) -> Vec3<Ned> {
+        match (&mut self.water, self.below) {
+            (Some(water), water::Below::NearWater) => water.velocity_m_s(wind_m_s, 1.0 / flow::SAMPLE_RATE_HZ),
+            (Some(_) | None, water::Below::Solid | water::Below::NearWater | water::Below::FarWater) => Vec3::zero(),
+        }
     }
 
     /// Returns the illuminance, in lx, that the lamp would produce on the nearest surface if it pointed there.
@@ -154,10 +221,21 @@ impl Sensors {
         self.lamp.luminous_flux_lm / solid_angle.max(1e-3) / self.nearest_m.max(0.5) / self.nearest_m.max(0.5)
     }
 
+    /// Returns the vibration in the latest reading of the inertial sensors.
+    #[must_use]
+    pub fn vibration(&self) -> ImuReading {
+        self.vibration.as_ref().map_or(ImuReading::ZERO, vibration::RotorVibration::latest)
+    }
+
     /// Returns the inertial sensors, for estimator tests.
     #[must_use]
     pub fn imu(&self) -> &imu::Imu {
         &self.imu
+    }
+
+    /// Discards what the sensors have measured but not sent, because the aircraft is now at another place.
+    pub fn discard_pending(&mut self) {
+        self.gnss.discard_pending();
     }
 
     /// Returns the GNSS receiver, for estimator tests.
@@ -176,7 +254,6 @@ impl Sensors {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::physics::MAX_ROTORS;
     use spandrel_model::frames::Rotation;
     use spandrel_model::vehicle;
 
@@ -188,13 +265,17 @@ pub(crate) mod tests {
             accel_bias_m_s2: 0.0,
             gyro_noise_density: 0.0,
             gyro_bias_rad_s: 0.0,
+            accel_vibration_m_s2: 0.0,
+            gyro_vibration_rad_s: 0.0,
             gnss_rate_hz: 5.0,
             gnss_horizontal_noise_m: 0.0,
             gnss_vertical_noise_m: 0.0,
             gnss_velocity_noise_m_s: 0.0,
+            gnss_delay_s: 0.0,
             baro_rate_hz: 50.0,
             baro_noise_m: 0.0,
             baro_drift_m_sqrt_s: 0.0,
+            baro_airflow: 0.0,
             mag_rate_hz: 50.0,
             mag_noise_gauss: 0.0,
             mag_bias_gauss: 0.0,
@@ -247,8 +328,8 @@ pub(crate) mod tests {
     #[test]
     fn exact_flow_requires_light_and_surface_in_range() {
         let mut flow = flow::OpticalFlow::new(&error_free_sensors(), 1);
-        assert!(flow.read(&still(), 5.0, 100.0).is_some());
-        assert!(flow.read(&still(), 5.0, 14.0).is_none());
-        assert!(flow.read(&still(), 41.0, 100.0).is_none());
+        assert!(flow.read(Vec3::zero(), 0.0, 5.0, 100.0).is_some());
+        assert!(flow.read(Vec3::zero(), 0.0, 5.0, 14.0).is_none());
+        assert!(flow.read(Vec3::zero(), 0.0, 41.0, 100.0).is_none());
     }
 }

@@ -11,6 +11,22 @@ pub struct ImuReading {
     pub rates_rad_s: Vec3<Frd>,
 }
 
+impl ImuReading {
+    /// No force and no rotation.
+    pub const ZERO: Self = Self { specific_force_m_s2: Vec3::zero(), rates_rad_s: Vec3::zero() };
+}
+
+impl std::ops::Add for ImuReading {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            specific_force_m_s2: self.specific_force_m_s2 + other.specific_force_m_s2,
+            rates_rad_s: self.rates_rad_s + other.rates_rad_s,
+        }
+    }
+}
+
 /// One GNSS fix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GnssReading {
@@ -30,6 +46,23 @@ pub struct GnssReading {
     pub eph_m: f64,
     /// Vertical accuracy reported by the receiver, m (1 sigma).
     pub epv_m: f64,
+}
+
+impl GnssReading {
+    /// Returns the reading of a receiver that tracks this many satellites but has no fix.
+    #[must_use]
+    pub fn without_fix(satellites: u8) -> Self {
+        Self {
+            fix: 0,
+            satellites,
+            position_m: Vec3::zero(),
+            velocity_m_s: Vec3::zero(),
+            hdop: 99.99,
+            vdop: 99.99,
+            eph_m: f64::INFINITY,
+            epv_m: f64::INFINITY,
+        }
+    }
 }
 
 /// Readings that become available in one tick.

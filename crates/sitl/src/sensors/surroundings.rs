@@ -16,6 +16,10 @@ pub trait Surroundings {
     }
     /// Returns the mean ambient light at a point, in lx.
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64;
+    /// Returns the height of the water's surface, m up; `None` on land.
+    fn water_up_m(&self, _east_m: f64, _north_m: f64) -> Option<f64> {
+        None
+    }
 }
 
 impl Surroundings for Site {
@@ -29,6 +33,9 @@ impl Surroundings for Site {
     }
     fn lux(&self, position_m: Vec3<Enu>, at: SimTime) -> f64 {
         self.ambient_lux(position_m, None, at)
+    }
+    fn water_up_m(&self, east_m: f64, north_m: f64) -> Option<f64> {
+        self.water_up_m(east_m, north_m)
     }
 }
 

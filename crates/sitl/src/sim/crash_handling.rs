@@ -175,6 +175,7 @@ impl Sim {
     pub(super) fn place_at_rest(&mut self, position_m: Vec3<Ned>, yaw_rad: f64, rotor_rad_s: f64) {
         self.state.place(position_m, yaw_rad);
         self.state.rigid.rotor_rad_s = [rotor_rad_s; physics::MAX_ROTORS];
+        self.sensors.discard_pending();
     }
 
     /// Ends a contact and its consequences, because the aircraft is now at another place.

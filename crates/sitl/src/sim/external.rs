@@ -2,15 +2,15 @@
 //! commands. While a new process starts, the aircraft does not move, and only the autopilot's clock runs.
 
 use super::controller::{Controller, ExternalController};
-use super::{STEP, Sim, SimConfig, SimEvent, place_on_pad};
+use super::{STEP, Sim, SimConfig, SimEvent, place_on_pad, with_receiver};
 use crate::backend::interface::{InterfaceEvent, SimulatorInterface, StepInput};
 use crate::backend::{ExternalAutopilot, Phase};
 use crate::endpoint::RelayEndpoint;
 use crate::endpoint::relay::{AutopilotReport, RelayRules};
-use crate::physics::Actuators;
-use crate::sensors::ImuReading;
+use crate::physics::{Actuators, MAX_ROTORS};
+use crate::sensors::{FeltMotion, ImuReading};
 use spandrel_mavlink::dialect::{MavMessage, MavSeverity};
-use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::frames::{Ned, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
@@ -49,6 +49,7 @@ impl Sim {
         interface: Box<dyn SimulatorInterface>,
         rules: RelayRules,
     ) -> Self {
+        let config = with_receiver(config);
         let sensors = SensorSpec { imu_rate_hz: interface.rate_hz(), ..config.vehicle.sensors };
         let (pad_m, _) = place_on_pad(&config);
         let controller = Controller::External(Box::new(ExternalController {
@@ -181,7 +182,7 @@ impl Sim {
         let (pad_m, _) = place_on_pad(&self.config);
         let Controller::External(external) = &mut self.controller else { return };
         let at_rest = ImuReading { specific_force_m_s2: Vec3::new(0.0, 0.0, -GRAVITY_M_S2), rates_rad_s: Vec3::zero() };
-        let imus = external.autopilot.read_imus(fresh.imu.or(self.readings.imu).unwrap_or(at_rest));
+        let imus = external.autopilot.read_imus(fresh.imu.or(self.readings.imu).unwrap_or(at_rest), self.sensors.vibration());
         external.autopilot.interface.send(&StepInput {
             now: clock,
             imus: &imus,
@@ -202,14 +203,13 @@ impl Sim {
 
     /// Integrates the inertial sensors over a physics step.
     pub(super) fn integrate_imus(&mut self, dt: SimTime) {
-        let (force, rates) = (self.state.specific_force_m_s2, self.state.rigid.rates_rad_s);
-        self.integrate_motion(force, rates, dt);
+        self.integrate_motion(&FeltMotion::of(&self.state), dt);
     }
 
-    fn integrate_motion(&mut self, specific_force_m_s2: Vec3<Frd>, rates_rad_s: Vec3<Frd>, dt: SimTime) {
-        self.sensors.integrate_imu(specific_force_m_s2, rates_rad_s, dt);
+    fn integrate_motion(&mut self, motion: &FeltMotion, dt: SimTime) {
+        self.sensors.integrate_imu(motion, dt);
         if let Some(external) = self.controller.external_mut() {
-            external.autopilot.integrate_imus(specific_force_m_s2, rates_rad_s, dt);
+            external.autopilot.integrate_imus(motion.specific_force_m_s2, motion.rates_rad_s, dt);
         }
     }
 
@@ -217,8 +217,9 @@ impl Sim {
     fn stand_still(&mut self, period: SimTime) {
         let up = Vec3::<Ned>::new(0.0, 0.0, -GRAVITY_M_S2);
         let felt = self.state.rigid.attitude.inverse() * up;
+        let still = FeltMotion { specific_force_m_s2: felt, rates_rad_s: Vec3::zero(), rotor_rad_s: [0.0; MAX_ROTORS] };
         for _ in 0..(period.ns() / STEP.ns()).max(1) {
-            self.integrate_motion(felt, Vec3::zero(), STEP);
+            self.integrate_motion(&still, STEP);
         }
     }
 

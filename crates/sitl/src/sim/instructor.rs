@@ -1,5 +1,6 @@
 //! Applies inputs of the instructor and the inspector during a flight: failures, weather, radio impairment, traffic and walks.
 
+use super::radio_shadow::{RadioShadow, is_for_simulator};
 use super::{Sim, SimEvent};
 use crate::endpoint::{FailureInjection, LinkId, LinkKind};
 use crate::faults::{FailureUnit, Faults};
@@ -40,7 +41,6 @@ impl Sim {
             return;
         }
         let world = self.controller.instructor_settings();
-        self.radio.set(world.loss, world.delay);
         if world.wind != self.instructor_settings.wind {
             let own = &self.config.scenario.wind;
             let (speed_m_s, from_deg) = world.wind.unwrap_or((own.speed_m_s, own.from_deg));
@@ -51,6 +51,23 @@ impl Sim {
             self.apply_site_changes();
         }
         self.instructor_settings = world;
+        self.set_radio_loss();
+    }
+
+    /// Returns whether the structure silences control and telemetry at this time.
+    pub(super) fn is_radio_silent(&self) -> bool {
+        self.radio_shadow.as_ref().is_some_and(RadioShadow::is_silent)
+    }
+
+    /// Returns whether a datagram arrives although the structure silences the radio, because it is for the simulator.
+    pub(super) fn bypasses_silence(&self, bytes: &[u8]) -> bool {
+        self.is_radio_silent() && is_for_simulator(bytes)
+    }
+
+    /// Applies the loss and delay that the instructor has set, and the silence behind structures.
+    pub(super) fn set_radio_loss(&mut self) {
+        let loss = if self.is_radio_silent() { 1.0 } else { self.instructor_settings.loss };
+        self.radio.set(loss, self.instructor_settings.delay);
     }
 
     /// Starts the walk that a client has requested. The site may have changed since the request was accepted.

@@ -98,6 +98,7 @@ impl Sim {
     fn rewind(&mut self, by: SimTime) {
         let Some((earlier, undone)) = self.practice.take(self.now, by) else { return };
         self.state.restore(&earlier.physics);
+        self.sensors.discard_pending();
         self.last_safe_hover = earlier.safe_hover;
         self.continue_from_new_place();
         self.events.push_back(SimEvent::Rewind { undone });

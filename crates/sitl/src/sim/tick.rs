@@ -15,7 +15,8 @@ impl Sim {
         let start = self.now;
         self.apply_instructor_inputs();
         self.apply_walk_request();
-        self.controller.set_accepts_sticks(self.faults.passes_manual_control(start));
+        self.update_hazards(start);
+        self.controller.set_accepts_sticks(self.faults.passes_manual_control(start) && !self.is_radio_silent());
         self.step_wind(start);
         if self.control_due.fire(start) {
             self.step_control(start);
@@ -33,17 +34,33 @@ impl Sim {
         self.update_digest();
     }
 
-    fn step_wind(&mut self, now: SimTime) {
+    /// Updates the radio links and the hazards that the vehicle reports.
+    fn update_hazards(&mut self, now: SimTime) {
+        let position_m = self.state.rigid.position_m;
+        if let Some(shadow) = &mut self.radio_shadow
+            && shadow.update(&self.site, position_m.enu(), now)
+        {
+            self.hazards.radio = Some(shadow.truth());
+            self.set_radio_loss();
+        }
+        if self.config.scenario.hazards.compass && self.hazards_due.fire(now) {
+            self.hazards.compass_rad = Some(self.sensors.compass_error_rad(position_m));
+        }
+    }
+
+    pub(super) fn step_wind(&mut self, now: SimTime) {
         if self.wind_due.fire(now) {
             let up = -self.state.rigid.position_m.down();
             let here = self.state.rigid.position_m.enu();
             let water_up_m = self.config.scenario.terrain.water_level_m;
             let ground_up_m = self.site.ground_up_m(here.east(), here.north());
             self.wind.set_over_ground(ground_up_m > water_up_m);
-            let height_m = (up - ground_up_m.max(water_up_m)).max(0.3);
+            self.air.density_kg_m3 = self.model.air_density_kg_m3(self.config.scenario.origin.altitude_m + up);
+            let surface_up_m = ground_up_m.max(water_up_m);
+            let height_m = (up - surface_up_m).max(0.3);
             self.wind.update(now, height_m, self.state.rigid.velocity_m_s);
             if let Some(wakes) = &mut self.wakes {
-                wakes.sample(&self.state.rigid, self.wind.mean_velocity(now, height_m), now);
+                wakes.sample(&self.state.rigid, self.wind.mean_velocity(now, height_m), surface_up_m, now);
             }
         }
         self.air.velocity_m_s = self.wind.air_velocity(now);
@@ -74,6 +91,7 @@ impl Sim {
     pub(super) fn sample_sensors(&mut self, now: SimTime, sensor_clock: SimTime) -> Readings {
         let truth = SensorInputs {
             rigid: &self.state.rigid,
+            air_velocity_m_s: self.state.rigid.velocity_m_s - self.air.velocity_m_s,
             battery: self.battery_reading(),
             lamp_on: self.controller.payload().equipment.lamp.on,
         };

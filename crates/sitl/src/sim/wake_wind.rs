@@ -1,10 +1,10 @@
-//! Wind that the wakes of piers and towers add, at the center of the aircraft and at each rotor.
+//! Wind that the wakes of piers, towers and decks add, at the center of the aircraft and at each rotor.
 
 use crate::physics::{MAX_ROTORS, RigidState};
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Scenario, WindModel};
-use spandrel_model::site::wakes::WakeField;
+use spandrel_model::site::wakes::{LocalAir, WakeField, WakeGusts};
 use spandrel_model::site::wind::SAMPLE_PERIOD;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Rotor;
@@ -26,6 +26,7 @@ impl AddedWind {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WakeWind {
     field: WakeField,
+    gusts: WakeGusts,
     hubs: Vec<Vec3<Frd>>,
     sampled_at: SimTime,
     previous: AddedWind,
@@ -37,7 +38,8 @@ impl WakeWind {
     pub(super) fn of(scenario: &Scenario, members: &[Member], rotors: &[Rotor], seed: u64) -> Option<Self> {
         let is_on = scenario.hazards.wakes && scenario.wind.model == WindModel::Physical;
         is_on.then(|| Self {
-            field: WakeField::new(members, seed),
+            field: WakeField::new(members, &scenario.bridges, seed),
+            gusts: WakeGusts::new(rotors.iter().map(|rotor| rotor.position_m.norm()).collect(), seed),
             hubs: rotors.iter().map(|rotor| rotor.position_m).collect(),
             sampled_at: SimTime::ZERO,
             previous: AddedWind::NONE,
@@ -45,18 +47,32 @@ impl WakeWind {
         })
     }
 
-    /// Draws the next sample, in a mean wind.
-    pub(super) fn sample(&mut self, rigid: &RigidState, mean_m_s: Vec3<Ned>, now: SimTime) {
+    /// Draws the next sample, in a mean wind, with the height of the water or ground below the aircraft.
+    pub(super) fn sample(&mut self, rigid: &RigidState, mean_m_s: Vec3<Ned>, surface_up_m: f64, now: SimTime) {
         self.field.advance(mean_m_s, SAMPLE_PERIOD);
-        let center_m_s = self.field.velocity(rigid.position_m.enu(), mean_m_s);
-        let mut rotors_m_s = [Vec3::zero(); MAX_ROTORS];
-        for (rotor, hub) in rotors_m_s.iter_mut().zip(&self.hubs) {
-            let position_m = rigid.position_m + rigid.attitude * *hub;
-            *rotor = self.field.velocity(position_m.enu(), mean_m_s) - center_m_s;
+        let center = self.field.air(rigid.position_m.enu(), surface_up_m);
+        let mut rotors = [LocalAir::default(); MAX_ROTORS];
+        for (rotor, hub) in rotors.iter_mut().zip(&self.hubs) {
+            *rotor = self.field.air((rigid.position_m + rigid.attitude * *hub).enu(), surface_up_m);
         }
         self.previous = self.current;
-        self.current = AddedWind { center_m_s, rotors_m_s };
+        self.current = self.added(&center, &rotors, rigid, mean_m_s);
         self.sampled_at = now;
+    }
+
+    /// Adds the gusts to the mean air at the center and the rotors.
+    fn added(&mut self, center: &LocalAir, rotors: &[LocalAir], rigid: &RigidState, mean_m_s: Vec3<Ned>) -> AddedWind {
+        // The gusts drift with the wind, so that a hovering aircraft also moves through them.
+        let through_m_s = (rigid.velocity_m_s - mean_m_s - center.velocity_m_s).norm().max(mean_m_s.norm());
+        let rotors = &rotors[..self.hubs.len()];
+        let gusts = self.gusts.sample(center, rotors, through_m_s * SAMPLE_PERIOD.s());
+        let (center_gust, rotor_gusts) = gusts.unwrap_or((Vec3::zero(), [Vec3::zero(); MAX_ROTORS]));
+        let center_m_s = center.velocity_m_s + center_gust;
+        let mut rotors_m_s = [Vec3::zero(); MAX_ROTORS];
+        for ((added, rotor), gust) in rotors_m_s.iter_mut().zip(rotors).zip(rotor_gusts) {
+            *added = rotor.velocity_m_s + gust - center_m_s;
+        }
+        AddedWind { center_m_s, rotors_m_s }
     }
 
     /// Returns the added wind at a time up to one sample after the last one.
@@ -73,16 +89,22 @@ impl WakeWind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::Vehicle;
     use spandrel_model::frames::{Enu, Rotation};
     use spandrel_model::scenario::Bridge;
+    use spandrel_model::shipped;
 
-    const JOB: &str = include_str!("../../../../scenarios/two-bridges.toml");
+    /// The job at the two bridges, without hazards.
+    fn job() -> String {
+        shipped::without_hazards(shipped::TWO_BRIDGES)
+    }
+
     /// Wind toward the east, m/s.
     const WIND_M_S: f64 = 6.0;
 
     /// Returns the wakes of the shipped job's suspension bridge, and a point on the wind's shadow edge behind its first pier.
     fn behind_a_pier(hazards: &str) -> (Option<WakeWind>, Vec3<Enu>) {
-        wakes_of(&format!("{JOB}\n[hazards]\n{hazards}\n"))
+        wakes_of(&format!("{}\n[hazards]\n{hazards}\n", job()))
     }
 
     fn wakes_of(text: &str) -> (Option<WakeWind>, Vec3<Enu>) {
@@ -111,17 +133,22 @@ mod tests {
     fn exact_rotors_at_the_edge_of_a_wake_feel_different_winds() {
         let (wakes, edge) = behind_a_pier("wakes = true");
         let (mut wakes, rigid, wind) = (wakes.unwrap(), level_at(edge), Vec3::new(0.0, WIND_M_S, 0.0));
-        wakes.sample(&rigid, wind, SimTime::from_ms(10));
-        wakes.sample(&rigid, wind, SimTime::from_ms(20));
-        let added = wakes.at(SimTime::from_ms(30));
+        wakes.sample(&rigid, wind, 0.0, SimTime::from_ms(10));
+        let added = wakes.at(SimTime::from_ms(20));
+        let mean = |hub: Vec3<Frd>| wakes.field.air((rigid.position_m + rigid.attitude * hub).enu(), 0.0);
+        let center = mean(Vec3::zero());
+        assert!(center.turbulence_m_s > 0.0, "{center:?}");
         for (rotor, hub) in added.rotors_m_s.iter().zip(&wakes.hubs) {
-            let there = wakes.field.velocity((rigid.position_m + rigid.attitude * *hub).enu(), wind);
-            assert!((added.center_m_s + *rotor - there).norm() < 1e-12, "{rotor:?}");
+            // Beyond the mean, only the gusts: within five standard deviations of both.
+            let gust = (added.center_m_s + *rotor - mean(*hub).velocity_m_s).norm();
+            assert!(gust > 0.0 && gust < 5.0 * mean(*hub).turbulence_m_s.max(center.turbulence_m_s) * 3f64.sqrt(), "{gust}");
         }
-        // The rotors toward the wake's axis, in the south, have less wind than those in the north.
-        let east = added.rotors_m_s.map(|rotor| rotor.east());
-        let south = wakes.hubs.iter().zip(east).filter(|(hub, _)| hub.forward() < 0.0).map(|(_, east)| east).fold(0.0, f64::max);
-        let north = wakes.hubs.iter().zip(east).filter(|(hub, _)| hub.forward() > 0.0).map(|(_, east)| east).fold(0.0, f64::min);
+        // The rotors toward the wake's axis, in the south, have on average less wind than those in the north.
+        let east = wakes.hubs.iter().map(|hub| (mean(*hub).velocity_m_s - center.velocity_m_s).east()).collect::<Vec<_>>();
+        let south =
+            wakes.hubs.iter().zip(&east).filter(|(hub, _)| hub.forward() < 0.0).map(|(_, east)| *east).fold(0.0, f64::max);
+        let north =
+            wakes.hubs.iter().zip(&east).filter(|(hub, _)| hub.forward() > 0.0).map(|(_, east)| *east).fold(0.0, f64::min);
         assert!(south <= 0.0 && north >= 0.0 && added.center_m_s.east() < 0.0, "{added:?}");
     }
 
@@ -129,16 +156,120 @@ mod tests {
     fn exact_added_wind_changes_linearly_between_samples() {
         let (wakes, edge) = behind_a_pier("wakes = true");
         let mut wakes = wakes.unwrap();
-        wakes.sample(&level_at(edge), Vec3::new(0.0, WIND_M_S, 0.0), SimTime::from_ms(10));
+        wakes.sample(&level_at(edge), Vec3::new(0.0, WIND_M_S, 0.0), 0.0, SimTime::from_ms(10));
         let (half, whole) = (wakes.at(SimTime::from_ms(15)).center_m_s, wakes.at(SimTime::from_ms(20)).center_m_s);
         assert!((half * 2.0 - whole).norm() < 1e-12 && whole.norm() > 0.0, "{half:?} {whole:?}");
+    }
+
+    #[test]
+    fn flight_aircraft_beside_a_pier_feels_the_wake_at_its_center_and_rotors() {
+        let with = |hazards: &str| {
+            let text = format!("{}\n[hazards]\n{hazards}\n", job()).replace("level = \"light\"", "level = \"gentle\"");
+            let mut sim = Vehicle::builder().scenario(text).build().unwrap().sim;
+            // The job's wind comes from the southwest, and so its wakes are northeast of the piers.
+            let edge = wakes_of(&job()).1 + Vec3::new(1.0, 2.0, 0.0);
+            sim.state.rigid.position_m = edge.ned();
+            for ms in 0..100 {
+                sim.step_wind(SimTime::from_ms(ms));
+            }
+            sim
+        };
+        let (calm, swept) = (with("wakes = false"), with("wakes = true"));
+        let added = swept.wakes.as_ref().unwrap().at(SimTime::from_ms(99));
+        assert!(added.center_m_s.norm() > 0.1, "{added:?}");
+        assert_eq!(swept.air.velocity_m_s, calm.air.velocity_m_s + added.center_m_s);
+        assert_eq!((calm.air.rotors_m_s, swept.air.rotors_m_s), (None, Some(added.rotors_m_s)));
+    }
+
+    /// Flights at the lee of the girder bridge's deck, in a steady wind across it.
+    mod fascia {
+        use super::super::super::controller::Controller;
+        use super::*;
+
+        const GIRDER: &str = include_str!("../../../../scenarios/girder.toml");
+        /// Distance behind the leeward fascia, and heights of its middle and of the hold above it, m.
+        const BEHIND_M: f64 = 5.0;
+        const UP_M: (f64, f64) = (17.5, 24.5);
+        /// Time to settle, and measured time, s.
+        const SETTLING_S: f64 = 8.0;
+        const MEASURED_S: f64 = 8.0;
+
+        /// Mean tilt in the wake and above it, and the largest drift downwind while rising from one to the other.
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        struct Crossing {
+            lee_tilt_rad: f64,
+            free_tilt_rad: f64,
+            drift_m: f64,
+        }
+
+        /// Puts a flying aircraft at rest at another place.
+        fn place(vehicle: &mut Vehicle, position_m: Vec3<Enu>) {
+            let sim = &mut vehicle.sim;
+            sim.place_at_rest(position_m.ned(), 0.0, sim.model.hover_rotor_rad_s());
+            let (rigid, now) = (sim.state.rigid, sim.now);
+            if let Controller::Builtin(own) = &mut sim.controller {
+                own.autopilot.continue_from(rigid.position_m, rigid.velocity_m_s, rigid.attitude, now);
+            }
+        }
+
+        /// Returns the mean tilt into the wind while the aircraft holds its place, rad. The wind blows toward the north, and the aircraft
+        /// faces it from behind: leaning into it raises the nose.
+        fn mean_tilt_rad(vehicle: &mut Vehicle) -> f64 {
+            vehicle.run(SimTime::from_s(SETTLING_S));
+            let samples = (MEASURED_S / 0.02) as i32;
+            let mut sum = 0.0;
+            for _ in 0..samples {
+                vehicle.run(SimTime::from_ms(20));
+                sum += vehicle.sim.state.rigid.attitude.euler().1;
+            }
+            sum / f64::from(samples)
+        }
+
+        /// Rises past the leeward fascia.
+        fn cross(wakes: bool) -> Crossing {
+            let steady = GIRDER.replace("from_deg = 250.0\nturbulence = 0.8", "from_deg = 180.0\nturbulence = 0.0");
+            let windy = steady.replace("level = \"light\"", "level = \"gentle\"");
+            let job = windy.replace("wakes = true", &format!("wakes = {wakes}"));
+            assert!(job.contains("turbulence = 0.0") && job.contains("gentle"), "the shipped job has changed");
+            let mut vehicle = Vehicle::builder().scenario(job).build().unwrap();
+            vehicle.arm(SimTime::from_s(30.0)).unwrap();
+            vehicle.take_off(5.0).unwrap();
+            vehicle.run_until(|v| v.height_m() > 4.5, SimTime::from_s(20.0)).unwrap();
+            let bridge = &vehicle.sim.config.scenario.bridges[0];
+            let north_m = bridge.center_m.north() + 0.5 * bridge.deck_width_m() + BEHIND_M;
+            let at = |up_m: f64| Vec3::<Enu>::new(bridge.center_m.east(), north_m, up_m);
+            let (low, high) = (at(UP_M.0), at(UP_M.1));
+            place(&mut vehicle, low);
+            vehicle.go_to(low).unwrap();
+            let lee_tilt_rad = mean_tilt_rad(&mut vehicle);
+            vehicle.go_to(high).unwrap();
+            let mut drift_m = 0.0_f64;
+            while vehicle.position_m().up() < high.up() - 1.0 {
+                vehicle.run(SimTime::from_ms(20));
+                drift_m = drift_m.max(vehicle.position_m().north() - north_m);
+            }
+            Crossing { lee_tilt_rad, free_tilt_rad: mean_tilt_rad(&mut vehicle), drift_m }
+        }
+
+        #[test]
+        fn flight_drone_that_rises_past_the_leeward_fascia_meets_the_wind_at_once() {
+            let (without, with) = (cross(false), cross(true));
+            println!("without {without:?}, with {with:?}");
+            // Without wakes the wind is the same everywhere: the tilts differ by the wind profile and the noise of the hold.
+            assert!((without.lee_tilt_rad / without.free_tilt_rad - 1.0).abs() < 0.25, "{without:?}");
+            // In the lee, less than half of the wind's drag is left; above the wake, all of it.
+            assert!(with.lee_tilt_rad.abs() < 0.5 * without.lee_tilt_rad.abs(), "{with:?} {without:?}");
+            assert!((with.free_tilt_rad / without.free_tilt_rad - 1.0).abs() < 0.25, "{with:?} {without:?}");
+            // The edge pushes the aircraft downwind, before the autopilot leans into the wind.
+            assert!(with.drift_m > without.drift_m + 0.1, "{with:?} {without:?}");
+        }
     }
 
     #[test]
     fn regress_jobs_without_wakes_have_none() {
         assert_eq!(behind_a_pier("").0, None);
         assert_eq!(behind_a_pier("wakes = false").0, None);
-        let paper = JOB.replace("model = \"physical\"", "model = \"paper\"");
+        let paper = job().replace("model = \"physical\"", "model = \"paper\"");
         assert_eq!(wakes_of(&format!("{paper}\n[hazards]\nwakes = true\n")).0, None);
     }
 }

@@ -125,7 +125,7 @@ fn flight_mission_can_set_home_and_switch_the_fence() {
     assert_eq!(upload(&mut station, &items), ACCEPTED);
     assert_eq!(start(&mut station), MavResult::MAV_RESULT_ACCEPTED);
     assert!(station.run_until(60.0, |s| reached(s).contains(&2)));
-    assert!(station.has_text("Geofence disabled"));
+    assert!(station.run_until(2.0, |s| s.has_text("Geofence disabled")));
     let request = [242.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     station.command(1, MavCmd::MAV_CMD_REQUEST_MESSAGE, request);
     let home = station.last_message(|m| if let MavMessage::HOME_POSITION(h) = m { Some(h.x) } else { None }).unwrap();

@@ -35,5 +35,6 @@ mod refusals;
 mod restart_and_logs;
 mod signing;
 mod simple_clients;
+mod stick_response;
 mod vehicle;
 mod walks;

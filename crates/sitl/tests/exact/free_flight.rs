@@ -4,10 +4,8 @@ use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
 use spandrel_model::scenario::BatteryModel;
 use spandrel_model::time::SimTime;
-use spandrel_model::vehicle::Vehicle;
-use spandrel_sitl::physics::{
-    AIR_DENSITY_KG_M3, Actuators, AirState, AirframeModel, MAX_ROTORS, OpenSky, PhysicsState, PowerLoad,
-};
+use spandrel_model::vehicle::{AirDensity, SEA_LEVEL_AIR_DENSITY_KG_M3, Vehicle};
+use spandrel_sitl::physics::{Actuators, AirState, AirframeModel, MAX_ROTORS, OpenSky, PhysicsState, PowerLoad, RotorConditions};
 use spandrel_testkit::aircraft::quad;
 
 const DT: SimTime = SimTime::from_ms(1);
@@ -57,7 +55,7 @@ fn exact_terminal_speed_follows_from_drag() {
     vehicle.drag.area_m2 = [0.05; 3];
     let mut state = start();
     run(&AirframeModel::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 60_000);
-    let expected = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (AIR_DENSITY_KG_M3 * 0.05)).sqrt();
+    let expected = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (SEA_LEVEL_AIR_DENSITY_KG_M3 * 0.05)).sqrt();
     assert!((state.rigid.velocity_m_s.down() / expected - 1.0).abs() < TOLERANCE);
 }
 
@@ -69,7 +67,7 @@ fn exact_fall_with_drag_follows_the_hyperbolic_tangent() {
     vehicle.drag.area_m2 = [0.05; 3];
     let mut state = start();
     run(&AirframeModel::new(&vehicle, BatteryModel::Paper), &mut state, &coasting(), &AirState::STILL, DT, 1500);
-    let top = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (AIR_DENSITY_KG_M3 * 0.05)).sqrt();
+    let top = (2.0 * vehicle.mass_kg * GRAVITY_M_S2 / (SEA_LEVEL_AIR_DENSITY_KG_M3 * 0.05)).sqrt();
     let expected = top * math::tanh(GRAVITY_M_S2 * 1.5 / top);
     assert!((state.rigid.velocity_m_s.down() - expected).abs() < TOLERANCE);
 }
@@ -81,7 +79,7 @@ fn exact_hover_thrust_balances_weight() {
     let model = AirframeModel::new(&quad(), BatteryModel::Paper);
     let mut state = start();
     let lift: f64 =
-        (0..4).map(|i| -model.rotor_wrench(i, Vec3::zero(), model.hover_rotor_rad_s(), 0.0, 1.0).force_n.down()).sum();
+        (0..4).map(|i| -model.rotor_wrench(i, &RotorConditions::at_rest(model.hover_rotor_rad_s())).force_n.down()).sum();
     assert!((lift / (1.3 * GRAVITY_M_S2) - 1.0).abs() < TOLERANCE, "{lift} N");
     let speed = (1.3 * GRAVITY_M_S2 / 4.0 / 1.0e-5).sqrt();
     state.rigid.rotor_rad_s = [speed; MAX_ROTORS];
@@ -100,6 +98,72 @@ fn exact_motor_step_response_follows_the_time_constant() {
     run(&model, &mut state, &Actuators { motors: [1.0; MAX_ROTORS], armed: true }, &AirState::STILL, DT, 30);
     let expected = 1000.0 * (1.0 - math::exp(-1.0));
     assert!((state.rigid.rotor_rad_s[0] / expected - 1.0).abs() < TOLERANCE);
+}
+
+#[test]
+fn val_dropped_sphere_matches_nesc_case_01() {
+    // NASA TM-2015-218675, check case 01, simulator 01: altitudes of a sphere without drag, dropped from 30,000 ft above the equator, at
+    // 5, 10 and 30 s, ft. The case has a rotating, ellipsoidal Earth; here, the ground is flat and gravity uniform. So gravity is that
+    // of the case at the start, less the centrifugal acceleration, and the fall grows by k t²/12 with their gradient and the Coriolis
+    // acceleration of the eastward drift, k = 2 g/r - 3 w².
+    const ALTITUDES_FT: [(i64, f64); 3] = [(5, 29_600.059_184_3), (10, 28_400.204_631_4), (30, 15_598.905_973_6)];
+    const START_FT: f64 = 30_000.0;
+    const GRAVITY_FT_S2: f64 = 32.106_536_406_3;
+    const RADIUS_FT: f64 = 2.095_564_632_53e7;
+    const EARTH_RATE_RAD_S: f64 = 7.292_115e-5;
+    // Without this correction, as the share of the fall; and with it, ft.
+    const TOLERANCES: (f64, f64) = (3e-4, 0.01);
+    const M_PER_FT: f64 = 0.3048;
+    let rate2 = EARTH_RATE_RAD_S * EARTH_RATE_RAD_S;
+    let apparent_ft_s2 = GRAVITY_FT_S2 - rate2 * RADIUS_FT;
+    let gradient_per_s2 = 2.0 * GRAVITY_FT_S2 / RADIUS_FT - 3.0 * rate2;
+    let mut model = AirframeModel::new(&bare(), BatteryModel::Paper);
+    model.gravity_scale = apparent_ft_s2 * M_PER_FT / GRAVITY_M_S2;
+    for (seconds, altitude_ft) in ALTITUDES_FT {
+        let mut state = PhysicsState::at_rest(Vec3::zero(), 0.0);
+        run(&model, &mut state, &coasting(), &AirState::STILL, DT, 1000 * seconds);
+        let (fallen_ft, published_ft) = (state.rigid.position_m.down() / M_PER_FT, START_FT - altitude_ft);
+        assert!((fallen_ft / published_ft - 1.0).abs() < TOLERANCES.0, "{seconds} s: {fallen_ft} against {published_ft}");
+        let corrected_ft = fallen_ft * (1.0 + gradient_per_s2 * (seconds * seconds) as f64 / 12.0);
+        assert!((corrected_ft - published_ft).abs() < TOLERANCES.1, "{seconds} s: {corrected_ft} against {published_ft}");
+    }
+}
+
+#[test]
+fn val_sphere_with_constant_drag_matches_nesc_case_06() {
+    // NASA TM-2015-218675, check case 06, simulator 01: altitude (m) and airspeed (m/s) of a sphere of one slug with a drag coefficient of
+    // 0.1, dropped from 30,000 ft in the standard atmosphere, every 5 s.
+    const PUBLISHED: [(f64, f64); 6] = [
+        (9022.240, 48.6469),
+        (8658.691, 96.5949),
+        (8058.748, 143.0641),
+        (7232.051, 187.1251),
+        (6193.370, 227.6531),
+        (4963.583, 263.3383),
+    ];
+    const START_M: f64 = 9144.0;
+    const MASS_KG: f64 = 14.593_903;
+    const DRAG_AREA_M2: f64 = 0.1 * 0.196_349_5 * 0.3048 * 0.3048;
+    // Apparent gravity at the start, as in case 01. Its gradient and the height by which the atmosphere counts are those of the flat Earth
+    // here: relative to the fall and to the speed, less than 0.04%.
+    const GRAVITY_M_S2: f64 = 9.752_108;
+    const TOLERANCE: f64 = 4e-4;
+    let mut vehicle = Vehicle { mass_kg: MASS_KG, ..bare() };
+    vehicle.drag.area_m2 = [DRAG_AREA_M2; 3];
+    vehicle.aerodynamics.air_density = AirDensity::Altitude;
+    let mut model = AirframeModel::new(&vehicle, BatteryModel::Paper);
+    model.gravity_scale = GRAVITY_M_S2 / math::GRAVITY_M_S2;
+    let mut state = PhysicsState::at_rest(Vec3::new(0.0, 0.0, -START_M), 0.0);
+    for (altitude_m, speed_m_s) in PUBLISHED {
+        for _ in 0..5000 {
+            let density_kg_m3 = model.air_density_kg_m3(-state.rigid.position_m.down());
+            run(&model, &mut state, &coasting(), &AirState { density_kg_m3, ..AirState::STILL }, DT, 1);
+        }
+        let (fallen_m, published_m) = (START_M + state.rigid.position_m.down(), START_M - altitude_m);
+        assert!((fallen_m / published_m - 1.0).abs() < TOLERANCE, "{fallen_m} against {published_m}");
+        let speed = state.rigid.velocity_m_s.down();
+        assert!((speed / speed_m_s - 1.0).abs() < TOLERANCE, "{speed} against {speed_m_s}");
+    }
 }
 
 /// Returns the brick of NESC check case 02 (NASA TM-2015-218675): inertia in slug ft², rates in deg/s.
@@ -221,7 +285,7 @@ fn exact_rotor_torque_is_force_times_arm() {
     const TOLERANCE: f64 = 1e-14;
     let vehicle = quad();
     let model = AirframeModel::new(&vehicle, BatteryModel::Paper);
-    let wrench = model.rotor_wrench(0, Vec3::zero(), 500.0, 0.0, 1.0);
+    let wrench = model.rotor_wrench(0, &RotorConditions::at_rest(500.0));
     let thrust = 1.0e-5 * 500.0 * 500.0;
     let arm = vehicle.rotors[0].position_m;
     assert!((wrench.force_n - Vec3::new(0.0, 0.0, -thrust)).norm() < TOLERANCE);
@@ -274,6 +338,24 @@ fn exact_physical_battery_follows_ohms_law_and_integrates_charge() {
         assert!((state.battery.speed_factor - v / (3.0 * 4.2)).abs() < ROUNDING_TOLERANCE);
     }
     assert!((1.0 - state.battery.charge - drawn_as / (b.capacity_ah * 3600.0)).abs() < ROUNDING_TOLERANCE);
+}
+
+#[test]
+fn val_cold_battery_has_the_measured_resistance() {
+    // The published ratios to 25 °C have two or three digits.
+    const TOLERANCE: f64 = 0.01;
+    let vehicle = quad();
+    for (temperature_c, ratio) in [(25.0, 1.0), (10.0, 1.75), (0.0, 2.6)] {
+        let model = AirframeModel::new(&vehicle, BatteryModel::Physical).with_battery_at(temperature_c);
+        let mut state = start();
+        state.rigid.rotor_rad_s[..4].fill(600.0);
+        let load = PowerLoad { airborne: true, lamp_on: false };
+        model.advance(&mut state, &Actuators::default(), &AirState::STILL, &OpenSky, load, SimTime::ZERO, DT);
+        // A full pack of three cells has 12.6 V.
+        let resistance_ohm = (12.6 - state.battery.voltage_v) / state.battery.current_a;
+        let expected_ohm = ratio * vehicle.battery.internal_resistance_ohm;
+        assert!((resistance_ohm / expected_ohm - 1.0).abs() < TOLERANCE, "{temperature_c} °C: {resistance_ohm} ohm");
+    }
 }
 
 #[test]

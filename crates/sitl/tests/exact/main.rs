@@ -5,3 +5,5 @@ mod contact;
 mod free_flight;
 mod movers;
 mod on_bridges;
+mod rotor_flow;
+mod walls;

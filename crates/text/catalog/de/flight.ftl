@@ -24,6 +24,10 @@ flight-status-gnss-unknown = GNSS ?
 flight-status-link-ok = Link ok
 flight-status-link-lost = LINK WEG { $age }
 flight-status-frozen = EINGEFROREN
+flight-status-signal-control = Steuerung
+flight-status-signal-video = Video
+flight-status-control-weak = STEUERUNG SCHWACH
+flight-status-video-weak = VIDEO SCHWACH
 
 ## The next step of the job
 

@@ -23,6 +23,7 @@ keys-camera-zoom-in = Kamera heranzoomen
 keys-camera-zoom-out = Kamera herauszoomen
 keys-freeze = einfrieren oder fortsetzen
 keys-rewind = 10 s zurückspulen
+keys-stick-response = nächste Knüppelreaktion
 keys-swap = Ansichten wechseln
 keys-map = Karte ein oder aus
 keys-path = Bahn ein oder aus
@@ -58,6 +59,7 @@ keys-short-camera-zoom-in = Zoom größer
 keys-short-camera-zoom-out = Zoom kleiner
 keys-short-freeze = einfrieren
 keys-short-rewind = zurückspulen
+keys-short-stick-response = Knüppelreaktion
 keys-short-walk = gehen
 
 ## Names of keys

@@ -216,6 +216,7 @@ plan-setting-threshold = Bahntoleranz { $value }
 plan-setting-crown-gap = Zwischenraum { $value }
 plan-setting-detection = vorhergesagte Entdeckung { $value }
 plan-setting-size-factor = Größenfaktor der Schäden { $value }
+plan-setting-hazard-severity = Stärke der Gefahren { $value }
 plan-setting-time-best = volle Punktzahl bis { $value }
 plan-setting-time-max = Zeitlimit { $value }
 plan-setting-range = { $low } bis { $high }

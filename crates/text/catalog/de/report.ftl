@@ -58,6 +58,8 @@ report-column-speed = Geschwindigkeit (m/s)
 report-column-distance = Entfernung (m)
 report-column-clearance = Abstand zum Bauwerk (m)
 report-column-battery = Akku (%)
+report-column-wind = Wind (m/s)
+report-column-wind-from = Wind aus (Grad)
 report-column-east = Ost (m)
 report-column-north = Nord (m)
 report-column-height = Höhe (m)
@@ -89,6 +91,15 @@ report-telemetry-covers = Die Telemetrie deckt { $share }% der Sitzung ab.
 report-practice-aids = Diese Sitzung wurde { $aids }. Sie zählt als Übungsflug: Sie wird weder zertifiziert noch mit anderen verglichen.
 report-of-max = von { $max }
 report-out-of-sight = Für { $total } außer Sicht des Prüfers, davon am längsten für { $longest } ab { $from }.
+report-gnss-lost = Für { $total } keine GNSS-Position, davon am längsten für { $longest } ab { $from }.
+report-position-error = Die Drohne irrte sich in ihrer Position um bis zu { $position } m (bei { $at }), in ihrer Höhe um bis zu { $height } m (bei { $height_at }).
+report-heading-error = In ihrer Richtung irrte sie sich um bis zu { $degrees }° (bei { $at }).
+report-video-poor = Für { $total } schlechte Videoverbindung, davon am längsten für { $longest } ab { $from }.
+report-control-lost =
+    { $count ->
+        [one] Steuerverbindung einmal verloren.
+       *[other] Steuerverbindung { $count }-mal verloren.
+    }
 report-walks = Wege des Prüfers: { $walks }.
 report-walk = zu Standort { $place } ab { $moment }
 report-walk-before = zu Standort { $place } vor dem Abheben
@@ -282,6 +293,7 @@ report-chart-speed = Geschwindigkeit (m/s)
 report-chart-distance = Entfernung zur Bahn der aktuellen Aufgabe (m)
 report-chart-clearance = Abstand zur nächsten Oberfläche (m)
 report-chart-battery = Akku (%)
+report-chart-wind = Horizontaler Wind an der Drohne (m/s)
 report-chart-sticks = Knüppelstellungen (voller Ausschlag = 1)
 report-chart-label = { $title } im Zeitverlauf; Werte in der Tabelle darunter
 report-flight-timeline = Zeitleiste der Sitzung

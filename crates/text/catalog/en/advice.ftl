@@ -25,12 +25,16 @@ advice-too-far = You flew { $mean } m too far from { $surface ->
         [deck] the deck
         [arch] the arch
         [pier] the pier
+        [girders] the girders
+        [cap] the pier cap
        *[structure] the structure
     } { $when }: move closer.
 advice-too-close = You flew { $mean } m too close to { $surface ->
         [deck] the deck
         [arch] the arch
         [pier] the pier
+        [girders] the girders
+        [cap] the pier cap
        *[structure] the structure
     } { $when }: back off.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
@@ -57,6 +61,8 @@ advice-framing = Your camera pointed up to { $most } degrees away from { $surfac
         [deck] the deck
         [arch] the arch
         [pier] the pier
+        [girders] the girders
+        [cap] the pier cap
        *[structure] the structure
     } { $when }: turn the nose toward it.
 advice-lamp-off = Your lamp was off in the dark { $when }: switch it on in the shade.

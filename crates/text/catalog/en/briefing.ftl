@@ -39,6 +39,9 @@ briefing-place = { $kind ->
         [arch] under the arch
         [interlayer] between the arch and the deck
         [pier] around the pier
+        [girders] under the girders
+        [bearings] along the bearings
+        [cap] around the pier cap
        *[free] along the free path
     }{ $named ->
         [yes] {" "}of bridge '{ $bridge }'
@@ -82,7 +85,11 @@ briefing-people = People: { $count ->
     } on the walkways. Never fly above them.
 briefing-satellites = GNSS: the structure blocks satellites. Under the deck, the position can drift.
 briefing-compass = Compass: steel distorts the magnetic field. Near steel members, the indicated heading can be wrong, and the position can drift.
-briefing-wakes = Wakes: behind piers and towers, the wind is weaker and swings from side to side.
+briefing-wakes = Wakes: behind piers and towers, the wind is weaker and turbulent, and it swings from side to side. At the edges of a deck, it changes suddenly, and below the deck it is faster.
+briefing-cold-battery = Cold battery ({ $temperature } °C): its voltage sags in climbs, so that the drone has less thrust.
+briefing-flow-over-water = Water: optical flow and the range finder below are unreliable over water, so that a hold can drift.
+briefing-real-sky = GNSS: bridges hide satellites, and water and walls reflect their signals. Near and under the bridges, the position and especially the height can be wrong, and jump when satellites return.
+briefing-radio = Radio: concrete and steel weaken the signals between you and the drone. Behind or below a bridge, the picture breaks up first, then control is lost.
 briefing-water = Water: parts of the paths are above water. An emergency landing there loses the aircraft.
 briefing-crash-ends = A crash ends the session.
 briefing-wind-force = Wind: a force of { $force } N.{ $changes ->

@@ -25,6 +25,11 @@ flight-status-gnss-unknown = GNSS ?
 flight-status-link-ok = link ok
 flight-status-link-lost = LINK LOST { $age }
 flight-status-frozen = FROZEN
+# Names beside the bars of the radio signals.
+flight-status-signal-control = control
+flight-status-signal-video = video
+flight-status-control-weak = CONTROL WEAK
+flight-status-video-weak = VIDEO WEAK
 
 ## The next step of the job
 

@@ -13,6 +13,7 @@ job-drill-search = Drill: search
 job-drill-stand-off = Drill: stand-off
 job-drill-straight-line = Drill: straight line
 job-first-flight = Lesson: first flight
+job-girder = Girder bridge: outer girder, girder bays, pier cap, bearings
 job-pilot-study = Pilot study: slab side, arch bottom, interlayer, pier
 job-practice = Practice at two bridges
 job-two-bridges = Two bridges: slab side, arch bottom, interlayer, pier
@@ -33,6 +34,10 @@ job-task-slab = Slab of the arch bridge from one side
 job-task-arch = Arch-shaped bottom
 job-task-interlayer = Interlayer between deck and arch
 job-task-pier = Pier of the suspension bridge near the water
+job-task-outer-girder = Outer girder and deck edge
+job-task-girder-bays = Girder bays of the last span
+job-task-bearings = Bearings on the start abutment
+job-task-pier-cap = Cap of the first pier
 
 # States of an assigned job.
 job-state-open = open

@@ -23,6 +23,7 @@ keys-camera-zoom-in = zoom the camera in
 keys-camera-zoom-out = zoom the camera out
 keys-freeze = freeze or continue
 keys-rewind = rewind 10 s
+keys-stick-response = next stick response
 keys-swap = change the layout
 keys-map = map on or off
 keys-path = path on or off
@@ -58,6 +59,7 @@ keys-short-camera-zoom-in = camera zoom in
 keys-short-camera-zoom-out = camera zoom out
 keys-short-freeze = freeze
 keys-short-rewind = rewind
+keys-short-stick-response = stick response
 keys-short-walk = walk
 
 ## Names of keys

@@ -224,6 +224,7 @@ plan-setting-threshold = on path within { $value }
 plan-setting-crown-gap = gap { $value }
 plan-setting-detection = predicted detection { $value }
 plan-setting-size-factor = defect size factor { $value }
+plan-setting-hazard-severity = hazard severity { $value }
 plan-setting-time-best = full score up to { $value }
 plan-setting-time-max = time limit { $value }
 plan-setting-range = { $low } to { $high }

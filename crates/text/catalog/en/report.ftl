@@ -58,6 +58,8 @@ report-column-speed = speed (m/s)
 report-column-distance = distance (m)
 report-column-clearance = clearance (m)
 report-column-battery = battery (%)
+report-column-wind = wind (m/s)
+report-column-wind-from = wind from (deg)
 report-column-east = east (m)
 report-column-north = north (m)
 report-column-height = height (m)
@@ -89,6 +91,15 @@ report-telemetry-covers = The telemetry covers { $share }% of the session.
 report-practice-aids = This session was { $aids }. It counts as practice: it is neither certified nor compared with others.
 report-of-max = of { $max }
 report-out-of-sight = Out of the inspector's sight for { $total }; longest for { $longest }, from { $from }.
+report-gnss-lost = No GNSS position for { $total }; longest for { $longest }, from { $from }.
+report-position-error = The drone's own position was wrong by up to { $position } m (at { $at }), its height by up to { $height } m (at { $height_at }).
+report-heading-error = Its compass heading was wrong by up to { $degrees }° (at { $at }).
+report-video-poor = Video link poor for { $total }; longest for { $longest }, from { $from }.
+report-control-lost =
+    { $count ->
+        [one] Control link lost once.
+       *[other] Control link lost { $count } times.
+    }
 report-walks = Walks of the inspector: { $walks }.
 report-walk = to place { $place } at { $moment }
 report-walk-before = to place { $place } before lift-off
@@ -278,6 +289,7 @@ report-chart-speed = Speed (m/s)
 report-chart-distance = Distance to the current task's path (m)
 report-chart-clearance = Clearance to the nearest surface (m)
 report-chart-battery = Battery (%)
+report-chart-wind = Horizontal wind at the drone (m/s)
 report-chart-sticks = Stick positions (full travel = 1)
 report-chart-label = { $title } over time; see the table below for the values
 report-flight-timeline = Session timeline

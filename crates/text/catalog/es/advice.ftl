@@ -22,12 +22,16 @@ advice-too-far = Voló { $mean } m demasiado lejos { $surface ->
         [deck] del tablero
         [arch] del arco
         [pier] de la pila
+        [girders] de las vigas
+        [cap] del cabezal de la pila
        *[structure] de la estructura
     } { $when }: acérquese.
 advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
         [deck] del tablero
         [arch] del arco
         [pier] de la pila
+        [girders] de las vigas
+        [cap] del cabezal de la pila
        *[structure] de la estructura
     } { $when }: aléjese.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
@@ -53,6 +57,8 @@ advice-framing = Su cámara se apartó hasta { $most } grados { $surface ->
         [deck] del tablero
         [arch] del arco
         [pier] de la pila
+        [girders] de las vigas
+        [cap] del cabezal de la pila
        *[structure] de la estructura
     } { $when }: gire la nariz hacia la superficie.
 advice-lamp-off = El foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.

@@ -34,6 +34,9 @@ briefing-place = { $kind ->
         [arch] bajo el arco
         [interlayer] entre el arco y el tablero
         [pier] alrededor de la pila
+        [girders] bajo las vigas
+        [bearings] a lo largo de los apoyos
+        [cap] alrededor del cabezal de la pila
        *[free] a lo largo de la trayectoria libre
     }{ $named ->
         [yes] {" "}del puente «{ $bridge }»
@@ -76,7 +79,11 @@ briefing-people = Personas: { $count ->
     } en las aceras. Nunca vuele sobre personas.
 briefing-satellites = GNSS: la estructura bloquea los satélites. Bajo el tablero, la posición puede derivar.
 briefing-compass = Brújula: el acero distorsiona el campo magnético. Cerca de elementos de acero, el rumbo indicado puede desviarse y la posición, derivar.
-briefing-wakes = Estelas: detrás de pilas y torres, el viento es más débil y oscila.
+briefing-wakes = Estelas: detrás de pilas y torres, el viento es más débil y turbulento, y oscila. En los bordes del tablero cambia de repente, y debajo de él es más rápido.
+briefing-cold-battery = Batería fría ({ $temperature } °C): su tensión cae en los ascensos, de modo que el dron tiene menos empuje.
+briefing-flow-over-water = Agua: el flujo óptico y el telémetro inferior no son fiables sobre el agua, de modo que la posición puede derivar.
+briefing-real-sky = GNSS: los puentes ocultan satélites, y el agua y las paredes reflejan sus señales. Cerca y debajo de los puentes, la posición y sobre todo la altura pueden ser erróneas y saltar cuando los satélites reaparecen.
+briefing-radio = Radio: el hormigón y el acero debilitan las señales entre usted y el dron. Detrás o debajo de un puente, primero se deteriora la imagen y después se pierde el control.
 briefing-water = Agua: partes de las trayectorias están sobre el agua. Un aterrizaje de emergencia allí supone perder la aeronave.
 briefing-crash-ends = Una colisión termina la sesión.
 briefing-wind-force = Viento: una fuerza de { $force } N.{ $changes ->

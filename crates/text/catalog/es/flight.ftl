@@ -24,6 +24,10 @@ flight-status-gnss-unknown = GNSS ?
 flight-status-link-ok = enlace ok
 flight-status-link-lost = SIN ENLACE { $age }
 flight-status-frozen = CONGELADO
+flight-status-signal-control = control
+flight-status-signal-video = vídeo
+flight-status-control-weak = CONTROL DÉBIL
+flight-status-video-weak = VÍDEO DÉBIL
 
 ## The next step of the job
 

@@ -23,6 +23,7 @@ keys-camera-zoom-in = acercar la cámara
 keys-camera-zoom-out = alejar la cámara
 keys-freeze = congelar o continuar
 keys-rewind = rebobinar 10 s
+keys-stick-response = siguiente respuesta a las palancas
 keys-swap = cambiar las vistas
 keys-map = mapa sí/no
 keys-path = trayectoria sí/no
@@ -58,6 +59,7 @@ keys-short-camera-zoom-in = acercar zoom
 keys-short-camera-zoom-out = alejar zoom
 keys-short-freeze = congelar
 keys-short-rewind = rebobinar
+keys-short-stick-response = respuesta a las palancas
 keys-short-walk = caminar
 
 ## Names of keys

@@ -216,6 +216,7 @@ plan-setting-threshold = tolerancia de trayectoria { $value }
 plan-setting-crown-gap = espacio intermedio { $value }
 plan-setting-detection = detección prevista { $value }
 plan-setting-size-factor = factor de tamaño de los defectos { $value }
+plan-setting-hazard-severity = intensidad de los peligros { $value }
 plan-setting-time-best = puntuación máxima hasta { $value }
 plan-setting-time-max = límite de tiempo { $value }
 plan-setting-range = { $low } a { $high }

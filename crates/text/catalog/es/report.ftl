@@ -58,6 +58,8 @@ report-column-speed = velocidad (m/s)
 report-column-distance = distancia (m)
 report-column-clearance = separación (m)
 report-column-battery = batería (%)
+report-column-wind = viento (m/s)
+report-column-wind-from = viento desde (grados)
 report-column-east = este (m)
 report-column-north = norte (m)
 report-column-height = altura (m)
@@ -89,6 +91,15 @@ report-telemetry-covers = La telemetría cubre el { $share }% de la sesión.
 report-practice-aids = Esta sesión fue { $aids }. Cuenta como práctica: no se certifica ni se compara con otras.
 report-of-max = de { $max }
 report-out-of-sight = Fuera de la vista del inspector durante { $total }; lo más largo, { $longest }, desde { $from }.
+report-gnss-lost = Sin posición GNSS durante { $total }; lo más largo, { $longest }, desde { $from }.
+report-position-error = El dron se equivocó en su posición hasta { $position } m (en { $at }) y en su altura hasta { $height } m (en { $height_at }).
+report-heading-error = En su rumbo se equivocó hasta { $degrees }° (en { $at }).
+report-video-poor = Enlace de vídeo deficiente durante { $total }; lo más largo, { $longest }, desde { $from }.
+report-control-lost =
+    { $count ->
+        [one] Enlace de control perdido una vez.
+       *[other] Enlace de control perdido { $count } veces.
+    }
 report-walks = Recorridos del inspector: { $walks }.
 report-walk = al punto { $place } desde { $moment }
 report-walk-before = al punto { $place } antes del despegue
@@ -298,6 +309,7 @@ report-chart-speed = Velocidad (m/s)
 report-chart-distance = Distancia a la trayectoria de la tarea actual (m)
 report-chart-clearance = Separación de la superficie más cercana (m)
 report-chart-battery = Batería (%)
+report-chart-wind = Viento horizontal en el dron (m/s)
 report-chart-sticks = Posición de las palancas (recorrido completo = 1)
 report-chart-label = { $title } a lo largo del tiempo; los valores están en la tabla siguiente
 report-flight-timeline = Cronología de la sesión

@@ -49,13 +49,15 @@ pub(super) fn when(scan: &FlightScan<'_>, place: Place, stretches: &Stretches) -
     text!(scan.language, "advice-when", place = kind, tasks = tasks, stretches = stretches.count, time = time, from = from)
 }
 
-/// Names the surface that the tasks inspect: `deck`, `arch`, `pier` or `structure`.
+/// Names the surface that the tasks inspect: `deck`, `arch`, `pier`, `girders`, `cap` or `structure`.
 pub(super) fn surface(scan: &FlightScan<'_>, tasks: &[usize]) -> &'static str {
     let [task] = tasks else { return "structure" };
     match scan.evidence.scenario.tasks[*task].kind {
         TaskKind::SlabSide => "deck",
         TaskKind::ArchBottom => "arch",
         TaskKind::PierCircle => "pier",
-        TaskKind::Interlayer | TaskKind::Free => "structure",
+        TaskKind::GirderSoffit => "girders",
+        TaskKind::PierCap => "cap",
+        TaskKind::BearingLine | TaskKind::Interlayer | TaskKind::Free => "structure",
     }
 }

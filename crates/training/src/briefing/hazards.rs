@@ -1,7 +1,7 @@
 //! Hazards of a job, derived from its scenario and site.
 
 use super::tasks::TaskBriefing;
-use spandrel_model::scenario::{AfterCrash, Scenario, WindModel, WindSpec};
+use spandrel_model::scenario::{AfterCrash, BatteryModel, Scenario, WindModel, WindSpec};
 use spandrel_model::site::Site;
 use spandrel_text::{Language, text};
 
@@ -9,6 +9,8 @@ use spandrel_text::{Language, text};
 const NOTABLE_WIND_M_S: f64 = 4.0;
 /// Constant force of the paper's wind model from which the briefing warns, N (its "gentle" level).
 const NOTABLE_FORCE_N: f64 = 3.0;
+/// Battery temperature below which the briefing warns, °C (makers of batteries recommend to warm them up below 15 °C).
+const COLD_BATTERY_C: f64 = 15.0;
 /// Clearance below which a path counts as confined, m (estimate: about two aircraft widths on each side).
 const CONFINED_CLEARANCE_M: f64 = 2.5;
 
@@ -33,7 +35,9 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     if traffic.pedestrians > 0 {
         lines.push(text!(language, "briefing-people", count = traffic.pedestrians));
     }
-    if scenario.rules.gnss_shadow {
+    if scenario.hazards.sky {
+        lines.push(text!(language, "briefing-real-sky"));
+    } else if scenario.rules.gnss_shadow {
         lines.push(text!(language, "briefing-satellites"));
     }
     if scenario.hazards.wakes && scenario.wind.model == WindModel::Physical {
@@ -41,6 +45,16 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     }
     if scenario.hazards.compass {
         lines.push(text!(language, "briefing-compass"));
+    }
+    if scenario.hazards.radio {
+        lines.push(text!(language, "briefing-radio"));
+    }
+    if scenario.rules.battery == BatteryModel::Physical && scenario.rules.battery_temperature_c < COLD_BATTERY_C {
+        let temperature = format!("{:.0}", scenario.rules.battery_temperature_c);
+        lines.push(text!(language, "briefing-cold-battery", temperature = temperature));
+    }
+    if scenario.hazards.water {
+        lines.push(text!(language, "briefing-flow-over-water"));
     }
     if is_over_water(scenario, site) {
         lines.push(text!(language, "briefing-water"));

@@ -66,6 +66,9 @@ fn place(task: &Task, scenario: &Scenario, language: Language) -> String {
         TaskKind::ArchBottom => "arch",
         TaskKind::Interlayer => "interlayer",
         TaskKind::PierCircle => "pier",
+        TaskKind::GirderSoffit => "girders",
+        TaskKind::BearingLine => "bearings",
+        TaskKind::PierCap => "cap",
         TaskKind::Free => "free",
     };
     let bridge = task.bridge.map_or("", |bridge| scenario.bridges[bridge].name.as_str());

@@ -15,6 +15,7 @@ static SETTINGS: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(1, |l, v| text!(l, "plan-setting-crown-gap", value = value(v[0], l))),
         Sentence::new(1, |l, v| text!(l, "plan-setting-detection", value = value(v[0], l))),
         Sentence::new(1, |l, v| text!(l, "plan-setting-size-factor", value = value(v[0], l))),
+        Sentence::new(1, |l, v| text!(l, "plan-setting-hazard-severity", value = value(v[0], l))),
         Sentence::new(1, |l, v| text!(l, "plan-setting-time-best", value = value(v[0], l))),
         Sentence::new(1, |l, v| text!(l, "plan-setting-time-max", value = value(v[0], l))),
     ])
@@ -63,10 +64,10 @@ mod tests {
         let settings = "wind 2.73 m/s, on path within 1 to 1.5 m, predicted detection 60%, full score up to 4 min";
         let german = "Wind 2.73 m/s, Bahntoleranz 1 bis 1.5 m, vorhergesagte Entdeckung 60%, volle Punktzahl bis 4 min";
         assert_eq!(level_settings(settings, Language::German), german);
-        let others = "turbulence 0.5, gap 3 m, defect size factor 2, time limit 9 min";
+        let others = "turbulence 0.5, gap 3 m, defect size factor 2, hazard severity 1.5, time limit 9 min";
         assert_eq!(
             level_settings(others, Language::Spanish),
-            "turbulencia 0.5, espacio intermedio 3 m, factor de tamaño de los defectos 2, límite de tiempo 9 min"
+            "turbulencia 0.5, espacio intermedio 3 m, factor de tamaño de los defectos 2, intensidad de los peligros 1.5, límite de tiempo 9 min"
         );
         assert_eq!(level_settings("", Language::German), "");
     }

@@ -23,6 +23,9 @@ const TASK_KINDS: &[(&str, Option<&str>)] = &[
     ("arch_bottom", Some("arch_bottom")),
     ("interlayer", Some("interlayer")),
     ("pier_circle", Some("pier_circle")),
+    ("girder_soffit", Some("girder_soffit")),
+    ("bearing_line", Some("bearing_line")),
+    ("pier_cap", Some("pier_cap")),
     ("free", Some("free")),
 ];
 const CRASH_OBJECTS: &[(&str, Option<&str>)] = &[

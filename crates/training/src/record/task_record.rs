@@ -17,7 +17,8 @@ pub struct TaskRecord {
     pub id: u32,
     /// Task name in the scenario.
     pub name: String,
-    /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle` or `free`.
+    /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `girder_soffit`, `bearing_line`, `pier_cap` or
+    /// `free`.
     pub kind: String,
     /// Whether the drone entered the task's path.
     pub attempted: bool,
@@ -112,6 +113,9 @@ pub(super) fn kind_key(kind: TaskKind) -> &'static str {
         TaskKind::ArchBottom => "arch_bottom",
         TaskKind::Interlayer => "interlayer",
         TaskKind::PierCircle => "pier_circle",
+        TaskKind::GirderSoffit => "girder_soffit",
+        TaskKind::BearingLine => "bearing_line",
+        TaskKind::PierCap => "pier_cap",
         TaskKind::Free => "free",
     }
 }

@@ -2,6 +2,7 @@
 //! must be able to see the drone throughout the flight (14 CFR 107.31).
 
 use super::formatting;
+use super::interval_total::IntervalTotal;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
@@ -16,65 +17,38 @@ const DRONE_CLEARANCE_M: f64 = 0.5;
 /// Shortest time that is worth mentioning, s.
 const MIN_SHOWN_S: f64 = 1.0;
 
-/// Time out of the inspector's sight.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct OutOfSight {
-    /// All of it, s.
-    pub total_s: f64,
-    /// Longest part without interruption, s.
-    pub longest_s: f64,
-    /// Beginning of the longest part, s since lift-off.
-    pub longest_from_s: f64,
+/// Returns the time during which the drone was out of the inspector's sight, on a site with the walks of the flight.
+#[must_use]
+pub fn out_of_sight(site: &Site, frames: &[Frame]) -> IntervalTotal {
+    let Some(first) = frames.first() else { return IntervalTotal::default() };
+    let mut checks: Vec<(f64, bool)> = Vec::new();
+    for frame in frames {
+        let t_s = (frame.time - first.time).s();
+        if checks.last().is_none_or(|(last_s, _)| t_s - last_s >= CHECK_INTERVAL_S) {
+            let eye_m = site.inspector().at(frame.time).eye_m();
+            checks.push((t_s, is_hidden(site, eye_m, frame.position_m)));
+        }
+    }
+    of_checks(&checks)
 }
 
-impl OutOfSight {
-    /// Measures a flight on a site with the walks of the flight.
-    #[must_use]
-    pub fn measure(site: &Site, frames: &[Frame]) -> Self {
-        let Some(first) = frames.first() else { return Self::default() };
-        let mut checks: Vec<(f64, bool)> = Vec::new();
-        for frame in frames {
-            let t_s = (frame.time - first.time).s();
-            if checks.last().is_none_or(|(last_s, _)| t_s - last_s >= CHECK_INTERVAL_S) {
-                let eye_m = site.inspector().at(frame.time).eye_m();
-                checks.push((t_s, is_hidden(site, eye_m, frame.position_m)));
-            }
-        }
-        Self::of_checks(&checks)
-    }
+/// Sums checks: the time of each, s since lift-off, and whether the drone was hidden until the next one.
+fn of_checks(checks: &[(f64, bool)]) -> IntervalTotal {
+    IntervalTotal::of(checks.windows(2).map(|pair| (pair[0].0, pair[1].0, pair[0].1)))
+}
 
-    /// Sums checks: the time of each, s since lift-off, and whether the drone was hidden until the next one.
-    fn of_checks(checks: &[(f64, bool)]) -> Self {
-        let mut found = Self::default();
-        let mut since: Option<f64> = None;
-        for pair in checks.windows(2) {
-            let ((from_s, hidden), (until_s, _)) = (pair[0], pair[1]);
-            if !hidden {
-                since = None;
-                continue;
-            }
-            found.total_s += until_s - from_s;
-            let begun_s = *since.get_or_insert(from_s);
-            if until_s - begun_s > found.longest_s {
-                (found.longest_s, found.longest_from_s) = (until_s - begun_s, begun_s);
-            }
-        }
-        found
-    }
-
-    /// Returns the measurement as a sentence; `None` if the drone was always in sight.
-    #[must_use]
-    pub fn sentence(&self, language: Language) -> Option<String> {
-        (self.total_s >= MIN_SHOWN_S).then(|| {
-            text!(
-                language,
-                "report-out-of-sight",
-                total = formatting::duration(self.total_s),
-                longest = formatting::duration(self.longest_s),
-                from = formatting::clock(self.longest_from_s)
-            )
-        })
-    }
+/// Returns the time out of sight as a sentence; `None` if the drone was always in sight.
+#[must_use]
+pub fn out_of_sight_sentence(hidden: IntervalTotal, language: Language) -> Option<String> {
+    (hidden.total_s >= MIN_SHOWN_S).then(|| {
+        text!(
+            language,
+            "report-out-of-sight",
+            total = formatting::duration(hidden.total_s),
+            longest = formatting::duration(hidden.longest_s),
+            from = formatting::clock(hidden.longest_from_s)
+        )
+    })
 }
 
 /// Returns the walks of the inspector that begin before the end of a flight, each with its ends: from, to, m.
@@ -115,13 +89,13 @@ mod tests {
     #[test]
     fn exact_hidden_times_are_summed_and_the_longest_is_found() {
         let checks = [(0.0, false), (1.0, true), (2.0, true), (3.0, false), (4.0, true), (7.0, true), (9.0, false)];
-        let found = OutOfSight::of_checks(&checks);
-        assert_eq!(found, OutOfSight { total_s: 7.0, longest_s: 5.0, longest_from_s: 4.0 });
+        let found = of_checks(&checks);
+        assert_eq!(found, IntervalTotal { total_s: 7.0, longest_s: 5.0, longest_from_s: 4.0 });
         assert_eq!(
-            found.sentence(Language::English).as_deref(),
+            out_of_sight_sentence(found, Language::English).as_deref(),
             Some("Out of the inspector's sight for 7 s; longest for 5 s, from 0:04.")
         );
-        assert_eq!(OutOfSight::of_checks(&[(0.0, true)]).sentence(Language::English), None);
+        assert_eq!(out_of_sight_sentence(of_checks(&[(0.0, true)]), Language::English), None);
     }
 
     #[test]
@@ -169,12 +143,12 @@ mod tests {
         let drone_m = points.find(|point| hidden_from(1, *point) && !hidden_from(2, *point)).expect("a hidden part of a path");
         let frames = hovering(drone_m);
         // The checks are up to 0.6 s apart, because frames come every 0.1 s.
-        assert!(OutOfSight::measure(&still, &frames).total_s > 59.0);
+        assert!(out_of_sight(&still, &frames).total_s > 59.0);
         assert_eq!(walks_sentence(&still, &frames, Language::English), None);
         // The walk begins at 25 s, 15 s after lift-off, and takes 24 s.
         let walks = InspectorWalks::from_codes([250_012]);
         let site = still.with_changes(SiteChanges { walks, ..SiteChanges::default() });
-        let found = OutOfSight::measure(&site, &frames);
+        let found = out_of_sight(&site, &frames);
         assert!((14.4..=39.6).contains(&found.total_s), "hidden at least until the walk, at most until its end: {found:?}");
         let words = walks_sentence(&site, &frames, Language::English).unwrap();
         assert_eq!(words, "Walks of the inspector: to place 2 at 0:15.");

@@ -10,11 +10,14 @@ pub mod coverage;
 pub mod defects;
 pub mod feedback;
 pub mod formatting;
+pub mod interval_total;
 pub mod line_of_sight;
 pub mod mesh;
+pub mod navigation_errors;
 pub mod page;
 pub mod pictures;
 pub mod plots;
+pub mod radio_losses;
 pub mod scorm;
 pub mod sketch;
 pub mod table;
@@ -29,13 +32,15 @@ use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
 use crate::terms::{scenario_title, task_title};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
-use spandrel_mavlink::telemetry::{Frame, Timeline};
+use spandrel_mavlink::telemetry::{Frame, NavigationReader, Timeline};
+use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::LocalPlane;
+use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::shipped::SCENARIOS;
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
-use spandrel_monitor::assessment::{Assessment, flight_with_seed};
+use spandrel_monitor::assessment::{Assessment, IdentifiedFlight, flight_with_seed, identified_flight};
 use spandrel_monitor::measures::attention;
 use spandrel_monitor::measures::crash::{self, Crash};
 use spandrel_monitor::measures::on_path::{OnPath, ReferencePaths};
@@ -115,8 +120,14 @@ pub struct Review {
     pub next: Vec<PlanStep>,
     /// Things to do better, and the scenario to fly next. The sentences are in English with translations.
     pub advice: SessionAdvice,
+    /// Errors of the aircraft's own position and heading, and time without GNSS.
+    pub navigation: navigation_errors::NavigationErrors,
+    /// Time with a poor video link, and losses of control.
+    pub radio: radio_losses::RadioLosses,
+    /// Wind at the drone in each frame, m/s; `None` where the vehicle did not report it.
+    pub wind_m_s: Vec<Option<Vec3<Enu>>>,
     /// Time out of the inspector's sight.
-    pub out_of_sight: line_of_sight::OutOfSight,
+    pub out_of_sight: interval_total::IntervalTotal,
     /// Statistics of the telemetry link.
     pub link: LinkCounts,
 }
@@ -134,9 +145,9 @@ impl Review {
     ) -> Result<Self, AssessError> {
         // The replay runs first because the monitor keeps its own copy of the flight until it is dropped.
         let events = feedback::events(log, scenario, vehicle)?;
-        let mut timeline = Timeline::new(LocalPlane::new(scenario.origin));
-        timeline.push_log(log)?;
-        let (flight, seed) = flight_with_seed(&timeline, scenario, vehicle)?;
+        let (timeline, navigation) = NavigationReader::read_log(log, LocalPlane::new(scenario.origin))?;
+        let IdentifiedFlight { epoch, flight, seed } = identified_flight(&timeline, scenario, vehicle)?;
+        let navigation = navigation.of(epoch);
         let link = timeline.counts();
         drop(timeline);
         let site = Site::build(scenario, seed).with_changes(attention::site_changes(&flight));
@@ -154,7 +165,10 @@ impl Review {
             (feedback::collect_feedback(events, &scene, &track), defects::defect_outcomes(&scene, assessment));
         let scored = ScoredFlight { scene, metadata: &metadata, assessed_session: &assessed_session };
         let (next, advice) = scored.plan_and_advice(&defects);
-        let out_of_sight = line_of_sight::OutOfSight::measure(&site, frames);
+        let radio = radio_losses::RadioLosses::measure(frames, &navigation);
+        let wind_m_s = frames.iter().map(|frame| navigation.wind_m_s(frame.time)).collect();
+        let navigation = navigation_errors::NavigationErrors::measure(&flight, frames, &navigation);
+        let out_of_sight = line_of_sight::out_of_sight(&site, frames);
         let AssessedSession { assessment, frames, .. } = assessed_session;
         Ok(Self {
             crashes,
@@ -164,6 +178,9 @@ impl Review {
             coverage,
             next,
             advice,
+            navigation,
+            radio,
+            wind_m_s,
             out_of_sight,
             link,
             metadata,
@@ -190,6 +207,20 @@ impl Review {
     pub fn task_name(&self, task: usize, language: Language) -> String {
         let task = self.scenario.tasks.get(task);
         task.map_or_else(String::new, |task| task_title(&self.scenario.name, &task.name, language))
+    }
+
+    /// Returns whether the vehicle reported the wind.
+    #[must_use]
+    pub fn has_wind(&self) -> bool {
+        self.wind_m_s.iter().any(Option::is_some)
+    }
+
+    /// Returns the wind at the drone in a frame: its horizontal speed, m/s, and the direction from which it comes, degrees.
+    #[must_use]
+    pub fn wind(&self, frame: usize) -> Option<(f64, f64)> {
+        let wind_m_s = self.wind_m_s.get(frame).copied().flatten()?;
+        let from_deg = math::bearing_deg(-wind_m_s.east(), -wind_m_s.north());
+        Some((wind_m_s.horizontal_norm(), from_deg))
     }
 
     /// Returns the time of a frame in seconds since lift-off.

@@ -146,6 +146,7 @@ pub fn live(visitor: &Visitor, drawn: Option<&JobDrawings>, choice: &VehicleSele
                         @for (key, words) in readouts(language) { div { dt { (words) } dd data-now=(key) { "–" } } }
                     }
                     ul.cues aria-label=(text!(language, "live-cues")) data-cues {}
+                    ul.cues aria-label=(text!(language, "live-hazards")) data-hazards {}
                 }
                 div.watch {
                     section aria-label=(text!(language, "live-site")) {
@@ -180,7 +181,7 @@ fn waiting(language: Language, choice: &VehicleSelection) -> Markup {
     }
 }
 
-fn readouts(language: Language) -> [(&'static str, String); 10] {
+fn readouts(language: Language) -> [(&'static str, String); 14] {
     [
         ("task", text!(language, "live-task")),
         ("step", text!(language, "live-step")),
@@ -192,6 +193,10 @@ fn readouts(language: Language) -> [(&'static str, String); 10] {
         ("battery", text!(language, "live-battery")),
         ("contact", text!(language, "live-contact")),
         ("traffic", text!(language, "live-traffic")),
+        ("wind", text!(language, "live-wind")),
+        ("gnss", text!(language, "live-gnss")),
+        ("compass", text!(language, "live-compass")),
+        ("radio", text!(language, "live-radio")),
     ]
 }
 
@@ -218,6 +223,7 @@ pub(super) fn texts(language: Language) -> String {
         ("failed_login", text!(language, "live-failed-login")),
         ("failed_silent", text!(language, "live-failed-silent")),
         ("tile_vehicle", text!(language, "live-tile-vehicle", number = "{number}")),
+        ("tile_no_hazard", text!(language, "live-tile-no-hazard")),
         ("tile_no_cue", text!(language, "live-tile-no-cue")),
         ("tile_status", text!(language, "live-tile-status", status = "{status}")),
         ("tile_login", text!(language, "live-tile-login")),

@@ -1,6 +1,7 @@
 //! State of a flight in progress for the instructor's live page: processes telemetry and returns a JSON snapshot.
 //! Performs no I/O. Uses only data available to every subscriber of the payload port.
 
+use super::live_hazards::HazardState;
 use crate::terms::task_title;
 use serde_json::{Value, json};
 use spandrel_mavlink::codec::ReceivedFrame;
@@ -101,6 +102,7 @@ pub struct LiveFlightState {
     last_cue: Option<(f64, String)>,
     /// The next step, and the simulation time when it was received.
     guidance: Option<(SimTime, Guidance)>,
+    hazards: HazardState,
     messages: VecDeque<LogLine>,
     message_count: u64,
     /// The vehicle's system ID, once received.
@@ -135,6 +137,7 @@ impl LiveFlightState {
             cue_texts: CueTexts::default(),
             last_cue: None,
             guidance: None,
+            hazards: HazardState::default(),
             messages: VecDeque::new(),
             message_count: 0,
             system: None,
@@ -191,6 +194,7 @@ impl LiveFlightState {
                     self.remember_cue();
                 }
                 let now = self.truth.map_or(SimTime::ZERO, |truth| truth.time);
+                self.hazards.handle(message, frame.component_id, now);
                 self.guidance = Guidance::of(message).map(|guidance| (now, guidance)).or(self.guidance);
             }
             None => {}
@@ -251,6 +255,7 @@ impl LiveFlightState {
         if self.truth.is_some_and(|before| truth.time < before.time) {
             (self.current_task, self.cues, self.changes) = (None, 0, SiteChanges::default());
             (self.cue_texts, self.last_cue, self.guidance) = (CueTexts::default(), None, None);
+            self.hazards = HazardState::default();
         }
         self.current_task = job.paths.task_on_path(truth.motion.position_m, self.current_task).map(|(task, _)| task);
         self.truth = Some(truth);
@@ -328,6 +333,11 @@ impl LiveFlightState {
             "task": self.task_words(language),
             "step": guidance.as_ref().map(|guidance| step_words(guidance, language)),
             "progress": guidance.and_then(|guidance| guidance.progress),
+            "wind": self.hazards.wind(language),
+            "gnss": self.hazards.gnss(language),
+            "compass": self.hazards.compass(now, language),
+            "radio": self.hazards.radio(now, language),
+            "hazards": self.hazards.warnings(now, language),
             "cues": cues,
             "last_cue": last_cue,
             "words": words,

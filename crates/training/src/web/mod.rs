@@ -13,6 +13,7 @@ mod key_texts;
 pub mod known_browsers;
 pub mod layout;
 pub mod live;
+mod live_hazards;
 pub mod live_state;
 pub mod login;
 pub mod login_throttle;

@@ -7,7 +7,7 @@ use crate::report::plots::site_picture::site_picture;
 use crate::scenario_check::{CheckOptions, Findings, ScenarioText, check_forms, check_levels, check_scenario};
 use maud::{Markup, html};
 use serde_json::{Value, json};
-use spandrel_model::scenario::{self, Scenario};
+use spandrel_model::scenario::{self, Scenario, SiblingLoader};
 use spandrel_model::site::Site;
 use spandrel_model::toml::{Problem, split_displayed};
 use spandrel_text::{Language, text};
@@ -26,13 +26,18 @@ pub struct CheckedScenario {
     pub rejected: Option<String>,
 }
 
-/// Checks a text. `file` is the name in messages. Uploaded scenarios can't refer to other files.
+/// Checks a text. `file` is the name in messages; `siblings` loads the files that the scenario refers to.
 #[must_use]
-pub fn check_text(file: &str, text: String, options: &CheckOptions<'_>, language: Language) -> CheckedScenario {
+pub fn check_text(
+    file: &str,
+    (text, siblings): (String, SiblingLoader),
+    options: &CheckOptions<'_>,
+    language: Language,
+) -> CheckedScenario {
     let mut findings = Findings::default();
     let preview = {
-        let source = ScenarioText { file, text: &text, siblings: &no_siblings };
-        match scenario::read(file, &text, &no_siblings) {
+        let source = ScenarioText { file, text: &text, siblings };
+        match scenario::read(file, &text, siblings) {
             Ok(scenario) => {
                 let preview = preview(&scenario, options, language);
                 check_scenario(&source, &scenario, options, &mut findings);
@@ -51,14 +56,6 @@ pub fn check_text(file: &str, text: String, options: &CheckOptions<'_>, language
     }
     let form = ScenarioForm::read(&text);
     CheckedScenario { text, form, findings, preview, rejected: None }
-}
-
-/// Refuses files that a scenario refers to.
-///
-/// # Errors
-/// Always returns an error.
-pub fn no_siblings(_: &str) -> Result<String, String> {
-    Err("an uploaded scenario cannot refer to other files".to_owned())
 }
 
 fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) -> Option<Markup> {
@@ -187,14 +184,64 @@ pub fn form_shape(form: &ScenarioForm) -> String {
 mod tests {
     use super::*;
     use crate::web::layout::tests::HOSTILE_NAME;
+    use spandrel_model::elements::Element;
+    use spandrel_model::mesh::Mesh;
+    use spandrel_model::mesh::convex_parts::ConvexLimits;
+    use spandrel_model::mesh::reader::ModelFormat;
+    use spandrel_model::scenario::bridges::element_map::ElementMap;
     use spandrel_model::scenario::edit::{Edit, apply};
     use spandrel_model::shipped::{PHANTOM2, PRACTICE};
+    use spandrel_model::site::bridge_import::{ImportOptions, ImportSource, ImportedBridge, ModelOrigin, UpAxis, import};
+    use spandrel_model::site::gltf::parts_glb;
     use spandrel_model::vehicle;
 
     fn checked(text: &str, may_continue: &dyn Fn() -> bool) -> CheckedScenario {
         let aircraft = vehicle::read("phantom2.toml", PHANTOM2).unwrap();
         let options = CheckOptions { aircraft: &aircraft, may_continue };
-        check_text("practice.toml", text.to_owned(), &options, Language::English)
+        check_text("practice.toml", (text.to_owned(), &|_| Err("no file".to_owned())), &options, Language::English)
+    }
+
+    /// Returns an imported bridge: a block of 20 m.
+    fn imported() -> ImportedBridge {
+        let mesh = Mesh::of_box([-10.0, -3.0, -2.0], [10.0, 3.0, 2.0]);
+        let file = parts_glb(std::iter::once(("block", Element::RcSlab, mesh))).unwrap();
+        let none = |_: &str| Err("no file".to_owned());
+        let (format, elements) = (ModelFormat::Gltf, ElementMap::default());
+        let options = ImportOptions {
+            name: "block".into(),
+            scale: 1.0,
+            up: UpAxis::Y,
+            origin: ModelOrigin::Center,
+            turn_deg: 0.0,
+            default_element: None,
+            limits: ConvexLimits { tolerance_m: 0.01, resolution: 32 },
+        };
+        import(&ImportSource { file: "block.glb", format, bytes: &file, load: &none, elements }, &options).unwrap()
+    }
+
+    #[test]
+    fn exact_imported_bridge_is_drawn_and_edits_keep_its_files() {
+        let bridge = imported();
+        let load = |name: &str| match name {
+            "bridge.glb" => Ok(bridge.model.clone()),
+            "elements.toml" => Ok(bridge.elements.clone().into_bytes()),
+            _ => Err("no such file".to_owned()),
+        };
+        let aircraft = vehicle::read("phantom2.toml", PHANTOM2).unwrap();
+        let options = CheckOptions { aircraft: &aircraft, may_continue: &|| true };
+        let edits =
+            [set("tasks[1].name", "North side"), set("bridges[0].heading_deg", "75"), Edit::Add { location: "tasks".into() }];
+        let edited = apply(&bridge.scenario, &edits).unwrap();
+        for text in [bridge.scenario.clone(), edited] {
+            let checked = check_text("block.toml", (text.clone(), &load), &options, Language::English);
+            assert_eq!(checked.findings.problems, []);
+            assert!(checked.preview.unwrap().into_string().contains("Side view of block"));
+            assert!(text.contains("file = \"bridge.glb\"\nelements = \"elements.toml\""), "{text}");
+            let form = checked.form.unwrap();
+            let value = |location: &str| form.fields().find(|field| field.location == location).map(|field| field.value.as_str());
+            assert_eq!(value("bridges[0].model.file"), Some("bridge.glb"));
+            assert_eq!((value("tasks[0].points_relative_to"), value("bridges[0].arch.span_m")), (Some("block"), None));
+        }
     }
 
     fn set(location: &str, text: &str) -> Edit {

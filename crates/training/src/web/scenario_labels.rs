@@ -3,7 +3,7 @@
 use spandrel_text::{Language, text};
 
 /// Units at the end of keys, and their symbols.
-const UNITS: [(&str, &str); 13] = [
+const UNITS: [(&str, &str); 14] = [
     ("_m_s", "m/s"),
     ("_mph", "mph"),
     ("_deg", "°"),
@@ -17,6 +17,7 @@ const UNITS: [(&str, &str); 13] = [
     ("_s", "s"),
     ("_n", "N"),
     ("_kg", "kg"),
+    ("_c", "°C"),
 ];
 
 /// Returns the label of a key with its unit, such as `Stand-off (m)` for `tasks[2].stand_off_m`.
@@ -41,6 +42,7 @@ fn in_words(name: &str) -> String {
 
 fn translated(language: Language, name: &str) -> Option<String> {
     let place = place_label(language, name).or_else(|| bridge_label(language, name));
+    let place = place.or_else(|| girder_label(language, name));
     place.or_else(|| flight_label(language, name)).or_else(|| rule_label(language, name))
 }
 
@@ -123,15 +125,48 @@ fn bridge_label(language: Language, name: &str) -> Option<String> {
     })
 }
 
+/// Labels of girder bridges, for keys that other bridges don't have.
+fn girder_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "spans" => text!(language, "editor-key-spans"),
+        "end_span" => text!(language, "editor-key-end-span"),
+        "simple_spans" => text!(language, "editor-key-simple-spans"),
+        "joint_gap" => text!(language, "editor-key-joint-gap"),
+        "girders" => text!(language, "editor-key-girders"),
+        "girder_spacing" => text!(language, "editor-key-girder-spacing"),
+        "overhang" => text!(language, "editor-key-overhang"),
+        "haunch" => text!(language, "editor-key-haunch"),
+        "web_depth" => text!(language, "editor-key-web-depth"),
+        "web" => text!(language, "editor-key-web"),
+        "flange_width" => text!(language, "editor-key-flange-width"),
+        "flange" => text!(language, "editor-key-flange"),
+        "cross_frame_spacing" => text!(language, "editor-key-cross-frame-spacing"),
+        "barrier" => text!(language, "editor-key-barrier"),
+        "drain_spacing" => text!(language, "editor-key-drain-spacing"),
+        "bearing" => text!(language, "editor-key-bearing"),
+        "pedestal" => text!(language, "editor-key-pedestal"),
+        "cap_depth" => text!(language, "editor-key-cap-depth"),
+        "cap_width" => text!(language, "editor-key-cap-width"),
+        "columns" => text!(language, "editor-key-columns"),
+        "round_columns" => text!(language, "editor-key-round-columns"),
+        "column_height" => text!(language, "editor-key-column-height"),
+        "abutment" => text!(language, "editor-key-abutment"),
+        _ => return None,
+    })
+}
+
 /// Labels of tasks, defects, traffic, wind and light.
 fn flight_label(language: Language, name: &str) -> Option<String> {
     Some(match name {
         "kind" => text!(language, "editor-key-kind"),
         "bridge" => text!(language, "editor-key-bridge"),
+        "span_number" => text!(language, "editor-key-span-number"),
+        "support_number" => text!(language, "editor-key-support-number"),
         "stand_off" => text!(language, "editor-key-stand-off"),
         "stand_off_tolerance" => text!(language, "editor-key-stand-off-tolerance"),
         "threshold" => text!(language, "editor-key-threshold"),
         "closed" => text!(language, "editor-key-closed"),
+        "points_relative_to" => text!(language, "editor-key-points-relative-to"),
         "points" => text!(language, "editor-key-points"),
         "look_at" => text!(language, "editor-key-look-at"),
         "too_close" => text!(language, "editor-key-too-close"),
@@ -173,9 +208,17 @@ fn rule_label(language: Language, name: &str) -> Option<String> {
         "low_battery_return" => text!(language, "editor-key-low-battery-return"),
         "low_battery" => text!(language, "editor-key-low-battery"),
         "critical_battery" => text!(language, "editor-key-critical-battery"),
+        "water" => text!(language, "editor-key-water"),
+        "battery_temperature" => text!(language, "editor-key-battery-temperature"),
         "wakes" => text!(language, "editor-key-wakes"),
+        "sky" => text!(language, "editor-key-sky"),
+        "almanac" => text!(language, "editor-key-almanac"),
+        "radio" => text!(language, "editor-key-radio"),
+        "severity" => text!(language, "editor-key-severity"),
+        "hazard_severity" => text!(language, "editor-key-hazard-severity"),
         "compass" => text!(language, "editor-key-compass"),
         "gnss_shadow" => text!(language, "editor-key-gnss-shadow"),
+        "stick_response" => text!(language, "editor-key-stick-response"),
         "respawn_after" => text!(language, "editor-key-respawn-after"),
         "too_close_clear" => text!(language, "editor-key-too-close-clear"),
         "off_path_max" => text!(language, "editor-key-off-path-max"),

@@ -56,6 +56,7 @@ fn tile_item(language: Language, number: usize, tile: &VehicleTile) -> Markup {
                 @for (key, words) in readouts { div { dt { (words) } dd data-now=(key) { "–" } } }
             }
             p.cue { (text!(language, "live-tile-cue")) " " span data-cue { "–" } }
+            p.cue { (text!(language, "live-tile-hazards")) " " span data-hazards { "–" } }
         }
     }
 }

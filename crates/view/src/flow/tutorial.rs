@@ -233,6 +233,7 @@ fn example(cues: i32, style: DisplayStyle) -> Hud {
         home_distance_m: 118.0,
         mode: "Position".into(),
         gnss: Some(GnssStatus { has_fix: true, satellites: 17 }),
+        radio: None,
         telemetry_age_s: 0.0,
         is_frozen: false,
         ghost: None,

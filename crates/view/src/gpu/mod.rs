@@ -12,7 +12,7 @@ mod targets;
 mod uniforms;
 
 pub use device::{Gpu, GpuError};
-pub use overlay::{Overlay, PageTextures, decode_jpeg, paint, paint_sheet};
+pub use overlay::{Overlay, PageImage, PageTextures, decode_jpeg, paint, paint_sheet};
 pub use painter::{PaintArea, Painter, PanePicture};
 pub use picture::{fill, picture_texture, read};
 pub use renderer::{DrawCounts, Renderer};

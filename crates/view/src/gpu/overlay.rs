@@ -5,10 +5,10 @@ use super::painter::{PaintArea, Painter};
 use super::pipelines::COLOR_FORMAT;
 use crate::flow::sheet::PictureSource;
 use crate::flow::{PICTURES, PageLayout};
-use crate::hud::{DrawItem, ScreenPoint, TextAlign};
+use crate::hud::{DrawItem, HudColor, ScreenPoint, TextAlign};
 use crate::picture::Picture;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Draws text and shapes over pictures.
 pub struct Overlay {
@@ -69,69 +69,99 @@ impl Overlay {
     }
 }
 
-/// Pictures of the pages, as textures of one egui context.
+/// A picture in the form that becomes a texture. The conversion of a large picture takes longer than a frame, so it can be made on
+/// another thread.
+pub struct PageImage(egui::ColorImage);
+
+impl PageImage {
+    /// Converts a picture.
+    #[must_use]
+    pub fn new(picture: &Picture) -> Self {
+        let size = [picture.width as usize, picture.height as usize];
+        Self(egui::ColorImage::from_rgba_unmultiplied(size, &picture.rgba))
+    }
+
+    /// Returns width and height, px.
+    #[must_use]
+    pub fn size_px(&self) -> (usize, usize) {
+        (self.0.width(), self.0.height())
+    }
+}
+
+impl std::fmt::Debug for PageImage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("PageImage").field(&self.0.size).finish()
+    }
+}
+
+/// Pictures of the pages, as textures of one egui context. The caller reads the files ([`Self::missing_files`]).
+#[derive(Default)]
 pub struct PageTextures {
     textures: BTreeMap<PictureSource, egui::TextureHandle>,
     /// Pictures of jobs that are not textures yet.
-    jobs: BTreeMap<String, Picture>,
-    /// Files that cannot be loaded, so that they are not read again for each frame.
-    unreadable: BTreeSet<String>,
-    load: fn(&str) -> Option<Picture>,
+    jobs: BTreeMap<String, PageImage>,
+    /// Pictures from files that are not textures yet; `None` for a file that cannot be read.
+    files: BTreeMap<String, Option<PageImage>>,
 }
 
 impl PageTextures {
-    /// Creates an empty set. `load` reads the picture file at a path; `None` if that is impossible.
-    #[must_use]
-    pub fn new(load: fn(&str) -> Option<Picture>) -> Self {
-        Self { textures: BTreeMap::new(), jobs: BTreeMap::new(), unreadable: BTreeSet::new(), load }
-    }
-
     /// Adds the picture of a job, by the job's name or path.
-    pub fn add_job(&mut self, name: String, picture: Picture) {
+    pub fn add_job(&mut self, name: String, picture: PageImage) {
         self.jobs.insert(name, picture);
     }
 
-    /// Returns a picture, loading it on first use; `None` if it cannot be loaded or does not exist yet.
+    /// Adds the picture from the file at a path; `None` if it cannot be read, so that nothing is drawn in its place.
+    pub fn add_file(&mut self, path: String, picture: Option<PageImage>) {
+        self.files.insert(path, picture);
+    }
+
+    /// Returns the paths of a page's picture files that have not been added.
+    #[must_use]
+    pub fn missing_files(&self, sheet: &PageLayout) -> Vec<String> {
+        let missing = |source: &PictureSource| match source {
+            PictureSource::File(path) if self.is_missing(source) => Some(path.clone()),
+            PictureSource::File(_) | PictureSource::Embedded(_) | PictureSource::Job(_) => None,
+        };
+        sheet.pictures.iter().filter_map(|picture| missing(&picture.source)).collect()
+    }
+
+    /// Returns whether a picture comes from a file that has not been added.
+    fn is_missing(&self, source: &PictureSource) -> bool {
+        let PictureSource::File(path) = source else { return false };
+        !self.files.contains_key(path) && !self.textures.contains_key(source)
+    }
+
+    /// Returns a picture, making its texture on first use; `None` if it cannot be loaded or does not exist yet.
     fn of(&mut self, context: &egui::Context, source: &PictureSource) -> Option<egui::TextureId> {
         if !self.textures.contains_key(source) {
-            let (name, image) = match source {
+            let (name, PageImage(image)) = match source {
                 PictureSource::Embedded(name) => {
                     let (_, bytes) = PICTURES.iter().find(|known| known.0 == *name)?;
-                    (*name, decode_jpeg(bytes)?)
+                    (*name, PageImage::new(&decode_jpeg(bytes)?))
                 }
-                PictureSource::File(path) => (path.as_str(), self.load_file(path)?),
+                PictureSource::File(path) => (path.as_str(), self.take_file(path)?),
                 PictureSource::Job(name) => (name.as_str(), self.jobs.remove(name)?),
             };
-            let texture = context.load_texture(name, color_image(&image), egui::TextureOptions::LINEAR);
+            let texture = context.load_texture(name, image, egui::TextureOptions::LINEAR);
             self.textures.insert(source.clone(), texture);
         }
         self.textures.get(source).map(egui::TextureHandle::id)
     }
 
-    /// Loads a file, unless it could not be loaded before.
-    fn load_file(&mut self, path: &str) -> Option<Picture> {
-        if self.unreadable.contains(path) {
-            return None;
-        }
-        let picture = (self.load)(path);
-        if picture.is_none() {
-            self.unreadable.insert(path.to_owned());
-        }
-        picture
+    /// Returns the added picture from a file. A file that cannot be read stays known.
+    fn take_file(&mut self, path: &str) -> Option<PageImage> {
+        let picture = self.files.get_mut(path)?.take()?;
+        self.files.remove(path);
+        Some(picture)
     }
 
-    /// Frees the pictures from files that a page does not show. A file that could not be loaded is tried again when a page shows it
+    /// Frees the pictures from files that a page does not show. A file that could not be read is tried again when a page shows it
     /// the next time.
     fn keep_files_of(&mut self, sheet: &PageLayout) {
         let is_shown = |source: &PictureSource| sheet.pictures.iter().any(|picture| picture.source == *source);
         self.textures.retain(|source, _| !matches!(source, PictureSource::File(_)) || is_shown(source));
-        self.unreadable.retain(|path| is_shown(&PictureSource::File(path.clone())));
+        self.files.retain(|path, _| is_shown(&PictureSource::File(path.clone())));
     }
-}
-
-/// Converts a picture to an egui image.
-fn color_image(picture: &Picture) -> egui::ColorImage {
-    egui::ColorImage::from_rgba_unmultiplied([picture.width as usize, picture.height as usize], &picture.rgba)
 }
 
 /// Decodes a JPEG file; `None` if that is impossible. Does not apply its orientation.
@@ -158,8 +188,11 @@ pub fn paint_sheet(painter: &egui::Painter, sheet: &PageLayout, rect: Rect, pict
     let whole = Rect::from_min_max(Pos2::ZERO, egui::pos2(1.0, 1.0));
     pictures.keep_files_of(sheet);
     for picture in &sheet.pictures {
+        let place = Rect::from_min_max(px(&picture.from), px(&picture.to));
         if let Some(texture) = pictures.of(painter.ctx(), &picture.source) {
-            painter.image(texture, Rect::from_min_max(px(&picture.from), px(&picture.to)), whole, Color32::WHITE);
+            painter.image(texture, place, whole, Color32::WHITE);
+        } else if pictures.is_missing(&picture.source) {
+            painter.add(Shape::rect_filled(place, 0.0, color32(HudColor::InputField)));
         }
     }
     paint(painter, items, rect);
@@ -172,13 +205,15 @@ pub fn paint(painter: &egui::Painter, items: &[DrawItem], rect: Rect) {
     }
 }
 
+fn color32(color: HudColor) -> Color32 {
+    let [r, g, b, a] = color.rgba();
+    Color32::from_rgba_unmultiplied(r, g, b, a)
+}
+
 fn paint_item(painter: &egui::Painter, item: &DrawItem, rect: Rect) {
     let size = rect.size();
     let px = |p: &ScreenPoint| rect.min + egui::vec2(p.x as f32 * size.x, p.y as f32 * size.y);
-    let color = |c: crate::hud::HudColor| {
-        let [r, g, b, a] = c.rgba();
-        Color32::from_rgba_unmultiplied(r, g, b, a)
-    };
+    let color = color32;
     match item {
         DrawItem::Panel { from, to, color: fill } => {
             painter.add(Shape::rect_filled(Rect::from_min_max(px(from), px(to)), 0.012 * size.y, color(*fill)));
@@ -204,6 +239,8 @@ fn paint_item(painter: &egui::Painter, item: &DrawItem, rect: Rect) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::flow::sheet::PlacedPicture;
+    use crate::hud::at;
 
     #[test]
     fn exact_tutorial_pictures_can_be_decoded() {
@@ -212,5 +249,33 @@ mod tests {
             assert!(picture.width >= 400 && picture.height >= 150, "{name}: {} x {}", picture.width, picture.height);
         }
         assert!(decode_jpeg(b"no picture").is_none());
+    }
+
+    #[test]
+    fn exact_a_file_is_missing_until_it_was_read_and_again_after_its_page_was_left() {
+        let page = |paths: &[&str]| {
+            let picture = |path: &&str| PlacedPicture {
+                source: PictureSource::File((*path).to_owned()),
+                from: at(0.0, 0.0),
+                to: at(0.5, 0.5),
+            };
+            PageLayout { pictures: paths.iter().map(picture).collect(), ..PageLayout::default() }
+        };
+        let context = egui::Context::default();
+        let source = PictureSource::File("a.png".into());
+        let (both, none) = (page(&["a.png", "no.png"]), page(&[]));
+        let mut textures = PageTextures::default();
+        assert_eq!(textures.missing_files(&both), ["a.png", "no.png"]);
+        assert!(textures.of(&context, &source).is_none() && textures.is_missing(&source));
+        let picture = Picture { width: 2, height: 1, rgba: vec![9; 8] };
+        textures.add_file("a.png".into(), Some(PageImage::new(&picture)));
+        textures.add_file("no.png".into(), None);
+        for _ in 0..2 {
+            textures.keep_files_of(&both);
+            assert!(textures.of(&context, &source).is_some() && textures.missing_files(&both).is_empty());
+            assert!(textures.of(&context, &PictureSource::File("no.png".into())).is_none());
+        }
+        textures.keep_files_of(&none);
+        assert_eq!(textures.missing_files(&both), ["a.png", "no.png"]);
     }
 }

@@ -49,16 +49,16 @@ pub struct Pipelines {
     pub translucent: wgpu::RenderPipeline,
     /// Defects, by AASHTO code.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
-    /// Lake, without and with the lamp.
-    pub water: [wgpu::RenderPipeline; 2],
+    /// Lake, without and with breaking waves, each without and with the lamp.
+    pub water: [[wgpu::RenderPipeline; 2]; 2],
     /// Sky.
     pub sky: wgpu::RenderPipeline,
     /// Reflected sky.
     pub sky_mirrored: wgpu::RenderPipeline,
     /// Shadow map depth.
     pub shadow: wgpu::RenderPipeline,
-    /// Conversion of radiance to a picture, for eyes and for a camera.
-    pub develop: [wgpu::RenderPipeline; 2],
+    /// Conversion of radiance to a picture, for eyes, for a camera, and for a camera over a weak video link.
+    pub develop: [wgpu::RenderPipeline; 3],
 }
 
 const fn attribute(shader_location: u32, offset: u64, format: wgpu::VertexFormat) -> wgpu::VertexAttribute {
@@ -276,6 +276,11 @@ fn surfaces(gpu: &Gpu, kind: &PipelineKey, quality: &Quality, mirrored: f64) -> 
     })
 }
 
+/// Builds the pipelines of the lake, without and with breaking waves, each without and with the lamp.
+fn lakes(gpu: &Gpu, kind: &PipelineKey, quality: &Quality) -> [[wgpu::RenderPipeline; 2]; 2] {
+    [0.0, 1.0].map(|breaking| by_lamp(quality, |lamp| build_with_constants(gpu, kind, &[lamp, ("WHITECAPS", breaking)])))
+}
+
 /// Builds two pipelines, without and with the lamp. Only lean presets compile a variant without the lamp; other presets
 /// use one pipeline for both.
 fn by_lamp<T: Clone>(quality: &Quality, of: impl Fn((&'static str, f64)) -> T) -> [T; 2] {
@@ -310,12 +315,18 @@ fn full_screen_key<'a>(
     }
 }
 
+/// Builds the pipelines that convert radiance to a picture: for eyes, for a camera, and for a camera over a weak video link.
+fn develop(gpu: &Gpu, film: &PipelineKey) -> [wgpu::RenderPipeline; 3] {
+    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]
+        .map(|(sensor, lossy)| build_with_constants(gpu, film, &[("SENSOR", sensor), ("LOSSY", lossy)]))
+}
+
 impl Pipelines {
     /// Compiles all pipelines.
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
         let layouts = BindLayouts::new(gpu, quality);
         let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
-        let develop = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
+        let film_module = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
         let globals = [Some(&layouts.globals)];
         let (solid_buffers, patch_buffers, water_buffers) =
@@ -363,7 +374,7 @@ impl Pipelines {
             ..solid
         };
         let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
-        let film = full_screen_key(&solid, (&develop, &develop_layouts), &blur);
+        let film = full_screen_key(&solid, (&film_module, &develop_layouts), &blur);
         Self {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
@@ -372,11 +383,11 @@ impl Pipelines {
                 .iter()
                 .map(|code| (*code, build_with_constants(gpu, &flat, &[("KIND", f64::from(*code))])))
                 .collect(),
-            water: by_lamp(quality, |lamp| build_with_constants(gpu, &lake, &[lamp])),
+            water: lakes(gpu, &lake, quality),
             sky_mirrored: build_pipeline(gpu, &PipelineKey { samples: 1, ..back }),
             sky: build_pipeline(gpu, &back),
             shadow: build_pipeline(gpu, &dark),
-            develop: [0.0, 1.0].map(|sensor| build_with_constants(gpu, &film, &[("SENSOR", sensor)])),
+            develop: develop(gpu, &film),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
             tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),
             compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(DEPTH_COMPARE), false),

@@ -175,7 +175,8 @@ impl Renderer {
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
         {
             let mut pass = begin(&mut encoder, target, None, None);
-            pass.set_pipeline(&self.pipelines.develop[usize::from(shot.finish.is_camera())]);
+            let variant = usize::from(shot.finish.is_camera()) + usize::from(shot.finish.has_lost_blocks());
+            pass.set_pipeline(&self.pipelines.develop[variant]);
             pass.set_bind_group(0, &targets.develop, &[]);
             pass.draw(0..3, 0..1);
         }
@@ -308,7 +309,7 @@ impl Renderer {
         self.draw_solids(&mut pass, &self.pipelines.surfaces[view.lamp], (moving, &shown), (false, view.eye_m), &mut counts);
         let patches = self.draw_patches(&mut pass, &self.pipelines.defects);
         counts = counts.and(patches);
-        pass.set_pipeline(&self.pipelines.water[view.lamp]);
+        pass.set_pipeline(&self.pipelines.water[view.breaking][view.lamp]);
         pass.set_bind_group(1, &targets.water, &[]);
         for (water, _) in self.water.iter().filter(|(_, bounds)| view.lake && shown.cell_may_be_visible(bounds)) {
             water.draw_without_instances(&mut pass);

@@ -1,9 +1,11 @@
 //! Uniform structures, with the layouts declared in the shaders (common.wgsl, develop.wgsl).
 
 use super::super::matrix::Matrix;
+use super::super::noise::CELLS;
 use super::super::quality::Quality;
 use super::super::shadows::ShadowMap;
 use super::super::shot::Shot;
+use super::super::visible_wind::tree_phase_rad;
 use nalgebra::Matrix4;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -12,6 +14,10 @@ use spandrel_model::math;
 pub const MAX_SHADOW_MAPS: usize = 5;
 /// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by the range).
 const HAZE_EXTINCTION_PER_M: f64 = 3.9 / 12_000.0;
+
+/// Distance after which the pattern of gusts repeats, m: the noise tile's cells (noise.rs) over those per meter (`GUST_CELLS_PER_M` in
+/// water.wgsl).
+const GUST_PERIOD_M: f64 = CELLS as f64 / 0.025;
 
 /// Uniforms of the `Globals` shader structure.
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -33,6 +39,8 @@ pub struct Globals {
     texel: [f32; 4],
     size: [f32; 4],
     shadow_proj: [[[f32; 4]; 4]; MAX_SHADOW_MAPS],
+    air: [f32; 4],
+    trees: [f32; 4],
 }
 
 /// Uniforms of the `DevelopUniforms` shader structure.
@@ -72,8 +80,10 @@ impl Globals {
         let (half_w, half_h) = shot.eye.half_extents(shot.aspect());
         let pixel_rad = 2.0 * half_w / f64::from(shot.size_px.0.max(1));
         let sky = &shot.sky;
-        let wind = math::hypot(shot.wind_m_s.0, shot.wind_m_s.1);
-        let towards = if wind > 1e-6 { (shot.wind_m_s.0 / wind, shot.wind_m_s.1 / wind) } else { (1.0, 0.0) };
+        let (wind, towards, bend_m) = (shot.wind.speed_m_s(), shot.wind.waves_toward, shot.wind.tree_bend_m());
+        // The pattern of gusts repeats, so that large displacements lose no digits.
+        let drift = |of_m: f64| of_m.rem_euclid(GUST_PERIOD_M) as f32;
+        let (east_m, north_m) = shot.wind.drift_m;
         let (lamp, lamp_dir) = shot.beam.map_or(([0.0; 4], [0.0; 4]), |beam| {
             (with_w(beam.position_m, math::cos(beam.half_angle_rad)), with_w(beam.forward, beam.intensity_cd))
         });
@@ -103,6 +113,8 @@ impl Globals {
             texel,
             size: [width as f32, height as f32, 0.0, 0.0],
             shadow_proj,
+            air: [drift(east_m), drift(north_m), shot.wind.gust_intensity as f32, shot.wind.breaking_share() as f32],
+            trees: [bend_m.0 as f32, bend_m.1 as f32, tree_phase_rad(shot.time_s) as f32, 0.0],
         }
     }
 }
@@ -124,7 +136,7 @@ impl DevelopUniforms {
         Self {
             reproject: reproject.unwrap_or(Matrix::mirror(0.0)).columns(),
             grain: [shot.finish.noise as f32, number as f32, taps as f32, shot.finish.vignette as f32],
-            size: [width as f32, height as f32, 0.0, 0.0],
+            size: [width as f32, height as f32, shot.finish.lost_blocks as f32, 0.0],
         }
     }
 }

@@ -15,6 +15,7 @@ mod metrics;
 #[cfg(test)]
 mod overlap;
 mod pane;
+mod signal;
 mod small_view;
 mod speed;
 pub mod state;

@@ -5,9 +5,11 @@ use super::text_metrics::text_width;
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout, WindowShape};
 use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::pose::Pose;
+use spandrel_model::radio::RadioWay;
 use spandrel_text::{Language, text};
 
 /// A rectangle: left, top, right, bottom, in units of the picture's height.
@@ -204,6 +206,11 @@ fn prop_items_do_not_overlap_in_any_language() {
     }
 }
 
+/// Returns the margins of the radio links, dB.
+fn radio(control_db: f64, video_db: f64) -> RadioMargins {
+    RadioMargins { control_db, video_db, way: RadioWay::AroundEdge, losses: 0 }
+}
+
 /// Returns HUD states with the longest possible texts (telemetry texts have at most 50 bytes), with and without the
 /// map.
 fn states() -> Vec<(&'static str, Hud)> {
@@ -218,6 +225,7 @@ fn states() -> Vec<(&'static str, Hud)> {
         home_distance_m: 4321.0,
         mode: "mode 4294967295".into(),
         gnss: dark(99),
+        radio: Some(radio(-9.0, 12.0)),
         telemetry_age_s: 86_400.0,
         gimbal_rad: -1.55,
         zoom: 10.0,
@@ -231,6 +239,13 @@ fn states() -> Vec<(&'static str, Hud)> {
     };
     let shown = [
         ("calm", hud()),
+        ("good radio", Hud { radio: Some(radio(30.0, 20.0)), ..hud() }),
+        ("weak radio", Hud { radio: Some(radio(1.0, -5.0)), ..hud() }),
+        ("weak radio, link and GNSS lost", Hud { radio: Some(radio(1.0, -5.0)), telemetry_age_s: 12.0, gnss: dark(4), ..hud() }),
+        (
+            "weak radio, guidance and warnings",
+            Hud { radio: Some(radio(1.0, -5.0)), guidance: Some(longest_guidance()), ..hit("bridge") },
+        ),
         ("link lost", Hud { telemetry_age_s: 12.0, ..hud() }),
         ("frozen", Hud { is_frozen: true, ..hud() }),
         ("GNSS lost", Hud { gnss: dark(14), ..hud() }),

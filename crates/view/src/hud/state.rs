@@ -3,6 +3,7 @@
 use super::style::DisplayStyle;
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
+use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Pose;
@@ -126,6 +127,8 @@ pub struct Hud {
     pub mode: String,
     /// Satellite navigation status.
     pub gnss: Option<GnssStatus>,
+    /// Margins of the radio links; `None` if the job does not simulate them.
+    pub radio: Option<RadioMargins>,
     /// Age of the latest telemetry, s.
     pub telemetry_age_s: f64,
     /// Whether the flight is frozen.

@@ -1,7 +1,8 @@
-//! Status at the top center: flight mode, satellites, link.
+//! Status at the top center: flight mode, satellites, link, and in jobs with weak radio the signals.
 
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
+use super::signal::{self, RadioLink, weak};
 use super::state::{GnssStatus, Hud, UNKNOWN_MODE};
 use super::{DrawItem, HudColor, TextAlign, battery, speed};
 use spandrel_text::{Language, text};
@@ -41,9 +42,13 @@ fn mode(hud: &Hud) -> String {
     if hud.mode == UNKNOWN_MODE { text!(hud.style.language, "flight-status-no-mode") } else { hud.mode.clone() }
 }
 
-/// Returns the active alarm, or a freeze, as a short line. While the link is lost, the satellite status is unknown, so only the
-/// link is reported.
+/// Returns the active alarm, or a freeze, as a short line.
 pub fn alarm(hud: &Hud) -> Option<String> {
+    status_alarm(hud).or_else(|| weak(hud))
+}
+
+/// Returns the alarm of the status line. While the link is lost, the satellite status is unknown, so only the link is reported.
+fn status_alarm(hud: &Hud) -> Option<String> {
     let lost_fix = hud.gnss.filter(|gnss| !gnss.has_fix);
     if is_lost(hud) || hud.is_frozen { Some(link(hud)) } else { lost_fix.map(|gnss| satellites(gnss, hud.style.language)) }
 }
@@ -75,18 +80,23 @@ pub fn status(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
     let width = |words: &str| CHAR_WIDTH * words.chars().count() as f64;
     let whole = format!("{place}   {}", link(hud));
     let lines = if width(&whole) <= room { vec![whole] } else { vec![place, link(hud)] };
-    let half = 0.5 * lines.iter().map(|line| width(line)).fold(0.0, f64::max);
-    let (middle, bottom) = (0.5 * pane.width, EDGE_MARGIN + PANEL_HEIGHT + LINE_HEIGHT * (lines.len() - 1) as f64);
-    let color = if alarm(hud).is_some() { HudColor::Orange } else { HudColor::White };
+    let color = if status_alarm(hud).is_some() { HudColor::Orange } else { HudColor::White };
+    // Without telemetry, the signals are unknown.
+    let margins = hud.radio.filter(|_| !is_lost(hud));
+    let signals: Vec<RadioLink> = margins.map_or_else(Vec::new, |margins| RadioLink::both(&margins, language).into());
+    // The signals are below one line, or beside the second one.
+    let second = lines.get(1).map_or(0.0, |line| width(line));
+    let second_width = second + signal::row_width(&signals);
+    let half = 0.5 * width(&lines[0]).max(second_width);
+    let rows = if second_width > 0.0 { 2.0 } else { 1.0 };
+    let (middle, bottom) = (0.5 * pane.width, EDGE_MARGIN + PANEL_HEIGHT + LINE_HEIGHT * (rows - 1.0));
     let mut items = vec![pane.panel((middle - half, EDGE_MARGIN), (middle + half, bottom))];
-    for (k, line) in lines.into_iter().enumerate() {
-        items.push(pane.text(
-            (middle, EDGE_MARGIN + 0.5 * PANEL_HEIGHT + LINE_HEIGHT * k as f64),
-            TextAlign::Center,
-            SMALL_FONT_SIZE,
-            color,
-            line,
-        ));
+    let middles = [middle, middle - 0.5 * second_width + 0.5 * second];
+    for (k, (line, x)) in lines.into_iter().zip(middles).enumerate() {
+        let y = EDGE_MARGIN + 0.5 * PANEL_HEIGHT + LINE_HEIGHT * k as f64;
+        items.push(pane.text((x, y), TextAlign::Center, SMALL_FONT_SIZE, color, line));
     }
+    let signals_at = (middle - 0.5 * second_width + second, bottom - 0.5 * PANEL_HEIGHT);
+    items.extend(signal::row(pane, signals_at, &signals));
     items
 }

@@ -3,7 +3,9 @@
 use super::*;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_model::frames::Vec3;
+use spandrel_model::radio::RadioWay;
 use spandrel_text::Language;
 
 const WIDE_ASPECT: f64 = 16.0 / 9.0;
@@ -29,6 +31,7 @@ pub(super) fn hud() -> Hud {
         home_distance_m: 118.0,
         mode: "Position".into(),
         gnss: Some(GnssStatus { has_fix: true, satellites: 14 }),
+        radio: None,
         telemetry_age_s: 0.02,
         is_frozen: false,
         ghost: None,
@@ -116,6 +119,49 @@ fn exact_lost_link_and_lost_fix_are_shown() {
     assert_eq!(find(&lost, "LINK LOST 3 s").unwrap().1, HudColor::Orange);
     let dark = Hud { gnss: Some(GnssStatus { has_fix: false, satellites: 4 }), ..hud() };
     assert_eq!(find(&dark, "GNSS lost (4)").unwrap().1, HudColor::Orange);
+}
+
+/// Returns a flight with these margins of the radio links, dB.
+fn with_radio(control_db: f64, video_db: f64) -> Hud {
+    Hud { radio: Some(RadioMargins { control_db, video_db, way: RadioWay::AroundEdge, losses: 0 }), ..hud() }
+}
+
+#[test]
+fn exact_signals_are_shown_only_in_jobs_with_radio_and_turn_orange_when_they_lose_data() {
+    for words in ["control", "video"] {
+        assert!(find(&hud(), words).is_none(), "the job has no radio hazard");
+    }
+    let color = |hud: &Hud, words: &str| find(hud, words).unwrap().1;
+    let mixed = with_radio(20.0, 2.9);
+    assert_eq!((color(&mixed, "control"), color(&mixed, "video")), (HudColor::White, HudColor::Orange));
+    assert_eq!(color(&with_radio(3.0, 20.0), "control"), HudColor::Yellow);
+    assert_eq!(color(&mixed, "GNSS 14"), HudColor::White, "the other values are fine");
+    // Without colors: as many full bars as the signal has, and stubs in place of the others.
+    let heights = |hud: &Hud| -> Vec<f64> {
+        let plain = layout(&Hud { radio: None, ..hud.clone() }, WIDE_ASPECT);
+        let bars = layout(hud, WIDE_ASPECT).into_iter().filter(|item| !plain.contains(item)).filter_map(|item| match item {
+            DrawItem::Fill { points, .. } => Some((1e3 * (points[2].y - points[0].y)).round()),
+            DrawItem::Panel { .. } | DrawItem::Text { .. } | DrawItem::Line { .. } => None,
+        });
+        bars.collect()
+    };
+    assert_eq!(heights(&with_radio(30.0, 4.0)), [10.0, 15.0, 20.0, 25.0, 10.0, 15.0, 3.0, 3.0]);
+    assert_eq!(heights(&with_radio(10.0, -9.0)), [10.0, 15.0, 20.0, 3.0, 3.0, 3.0, 3.0, 3.0]);
+}
+
+#[test]
+fn exact_small_picture_warns_of_a_weak_signal_after_a_lost_link() {
+    let warning = |hud: &Hud| {
+        let of = |item| match item {
+            DrawItem::Text { words, .. } => Some(words),
+            DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        };
+        layout_px(hud, (288.0, 216.0)).into_iter().filter_map(of).nth(2)
+    };
+    assert_eq!(warning(&with_radio(3.0, 3.0)), None);
+    assert_eq!(warning(&with_radio(3.0, 2.0)).as_deref(), Some("VIDEO WEAK"));
+    assert_eq!(warning(&with_radio(2.0, -9.0)).as_deref(), Some("CONTROL WEAK"));
+    assert_eq!(warning(&Hud { telemetry_age_s: 4.0, ..with_radio(-9.0, -9.0) }).as_deref(), Some("LINK LOST 4 s"));
 }
 
 #[test]
@@ -206,6 +252,7 @@ fn exact_the_display_is_translated() {
         cue_texts: ["Crash: bridge", "Too close: 1.2 m, limit 2.5 m"].into_iter().collect(),
         zoom: 2.0,
         lamp: true,
+        radio: with_radio(20.0, 2.0).radio,
         guidance: Some(Guidance {
             step: GuidanceStep::FlyToTask,
             task: Some(2),
@@ -227,7 +274,8 @@ fn exact_the_display_is_translated() {
     };
     let german = in_language(Language::German);
     let title = "Bahn verlassen: zurück zu Aufgabe 2 von 4";
-    for words in ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", title, "6 m, 29° links", "Höhe", "ein"] {
+    for words in ["KOLLISION: Brücke", "ZU NAH: 1.2 m, mindestens 2.5 m", title, "6 m, 29° links", "Höhe", "ein", "Steuerung"]
+    {
         assert!(german.iter().any(|one| one == words), "{words}: {german:?}");
     }
     let spanish = in_language(Language::Spanish);

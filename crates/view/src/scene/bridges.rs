@@ -15,11 +15,18 @@ pub(super) const STEEL_PAINT: [u8; 3] = [38, 68, 56];
 const RAILING_PAINT: [u8; 3] = [58, 76, 74];
 /// Bearings: bare, greased steel.
 const BEARING_COLOR: [u8; 3] = [38, 34, 30];
+/// Elastomeric joint seals.
+const SEAL_COLOR: [u8; 3] = [6, 6, 6];
+/// Drain pipes: weathered plastic.
+const DRAIN_COLOR: [u8; 3] = [44, 44, 42];
 /// Galvanized wire.
 const WIRE_COLOR: [u8; 3] = [92, 94, 92];
 const WHITE: [u8; 3] = [255, 255, 255];
 /// Maximum width of a face with constant light across it, m.
 const MAX_NARROW_FACE_WIDTH_M: f64 = 0.8;
+/// Position across a narrow face, as a share of its width, of the sample that replaces one whose middle is covered, such as the middle
+/// of a flange by its web (estimate).
+const BESIDE_MIDDLE_SHARE: f64 = 0.2;
 /// Tolerance for the sky and sun light fractions in presets that save triangles (a hundredth of the open-air value is
 /// invisible; lean presets have noisier rays).
 const LIGHT_TOLERANCE: f32 = 0.03;
@@ -31,6 +38,8 @@ pub(super) fn material_and_paint(element: Element) -> (Material, [u8; 3]) {
     match (element.group(), element.material()) {
         (ElementGroup::Cable, _) => (Material::Cable, WIRE_COLOR),
         (ElementGroup::Bearing, _) => (Material::Steel, BEARING_COLOR),
+        (ElementGroup::Joint, _) => (Material::Rubber, SEAL_COLOR),
+        (ElementGroup::Unlisted, _) => (Material::Rubber, DRAIN_COLOR),
         (ElementGroup::Railing, ElementMaterial::Steel) => (Material::Steel, RAILING_PAINT),
         (_, ElementMaterial::Steel) => (Material::Steel, STEEL_PAINT),
         _ => (Material::Concrete, WHITE),
@@ -118,7 +127,7 @@ fn add(
         if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
             continue;
         }
-        let road = member.element.group() == ElementGroup::Deck && normal.up() > 0.9;
+        let road = matches!(member.element.group(), ElementGroup::Deck | ElementGroup::ApproachSlab) && normal.up() > 0.9;
         let look = FaceAppearance {
             element: member.element,
             normal,
@@ -258,7 +267,13 @@ fn quad_face<'a>(
             };
             let sample = match same {
                 Some(known) => samples[known],
-                None => bake.on_member(quad.at(inside(column, nu, lengths.0), inside(row, nv, lengths.1)), look.normal),
+                None => {
+                    let (s, t) = (inside(column, nu, lengths.0), inside(row, nv, lengths.1));
+                    let beside =
+                        |share: f64, length: f64| if length < MAX_NARROW_FACE_WIDTH_M { BESIDE_MIDDLE_SHARE } else { share };
+                    let at = |s: f64, t: f64| bake.on_member(quad.at(s, t), look.normal);
+                    at(s, t).or_else(|| at(beside(s, lengths.0), beside(t, lengths.1)))
+                }
             };
             samples.push(sample);
         }

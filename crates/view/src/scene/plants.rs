@@ -184,6 +184,7 @@ fn conifer(radius: f64, whorls: u32, branches_per_whorl: u32) -> Mesh {
         }
     }
     soften_normals(&mut mesh);
+    set_heights(&mut mesh);
     mesh
 }
 
@@ -199,6 +200,7 @@ fn distant_conifer(radius: f64) -> Mesh {
         add_whorl(&mut mesh, &(0..4).map(rim).collect::<Vec<_>>(), Vec3::new(0.0, 0.0, high));
     }
     soften_normals(&mut mesh);
+    set_heights(&mut mesh);
     mesh
 }
 
@@ -249,6 +251,13 @@ fn soften_normals(mesh: &mut Mesh) {
         v.normal = single((Vec3::new(nx, ny, nz) + out.unit() * 0.8).unit());
         let reach = (math::hypot(x, y) / 0.16).min(1.0) as f32;
         v.light = [0.35 + 0.65 * reach, 1.0];
+    }
+}
+
+/// Stores the height between foot and top, by which the wind moves each vertex.
+fn set_heights(mesh: &mut Mesh) {
+    for vertex in &mut mesh.vertices {
+        vertex.aux = vertex.position[2].clamp(0.0, 1.0);
     }
 }
 

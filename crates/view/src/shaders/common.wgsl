@@ -37,7 +37,7 @@ struct Globals {
     // Lamp: position, cosine of the half beam angle; direction, candela.
     lamp: vec4<f32>,
     lamp_dir: vec4<f32>,
-    // 1/white; wind speed; direction the wind blows toward, east and north.
+    // 1/white; wind speed; direction in which the waves travel, east and north.
     look: vec4<f32>,
     // Layer of the lamp's shadow map; negative if there is none.
     shadow: vec4<f32>,
@@ -46,6 +46,11 @@ struct Globals {
     // Picture size, px.
     size: vec4<f32>,
     shadow_proj: array<mat4x4<f32>, 5>,
+    // Displacement of the air, east and north, m; standard deviation of the wind speed relative to its mean; share of the cells in
+    // which a wave breaks.
+    air: vec4<f32>,
+    // Mean displacement of a tree's top, east and north, m; phase, rad.
+    trees: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> g: Globals;

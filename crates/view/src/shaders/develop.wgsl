@@ -4,13 +4,18 @@
 override BLUR: bool = true;
 // Whether to apply a camera's sensor noise and vignetting, which eyes do not have.
 override SENSOR: bool = true;
+// Whether blocks of the picture are missing, as on a weak video link.
+override LOSSY: bool = false;
+
+// Side of a block, px (H.264 macroblocks).
+const BLOCK: u32 = 16u;
 
 struct Develop {
     // Transform from this picture's clip space to clip space at shutter opening.
     reproject: mat4x4<f32>,
     // Noise at mid-gray; picture number; motion blur samples; vignette.
     grain: vec4<f32>,
-    // Size of the picture; position of its corner in the target.
+    // Size of the picture; share of lost blocks; unused.
     size: vec4<f32>,
 }
 
@@ -82,6 +87,14 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
                 sum += textureSampleLevel(light, light_sampler, in.uv + path * (f32(k) / f32(taps - 1)), 0.0).rgb;
             }
             color = sum / f32(taps);
+        }
+    }
+    if LOSSY {
+        // A decoder without data for a block continues with the mean color, here that of the block's center.
+        let block = pixel / BLOCK;
+        if random(block, u32(d.grain.y)).x < d.size.z {
+            let center = min(block * BLOCK + BLOCK / 2u, vec2<u32>(d.size.xy) - 1u);
+            color = textureLoad(light, vec2<i32>(center), 0).rgb;
         }
     }
     if SENSOR {

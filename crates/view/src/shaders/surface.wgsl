@@ -34,12 +34,26 @@ struct Fragment {
     @location(6) aux: f32,
 }
 
+// Displacement of a tree in the wind at a height between 0 (foot) and 1 (top): bent like a beam, swaying about its mean. Neighbors sway
+// one after the other as a gust passes: 40 m is one period (estimate).
+fn swayed(p: vec2<f32>, height: f32) -> vec2<f32> {
+    let phase = g.trees.z - 0.157 * dot(p, g.look.zw);
+    let bend = g.trees.xy * (height * height);
+    return bend * (1.0 + 0.8 * sin(phase)) + 0.4 * vec2<f32>(-bend.y, bend.x) * cos(0.5 * phase + 0.3 * p.x);
+}
+
 fn placed(v: Corner) -> Fragment {
     let at = vec4<f32>(v.position, 1.0);
     var out: Fragment;
     out.p = vec3<f32>(dot(v.row0, at), dot(v.row1, at), dot(v.row2, at));
     out.normal = normalize(vec3<f32>(dot(v.row0.xyz, v.normal), dot(v.row1.xyz, v.normal), dot(v.row2.xyz, v.normal)));
-    out.clip = g.view_proj * vec4<f32>(out.p, 1.0);
+    // Only the place in the picture moves: light and shadows stay those of the tree at rest, as its shadow does.
+    var shown = out.p;
+    if LOOK == 3u {
+        let kind = v.material & 0xffu;
+        shown += vec3<f32>(swayed(out.p.xy, select(0.0, v.aux, kind == 5u || kind == 6u)), 0.0);
+    }
+    out.clip = g.view_proj * vec4<f32>(shown, 1.0);
     out.uv = v.uv;
     out.light = v.light * mix(v.around.zw, v.around.xy, 0.5 + 0.5 * out.normal.z);
     // The element number is stored above the material.

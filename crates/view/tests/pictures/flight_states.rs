@@ -6,8 +6,10 @@ use super::gallery::calm;
 use super::pages::ALBUM_PX;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
+use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_model::frames::Vec3;
+use spandrel_model::radio::RadioWay;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, sunny_job};
 use spandrel_text::Language;
@@ -49,7 +51,7 @@ fn lesson(task: LessonTask, step: u32, target: f64, remark: Option<&str>) -> Les
 /// A state and the changes that it makes to the display of a calm flight.
 type State = (&'static str, fn(&mut Hud));
 
-const STATES: [State; 11] = [
+const STATES: [State; 12] = [
     ("take-off", |hud| {
         let upward = Guidance { task: Some(1), tasks_done: 0, flown_s: 0.0, ..guidance(GuidanceStep::TakeOff, (0.0, 0.0, 5.0)) };
         (hud.guidance, hud.height_m, hud.home_distance_m) = (Some(upward), 0.0, 0.0);
@@ -89,6 +91,10 @@ const STATES: [State; 11] = [
     ("lesson-photograph", |hud| {
         hud.lesson = Some(lesson(LessonTask::Photograph, 9, 0.0, Some("too oblique: 71.3 deg, limit 60 deg")));
         (hud.lamp, hud.zoom, hud.shutter) = (true, 2.0, true);
+    }),
+    ("weak-radio", |hud| {
+        hud.radio = Some(RadioMargins { control_db: 10.0, video_db: 1.5, way: RadioWay::AroundEdge, losses: 0 });
+        hud.guidance = Some(along_path(0.35, 4.8));
     }),
     ("link-lost", |hud| (hud.telemetry_age_s, hud.battery_pct, hud.gnss) = (3.4, None, None)),
 ];

@@ -9,7 +9,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::time::SimTime;
-use spandrel_testkit::studio::{Studio, at, dusk_job, sunny_job};
+use spandrel_testkit::studio::{Studio, at, dusk_job, girder_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
 use spandrel_view::hud::{self, DisplayStyle, GnssStatus, Hud, InspectorMarks, MapPath, Obstacles, WayBack};
@@ -66,6 +66,24 @@ fn regress_bridges_in_summer_light() {
         ("pier-at-the-water", at(-57.0, 133.0, 5.5), at(-70.0, 150.0, 5.5), 64.0),
     ] {
         let shot = studio.seen(from, look, hfov_deg, false, SCENE_PX);
+        let picture = studio.draw(&shot);
+        wall.check(name, &picture);
+    }
+    wall.assert_no_errors();
+}
+
+/// The girder bridge from the bank, the bays between its girders in the light of the lamp, and its bearings.
+#[test]
+fn regress_girder_bridge() {
+    let mut studio = Studio::new(girder_job(), 7, "medium", SimTime::from_ms(95_000));
+    studio.without_defects();
+    let mut wall = Gallery::default();
+    for (name, from, look, hfov_deg, lamp) in [
+        ("girder-bridge", at(-72.0, -62.0, 14.0), at(-4.0, 0.0, 13.5), 74.0, false),
+        ("girder-bays", at(38.0, 2.7, 11.9), at(50.0, 4.6, 18.0), 84.0, true),
+        ("girder-bearings", at(-62.0, -1.8, 13.9), at(-69.3, -1.8, 15.6), 60.0, true),
+    ] {
+        let shot = studio.seen(from, look, hfov_deg, lamp, SCENE_PX);
         let picture = studio.draw(&shot);
         wall.check(name, &picture);
     }
@@ -252,6 +270,7 @@ pub(super) fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         home_distance_m: (position_m - studio.scenario.ground_team.pad_m).horizontal_norm(),
         mode: "Position".into(),
         gnss: Some(GnssStatus { has_fix: true, satellites: 17 }),
+        radio: None,
         telemetry_age_s: 0.02,
         is_frozen: false,
         ghost: None,
@@ -312,6 +331,12 @@ fn regress_both_views_in_every_hud_state() {
             hud.gnss = None;
             hud.telemetry_age_s = 3.4;
             hud.tracks = Vec::new();
+        }),
+        ("frozen-inspector-at-place-2", below, |hud| {
+            hud.is_frozen = true;
+            if let Some(marks) = &mut hud.inspector {
+                marks.position_m = marks.places_m[1];
+            }
         }),
     ] {
         let mut display = calm(&studio, from);

@@ -10,3 +10,5 @@ mod gallery;
 mod masks;
 mod pages;
 mod snapshots;
+mod video_link;
+mod wind;

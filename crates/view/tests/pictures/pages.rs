@@ -10,7 +10,7 @@ use spandrel_view::flow::pipe::{
     NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
 };
 use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
-use spandrel_view::gpu::{Gpu, Overlay, PageTextures, picture_texture, read};
+use spandrel_view::gpu::{Gpu, Overlay, PageImage, PageTextures, picture_texture, read};
 use spandrel_view::hud::{DisplayStyle, JobDrawing};
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
@@ -224,7 +224,12 @@ fn drawn(gpu: &Gpu, overlay: &mut Overlay, flow: &WindowFlow, size_px: (u32, u32
     let texture = picture_texture(gpu, size_px);
     let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let sheet = flow.sheet(f64::from(size_px.0) / f64::from(size_px.1));
-    overlay.draw_page(gpu, &sheet, &mut PageTextures::new(corners), &target, size_px);
+    let mut textures = PageTextures::default();
+    for path in textures.missing_files(&sheet) {
+        let picture = corners(&path).map(|picture| PageImage::new(&picture));
+        textures.add_file(path, picture);
+    }
+    overlay.draw_page(gpu, &sheet, &mut textures, &target, size_px);
     read(gpu, &texture).unwrap()
 }
 

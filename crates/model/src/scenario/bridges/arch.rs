@@ -2,6 +2,7 @@
 //! abutments.
 
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
+use super::quantity::ElementQuantity;
 use super::solid::{Footing, MemberBuilder};
 use crate::elements::Element;
 use crate::math;
@@ -140,6 +141,21 @@ impl Arch {
         m.0
     }
 
+    /// Returns the total quantities of the elements.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<ElementQuantity> {
+        let (length_m, width_m) = (self.deck_length_m(), self.deck_width_m);
+        ElementQuantity::list(&[
+            (Element::RcDeck, length_m * width_m),
+            (Element::RcStringer, self.stringers.round() * length_m),
+            (Element::RcArch, 2.0 * self.span_m),
+            (Element::RcFloorBeam, (self.panels.round() + 1.0) * (width_m - 2.0 * BEAM_INSET_M)),
+            (Element::RcColumn, 2.0 * self.column_feet().len() as f64),
+            (Element::RcAbutment, 2.0 * width_m),
+            (Element::RcRailing, 2.0 * length_m),
+        ])
+    }
+
     /// Adds all the bridge's members to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.ribs(b);
@@ -166,16 +182,20 @@ impl Arch {
         }
     }
 
+    /// Returns the numbers of the panel points with columns, their positions, and the heights of the columns' feet.
+    fn column_feet(&self) -> Vec<(usize, f64, f64)> {
+        let (half, top) = (0.5 * self.column_m, self.floorbeam_bottom_z_m());
+        // The rib slopes under the column, so the column starts where both of its edges are inside the rib.
+        let foot = |x: f64| self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
+        let points = self.panel_points().into_iter().enumerate().map(|(k, x)| (k, x, foot(x)));
+        // Near the crown the floorbeam rests directly on the rib.
+        points.filter(|(_, _, foot)| top - foot >= MIN_COLUMN_LENGTH_M).collect()
+    }
+
     fn columns(&self, b: &mut MemberBuilder) {
         let half = 0.5 * self.column_m;
         let top = self.floorbeam_bottom_z_m();
-        for (k, x) in self.panel_points().into_iter().enumerate() {
-            // The rib slopes under the column, so the column starts where both of its edges are inside the rib.
-            let foot = self.rib_top_z_m(x + half).min(self.rib_top_z_m(x - half));
-            // Near the crown the floorbeam rests directly on the rib.
-            if top - foot < MIN_COLUMN_LENGTH_M {
-                continue;
-            }
+        for (k, x, foot) in self.column_feet() {
             for (side, y) in [("left", 0.5 * self.rib_spacing_m), ("right", -0.5 * self.rib_spacing_m)] {
                 b.add_box(
                     &format!("column-{side}/{k:02}"),

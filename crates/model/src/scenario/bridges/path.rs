@@ -1,4 +1,5 @@
-//! Derives the tasks' reference paths from a bridge's dimensions, in bridge axes.
+//! Derives the tasks' reference paths from a bridge's dimensions, in bridge axes. The paths of girder bridges are in
+//! `girder_path.rs`.
 
 use super::arch::Arch;
 use super::solid::{LocalPoint, Placement};
@@ -20,8 +21,23 @@ pub enum TaskKind {
     Interlayer,
     /// A closed loop around a pier near the water.
     PierCircle,
+    /// A line under the girders of a span, out and back if the bridge is wide.
+    GirderSoffit,
+    /// A straight line along the bearings on a pier or abutment.
+    BearingLine,
+    /// A closed loop around a pier cap.
+    PierCap,
     /// A path through points listed in the scenario.
     Free,
+}
+
+/// Part of a girder bridge at which a path is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PathPlace {
+    /// Number of the span, from 1 at the start; `None` for the middle one.
+    pub span: Option<usize>,
+    /// Number of the support: 0 for the abutment at the start, then the piers; `None` for the first pier.
+    pub support: Option<usize>,
 }
 
 /// Reference path of a task, with a viewing direction at each point.
@@ -38,9 +54,12 @@ pub struct TaskPath {
 /// A path in bridge axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalPath {
-    points: Vec<LocalPoint>,
-    viewing_directions: Vec<LocalPoint>,
-    closed: bool,
+    /// Points, m.
+    pub(super) points: Vec<LocalPoint>,
+    /// Directions toward the inspected surface, of any length.
+    pub(super) viewing_directions: Vec<LocalPoint>,
+    /// True if the path returns to its start.
+    pub(super) closed: bool,
 }
 
 impl LocalPath {
@@ -56,7 +75,7 @@ impl LocalPath {
 }
 
 /// Returns values from `a` to `b` in equal steps of at most [`SPACING_M`].
-fn equal_steps(a: f64, b: f64) -> Vec<f64> {
+pub(super) fn equal_steps(a: f64, b: f64) -> Vec<f64> {
     let n = ((b - a).abs() / SPACING_M).ceil().max(1.0);
     (0..=n as i32).map(|k| a + (b - a) * f64::from(k) / n).collect()
 }
@@ -124,25 +143,33 @@ fn interlayer_viewing_direction(k: usize) -> LocalPoint {
 /// Returns the path of task 4: one loop around the start pier at the stand-off distance from its faces, rounded at the corners
 /// and facing the pier. It is 2 m below the top of the pier, or lower if the stand-off from the girders requires it.
 pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
-    let center = [-0.5 * suspension.main_span_m, 0.0];
+    let center_x = -0.5 * suspension.main_span_m;
     let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
     let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_bottom_z_m() - stand_off_m);
     if z < -suspension.pier_top_m - suspension.pier_height_m {
         return Err("a pier that extends to stand_off_m below the girders".into());
     }
+    let (points, normals) = rectangle_loop((center_x, z), (hx, hy), stand_off_m);
+    let viewing_directions = normals.into_iter().map(|[nx, ny]| [-nx, -ny, 0.0]).collect();
+    Ok(LocalPath { points, viewing_directions, closed: true })
+}
+
+/// Returns the points of a level loop around a rectangle on the bridge's centerline, at a distance in meters from its sides and rounded
+/// at its corners, and the horizontal unit vectors that point away from the rectangle.
+pub(super) fn rectangle_loop((x, z): (f64, f64), (hx, hy): (f64, f64), off_m: f64) -> (Vec<LocalPoint>, Vec<[f64; 2]>) {
     let mut points = Vec::new();
-    let mut viewing_directions = Vec::new();
-    let mut add = |x: f64, y: f64, nx: f64, ny: f64| {
-        points.push([center[0] + x, center[1] + y, z]);
-        viewing_directions.push([-nx, -ny, 0.0]);
+    let mut normals = Vec::new();
+    let mut add = |from_x: f64, from_y: f64, nx: f64, ny: f64| {
+        points.push([x + from_x, from_y, z]);
+        normals.push([nx, ny]);
     };
-    let corner_steps = (0.5 * math::PI * stand_off_m / SPACING_M).ceil() as i32;
+    let corner_steps = (0.5 * math::PI * off_m / SPACING_M).ceil() as i32;
     let corners = [(hx, -hy, -math::FRAC_PI_2), (hx, hy, 0.0), (-hx, hy, math::FRAC_PI_2), (-hx, -hy, math::PI)];
     for (k, (cx, cy, from)) in corners.into_iter().enumerate() {
         for step in 0..=corner_steps {
             let angle = from + math::FRAC_PI_2 * f64::from(step) / f64::from(corner_steps);
             let (s, c) = math::sin_cos(angle);
-            add(cx + stand_off_m * c, cy + stand_off_m * s, c, s);
+            add(cx + off_m * c, cy + off_m * s, c, s);
         }
         // The line along the face to the next corner, without its endpoints, which are part of the corners.
         let (nx, ny, _) = corners[(k + 1) % 4];
@@ -151,8 +178,8 @@ pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<L
         let last = along.len() - 1;
         for share in along.iter().take(last).skip(1).map(|d| d / along[last]) {
             let (x, y) = (math::lerp(cx, nx, share), math::lerp(cy, ny, share));
-            add(x + stand_off_m * c, y + stand_off_m * s, c, s);
+            add(x + off_m * c, y + off_m * s, c, s);
         }
     }
-    Ok(LocalPath { points, viewing_directions, closed: true })
+    (points, normals)
 }

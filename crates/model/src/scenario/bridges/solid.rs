@@ -4,6 +4,8 @@
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
+use crate::mesh::fans;
+use crate::mesh::vectors::{cross, dot, norm, sub};
 
 /// A structural member of a bridge. Collision, rendering, defects and export all use the same solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +31,7 @@ impl Solid {
     /// Returns the faces as triangle fans from each face's first vertex.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let fan = |face: &Vec<u32>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
-        self.faces.iter().flat_map(fan).collect()
+        fans(self.faces.iter().map(Vec::as_slice))
     }
 }
 
@@ -123,7 +124,8 @@ impl MemberBuilder {
         self.members
     }
 
-    fn push(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
+    /// Adds a convex polyhedron. Faces list corners counterclockwise seen from outside.
+    pub fn add_solid(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
         let vertices_m = corners.iter().map(|c| self.placement.point(*c)).collect();
         let name = format!("{}/{part}", self.bridge);
         self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
@@ -162,7 +164,16 @@ impl MemberBuilder {
         let near = profile.iter().map(|p| [p[0], y_low, p[1]]);
         let far = profile.iter().map(|p| [p[0], y_high, p[1]]);
         let corners: Vec<LocalPoint> = near.chain(far).collect();
-        self.push(part, element, &corners, prism_faces(profile.len()));
+        self.add_solid(part, element, &corners, prism_faces(profile.len()));
+    }
+
+    /// Adds a convex profile in the y-z plane (counterclockwise with y right and z up, seen from the end of the bridge), extruded from
+    /// `x_low` to `x_high`.
+    pub fn add_cross_section(&mut self, part: &str, element: Element, profile: &[[f64; 2]], x_low: f64, x_high: f64) {
+        let near = profile.iter().map(|p| [x_high, p[0], p[1]]);
+        let far = profile.iter().map(|p| [x_low, p[0], p[1]]);
+        let corners: Vec<LocalPoint> = near.chain(far).collect();
+        self.add_solid(part, element, &corners, prism_faces(profile.len()));
     }
 
     /// Adds a regular prism with `sides` faces around the line from `a` to `b`, with its corners at `radius_m`.
@@ -204,7 +215,7 @@ impl MemberBuilder {
         };
         // Seen from the first end, the ring runs clockwise, which is counterclockwise seen from outside its first face.
         let corners: Vec<LocalPoint> = ring(ends[1]).chain(ring(ends[0])).collect();
-        self.push(part, element, &corners, prism_faces(sides as usize));
+        self.add_solid(part, element, &corners, prism_faces(sides as usize));
     }
 }
 
@@ -220,19 +231,7 @@ fn prism_faces(n: usize) -> Vec<Vec<u32>> {
     faces
 }
 
-fn sub(a: LocalPoint, b: LocalPoint) -> LocalPoint {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: LocalPoint, b: LocalPoint) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: LocalPoint, b: LocalPoint) -> LocalPoint {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 fn unit(a: LocalPoint) -> LocalPoint {
-    let n = dot(a, a).sqrt();
-    [a[0] / n, a[1] / n, a[2] / n]
+    let length = norm(a);
+    a.map(|value| value / length)
 }

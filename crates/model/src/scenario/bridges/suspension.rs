@@ -2,6 +2,7 @@
 
 use super::arch::add_railing;
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
+use super::quantity::ElementQuantity;
 use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
@@ -146,6 +147,27 @@ impl Suspension {
         (1..n).map(|k| self.main_span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
     }
 
+    /// Returns the total quantities of the elements. Two towers have two girder bearings each, and two anchorages four.
+    #[must_use]
+    pub fn quantities(&self) -> Vec<ElementQuantity> {
+        let length_m = self.deck_length_m();
+        let floorbeams_m: f64 = self.floorbeams().into_iter().map(|x| 2.0 * self.floorbeam_half_length_m(x)).sum();
+        ElementQuantity::list(&[
+            (Element::RcDeck, length_m * self.deck_width_m),
+            (Element::SteelGirder, 2.0 * length_m),
+            (Element::SteelStringer, 2.0 * length_m),
+            (Element::MainCable, 4.0 * self.anchor_x_m()),
+            (Element::Hanger, 2.0 * self.hangers().len() as f64),
+            (Element::SteelFloorBeam, floorbeams_m),
+            (Element::SteelTower, 2.0 * (self.leg_top_z_m() + self.pier_top_m)),
+            (Element::RcPierWall, 2.0 * self.pier_y_m),
+            (Element::RcFooting, 4.0 * self.anchorage_half_width_m()),
+            (Element::MovableBearing, 10.0),
+            (Element::FixedBearing, 2.0),
+            (Element::MetalRailing, 2.0 * length_m),
+        ])
+    }
+
     /// Adds all the bridge's members to a builder.
     pub fn build(&self, b: &mut MemberBuilder) {
         self.towers(b);
@@ -247,14 +269,18 @@ impl Suspension {
                 b.add_steel_beam(&name, Element::SteelStringer, corners, BeamDirection::Along, STRINGER_PLATES);
             }
         }
-        // In the main span, the floorbeams extend to the hangers, which support them.
-        let held = self.cable_y_m() + 0.15;
         for (k, x) in self.floorbeams().into_iter().enumerate() {
-            let reach = if x.abs() < 0.5 * self.main_span_m { held } else { half_width };
+            let reach = self.floorbeam_half_length_m(x);
             let name = format!("floorbeam/{k:02}");
             let corners = ([x - 0.15, -reach, soffit - self.floorbeam_depth_m], [x + 0.15, reach, soffit]);
             b.add_steel_beam(&name, Element::SteelFloorBeam, corners, BeamDirection::Across, FLOORBEAM_PLATES);
         }
+    }
+
+    /// Returns half the length of the floorbeam at x in meters. In the main span, the floorbeams extend to the hangers, which support
+    /// them.
+    fn floorbeam_half_length_m(&self, x: f64) -> f64 {
+        if x.abs() < 0.5 * self.main_span_m { self.cable_y_m() + 0.15 } else { 0.5 * self.deck_width_m }
     }
 
     /// Returns half the width of an anchorage in meters.

@@ -12,6 +12,8 @@ use spandrel_model::math;
 const INTEGRAL_MAX_RAD_S2: f64 = 20.0;
 /// Factor by which yaw rate feedforward may exceed the attitude loop's rate limit.
 const YAW_RATE_LIMIT_FACTOR: f64 = 1.2;
+/// Commanded yaw rate above which the vehicle turns, rad/s (estimate).
+const TURNING_YAW_RATE_RAD_S: f64 = 0.1;
 /// Tilt error above which heading control is suspended, rad.
 const HEADING_CONTROL_MAX_TILT_RAD: f64 = 0.9;
 
@@ -38,7 +40,7 @@ impl AttitudeLoop {
         dt_s: f64,
     ) -> Vec3<Frd> {
         let rates = desired_rates(gains, now.attitude, desired, yaw_rate);
-        self.rate_torque(gains, now, rates, allocated, dt_s)
+        self.track_rates(gains, now, (rates, yaw_rate), allocated, dt_s)
     }
 
     /// Computes the torque for body rate setpoints.
@@ -50,12 +52,25 @@ impl AttitudeLoop {
         allocated: AllocationStatus,
         dt_s: f64,
     ) -> Vec3<Frd> {
+        self.track_rates(gains, now, (rates, rates.down()), allocated, dt_s)
+    }
+
+    /// Computes the torque for body rate setpoints, and for the yaw rate that is commanded without corrections of the heading.
+    fn track_rates(
+        &mut self,
+        gains: &Gains,
+        now: &Estimate,
+        (rates, commanded_yaw_rate): (Vec3<Frd>, f64),
+        allocated: AllocationStatus,
+        dt_s: f64,
+    ) -> Vec3<Frd> {
         let error = rates - now.rates_rad_s;
         // Prevents integral windup at the motor limits.
         if allocated.tilt > 0.99 {
             self.integral += Vec3::new(error.forward(), error.right(), 0.0) * (gains.rate_integral * dt_s);
         }
-        if allocated.yaw > 0.99 {
+        // The moment of a turn is known. An integral that held what remains of it would turn the nose on, or back, after its end.
+        if allocated.yaw > 0.99 && commanded_yaw_rate.abs() < TURNING_YAW_RATE_RAD_S {
             self.integral += Vec3::new(0.0, 0.0, error.down()) * (0.5 * gains.yaw_rate * dt_s);
         }
         self.integral = self.integral.limited(INTEGRAL_MAX_RAD_S2);
@@ -65,7 +80,8 @@ impl AttitudeLoop {
         let j = Vector3::from(gains.inertia_kg_m2);
         let w = now.rates_rad_s.raw();
         // FRAME: the moments of inertia are about the body axes.
-        Vec3::assume(j.component_mul(&turn) + w.cross(&j.component_mul(&w)))
+        let torque = Vec3::<Frd>::assume(j.component_mul(&turn) + w.cross(&j.component_mul(&w)));
+        torque + Vec3::new(0.0, 0.0, gains.yaw_damping_n_m_s * now.rates_rad_s.down())
     }
 }
 
@@ -113,6 +129,31 @@ mod tests {
         let gains = Gains::new(&vehicle_with(error_free_sensors()));
         let rates = desired_rates(&gains, Rotation::identity(), Rotation::from_euler(0.0, 0.0, 0.1), 0.0);
         assert!((rates - Vec3::new(0.0, 0.0, 0.1 * gains.yaw)).norm() < 1e-12, "{rates:?}");
+    }
+
+    #[test]
+    fn prop_integral_removes_the_error_of_a_constant_moment() {
+        // Tick, s, simulated time in ticks, moment about the down axis, N m, and heading error that remains, rad (a tenth of a degree).
+        const DT_S: f64 = 0.0025;
+        const TICKS: u32 = 8_000;
+        const MOMENT_N_M: f64 = 0.03;
+        const MAX_ERROR_RAD: f64 = 0.002;
+        let gains = Gains::new(&vehicle_with(error_free_sensors()));
+        let sensors = error_free_sensors();
+        let origin = spandrel_model::geodesy::Geo { latitude_deg: 46.5, longitude_deg: 8.0, altitude_m: 0.0 };
+        let mut now = crate::autopilot::estimator::Estimator::new(&sensors, origin).estimate();
+        let mut attitude_loop = AttitudeLoop::default();
+        let (mut yaw_rad, mut rate_rad_s): (f64, f64) = (0.0, 0.0);
+        let allocated = AllocationStatus::FULLY_ALLOCATED;
+        for _ in 0..TICKS {
+            now.attitude = Rotation::from_euler(0.0, 0.0, yaw_rad);
+            now.rates_rad_s = Vec3::new(0.0, 0.0, rate_rad_s);
+            let torque = attitude_loop.torque(&gains, &now, Rotation::identity(), 0.0, allocated, DT_S).down();
+            let damping = gains.yaw_damping_n_m_s * rate_rad_s;
+            rate_rad_s += (torque + MOMENT_N_M - damping) / gains.inertia_kg_m2[2] * DT_S;
+            yaw_rad += rate_rad_s * DT_S;
+        }
+        assert!(yaw_rad.abs() < MAX_ERROR_RAD, "{yaw_rad} rad");
     }
 
     #[test]

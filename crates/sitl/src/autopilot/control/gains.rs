@@ -2,7 +2,7 @@
 //! slower than its inner loop by a fixed ratio. No manual tuning is needed.
 
 use spandrel_model::math::{self, GRAVITY_M_S2};
-use spandrel_model::vehicle::Vehicle;
+use spandrel_model::vehicle::{Rotor, SEA_LEVEL_AIR_DENSITY_KG_M3, Vehicle};
 
 /// Lead factor that compensates for motor lag (first order; a higher factor would amplify gyroscope noise).
 const MOTOR_LEAD_FACTOR: f64 = 2.0;
@@ -21,8 +21,9 @@ const YAW_BANDWIDTH_RATIO: f64 = 0.3;
 /// Fraction of the full-tilt acceleration available to trajectory plans. The rest is reserved for wind and control
 /// errors.
 const PLANNED_ACCELERATION_FRACTION: f64 = 0.85;
-/// Air density at sea level, kg/m³ (ISA).
-const AIR_DENSITY_KG_M3: f64 = 1.225;
+/// Fraction of the moment against a turn that is compensated. The compensation lags with the motors, so that the whole would turn the nose
+/// back when a turn ends.
+const YAW_DAMPING_FRACTION: f64 = 0.85;
 /// Fraction of the maximum collective thrust reserved for roll and pitch.
 const CONTROL_THRUST_RESERVE_FRACTION: f64 = 0.08;
 
@@ -67,6 +68,12 @@ pub struct Gains {
     pub attitude_lag_s: f64,
     /// Horizontal drag in still air divided by mass: the linear coefficient, 1/s, and the quadratic one, 1/m.
     pub drag: (f64, f64),
+    /// Thrust lost in a climb through still air, divided by mass and climb rate, 1/s.
+    pub heave_damping_1_s: f64,
+    /// Thrust gained in translational lift, divided by mass and the square of the airspeed in the disk plane, 1/m.
+    pub translational_lift_1_m: f64,
+    /// Compensated moment of body and rotor drag in hover against a turn about the down axis, divided by the yaw rate, N m s.
+    pub yaw_damping_n_m_s: f64,
     /// Maximum roll and pitch rate, rad/s.
     pub rate_max_rad_s: f64,
     /// Maximum yaw rate, rad/s.
@@ -118,6 +125,9 @@ impl Gains {
             climb_acceleration_m_s2: (0.6 * spare).clamp(1.0, 5.0),
             attitude_lag_s: 1.0 / attitude + lag_s,
             drag: drag(vehicle, hover_n / n),
+            heave_damping_1_s: vehicle.heave_damping_1_s(),
+            translational_lift_1_m: n * vehicle.aerodynamics.translational_lift_n_s2_m2 / vehicle.mass_kg,
+            yaw_damping_n_m_s: yaw_damping_n_m_s(vehicle),
             rate_max_rad_s: vehicle.limits.rate_rad_s,
             yaw_rate_max_rad_s: vehicle.limits.yaw_rate_rad_s,
             hover_thrust_n: hover_n,
@@ -133,5 +143,17 @@ fn drag(vehicle: &Vehicle, rotor_n: f64) -> (f64, f64) {
     let speed = (rotor_n / r.thrust_coefficient_n_s2).sqrt();
     let linear = vehicle.rotors.len() as f64 * r.drag_coefficient_n_s2_m * speed;
     let area = 0.5 * (vehicle.drag.area_m2[0] + vehicle.drag.area_m2[1]);
-    (linear / vehicle.mass_kg, 0.5 * AIR_DENSITY_KG_M3 * area / vehicle.mass_kg)
+    (linear / vehicle.mass_kg, 0.5 * SEA_LEVEL_AIR_DENSITY_KG_M3 * area / vehicle.mass_kg)
+}
+
+/// Most of the moment against a turn about the down axis, in which the rotors meet the air sideways.
+fn yaw_damping_n_m_s(vehicle: &Vehicle) -> f64 {
+    let squared_arm_m2 = |rotor: &Rotor| {
+        let (forward, right) = (rotor.position_m.forward(), rotor.position_m.right());
+        forward * forward + right * right
+    };
+    let arms_m2: f64 = vehicle.rotors.iter().map(squared_arm_m2).sum();
+    let whole =
+        vehicle.drag.angular_damping_n_m_s[2] + vehicle.rotor.drag_coefficient_n_s2_m * vehicle.hover_rotor_rad_s() * arms_m2;
+    YAW_DAMPING_FRACTION * whole
 }

@@ -12,6 +12,9 @@ pub const ACCELERATION_RAMP_S: f64 = 0.15;
 /// Time to build up full horizontal acceleration in a mission or return, s (estimate: a tilt rate of about 50 deg/s).
 pub const AUTO_ACCELERATION_RAMP_S: f64 = 0.5;
 
+/// Fraction of the jerk that the end of an acceleration uses. The rest lets the acceleration follow the plan.
+const JERK_RESERVE: f64 = 0.8;
+
 /// Motion limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionLimits {
@@ -21,6 +24,8 @@ pub struct MotionLimits {
     pub vertical_acceleration_m_s2: f64,
     /// Time to build up full horizontal acceleration, s.
     pub acceleration_ramp_s: f64,
+    /// Time to build up full vertical acceleration, s.
+    pub vertical_ramp_s: f64,
 }
 
 impl MotionLimits {
@@ -32,7 +37,13 @@ impl MotionLimits {
             horizontal_acceleration_m_s2: horizontal_m_s2,
             vertical_acceleration_m_s2: vertical_m_s2,
             acceleration_ramp_s: ACCELERATION_RAMP_S,
+            vertical_ramp_s: ACCELERATION_RAMP_S,
         }
+    }
+
+    /// Returns the horizontal and vertical jerk, m/s³.
+    fn jerk_m_s3(&self) -> (f64, f64) {
+        (self.horizontal_acceleration_m_s2 / self.acceleration_ramp_s, self.vertical_acceleration_m_s2 / self.vertical_ramp_s)
     }
 }
 
@@ -53,16 +64,25 @@ impl MotionShaper {
 
     /// Advances one step toward a target velocity.
     pub fn advance(&mut self, target_velocity_m_s: Vec3<Ned>, limits: &MotionLimits, dt_s: f64) {
-        let wanted = (target_velocity_m_s - self.velocity_m_s) / APPROACH_TIME_CONSTANT_S;
-        let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(limits.horizontal_acceleration_m_s2);
-        let down = wanted.down().clamp(-limits.vertical_acceleration_m_s2, limits.vertical_acceleration_m_s2);
+        let left = target_velocity_m_s - self.velocity_m_s;
+        let wanted = left / APPROACH_TIME_CONSTANT_S;
+        let (flat_jerk, vertical_jerk) = limits.jerk_m_s3();
+        let flat_max = limits.horizontal_acceleration_m_s2.min(ending_acceleration(left.horizontal_norm(), flat_jerk));
+        let vertical_max = limits.vertical_acceleration_m_s2.min(ending_acceleration(left.down().abs(), vertical_jerk));
+        let flat = Vec3::<Ned>::new(wanted.north(), wanted.east(), 0.0).limited(flat_max);
+        let down = wanted.down().clamp(-vertical_max, vertical_max);
         let step = flat + Vec3::new(0.0, 0.0, down) - self.acceleration_m_s2;
-        let horizontal = Vec3::<Ned>::new(step.north(), step.east(), 0.0)
-            .limited(limits.horizontal_acceleration_m_s2 / limits.acceleration_ramp_s * dt_s);
-        let max_step = limits.vertical_acceleration_m_s2 / ACCELERATION_RAMP_S * dt_s;
+        let horizontal = Vec3::<Ned>::new(step.north(), step.east(), 0.0).limited(flat_jerk * dt_s);
+        let max_step = vertical_jerk * dt_s;
         self.acceleration_m_s2 += horizontal + Vec3::new(0.0, 0.0, step.down().clamp(-max_step, max_step));
         self.velocity_m_s += self.acceleration_m_s2 * dt_s;
     }
+}
+
+/// Acceleration from which a jerk leads to zero while the speed changes by `left_m_s`, m/s², less a reserve so that the speed does not
+/// overshoot.
+fn ending_acceleration(left_m_s: f64, jerk_m_s3: f64) -> f64 {
+    (2.0 * JERK_RESERVE * jerk_m_s3 * left_m_s).sqrt()
 }
 
 /// Speed from which the given deceleration stops the vehicle at the target: proportional to the distance near the
@@ -119,19 +139,23 @@ mod tests {
 
     #[test]
     fn prop_shaped_stop_does_not_overshoot() {
-        let limits = MotionLimits {
-            horizontal_acceleration_m_s2: 4.0,
-            vertical_acceleration_m_s2: 2.0,
-            acceleration_ramp_s: ACCELERATION_RAMP_S,
-        };
-        let mut shaper = MotionShaper::default();
-        shaper.start(Vec3::new(8.0, 0.0, 0.0));
-        let mut least: f64 = 8.0;
-        for _ in 0..2000 {
-            shaper.advance(Vec3::zero(), &limits, 0.0025);
-            least = least.min(shaper.velocity_m_s.north());
+        // Sport, and position mode with its jerk of 8 m/s³.
+        for (acceleration_m_s2, acceleration_ramp_s) in [(4.0, ACCELERATION_RAMP_S), (5.0, 5.0 / 8.0)] {
+            let limits = MotionLimits {
+                horizontal_acceleration_m_s2: acceleration_m_s2,
+                vertical_acceleration_m_s2: 2.0,
+                acceleration_ramp_s,
+                vertical_ramp_s: ACCELERATION_RAMP_S,
+            };
+            let mut shaper = MotionShaper::default();
+            shaper.start(Vec3::new(8.0, 0.0, 0.0));
+            let mut least: f64 = 8.0;
+            for _ in 0..2000 {
+                shaper.advance(Vec3::zero(), &limits, 0.0025);
+                least = least.min(shaper.velocity_m_s.north());
+            }
+            // In m/s. Even drifting backward at a tenth of walking speed would be noticeable.
+            assert!(least > -0.15 && shaper.velocity_m_s.norm() < 1e-3, "{acceleration_m_s2}: {least}");
         }
-        // In m/s. Even drifting backward at a tenth of walking speed would be noticeable.
-        assert!(least > -0.15 && shaper.velocity_m_s.norm() < 1e-3, "{least}");
     }
 }

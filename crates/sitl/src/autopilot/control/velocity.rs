@@ -5,6 +5,7 @@ use crate::autopilot::estimator::estimate::Estimate;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::{self, GRAVITY_M_S2};
+use spandrel_model::vehicle::MAX_TRANSLATIONAL_LIFT;
 
 /// Setpoint of the velocity loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +67,7 @@ impl VelocityLoop {
         }
         self.climb(gains, error.down(), vertical_free, dt_s);
         self.clamp_integral(gains);
-        attitude_thrust(mass_kg, now, force, motion.yaw_rad, gains)
+        attitude_thrust(mass_kg, now, force, motion, gains)
     }
 
     /// Controls height only; the pilot controls roll and pitch (rad).
@@ -86,7 +87,7 @@ impl VelocityLoop {
         self.clamp_integral(gains);
         AttitudeThrustSetpoint {
             attitude: Rotation::from_euler(tilt.0, tilt.1, motion.yaw_rad),
-            thrust_n: thrust(mass_kg, now, force, gains),
+            thrust_n: thrust(mass_kg, now, force, motion, gains),
         }
     }
 
@@ -123,23 +124,41 @@ fn limit_acceleration(gains: &Gains, mass_kg: f64, wanted_m_s2: Vec3<Ned>) -> (V
     (Vec3::new(held.north(), held.east(), -up), held == flat, up == lift)
 }
 
-fn attitude_thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, yaw_rad: f64, gains: &Gains) -> AttitudeThrustSetpoint {
+fn attitude_thrust(
+    mass_kg: f64,
+    now: &Estimate,
+    force: Vec3<Ned>,
+    motion: &VelocitySetpoint,
+    gains: &Gains,
+) -> AttitudeThrustSetpoint {
     let down = (-force).unit();
-    let (s, c) = math::sin_cos(yaw_rad);
+    let (s, c) = math::sin_cos(motion.yaw_rad);
     let right = down.cross(Vec3::new(c, s, 0.0)).unit();
     let forward = right.cross(down);
     let matrix = Matrix3::from_columns(&[forward.raw(), right.raw(), down.raw()]);
     // FRAME: the columns are the body's axes in NED.
     let attitude = Rotation::assume(UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix)));
-    AttitudeThrustSetpoint { attitude, thrust_n: thrust(mass_kg, now, force, gains) }
+    AttitudeThrustSetpoint { attitude, thrust_n: thrust(mass_kg, now, force, motion, gains) }
 }
 
 /// Collective thrust with the correct vertical component at the current tilt.
-fn thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, gains: &Gains) -> f64 {
+fn thrust(mass_kg: f64, now: &Estimate, force: Vec3<Ned>, motion: &VelocitySetpoint, gains: &Gains) -> f64 {
     let upright = (now.attitude * Vec3::<Frd>::new(0.0, 0.0, 1.0)).down();
     if upright <= 0.0 {
         // The thrust would point down, so use the minimum needed for control.
         return gains.thrust_min_n;
     }
-    (mass_kg * -force.down() / upright.max(0.5)).clamp(gains.thrust_min_n, gains.thrust_max_n)
+    let level_n = mass_kg * -force.down() / upright.max(0.5);
+    (level_n + mass_kg * inflow(gains, now, motion)).clamp(gains.thrust_min_n, gains.thrust_max_n)
+}
+
+/// Thrust per unit of mass that compensates for the change of the rotors' thrust by the motion through still air, m/s². The integral
+/// handles wind. Vertically, the setpoint counts instead of the estimate, so that the rotors still damp vertical motion.
+fn inflow(gains: &Gains, now: &Estimate, motion: &VelocitySetpoint) -> f64 {
+    let over_ground = now.velocity_m_s;
+    let flown = Vec3::<Ned>::new(over_ground.north(), over_ground.east(), motion.velocity_m_s.down());
+    let flow = now.attitude.inverse() * flown;
+    let edgewise_squared = flow.forward() * flow.forward() + flow.right() * flow.right();
+    let lift = (gains.translational_lift_1_m * edgewise_squared).min(MAX_TRANSLATIONAL_LIFT * GRAVITY_M_S2);
+    gains.heave_damping_1_s * -flow.down() - lift
 }

@@ -67,13 +67,13 @@ impl Estimator {
             self.checks.gnss_offset_monitor.clear();
             return;
         }
-        // If optical flow contradicts the jump, GNSS is wrong. Without optical flow, the filter accepts a constant
-        // offset but not noise.
+        // If optical flow contradicts the jump, GNSS is wrong, unless the filter has lost its position. Without optical flow, the
+        // filter accepts a constant offset but not noise.
         let off = self.gnss_offset_m(fix);
         let flat = Vec3::new(off.north(), off.east(), 0.0);
         let steady_s = self.checks.gnss_offset_monitor.record_offset(flat, INNOVATION_GATE * (2.0 * variance).sqrt(), now);
         let flow_is_fresh = (now - self.last_fused.flow).s() < FLOW_VALIDITY_TIME_S;
-        if steady_s > REJECTION_TIMEOUT_S && !flow_is_fresh {
+        if self.has_lost_position() || (steady_s > REJECTION_TIMEOUT_S && !flow_is_fresh) {
             self.reset_position(Vec3::new(fix.position_m.north(), fix.position_m.east(), self.position_m.down()));
             self.covariance.reset(P, 2, fix.eph_m * fix.eph_m);
             self.checks.gnss.clear();

@@ -13,8 +13,9 @@ mod fuse;
 mod ground;
 mod height;
 pub mod height_reference;
+mod recent_motion;
 
-use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer};
+use crate::sensors::{GnssReading, ImuReading, Readings, baro, flow, gnss, imu, magnetometer, vibration};
 use align::{Alignment, AlignmentResult, GyroSpec};
 use checks::InnovationChecks;
 use covariance::{BA, BARO, BG, Covariance, DRIFT, FLOW, MAG, P, ProcessNoise, STATE_COUNT, THETA, V};
@@ -22,6 +23,7 @@ use estimate::Estimate;
 use ground::GroundEstimate;
 use height_reference::{HeightReference, HeightReferenceState};
 use nalgebra::Vector3;
+use recent_motion::RecentMotion;
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
@@ -123,6 +125,7 @@ pub struct Estimator {
     checks: InnovationChecks,
     ground: GroundEstimate,
     latest_fix: Option<(GnssReading, SimTime)>,
+    recent_motion: RecentMotion,
     /// Variance of the GNSS height due to recently reported multipath, m².
     multipath_variance_m2: f64,
     /// Whether the motors are off.
@@ -139,6 +142,22 @@ pub struct Estimator {
     usable: bool,
 }
 
+/// Returns the process noise for an aircraft's sensors. `drift` is the standard deviation of the GNSS drift, horizontal and vertical, m.
+fn process_noise(sensors: &vehicle::SensorSpec, drift: [f64; 2]) -> ProcessNoise {
+    let sq = |x: f64| x * x;
+    let shaking = vibration::broadband_variances(sensors);
+    ProcessNoise {
+        // A variance per sample is the density times the rate.
+        accel: sq(sensors.accel_noise_density) + shaking.0 / sensors.imu_rate_hz,
+        gyro: sq(sensors.gyro_noise_density) + shaking.1 / sensors.imu_rate_hz,
+        accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_FRACTION),
+        gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_FRACTION),
+        drift: [sq(drift[0]), sq(drift[0]), sq(drift[1])],
+        drift_time_s: gnss::DRIFT_TIME_CONSTANT_S,
+        baro_walk: sq(sensors.baro_drift_m_sqrt_s),
+    }
+}
+
 impl Estimator {
     /// Creates an unaligned filter. `origin` is the origin of the local frame, used for the magnetic model.
     #[must_use]
@@ -148,15 +167,7 @@ impl Estimator {
             [sensors.gnss_horizontal_noise_m * gnss::DRIFT_FRACTION, sensors.gnss_vertical_noise_m * gnss::DRIFT_FRACTION];
         let rate = sensors.imu_rate_hz.sqrt();
         Self {
-            process: ProcessNoise {
-                accel: sq(sensors.accel_noise_density),
-                gyro: sq(sensors.gyro_noise_density),
-                accel_walk: sq(sensors.accel_bias_m_s2 * imu::BIAS_WALK_FRACTION),
-                gyro_walk: sq(sensors.gyro_bias_rad_s * imu::BIAS_WALK_FRACTION),
-                drift: [sq(drift[0]), sq(drift[0]), sq(drift[1])],
-                drift_time_s: gnss::DRIFT_TIME_CONSTANT_S,
-                baro_walk: sq(sensors.baro_drift_m_sqrt_s),
-            },
+            process: process_noise(sensors, drift),
             noise: MeasurementNoise {
                 gnss_velocity_noise_m_s: sensors.gnss_velocity_noise_m_s,
                 gnss_white_m: [
@@ -204,6 +215,7 @@ impl Estimator {
             checks: InnovationChecks::default(),
             ground: GroundEstimate::default(),
             latest_fix: None,
+            recent_motion: RecentMotion::new(SimTime::from_s(sensors.gnss_delay_s)),
             multipath_variance_m2: 0.0,
             motors_off: true,
             dead_reckoning_limit_s: DEAD_RECKONING_LIMIT_S,
@@ -238,7 +250,7 @@ impl Estimator {
         }
         if let Some(fix) = readings.gnss.as_ref().filter(|g| g.fix >= 3) {
             self.propagate_covariance();
-            self.fuse_gnss(fix, now);
+            self.fuse_gnss(&self.moved_to_now(fix, now), now);
             self.set_local_origin(now);
         }
         if let Some(up_m) = readings.baro_up_m {
@@ -250,6 +262,12 @@ impl Estimator {
         if let Some(flow) = &readings.flow {
             self.fuse_flow(flow, now);
         }
+    }
+
+    /// Returns a delayed GNSS reading with the motion since the instant that it describes.
+    fn moved_to_now(&self, fix: &GnssReading, now: SimTime) -> GnssReading {
+        let (moved_m, gained_m_s) = self.recent_motion.since_delay(now);
+        GnssReading { position_m: fix.position_m + moved_m, velocity_m_s: fix.velocity_m_s + gained_m_s, ..*fix }
     }
 
     /// Sets the origin of the local frame to the vehicle position once the first fixes are averaged.
@@ -332,8 +350,10 @@ impl Estimator {
         // Applying half of the rotation evaluates the force at the middle of the interval.
         let gained = self.attitude * ((force + turn.cross(force) * 0.5) * dt_s);
         let dv = gained + Vec3::new(0.0, 0.0, math::GRAVITY_M_S2 * dt_s);
-        self.position_m += (self.velocity_m_s + dv * 0.5) * dt_s;
+        let moved_m = (self.velocity_m_s + dv * 0.5) * dt_s;
+        self.position_m += moved_m;
         self.velocity_m_s += dv;
+        self.recent_motion.add(moved_m, dv, now);
         self.attitude = self.attitude.rotated_by(turn);
         self.rates_rad_s = rates;
         self.acceleration_m_s2 = if dt_s > 0.0 { dv / dt_s } else { Vec3::zero() };
@@ -383,6 +403,11 @@ impl Estimator {
     #[must_use]
     pub fn velocity_sigma_m_s(&self) -> f64 {
         self.covariance.variance(V).max(self.covariance.variance(V + 1)).sqrt()
+    }
+
+    /// Whether the position is not accurate enough for control.
+    fn has_lost_position(&self) -> bool {
+        self.horizontal_sigma_m() > MAX_USABLE_POSITION_SIGMA_M
     }
 
     fn horizontal_sigma_m(&self) -> f64 {

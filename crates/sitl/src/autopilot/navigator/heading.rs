@@ -1,12 +1,17 @@
 //! Heading setpoint, and turns commanded by stick, by rate or to a heading.
 
 use super::input::NavigatorInput;
+use crate::autopilot::estimator::estimate::Estimate;
 use crate::autopilot::flight_state::FlightMode;
 use crate::autopilot::request::TurnCommand;
 use spandrel_model::math;
 
 /// Time to build up full yaw rate, s.
 const YAW_RATE_RAMP_TIME_S: f64 = 0.3;
+/// Time constant of the end of a change of the yaw rate, s: about the lag of the motors, whose torque would otherwise turn the nose back.
+const YAW_RAMP_END_TIME_S: f64 = 0.06;
+/// Remaining change of the yaw rate that is made at once, rad/s: a twentieth of a degree per second.
+const YAW_RATE_ROUNDING_RAD_S: f64 = 0.001;
 /// Maximum lead of the heading setpoint over the actual heading, rad.
 const MAX_YAW_LEAD_RAD: f64 = 0.6;
 /// Yaw rate above which the rate is controlled instead of the heading, rad/s, and the maximum lead in that case, rad.
@@ -15,6 +20,8 @@ const MAX_TURNING_LEAD_RAD: f64 = 0.08;
 /// Yaw rate below which the heading is captured, rad/s. With the yaw loop's lag of a few tenths of a second, the
 /// heading then moves by less than half a degree.
 const HEADING_CAPTURE_RATE_RAD_S: f64 = 0.02;
+/// Time constant of the filter of the yaw rate for the capture, s: the rotors shake the gyroscope by more than the capture rate.
+const CAPTURE_FILTER_S: f64 = 0.1;
 /// Fraction of the full yaw rate used in automatic modes, and the gain on heading errors, 1/s.
 const AUTO_YAW_RATE_FRACTION: f64 = 0.7;
 const AUTO_YAW_GAIN: f64 = 1.5;
@@ -33,6 +40,8 @@ pub struct Heading {
     rate_rad_s: f64,
     /// Addition to the heading rate setpoint while a turn slows down, rad/s.
     braking_yaw_rate_rad_s: f64,
+    /// Yaw rate without the rotors' vibration, rad/s.
+    turning_rad_s: f64,
     /// Whether heading hold is off: a rate is commanded, or the rotation has not stopped since.
     heading_hold_off: bool,
     /// A commanded turn.
@@ -42,8 +51,9 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// Starts a mode at the given heading, rad, without a target heading.
-    pub fn begin_mode(&mut self, yaw_rad: f64) {
+    /// Starts a mode at the given heading, rad, and yaw rate, rad/s, without a target heading.
+    pub fn begin_mode(&mut self, yaw_rad: f64, turning_rad_s: f64) {
+        self.turning_rad_s = turning_rad_s;
         (self.target_rad, self.turn, self.turned_by_pilot) = (None, None, false);
         (self.yaw_rad, self.heading_hold_off) = (yaw_rad, true);
     }
@@ -71,17 +81,20 @@ impl Heading {
 
     /// Turns at the rate of the yaw stick.
     pub fn turn_by_stick(&mut self, input: &NavigatorInput) {
-        let max_rad_s = input.airframe.limits.yaw_rate_rad_s.min(input.tuning.rules.envelope.manual_yaw_rate_rad_s);
-        self.turn_at(input.links.sticks.yaw * max_rad_s, input);
+        let response = input.tuning.stick_response;
+        let airframe_rad_s = input.airframe.limits.yaw_rate_rad_s.min(input.tuning.rules.envelope.manual_yaw_rate_rad_s);
+        let max_rad_s = airframe_rad_s.min(response.limits().yaw_rate_rad_s);
+        self.turn_at(response.speed_fraction(input.links.sticks.yaw) * max_rad_s, input);
     }
 
     /// Turns at a rate, rad/s. At zero rate, the heading is captured where the nose stops; capturing it earlier would
     /// make the nose swing back.
     pub fn turn_at(&mut self, rate_rad_s: f64, input: &NavigatorInput) {
-        let turning = (input.estimate.attitude * input.estimate.rates_rad_s).down();
+        let turning_rad_s = yaw_rate_rad_s(input.estimate);
+        self.turning_rad_s += (turning_rad_s - self.turning_rad_s) * (input.dt_s / (CAPTURE_FILTER_S + input.dt_s));
         if rate_rad_s != 0.0 {
             self.heading_hold_off = true;
-        } else if turning.abs() < HEADING_CAPTURE_RATE_RAD_S && self.rate_rad_s.abs() < HEADING_CAPTURE_RATE_RAD_S {
+        } else if self.turning_rad_s.abs() < HEADING_CAPTURE_RATE_RAD_S && self.rate_rad_s.abs() < HEADING_CAPTURE_RATE_RAD_S {
             self.heading_hold_off = false;
         }
         let before = self.rate_rad_s;
@@ -96,9 +109,11 @@ impl Heading {
 
     /// Advances the heading setpoint at a rate that builds up gradually, rad/s.
     fn advance(&mut self, rate_rad_s: f64, input: &NavigatorInput) {
-        let step = input.airframe.limits.yaw_rate_rad_s / YAW_RATE_RAMP_TIME_S * input.dt_s;
+        let left = rate_rad_s - self.rate_rad_s;
+        let max_step = input.airframe.limits.yaw_rate_rad_s / YAW_RATE_RAMP_TIME_S * input.dt_s;
+        let ending = left * input.dt_s / (YAW_RAMP_END_TIME_S + input.dt_s);
         self.braking_yaw_rate_rad_s = 0.0;
-        self.rate_rad_s += (rate_rad_s - self.rate_rad_s).clamp(-step, step);
+        self.rate_rad_s += if left.abs() < YAW_RATE_ROUNDING_RAD_S { left } else { ending.clamp(-max_step, max_step) };
         let nose = input.estimate.attitude.yaw_rad();
         let max_lead = if self.rate_rad_s.abs() > TURNING_YAW_RATE_RAD_S { MAX_TURNING_LEAD_RAD } else { MAX_YAW_LEAD_RAD };
         let lead = math::wrap_pi(self.yaw_rad + self.rate_rad_s * input.dt_s - nose).clamp(-max_lead, max_lead);
@@ -148,4 +163,9 @@ impl Heading {
         }
         if long_way { left - 2.0 * math::PI * left.signum() } else { left }
     }
+}
+
+/// Rate of the heading, rad/s.
+pub(super) fn yaw_rate_rad_s(estimate: &Estimate) -> f64 {
+    (estimate.attitude * estimate.rates_rad_s).down()
 }

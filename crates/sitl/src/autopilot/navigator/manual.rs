@@ -29,12 +29,11 @@ const TILT_LIMIT_GAIN_PER_S: f64 = 4.0;
 impl Navigator {
     /// Vertical velocity from the sticks, m/s down.
     fn stick_climb(&self, input: &NavigatorInput) -> f64 {
-        let (up, l, set) = (input.links.sticks.up, &input.airframe.limits, &input.tuning.rules.envelope);
-        if up > 0.0 {
-            -up * l.climb_m_s.min(set.manual_climb_rate_m_s)
-        } else {
-            -up * l.descend_m_s.min(set.manual_descent_rate_m_s)
-        }
+        let (l, set, response) = (&input.airframe.limits, &input.tuning.rules.envelope, input.tuning.stick_response);
+        let up = response.speed_fraction(input.links.sticks.up);
+        let (airframe_m_s, set_m_s) =
+            if up > 0.0 { (l.climb_m_s, set.manual_climb_rate_m_s) } else { (l.descend_m_s, set.manual_descent_rate_m_s) };
+        -up * airframe_m_s.min(set_m_s).min(response.limits().vertical_m_s)
     }
 
     /// Roll and pitch from the sticks, rad. The combined tilt does not exceed the limit for a single axis.
@@ -85,7 +84,7 @@ impl Navigator {
         self.heading.turn_by_stick(input);
         let share = if self.modes.active == FlightMode::Altitude { 1.0 } else { NO_POSITION_TILT_FRACTION };
         let tilt = self.stick_tilt(share, input);
-        let limits = self.stick_limits(input);
+        let limits = self.stick_limits(0.0, input);
         let velocity = self.apply_position_locks(
             Vec3::new(0.0, 0.0, self.stick_climb(input)),
             false,
@@ -102,10 +101,13 @@ impl Navigator {
         self.heading.turn_by_stick(input);
         let (s, l) = (input.links.sticks, input.airframe.limits);
         let (sine, cosine) = math::sin_cos(input.estimate.attitude.yaw_rad());
-        let max_m_s = input.tuning.rules.envelope.manual_speed_m_s;
-        let (forward, right) = (s.forward * l.forward_m_s.min(max_m_s), s.right * l.sideways_speed_m_s.min(max_m_s));
-        let wanted_m_s = Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
-        let limits = self.stick_limits(input);
+        let response = input.tuning.stick_response;
+        let max_m_s = input.tuning.rules.envelope.manual_speed_m_s.min(response.limits().horizontal_m_s);
+        let forward = response.speed_fraction(s.forward) * l.forward_m_s.min(max_m_s);
+        let right = response.speed_fraction(s.right) * l.sideways_speed_m_s.min(max_m_s);
+        let wanted_m_s: Vec3<Ned> =
+            Vec3::new(cosine * forward - sine * right, sine * forward + cosine * right, self.stick_climb(input));
+        let limits = self.stick_limits(wanted_m_s.horizontal_norm(), input);
         let centered = s.forward == 0.0 && s.right == 0.0;
         let velocity = self.apply_position_locks(wanted_m_s, centered, s.up == 0.0, &limits, input);
         if let (Some((n, e)), Some(d)) = (self.locks.horizontal, self.locks.height_down_m) {
@@ -114,14 +116,21 @@ impl Navigator {
         Setpoint::Velocity(self.motion(velocity))
     }
 
-    /// Motion limits in manual flight.
-    fn stick_limits(&self, input: &NavigatorInput) -> MotionLimits {
-        let l = &input.airframe.limits;
+    /// Motion limits in manual flight toward a horizontal speed, m/s.
+    fn stick_limits(&self, wanted_m_s: f64, input: &NavigatorInput) -> MotionLimits {
+        let (l, response) = (&input.airframe.limits, input.tuning.stick_response.limits());
         let plan_s = (SLOWDOWN_TIME_FRACTION * l.slow_down_time_s).max(0.1);
+        let braking = wanted_m_s < self.shaper.velocity_m_s.horizontal_norm();
+        let response_m_s2 = if braking { response.deceleration_m_s2 } else { response.acceleration_m_s2 };
+        let airframe_m_s2 = (l.forward_m_s.max(l.sideways_speed_m_s) / plan_s).min(input.gains.acceleration_m_s2);
+        let vertical_m_s2 = (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2);
+        let horizontal_acceleration_m_s2 = airframe_m_s2.min(response_m_s2);
+        let vertical_acceleration_m_s2 = vertical_m_s2.min(response.acceleration_m_s2);
         MotionLimits {
-            horizontal_acceleration_m_s2: (l.forward_m_s.max(l.sideways_speed_m_s) / plan_s).min(input.gains.acceleration_m_s2),
-            vertical_acceleration_m_s2: (l.climb_m_s.max(l.descend_m_s) / plan_s).min(input.gains.climb_acceleration_m_s2),
-            acceleration_ramp_s: ACCELERATION_RAMP_S,
+            horizontal_acceleration_m_s2,
+            vertical_acceleration_m_s2,
+            acceleration_ramp_s: ACCELERATION_RAMP_S.max(horizontal_acceleration_m_s2 / response.jerk_m_s3),
+            vertical_ramp_s: ACCELERATION_RAMP_S.max(vertical_acceleration_m_s2 / response.jerk_m_s3),
         }
     }
 

@@ -4,7 +4,7 @@ use super::input::NavigatorInput;
 use super::mission::SuspendedStep;
 use super::mission_step::MissionStep;
 use super::return_state::ReturnPhase;
-use super::{Navigator, StickLocks};
+use super::{Navigator, StickLocks, heading};
 use crate::autopilot::control::landed::FlightPhase;
 use crate::autopilot::control::setpoint::Setpoint;
 use crate::autopilot::control::shaper::stopping_point;
@@ -50,7 +50,7 @@ impl Navigator {
     pub(super) fn begin_mode(&mut self, input: &NavigatorInput) {
         let e = input.estimate;
         self.target_m = stopping_point(input.gains, e.position_m, e.velocity_m_s);
-        self.heading.begin_mode(e.attitude.yaw_rad());
+        self.heading.begin_mode(e.attitude.yaw_rad(), heading::yaw_rate_rad_s(e));
         self.paused = None;
         self.speed_m_s = None;
         self.locks = StickLocks::default();

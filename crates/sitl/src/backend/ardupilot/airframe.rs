@@ -18,7 +18,7 @@ use table::Table;
 pub fn parameters(vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Vec<LaunchParam>, FrameError> {
     let frame = frame(vehicle)?;
     let mut table = Table::default();
-    motors::add(&mut table, vehicle, &frame);
+    motors::add(&mut table, &vehicle.at_altitude(settings.home.altitude_m), &frame);
     flight::add(&mut table, vehicle);
     devices::add(&mut table, vehicle, settings);
     operation::add(&mut table, settings);

@@ -18,7 +18,7 @@ const THRUST_COEFFICIENT: f64 = 6.5;
 pub fn parameters(vehicle: &Vehicle, settings: &LaunchSettings) -> Vec<LaunchParam> {
     let mut table = ParamTable::default();
     rotors(&mut table, vehicle);
-    thrust(&mut table, vehicle);
+    thrust(&mut table, &vehicle.at_altitude(settings.home.altitude_m));
     airframe_limits::add(&mut table, &vehicle.limits);
     equipment::add(&mut table, vehicle, settings);
     table.into_rows()

@@ -67,10 +67,10 @@ fn inertial_sensors(table: &mut ParamTable, settings: &LaunchSettings) {
     table.integer("SENS_IMU_MODE", 0.0, (0.0, 1.0));
 }
 
-/// The simulated receiver and barometer have no delay, and the barometer is much steadier than the height of the receiver.
+/// The barometer is much steadier than the height of the receiver.
 fn position_sensors(table: &mut ParamTable, vehicle: &Vehicle) {
     let sensors = &vehicle.sensors;
-    table.real("EKF2_GPS_DELAY", 0.0, (0.0, 300.0));
+    table.real("EKF2_GPS_DELAY", sensors.gnss_delay_s * 1000.0, (0.0, 300.0));
     table.real("EKF2_GPS_P_NOISE", sensors.gnss_horizontal_noise_m, (0.01, 10.0));
     table.real("EKF2_GPS_V_NOISE", sensors.gnss_velocity_noise_m_s, (0.01, 5.0));
     table.integer("EKF2_HGT_REF", BAROMETER_HEIGHT, (0.0, 3.0));

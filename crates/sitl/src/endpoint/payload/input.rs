@@ -2,6 +2,7 @@
 //! autopilot reports, so the payload interface also works with another autopilot.
 
 use super::components::PayloadComponents;
+use super::hazard_truth::HazardTruth;
 use super::scoring_truth::ScoringTruth;
 use crate::endpoint::clock::VehicleClock;
 use crate::physics::{BatteryState, RigidState};
@@ -39,6 +40,8 @@ pub struct PayloadInput<'a> {
     pub wind_m_s: Vec3<Ned>,
     /// Counters and ground truth for scoring.
     pub scoring: &'a ScoringTruth,
+    /// State of the hazards that the job simulates.
+    pub hazards: HazardTruth,
     /// True state of the battery.
     pub battery: &'a BatteryState,
     /// Component IDs of the equipment.

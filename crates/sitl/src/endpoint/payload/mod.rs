@@ -9,6 +9,7 @@ mod components;
 mod equipment;
 pub mod gimbal;
 mod gimbal_messages;
+mod hazard_truth;
 mod inbound;
 mod input;
 pub mod lamp;
@@ -25,14 +26,19 @@ use super::link::LinkId;
 use camera::settings;
 pub use components::PayloadComponents;
 pub use equipment::Payload;
+pub use hazard_truth::{HazardTruth, RadioTruth};
 pub(super) use inbound::PayloadMessage;
 pub use input::PayloadInput;
 pub(super) use receive::HANDLED;
 use scoring_feed::ScoringFeed;
 pub use scoring_truth::ScoringTruth;
 pub use snapshot::PayloadSnapshot;
+use spandrel_model::time::{Schedule, SimTime};
 use std::collections::BTreeMap;
 use std::ops::Range;
+
+/// Rate of the messages about hazards, Hz.
+const HAZARD_RATE_HZ: f64 = 2.0;
 
 /// State of the equipment interface.
 #[derive(Debug, Clone)]
@@ -45,6 +51,7 @@ pub struct PayloadLink {
     pub components: PayloadComponents,
     files: FileServer,
     scoring: ScoringFeed,
+    hazards_due: Schedule,
     /// For each link, indices of the image records that remain to be resent.
     image_requests: BTreeMap<LinkId, Range<usize>>,
 }
@@ -61,6 +68,7 @@ impl PayloadLink {
             components,
             files,
             scoring: ScoringFeed::new(),
+            hazards_due: Schedule::new(SimTime::ZERO, HAZARD_RATE_HZ),
             image_requests: BTreeMap::new(),
         }
     }

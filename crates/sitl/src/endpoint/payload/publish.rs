@@ -4,11 +4,15 @@ use super::PayloadLink;
 use super::input::PayloadInput;
 use super::snapshot::PayloadSnapshot;
 use super::streams::camera::{capture_record, field_of_view};
-use crate::endpoint::component_ids::CAMERA;
+use crate::endpoint::component_ids::{CAMERA, TELEMETRY_RADIO};
 use crate::endpoint::files;
 use crate::endpoint::link::{LinkId, LinkKind, Links, PeerLink};
 use spandrel_mavlink::contract::named_values::NamedValue;
+use spandrel_mavlink::contract::radio_status;
 use spandrel_mavlink::dialect::{MavMessage, MavResult};
+
+/// Noise and interference at the receivers of the control link, dBm (estimate: 10 dB below the sensitivity).
+const NOISE_DBM: f64 = -104.0;
 
 impl PayloadLink {
     /// Captures the next scheduled image and announces it.
@@ -33,6 +37,22 @@ impl PayloadLink {
     pub(crate) fn send_scoring(&mut self, input: &PayloadInput, links: &mut Links) {
         let due = self.scoring.take_due(input.scoring, self.speed_factor, input.clock.now);
         self.send_values(due, input, links);
+    }
+
+    /// Sends the state of the hazards that the job simulates if it is due: the radio link's to all clients, and all of them to
+    /// clients that receive the scoring data.
+    pub(crate) fn send_hazards(&mut self, input: &PayloadInput, links: &mut Links) {
+        let Some(report) = input.hazards.report().filter(|_| self.hazards_due.fire(input.clock.now)) else { return };
+        let message = report.message(input.clock.sim_time_us());
+        let status = input.hazards.radio.map(|radio| radio_status::message(radio.signal_dbm, NOISE_DBM, radio.silent_intervals));
+        for link in links.listeners().filter(|link| link.kind != LinkKind::Autopilot && !link.is_busy()) {
+            if let Some(status) = &status {
+                link.stream(TELEMETRY_RADIO, status);
+            }
+            if !link.is_limited() && link.receives_truth() {
+                link.stream(self.components.scoring, &message);
+            }
+        }
     }
 
     /// Sends the named values that report a freeze. Call while simulation time is stopped; does nothing unless the flight is

@@ -186,6 +186,7 @@ impl RelayEndpoint {
             specific_force_m_s2: aircraft.specific_force_m_s2,
             wind_m_s: aircraft.wind_m_s,
             scoring: aircraft.scoring,
+            hazards: aircraft.hazards,
             battery: aircraft.battery,
             components: self.payload.components,
         }

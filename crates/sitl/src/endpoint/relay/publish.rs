@@ -20,6 +20,7 @@ impl RelayEndpoint {
         self.announce_changes(&PayloadSnapshot::new(&input, &self.payload.equipment));
         self.send_due_streams(&PayloadSnapshot::new(&input, &self.payload.equipment), link_now, is_time_stopped);
         self.payload.send_scoring(&input, &mut self.links);
+        self.payload.send_hazards(&input, &mut self.links);
         self.send_texts();
         self.payload.send_files(&mut self.links);
         self.payload.send_requested_images(&mut self.links);

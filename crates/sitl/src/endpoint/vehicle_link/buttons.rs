@@ -3,6 +3,7 @@
 use super::params::Params;
 use crate::endpoint::component_ids::AUTOPILOT;
 use crate::endpoint::vehicle_command::VehicleCommand;
+use spandrel_mavlink::contract::stick_request::StickRequest;
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavStandardMode};
 
 /// Number of buttons that have a parameter; other buttons are ignored.
@@ -84,6 +85,10 @@ pub(super) fn command(button: usize, params: &Params, context: &ButtonContext, f
         12 => aim(0.0),
         13 => aim(context.pitch_deg + PITCH_STEP_DEG),
         14 => aim(context.pitch_deg - PITCH_STEP_DEG),
+        15 => {
+            let (command, [response, number, ..]) = StickRequest::Next.command(0);
+            (command, [f64::from(response), f64::from(number), 0.0])
+        }
         _ => return None,
     };
     let p = [a, b, c, 0.0, 0.0, 0.0, if number == M::MAV_CMD_NAV_TAKEOFF { context.take_off_m } else { 0.0 }];

@@ -46,6 +46,7 @@ use super::practice::PracticeInbox;
 use super::simulated_aircraft::SimulatedAircraft;
 use super::text_queue::TextQueue;
 use crate::autopilot::{Autopilot, Sticks};
+use crate::endpoint::numbered_requests::NumberedRequests;
 use calibration::Calibration;
 use events::EventReports;
 use flavor::Flavor;
@@ -87,6 +88,8 @@ pub struct VehicleLink {
     restart_requested: bool,
     injections: VecDeque<FailureInjection>,
     practice_requests: PracticeInbox,
+    /// Requests for a response to the sticks.
+    stick_requests: NumberedRequests,
     /// Whether manual control is accepted.
     pub accepts_sticks: bool,
     plans: PlanStore,
@@ -134,6 +137,7 @@ impl VehicleLink {
             restart_requested: false,
             injections: VecDeque::new(),
             practice_requests: PracticeInbox::default(),
+            stick_requests: NumberedRequests::default(),
             accepts_sticks: true,
             plans: PlanStore::with_lead_items(u16::from(flavor.home_item))
                 .with_splines(flavor.splines)

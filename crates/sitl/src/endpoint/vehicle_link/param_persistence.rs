@@ -2,6 +2,7 @@
 
 use super::VehicleLink;
 use super::host_requests::StorageRequest;
+use super::inbound::InboundMessage;
 use super::param_messages::{param_named, param_value};
 use super::params::text::{self, ParamFileProblem};
 use super::params::{FENCE_ENABLE_NAME, ParamValue};
@@ -73,6 +74,14 @@ impl VehicleLink {
         self.manual.release_timeout_s = autopilot.tuning.manual_timeout_s();
         self.manual.policy = self.params.stick_policy();
         payload.camera.announced.parameter = self.params.camera_announced();
+    }
+
+    /// Applies the parameters after a change of one of them, and broadcasts its value.
+    pub(super) fn parameter_changed(&mut self, name: &str, a: &mut InboundMessage) {
+        self.apply_parameters(a.autopilot, a.payload);
+        if let Some(message) = param_named(self, name) {
+            a.broadcast(&message);
+        }
     }
 
     /// Applies the parameters after a change that may affect many of them, and sends the whole list on every link.

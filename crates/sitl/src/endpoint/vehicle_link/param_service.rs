@@ -53,12 +53,7 @@ pub(super) fn set(v: &mut VehicleLink, set: &PARAM_SET_DATA, a: &mut InboundMess
             };
             reject_param(v, name, error, a);
         }
-        Ok(()) => {
-            v.apply_parameters(a.autopilot, a.payload);
-            if let Some(message) = param_named(v, name) {
-                a.broadcast(&message);
-            }
-        }
+        Ok(()) => v.parameter_changed(name, a),
     }
 }
 

@@ -127,7 +127,7 @@
   csv.hidden = false;
   csv.addEventListener('click', () => {
     const names = Object.keys(s);
-    const heads = { t: 't_s', e: 'east_m', n: 'north_m', u: 'up_m', speed: 'speed_m_s', distance: 'distance_m', clearance: 'clearance_m', battery: 'battery_pct', task: 'task', state: 'path' };
+    const heads = { t: 't_s', e: 'east_m', n: 'north_m', u: 'up_m', speed: 'speed_m_s', distance: 'distance_m', clearance: 'clearance_m', battery: 'battery_pct', wind: 'wind_m_s', wind_from: 'wind_from_deg', task: 'task', state: 'path' };
     const states = ['between tasks', 'off path', 'on path'];
     const cell = (name, i) => {
       if (name === 'task') return s.task[i] === null ? '' : data.tasks[s.task[i]].id;

@@ -12,8 +12,16 @@ use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
 /// ID and data columns of each chart.
-const CHARTS: [(&str, &str); 5] =
-    [("speed", "speed"), ("distance", "distance"), ("clearance", "clearance"), ("battery", "battery"), ("sticks", "fb rl ud rt")];
+const CHARTS: [(&str, &str); 6] = [
+    ("speed", "speed"),
+    ("distance", "distance"),
+    ("clearance", "clearance"),
+    ("battery", "battery"),
+    ("sticks", "fb rl ud rt"),
+    (WIND_CHART, "wind"),
+];
+/// ID of the chart that only flights with reports of the wind have.
+const WIND_CHART: &str = "wind";
 
 /// Returns a chart's title.
 pub(super) fn chart_title(id: &str, language: Language) -> String {
@@ -22,6 +30,7 @@ pub(super) fn chart_title(id: &str, language: Language) -> String {
         "distance" => text!(language, "report-chart-distance"),
         "clearance" => text!(language, "report-chart-clearance"),
         "battery" => text!(language, "report-chart-battery"),
+        WIND_CHART => text!(language, "report-chart-wind"),
         _ => text!(language, "report-chart-sticks"),
     }
 }
@@ -41,7 +50,7 @@ pub fn section(review: &Review) -> Markup {
         }))
         (instructor_marks(review))
         div.charts {
-            @for (id, columns) in CHARTS {
+            @for (id, columns) in CHARTS.into_iter().filter(|(id, _)| *id != WIND_CHART || review.has_wind()) {
                 @let title = chart_title(id, language);
                 figure {
                     figcaption { (title) @if id == "sticks" { (stick_legend(language)) } }
@@ -295,10 +304,11 @@ fn path_state(inside: bool, on: bool, language: Language) -> String {
 fn series_table(review: &Review, language: Language) -> Table {
     let every_s = (end_s(review) / 60.0 / 5.0).ceil().max(1.0) * 5.0;
     let stride = (every_s * review.scenario.scoring.frame_rate_hz).round().max(1.0) as usize;
+    let has_wind = review.has_wind();
     let known = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
     let row = |(i, frame): (usize, &spandrel_mavlink::telemetry::Frame)| {
         let step = &review.track[i];
-        vec![
+        let mut cells = vec![
             TableCell::Clock(review.t_s(i)),
             step.task.map_or(TableCell::Empty, |task| review.scenario.tasks[task].id.into()),
             path_state(step.inside, step.on, language).into(),
@@ -310,24 +320,33 @@ fn series_table(review: &Review, language: Language) -> Table {
             TableCell::Number(frame.sticks[1], 2),
             TableCell::Number(frame.sticks[2], 2),
             TableCell::Number(frame.sticks[3], 2),
-        ]
+        ];
+        if has_wind {
+            let (speed_m_s, from_deg) = review.wind(i).unzip();
+            cells.extend([known(speed_m_s, 1), known(from_deg, 0)]);
+        }
+        cells
     };
+    let mut columns = vec![
+        text!(language, "report-column-time"),
+        text!(language, "report-column-task"),
+        text!(language, "report-column-path"),
+        text!(language, "report-column-distance"),
+        text!(language, "report-column-speed"),
+        text!(language, "report-column-clearance"),
+        text!(language, "report-column-battery"),
+        text!(language, "terms-direction-forward"),
+        text!(language, "terms-direction-right"),
+        text!(language, "terms-direction-up"),
+        text!(language, "report-stick-turn"),
+    ];
+    if has_wind {
+        columns.extend([text!(language, "report-column-wind"), text!(language, "report-column-wind-from")]);
+    }
     Table {
         name: "flight",
         caption: text!(language, "report-flight-caption"),
-        columns: vec![
-            text!(language, "report-column-time"),
-            text!(language, "report-column-task"),
-            text!(language, "report-column-path"),
-            text!(language, "report-column-distance"),
-            text!(language, "report-column-speed"),
-            text!(language, "report-column-clearance"),
-            text!(language, "report-column-battery"),
-            text!(language, "terms-direction-forward"),
-            text!(language, "terms-direction-right"),
-            text!(language, "terms-direction-up"),
-            text!(language, "report-stick-turn"),
-        ],
+        columns,
         rows: review.frames.iter().enumerate().step_by(stride).map(row).collect(),
     }
 }

@@ -132,6 +132,8 @@ fn series(review: &Review) -> Value {
         "distance": column(&|i, _| known(review.track[i].distance_m)),
         "clearance": column(&|_, frame| known(frame.clearance_m)),
         "battery": column(&|_, frame| round_to_digits(frame.battery_pct, 1)),
+        "wind": column(&|i, _| known(review.wind(i).map(|(speed_m_s, _)| speed_m_s))),
+        "wind_from": column(&|i, _| review.wind(i).map_or(Value::Null, |(_, from_deg)| round_to_digits(from_deg, 0))),
         "fb": column(&stick(0)), "rl": column(&stick(1)), "ud": column(&stick(2)), "rt": column(&stick(3)),
         "task": column(&|i, _| review.track[i].task.map_or(Value::Null, |task| json!(task))),
         "state": column(&|i, _| json!(u8::from(review.track[i].inside) + u8::from(review.track[i].on))),

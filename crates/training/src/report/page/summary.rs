@@ -3,7 +3,7 @@
 use super::figure::figure;
 use crate::report::Review;
 use crate::report::formatting;
-use crate::report::line_of_sight::walks_sentence;
+use crate::report::line_of_sight::{out_of_sight_sentence, walks_sentence};
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::report::table::{Table, TableCell, folded};
 use crate::terms;
@@ -37,7 +37,9 @@ pub fn header(review: &Review) -> Markup {
                 }
                 p { (text!(language, "report-flight-time", duration = duration, end = reason)) @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
                 @if let Some(aids) = review.assessment.practice_aids.words(language) { p { (text!(language, "report-practice-aids", aids = aids)) } }
-                @if let Some(words) = review.out_of_sight.sentence(language) { p { (words) } }
+                @for words in review.navigation.sentences(language) { p { (words) } }
+                @for words in review.radio.sentences(language) { p { (words) } }
+                @if let Some(words) = out_of_sight_sentence(review.out_of_sight, language) { p { (words) } }
                 @if let Some(words) = walks_sentence(&review.site, &review.frames, language) { p { (words) } }
             }
             div.overall {

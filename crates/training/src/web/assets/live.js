@@ -61,8 +61,8 @@ function tell(words) {
   while (list.children.length > 60) list.lastChild.remove();
 }
 
-function cues(names) {
-  const list = root.querySelector("[data-cues]");
+function showNames(selector, names) {
+  const list = root.querySelector(selector);
   if (!list || list.dataset.now === names.join()) return;
   list.dataset.now = names.join();
   list.replaceChildren(...names.map((name) => {
@@ -96,7 +96,9 @@ function show(now) {
   put("traffic", texts[`traffic_${now.traffic}`]);
   put("contact", texts[`contact_${now.contact}`]);
   showPicture(root.querySelector("[data-camera]"), now.picture, `/live/camera.jpg?vehicle=${root.dataset.vehicle}&`);
-  cues(now.cues);
+  for (const key of ["wind", "gnss", "compass", "radio"]) put(key, now[key] ?? "–");
+  showNames("[data-cues]", now.cues);
+  showNames("[data-hazards]", now.hazards);
   tell(now.words);
 }
 

@@ -15,6 +15,12 @@ function showCue(tile, now) {
   else at.textContent = now.last_cue === null ? texts.tile_no_cue : `${clock(now.last_cue.t_s)} ${now.last_cue.words}`;
 }
 
+function showHazards(tile, now) {
+  const at = tile.querySelector("[data-hazards]");
+  at.classList.toggle("on", now.hazards.length > 0);
+  at.textContent = now.hazards.length > 0 ? now.hazards.join(" · ") : texts.tile_no_hazard;
+}
+
 function show(tile, now) {
   put(tile, "who", now.trainee ?? texts.tile_vehicle.replace("{number}", tile.dataset.tile));
   const state = tile.querySelector("[data-state]");
@@ -24,6 +30,7 @@ function show(tile, now) {
   put(tile, "time", clock(now.t_s));
   put(tile, "battery", number(now.battery_pct, 0, "%"));
   showCue(tile, now);
+  showHazards(tile, now);
   showPicture(tile.querySelector("[data-camera]"), now.picture, `/live/camera.jpg?vehicle=${tile.dataset.tile}&`);
   // The map replaces a missing picture.
   const map = tile.querySelector("[data-map]");

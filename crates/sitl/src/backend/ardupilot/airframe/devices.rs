@@ -14,6 +14,10 @@ const FLOW_TYPE_MAVLINK: i64 = 5;
 const MOUNT_GIMBAL_DEVICE: i64 = 6;
 /// Type of a camera that uses MAVLink's camera protocol, version 2.
 const CAMERA_MAVLINK_V2: i64 = 6;
+/// Age that a reading gets from the frame and the MAVLink link, ms.
+const LINK_DELAY_MS: i64 = 5;
+/// Largest allowed value of GPS1_DELAY_MS, ms.
+const MAX_DELAY_MS: i64 = 250;
 /// Rotations of a range finder: downward and upward.
 const DOWN: i64 = 25;
 const UP: i64 = 24;
@@ -30,8 +34,8 @@ pub fn add(table: &mut Table, vehicle: &Vehicle, settings: &LaunchSettings) {
 fn add_position_sensors(table: &mut Table, vehicle: &Vehicle) {
     table.both(["GPS_TYPE", "GPS1_TYPE"], GPS_TYPE_MAVLINK);
     table.both(["GPS_TYPE2", "GPS2_TYPE"], 0);
-    // The shortest delay: the readings are as old as a frame and the MAVLink link.
-    table.both(["GPS_DELAY_MS", "GPS1_DELAY_MS"], 5);
+    let delay_ms = (vehicle.sensors.gnss_delay_s * 1000.0).round() as i64;
+    table.both(["GPS_DELAY_MS", "GPS1_DELAY_MS"], (delay_ms + LINK_DELAY_MS).min(MAX_DELAY_MS));
     table.integer("AHRS_EKF_TYPE", 3);
     table.integer("EK2_ENABLE", 0);
     table.integer("EK3_ENABLE", 1);

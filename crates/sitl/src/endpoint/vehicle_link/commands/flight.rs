@@ -3,14 +3,19 @@
 use super::super::flavor::ModeRow;
 use super::super::host_requests::FailureInjection;
 use super::super::inbound::InboundMessage;
+use super::super::params::ParamValue;
 use super::super::{VehicleLink, calibration};
 use super::{storage, take_off};
 use crate::autopilot::orbit::{OrbitRequest, OrbitYaw};
 use crate::autopilot::{AutopilotRequest, FlightMode, RequestOutcome, TurnCommand};
+use crate::endpoint::numbered_requests::RequestNumber;
 use crate::endpoint::refused_request::queue_or_refuse;
 use crate::endpoint::vehicle_command::VehicleCommand;
 use mavlink::MessageData;
-use spandrel_mavlink::dialect::{GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult};
+use spandrel_mavlink::contract::stick_request::{PARAMETER, StickRequest};
+use spandrel_mavlink::dialect::{
+    GPS_GLOBAL_ORIGIN_DATA, HOME_POSITION_DATA, MISSION_CURRENT_DATA, MavCmd, MavResult, MavSeverity,
+};
 use spandrel_model::math;
 
 /// MAV_CMD_DO_JUMP_TAG; defined here because not every dialect has it.
@@ -160,21 +165,46 @@ fn limits(c: &VehicleCommand, v: &mut VehicleLink, _: &mut InboundMessage) -> Op
     })
 }
 
-/// Handles commands that don't involve the autopilot: freeze and rewind, failure injection, calibration, storage, checks, and
-/// reboot.
+/// Handles commands that don't involve the autopilot: freeze and rewind, response to the sticks, failure injection, calibration,
+/// storage, checks, and reboot.
 fn services(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> Option<CommandHandling> {
     use MavCmd as M;
     if let Some(result) = v.practice_requests.take(&a.aircraft.practice, c, &mut v.texts) {
         return Some(Answer(result));
     }
+    if let Some(request) = StickRequest::of(c.number, c.p[0]) {
+        let result = request.and_then(|request| change_stick_response(request, c, v, a));
+        return Some(Answer(result.unwrap_or_else(|text| v.deny(text))));
+    }
     Some(Answer(match c.number {
         n if n == M::MAV_CMD_INJECT_FAILURE as u16 => inject(c, v, a),
         n if n == M::MAV_CMD_PREFLIGHT_CALIBRATION as u16 => calibration::command(c, v, a),
-        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => storage::preflight_storage(c, v),
+        n if n == M::MAV_CMD_PREFLIGHT_STORAGE as u16 => storage::preflight_storage(c, v, a),
         n if n == M::MAV_CMD_RUN_PREARM_CHECKS as u16 => prearm_checks(v, a),
         n if n == M::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN as u16 => reboot(c, v, a),
         _ => return None,
     }))
+}
+
+/// Changes the response to the sticks, which is a parameter, and reports the active one. A repeated command changes nothing.
+fn change_stick_response(
+    request: StickRequest,
+    c: &VehicleCommand,
+    v: &mut VehicleLink,
+    a: &mut InboundMessage,
+) -> Result<MavResult, &'static str> {
+    let number = RequestNumber::of(c)?;
+    if v.stick_requests.is_repeated(number) {
+        return Ok(MavResult::MAV_RESULT_ACCEPTED);
+    }
+    let response = request.response_after(v.params.stick_response());
+    if v.params.set_value(PARAMETER, ParamValue::Int(response.number())).is_err() {
+        return Ok(MavResult::MAV_RESULT_UNSUPPORTED);
+    }
+    v.stick_requests.remember(number);
+    v.parameter_changed(PARAMETER, a);
+    v.push_text(MavSeverity::MAV_SEVERITY_NOTICE, &format!("Sticks: {}", response.name()));
+    Ok(MavResult::MAV_RESULT_ACCEPTED)
 }
 
 /// Queues a failure. As in PX4, the command is denied unless SYS_FAILURE_EN is set.

@@ -14,16 +14,11 @@ use spandrel_mavlink::dialect::MavResult;
 /// Executes a command, either received or issued by the vehicle itself, and returns its result. This includes equipment
 /// commands.
 pub(crate) fn execute(c: &VehicleCommand, v: &mut VehicleLink, a: &mut InboundMessage) -> MavResult {
-    let before = v.params.changes();
-    let result = flight::handle(c, v, a)
+    flight::handle(c, v, a)
         .or_else(|| point_at(c, v, a))
         .or_else(|| payload::handle(c, a.input, a.payload))
         .or_else(|| payload::handle_inspector(c, a.input, a.payload))
-        .unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED);
-    if v.params.changes() != before {
-        v.parameters_changed(a.autopilot, a.payload, a.links);
-    }
-    result
+        .unwrap_or(MavResult::MAV_RESULT_UNSUPPORTED)
 }
 
 /// Handles commands that point the gimbal at a position. The vehicle also turns toward this position.

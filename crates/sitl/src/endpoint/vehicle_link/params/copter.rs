@@ -8,6 +8,7 @@ use super::row::{ParamSource, Row, row};
 use super::table::{CHANNELS, ROWS};
 use super::wire_types::{INT8, INT16, INT32, REAL32};
 use super::{behavior, copter_behavior, stored};
+use spandrel_mavlink::contract::stick_request;
 use spandrel_mavlink::dialect::MavParamType;
 use std::sync::LazyLock;
 
@@ -47,7 +48,7 @@ pub fn rows() -> &'static [Row] {
 }
 
 /// This software's own parameters, with unchanged names.
-const OWN_NAMES: [&str; 4] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", "SYS_FAILURE_EN"];
+const OWN_NAMES: [&str; 5] = ["COM_RC_OVERRIDE", "SPAN_CAMERA", "SPAN_FLAVOUR", stick_request::PARAMETER, "SYS_FAILURE_EN"];
 
 /// Creates a read-only row that describes the vehicle.
 fn read_only_row(name: &'static str, value: ParamValue, wire: MavParamType, group: &'static str, short: &'static str) -> Row {

@@ -23,7 +23,9 @@ pub use param_value::ParamValue;
 use param_value::ParamValue::{Int, Real};
 pub use param_view::ParamView;
 use row::{ParamSource, Row};
+use spandrel_mavlink::contract::stick_request;
 use spandrel_mavlink::dialect::MavParamType;
+use spandrel_model::stick_response::StickResponse;
 use spandrel_model::time::SimTime;
 use std::collections::BTreeMap;
 
@@ -64,6 +66,8 @@ pub struct AircraftValues {
     pub thresholds: BatteryThresholds,
     /// Whether the job's rules return the vehicle when the battery is low.
     pub returns_on_low_battery: bool,
+    /// The job's response to the sticks.
+    pub stick_response: StickResponse,
     /// Limits of the airframe.
     pub frame: FlightEnvelope,
 }
@@ -75,6 +79,7 @@ impl AircraftValues {
         capacity_mah: 5_200.0,
         thresholds: BatteryThresholds { low_charge_pct: 30.0, critical_charge_pct: 10.0 },
         returns_on_low_battery: false,
+        stick_response: StickResponse::Position,
         frame: FlightEnvelope {
             manual_speed_m_s: 15.0,
             manual_climb_rate_m_s: 6.0,
@@ -144,6 +149,7 @@ impl Params {
         values.insert("SPAN_FLAVOUR", Int(view.number));
         values.insert("MAV_SYS_ID", Int(i32::from(system_id)));
         values.insert("BAT1_N_CELLS", Int(pack.cells.cast_signed()));
+        values.insert(stick_request::PARAMETER, Int(pack.stick_response.number()));
         values.insert("BAT_LOW_THR", Real((pack.thresholds.low_charge_pct / 100.0) as f32));
         values.insert("BAT_CRIT_THR", Real((pack.thresholds.critical_charge_pct / 100.0) as f32));
         let frame: BTreeMap<_, _> =
@@ -175,12 +181,14 @@ impl Params {
         self.values.contains_key(name)
     }
 
-    /// Restores the vehicle's defaults.
-    pub fn reset(&mut self, defaults: &Self) {
-        if self.values != defaults.values {
+    /// Restores the vehicle's defaults. Returns whether this changed anything.
+    pub fn reset(&mut self, defaults: &Self) -> bool {
+        let differs = self.values != defaults.values;
+        if differs {
             self.values.clone_from(&defaults.values);
             self.changes += 1;
         }
+        differs
     }
 
     /// Returns the number of changes so far.
@@ -369,6 +377,12 @@ impl Params {
         }
     }
 
+    /// Returns the response to the sticks in position mode.
+    #[must_use]
+    pub fn stick_response(&self) -> StickResponse {
+        self.whole(stick_request::PARAMETER).and_then(StickResponse::from_number).unwrap_or_default()
+    }
+
     /// Returns whether the geofence is enabled, if a parameter controls it.
     #[must_use]
     pub fn fence_enabled(&self) -> Option<bool> {
@@ -454,6 +468,7 @@ impl Params {
         tuning.fence_distance_m = self.number("GF_MAX_HOR_DIST");
         tuning.fence_height_m = self.number("GF_MAX_VER_DIST");
         tuning.manual_loss = LinkLossAction::from_number(self.number("NAV_RCL_ACT") as i32).unwrap_or(LinkLossAction::Hold);
+        tuning.stick_response = self.stick_response();
         tuning.follow = self.follow_rule();
         if let Some(rate_deg_s) = self.real("CIRCLE_RATE") {
             tuning.circle_rate_rad_s = rate_deg_s.to_radians();

@@ -3,6 +3,7 @@
 use super::param_value::ParamValue::{Int, Real};
 use super::row::{Row, row};
 use super::{behavior, stored};
+use spandrel_mavlink::contract::stick_request;
 use std::sync::LazyLock;
 
 const BATTERY: &str = "Battery";
@@ -78,11 +79,12 @@ const BUTTON_FUNCTIONS: &[(i32, &str)] = &[
     (12, "Gimbal level"),
     (13, "Gimbal up"),
     (14, "Gimbal down"),
+    (15, "Next stick response"),
 ];
 const OFF_ON: &[(i32, &str)] = &[(0, "Disabled"), (1, "Enabled")];
 
 const fn button(name: &'static str) -> Row {
-    row(name, Int(0), (0.0, 14.0), "", JOYSTICK, "Button function").values(BUTTON_FUNCTIONS)
+    row(name, Int(0), (0.0, 15.0), "", JOYSTICK, "Button function").values(BUTTON_FUNCTIONS)
 }
 
 /// Returns all parameters under PX4's names, sorted by name.
@@ -208,6 +210,11 @@ pub const ROWS: &[Row] = &[
     row("SPAN_FLAVOUR", Int(0), (0.0, 2.0), "", SYSTEM, "Autopilot protocol")
         .values(&[(0, "PX4"), (1, "ArduPilot"), (2, "Generic MAVLink")])
         .read_only(),
+    row(stick_request::PARAMETER, Int(0), (0.0, 2.0), "", JOYSTICK, "Response to the sticks in position mode").values(&[
+        (0, "Position: gentle"),
+        (1, "Sport: as quick as the airframe allows"),
+        (2, "Tripod: slow"),
+    ]),
     row("SPAN_STICKS", Int(0), (0.0, 1.0), "", JOYSTICK, "Which sender's sticks take control")
         .values(&[(0, "The first sender, until it times out"), (1, "The last sender to move a stick")]),
     row("SYS_AUTOCONFIG", Int(0), (0.0, 2.0), "", SYSTEM, "Configuration reset at startup")

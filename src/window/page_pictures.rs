@@ -1,21 +1,52 @@
-//! Reads the picture files that pages of the window show.
+//! Reads the picture files that pages of the window show, in the background: decoding a large one takes many frames.
 
-use crate::io::picture_file::{PictureFormat, inspect};
-use spandrel_view::gpu::decode_jpeg;
+use super::worker::Worker;
+use crate::io::picture_file::{PictureFile, PictureFormat};
+use spandrel_view::gpu::{PageImage, decode_jpeg};
 use spandrel_view::picture::Picture;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Maximum width of a picture on a page, px; wider ones are scaled down (estimate: the width of a page on most displays).
 const MAX_WIDTH_PX: u32 = 1_920;
 
+/// Reads picture files.
+#[derive(Debug)]
+pub struct PagePictures {
+    /// Paths that were requested and have not been returned.
+    pending: BTreeSet<String>,
+    worker: Worker<Option<PageImage>>,
+}
+
+impl Default for PagePictures {
+    fn default() -> Self {
+        Self { pending: BTreeSet::new(), worker: Worker::new(|path| read(path).map(|picture| PageImage::new(&picture))) }
+    }
+}
+
+impl PagePictures {
+    /// Requests the picture at a path, unless it is being read.
+    pub fn request(&mut self, path: String) {
+        if self.pending.insert(path.clone()) {
+            self.worker.request(path);
+        }
+    }
+
+    /// Returns the path and the picture of the next file that was read; no picture if the file cannot be read.
+    pub fn poll(&mut self) -> Option<(String, Option<PageImage>)> {
+        let (path, picture) = self.worker.poll()?;
+        self.pending.remove(&path);
+        Some((path, picture))
+    }
+}
+
 /// Reads a PNG or JPEG file. Returns `None` if there is no such file or it cannot be decoded.
-pub fn read(path: &str) -> Option<Picture> {
+fn read(path: &str) -> Option<Picture> {
     load(Path::new(path)).inspect_err(|error| tracing::warn!("{path}: {error}")).ok()
 }
 
 fn load(path: &Path) -> Result<Picture, String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    let info = inspect(&bytes).map_err(|error| error.to_string())?;
+    let PictureFile { info, bytes } = PictureFile::read(path).map_err(|error| error.to_string())?;
     let picture = match info.format {
         PictureFormat::Png => decode_png(&bytes).map_err(|error| error.to_string())?,
         PictureFormat::Jpeg => decode_jpeg(&bytes).ok_or("cannot decode the JPEG file")?,
@@ -55,6 +86,7 @@ fn on_white(samples: &[u8]) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::mpsc::channel;
 
     fn saved(folder: &Path, name: &str, bytes: &[u8]) -> String {
         let path = folder.join(name);
@@ -109,6 +141,37 @@ mod tests {
         assert_eq!(read("/no/such/file.png"), None);
         for bytes in [&b"text"[..], cut] {
             assert_eq!(read(&saved(folder.path(), "a.png", bytes)), None);
+        }
+    }
+
+    #[test]
+    fn exact_pictures_are_read_in_the_background_and_only_once_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let bytes = encoded(image::ExtendedColorType::L8, &[0, 200], image::ImageFormat::Png);
+        let good = saved(folder.path(), "a.png", &bytes);
+        let mut pictures = PagePictures::default();
+        assert!(pictures.poll().is_none());
+        for path in [&good, "/no/such/file.png", &good] {
+            pictures.request(path.to_owned());
+        }
+        // The thread ends when nobody can request another picture.
+        let (_, finished) = pictures.worker.thread.take().unwrap();
+        let found: Vec<_> = finished.iter().map(|(path, picture)| (path, picture.map(|one| one.size_px()))).collect();
+        assert_eq!(found, [(good.clone(), Some((2, 1))), ("/no/such/file.png".to_owned(), None)]);
+    }
+
+    #[test]
+    fn exact_a_picture_that_was_returned_can_be_requested_again() {
+        let mut pictures = PagePictures::default();
+        let (sender, finished) = channel();
+        let (paths, wanted) = channel();
+        pictures.worker.thread = Some((paths, finished));
+        for _ in 0..2 {
+            pictures.request("a.png".into());
+            pictures.request("a.png".into());
+            assert_eq!(wanted.try_iter().count(), 1);
+            sender.send(("a.png".into(), None)).unwrap();
+            assert!(pictures.poll().is_some_and(|(path, picture)| path == "a.png" && picture.is_none()));
         }
     }
 }

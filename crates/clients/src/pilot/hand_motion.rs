@@ -24,14 +24,14 @@ pub type StickAxes = [f64; 4];
 
 /// State of the motor response.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StickResponse {
+pub struct HandMotion {
     random: RandomStream,
     noise: [DriftProcess; 4],
     out: StickAxes,
     lapse_until: SimTime,
 }
 
-impl StickResponse {
+impl HandMotion {
     /// Creates the state with centered sticks.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn exact_released_sticks_center_without_tremor() {
         // After 40 time constants, nothing of the deflection is left.
-        let mut hand = StickResponse::new(1);
+        let mut hand = HandMotion::new(1);
         let steady = Skill { lapses_per_min: 0.0, ..Skill::NOVICE };
         let held = hand.step([0.5; 4], &steady, SimTime::from_ms(0), 0.5);
         assert!(held.iter().all(|axis| *axis > 0.3));
@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn exact_lapse_freezes_the_sticks() {
-        let mut hand = StickResponse::new(1);
+        let mut hand = HandMotion::new(1);
         let dreamer = Skill { lapses_per_min: 6000.0, ..Skill::TRAINED };
         let frozen = hand.step([0.5; 4], &dreamer, SimTime::from_ms(0), 0.02);
         let first = hand.step([0.5; 4], &dreamer, SimTime::from_ms(20), 0.02);

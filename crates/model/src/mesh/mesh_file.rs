@@ -1,0 +1,68 @@
+//! The content of a file with meshes, whatever its format.
+
+use super::Mesh;
+use super::vectors::Point;
+
+/// Maximum size of a file or buffer, bytes (estimate: ten million triangles).
+pub const MAX_FILE_BYTES: usize = 512 * 1024 * 1024;
+/// Maximum number of triangles, and of vertices, of all nodes together.
+pub const MAX_TRIANGLES: usize = 5_000_000;
+/// Maximum number of nodes with a mesh.
+pub const MAX_NODES: usize = 50_000;
+/// Maximum distance of a vertex from the origin of the file, in units of the file.
+const MAX_COORDINATE: f64 = 1e7;
+/// Maximum length of a part's name, characters.
+const MAX_NAME_CHARS: usize = 100;
+
+/// Function that loads another file by its name in a model.
+pub type BufferLoader<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
+
+/// The triangles of one node.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshNode {
+    /// Name of the node, of its mesh or of the node above it.
+    pub name: String,
+    /// Element number from the `extras` of the node or of a node above it.
+    pub element: Option<u16>,
+    /// Triangles in the file's axes and units.
+    pub mesh: Mesh,
+    /// Number of points and lines, which are ignored.
+    pub ignored_primitives: usize,
+}
+
+/// Content of a file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MeshFile {
+    /// Nodes with triangles, in file order.
+    pub nodes: Vec<MeshNode>,
+    /// Names of nodes that are no part of a bridge: ground, water and landing pad of an exported site.
+    pub skipped: Vec<String>,
+}
+
+/// Checks the size of a file.
+///
+/// # Errors
+/// Returns the size and the allowed one if it is too large.
+pub(super) fn check_file_size(bytes: &[u8]) -> Result<(), String> {
+    if bytes.len() <= MAX_FILE_BYTES { Ok(()) } else { Err(format!("{} bytes (allowed: at most {MAX_FILE_BYTES})", bytes.len())) }
+}
+
+/// Checks the coordinates of a vertex.
+///
+/// # Errors
+/// Returns the vertex and the allowed coordinates if one is too large or no number.
+pub(super) fn check_vertex(number: usize, vertex: Point) -> Result<(), String> {
+    if vertex.iter().all(|value| value.abs() <= MAX_COORDINATE) {
+        Ok(())
+    } else {
+        Err(format!("position {number} = {vertex:?} (allowed: numbers of at most {MAX_COORDINATE:.0})"))
+    }
+}
+
+/// Returns a name that fits in one line of a report and has no characters with a meaning in patterns of names. `index` is for a node
+/// without a name.
+pub(super) fn clean_name(name: &str, index: usize) -> String {
+    let allowed = |c: char| if c.is_control() || matches!(c, '*' | '?') { '-' } else { c };
+    let clean: String = name.trim().chars().map(allowed).take(MAX_NAME_CHARS).collect();
+    if clean.is_empty() { format!("node-{index}") } else { clean }
+}

@@ -1,0 +1,317 @@
+//! Imports a bridge from a 3D model: cleans its meshes, makes them convex, assigns elements, and writes the files of a job at the
+//! bridge. All functions work on bytes and text; the program reads and writes the files.
+
+mod element_suggestions;
+mod job_text;
+mod part_report;
+
+use crate::elements::Element;
+use crate::math;
+use crate::mesh::convex_parts::{ConvexLimits, convex_parts};
+use crate::mesh::faces::ConvexPart;
+use crate::mesh::hull::sound;
+use crate::mesh::mesh_file::{BufferLoader, MeshNode};
+use crate::mesh::reader::{self, ModelFormat};
+use crate::mesh::topology::components;
+use crate::mesh::vectors::{Point, bounds, sub};
+use crate::mesh::weld::weld;
+use crate::scenario::bridges::element_map::{ElementMap, lower_case};
+use crate::scenario::bridges::model::{MAX_REACH_M, ModelExtent, ModelPart, from_gltf_axes};
+use crate::site::gltf::parts_glb;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+pub use job_text::{ELEMENTS_FILE, MODEL_FILE, SCENARIO_FILE};
+pub use part_report::{ImportReport, PartReport};
+
+/// Minimum length of the longest side of a bridge, m (estimate: shorter ones have another unit).
+const MIN_LENGTH_M: f64 = 2.0;
+/// Maximum length of a node's name, characters (20 fewer than the readers' limit, for the numbers of its convex parts).
+const MAX_NAME_CHARS: usize = 80;
+
+/// Axis of the model that points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UpAxis {
+    /// y, as glTF requires.
+    Y,
+    /// z, as in files of programs that ignore this rule.
+    Z,
+}
+
+/// Point of the model that becomes the origin of the bridge axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ModelOrigin {
+    /// The middle of the deck's upper surface; of all parts if none is a deck.
+    Center,
+    /// A point in the model, after scaling, with z up and before the turn, m.
+    Point(Point),
+}
+
+/// How to import a bridge.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportOptions {
+    /// Name of the bridge and the job: a-z, 0-9 and hyphens.
+    pub name: String,
+    /// Factor from the model's units to meters.
+    pub scale: f64,
+    /// Axis of the model that points up.
+    pub up: UpAxis,
+    /// Origin of the bridge axes.
+    pub origin: ModelOrigin,
+    /// Counterclockwise turn about the vertical that makes x run along the deck, degrees.
+    pub turn_deg: f64,
+    /// Element of the parts that have no other.
+    pub default_element: Option<Element>,
+    /// Limits of the conversion to convex parts.
+    pub limits: ConvexLimits,
+}
+
+/// A file to import.
+pub struct ImportSource<'a> {
+    /// Name of the file in messages.
+    pub file: &'a str,
+    /// Format of the file.
+    pub format: ModelFormat,
+    /// Content of the file.
+    pub bytes: &'a [u8],
+    /// Loads the buffers of a text glTF file.
+    pub load: BufferLoader<'a>,
+    /// Elements by the names of parts.
+    pub elements: ElementMap,
+}
+
+/// The files of an imported bridge, and what was found in the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportedBridge {
+    /// Convex parts as binary glTF.
+    pub model: Vec<u8>,
+    /// Elements of the parts, as TOML.
+    pub elements: String,
+    /// A job at the bridge, as TOML.
+    pub scenario: String,
+    /// Parts and problems of the model.
+    pub report: ImportReport,
+}
+
+/// Why a bridge could not be imported.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ImportError {
+    /// The file is invalid: what is wrong, where, and what is allowed.
+    Invalid(String),
+    /// Parts without an element: their names, and an elements file to start from.
+    UnknownElements {
+        /// Names of the parts.
+        parts: Vec<String>,
+        /// Text of an elements file for these parts.
+        elements: String,
+    },
+}
+
+impl fmt::Display for ImportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Invalid(words) => f.write_str(words),
+            Self::UnknownElements { parts, .. } => write!(f, "{} parts without an element: {}", parts.len(), parts.join(", ")),
+        }
+    }
+}
+
+impl std::error::Error for ImportError {}
+
+/// Imports a bridge.
+///
+/// # Errors
+/// See [`ImportError`].
+pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<ImportedBridge, ImportError> {
+    let mut content = reader::read(source.format, source.file, source.bytes, source.load).map_err(ImportError::Invalid)?;
+    unique_names(&mut content.nodes);
+    let elements = elements(&content.nodes, source, options)?;
+    content.nodes.iter_mut().for_each(|node| to_bridge_axes(node, options));
+    check_size(source.file, &content.nodes)?;
+    check_reach(source.file, &content.nodes, &elements, options)?;
+    let mut names: BTreeSet<String> = content.nodes.iter().map(|node| lower_case(&node.name).collect()).collect();
+    let mut rows = Vec::new();
+    let mut parts = Vec::new();
+    for (node, element) in content.nodes.iter().zip(elements) {
+        let (mut report, solids) = convert(node, element, options.limits);
+        if solids.len() > 1 {
+            report.name = prefix(&node.name, &mut names);
+        }
+        parts.extend(named(&report.name, element, solids));
+        rows.push(report);
+    }
+    if parts.is_empty() {
+        return Err(ImportError::Invalid(format!("{}: no part has a volume (allowed: at least one solid)", source.file)));
+    }
+    move_to_origin(&mut parts, options);
+    let made = parts.len();
+    let parts: Vec<ModelPart> =
+        parts.into_iter().filter_map(|part| Some(ModelPart { solid: sound(part.solid)?, ..part })).collect();
+    let extent = ModelExtent::of(&parts);
+    let report = ImportReport { parts: rows, lost_parts: made - parts.len(), skipped: content.skipped, extent };
+    let model = parts_glb(parts.iter().map(|part| (part.name.as_str(), part.element, part.solid.mesh())));
+    let model = model.map_err(|error| ImportError::Invalid(format!("{}: {error}", source.file)))?;
+    let elements = report.elements_toml(&parts);
+    check_elements(source.file, &elements, &parts)?;
+    Ok(ImportedBridge { model, elements, scenario: job_text::scenario_toml(&options.name, &parts, &extent), report })
+}
+
+/// Checks that the elements file assigns its own element to each part.
+fn check_elements(file: &str, elements: &str, parts: &[ModelPart]) -> Result<(), ImportError> {
+    let map =
+        ElementMap::read(ELEMENTS_FILE, elements).map_err(|problems| ImportError::Invalid(format!("{file}: {problems}")))?;
+    let Some(part) = parts.iter().find(|part| map.element_of(&part.name) != Some(part.element)) else { return Ok(()) };
+    let (found, own) = (map.element_of(&part.name).map_or(0, Element::number), part.element.number());
+    let words = format!("part {}: {ELEMENTS_FILE} assigns element {found} (allowed: {own}; rename the part)", part.name);
+    Err(ImportError::Invalid(format!("{file}: {words}")))
+}
+
+/// Gives each node a name of its own. Upper and lower case are the same, as in patterns of names.
+fn unique_names(nodes: &mut [MeshNode]) {
+    let lower = |name: &str| lower_case(name).collect::<String>();
+    let mut uses: BTreeMap<String, usize> = BTreeMap::new();
+    for node in nodes.iter_mut() {
+        let short: String = node.name.chars().take(MAX_NAME_CHARS).collect();
+        short.trim_end().clone_into(&mut node.name);
+        uses.entry(lower(&node.name)).or_insert(0);
+    }
+    for node in nodes {
+        let first = node.name.clone();
+        loop {
+            let count = uses.entry(lower(&first)).or_insert(0);
+            *count += 1;
+            if *count == 1 {
+                break;
+            }
+            let candidate = format!("{first}-{count}");
+            if let Entry::Vacant(free) = uses.entry(lower(&candidate)) {
+                free.insert(1);
+                node.name = candidate;
+                break;
+            }
+        }
+    }
+}
+
+/// Returns the name that a node with several convex parts gets, so that no other part has a name that begins with it and a slash:
+/// `girder-2` if there are nodes `girder` and `girder/01`. `names` are the names of all nodes in lower case.
+fn prefix(name: &str, names: &mut BTreeSet<String>) -> String {
+    let is_free = |candidate: &str| {
+        let numbered: String = lower_case(candidate).chain(['/']).collect();
+        names.range(numbered.clone()..).next().is_none_or(|next| !next.starts_with(&numbered))
+    };
+    if is_free(name) {
+        return name.to_owned();
+    }
+    let mut number = 2_usize;
+    loop {
+        let candidate = format!("{name}-{number}");
+        let lower: String = lower_case(&candidate).collect();
+        if !names.contains(&lower) && is_free(&candidate) {
+            names.insert(lower);
+            return candidate;
+        }
+        number += 1;
+    }
+}
+
+/// Returns the element of each node: by the elements file, by the node's tag, or by default.
+fn elements(nodes: &[MeshNode], source: &ImportSource, options: &ImportOptions) -> Result<Vec<Element>, ImportError> {
+    let element = |node: &MeshNode| {
+        let tagged = || node.element.map(Element::from_number);
+        source.elements.element_of(&node.name).or_else(tagged).or(options.default_element)
+    };
+    let found: Vec<Option<Element>> = nodes.iter().map(element).collect();
+    let unknown = nodes.iter().zip(&found).filter(|(_, element)| element.is_none());
+    let parts: Vec<String> = unknown.map(|(node, _)| node.name.clone()).collect();
+    if !parts.is_empty() {
+        let elements = element_suggestions::elements_toml(&parts);
+        return Err(ImportError::UnknownElements { parts, elements });
+    }
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// Converts a node's vertices to meters, with z up and x along the deck.
+fn to_bridge_axes(node: &mut MeshNode, options: &ImportOptions) {
+    let turned = turn(options);
+    for vertex in &mut node.mesh.vertices_m {
+        let upright = match options.up {
+            UpAxis::Y => from_gltf_axes(*vertex),
+            UpAxis::Z => *vertex,
+        };
+        *vertex = turned(upright.map(|value| value * options.scale));
+    }
+}
+
+/// Returns the function that turns a point about the vertical as requested.
+fn turn(options: &ImportOptions) -> impl Fn(Point) -> Point {
+    let (s, c) = math::sin_cos(options.turn_deg.to_radians());
+    // Without a turn, the point keeps its bits.
+    let is_turned = options.turn_deg != 0.0;
+    move |[x, y, z]| if is_turned { [c * x - s * y, s * x + c * y, z] } else { [x, y, z] }
+}
+
+fn check_size(file: &str, nodes: &[MeshNode]) -> Result<(), ImportError> {
+    let extent = bounds(nodes.iter().flat_map(|node| node.mesh.vertices_m.iter().copied()));
+    let length_m = extent.map_or(0.0, |(low, high)| (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max));
+    if (MIN_LENGTH_M..=MAX_REACH_M).contains(&length_m) {
+        return Ok(());
+    }
+    let words = format!("the model is {length_m:.3} m long (allowed: {MIN_LENGTH_M} to {MAX_REACH_M} m; set --scale)");
+    Err(ImportError::Invalid(format!("{file}: {words}")))
+}
+
+/// Checks that a job at the bridge fits on the terrain, before the parts are converted, which may take long.
+fn check_reach(file: &str, nodes: &[MeshNode], elements: &[Element], options: &ImportOptions) -> Result<(), ImportError> {
+    let extent = ModelExtent::around(nodes.iter().zip(elements).map(|(node, element)| (*element, &node.mesh.vertices_m[..])));
+    let origin = origin(extent.deck, options);
+    let [low, high] = [extent.whole.0, extent.whole.1].map(|corner| sub(corner, origin));
+    job_text::check_reach(low, high).map_err(|words| ImportError::Invalid(format!("{file}: {words}")))
+}
+
+/// Cleans a node's mesh and converts it to convex solids.
+fn convert(node: &MeshNode, element: Element, limits: ConvexLimits) -> (PartReport, Vec<ConvexPart>) {
+    let welded = weld(&node.mesh);
+    let pieces = components(&welded.mesh);
+    let mut report = PartReport::new(node, element, &welded, &pieces);
+    let mut solids = Vec::new();
+    for piece in &pieces {
+        match convex_parts(piece, limits) {
+            Some(converted) => {
+                report.add(&converted);
+                solids.extend(converted.parts);
+            }
+            None => report.flat_pieces += 1,
+        }
+    }
+    report.convex_parts = solids.len();
+    (report, solids)
+}
+
+/// Names the convex parts of a node: a single one like the node, several with numbers.
+fn named(name: &str, element: Element, solids: Vec<ConvexPart>) -> Vec<ModelPart> {
+    let count = solids.len();
+    let part = |(k, solid): (usize, ConvexPart)| {
+        let name = if count == 1 { name.to_owned() } else { format!("{name}/{:02}", k + 1) };
+        ModelPart { name, element, solid }
+    };
+    solids.into_iter().enumerate().map(part).collect()
+}
+
+/// Returns the requested origin of the bridge axes: a point in the model with z up and x along the deck, m. `deck` is the bounding box of
+/// the deck.
+fn origin((low, high): (Point, Point), options: &ImportOptions) -> Point {
+    match options.origin {
+        ModelOrigin::Center => [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), high[2]],
+        ModelOrigin::Point(point) => turn(options)(point),
+    }
+}
+
+/// Moves the parts so that the origin of the bridge axes is at the requested point.
+fn move_to_origin(parts: &mut [ModelPart], options: &ImportOptions) {
+    let origin = origin(ModelExtent::of(parts).deck, options);
+    for corner in parts.iter_mut().flat_map(|part| &mut part.solid.corners_m) {
+        *corner = sub(*corner, origin);
+    }
+}

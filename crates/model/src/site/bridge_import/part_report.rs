@@ -1,0 +1,159 @@
+//! What an import found in a model: one row per part.
+
+use crate::elements::{Element, ElementUnit};
+use crate::mesh::convex_parts::{ConvexParts, Method};
+use crate::mesh::mesh_file::MeshNode;
+use crate::mesh::topology::Component;
+use crate::mesh::weld::Welded;
+use crate::scenario::bridges::element_map::{matches, total_key};
+use crate::scenario::bridges::model::{ModelExtent, ModelPart};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// A part of the model: a node with a mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartReport {
+    /// Name of the part.
+    pub name: String,
+    /// Its element.
+    pub element: Element,
+    /// Number of triangles in the file.
+    pub triangles: usize,
+    /// Number of degenerate or repeated triangles, which were removed.
+    pub dropped_triangles: usize,
+    /// Number of points and lines in the file, which were ignored.
+    pub ignored_primitives: usize,
+    /// Number of connected pieces.
+    pub pieces: usize,
+    /// Number of pieces without a volume, which were left out.
+    pub flat_pieces: usize,
+    /// Number of edges with a triangle on one side only.
+    pub open_edges: usize,
+    /// Number of holes that these edges surround.
+    pub holes: usize,
+    /// Number of convex parts.
+    pub convex_parts: usize,
+    /// How the piece with the largest deviation became convex; `None` if no piece has a volume.
+    pub method: Option<Method>,
+    /// Largest distance between the surfaces of the model and of the convex parts, m.
+    pub deviation_m: f64,
+    /// Length along x, y and z, m.
+    pub size_m: [f64; 3],
+}
+
+/// The result of an import.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportReport {
+    /// The parts, in file order.
+    pub parts: Vec<PartReport>,
+    /// Number of convex parts that are too small for the precision of the file, and were left out.
+    pub lost_parts: usize,
+    /// Names of nodes that are no part of a bridge.
+    pub skipped: Vec<String>,
+    /// Bounding boxes in bridge axes.
+    pub extent: ModelExtent,
+}
+
+impl PartReport {
+    pub(super) fn new(node: &MeshNode, element: Element, welded: &Welded, pieces: &[Component]) -> Self {
+        let (low, high) = node.mesh.bounds().unwrap_or_default();
+        Self {
+            name: node.name.clone(),
+            element,
+            triangles: node.mesh.triangles.len(),
+            dropped_triangles: welded.dropped_triangles,
+            ignored_primitives: node.ignored_primitives,
+            pieces: pieces.len(),
+            flat_pieces: 0,
+            open_edges: pieces.iter().map(|piece| piece.open_edges).sum(),
+            holes: pieces.iter().map(|piece| piece.holes).sum(),
+            convex_parts: 0,
+            method: None,
+            deviation_m: 0.0,
+            size_m: [0, 1, 2].map(|k: usize| high[k] - low[k]),
+        }
+    }
+
+    pub(super) fn add(&mut self, converted: &ConvexParts) {
+        if self.method.is_none() || converted.deviation_m > self.deviation_m {
+            (self.method, self.deviation_m) = (Some(converted.method), converted.deviation_m);
+        }
+    }
+}
+
+impl ImportReport {
+    /// Returns the text of the elements file: each part's own row if its name is unlike the others, or one row for all parts whose names
+    /// differ in numbers only. `convex` are the convex parts of all parts.
+    pub(super) fn elements_toml(&self, convex: &[ModelPart]) -> String {
+        let mut patterns = Patterns { convex, is_right: BTreeMap::new() };
+        let mut groups: BTreeMap<(u16, String), Vec<&PartReport>> = BTreeMap::new();
+        for part in &self.parts {
+            let pattern = patterns.pattern(part);
+            groups.entry((part.element.number(), pattern)).or_default().push(part);
+        }
+        let mut text = String::from(HEADER);
+        for ((number, pattern), parts) in groups {
+            let element = Element::from_number(number);
+            let _ = write!(text, "\n[[elements]]\nparts = {}\nelement = {number} # {}\n", quoted(&pattern), element.name());
+            let (amount, rule) = total(element, &parts);
+            let _ = writeln!(text, "{} = {amount} # {rule}", total_key(element));
+        }
+        text
+    }
+}
+
+/// Finds patterns for the names of convex parts.
+struct Patterns<'a> {
+    convex: &'a [ModelPart],
+    /// Whether all convex parts that a pattern matches have the element with this number.
+    is_right: BTreeMap<(u16, String), bool>,
+}
+
+impl Patterns<'_> {
+    /// Returns a pattern that matches a part and, if possible, similar parts; the name itself if a pattern would match other elements.
+    fn pattern(&mut self, part: &PartReport) -> String {
+        let stem = name_stem(&part.name);
+        let similar = format!("{stem}*");
+        if !stem.is_empty() && self.is_right(part.element, &similar) {
+            return similar;
+        }
+        // A part with several convex parts has numbers after its name. No other part has a name that begins so.
+        if part.convex_parts > 1 { format!("{}/*", part.name) } else { part.name.clone() }
+    }
+
+    fn is_right(&mut self, element: Element, pattern: &str) -> bool {
+        let convex = self.convex;
+        let is_own = |part: &ModelPart| part.element == element || !matches(pattern, &part.name);
+        *self.is_right.entry((element.number(), pattern.to_owned())).or_insert_with(|| convex.iter().all(is_own))
+    }
+}
+
+const HEADER: &str = "\
+# Elements of the imported bridge. The first pattern that matches a part's name determines its element (AASHTO MBEI number):
+# * stands for any characters, ? for one. The totals are printed by `spandrel check` and do not affect a flight; those below are
+# estimates from the sizes of the parts, so correct them.
+format = 1
+";
+
+/// Returns the part of a name before the first number, as in `girder-` of `girder-12/top`.
+pub(super) fn name_stem(name: &str) -> String {
+    name.chars().take_while(|c| !c.is_ascii_digit() && !matches!(c, '*' | '?')).collect()
+}
+
+/// Returns a TOML string.
+pub(super) fn quoted(text: &str) -> String {
+    toml_edit::Value::from(text).to_string()
+}
+
+/// Returns an estimate of the total quantity of parts, and its rule.
+fn total(element: Element, parts: &[&PartReport]) -> (f64, &'static str) {
+    let longest_m = |part: &&PartReport| part.size_m.iter().copied().fold(0.0, f64::max);
+    let (amount, rule) = match element.unit() {
+        Some(ElementUnit::SquareFeet) => {
+            (parts.iter().map(|part| part.size_m[0] * part.size_m[1]).sum(), "length times width of each part")
+        }
+        Some(ElementUnit::Feet) => (parts.iter().map(longest_m).sum(), "longest side of each part"),
+        Some(ElementUnit::Each) | None => (parts.len() as f64, "number of parts"),
+    };
+    ((amount * 100.0).round() / 100.0, rule)
+}

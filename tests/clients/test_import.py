@@ -1,0 +1,198 @@
+"""Bridges that trimesh writes are imported, checked, exported again and flown by the synthetic trainee.
+
+trimesh is an independent writer and reader of glTF files: it builds the bridges, and it measures the parts that come out."""
+
+import json
+import math
+import pathlib
+import subprocess
+
+import numpy
+import pytest
+import trimesh
+
+import spandrel
+
+# Relative tolerance for volumes: positions are 32-bit floats, and the thinnest plate is 2 cm.
+VOLUME_TOLERANCE = 1e-3
+# The least that an expert synthetic trainee reaches on the straight lines beside and below the bridge, as a share of the frames.
+MIN_ON_PATH = 0.9
+# The largest volume of the hulls that replace a scan, as a multiple of its volume (estimate).
+MAX_HULL_VOLUME = 1.3
+LENGTH_M = 30.0
+
+
+def i_girder(depth_m=1.2, flange_m=0.4, plate_m=0.02):
+    """Returns a welded girder as one mesh, along x."""
+    half, top = flange_m / 2, depth_m / 2
+    outline = [
+        (-half, -top), (half, -top), (half, plate_m - top), (plate_m / 2, plate_m - top), (plate_m / 2, top - plate_m), (half, top - plate_m),
+        (half, top), (-half, top), (-half, top - plate_m), (-plate_m / 2, top - plate_m), (-plate_m / 2, plate_m - top), (-half, plate_m - top),
+    ]
+    # Caps of the concave outline: two flanges and the web.
+    faces = [(0, 1, 2), (0, 2, 3), (0, 3, 10), (0, 10, 11), (3, 4, 9), (3, 9, 10), (4, 5, 6), (4, 6, 7), (4, 7, 8), (4, 8, 9)]
+    count = len(outline)
+    vertices = [(LENGTH_M / 2, y, z) for y, z in outline] + [(-LENGTH_M / 2, y, z) for y, z in outline]
+    triangles = list(faces) + [(count + a, count + c, count + b) for a, b, c in faces]
+    for k in range(count):
+        after = (k + 1) % count
+        triangles += [(after, k, count + k), (after, count + k, count + after)]
+    mesh = trimesh.Trimesh(vertices, triangles, process=False)
+    assert mesh.is_watertight and mesh.volume > 0.0
+    return mesh
+
+
+def bridge_scene(tagged):
+    """Returns a slab bridge on two girders and four columns, with z up, and the volume of each part."""
+    scene, volumes = trimesh.Scene(), {}
+
+    def add(name, mesh, place, element):
+        volumes[name] = mesh.volume
+        metadata = {"element": element} if tagged else None
+        scene.add_geometry(mesh, node_name=name, geom_name=name, transform=trimesh.transformations.translation_matrix(place), metadata=metadata)
+
+    add("deck", trimesh.creation.box((LENGTH_M, 8.0, 0.25)), (0, 0, 9.0), 12)
+    for k, y in enumerate((-2.0, 2.0)):
+        add(f"girder-{k + 1}", i_girder(), (0, y, 8.2), 107)
+        for end, x in enumerate((-12.0, 12.0)):
+            column = trimesh.creation.cylinder(radius=0.5, height=7.6, sections=24)
+            add(f"column-{2 * k + end + 1}", column, (x, y, 3.8), 205)
+    return scene, volumes
+
+
+def write(scene, target):
+    """Writes a scene with z up, as trimesh does: it does not turn the axes."""
+    target.write_bytes(scene.export(file_type="glb"))
+    return target
+
+
+def spandrel_import(*args):
+    return subprocess.run([spandrel.PROGRAM, "import", *map(str, args)], capture_output=True, text=True, timeout=300, check=False)
+
+
+@pytest.fixture(scope="module")
+def imported(tmp_path_factory):
+    """The folder of an imported bridge, and the volumes of the parts of the model."""
+    folder = tmp_path_factory.mktemp("import")
+    scene, volumes = bridge_scene(tagged=False)
+    model = write(scene, folder / "Slab Bridge.glb")
+    refused = spandrel_import(model, "--out", folder / "bridge", "--up", "z")
+    assert refused.returncode == 2 and "7 parts have no element: " in refused.stderr, refused.stderr
+    assert not (folder / "bridge").exists()
+    elements = folder / "elements.toml"
+    elements.write_text(refused.stdout, encoding="utf-8")
+    done = spandrel_import(model, "--out", folder / "bridge", "--up", "z", "--elements", elements)
+    assert done.returncode == 0, done.stderr
+    return folder / "bridge", volumes, done.stdout
+
+
+def test_val_convex_parts_fill_the_volume_that_trimesh_measures(imported):
+    folder, volumes, table = imported
+    scene = trimesh.load(folder / "bridge.glb", force="scene")
+    found = {}
+    for name in scene.graph.nodes_geometry:
+        transform, geometry = scene.graph[name]
+        part = scene.geometry[geometry].copy().apply_transform(transform)
+        part.merge_vertices()
+        assert part.is_watertight and part.is_convex, name
+        owner = name.split("/")[0]
+        found[owner] = found.get(owner, 0.0) + part.volume
+    assert found.keys() == volumes.keys()
+    for name, volume in volumes.items():
+        assert math.isclose(found[name], volume, rel_tol=VOLUME_TOLERANCE), name
+    # Girders are cut into two flanges and a web; everything else is convex.
+    rows = {line.split()[0]: line.split() for line in table.splitlines()[1:8]}
+    assert {name: int(row[7]) for name, row in rows.items()} == {name: 3 if "girder" in name else 1 for name in volumes}
+    assert {row[8] for name, row in rows.items() if "girder" in name} == {"cut"}
+    low, high = scene.bounds
+    assert numpy.allclose(high - low, (LENGTH_M, 9.125, 8.0), atol=1e-4), "glTF axes: y up"
+    assert numpy.allclose((low + high)[0], 0.0, atol=1e-4) and math.isclose(high[1], 0.0, abs_tol=1e-4), "origin on the deck"
+
+
+def test_val_imported_job_passes_the_check_and_is_briefed(imported):
+    folder, _, _ = imported
+    checked = spandrel.run("check", str(folder / "scenario.toml"))
+    assert "1 file valid" in checked, checked
+    for element, amount in [("element 12, deck", "240.0 m2"), ("element 107, girder", "60.0 m"), ("element 205, column", "4 each")]:
+        assert any(element in line and amount in line for line in checked.splitlines()), checked
+    briefing = spandrel.run("brief", "--scenario", str(folder / "scenario.toml"))
+    assert "Right side of the deck" in briefing and "Underside of the deck" in briefing, briefing
+    exported = folder.parent / "site.glb"
+    spandrel.run("export", str(folder / "scenario.toml"), "--glb", str(exported))
+    names = trimesh.load(exported, force="scene").graph.nodes_geometry
+    assert {"slab-bridge/deck", "slab-bridge/girder-1/01", "ground"} <= set(names)
+
+
+def test_flight_synthetic_trainee_flies_the_imported_job(imported, tmp_path, measured):
+    folder, _, _ = imported
+    sessions = tmp_path / "sessions"
+    scenario = str(folder / "scenario.toml")
+    spandrel.run("demo", "--scenario", scenario, "--seed", "3", "--skill", "expert", "--speed", "max", "--sessions", str(sessions))
+    (session,) = [path for path in sessions.iterdir() if path.is_dir()]
+    # The session contains all files, so that it can be scored without the original ones.
+    assert {"bridge.glb", "elements.toml", "scenario.toml"} <= {path.name for path in session.iterdir()}
+    assessment = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
+    again = tmp_path / "again.json"
+    spandrel.run("assess", str(session), "--json", str(again))
+    assert json.loads(again.read_text(encoding="utf-8"))["scores"] == assessment["scores"]
+    shares = [task["on_path"] for task in assessment["tasks"]]
+    measured(f"on path at an imported bridge: {shares}")
+    assert assessment["end"]["reason"] == "landed" and assessment["crashes"]["other"] == 0, assessment["end"]
+    assert all(task["attempted"] for task in assessment["tasks"]) and min(shares) >= MIN_ON_PATH, assessment["tasks"]
+
+
+def test_val_tags_of_trimesh_are_read(tmp_path):
+    scene, volumes = bridge_scene(tagged=True)
+    document, model = trimesh.exchange.gltf.export_gltf(scene), tmp_path / "tagged"
+    model.mkdir()
+    for name, content in document.items():
+        (model / name).write_bytes(content)
+    text = json.loads((model / "model.gltf").read_text(encoding="utf-8"))
+    tags = {"deck": 12, "girder": 107, "column": 205}
+    for node in text["nodes"]:
+        if "mesh" in node:
+            node["extras"] = {"element": tags[node["name"].split("-")[0]]}
+    (model / "model.gltf").write_text(json.dumps(text), encoding="utf-8")
+    done = spandrel_import(model / "model.gltf", "--out", tmp_path / "bridge", "--up", "z")
+    assert done.returncode == 0, done.stderr
+    rows = {line.split()[0]: int(line.split()[1]) for line in done.stdout.splitlines()[1 : 1 + len(volumes)]}
+    assert rows == {name: tags[name.split("-")[0]] for name in volumes}
+    refused = spandrel_import(model / "model.gltf", "--out", tmp_path / "bridge", "--up", "z")
+    assert refused.returncode == 2 and "already exists" in refused.stderr, refused.stderr
+    pathlib.Path(model / next(name for name in document if name.endswith(".bin"))).unlink()
+    missing = spandrel_import(model / "model.gltf", "--out", tmp_path / "other", "--up", "z")
+    assert missing.returncode == 2 and ".bin" in missing.stderr, missing.stderr
+
+
+def test_val_obj_and_ply_files_of_trimesh_are_imported(tmp_path):
+    scene, volumes = bridge_scene(tagged=False)
+    model = tmp_path / "bridge.obj"
+    model.write_text(scene.export(file_type="obj"), encoding="utf-8")
+    done = spandrel_import(model, "--out", tmp_path / "obj", "--up", "z", "--element", 107)
+    assert done.returncode == 0, done.stderr
+    assert {line.split()[0] for line in done.stdout.splitlines()[1 : 1 + len(volumes)]} == set(volumes)
+    for name, encoding in (("binary", "binary"), ("text", "ascii")):
+        scan = tmp_path / f"{name}.ply"
+        scan.write_bytes(i_girder().export(file_type="ply", encoding=encoding))
+        done = spandrel_import(scan, "--out", tmp_path / name, "--up", "z", "--element", 107)
+        assert done.returncode == 0, done.stderr
+        assert "1 parts with 44 triangles became 3 convex parts" in done.stdout, done.stdout
+
+
+def test_val_a_rough_surface_becomes_hulls_near_it(tmp_path, measured):
+    """A curved, rough block, as a scan of a rib, cannot be cut exactly."""
+    block = trimesh.creation.box((12.0, 1.5, 2.0)).subdivide_to_size(0.25)
+    vertices = block.vertices.copy()
+    vertices[:, 2] -= 0.02 * vertices[:, 0] ** 2
+    block.vertices = vertices + 0.01 * numpy.sin(7.0 * vertices[:, [1, 2, 0]])
+    scan = tmp_path / "scan.ply"
+    scan.write_bytes(block.export(file_type="ply"))
+    done = spandrel_import(scan, "--out", tmp_path / "scan", "--up", "z", "--element", 144)
+    assert done.returncode == 0, done.stderr
+    row = done.stdout.splitlines()[1].split()
+    assert row[8] == "voxels" and int(row[7]) > 1, done.stdout
+    parts = trimesh.load(tmp_path / "scan" / "bridge.glb", force="scene")
+    volume = sum(parts.geometry[parts.graph[name][1]].volume for name in parts.graph.nodes_geometry)
+    measured(f"scan of {block.volume:.1f} m3: {row[7]} convex parts with {volume:.1f} m3, deviation {row[9]} mm")
+    # The hulls of the groups overlap at their borders, and fill hollows.
+    assert 0.95 < volume / block.volume < MAX_HULL_VOLUME, volume / block.volume
