@@ -57,6 +57,7 @@ pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, St
         let words = format!("requires the extension {extension} (allowed: none; export without compression and quantization)");
         return Err(problem(&words));
     }
+    check_attributes(gltf.as_json()).map_err(|words| problem(&words))?;
     // Checks that all indices of accessors, views, meshes and nodes exist.
     let gltf =
         Gltf { document: gltf::Document::from_json(gltf.document.into_json()).map_err(|e| problem(&e.to_string()))?, ..gltf };
@@ -86,6 +87,20 @@ fn check_header(bytes: &[u8]) -> Result<(), String> {
         Some(length) => Err(format!("truncated: {} of {length} bytes", bytes.len())),
         None => Err(format!("truncated: {} bytes (allowed: at least {GLB_HEADER_BYTES})", bytes.len())),
     }
+}
+
+/// Checks that the accessors of all attributes exist. The library's validation reads the limits of the positions without this check.
+fn check_attributes(root: &gltf::json::Root) -> Result<(), String> {
+    let accessors = root.accessors.len();
+    for (mesh, primitive) in root.meshes.iter().enumerate().flat_map(|(k, mesh)| mesh.primitives.iter().map(move |p| (k, p))) {
+        if let Some(missing) = primitive.attributes.values().find(|index| index.value() >= accessors) {
+            return Err(format!(
+                "mesh {mesh}: accessor {} (allowed: an accessor of the file, which has {accessors})",
+                missing.value()
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn read_buffers<'a>(gltf: &'a Gltf, load: BufferLoader) -> Result<Vec<Cow<'a, [u8]>>, String> {

@@ -399,6 +399,32 @@ fn prop_damaged_binary_files_never_cause_a_panic() {
     }
 }
 
+/// Returns the JSON pointers of all values below a value.
+fn pointers(value: &Value, at: &str) -> Vec<String> {
+    let below: Vec<(String, &Value)> = match value {
+        Value::Object(map) => map.iter().map(|(key, value)| (format!("{at}/{key}"), value)).collect(),
+        Value::Array(list) => list.iter().enumerate().map(|(k, value)| (format!("{at}/{k}"), value)).collect(),
+        _ => Vec::new(),
+    };
+    below.into_iter().flat_map(|(at, value)| [pointers(value, &at), vec![at]].concat()).collect()
+}
+
+#[test]
+fn prop_wrong_values_in_a_text_file_never_cause_a_panic() {
+    let file = slab_on_two_piers();
+    let wrong = [json!(0), json!(1), json!(7), json!(u32::MAX), json!(u64::MAX), json!(-1.5), json!("x"), json!([]), json!(null)];
+    let mut refused = 0;
+    for (pointer, value) in pointers(&file, "").iter().flat_map(|pointer| wrong.iter().map(move |value| (pointer, value))) {
+        let mut changed = file.clone();
+        *changed.pointer_mut(pointer).unwrap() = value.clone();
+        if let Err(error) = imported(changed.to_string().as_bytes(), &options()) {
+            assert!(error.to_string().starts_with("m.gltf: "), "{pointer} = {value}: {error}");
+            refused += 1;
+        }
+    }
+    assert!(refused > 100, "{refused} refused");
+}
+
 fn is_sound(mesh: &Mesh) -> bool {
     mesh.vertices_m.iter().flatten().all(|value| value.is_finite())
         && mesh.triangles.iter().flatten().all(|k| (*k as usize) < mesh.vertices_m.len())
