@@ -4,6 +4,7 @@ use super::png::png;
 use crate::errors::AppError;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
+use spandrel_view::ground_photo::GroundColors;
 use spandrel_view::site_map::{SiteMap, TileAddress};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,6 +17,7 @@ const MAX_TILES: usize = 300;
 pub struct MapTiles {
     scenario: Scenario,
     site: Site,
+    ground: Option<GroundColors>,
     /// The tiles that were drawn, oldest first.
     drawn: Mutex<VecDeque<(TileAddress, Vec<u8>)>>,
 }
@@ -33,7 +35,8 @@ impl MapTiles {
     /// Builds the job's site.
     #[must_use]
     pub fn new(scenario: Scenario) -> Self {
-        Self { site: Site::without_defects(&scenario), scenario, drawn: Mutex::default() }
+        let site = Site::without_defects(&scenario);
+        Self { ground: GroundColors::new(&scenario, &site), site, scenario, drawn: Mutex::default() }
     }
 
     /// Returns the CRC of the scenario.
@@ -53,7 +56,7 @@ impl MapTiles {
     /// # Errors
     /// Returns an error if it cannot be encoded.
     pub fn draw(&self, address: TileAddress) -> Result<Vec<u8>, AppError> {
-        let bytes = png(&SiteMap::new(&self.scenario, &self.site).tile(address))?;
+        let bytes = png(&SiteMap::new(&self.scenario, &self.site, self.ground.as_ref()).tile(address))?;
         let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
         if drawn.len() >= MAX_TILES {
             drawn.pop_front();

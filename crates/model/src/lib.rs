@@ -41,6 +41,7 @@ pub mod numbers;
 pub mod pose;
 pub mod radio;
 pub mod random;
+pub mod raster;
 pub mod satellites;
 pub mod scenario;
 pub mod shipped;

@@ -1,12 +1,13 @@
 //! Small picture of a job's site for the start page: an oblique parallel view with the bridges, the tasks' paths and the landing
 //! pad. It needs neither a graphics device nor the light of a rendered scene, so it is ready in a fraction of a second.
 
+use crate::ground_photo::GroundColors;
 use crate::picture::Picture;
 use crate::site_map::{Canvas, surface_color};
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::Scenario;
-use spandrel_model::site::Site;
 use spandrel_model::site::outline::{ParallelView, outlines};
+use spandrel_model::site::{Site, Surface};
 use spandrel_model::time::SimTime;
 
 /// Size of the picture, px.
@@ -32,10 +33,11 @@ pub fn draw(scenario: &Scenario, site: &Site) -> Picture {
     let view = ParallelView::oblique(across_deg - TURN_DEG, TILT_DEG);
     let window = ViewWindow::of(scenario, site, &view);
     let mut canvas = Canvas::new(SIZE_PX);
+    let ground = GroundColors::new(scenario, site);
     for y in 0..SIZE_PX.1 {
         for x in 0..SIZE_PX.0 {
             let (right_m, up_m) = window.point(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            canvas.set(x, y, color(scenario, site, &view, (right_m, up_m)));
+            canvas.set(x, y, color((scenario, site, ground.as_ref()), &view, (right_m, up_m)));
         }
     }
     for task in &scenario.tasks {
@@ -47,7 +49,11 @@ pub fn draw(scenario: &Scenario, site: &Site) -> Picture {
     canvas.into_picture()
 }
 
-fn color(scenario: &Scenario, site: &Site, view: &ParallelView, (right_m, up_m): (f64, f64)) -> [u8; 3] {
+fn color(
+    (scenario, site, ground): (&Scenario, &Site, Option<&GroundColors>),
+    view: &ParallelView,
+    (right_m, up_m): (f64, f64),
+) -> [u8; 3] {
     let from_m = view.right * right_m + view.up * up_m + view.toward_viewer() * VIEWER_M;
     let away = view.toward_viewer() * -1.0;
     let half_m = 0.5 * scenario.terrain.size_m;
@@ -57,7 +63,8 @@ fn color(scenario: &Scenario, site: &Site, view: &ParallelView, (right_m, up_m):
     if place_m.east().abs() > half_m || place_m.north().abs() > half_m {
         return SKY_COLOR;
     }
-    surface_color(hit.surface, hit.normal, place_m.up() - scenario.terrain.water_level_m)
+    let photographed = ground.filter(|_| hit.surface == Surface::Terrain).and_then(|ground| ground.at(place_m));
+    photographed.unwrap_or_else(|| surface_color(hit.surface, hit.normal, place_m.up() - scenario.terrain.water_level_m))
 }
 
 /// The part of the view that the picture shows.

@@ -24,6 +24,7 @@ pub mod flow;
 pub mod ghost;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod ground_photo;
 pub mod hud;
 pub mod inspector_camera;
 pub mod job_picture;

@@ -1,6 +1,7 @@
 //! Map tiles of a job's site, for the map of a ground station: the view from straight above, with the tasks' paths and the
 //! landing pad. The tiles have the addresses of web maps (Web Mercator, z/x/y from the north-west).
 
+use crate::ground_photo::GroundColors;
 use crate::picture::Picture;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::geodesy::Geo;
@@ -90,13 +91,14 @@ fn pixel_of(geo: Geo, zoom: u8) -> (f64, f64) {
 pub struct SiteMap<'a> {
     scenario: &'a Scenario,
     site: &'a Site,
+    ground: Option<&'a GroundColors>,
 }
 
 impl<'a> SiteMap<'a> {
-    /// Creates the map of a job.
+    /// Creates the map of a job. `ground` are the colors of its aerial photograph.
     #[must_use]
-    pub fn new(scenario: &'a Scenario, site: &'a Site) -> Self {
-        Self { scenario, site }
+    pub fn new(scenario: &'a Scenario, site: &'a Site, ground: Option<&'a GroundColors>) -> Self {
+        Self { scenario, site, ground }
     }
 
     /// Draws a tile. Outside the terrain, it has one color.
@@ -133,7 +135,8 @@ impl<'a> SiteMap<'a> {
         let down = Vec3::new(0.0, 0.0, -1.0);
         let Some(hit) = self.site.ray(eye_m, down, RAY_LENGTH_M, SimTime::ZERO) else { return OUTSIDE_COLOR };
         let up_m = EYE_UP_M - hit.distance_m;
-        surface_color(hit.surface, hit.normal, up_m - self.scenario.terrain.water_level_m)
+        let photographed = self.ground.filter(|_| hit.surface == Surface::Terrain).and_then(|ground| ground.at(here_m));
+        photographed.unwrap_or_else(|| surface_color(hit.surface, hit.normal, up_m - self.scenario.terrain.water_level_m))
     }
 }
 

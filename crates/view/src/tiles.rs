@@ -75,7 +75,7 @@ pub fn ground() -> MipLevels {
         let row = ((k / SIDE_TEXELS) as i64 + shift).rem_euclid(SIDE_TEXELS as i64) as usize;
         straight[row * SIDE_TEXELS + k % SIDE_TEXELS]
     };
-    levels((0..SIDE_TEXELS * SIDE_TEXELS).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
+    levels(SIDE_TEXELS, (0..SIDE_TEXELS * SIDE_TEXELS).map(|k| [near[k], block[k], bed(k), fine[k]].map(byte)).collect())
 }
 
 /// Returns the concrete tile: tone around 0.5 (blotches and boards), and fractions of rain streaks, soot, and bird
@@ -96,7 +96,7 @@ pub fn concrete() -> MipLevels {
         let tone = 0.5 + 0.55 * (blotch[k] - 0.5) + 0.07 * board[row * lengths + length];
         [tone, step(0.52, 0.78, streak[k]), step(0.6, 0.8, soot[k]), bird_droppings[k]].map(byte)
     };
-    levels((0..SIDE_TEXELS * SIDE_TEXELS).map(texel).collect())
+    levels(SIDE_TEXELS, (0..SIDE_TEXELS * SIDE_TEXELS).map(texel).collect())
 }
 
 fn whole(x: f64) -> usize {
@@ -129,8 +129,9 @@ fn byte(x: f32) -> u8 {
     (255.0 * x.clamp(0.0, 1.0)).round() as u8
 }
 
-fn levels(finest: Vec<[u8; 4]>) -> MipLevels {
-    let (mut side, mut texels, mut all) = (SIDE_TEXELS, finest, Vec::new());
+/// Returns a square picture and its mipmaps. Its side is a power of two.
+pub fn levels(side: usize, finest: Vec<[u8; 4]>) -> MipLevels {
+    let (mut side, mut texels, mut all) = (side, finest, Vec::new());
     loop {
         all.push((side, texels.iter().flatten().copied().collect()));
         if side == 1 {

@@ -60,6 +60,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             spacing_m: 10.0,
             water_level_m: -20.0,
             source: TerrainSource::Flat { height_m: 0.0 },
+            photo: None,
         },
         ground_team: GroundTeam {
             pad_m: Vec3::new(0.0, 0.0, 0.0),

@@ -9,6 +9,7 @@ use super::lesson::LessonStep;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::geodesy::Geo;
+use crate::raster::ground_photo::GroundPhoto;
 use crate::satellites::Almanac;
 use crate::speed_unit::SpeedUnit;
 use crate::stick_response::StickResponse;
@@ -62,8 +63,8 @@ pub struct Scenario {
     pub scoring: ScoringParams,
     /// Requirements of the certification profile.
     pub certification: CertificationParams,
-    /// CRC-32 (IEEE) of the file without seed, placed defects and pictures of the briefing, and of the models and elements files of imported
-    /// bridges; sent as `scn_crc`.
+    /// CRC-32 (IEEE) of the file without seed, placed defects and pictures of the briefing, of the elevation model, and of the models and
+    /// elements files of imported bridges; sent as `scn_crc`.
     pub crc: u32,
 }
 
@@ -89,6 +90,8 @@ pub struct TerrainSpec {
     pub water_level_m: f64,
     /// Height source.
     pub source: TerrainSource,
+    /// Aerial photograph that colors the ground. It has no effect on a flight.
+    pub photo: Option<GroundPhoto>,
 }
 
 /// Source of the terrain heights.
@@ -112,8 +115,8 @@ pub enum TerrainSource {
         /// Maximum depth of the lake, m.
         lake_depth_m: f64,
     },
-    /// Heights from a file in the scenario's folder (m above the origin, comma-separated; rows from south to north,
-    /// columns from west to east).
+    /// Heights from a file in the scenario's folder: comma-separated heights above the origin, with rows from south to north and columns
+    /// from west to east, or an elevation model in a GeoTIFF file.
     File {
         /// Row-major heights above the origin, m: `heights_m[row][column]`.
         heights_m: Vec<Vec<f64>>,

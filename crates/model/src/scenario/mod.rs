@@ -15,6 +15,7 @@ mod read;
 mod resolve;
 mod siblings;
 pub mod tasks;
+mod terrain;
 mod toml_text;
 pub mod values;
 mod weather;
@@ -31,6 +32,7 @@ pub use job::{
     TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
-pub use read::{FORMAT, MAX_NAME_CHARS, MAX_TERRAIN_M, is_name, is_name_char, read, read_with_keys};
+pub use read::{FORMAT, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};
 pub use resolve::{resolve, select_variant, variant_names, variant_with_crc};
 pub use siblings::SiblingLoader;
+pub use terrain::MAX_TERRAIN_M;

@@ -5,12 +5,12 @@ use super::bridges::model::{MAX_MODEL_BYTES, Model};
 use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HazardSpec, LightSpec,
-    Scenario, ScoringParams, SessionRules, TerrainSource, TerrainSpec, TrafficSpec,
+    Scenario, ScoringParams, SessionRules, TrafficSpec,
 };
 use super::point::point;
 use super::siblings::{SiblingLoader, sibling_text};
 use crate::elements::Element;
-use crate::geodesy::Geo;
+use crate::geodesy::{Geo, LocalPlane};
 use crate::math::M_S_PER_MPH;
 use crate::satellites::{self, Almanac};
 use crate::speed_unit::SpeedUnit;
@@ -22,10 +22,6 @@ use std::sync::Arc;
 
 /// Latest supported format version.
 pub const FORMAT: i64 = 1;
-/// Maximum number of height grid cells per side. Building 4 million cells takes about one second and 32 MB.
-const MAX_CELLS_PER_SIDE: f64 = 2_000.0;
-/// Maximum width of the terrain, m.
-pub const MAX_TERRAIN_M: f64 = 4_000.0;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MAX_BRIDGES: usize = 16;
 /// Maximum length of a paragraph of the briefing, characters (estimate: longer ones belong in a document of their own).
@@ -62,7 +58,7 @@ fn read_level(file: &str, text: &str, siblings: SiblingLoader) -> (Result<Scenar
         let mut root = reader.root(&document);
         let mut scenario = read_scenario(&mut reader, &mut root, siblings);
         reader.finish(&root);
-        scenario.crc = super::resolve::crc_with_models(text, siblings);
+        scenario.crc = super::resolve::crc_with_files(text, siblings);
         scenario
     });
     let result = match scenario {
@@ -82,7 +78,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     // The protocol transmits the seed in a signed 32-bit field.
     let seed = r.optional_integer(root, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64);
     let origin = origin(r, root);
-    let terrain = terrain(r, root, siblings);
+    let terrain = super::terrain::read(r, root, &LocalPlane::new(origin), siblings);
     let ground_team = ground_team(r, root);
     let bridges = read_bridges(r, root, siblings);
     if bridges.len() > MAX_BRIDGES {
@@ -165,73 +161,6 @@ fn origin(r: &mut Reader, root: &mut Section) -> Geo {
     };
     r.finish(&s);
     geo
-}
-
-#[derive(Clone, Copy)]
-enum TerrainSourceKind {
-    Flat,
-    Valley,
-    File,
-}
-
-fn terrain(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> TerrainSpec {
-    let mut s = r.section(root, "terrain");
-    let size_m = r.number(&mut s, "size_m", (50.0, MAX_TERRAIN_M), Some(800.0));
-    let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
-    if size_m / spacing_m > MAX_CELLS_PER_SIDE {
-        let allowed = format!("at least {} for this size_m", size_m / MAX_CELLS_PER_SIDE);
-        r.add_problem(&s, "spacing_m", &spacing_m.to_string(), &allowed, "more than 2000 cells per side");
-    }
-    let water_level_m = r.number(&mut s, "water_level_m", (-500.0, 500.0), Some(-100.0));
-    let source = r.keyword(
-        &mut s,
-        "source",
-        &[("flat", TerrainSourceKind::Flat), ("valley", TerrainSourceKind::Valley), ("file", TerrainSourceKind::File)],
-        Some(0),
-    );
-    let source = match source {
-        TerrainSourceKind::Flat => TerrainSource::Flat { height_m: r.number(&mut s, "height_m", (-500.0, 500.0), Some(0.0)) },
-        TerrainSourceKind::Valley => TerrainSource::Valley {
-            seed: r.integer(&mut s, "seed", (0, i64::from(i32::MAX)), Some(1)) as u64,
-            lake_width_m: r.number(&mut s, "lake_width_m", (20.0, 2_000.0), Some(180.0)),
-            axis_deg: r.number(&mut s, "axis_deg", (0.0, 360.0), Some(0.0)),
-            mountain_height_m: r.number(&mut s, "relief_m", (0.0, 1_000.0), Some(120.0)),
-            lake_depth_m: r.number(&mut s, "lake_depth_m", (0.5, 100.0), Some(8.0)),
-        },
-        TerrainSourceKind::File => read_height_file(r, &mut s, siblings),
-    };
-    r.finish(&s);
-    TerrainSpec { size_m, spacing_m, water_level_m, source }
-}
-
-fn read_height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) -> TerrainSource {
-    let before = r.problems.len();
-    let file = r.text(s, "file", None);
-    if r.problems.len() > before {
-        return TerrainSource::Flat { height_m: 0.0 };
-    }
-    let rows = sibling_text(siblings, &file).and_then(|text| parse_heights(&text));
-    let heights_m = rows.unwrap_or_else(|problem| {
-        r.add_problem(s, "file", &file, "rows of comma-separated heights in meters", &problem);
-        vec![vec![0.0]]
-    });
-    TerrainSource::File { heights_m }
-}
-
-fn parse_heights(text: &str) -> Result<Vec<Vec<f64>>, String> {
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for (k, line) in text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty()) {
-        let row: Result<Vec<f64>, _> = line.split(',').map(|cell| cell.trim().parse::<f64>()).collect();
-        let row = row.map_err(|e| format!("row {}: {e}", k + 1))?;
-        if row.iter().any(|h| !h.is_finite() || h.abs() > 1_000.0) {
-            return Err(format!("row {}: heights must be within 1000 m of the origin", k + 1));
-        }
-        if rows.first().is_some_and(|first| first.len() != row.len()) {
-            return Err(format!("row {} has {} columns, but the first row has {}", k + 1, row.len(), rows[0].len()));
-        }
-        rows.push(row);
-    }
-    if rows.len() < 2 || rows[0].len() < 2 { Err("fewer than two rows or columns".into()) } else { Ok(rows) }
 }
 
 fn ground_team(r: &mut Reader, root: &mut Section) -> GroundTeam {

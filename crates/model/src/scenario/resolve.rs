@@ -5,7 +5,7 @@ use super::bridges::model::Model;
 use super::job::PlacedDefect;
 use super::point::point;
 use super::siblings::SiblingLoader;
-use super::{briefing_pictures, difficulty, forms};
+use super::{briefing_pictures, difficulty, forms, terrain};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
@@ -105,10 +105,10 @@ pub fn crc(text: &str) -> u32 {
     crc32fast::hash(canonical_form(document.as_item()).as_bytes())
 }
 
-/// Returns the CRC-32 of the text, and of the files of the imported bridges if there are any.
+/// Returns the CRC-32 of the text, and of the files of the imported bridges and the elevation model if there are any.
 #[must_use]
-pub(super) fn crc_with_models(text: &str, siblings: SiblingLoader) -> u32 {
-    add_files(crc(text), &model_files(text, siblings))
+pub(super) fn crc_with_files(text: &str, siblings: SiblingLoader) -> u32 {
+    add_files(crc(text), &site_files(text, siblings))
 }
 
 /// Continues a CRC with the lengths and bytes of files. Without files, it stays the same.
@@ -121,18 +121,31 @@ fn add_files(crc: u32, files: &[Vec<u8>]) -> u32 {
     hasher.finalize()
 }
 
-/// Loads the elements file and the model of each imported bridge, in the order in which they are read. Leaves out files that cannot be
-/// read, which are problems of the scenario.
-fn model_files(text: &str, siblings: SiblingLoader) -> Vec<Vec<u8>> {
+/// Loads the files that determine the site: the elevation model, and the elements file and the model of each imported bridge, in this order.
+/// Leaves out files that cannot be read, which are problems of the scenario.
+fn site_files(text: &str, siblings: SiblingLoader) -> Vec<Vec<u8>> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
+    let names = elevation_file(&document).into_iter().chain(model_files(&document));
+    names.filter(|name| !name.is_empty()).filter_map(|name| siblings(&name).ok()).collect()
+}
+
+/// Returns the name of the terrain's elevation model.
+fn elevation_file(document: &DocumentMut) -> Option<String> {
+    let terrain = document.get(terrain::TABLE)?.as_table_like()?;
+    let text = |key: &str| terrain.get(key).and_then(Item::as_str);
+    (text(terrain::SOURCE) == Some(terrain::GEOTIFF)).then(|| text(terrain::FILE).unwrap_or_default().to_owned())
+}
+
+/// Returns the names of the elements file and the model of each imported bridge.
+fn model_files(document: &DocumentMut) -> Vec<String> {
     let Some(bridges) = document.get("bridges").cloned().and_then(|item| item.into_array_of_tables().ok()) else {
         return Vec::new();
     };
     let models = bridges.iter().filter(|bridge| bridge.get("type").and_then(Item::as_str) == Some(Model::TYPE));
     let tables = models.filter_map(|bridge| bridge.get(Model::TYPE)?.as_table_like());
-    let names =
-        tables.flat_map(|table| ["elements", "file"].map(|key| table.get(key).and_then(Item::as_str).unwrap_or_default()));
-    names.filter(|name| !name.is_empty()).filter_map(|name| siblings(name).ok()).collect()
+    tables
+        .flat_map(|table| ["elements", "file"].map(|key| table.get(key).and_then(Item::as_str).unwrap_or_default().into()))
+        .collect()
 }
 
 /// Returns the names of a scenario's variants: its forms, or its difficulty levels as numbers; empty if it has neither.
@@ -154,10 +167,10 @@ pub fn select_variant(text: &str, name: &str) -> Option<String> {
 }
 
 /// Returns the text of the variant with this CRC, as announced by a vehicle or recorded in its telemetry; `None` if there is
-/// none. A scenario without variants is its own only one. `siblings` loads the files of imported bridges.
+/// none. A scenario without variants is its own only one. `siblings` loads the files of the site.
 #[must_use]
 pub fn variant_with_crc(text: &str, siblings: SiblingLoader, crc: u32) -> Option<String> {
-    let files = model_files(text, siblings);
+    let files = site_files(text, siblings);
     let variants = variant_names(text).into_iter().filter_map(|name| select_variant(text, &name));
     std::iter::once(text.to_owned()).chain(variants).find(|variant| add_files(self::crc(variant), &files) == crc)
 }

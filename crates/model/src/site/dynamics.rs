@@ -198,6 +198,7 @@ mod tests {
                 spacing_m: 10.0,
                 water_level_m: 0.0,
                 source: TerrainSource::Flat { height_m: -10.0 },
+                photo: None,
             },
             ground_team: GroundTeam {
                 pad_m: Vec3::new(-150.0, 100.0, 2.0),

@@ -6,3 +6,4 @@ mod documentation;
 mod forms;
 mod levels;
 mod shipped_files;
+mod site_data;

@@ -224,6 +224,7 @@ impl BindLayouts {
             (both, smooth),
             (fragment, filtered),
             (fragment, filtered),
+            (fragment, filtered),
         ];
         Self {
             globals: layout(gpu, &globals),

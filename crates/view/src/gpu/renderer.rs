@@ -9,9 +9,10 @@ use super::device::Gpu;
 use super::lru_cache::LruCache;
 use super::pass::{GpuMesh, MeshInstances, begin, begin_depth, uniform, upload};
 use super::pipelines::{DEPTH_FORMAT, LabelPipelines, MaterialPipelines, Pipelines};
-use super::targets::{RenderTargets, noise_texture, tile_texture};
+use super::targets::{RenderTargets, noise_texture, photo_texture, tile_texture};
 use super::uniforms::{DevelopUniforms, Globals, MAX_SHADOW_MAPS, ShadowMaps};
 use crate::cells::{self, CellBounds, Frustum};
+use crate::ground_photo::GroundColors;
 use crate::quality::Quality;
 use crate::scene::{DefectPatch, Instance, MoverModel, Scene};
 use crate::shadows::{self, ShadowMap};
@@ -56,6 +57,8 @@ pub struct Renderer {
     patches: Vec<(u32, wgpu::Buffer, u32)>,
     bounds_m: (Vec3<Enu>, f64),
     water_m: f64,
+    /// Half the side of the photograph on the ground, m; 0 without one.
+    photo_half_m: f64,
     globals: wgpu::Buffer,
     globals_mirrored: wgpu::Buffer,
     bound: wgpu::BindGroup,
@@ -80,6 +83,7 @@ impl Renderer {
         // Only lean presets read tiles; other presets bind the noise texture instead.
         let tile = |levels: fn() -> tiles::MipLevels| if quality.lean { tile_texture(gpu, &levels()) } else { noise.clone() };
         let (ground, concrete) = (tile(tiles::ground), tile(tiles::concrete));
+        let photo = photo_texture(gpu, scene.ground_colors.as_ref());
         let bind = |data: &wgpu::Buffer| {
             let view = wgpu::BindingResource::TextureView;
             let sampler = wgpu::BindingResource::Sampler;
@@ -91,6 +95,7 @@ impl Renderer {
                 sampler(&pipelines.tiled),
                 view(&ground),
                 view(&concrete),
+                view(&photo),
             ];
             let entries: Vec<wgpu::BindGroupEntry> =
                 bound.into_iter().enumerate().map(|(k, resource)| wgpu::BindGroupEntry { binding: k as u32, resource }).collect();
@@ -114,6 +119,7 @@ impl Renderer {
             patches: patches(gpu, &scene.patches),
             bounds_m: scene.bounds_m,
             water_m: scene.water_m(),
+            photo_half_m: scene.ground_colors.as_ref().map_or(0.0, GroundColors::half_m),
             bound,
             bound_mirrored,
             maps: layers.map(|k| layer(gpu, &pipelines, &maps_texture, k)).collect(),
@@ -149,7 +155,7 @@ impl Renderer {
             .map(|beam| shadows::lamp_map(&beam, self.quality.shadow_px));
         let maps = ShadowMaps { sun: &sun_maps, lamp: lamp_map.as_ref() };
         for (buffer, mirrored) in [(&self.globals, false), (&self.globals_mirrored, true)] {
-            let globals = Globals::new(shot, self.water_m, &maps, mirrored);
+            let globals = Globals::new(shot, (self.water_m, self.photo_half_m), &maps, mirrored);
             gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&globals));
         }
         let view = ShotView::of(shot, self.water_m);

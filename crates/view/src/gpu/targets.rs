@@ -3,6 +3,7 @@
 use super::device::Gpu;
 use super::pass::uniform;
 use super::pipelines::{DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
+use crate::ground_photo::GroundColors;
 use crate::quality::Quality;
 
 /// Render targets and their bind groups.
@@ -79,8 +80,18 @@ pub fn noise_texture(gpu: &Gpu) -> wgpu::TextureView {
     tile_texture(gpu, &levels)
 }
 
+/// Creates the texture of the photograph on the ground. Without one, it is a single invisible pixel.
+pub fn photo_texture(gpu: &Gpu, colors: Option<&GroundColors>) -> wgpu::TextureView {
+    let levels = colors.map_or_else(|| vec![(1, vec![0; 4])], GroundColors::levels);
+    mipmapped_texture(gpu, &levels, wgpu::TextureFormat::Rgba8UnormSrgb)
+}
+
 /// Creates a four-channel tile texture with mipmaps, finest first.
 pub fn tile_texture(gpu: &Gpu, levels: &[(usize, Vec<u8>)]) -> wgpu::TextureView {
+    mipmapped_texture(gpu, levels, wgpu::TextureFormat::Rgba8Unorm)
+}
+
+fn mipmapped_texture(gpu: &Gpu, levels: &[(usize, Vec<u8>)], format: wgpu::TextureFormat) -> wgpu::TextureView {
     let side = |px: usize| wgpu::Extent3d { width: px as u32, height: px as u32, depth_or_array_layers: 1 };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("tile"),
@@ -88,7 +99,7 @@ pub fn tile_texture(gpu: &Gpu, levels: &[(usize, Vec<u8>)]) -> wgpu::TextureView
         mip_level_count: levels.len() as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });

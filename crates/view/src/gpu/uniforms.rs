@@ -70,8 +70,9 @@ pub struct ShadowMaps<'a> {
 }
 
 impl Globals {
-    /// Returns the globals of a shot, or of its reflection in the water at `water_m`.
-    pub fn new(shot: &Shot, water_m: f64, maps: &ShadowMaps, mirrored: bool) -> Self {
+    /// Returns the globals of a shot, or of its reflection in the water at `water_m`. `photo_half_m` is half the side of the photograph on
+    /// the ground, or 0.
+    pub fn new(shot: &Shot, (water_m, photo_half_m): (f64, f64), maps: &ShadowMaps, mirrored: bool) -> Self {
         let flip = |v: Vec3<Enu>| if mirrored { Vec3::new(v.east(), v.north(), -v.up()) } else { v };
         let eye_m = shot.eye.position_m;
         let eye = if mirrored { Vec3::new(eye_m.east(), eye_m.north(), 2.0 * water_m - eye_m.up()) } else { eye_m };
@@ -111,7 +112,7 @@ impl Globals {
             look: [(1.0 / shot.finish.exposure.white_lux) as f32, wind as f32, towards.0 as f32, towards.1 as f32],
             shadow: [if maps.lamp.is_some() { maps.sun.len() as f32 } else { -1.0 }, 0.0, 0.0, 0.0],
             texel,
-            size: [width as f32, height as f32, 0.0, 0.0],
+            size: [width as f32, height as f32, photo_half_m as f32, 0.0],
             shadow_proj,
             air: [drift(east_m), drift(north_m), shot.wind.gust_intensity as f32, shot.wind.breaking_share() as f32],
             trees: [bend_m.0 as f32, bend_m.1 as f32, tree_phase_rad(shot.time_s) as f32, 0.0],

@@ -15,6 +15,7 @@ mod sparse;
 pub use defects::DefectPatch;
 pub use item::{Instance, SceneItem, VisibleRange};
 
+use super::ground_photo::GroundColors;
 use super::hud::SiteOutline;
 use super::mesh::Mesh;
 use super::path_guide::PathGuide;
@@ -113,6 +114,8 @@ pub struct Scene {
     pub parts: Vec<SceneItem>,
     /// Surface of the lake; `aux` of its vertices is the depth, m.
     pub water: Mesh,
+    /// Colors of the ground from an aerial photograph.
+    pub ground_colors: Option<GroundColors>,
     /// Defects.
     pub patches: Vec<DefectPatch>,
     /// Meshes in the order of [`MoverModel::ALL`].
@@ -180,6 +183,7 @@ impl Scene {
         Self {
             parts,
             water: ground::water(scenario, site, &bake, &shown),
+            ground_colors: GroundColors::new(scenario, site),
             patches: defects::patches(site, sun),
             models: vec![
                 props::car(rounds),

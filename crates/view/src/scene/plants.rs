@@ -45,6 +45,10 @@ pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
     };
     let mut stream = RandomStream::new(seed, "view.plants");
     let (mut tall, mut slim, mut rocks) = (Vec::new(), Vec::new(), Vec::new());
+    // A photograph already shows the site's own trees and rocks.
+    if scenario.terrain.photo.is_some() {
+        return Vec::new();
+    }
     let half = 0.49 * scenario.terrain.size_m;
     for _ in 0..40 * quality.trees {
         if tall.len() + slim.len() >= quality.trees {

@@ -43,7 +43,7 @@ struct Globals {
     shadow: vec4<f32>,
     // Size of a texel in each map, m.
     texel: vec4<f32>,
-    // Picture size, px.
+    // Picture size, px; half the side of the photograph on the ground, m (0 without one).
     size: vec4<f32>,
     shadow_proj: array<mat4x4<f32>, 5>,
     // Displacement of the air, east and north, m; standard deviation of the wind speed relative to its mean; share of the cells in

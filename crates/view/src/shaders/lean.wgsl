@@ -124,11 +124,12 @@ fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
     var color = meadow * (0.55 + 0.9 * tile.a);
     color = mix(color, rock, steep);
     color = mix(color, gravel, 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5)));
+    color = photographed(color, in.p.xy, tile.a);
     color *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
-    let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
+    let forest = wild(in.p.xy) * smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
     let wood = forest * smoothstep(0.38, 0.5, broad + 0.25 * (near - 0.5)) * (1.0 - 0.5 * steep);
     color = mix(color, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + near), wood);
-    let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
+    let snow = wild(in.p.xy) * smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
     (*m).albedo = mix(color, vec3<f32>(0.8, 0.82, 0.85), snow);
 }
 

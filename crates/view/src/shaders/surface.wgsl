@@ -266,6 +266,26 @@ fn steel(in: Fragment, n: vec3<f32>, fp: vec2<f32>, m: ptr<function, Matter>) {
     (*m).roughness = mix(0.48, 0.85, max(freckle, 0.6 * chalk));
 }
 
+// Aerial photograph on the ground, with its north at the top.
+@group(0) @binding(7) var photo_map: texture_2d<f32>;
+
+// Replaces a color of the ground by that of the photograph, where there is one. `detail` is a pattern around 0.5 finer than its pixels.
+fn photographed(color: vec3<f32>, at: vec2<f32>, detail: f32) -> vec3<f32> {
+    if g.size.z <= 0.0 {
+        return color;
+    }
+    let place = at / g.size.z;
+    let seen = textureSample(photo_map, noise_sampler, vec2<f32>(0.5 + 0.5 * place.x, 0.5 - 0.5 * place.y));
+    // The last part of the site blends into the surroundings.
+    let inside = 1.0 - smoothstep(0.95, 0.995, max(abs(place.x), abs(place.y)));
+    return mix(color, seen.rgb * (0.7 + 0.6 * detail), seen.a * inside);
+}
+
+// Share of imagined forest and snow: none on the photograph.
+fn wild(at: vec2<f32>) -> f32 {
+    return select(1.0, smoothstep(0.95, 0.995, max(abs(at.x), abs(at.y)) / max(g.size.z, 1.0)), g.size.z > 0.0);
+}
+
 fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     let at = in.p.xy;
     let over = in.aux;
@@ -288,13 +308,14 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     color = mix(color, rock, steep);
     let shore = 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5));
     color = mix(color, gravel, shore);
+    color = photographed(color, at, fine_at);
     // Wet at the waterline.
     color *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
     // Forest on distant slopes, and snow at high elevations.
-    let forest = smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
+    let forest = wild(at) * smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
     let canopy = fine(at * 0.09, f * 0.09, near);
     color = mix(color, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
-    let snow = smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
+    let snow = wild(at) * smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
     color = mix(color, vec3<f32>(0.8, 0.82, 0.85), snow);
     (*m).albedo = color;
     (*m).roughness = 0.95;

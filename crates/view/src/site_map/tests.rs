@@ -51,7 +51,7 @@ fn exact_addresses_out_of_range_are_rejected() {
 #[test]
 fn exact_bridge_water_pad_and_paths_are_where_the_site_has_them() {
     let (scenario, site) = job();
-    let map = SiteMap::new(&scenario, &site);
+    let map = SiteMap::new(&scenario, &site, None);
     let plane = LocalPlane::new(scenario.origin);
     let color = |point_m: Vec3<Enu>| {
         let geo = plane.geo_from_enu(point_m);
