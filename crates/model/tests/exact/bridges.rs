@@ -4,9 +4,11 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
-use spandrel_model::scenario::bridges::{BridgeField, Member, Solid, TaskPath};
+use spandrel_model::scenario::bridges::{BridgeField, BridgeShape, Member, Solid, TaskPath};
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,6 +32,10 @@ fn suspension() -> Bridge {
 
 fn girder() -> Bridge {
     bridge(BridgeKind::Girder(Girder::default()))
+}
+
+fn prestressed() -> Bridge {
+    bridge(BridgeKind::Prestressed(Prestressed::default()))
 }
 
 /// Returns random values near the defaults, within their ranges.
@@ -57,6 +63,23 @@ fn random_girders() -> Vec<Bridge> {
     out
 }
 
+/// Standard sections of prestressed girders for random bridges.
+const SECTIONS: [f64; 4] = [3.0, 4.0, 6.0, 72.0];
+
+/// Returns prestressed girder bridges with default and random dimensions. Omits inconsistent bridges.
+fn random_prestressed() -> Vec<Bridge> {
+    let mut random = RandomStream::new(6, "prestressed");
+    let mut out = vec![prestressed()];
+    for k in 0..120 {
+        let values = Prestressed::from_values(&random_values(Prestressed::FIELDS, &mut random));
+        let kind = Prestressed { simple_spans: f64::from(k % 2), section: SECTIONS[k as usize / 2 % SECTIONS.len()], ..values };
+        out.push(bridge(BridgeKind::Prestressed(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -69,6 +92,7 @@ fn random_bridges() -> Vec<Bridge> {
     let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
     assert!(arches >= 10 && out.len() - arches >= 10, "{arches} of {}", out.len());
     out.extend(random_girders().into_iter().take(12));
+    out.extend(random_prestressed().into_iter().take(10));
     out
 }
 
@@ -258,7 +282,7 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
             BridgeKind::Girder(g) => {
                 let joints = if g.simple_spans > 0.0 { g.spans - 1.0 } else { 0.0 };
                 // The girders and the deck extend 0.4 m beyond the outer bearings.
-                let run_m = g.length_m() + 0.8 - joints * g.joint_gap_m;
+                let run_m = g.layout().length_m() + 0.8 - joints * g.joint_gap_m;
                 let width_m = (g.girders - 1.0) * g.girder_spacing_m + 2.0 * g.overhang_m;
                 close(sum(&members, "slab"), run_m * width_m * g.slab_m);
                 close(sum(&members, "haunch"), g.girders * run_m * g.flange_width_m * g.haunch_m);
@@ -272,6 +296,18 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 let share = if g.round_columns > 0.0 { 2.0 * math::sin(math::TAU / 16.0) } else { 1.0 };
                 let columns = (g.spans - 1.0) * g.columns * share * g.column_m * g.column_m * g.column_height_m;
                 close(sum(&members, "column").max(1e-9), columns.max(1e-9));
+            }
+            BridgeKind::Prestressed(p) => {
+                // Areas of the sections in square inches, from their dimensions: 1085 for type VI and 767 for BT-72 are published.
+                const AREAS_IN2: [(f64, f64); 4] = [(3.0, 559.5), (4.0, 789.0), (6.0, 1085.0), (72.0, 767.0)];
+                let area_in2 = AREAS_IN2.iter().find(|(section, _)| *section == p.section).unwrap().1;
+                let gap_m = if p.simple_spans > 0.0 { p.joint_gap_m } else { 0.3 };
+                let deck_m =
+                    p.layout().length_m() + 0.5 - if p.simple_spans > 0.0 { (p.spans - 1.0) * p.joint_gap_m } else { 0.0 };
+                let girders_m = p.girders * (p.layout().length_m() + 0.5 - (p.spans - 1.0) * gap_m);
+                let width_m = (p.girders - 1.0) * p.girder_spacing_m + 2.0 * p.overhang_m;
+                close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
+                close(sum(&members, "girder"), girders_m * area_in2 * 0.0254 * 0.0254);
             }
         }
     }
@@ -432,6 +468,10 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (girder(), TaskKind::GirderSoffit, 1.0),
         (girder(), TaskKind::BearingLine, 1.0),
         (girder(), TaskKind::PierCap, 0.9),
+        (prestressed(), TaskKind::SlabSide, 1.0),
+        (prestressed(), TaskKind::GirderSoffit, 1.0),
+        (prestressed(), TaskKind::BearingLine, 1.0),
+        (prestressed(), TaskKind::PierCap, 0.9),
     ] {
         let shapes = solids(&bridge.members());
         let path = bridge.task_path(kind, 4.5).unwrap();
@@ -461,9 +501,10 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 23] = [
+const MEMBER_NAMES: [(u16, &[&str]); 24] = [
     (12, &["slab", "haunch"]),
     (107, &["girder", "stiffener", "cross-frame"]),
+    (109, &["girder", "diaphragm"]),
     (113, &["stringer"]),
     (116, &["stringer"]),
     (144, &["rib", "strut"]),
@@ -498,11 +539,12 @@ fn exact_every_member_has_the_correct_element() {
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
             // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
-            // the girders with their stiffeners and cross-frames and the bearings are steel.
+            // the girders with their stiffeners and cross-frames and the bearings are steel, on the prestressed one only the bearings.
             let concrete = match bridge.kind {
                 BridgeKind::Arch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
                 BridgeKind::Model(_) => panic!("an imported bridge"),
+                BridgeKind::Prestressed(_) => !part.starts_with("bearing"),
                 BridgeKind::Girder(_) => !["girder", "stiffener", "cross-frame", "bearing"].iter().any(|n| part.starts_with(n)),
             };
             assert_eq!(

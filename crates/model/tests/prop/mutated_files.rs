@@ -6,6 +6,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::{DefectSpec, Scenario, TerrainSpec};
 use spandrel_model::site::Site;
@@ -269,4 +270,9 @@ fn prop_all_valid_suspension_bridges_build_with_positive_volumes() {
 #[test]
 fn prop_all_valid_girder_bridges_build_with_positive_volumes() {
     assert_random_bridges_build("girder", Girder::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_prestressed_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("prestressed", Prestressed::FIELDS);
 }

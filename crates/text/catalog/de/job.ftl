@@ -13,6 +13,7 @@ job-first-flight = Lektion: erster Flug
 job-girder = Trägerbrücke: Randträger, Trägerzwischenräume, Pfeilerkopfbalken, Lager
 job-pilot-study = Pilotstudie: Seite der Fahrbahntafel, Bogenuntersicht, Zwischenraum, Pfeiler
 job-practice = Üben an zwei Brücken
+job-prestressed = Spannbetonbrücke: Randträger, Trägerzwischenräume, Pfeilerkopfbalken, Lager
 job-two-bridges = Zwei Brücken: Seite der Fahrbahntafel, Bogenuntersicht, Zwischenraum, Pfeiler
 
 job-task-curve = Kurve unter dem Bogen
@@ -34,6 +35,8 @@ job-task-outer-girder = Randträger und Kante der Fahrbahntafel
 job-task-girder-bays = Trägerzwischenräume des letzten Feldes
 job-task-bearings = Lager auf dem Widerlager am Anfang
 job-task-pier-cap = Pfeilerkopfbalken des ersten Pfeilers
+job-task-middle-bays = Trägerzwischenräume des mittleren Feldes
+job-task-pier-bearings = Lager auf dem zweiten Pfeiler
 
 job-state-open = offen
 job-state-overdue = überfällig

@@ -16,6 +16,7 @@ job-first-flight = Lesson: first flight
 job-girder = Girder bridge: outer girder, girder bays, pier cap, bearings
 job-pilot-study = Pilot study: slab side, arch bottom, interlayer, pier
 job-practice = Practice at two bridges
+job-prestressed = Prestressed girder bridge: outer girder, girder bays, pier cap, bearings
 job-two-bridges = Two bridges: slab side, arch bottom, interlayer, pier
 
 # Names of tasks.
@@ -38,6 +39,8 @@ job-task-outer-girder = Outer girder and deck edge
 job-task-girder-bays = Girder bays of the last span
 job-task-bearings = Bearings on the start abutment
 job-task-pier-cap = Cap of the first pier
+job-task-middle-bays = Girder bays of the middle span
+job-task-pier-bearings = Bearings on the second pier
 
 # States of an assigned job.
 job-state-open = open

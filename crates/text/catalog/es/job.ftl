@@ -13,6 +13,7 @@ job-first-flight = Lección: primer vuelo
 job-girder = Puente de vigas: viga exterior, espacios entre vigas, cabezal, apoyos
 job-pilot-study = Estudio piloto: costado del tablero, intradós del arco, espacio intermedio, pila
 job-practice = Práctica en dos puentes
+job-prestressed = Puente de vigas pretensadas: viga exterior, espacios entre vigas, cabezal, apoyos
 job-two-bridges = Dos puentes: costado del tablero, intradós del arco, espacio intermedio, pila
 
 job-task-curve = Curva bajo el arco
@@ -34,6 +35,8 @@ job-task-outer-girder = Viga exterior y borde del tablero
 job-task-girder-bays = Espacios entre vigas del último vano
 job-task-bearings = Apoyos del estribo inicial
 job-task-pier-cap = Cabezal de la primera pila
+job-task-middle-bays = Espacios entre vigas del vano central
+job-task-pier-bearings = Apoyos de la segunda pila
 
 job-state-open = pendiente
 job-state-overdue = vencido
