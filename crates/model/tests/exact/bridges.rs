@@ -8,6 +8,7 @@ use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
 use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
+use spandrel_model::scenario::bridges::truss::Truss;
 use spandrel_model::scenario::bridges::{BridgeField, BridgeShape, Member, Solid, TaskPath};
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
@@ -32,6 +33,10 @@ fn suspension() -> Bridge {
 
 fn girder() -> Bridge {
     bridge(BridgeKind::Girder(Girder::default()))
+}
+
+fn truss() -> Bridge {
+    bridge(BridgeKind::Truss(Truss::default()))
 }
 
 fn prestressed() -> Bridge {
@@ -80,6 +85,21 @@ fn random_prestressed() -> Vec<Bridge> {
     out
 }
 
+/// Returns truss bridges of one or two spans with default and random dimensions. Omits inconsistent bridges.
+fn random_trusses() -> Vec<Bridge> {
+    let mut random = RandomStream::new(7, "trusses");
+    let mut out = vec![truss()];
+    for k in 0..200 {
+        let values = Truss::from_values(&random_values(Truss::FIELDS, &mut random));
+        let panels = 2.0 * (0.5 * values.panels).round();
+        let kind = Truss { spans: f64::from(1 + k % 2), panels, round_columns: f64::from(k / 2 % 2), ..values };
+        out.push(bridge(BridgeKind::Truss(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 8, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -93,6 +113,7 @@ fn random_bridges() -> Vec<Bridge> {
     assert!(arches >= 10 && out.len() - arches >= 10, "{arches} of {}", out.len());
     out.extend(random_girders().into_iter().take(12));
     out.extend(random_prestressed().into_iter().take(10));
+    out.extend(random_trusses().into_iter().take(8));
     out
 }
 
@@ -309,6 +330,18 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
                 close(sum(&members, "girder"), girders_m * area_in2 * 0.0254 * 0.0254);
             }
+            BridgeKind::Truss(t) => {
+                // The deck extends 0.8 m beyond the bearings of each span.
+                let deck_m = t.spans * t.span_m + 1.6 - (t.spans - 1.0) * t.joint_gap_m;
+                let truss_m = deck_m - 1.6 * t.spans;
+                close(sum(&members, "slab"), deck_m * t.deck_width_m * t.slab_m);
+                let flanges_m2 = 2.0 * 0.19 * 0.018 + (t.stringer_depth_m - 2.0 * 0.018) * 0.011;
+                close(sum(&members, "stringer"), t.stringers * deck_m * flanges_m2);
+                let chords = members.iter().filter(|m| m.name.contains("/bottom-chord/")).map(|m| volume(&m.solid)).sum::<f64>();
+                close(chords, 2.0 * truss_m * t.chord_m * t.chord_m);
+                let plates = 2.0 * 2.0 * t.spans * 2.0 * t.panels;
+                close(sum(&members, "gusset"), plates * 2.6 * 2.2 * t.chord_m * t.chord_m * t.gusset_m);
+            }
         }
     }
 }
@@ -394,8 +427,15 @@ fn assert_smooth(path: &TaskPath) {
 }
 
 /// Paths at a constant height that keep the stand-off from all members.
-const LEVEL_PATHS: [TaskKind; 5] =
-    [TaskKind::SlabSide, TaskKind::PierCircle, TaskKind::GirderSoffit, TaskKind::BearingLine, TaskKind::PierCap];
+const LEVEL_PATHS: [TaskKind; 7] = [
+    TaskKind::SlabSide,
+    TaskKind::PierCircle,
+    TaskKind::GirderSoffit,
+    TaskKind::BearingLine,
+    TaskKind::PierCap,
+    TaskKind::FloorSystem,
+    TaskKind::TrussPanel,
+];
 
 #[test]
 fn prop_paths_keep_the_stand_off_distance() {
@@ -412,7 +452,7 @@ fn prop_paths_keep_the_stand_off_distance() {
                     bridge.kind
                 );
                 // Below the arch and below the bays, the path is not directly under the nearest member.
-                let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit);
+                let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit | TaskKind::FloorSystem);
                 assert!(is_beside || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
@@ -458,7 +498,7 @@ fn exact_interlayer_path_clears_the_largest_shipped_aircraft() {
 #[test]
 fn prop_viewing_directions_point_at_the_bridge() {
     // Minimum fraction of viewing directions that hit the bridge. Under the arch, some directions pass between the
-    // beams into the sky. At the corners of the pier, they point at an edge, which rounding can miss.
+    // beams into the sky. At the corners of the pier, they point at an edge, which rounding can miss. Beside a truss and its deck, there are gaps.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),
@@ -472,6 +512,10 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (prestressed(), TaskKind::GirderSoffit, 1.0),
         (prestressed(), TaskKind::BearingLine, 1.0),
         (prestressed(), TaskKind::PierCap, 0.9),
+        (truss(), TaskKind::TrussPanel, 0.9),
+        (truss(), TaskKind::FloorSystem, 0.95),
+        (truss(), TaskKind::BearingLine, 1.0),
+        (truss(), TaskKind::PierCap, 0.9),
     ] {
         let shapes = solids(&bridge.members());
         let path = bridge.task_path(kind, 4.5).unwrap();
@@ -501,17 +545,20 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 24] = [
+const MEMBER_NAMES: [(u16, &[&str]); 27] = [
     (12, &["slab", "haunch"]),
     (107, &["girder", "stiffener", "cross-frame"]),
     (109, &["girder", "diaphragm"]),
     (113, &["stringer"]),
     (116, &["stringer"]),
+    (120, &["truss", "bracing"]),
     (144, &["rib", "strut"]),
     (147, &["cable"]),
     (148, &["hanger"]),
     (152, &["floorbeam"]),
     (155, &["floorbeam"]),
+    (161, &["pin"]),
+    (162, &["gusset"]),
     (205, &["column"]),
     (207, &["tower"]),
     (210, &["pier"]),
@@ -531,7 +578,7 @@ const MEMBER_NAMES: [(u16, &[&str]); 24] = [
 
 #[test]
 fn exact_every_member_has_the_correct_element() {
-    let steel = [107, 113, 147, 148, 152, 207, 310, 311, 313, 330];
+    let steel = [107, 113, 120, 147, 148, 152, 161, 162, 207, 310, 311, 313, 330];
     for bridge in random_bridges() {
         for member in bridge.members() {
             let part = member.name.split('/').nth(1).unwrap();
@@ -539,12 +586,17 @@ fn exact_every_member_has_the_correct_element() {
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
             // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
-            // the girders with their stiffeners and cross-frames and the bearings are steel, on the prestressed one only the bearings.
+            // the girders with their stiffeners and cross-frames and the bearings are steel, on the prestressed one only the bearings. On the
+            // truss bridge, everything above the piers except the deck is steel.
             let concrete = match bridge.kind {
                 BridgeKind::Arch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
                 BridgeKind::Model(_) => panic!("an imported bridge"),
                 BridgeKind::Prestressed(_) => !part.starts_with("bearing"),
+                BridgeKind::Truss(_) => {
+                    let of_concrete = ["slab", "approach", "pedestal", "cap", "column", "footing", "abutment", "joint", "drain"];
+                    of_concrete.iter().any(|n| part.starts_with(n))
+                }
                 BridgeKind::Girder(_) => !["girder", "stiffener", "cross-frame", "bearing"].iter().any(|n| part.starts_with(n)),
             };
             assert_eq!(

@@ -247,7 +247,7 @@ fn exact_inconsistent_dimensions_name_their_key_and_limit() {
 
 #[test]
 fn exact_quantities_list_the_elements_of_the_members() {
-    use spandrel_model::scenario::bridges::{arch::Arch, prestressed::Prestressed, suspension::Suspension};
+    use spandrel_model::scenario::bridges::{arch::Arch, prestressed::Prestressed, suspension::Suspension, truss::Truss};
     let of = |kind: BridgeKind| Bridge { name: "b".into(), center_m: Vec3::zero(), heading_deg: 0.0, kind };
     let kinds = [
         BridgeKind::Arch(Arch::default()),
@@ -257,6 +257,8 @@ fn exact_quantities_list_the_elements_of_the_members() {
         BridgeKind::Girder(simple()),
         BridgeKind::Prestressed(Prestressed::default()),
         BridgeKind::Prestressed(Prestressed { spans: 1.0, ..Prestressed::default() }),
+        BridgeKind::Truss(Truss::default()),
+        BridgeKind::Truss(Truss { spans: 1.0, ..Truss::default() }),
     ];
     for bridge in kinds.map(of) {
         let mut built: Vec<u16> =

@@ -12,3 +12,4 @@ mod ground;
 mod imported;
 mod prestressed;
 mod site;
+mod truss;

@@ -24,6 +24,8 @@ advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
         [pier_circle] vom Pfeiler
         [girder_soffit] von den Trägern
         [pier_cap] vom Pfeilerkopfbalken
+        [truss_panel] vom Fachwerk
+        [floor_system] vom Fahrbahnrost
        *[structure] vom Bauwerk
     } geflogen, { $when }: Fliegen Sie näher heran.
 advice-too-close = Sie sind { $mean } m zu nah { $surface ->
@@ -32,6 +34,8 @@ advice-too-close = Sie sind { $mean } m zu nah { $surface ->
         [pier_circle] am Pfeiler
         [girder_soffit] an den Trägern
         [pier_cap] am Pfeilerkopfbalken
+        [truss_panel] am Fachwerk
+        [floor_system] am Fahrbahnrost
        *[structure] am Bauwerk
     } geflogen, { $when }: Vergrößern Sie den Abstand.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
@@ -59,6 +63,8 @@ advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
         [pier_circle] vom Pfeiler
         [girder_soffit] von den Trägern
         [pier_cap] vom Pfeilerkopfbalken
+        [truss_panel] vom Fachwerk
+        [floor_system] vom Fahrbahnrost
        *[structure] vom Bauwerk
     } weg, { $when }: Drehen Sie die Nase dorthin.
 advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.

@@ -37,6 +37,8 @@ briefing-place = { $kind ->
         [girder_soffit] unter den Trägern
         [bearing_line] an den Lagern entlang
         [pier_cap] um den Pfeilerkopfbalken
+        [truss_panel] an der Außenseite des Fachwerks entlang
+        [floor_system] unter dem Fahrbahnrost
        *[free] entlang der freien Bahn
     }{ $named ->
         [yes] {" "}der Brücke „{ $bridge }“

@@ -27,6 +27,8 @@ advice-too-far = You flew { $mean } m too far from { $surface ->
         [pier_circle] the pier
         [girder_soffit] the girders
         [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
        *[structure] the structure
     } { $when }: move closer.
 advice-too-close = You flew { $mean } m too close to { $surface ->
@@ -35,6 +37,8 @@ advice-too-close = You flew { $mean } m too close to { $surface ->
         [pier_circle] the pier
         [girder_soffit] the girders
         [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
        *[structure] the structure
     } { $when }: back off.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
@@ -63,6 +67,8 @@ advice-framing = Your camera pointed up to { $most } degrees away from { $surfac
         [pier_circle] the pier
         [girder_soffit] the girders
         [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
        *[structure] the structure
     } { $when }: turn the nose toward it.
 advice-lamp-off = Your lamp was off in the dark { $when }: switch it on in the shade.

@@ -42,6 +42,8 @@ briefing-place = { $kind ->
         [girder_soffit] under the girders
         [bearing_line] along the bearings
         [pier_cap] around the pier cap
+        [truss_panel] along the outside of the truss
+        [floor_system] under the floor
        *[free] along the free path
     }{ $named ->
         [yes] {" "}of bridge '{ $bridge }'

@@ -24,6 +24,8 @@ advice-too-far = Voló { $mean } m demasiado lejos { $surface ->
         [pier_circle] de la pila
         [girder_soffit] de las vigas
         [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
        *[structure] de la estructura
     } { $when }: acérquese.
 advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
@@ -32,6 +34,8 @@ advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
         [pier_circle] de la pila
         [girder_soffit] de las vigas
         [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
        *[structure] de la estructura
     } { $when }: aléjese.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
@@ -59,6 +63,8 @@ advice-framing = Su cámara se apartó hasta { $most } grados { $surface ->
         [pier_circle] de la pila
         [girder_soffit] de las vigas
         [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
        *[structure] de la estructura
     } { $when }: gire la nariz hacia la superficie.
 advice-lamp-off = El foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.

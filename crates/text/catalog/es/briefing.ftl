@@ -37,6 +37,8 @@ briefing-place = { $kind ->
         [girder_soffit] bajo las vigas
         [bearing_line] a lo largo de los apoyos
         [pier_cap] alrededor del cabezal de la pila
+        [truss_panel] a lo largo del exterior de la celosía
+        [floor_system] bajo el sistema de piso
        *[free] a lo largo de la trayectoria libre
     }{ $named ->
         [yes] {" "}del puente «{ $bridge }»

@@ -145,9 +145,13 @@ impl BridgeShape for Arch {
             TaskKind::SlabSide => Ok(slab_side(self, stand_off_m)),
             TaskKind::ArchBottom => Ok(arch_bottom(self, stand_off_m)),
             TaskKind::Interlayer => Ok(interlayer(self)),
-            TaskKind::PierCircle | TaskKind::GirderSoffit | TaskKind::BearingLine | TaskKind::PierCap | TaskKind::Free => {
-                Err(self.supported_kinds())
-            }
+            TaskKind::PierCircle
+            | TaskKind::GirderSoffit
+            | TaskKind::BearingLine
+            | TaskKind::PierCap
+            | TaskKind::TrussPanel
+            | TaskKind::FloorSystem
+            | TaskKind::Free => Err(self.supported_kinds()),
         }
     }
 }

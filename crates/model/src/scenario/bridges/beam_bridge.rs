@@ -104,6 +104,7 @@ impl<T: BeamBridge> BridgeShape for T {
     }
 
     fn task_path(&self, kind: TaskKind, stand_off_m: f64, place: &PathPlace) -> Result<LocalPath, String> {
-        self.beam_path(&self.layout(), kind, stand_off_m, place).unwrap_or_else(|| Err(self.supported_kinds()))
+        let path = T::TASK_KINDS.contains(&kind).then(|| self.beam_path(&self.layout(), kind, stand_off_m, place));
+        path.flatten().unwrap_or_else(|| Err(self.supported_kinds()))
     }
 }

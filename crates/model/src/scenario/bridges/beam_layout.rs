@@ -78,6 +78,8 @@ pub struct DeckLayout {
     pub railing: Element,
     /// Distance between drains, m.
     pub drain_spacing_m: f64,
+    /// Whether floorbeams cross the bridge at the stations, so that the drains are between them.
+    pub has_floorbeams: bool,
 }
 
 /// Bearings of a beam bridge.
@@ -352,7 +354,12 @@ impl BeamLayout {
             (0..count as i32).map(move |k| start_x_m + length_m * (f64::from(k) + 0.5) / count)
         };
         let is_clear = |x: &f64| piers.iter().all(|pier| (x - pier).abs() > self.supports.cap_width_m);
-        self.deck_runs().iter().flat_map(of_run).filter(is_clear).collect()
+        let panels = if self.deck.has_floorbeams { self.deck_panels() } else { Vec::new() };
+        let between = |x: f64| {
+            let panel = panels.iter().find(|(from, to)| (*from..*to).contains(&x));
+            panel.map_or(x, |(from, to)| 0.5 * (from + to))
+        };
+        self.deck_runs().iter().flat_map(of_run).map(between).filter(is_clear).collect()
     }
 
     /// Returns the joints' positions: name, start and end along the bridge.

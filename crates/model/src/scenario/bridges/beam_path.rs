@@ -29,7 +29,12 @@ pub(super) fn of_kind(
         TaskKind::GirderSoffit => Some(girder_soffit(layout, stand_off_m, place)),
         TaskKind::BearingLine => Some(bearing_line(layout, stand_off_m, place)),
         TaskKind::PierCap => Some(pier_cap(layout, stand_off_m, place)),
-        TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle | TaskKind::Free => None,
+        TaskKind::ArchBottom
+        | TaskKind::Interlayer
+        | TaskKind::PierCircle
+        | TaskKind::TrussPanel
+        | TaskKind::FloorSystem
+        | TaskKind::Free => None,
     }
 }
 
@@ -49,15 +54,25 @@ pub(super) fn slab_side(layout: &BeamLayout, stand_off_m: f64) -> Result<LocalPa
 /// the left half of the bridge and back below the right half; otherwise, it is one line along the middle. The camera looks up at the
 /// bays and slightly ahead.
 pub(super) fn girder_soffit(layout: &BeamLayout, stand_off_m: f64, place: &PathPlace) -> Result<LocalPath, String> {
+    below_beams(layout, stand_off_m, place, (0.25 * layout.beam_group_m(), 0.5 * layout.lines.spacing_m))
+}
+
+/// Returns the path under the beams of a span, with the radius of the turn between the passes below the halves of the bridge, and the
+/// distance to which the view pans to both sides at the height of the slab.
+pub(super) fn below_beams(
+    layout: &BeamLayout,
+    stand_off_m: f64,
+    place: &PathPlace,
+    (radius_m, pan_m): (f64, f64),
+) -> Result<LocalPath, String> {
     let (from, to) = span_between_stand_offs(layout, stand_off_m, place)?;
-    let radius_m = 0.25 * layout.beam_group_m();
     let is_wide = radius_m >= MIN_TURN_RADIUS_M && to - from > 2.0 * radius_m;
     let course = if is_wide { out_and_back((from, to), radius_m) } else { straight((from, to), middle_bay_y_m(layout)) };
     let z = layout.lines.bottom_z_m - stand_off_m;
     let rise_m = -layout.deck.slab_m - z;
     let points = course.iter().map(|(at, _)| [at[0], at[1], z]).collect();
     let view = |(k, (_, ahead)): (usize, &([f64; 2], [f64; 2]))| {
-        let aside_m = 0.5 * layout.lines.spacing_m * math::sin(math::TAU * k as f64 / PAN_PERIOD_POINTS);
+        let aside_m = pan_m * math::sin(math::TAU * k as f64 / PAN_PERIOD_POINTS);
         let ahead_m = AHEAD_SHARE * stand_off_m;
         [ahead_m * ahead[0] - aside_m * ahead[1], ahead_m * ahead[1] + aside_m * ahead[0], rise_m]
     };
@@ -65,14 +80,17 @@ pub(super) fn girder_soffit(layout: &BeamLayout, stand_off_m: f64, place: &PathP
     Ok(LocalPath { points, viewing_directions, closed: false })
 }
 
-/// Returns the start and the end of the path under a span.
-fn span_between_stand_offs(layout: &BeamLayout, stand_off_m: f64, place: &PathPlace) -> Result<(f64, f64), String> {
-    let supports = layout.support_positions();
-    let count = supports.len() - 1;
+/// Returns the number of a task's span, from 1.
+pub(super) fn span_number(layout: &BeamLayout, place: &PathPlace) -> Result<usize, String> {
+    let count = layout.span_lengths_m().len();
     let number = place.span.unwrap_or(count / 2 + 1);
-    if !(1..=count).contains(&number) {
-        return Err(format!("span_number = 1 to {count}"));
-    }
+    if (1..=count).contains(&number) { Ok(number) } else { Err(format!("span_number = 1 to {count}")) }
+}
+
+/// Returns the start and the end of the path under a span.
+pub(super) fn span_between_stand_offs(layout: &BeamLayout, stand_off_m: f64, place: &PathPlace) -> Result<(f64, f64), String> {
+    let supports = layout.support_positions();
+    let (count, number) = (supports.len() - 1, span_number(layout, place)?);
     let pier_m = pier_reach_m(layout, stand_off_m);
     let from = if number == 1 { -layout.abutment_front_x_m() } else { supports[number - 1] + pier_m };
     let to = if number == count { layout.abutment_front_x_m() } else { supports[number] - pier_m };
@@ -102,7 +120,7 @@ fn straight((from, to): (f64, f64), y: f64) -> Vec<([f64; 2], [f64; 2])> {
 }
 
 /// Returns points on a line out, a semicircle and a line back, each with the direction of flight.
-fn out_and_back((from, to): (f64, f64), radius_m: f64) -> Vec<([f64; 2], [f64; 2])> {
+pub(super) fn out_and_back((from, to): (f64, f64), radius_m: f64) -> Vec<([f64; 2], [f64; 2])> {
     let turn_x = to - radius_m;
     let steps = (math::PI * radius_m / SPACING_M).ceil().max(MIN_TURN_STEPS);
     let on_turn = |k: i32| {

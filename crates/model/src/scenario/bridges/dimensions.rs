@@ -38,6 +38,12 @@ impl InconsistencyList {
         }
     }
 
+    pub(super) fn require_even(&mut self, key: &'static str, value: f64) {
+        if value.round() % 2.0 != 0.0 || value.fract() != 0.0 {
+            self.0.push(Inconsistency { key, value, allowed: "an even number".into() });
+        }
+    }
+
     pub(super) fn require_one_of(&mut self, key: &'static str, value: f64, allowed: &[f64], why: &str) {
         if !allowed.contains(&value) {
             let numbers: Vec<String> = allowed.iter().map(f64::to_string).collect();

@@ -98,6 +98,7 @@ impl BeamBridge for Girder {
                 railing_m: self.barrier_m,
                 railing: Element::RcRailing,
                 drain_spacing_m: self.drain_spacing_m,
+                has_floorbeams: false,
             },
             bearings: BearingLayout {
                 height_m: self.bearing_m,

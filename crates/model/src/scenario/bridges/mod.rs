@@ -19,6 +19,7 @@ pub mod shape;
 pub mod solid;
 pub mod suspension;
 pub mod task_kind;
+pub mod truss;
 
 use crate::frames::{Enu, Vec3};
 use arch::Arch;
@@ -28,6 +29,7 @@ use path::{PathPlace, TaskKind};
 use prestressed::Prestressed;
 use solid::{MemberBuilder, Placement};
 use suspension::Suspension;
+use truss::Truss;
 
 pub use dimensions::{BridgeField, Inconsistency};
 pub use path::TaskPath;
@@ -110,6 +112,8 @@ bridge_types! {
     Girder;
     /// A prestressed concrete girder bridge.
     Prestressed;
+    /// A steel through truss bridge.
+    Truss;
 }
 
 impl BridgeKind {

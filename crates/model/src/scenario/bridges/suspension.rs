@@ -158,6 +158,8 @@ impl BridgeShape for Suspension {
             | TaskKind::GirderSoffit
             | TaskKind::BearingLine
             | TaskKind::PierCap
+            | TaskKind::TrussPanel
+            | TaskKind::FloorSystem
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }

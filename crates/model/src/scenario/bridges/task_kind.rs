@@ -87,6 +87,10 @@ task_kinds! {
     BearingLine "bearing_line" 2.0 true Support None;
     /// A closed loop around a pier cap.
     PierCap "pier_cap" 2.0 false Support Beside;
+    /// A line along the outside of a truss, out and back at two heights.
+    TrussPanel "truss_panel" 2.0 false Span Beside;
+    /// A line under the floorbeams and stringers of a span, out and back.
+    FloorSystem "floor_system" 3.0 true Span Above;
     /// A path through points listed in the scenario.
     Free "free" 2.0 false None None;
 }
@@ -127,7 +131,7 @@ mod tests {
     #[test]
     fn exact_kinds_are_listed_in_words() {
         assert_eq!(TaskKind::keys_in_words(|rules| rules.threshold_m < 2.0), "interlayer");
-        assert_eq!(TaskKind::keys_in_words(|rules| rules.surface == SurfaceSide::Beside), "pier_cap");
+        assert_eq!(TaskKind::keys_in_words(|rules| rules.surface == SurfaceSide::Beside), "pier_cap and truss_panel");
         assert_eq!(TaskKind::keys_in_words(|rules| rules.key.starts_with("pier")), "pier_circle and pier_cap");
         assert_eq!(TaskKind::keys_in_words(|_| false), "");
         assert!(TaskKind::thresholds_in_words().starts_with("3, 3, 1.75, 2"));
