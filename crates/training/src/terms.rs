@@ -86,6 +86,11 @@ pub fn task_title(scenario: &str, task: &str, language: Language) -> String {
         "Girder bays of the last span" => text!(language, "job-task-girder-bays"),
         "Bearings on the start abutment" => text!(language, "job-task-bearings"),
         "Cap of the first pier" => text!(language, "job-task-pier-cap"),
+        "Girder bays of the middle span" => text!(language, "job-task-middle-bays"),
+        "Right truss of the first span" => text!(language, "job-task-right-truss"),
+        "Floor system of the second span" => text!(language, "job-task-floor"),
+        "Pins and bearings on the pier" => text!(language, "job-task-pins"),
+        "Bearings on the second pier" => text!(language, "job-task-pier-bearings"),
         _ => task.to_owned(),
     }
 }

@@ -33,8 +33,8 @@ fn task_speed_m_s(task: &Task) -> f64 {
         TaskKind::SlabSide => 3.3,
         TaskKind::ArchBottom => 3.0,
         TaskKind::Interlayer => 1.4,
-        TaskKind::PierCircle | TaskKind::PierCap => 2.2,
-        TaskKind::GirderSoffit => 2.5,
+        TaskKind::PierCircle | TaskKind::PierCap | TaskKind::TrussPanel => 2.2,
+        TaskKind::GirderSoffit | TaskKind::FloorSystem => 2.5,
         TaskKind::BearingLine => 1.4,
         TaskKind::Free => 2.5,
     }

@@ -169,7 +169,7 @@ pub struct Task {
     pub name: String,
     /// Index into [`Scenario::bridges`], or `None` for a free path (drills).
     pub bridge: Option<usize>,
-    /// Path type: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `girder_soffit`, `bearing_line`, `pier_cap`, or `free`.
+    /// Path type.
     pub kind: TaskKind,
     /// On-path threshold, m; less than 8.
     pub threshold_m: f64,

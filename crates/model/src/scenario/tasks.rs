@@ -3,6 +3,7 @@
 use super::bridges::Bridge;
 use super::bridges::path::{PathPlace, SPACING_M, TaskKind, TaskPath};
 use super::bridges::solid::{LocalPoint, Placement};
+use super::bridges::task_kind::{PlaceKey, SurfaceSide};
 use super::job::{StandOff, Task};
 use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
@@ -32,27 +33,6 @@ const MAX_SPANS: i64 = 8;
 /// Key of a free path that names the bridge in whose axes its points are.
 const RELATIVE_TO: &str = "points_relative_to";
 
-const TASK_KINDS: [(&str, TaskKind); 8] = [
-    ("slab_side", TaskKind::SlabSide),
-    ("arch_bottom", TaskKind::ArchBottom),
-    ("interlayer", TaskKind::Interlayer),
-    ("pier_circle", TaskKind::PierCircle),
-    ("girder_soffit", TaskKind::GirderSoffit),
-    ("bearing_line", TaskKind::BearingLine),
-    ("pier_cap", TaskKind::PierCap),
-    ("free", TaskKind::Free),
-];
-
-/// Returns the default on-path threshold of a task kind in meters (docs/src/reference/assessment.md, "On path"; the
-/// TASBID paper specifies none).
-fn default_threshold_m(kind: TaskKind) -> f64 {
-    match kind {
-        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::GirderSoffit => 3.0,
-        TaskKind::Interlayer => 1.75,
-        TaskKind::PierCircle | TaskKind::BearingLine | TaskKind::PierCap | TaskKind::Free => 2.0,
-    }
-}
-
 pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Vec<Task> {
     let mut out = Vec::new();
     let tables = r.sections(root, "tasks");
@@ -74,12 +54,14 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, bridges: &[Bridge]) -> Ve
 
 fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Task {
     let name = r.text(s, "name", None);
-    let kind = r.keyword(s, "kind", &TASK_KINDS, None);
+    let kinds: Vec<(&str, TaskKind)> = TaskKind::ALL.iter().map(|kind| (kind.key(), *kind)).collect();
+    let kind = r.keyword(s, "kind", &kinds, None);
+    let rules = kind.rules();
     let (bridge, axes) = read_bridge_index(r, s, kind, bridges);
     let stand_off_m = r.number(s, "stand_off_m", (MIN_STAND_OFF_M, 50.0), Some(DEFAULT_STAND_OFF_M));
-    let threshold_m = r.number(s, "threshold_m", (0.2, MAX_THRESHOLD_M), Some(default_threshold_m(kind)));
-    r.describe_default(s, "threshold_m", "by kind: 3, 3, 1.75, 2, 3, 2, 2, 2");
-    let place = read_place(r, s, kind);
+    let threshold_m = r.number(s, "threshold_m", (0.2, MAX_THRESHOLD_M), Some(rules.threshold_m));
+    r.describe_default(s, "threshold_m", &format!("by kind: {}", TaskKind::thresholds_in_words()));
+    let place = read_place(r, s, rules.place);
     let closed = r.boolean(s, "closed", false);
     let points = r.points(s, "points_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
     let look_at = r.points(s, "look_at_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
@@ -92,10 +74,13 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     };
     let tolerance_m = r.number(s, "stand_off_tolerance_m", (0.2, 20.0), Some(threshold_m));
     r.describe_default(s, "stand_off_tolerance_m", "threshold_m");
-    let stand_off =
-        toward_surface(kind, &path).map(|toward_surface| StandOff { recommended_m: stand_off_m, tolerance_m, toward_surface });
-    let dark = r.boolean(s, "dark", is_dark(kind));
-    r.describe_default(s, "dark", "true for arch_bottom, interlayer, girder_soffit and bearing_line");
+    let stand_off = toward_surface(rules.surface, &path).map(|toward_surface| StandOff {
+        recommended_m: stand_off_m,
+        tolerance_m,
+        toward_surface,
+    });
+    let dark = r.boolean(s, "dark", rules.is_dark);
+    r.describe_default(s, "dark", &format!("true for {}", TaskKind::keys_in_words(|rules| rules.is_dark)));
     let too_close_m = r.optional_number(s, "too_close_m", (0.2, 20.0));
     if stand_off_m < DEFAULT_STAND_OFF_M && too_close_m.is_none_or(|limit| limit > stand_off_m - WARNING_MARGIN_M) {
         let allowed = format!("at least 4, or too_close_m at most {}", stand_off_m - WARNING_MARGIN_M);
@@ -117,29 +102,17 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     }
 }
 
-/// Reads the span or the support of a task at a girder bridge. Other kinds of tasks have no such keys.
-fn read_place(r: &mut Reader, s: &mut Section, kind: TaskKind) -> PathPlace {
+/// Reads the span or the support of a task. Kinds of tasks without a place have no such keys.
+fn read_place(r: &mut Reader, s: &mut Section, place: PlaceKey) -> PathPlace {
     let mut number = |key: &'static str, min: i64, default: &str| {
         let value = r.optional_integer(s, key, (min, MAX_SPANS));
         r.describe_default(s, key, default);
         value.and_then(|value| usize::try_from(value).ok())
     };
-    match kind {
-        TaskKind::GirderSoffit => PathPlace { span: number("span_number", 1, "the middle span"), support: None },
-        TaskKind::BearingLine | TaskKind::PierCap => {
-            PathPlace { span: None, support: number("support_number", 0, "the first pier") }
-        }
-        TaskKind::SlabSide | TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::PierCircle | TaskKind::Free => {
-            PathPlace::default()
-        }
-    }
-}
-
-/// Returns true for paths below a deck, which need the lamp by default.
-fn is_dark(kind: TaskKind) -> bool {
-    match kind {
-        TaskKind::ArchBottom | TaskKind::Interlayer | TaskKind::GirderSoffit | TaskKind::BearingLine => true,
-        TaskKind::SlabSide | TaskKind::PierCircle | TaskKind::PierCap | TaskKind::Free => false,
+    match place {
+        PlaceKey::Span => PathPlace { span: number("span_number", 1, "the middle span"), support: None },
+        PlaceKey::Support => PathPlace { span: None, support: number("support_number", 0, "the first pier") },
+        PlaceKey::None => PathPlace::default(),
     }
 }
 
@@ -165,16 +138,16 @@ fn read_bridge_index(r: &mut Reader, s: &mut Section, kind: TaskKind, bridges: &
 
 /// Returns unit vectors from the path points toward the inspected surface and perpendicular to it; `None` if the path has
 /// no single surface at the stand-off distance.
-fn toward_surface(kind: TaskKind, path: &TaskPath) -> Option<Vec<Vec3<Enu>>> {
-    match kind {
-        TaskKind::SlabSide | TaskKind::PierCircle => Some(path.viewing_directions.clone()),
+fn toward_surface(side: SurfaceSide, path: &TaskPath) -> Option<Vec<Vec3<Enu>>> {
+    match side {
+        SurfaceSide::InView => Some(path.viewing_directions.clone()),
         // The path is parallel to the underside of the arch or girders, which is above it. The camera also looks ahead and to the sides.
-        TaskKind::ArchBottom | TaskKind::GirderSoffit => Some((0..path.path_m.len()).map(|k| above(&path.path_m, k)).collect()),
-        // The camera looks up at the cap, whose sides are vertical.
-        TaskKind::PierCap => {
+        SurfaceSide::Above => Some((0..path.path_m.len()).map(|k| above(&path.path_m, k)).collect()),
+        // The camera looks up at the surface, which is vertical.
+        SurfaceSide::Beside => {
             Some(path.viewing_directions.iter().map(|view| Vec3::new(view.east(), view.north(), 0.0).unit()).collect())
         }
-        TaskKind::BearingLine | TaskKind::Interlayer | TaskKind::Free => None,
+        SurfaceSide::None => None,
     }
 }
 

@@ -148,19 +148,12 @@ fn try_place(
     stream: &mut RandomStream,
 ) -> Option<PlacedDefect> {
     let n = stream.below(task.path_m.len());
-    let direction = match task.kind {
-        // On a free path without a target, the camera does not necessarily point toward a structure.
-        TaskKind::Free if !task.inspects_surface => draw_direction_in_cone(UP, math::PI, stream),
-        TaskKind::SlabSide
-        | TaskKind::ArchBottom
-        | TaskKind::Interlayer
-        | TaskKind::PierCircle
-        | TaskKind::GirderSoffit
-        | TaskKind::BearingLine
-        | TaskKind::PierCap
-        | TaskKind::Free => {
-            draw_direction_in_cone(task.viewing_directions.get(n).copied().unwrap_or(UP), SEARCH_CONE_HALF_ANGLE_RAD, stream)
-        }
+    // On a free path without a target, the camera does not necessarily point toward a structure.
+    let is_aimless = task.kind == TaskKind::Free && !task.inspects_surface;
+    let direction = if is_aimless {
+        draw_direction_in_cone(UP, math::PI, stream)
+    } else {
+        draw_direction_in_cone(task.viewing_directions.get(n).copied().unwrap_or(UP), SEARCH_CONE_HALF_ANGLE_RAD, stream)
     };
     let kind_draw = stream.uniform();
     let condition_state = if stream.uniform() < 0.5 { 2 } else { 3 };

@@ -233,6 +233,8 @@ mod tests {
 
     #[test]
     fn prop_girder_bridge_distorts_the_field_between_its_girders_more_than_below_them() {
+        use crate::scenario::bridges::BridgeShape;
+        use crate::scenario::bridges::beam_bridge::BeamBridge;
         use crate::scenario::bridges::girder::Girder;
         // In a bay, webs are less than 2 m away on both sides; 4 m below the girders, the compass turns by a few degrees at most.
         const IN_BAY: f64 = 0.05;
@@ -246,7 +248,8 @@ mod tests {
             let position_m = Placement::new(Vec3::zero(), 30.0).point([3.0, 0.0, z]);
             field.distortion(position_m, undisturbed).norm() / undisturbed.norm()
         };
-        let (bay, below) = (at(girder.girder_bottom_z_m() + 0.5), at(girder.girder_bottom_z_m() - 4.0));
+        let bottom_z_m = girder.layout().lines.bottom_z_m;
+        let (bay, below) = (at(bottom_z_m + 0.5), at(bottom_z_m - 4.0));
         assert!(bay > IN_BAY && below < BELOW && below > 0.0, "{bay} {below}");
         let far = Placement::new(Vec3::zero(), 30.0).point([3.0, 40.0, -2.0]);
         assert_eq!(field.distortion(far, undisturbed), Vec3::zero());

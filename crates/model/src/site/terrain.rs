@@ -5,7 +5,7 @@ use super::heights::HeightGrid;
 use crate::frames::Vec3;
 use crate::math;
 use crate::random::RandomStream;
-use crate::scenario::{Bridge, BridgeKind, GroundTeam, Scenario, TerrainSource, TerrainSpec as Settings};
+use crate::scenario::{Bridge, GroundTeam, Scenario, TerrainSource, TerrainSpec as Settings};
 
 /// Radius of level ground around the landing pad, m.
 const LEVEL_GROUND_RADIUS_M: f64 = 16.0;
@@ -107,7 +107,7 @@ fn apply_earthworks(natural: f64, east: f64, north: f64, scenario: &Scenario) ->
 }
 
 fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacing_m: f64) -> f64 {
-    let Some(underside_m) = underside_depth_m(bridge) else { return height };
+    let Some(underside_m) = bridge.underside_depth_m() else { return height };
     let [x, y, _] = bridge.placement().local(Vec3::new(east, north, 0.0));
     let deck = bridge.center_m.up();
     let half_length = 0.5 * bridge.deck_length_m();
@@ -130,17 +130,6 @@ fn bridge_earthworks(height: f64, east: f64, north: f64, bridge: &Bridge, spacin
         let away = (math::hypot(out(x, foot.x_m), out(y, foot.y_m)) - spacing_m).max(0.0);
         height.max(deck + foot.up_m + MIN_EMBEDMENT_DEPTH_M - away / EARTHWORK_SLOPE)
     })
-}
-
-/// Returns the depth of a bridge's underside below its deck at the ends of its opening, in meters; `None` for an imported bridge, which
-/// stands on the ground as it is.
-fn underside_depth_m(bridge: &Bridge) -> Option<f64> {
-    match &bridge.kind {
-        BridgeKind::Arch(arch) => Some(-arch.intrados_z_m(0.5 * arch.span_m)),
-        BridgeKind::Suspension(s) => Some(s.slab_m + s.girder_depth_m),
-        BridgeKind::Girder(girder) => Some(-girder.seat_z_m()),
-        BridgeKind::Model(_) => None,
-    }
 }
 
 fn level_pad(height: f64, east: f64, north: f64, team: &GroundTeam) -> f64 {

@@ -4,9 +4,12 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
-use spandrel_model::scenario::bridges::{BridgeField, Member, Solid, TaskPath};
+use spandrel_model::scenario::bridges::truss::Truss;
+use spandrel_model::scenario::bridges::{BridgeField, BridgeShape, Member, Solid, TaskPath};
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 use spandrel_model::site::convex::Convex;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,6 +33,14 @@ fn suspension() -> Bridge {
 
 fn girder() -> Bridge {
     bridge(BridgeKind::Girder(Girder::default()))
+}
+
+fn truss() -> Bridge {
+    bridge(BridgeKind::Truss(Truss::default()))
+}
+
+fn prestressed() -> Bridge {
+    bridge(BridgeKind::Prestressed(Prestressed::default()))
 }
 
 /// Returns random values near the defaults, within their ranges.
@@ -57,6 +68,38 @@ fn random_girders() -> Vec<Bridge> {
     out
 }
 
+/// Standard sections of prestressed girders for random bridges.
+const SECTIONS: [f64; 4] = [3.0, 4.0, 6.0, 72.0];
+
+/// Returns prestressed girder bridges with default and random dimensions. Omits inconsistent bridges.
+fn random_prestressed() -> Vec<Bridge> {
+    let mut random = RandomStream::new(6, "prestressed");
+    let mut out = vec![prestressed()];
+    for k in 0..120 {
+        let values = Prestressed::from_values(&random_values(Prestressed::FIELDS, &mut random));
+        let kind = Prestressed { simple_spans: f64::from(k % 2), section: SECTIONS[k as usize / 2 % SECTIONS.len()], ..values };
+        out.push(bridge(BridgeKind::Prestressed(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
+/// Returns truss bridges of one or two spans with default and random dimensions. Omits inconsistent bridges.
+fn random_trusses() -> Vec<Bridge> {
+    let mut random = RandomStream::new(7, "trusses");
+    let mut out = vec![truss()];
+    for k in 0..200 {
+        let values = Truss::from_values(&random_values(Truss::FIELDS, &mut random));
+        let panels = 2.0 * (0.5 * values.panels).round();
+        let kind = Truss { spans: f64::from(1 + k % 2), panels, round_columns: f64::from(k / 2 % 2), ..values };
+        out.push(bridge(BridgeKind::Truss(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 8, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -69,6 +112,8 @@ fn random_bridges() -> Vec<Bridge> {
     let arches = out.iter().filter(|b| matches!(b.kind, BridgeKind::Arch(_))).count();
     assert!(arches >= 10 && out.len() - arches >= 10, "{arches} of {}", out.len());
     out.extend(random_girders().into_iter().take(12));
+    out.extend(random_prestressed().into_iter().take(10));
+    out.extend(random_trusses().into_iter().take(8));
     out
 }
 
@@ -258,7 +303,7 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
             BridgeKind::Girder(g) => {
                 let joints = if g.simple_spans > 0.0 { g.spans - 1.0 } else { 0.0 };
                 // The girders and the deck extend 0.4 m beyond the outer bearings.
-                let run_m = g.length_m() + 0.8 - joints * g.joint_gap_m;
+                let run_m = g.layout().length_m() + 0.8 - joints * g.joint_gap_m;
                 let width_m = (g.girders - 1.0) * g.girder_spacing_m + 2.0 * g.overhang_m;
                 close(sum(&members, "slab"), run_m * width_m * g.slab_m);
                 close(sum(&members, "haunch"), g.girders * run_m * g.flange_width_m * g.haunch_m);
@@ -272,6 +317,30 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 let share = if g.round_columns > 0.0 { 2.0 * math::sin(math::TAU / 16.0) } else { 1.0 };
                 let columns = (g.spans - 1.0) * g.columns * share * g.column_m * g.column_m * g.column_height_m;
                 close(sum(&members, "column").max(1e-9), columns.max(1e-9));
+            }
+            BridgeKind::Prestressed(p) => {
+                // Areas of the sections in square inches, from their dimensions: 1085 for type VI and 767 for BT-72 are published.
+                const AREAS_IN2: [(f64, f64); 4] = [(3.0, 559.5), (4.0, 789.0), (6.0, 1085.0), (72.0, 767.0)];
+                let area_in2 = AREAS_IN2.iter().find(|(section, _)| *section == p.section).unwrap().1;
+                let gap_m = if p.simple_spans > 0.0 { p.joint_gap_m } else { 0.3 };
+                let deck_m =
+                    p.layout().length_m() + 0.5 - if p.simple_spans > 0.0 { (p.spans - 1.0) * p.joint_gap_m } else { 0.0 };
+                let girders_m = p.girders * (p.layout().length_m() + 0.5 - (p.spans - 1.0) * gap_m);
+                let width_m = (p.girders - 1.0) * p.girder_spacing_m + 2.0 * p.overhang_m;
+                close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
+                close(sum(&members, "girder"), girders_m * area_in2 * 0.0254 * 0.0254);
+            }
+            BridgeKind::Truss(t) => {
+                // The deck extends 0.8 m beyond the bearings of each span.
+                let deck_m = t.spans * t.span_m + 1.6 - (t.spans - 1.0) * t.joint_gap_m;
+                let truss_m = deck_m - 1.6 * t.spans;
+                close(sum(&members, "slab"), deck_m * t.deck_width_m * t.slab_m);
+                let flanges_m2 = 2.0 * 0.19 * 0.018 + (t.stringer_depth_m - 2.0 * 0.018) * 0.011;
+                close(sum(&members, "stringer"), t.stringers * deck_m * flanges_m2);
+                let chords = members.iter().filter(|m| m.name.contains("/bottom-chord/")).map(|m| volume(&m.solid)).sum::<f64>();
+                close(chords, 2.0 * truss_m * t.chord_m * t.chord_m);
+                let plates = 2.0 * 2.0 * t.spans * 2.0 * t.panels;
+                close(sum(&members, "gusset"), plates * 2.6 * 2.2 * t.chord_m * t.chord_m * t.gusset_m);
             }
         }
     }
@@ -358,8 +427,15 @@ fn assert_smooth(path: &TaskPath) {
 }
 
 /// Paths at a constant height that keep the stand-off from all members.
-const LEVEL_PATHS: [TaskKind; 5] =
-    [TaskKind::SlabSide, TaskKind::PierCircle, TaskKind::GirderSoffit, TaskKind::BearingLine, TaskKind::PierCap];
+const LEVEL_PATHS: [TaskKind; 7] = [
+    TaskKind::SlabSide,
+    TaskKind::PierCircle,
+    TaskKind::GirderSoffit,
+    TaskKind::BearingLine,
+    TaskKind::PierCap,
+    TaskKind::FloorSystem,
+    TaskKind::TrussPanel,
+];
 
 #[test]
 fn prop_paths_keep_the_stand_off_distance() {
@@ -376,7 +452,7 @@ fn prop_paths_keep_the_stand_off_distance() {
                     bridge.kind
                 );
                 // Below the arch and below the bays, the path is not directly under the nearest member.
-                let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit);
+                let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit | TaskKind::FloorSystem);
                 assert!(is_beside || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
@@ -422,7 +498,7 @@ fn exact_interlayer_path_clears_the_largest_shipped_aircraft() {
 #[test]
 fn prop_viewing_directions_point_at_the_bridge() {
     // Minimum fraction of viewing directions that hit the bridge. Under the arch, some directions pass between the
-    // beams into the sky. At the corners of the pier, they point at an edge, which rounding can miss.
+    // beams into the sky. At the corners of the pier, they point at an edge, which rounding can miss. Beside a truss and its deck, there are gaps.
     for (bridge, kind, share) in [
         (arch(), TaskKind::SlabSide, 1.0),
         (arch(), TaskKind::ArchBottom, 0.95),
@@ -432,6 +508,14 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (girder(), TaskKind::GirderSoffit, 1.0),
         (girder(), TaskKind::BearingLine, 1.0),
         (girder(), TaskKind::PierCap, 0.9),
+        (prestressed(), TaskKind::SlabSide, 1.0),
+        (prestressed(), TaskKind::GirderSoffit, 1.0),
+        (prestressed(), TaskKind::BearingLine, 1.0),
+        (prestressed(), TaskKind::PierCap, 0.9),
+        (truss(), TaskKind::TrussPanel, 0.9),
+        (truss(), TaskKind::FloorSystem, 0.95),
+        (truss(), TaskKind::BearingLine, 1.0),
+        (truss(), TaskKind::PierCap, 0.9),
     ] {
         let shapes = solids(&bridge.members());
         let path = bridge.task_path(kind, 4.5).unwrap();
@@ -461,16 +545,20 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 23] = [
+const MEMBER_NAMES: [(u16, &[&str]); 27] = [
     (12, &["slab", "haunch"]),
     (107, &["girder", "stiffener", "cross-frame"]),
+    (109, &["girder", "diaphragm"]),
     (113, &["stringer"]),
     (116, &["stringer"]),
+    (120, &["truss", "bracing"]),
     (144, &["rib", "strut"]),
     (147, &["cable"]),
     (148, &["hanger"]),
     (152, &["floorbeam"]),
     (155, &["floorbeam"]),
+    (161, &["pin"]),
+    (162, &["gusset"]),
     (205, &["column"]),
     (207, &["tower"]),
     (210, &["pier"]),
@@ -490,7 +578,7 @@ const MEMBER_NAMES: [(u16, &[&str]); 23] = [
 
 #[test]
 fn exact_every_member_has_the_correct_element() {
-    let steel = [107, 113, 147, 148, 152, 207, 310, 311, 313, 330];
+    let steel = [107, 113, 120, 147, 148, 152, 161, 162, 207, 310, 311, 313, 330];
     for bridge in random_bridges() {
         for member in bridge.members() {
             let part = member.name.split('/').nth(1).unwrap();
@@ -498,11 +586,17 @@ fn exact_every_member_has_the_correct_element() {
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
             // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
-            // the girders with their stiffeners and cross-frames and the bearings are steel.
+            // the girders with their stiffeners and cross-frames and the bearings are steel, on the prestressed one only the bearings. On the
+            // truss bridge, everything above the piers except the deck is steel.
             let concrete = match bridge.kind {
                 BridgeKind::Arch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
                 BridgeKind::Model(_) => panic!("an imported bridge"),
+                BridgeKind::Prestressed(_) => !part.starts_with("bearing"),
+                BridgeKind::Truss(_) => {
+                    let of_concrete = ["slab", "approach", "pedestal", "cap", "column", "footing", "abutment", "joint", "drain"];
+                    of_concrete.iter().any(|n| part.starts_with(n))
+                }
                 BridgeKind::Girder(_) => !["girder", "stiffener", "cross-frame", "bearing"].iter().any(|n| part.starts_with(n)),
             };
             assert_eq!(

@@ -1,18 +1,14 @@
 //! Tests of girder bridges: their geometry and quantities against values computed by hand and published ones, and their task paths
 //! against the geometry.
 
+use crate::beams::{FOOT_M, ROUNDING_TOLERANCE_M, extent, hit, is_close, named, seen, shapes};
 use spandrel_model::elements::Element;
-use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::frames::Vec3;
+use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
 use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::path::PathPlace;
-use spandrel_model::scenario::bridges::{Member, TaskPath};
+use spandrel_model::scenario::bridges::{BridgeShape, Member};
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
-use spandrel_model::site::convex::Convex;
-
-/// Tolerance for rounding errors in positions, m.
-const ROUNDING_TOLERANCE_M: f64 = 1e-9;
-/// Length of a foot, m.
-const FOOT_M: f64 = 0.3048;
 
 fn bridge(girder: Girder) -> Bridge {
     assert_eq!(girder.inconsistencies(), []);
@@ -24,24 +20,6 @@ fn simple() -> Girder {
     Girder { simple_spans: 1.0, cap_width_m: 2.2, ..Girder::default() }
 }
 
-/// Returns the lowest and highest corner of a member in bridge axes.
-fn extent(bridge: &Bridge, member: &Member) -> [(f64, f64); 3] {
-    let corners: Vec<[f64; 3]> = member.solid.vertices_m.iter().map(|v| bridge.placement().local(*v)).collect();
-    [0, 1, 2].map(|axis| {
-        let values = corners.iter().map(|corner| corner[axis]);
-        (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
-    })
-}
-
-fn named<'a>(members: &'a [Member], start: &str) -> Vec<&'a Member> {
-    let start = format!("b/{start}");
-    members.iter().filter(|member| member.name.starts_with(&start)).collect()
-}
-
-fn is_close(a: f64, b: f64) -> bool {
-    (a - b).abs() < ROUNDING_TOLERANCE_M
-}
-
 #[test]
 fn val_default_bridge_is_the_published_design_example() {
     // FHWA, Steel Bridge Design Handbook, design example 1 (FHWA-IF-12-052, volume 20): spans of 140, 175 and 140 ft; four girders at
@@ -49,18 +27,18 @@ fn val_default_bridge_is_the_published_design_example() {
     // to centimeters and millimeters.
     const ROUNDING_M: f64 = 0.01;
     let girder = Girder::default();
-    for (got_m, published_ft) in girder.span_lengths_m().into_iter().zip([140.0, 175.0, 140.0]) {
+    for (got_m, published_ft) in girder.layout().span_lengths_m().into_iter().zip([140.0, 175.0, 140.0]) {
         assert!((got_m - published_ft * FOOT_M).abs() < ROUNDING_M, "{got_m}");
     }
-    let lines = girder.girder_lines();
+    let lines = girder.layout().beam_lines();
     assert!(lines.len() == 4 && (lines[0] - lines[1] - 12.0 * FOOT_M).abs() < ROUNDING_M, "{lines:?}");
     assert!((girder.deck_width_m() - 43.0 * FOOT_M).abs() < 2.0 * ROUNDING_M, "{}", girder.deck_width_m());
     for (got_m, published_in) in [(girder.slab_m, 9.5), (girder.web_depth_m, 69.0), (girder.web_m, 0.5)] {
         assert!((got_m - published_in * FOOT_M / 12.0).abs() < 0.001, "{got_m}");
     }
     // AASHTO LRFD table 2.5.2.6.3-1, continuous composite I-beams: at least 0.032 L overall and 0.027 L for the steel.
-    let steel_m = girder.girder_top_z_m() - girder.girder_bottom_z_m();
-    assert!(steel_m >= 0.027 * girder.span_m && -girder.girder_bottom_z_m() >= 0.032 * girder.span_m, "{steel_m}");
+    let steel_m = girder.layout().lines.top_z_m - girder.layout().lines.bottom_z_m;
+    assert!(steel_m >= 0.027 * girder.span_m && -girder.layout().lines.bottom_z_m >= 0.032 * girder.span_m, "{steel_m}");
 }
 
 #[test]
@@ -79,7 +57,8 @@ fn exact_girders_are_at_their_spacing_without_gaps_between_plates_and_panels() {
                 assert!(is_close(top[2].0, web[2].1) && is_close(web[2].0, bottom[2].1), "gap between web and flange");
                 assert!(is_close(web[2].1 - web[2].0, girder.web_depth_m) && is_close(web[1].1 - web[1].0, girder.web_m));
                 assert!(
-                    is_close(bottom[2].0, girder.girder_bottom_z_m()) && is_close(top[2].1, -girder.slab_m - girder.haunch_m)
+                    is_close(bottom[2].0, girder.layout().lines.bottom_z_m)
+                        && is_close(top[2].1, -girder.slab_m - girder.haunch_m)
                 );
                 assert!([top, web, bottom].iter().all(|part| is_close(part[1].0 + part[1].1, 2.0 * y)));
                 let same_x = |part: &[(f64, f64); 3]| is_close(part[0].0, web[0].0) && is_close(part[0].1, web[0].1);
@@ -127,8 +106,8 @@ fn exact_bearings_fill_the_space_between_girders_and_pedestals() {
         assert_eq!(bearings.len(), pedestals.len());
         for (bearing, pedestal) in bearings.iter().zip(&pedestals) {
             let (upper, lower) = (extent(&bridge, bearing), extent(&bridge, pedestal));
-            assert!(is_close(upper[2].1, girder.girder_bottom_z_m()) && is_close(upper[2].0, lower[2].1));
-            assert!(is_close(lower[2].0, girder.seat_z_m()), "{lower:?}");
+            assert!(is_close(upper[2].1, girder.layout().lines.bottom_z_m) && is_close(upper[2].0, lower[2].1));
+            assert!(is_close(lower[2].0, girder.layout().seat_z_m()), "{lower:?}");
             assert!(lower[0].0 < upper[0].0 && lower[1].0 < upper[1].0, "the pedestal is wider");
         }
         let fixed = members.iter().filter(|member| member.element == Element::FixedBearing).count();
@@ -166,21 +145,6 @@ fn exact_quantities_of_the_default_bridge_match_values_computed_by_hand() {
     assert_eq!(quantities[2].text(), "6 each");
 }
 
-fn shapes(bridge: &Bridge) -> Vec<(String, Convex)> {
-    bridge.members().iter().map(|member| (member.name.clone(), Convex::new(&member.solid))).collect()
-}
-
-/// Returns the name of the first member that a line of sight hits.
-fn hit(shapes: &[(String, Convex)], from: Vec3<Enu>, view: Vec3<Enu>) -> Option<String> {
-    let hits = shapes.iter().filter_map(|(name, shape)| Some((shape.ray(from, view, 60.0)?.0, name)));
-    hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name.clone())
-}
-
-/// Returns the name of the first member in view from a point of a path.
-fn seen(shapes: &[(String, Convex)], path: &TaskPath, k: usize) -> Option<String> {
-    hit(shapes, path.path_m[k], path.viewing_directions[k])
-}
-
 #[test]
 fn exact_bearings_are_in_view_from_the_bearing_line() {
     for (girder, supports) in
@@ -193,7 +157,7 @@ fn exact_bearings_are_in_view_from_the_bearing_line() {
                 let place = PathPlace { support: Some(support), span: None };
                 let path = bridge.task_path_at(TaskKind::BearingLine, stand_off_m, &place).unwrap();
                 let [x, _, z] = bridge.placement().local(path.path_m[0]);
-                for (line, y) in girder.girder_lines().into_iter().enumerate() {
+                for (line, y) in girder.layout().beam_lines().into_iter().enumerate() {
                     let from = bridge.placement().point([x, y, z]);
                     let name = hit(&shapes, from, path.viewing_directions[0]).unwrap();
                     let bearing = format!("b/bearing-{support}");
@@ -213,7 +177,7 @@ fn exact_girder_soffit_path_is_below_both_halves_of_its_span() {
         let path = bridge.task_path_at(TaskKind::GirderSoffit, 4.0, &PathPlace { span, support: None }).unwrap();
         let local: Vec<[f64; 3]> = path.path_m.iter().map(|p| bridge.placement().local(*p)).collect();
         assert!(local.iter().all(|p| p[0] > low + 4.0 && p[0] < high - 4.0), "{span:?}");
-        assert!(local.iter().all(|p| is_close(p[2], girder.girder_bottom_z_m() - 4.0)));
+        assert!(local.iter().all(|p| is_close(p[2], girder.layout().lines.bottom_z_m - 4.0)));
         // A quarter of the 10.98 m between the outer girders, to the left and to the right.
         let (first, last) = (local[0], local[local.len() - 1]);
         assert!(is_close(first[1], 2.745) && is_close(last[1], -2.745) && is_close(first[0], last[0]), "{first:?} {last:?}");
@@ -283,7 +247,7 @@ fn exact_inconsistent_dimensions_name_their_key_and_limit() {
 
 #[test]
 fn exact_quantities_list_the_elements_of_the_members() {
-    use spandrel_model::scenario::bridges::{arch::Arch, suspension::Suspension};
+    use spandrel_model::scenario::bridges::{arch::Arch, prestressed::Prestressed, suspension::Suspension, truss::Truss};
     let of = |kind: BridgeKind| Bridge { name: "b".into(), center_m: Vec3::zero(), heading_deg: 0.0, kind };
     let kinds = [
         BridgeKind::Arch(Arch::default()),
@@ -291,6 +255,10 @@ fn exact_quantities_list_the_elements_of_the_members() {
         BridgeKind::Girder(Girder::default()),
         BridgeKind::Girder(Girder { spans: 1.0, ..Girder::default() }),
         BridgeKind::Girder(simple()),
+        BridgeKind::Prestressed(Prestressed::default()),
+        BridgeKind::Prestressed(Prestressed { spans: 1.0, ..Prestressed::default() }),
+        BridgeKind::Truss(Truss::default()),
+        BridgeKind::Truss(Truss { spans: 1.0, ..Truss::default() }),
     ];
     for bridge in kinds.map(of) {
         let mut built: Vec<u16> =

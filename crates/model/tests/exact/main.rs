@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may panic")]
 
 mod almanac;
+mod beams;
 mod bridges;
 mod difficulty;
 mod elements;
@@ -9,4 +10,6 @@ mod geometry;
 mod girder;
 mod ground;
 mod imported;
+mod prestressed;
 mod site;
+mod truss;

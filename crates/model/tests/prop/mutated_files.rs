@@ -6,7 +6,9 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
+use spandrel_model::scenario::bridges::truss::Truss;
 use spandrel_model::scenario::{DefectSpec, Scenario, TerrainSpec};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
@@ -195,6 +197,7 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
     let task = match kind {
         "arch" => "interlayer",
         "suspension" => "pier_circle",
+        "truss" => "floor_system",
         _ => "girder_soffit",
     };
     let numbers: Vec<String> = values.iter().map(|(key, value)| format!("{key} = {value:?}")).collect();
@@ -269,4 +272,14 @@ fn prop_all_valid_suspension_bridges_build_with_positive_volumes() {
 #[test]
 fn prop_all_valid_girder_bridges_build_with_positive_volumes() {
     assert_random_bridges_build("girder", Girder::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_prestressed_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("prestressed", Prestressed::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_truss_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("truss", Truss::FIELDS);
 }

@@ -13,7 +13,7 @@ type Keys = BTreeMap<String, DocumentedKey>;
 /// values are checked.
 const EXTRA_FRAGMENTS: [&str; 3] = [
     "[terrain]\nsource = \"flat\"\n[[wind.events]]\nkind = \"gust\"\n[[wind.events]]\nkind = \"change\"\n[[defects.placed]]\n[[briefing_pictures]]\n",
-    "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"arch\"\n[[bridges]]\ntype = \"suspension\"\n[[bridges]]\ntype = \"girder\"\n[[bridges]]\ntype = \"model\"\n",
+    "[terrain]\nsource = \"valley\"\n[[bridges]]\ntype = \"model\"\n",
     "[terrain]\nsource = \"file\"\n[[tasks]]\nkind = \"free\"\n[[tasks]]\nkind = \"interlayer\"\nbridge = \"none\"\n",
 ];
 
@@ -27,7 +27,8 @@ fn merge_keys(all: &mut Keys, keys: Keys) {
 fn scenario_keys() -> Keys {
     let mut all = Keys::new();
     let shipped = toml_files("scenarios").into_iter().map(|path| std::fs::read_to_string(path).unwrap());
-    for to_text in shipped.chain(EXTRA_FRAGMENTS.map(String::from)) {
+    let of_types = BridgeKind::TYPES.iter().map(|bridge| format!("[[bridges]]\ntype = \"{}\"\n", bridge.name));
+    for to_text in shipped.chain(EXTRA_FRAGMENTS.map(String::from)).chain(of_types) {
         merge_keys(&mut all, spandrel_model::scenario::read_with_keys("keys.toml", &to_text, &|_| Err("no file".into())).1);
     }
     all

@@ -19,19 +19,23 @@ advice-drifted-up = Sie sind im Mittel { $mean } m über die Bahn geraten, { $wh
 advice-drifted-down = Sie sind im Mittel { $mean } m unter die Bahn geraten, { $when }: Halten Sie die Höhe.
 advice-beside-path = Sie sind { $mean } m neben der Bahn geflogen, { $when }: Fliegen Sie auf der Bahn selbst.
 advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
-        [deck] von der Fahrbahntafel
-        [arch] vom Bogen
-        [pier] vom Pfeiler
-        [girders] von den Trägern
-        [cap] vom Pfeilerkopfbalken
+        [slab_side] von der Fahrbahntafel
+        [arch_bottom] vom Bogen
+        [pier_circle] vom Pfeiler
+        [girder_soffit] von den Trägern
+        [pier_cap] vom Pfeilerkopfbalken
+        [truss_panel] vom Fachwerk
+        [floor_system] vom Fahrbahnrost
        *[structure] vom Bauwerk
     } geflogen, { $when }: Fliegen Sie näher heran.
 advice-too-close = Sie sind { $mean } m zu nah { $surface ->
-        [deck] an der Fahrbahntafel
-        [arch] am Bogen
-        [pier] am Pfeiler
-        [girders] an den Trägern
-        [cap] am Pfeilerkopfbalken
+        [slab_side] an der Fahrbahntafel
+        [arch_bottom] am Bogen
+        [pier_circle] am Pfeiler
+        [girder_soffit] an den Trägern
+        [pier_cap] am Pfeilerkopfbalken
+        [truss_panel] am Fachwerk
+        [floor_system] am Fahrbahnrost
        *[structure] am Bauwerk
     } geflogen, { $when }: Vergrößern Sie den Abstand.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
@@ -54,11 +58,13 @@ advice-yaw-reversals = Sie haben den Gierknüppel{ $place ->
     } bis zu { $most }-mal pro Minute umgesteuert, am häufigsten ab { $at }: Halten Sie die Richtung.
 
 advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
-        [deck] von der Fahrbahntafel
-        [arch] vom Bogen
-        [pier] vom Pfeiler
-        [girders] von den Trägern
-        [cap] vom Pfeilerkopfbalken
+        [slab_side] von der Fahrbahntafel
+        [arch_bottom] vom Bogen
+        [pier_circle] vom Pfeiler
+        [girder_soffit] von den Trägern
+        [pier_cap] vom Pfeilerkopfbalken
+        [truss_panel] vom Fachwerk
+        [floor_system] vom Fahrbahnrost
        *[structure] vom Bauwerk
     } weg, { $when }: Drehen Sie die Nase dorthin.
 advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.

@@ -30,13 +30,15 @@ briefing-pedestrians = { $count ->
 
 briefing-hover = an einer Stelle schweben
 briefing-place = { $kind ->
-        [slab] entlang der Kante der Fahrbahntafel
-        [arch] unter dem Bogen
+        [slab_side] entlang der Kante der Fahrbahntafel
+        [arch_bottom] unter dem Bogen
         [interlayer] zwischen Bogen und Fahrbahntafel
-        [pier] um den Pfeiler
-        [girders] unter den Trägern
-        [bearings] an den Lagern entlang
-        [cap] um den Pfeilerkopfbalken
+        [pier_circle] um den Pfeiler
+        [girder_soffit] unter den Trägern
+        [bearing_line] an den Lagern entlang
+        [pier_cap] um den Pfeilerkopfbalken
+        [truss_panel] an der Außenseite des Fachwerks entlang
+        [floor_system] unter dem Fahrbahnrost
        *[free] entlang der freien Bahn
     }{ $named ->
         [yes] {" "}der Brücke „{ $bridge }“

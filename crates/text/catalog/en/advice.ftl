@@ -22,19 +22,23 @@ advice-drifted-up = You drifted { $mean } m above the path { $when }: hold your 
 advice-drifted-down = You drifted { $mean } m below the path { $when }: hold your altitude.
 advice-beside-path = You flew { $mean } m beside the path { $when }: fly on the path itself.
 advice-too-far = You flew { $mean } m too far from { $surface ->
-        [deck] the deck
-        [arch] the arch
-        [pier] the pier
-        [girders] the girders
-        [cap] the pier cap
+        [slab_side] the deck
+        [arch_bottom] the arch
+        [pier_circle] the pier
+        [girder_soffit] the girders
+        [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
        *[structure] the structure
     } { $when }: move closer.
 advice-too-close = You flew { $mean } m too close to { $surface ->
-        [deck] the deck
-        [arch] the arch
-        [pier] the pier
-        [girders] the girders
-        [cap] the pier cap
+        [slab_side] the deck
+        [arch_bottom] the arch
+        [pier_circle] the pier
+        [girder_soffit] the girders
+        [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
        *[structure] the structure
     } { $when }: back off.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
@@ -58,11 +62,13 @@ advice-yaw-reversals = You reversed the yaw stick up to { $most } times a minute
 
 # Camera and lamp.
 advice-framing = Your camera pointed up to { $most } degrees away from { $surface ->
-        [deck] the deck
-        [arch] the arch
-        [pier] the pier
-        [girders] the girders
-        [cap] the pier cap
+        [slab_side] the deck
+        [arch_bottom] the arch
+        [pier_circle] the pier
+        [girder_soffit] the girders
+        [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
        *[structure] the structure
     } { $when }: turn the nose toward it.
 advice-lamp-off = Your lamp was off in the dark { $when }: switch it on in the shade.

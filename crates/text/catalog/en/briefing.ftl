@@ -35,13 +35,15 @@ briefing-pedestrians = { $count ->
 # Tasks: where, in which direction, and their numbers.
 briefing-hover = hover at one place
 briefing-place = { $kind ->
-        [slab] along the edge of the deck
-        [arch] under the arch
+        [slab_side] along the edge of the deck
+        [arch_bottom] under the arch
         [interlayer] between the arch and the deck
-        [pier] around the pier
-        [girders] under the girders
-        [bearings] along the bearings
-        [cap] around the pier cap
+        [pier_circle] around the pier
+        [girder_soffit] under the girders
+        [bearing_line] along the bearings
+        [pier_cap] around the pier cap
+        [truss_panel] along the outside of the truss
+        [floor_system] under the floor
        *[free] along the free path
     }{ $named ->
         [yes] {" "}of bridge '{ $bridge }'

@@ -5,6 +5,7 @@ job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
 job-drill-gap = Drill: gap
+job-drill-girder-bays = Drill: girder bays
 job-drill-hover = Drill: hover
 job-drill-lamp = Drill: lamp
 job-drill-landing = Drill: landing
@@ -12,10 +13,13 @@ job-drill-orbit = Drill: orbit
 job-drill-search = Drill: search
 job-drill-stand-off = Drill: stand-off
 job-drill-straight-line = Drill: straight line
+job-drill-truss-panels = Drill: truss panels
 job-first-flight = Lesson: first flight
 job-girder = Girder bridge: outer girder, girder bays, pier cap, bearings
 job-pilot-study = Pilot study: slab side, arch bottom, interlayer, pier
 job-practice = Practice at two bridges
+job-prestressed = Prestressed girder bridge: outer girder, girder bays, pier cap, bearings
+job-truss = Truss bridge: truss panels, floor system, pier cap, pins and bearings
 job-two-bridges = Two bridges: slab side, arch bottom, interlayer, pier
 
 # Names of tasks.
@@ -38,6 +42,11 @@ job-task-outer-girder = Outer girder and deck edge
 job-task-girder-bays = Girder bays of the last span
 job-task-bearings = Bearings on the start abutment
 job-task-pier-cap = Cap of the first pier
+job-task-middle-bays = Girder bays of the middle span
+job-task-pier-bearings = Bearings on the second pier
+job-task-right-truss = Right truss of the first span
+job-task-floor = Floor system of the second span
+job-task-pins = Pins and bearings on the pier
 
 # States of an assigned job.
 job-state-open = open

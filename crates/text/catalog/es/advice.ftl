@@ -19,19 +19,23 @@ advice-drifted-up = Se desvió { $mean } m por encima de la trayectoria { $when 
 advice-drifted-down = Se desvió { $mean } m por debajo de la trayectoria { $when }: mantenga la altura.
 advice-beside-path = Voló a { $mean } m de la trayectoria { $when }: vuele sobre la trayectoria misma.
 advice-too-far = Voló { $mean } m demasiado lejos { $surface ->
-        [deck] del tablero
-        [arch] del arco
-        [pier] de la pila
-        [girders] de las vigas
-        [cap] del cabezal de la pila
+        [slab_side] del tablero
+        [arch_bottom] del arco
+        [pier_circle] de la pila
+        [girder_soffit] de las vigas
+        [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
        *[structure] de la estructura
     } { $when }: acérquese.
 advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
-        [deck] del tablero
-        [arch] del arco
-        [pier] de la pila
-        [girders] de las vigas
-        [cap] del cabezal de la pila
+        [slab_side] del tablero
+        [arch_bottom] del arco
+        [pier_circle] de la pila
+        [girder_soffit] de las vigas
+        [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
        *[structure] de la estructura
     } { $when }: aléjese.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
@@ -54,11 +58,13 @@ advice-yaw-reversals = Invirtió el movimiento de la palanca de guiñada hasta {
     }, sobre todo desde { $at }: mantenga el rumbo.
 
 advice-framing = Su cámara se apartó hasta { $most } grados { $surface ->
-        [deck] del tablero
-        [arch] del arco
-        [pier] de la pila
-        [girders] de las vigas
-        [cap] del cabezal de la pila
+        [slab_side] del tablero
+        [arch_bottom] del arco
+        [pier_circle] de la pila
+        [girder_soffit] de las vigas
+        [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
        *[structure] de la estructura
     } { $when }: gire la nariz hacia la superficie.
 advice-lamp-off = El foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.

@@ -30,13 +30,15 @@ briefing-pedestrians = { $count ->
 
 briefing-hover = vuelo estacionario en un punto
 briefing-place = { $kind ->
-        [slab] a lo largo del borde del tablero
-        [arch] bajo el arco
+        [slab_side] a lo largo del borde del tablero
+        [arch_bottom] bajo el arco
         [interlayer] entre el arco y el tablero
-        [pier] alrededor de la pila
-        [girders] bajo las vigas
-        [bearings] a lo largo de los apoyos
-        [cap] alrededor del cabezal de la pila
+        [pier_circle] alrededor de la pila
+        [girder_soffit] bajo las vigas
+        [bearing_line] a lo largo de los apoyos
+        [pier_cap] alrededor del cabezal de la pila
+        [truss_panel] a lo largo del exterior de la celosía
+        [floor_system] bajo el sistema de piso
        *[free] a lo largo de la trayectoria libre
     }{ $named ->
         [yes] {" "}del puente «{ $bridge }»

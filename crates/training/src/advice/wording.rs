@@ -2,7 +2,6 @@
 
 use super::flight_scan::{FlightScan, Stretches};
 use crate::time_text::{clock, duration};
-use spandrel_model::scenario::TaskKind;
 use spandrel_text::{Language, text};
 
 /// A sentence and the index of the frame that shows it best.
@@ -49,15 +48,8 @@ pub(super) fn when(scan: &FlightScan<'_>, place: Place, stretches: &Stretches) -
     text!(scan.language, "advice-when", place = kind, tasks = tasks, stretches = stretches.count, time = time, from = from)
 }
 
-/// Names the surface that the tasks inspect: `deck`, `arch`, `pier`, `girders`, `cap` or `structure`.
+/// Names the surface that the tasks inspect, by the kind of the only task; `structure` for several tasks.
 pub(super) fn surface(scan: &FlightScan<'_>, tasks: &[usize]) -> &'static str {
     let [task] = tasks else { return "structure" };
-    match scan.evidence.scenario.tasks[*task].kind {
-        TaskKind::SlabSide => "deck",
-        TaskKind::ArchBottom => "arch",
-        TaskKind::PierCircle => "pier",
-        TaskKind::GirderSoffit => "girders",
-        TaskKind::PierCap => "cap",
-        TaskKind::BearingLine | TaskKind::Interlayer | TaskKind::Free => "structure",
-    }
+    scan.evidence.scenario.tasks[*task].kind.key()
 }

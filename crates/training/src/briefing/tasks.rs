@@ -4,7 +4,7 @@ use crate::terms::task_title;
 use serde::Serialize;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::scenario::{Scenario, Task, TaskKind};
+use spandrel_model::scenario::{Scenario, Task};
 use spandrel_model::site::Site;
 use spandrel_text::{Language, text};
 
@@ -61,19 +61,9 @@ fn place(task: &Task, scenario: &Scenario, language: Language) -> String {
     if task.is_hold_position() {
         return text!(language, "briefing-hover");
     }
-    let kind = match task.kind {
-        TaskKind::SlabSide => "slab",
-        TaskKind::ArchBottom => "arch",
-        TaskKind::Interlayer => "interlayer",
-        TaskKind::PierCircle => "pier",
-        TaskKind::GirderSoffit => "girders",
-        TaskKind::BearingLine => "bearings",
-        TaskKind::PierCap => "cap",
-        TaskKind::Free => "free",
-    };
     let bridge = task.bridge.map_or("", |bridge| scenario.bridges[bridge].name.as_str());
     let named = if task.bridge.is_some() { "yes" } else { "no" };
-    let place = text!(language, "briefing-place", kind = kind, named = named, bridge = bridge);
+    let place = text!(language, "briefing-place", kind = task.kind.key(), named = named, bridge = bridge);
     match way(task, language) {
         Some(way) => text!(language, "briefing-place-and-way", place = place, way = way),
         None => place,

@@ -1,7 +1,7 @@
 //! Training plan rules and their file format.
 
 use super::measure::{MEASURES, RuleMeasure};
-use spandrel_model::scenario::{self, Difficulty};
+use spandrel_model::scenario::{self, Difficulty, TaskKind};
 use spandrel_model::shipped::SCENARIOS;
 use spandrel_model::toml::{Problems, Reader, Section};
 
@@ -17,17 +17,6 @@ const MAX_MASTERY_SESSIONS: i64 = 20;
 /// Maximum number of levels between two sessions: a scenario has at most 20.
 const MAX_LEVEL_STEP: i64 = 19;
 
-const TASK_KINDS: &[(&str, Option<&str>)] = &[
-    ("any", None),
-    ("slab_side", Some("slab_side")),
-    ("arch_bottom", Some("arch_bottom")),
-    ("interlayer", Some("interlayer")),
-    ("pier_circle", Some("pier_circle")),
-    ("girder_soffit", Some("girder_soffit")),
-    ("bearing_line", Some("bearing_line")),
-    ("pier_cap", Some("pier_cap")),
-    ("free", Some("free")),
-];
 const CRASH_OBJECTS: &[(&str, Option<&str>)] = &[
     ("any", None),
     ("bridge", Some("bridge")),
@@ -213,12 +202,18 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
     rules
 }
 
+/// Returns the kinds of tasks to which a rule can be restricted.
+fn task_kinds() -> Vec<(&'static str, Option<&'static str>)> {
+    let kinds = TaskKind::ALL.iter().map(|kind| (kind.key(), Some(kind.key())));
+    std::iter::once(("any", None)).chain(kinds).collect()
+}
+
 fn read_rule(reader: &mut Reader<'_>, section: &mut Section<'_>) -> PlanRule {
     let in_tasks = reader.integer(section, "in_tasks", (1, MAX_IN_TASKS), Some(1));
     let rule = PlanRule {
         name: reader.text(section, "name", None),
         measure: reader.keyword(section, "measure", MEASURES, None),
-        task: reader.keyword(section, "task", TASK_KINDS, Some(0)),
+        task: reader.keyword(section, "task", &task_kinds(), Some(0)),
         in_tasks: usize::try_from(in_tasks).unwrap_or(1),
         with: reader.keyword(section, "with", CRASH_OBJECTS, Some(0)),
         lacked: reader.text(section, "lacked", Some("")),

@@ -2,7 +2,7 @@
 
 use super::crashes::Crashes;
 use super::source::RecordSource;
-use super::task_record::{DefectRecord, TaskRecord, kind_key};
+use super::task_record::{DefectRecord, TaskRecord};
 use super::technique::{self, MAX_OFF_PATH_DISTANCE_M, SessionTechnique, TaskTechnique};
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::defect_codes::defect_name;
@@ -79,7 +79,7 @@ fn task_causes(
     TaskRecord {
         id: described.id,
         name: described.name.clone(),
-        kind: kind_key(described.kind).to_owned(),
+        kind: described.kind.key().to_owned(),
         attempted: result.attempted,
         state: Some(result.state),
         covered: Some(result.covered),

@@ -6,7 +6,6 @@ use crate::terms::defect_title;
 use serde::{Deserialize, Serialize};
 use spandrel_model::defect_codes::defect_name;
 use spandrel_model::elements::Element;
-use spandrel_model::scenario::TaskKind;
 use spandrel_monitor::score::completion::TaskState;
 use spandrel_text::Language;
 
@@ -17,8 +16,7 @@ pub struct TaskRecord {
     pub id: u32,
     /// Task name in the scenario.
     pub name: String,
-    /// Kind of task: `slab_side`, `arch_bottom`, `interlayer`, `pier_circle`, `girder_soffit`, `bearing_line`, `pier_cap` or
-    /// `free`.
+    /// Kind of task: the value of `kind` in the scenario, such as `slab_side`.
     pub kind: String,
     /// Whether the drone entered the task's path.
     pub attempted: bool,
@@ -104,18 +102,5 @@ impl DefectRecord {
     #[must_use]
     pub fn kind_title(&self, language: Language) -> String {
         if self.kind_name == defect_name(self.kind) { defect_title(self.kind, language) } else { self.kind_name.clone() }
-    }
-}
-
-pub(super) fn kind_key(kind: TaskKind) -> &'static str {
-    match kind {
-        TaskKind::SlabSide => "slab_side",
-        TaskKind::ArchBottom => "arch_bottom",
-        TaskKind::Interlayer => "interlayer",
-        TaskKind::PierCircle => "pier_circle",
-        TaskKind::GirderSoffit => "girder_soffit",
-        TaskKind::BearingLine => "bearing_line",
-        TaskKind::PierCap => "pier_cap",
-        TaskKind::Free => "free",
     }
 }

@@ -2,20 +2,33 @@
 //! (`scenarios/README.md`), which is their only source; the catalog contains the other languages.
 
 use spandrel_model::key_table::KeyDescription;
+use spandrel_model::scenario::values::key_descriptions;
 use spandrel_text::{Language, Sentence, SentenceTable, text, translation};
 use std::sync::LazyLock;
 
 /// Beginning of the names of the messages with the meanings.
 const MEANING_PREFIX: &str = "scenario-keys-";
+/// Beginning of the keys with the dimensions of bridges.
+const BRIDGES: &str = "bridges[].";
 
 /// Returns the meaning of a key, in Markdown, and its language: English if there is no translation.
 #[must_use]
 pub fn meaning(language: Language, description: &KeyDescription) -> (Language, String) {
     let english = &description.meaning;
-    match translation(language, &meaning_id(&description.key), english) {
+    let translated = explained_by(description).find_map(|key| translation(language, &meaning_id(key), english));
+    match translated {
         Some(meaning) => (language, meaning),
         None => (Language::English, english.clone()),
     }
+}
+
+/// Returns the keys whose messages explain a key: its own, and those of other bridge types with the same name and the same meaning.
+fn explained_by(description: &KeyDescription) -> impl Iterator<Item = &str> {
+    let dimension = |key: &str| key.strip_prefix(BRIDGES).and_then(|key| key.split_once('.')).map(|(_, name)| name.to_owned());
+    let own = dimension(&description.key);
+    let is_same =
+        move |other: &&KeyDescription| own.is_some() && dimension(&other.key) == own && other.meaning == description.meaning;
+    std::iter::once(description.key.as_str()).chain(key_descriptions().iter().filter(is_same).map(|other| other.key.as_str()))
 }
 
 /// Returns the name of the message with the meaning of a key, such as `scenario-keys-tasks-stand-off-m` for `tasks[].stand_off_m`.

@@ -9,7 +9,8 @@ use spandrel_model::toml::Problem;
 /// anyway.
 const MAX_GROUPS: usize = 64;
 
-/// A group of keys: those that most jobs need, and the tables whose other keys are under "More keys".
+/// A group of keys: those that most jobs need, and the tables whose other keys are under "More keys". A table name that ends with `*`
+/// stands for all tables whose names begin so.
 struct Layout {
     id: &'static str,
     /// Location of the repeated table with one group of fields for each table; empty if there is none.
@@ -47,7 +48,7 @@ const LAYOUT: &[Layout] = &[
         id: "bridges",
         repeated: "bridges",
         main: &["bridges[].name", "bridges[].type", "bridges[].centre_m", "bridges[].heading_deg"],
-        tables: &["bridges[]", "bridges[].arch", "bridges[].suspension", "bridges[].girder", "bridges[].model"],
+        tables: &["bridges[]", "bridges[].*"],
     },
     Layout {
         id: "tasks",
@@ -124,7 +125,8 @@ const LAYOUT: &[Layout] = &[
 /// Returns the documentation of all keys that the form can show.
 #[cfg(test)]
 pub(super) fn form_keys() -> impl Iterator<Item = &'static KeyDescription> {
-    let is_in = |layout: &Layout, key: &str| layout.main.contains(&key) || layout.tables.contains(&parent(key));
+    let is_in =
+        |layout: &Layout, key: &str| layout.main.contains(&key) || layout.tables.iter().any(|entry| is_table(entry, parent(key)));
     key_descriptions().iter().filter(move |described| LAYOUT.iter().any(|layout| is_in(layout, &described.key)))
 }
 
@@ -268,9 +270,14 @@ fn fields(layout: &Layout, table: &str, values: &ScenarioValues) -> (Vec<Field>,
     let others = layout.tables.iter().flat_map(|table| {
         key_descriptions()
             .iter()
-            .filter(move |described| parent(&described.key) == *table && !layout.main.contains(&described.key.as_str()))
+            .filter(move |described| is_table(table, parent(&described.key)) && !layout.main.contains(&described.key.as_str()))
     });
     (main, others.filter_map(shown).collect())
+}
+
+/// Returns whether an entry of [`Layout::tables`] stands for a table.
+fn is_table(entry: &str, table: &str) -> bool {
+    entry == table || entry.strip_suffix('*').is_some_and(|start| table.starts_with(start))
 }
 
 fn parent(location: &str) -> &str {

@@ -42,7 +42,7 @@ fn in_words(name: &str) -> String {
 
 fn translated(language: Language, name: &str) -> Option<String> {
     let place = place_label(language, name).or_else(|| bridge_label(language, name));
-    let place = place.or_else(|| girder_label(language, name));
+    let place = place.or_else(|| girder_label(language, name)).or_else(|| truss_label(language, name));
     place.or_else(|| flight_label(language, name)).or_else(|| rule_label(language, name))
 }
 
@@ -140,6 +140,9 @@ fn girder_label(language: Language, name: &str) -> Option<String> {
         "web" => text!(language, "editor-key-web"),
         "flange_width" => text!(language, "editor-key-flange-width"),
         "flange" => text!(language, "editor-key-flange"),
+        "section" => text!(language, "editor-key-section"),
+        "diaphragm_spacing" => text!(language, "editor-key-diaphragm-spacing"),
+        "diaphragm" => text!(language, "editor-key-diaphragm"),
         "cross_frame_spacing" => text!(language, "editor-key-cross-frame-spacing"),
         "barrier" => text!(language, "editor-key-barrier"),
         "drain_spacing" => text!(language, "editor-key-drain-spacing"),
@@ -151,6 +154,19 @@ fn girder_label(language: Language, name: &str) -> Option<String> {
         "round_columns" => text!(language, "editor-key-round-columns"),
         "column_height" => text!(language, "editor-key-column-height"),
         "abutment" => text!(language, "editor-key-abutment"),
+        _ => return None,
+    })
+}
+
+/// Labels of truss bridges, for keys that other bridges don't have.
+fn truss_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "depth" => text!(language, "editor-key-depth"),
+        "hip_depth" => text!(language, "editor-key-hip-depth"),
+        "truss_spacing" => text!(language, "editor-key-truss-spacing"),
+        "chord" => text!(language, "editor-key-chord"),
+        "gusset" => text!(language, "editor-key-gusset"),
+        "bracing_depth" => text!(language, "editor-key-bracing-depth"),
         _ => return None,
     })
 }

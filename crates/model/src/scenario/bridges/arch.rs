@@ -2,8 +2,11 @@
 //! abutments.
 
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
-use super::quantity::ElementQuantity;
-use super::solid::{Footing, MemberBuilder};
+use super::path::{LocalPath, PathPlace, SPACING_M, TaskKind, equal_steps};
+use super::quantity::{Amounts, ElementQuantity};
+use super::railing::add_railing;
+use super::shape::BridgeShape;
+use super::solid::{Footing, LocalPoint, MemberBuilder};
 use crate::elements::Element;
 use crate::math;
 
@@ -40,13 +43,120 @@ bridge_dimensions! {
     }
 }
 
-impl Arch {
-    /// Returns the deck length in meters.
-    #[must_use]
-    pub fn deck_length_m(&self) -> f64 {
+impl BridgeShape for Arch {
+    fn type_in_words(&self) -> &'static str {
+        "an arch"
+    }
+
+    fn task_kinds(&self) -> &'static [TaskKind] {
+        &[TaskKind::SlabSide, TaskKind::ArchBottom, TaskKind::Interlayer]
+    }
+
+    // If there are none, every member has a positive volume and a support, and the interlayer is open.
+    fn inconsistencies(&self) -> Vec<Inconsistency> {
+        let panel_m = self.span_m / self.panels.round();
+        let line_m = (self.deck_width_m - 2.0 * BEAM_INSET_M) / self.stringers.round();
+        let over_columns_m = self.rib_spacing_m + self.column_m + 2.0 * BEAM_INSET_M;
+        let mut m = InconsistencyList::default();
+        m.require_integer("panels", self.panels);
+        m.require_integer("stringers", self.stringers);
+        m.require_at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
+        m.require_at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
+        m.require_at_least(
+            "springing_depth_m",
+            self.springing_depth_m,
+            self.crown_depth_m,
+            "no thinner than the crown (crown_depth_m)",
+        );
+        m.require_at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m minus 1 m for the struts");
+        m.require_at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
+        m.require_at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.require_at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
+        m.require_at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
+        m.require_at_least(
+            "deck_width_m",
+            self.deck_width_m,
+            over_columns_m,
+            "wide enough for the columns (rib_spacing_m, column_m)",
+        );
+        m.require_at_most("stringer_width_m", self.stringer_width_m, line_m, "room for all stringers (stringers, deck_width_m)");
+        m.require_at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
+        m.0
+    }
+
+    fn build(&self, b: &mut MemberBuilder) {
+        self.ribs(b);
+        self.columns(b);
+        self.floor(b);
+        self.railings(b);
+        self.abutments(b);
+    }
+
+    fn deck_length_m(&self) -> f64 {
         self.span_m + 2.0 * self.approach_m
     }
 
+    fn deck_width_m(&self) -> f64 {
+        self.deck_width_m
+    }
+
+    fn fascia_z_m(&self) -> (f64, f64) {
+        (-self.slab_m - self.stringer_depth_m, 0.0)
+    }
+
+    fn opening_half_length_m(&self) -> f64 {
+        0.5 * self.span_m
+    }
+
+    fn underside_depth_m(&self) -> Option<f64> {
+        Some(-self.intrados_z_m(0.5 * self.span_m))
+    }
+
+    fn footings(&self) -> Vec<Footing> {
+        let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
+        let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_length_m());
+        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foundation_bottom_z_m() };
+        vec![
+            at(-outer, -inner - 1.0, half),
+            at(inner + 1.0, outer, half),
+            at(-inner - SKEWBACK_LENGTH_M, -inner, narrow),
+            at(inner, inner + SKEWBACK_LENGTH_M, narrow),
+        ]
+    }
+
+    fn quantities(&self) -> Vec<ElementQuantity> {
+        let (length_m, width_m) = (self.deck_length_m(), self.deck_width_m);
+        [
+            (Element::RcDeck, length_m * width_m),
+            (Element::RcStringer, self.stringers.round() * length_m),
+            (Element::RcArch, 2.0 * self.span_m),
+            (Element::RcFloorBeam, (self.panels.round() + 1.0) * (width_m - 2.0 * BEAM_INSET_M)),
+            (Element::RcColumn, 2.0 * self.column_feet().len() as f64),
+            (Element::RcAbutment, 2.0 * width_m),
+            (Element::RcRailing, 2.0 * length_m),
+        ]
+        .into_iter()
+        .collect::<Amounts>()
+        .list()
+    }
+
+    fn task_path(&self, kind: TaskKind, stand_off_m: f64, _: &PathPlace) -> Result<LocalPath, String> {
+        match kind {
+            TaskKind::SlabSide => Ok(slab_side(self, stand_off_m)),
+            TaskKind::ArchBottom => Ok(arch_bottom(self, stand_off_m)),
+            TaskKind::Interlayer => Ok(interlayer(self)),
+            TaskKind::PierCircle
+            | TaskKind::GirderSoffit
+            | TaskKind::BearingLine
+            | TaskKind::PierCap
+            | TaskKind::TrussPanel
+            | TaskKind::FloorSystem
+            | TaskKind::Free => Err(self.supported_kinds()),
+        }
+    }
+}
+
+impl Arch {
     /// Returns the height of the rib axis at x in bridge axes, in meters: the parabola z_crown - 4 r x² / L².
     #[must_use]
     pub fn axis_z_m(&self, x: f64) -> f64 {
@@ -105,64 +215,6 @@ impl Arch {
     pub fn panel_points(&self) -> Vec<f64> {
         let n = self.panels.round() as i32;
         (1..n).map(|k| self.span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
-    }
-
-    /// Returns all inconsistent dimensions. If there are none, every member has a positive volume and a support, and the
-    /// interlayer is open.
-    #[must_use]
-    pub fn inconsistencies(&self) -> Vec<Inconsistency> {
-        let panel_m = self.span_m / self.panels.round();
-        let line_m = (self.deck_width_m - 2.0 * BEAM_INSET_M) / self.stringers.round();
-        let over_columns_m = self.rib_spacing_m + self.column_m + 2.0 * BEAM_INSET_M;
-        let mut m = InconsistencyList::default();
-        m.require_integer("panels", self.panels);
-        m.require_integer("stringers", self.stringers);
-        m.require_at_least("rise_m", self.rise_m, self.span_m / 12.0, "not too flat for span_m");
-        m.require_at_most("rise_m", self.rise_m, self.span_m / 2.0, "not too steep for span_m");
-        m.require_at_least(
-            "springing_depth_m",
-            self.springing_depth_m,
-            self.crown_depth_m,
-            "no thinner than the crown (crown_depth_m)",
-        );
-        m.require_at_most("rib_width_m", self.rib_width_m, self.rib_spacing_m - 1.0, "rib_spacing_m minus 1 m for the struts");
-        m.require_at_most("column_m", self.column_m, self.rib_width_m, "no wider than the rib (rib_width_m)");
-        m.require_at_most("column_m", self.column_m, 0.5 * panel_m, "half a panel (span_m, panels)");
-        m.require_at_most("floorbeam_width_m", self.floorbeam_width_m, 0.5 * panel_m, "half a panel (span_m, panels)");
-        m.require_at_most("floorbeam_depth_m", self.floorbeam_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
-        m.require_at_least(
-            "deck_width_m",
-            self.deck_width_m,
-            over_columns_m,
-            "wide enough for the columns (rib_spacing_m, column_m)",
-        );
-        m.require_at_most("stringer_width_m", self.stringer_width_m, line_m, "room for all stringers (stringers, deck_width_m)");
-        m.require_at_most("stringer_depth_m", self.stringer_depth_m, self.crown_gap_m - 0.5, "crown_gap_m minus 0.5 m");
-        m.0
-    }
-
-    /// Returns the total quantities of the elements.
-    #[must_use]
-    pub fn quantities(&self) -> Vec<ElementQuantity> {
-        let (length_m, width_m) = (self.deck_length_m(), self.deck_width_m);
-        ElementQuantity::list(&[
-            (Element::RcDeck, length_m * width_m),
-            (Element::RcStringer, self.stringers.round() * length_m),
-            (Element::RcArch, 2.0 * self.span_m),
-            (Element::RcFloorBeam, (self.panels.round() + 1.0) * (width_m - 2.0 * BEAM_INSET_M)),
-            (Element::RcColumn, 2.0 * self.column_feet().len() as f64),
-            (Element::RcAbutment, 2.0 * width_m),
-            (Element::RcRailing, 2.0 * length_m),
-        ])
-    }
-
-    /// Adds all the bridge's members to a builder.
-    pub fn build(&self, b: &mut MemberBuilder) {
-        self.ribs(b);
-        self.columns(b);
-        self.floor(b);
-        self.railings(b);
-        self.abutments(b);
     }
 
     fn ribs(&self, b: &mut MemberBuilder) {
@@ -264,20 +316,6 @@ impl Arch {
         self.intrados_z_m(0.5 * self.span_m) - FOUNDATION_DEPTH_M
     }
 
-    /// Returns the footings of abutments and skewbacks.
-    #[must_use]
-    pub fn footings(&self) -> Vec<Footing> {
-        let (inner, outer) = (0.5 * self.span_m, 0.5 * self.deck_length_m());
-        let (half, narrow) = (0.5 * self.deck_width_m, self.skewback_half_length_m());
-        let at = |low: f64, high: f64, y: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m: self.foundation_bottom_z_m() };
-        vec![
-            at(-outer, -inner - 1.0, half),
-            at(inner + 1.0, outer, half),
-            at(-inner - SKEWBACK_LENGTH_M, -inner, narrow),
-            at(inner, inner + SKEWBACK_LENGTH_M, narrow),
-        ]
-    }
-
     fn skewback_half_length_m(&self) -> f64 {
         0.5 * (self.rib_spacing_m + self.rib_width_m) + 0.5
     }
@@ -298,19 +336,62 @@ impl Arch {
     }
 }
 
-/// Adds railings along both edges of a deck: a post about every 2 m, and three rails.
-pub(super) fn add_railing(b: &mut MemberBuilder, length_m: f64, edge_y_m: f64, height_m: f64, element: Element) {
-    const POST_WIDTH_M: f64 = 0.15;
-    let posts = (length_m / 2.0).floor() as i32;
-    for (side, y) in [("left", edge_y_m - POST_WIDTH_M), ("right", -edge_y_m)] {
-        for k in 0..=posts {
-            let x = (length_m - POST_WIDTH_M) * (f64::from(k) / f64::from(posts) - 0.5) - 0.5 * POST_WIDTH_M;
-            b.add_box(&format!("post-{side}/{k:03}"), element, [x, y, 0.0], [x + POST_WIDTH_M, y + POST_WIDTH_M, height_m]);
-        }
-        for rail in 1..=3 {
-            let z = height_m * f64::from(rail) / 3.0;
-            let half = 0.5 * length_m;
-            b.add_box(&format!("rail-{side}/{rail}"), element, [-half, y + 0.03, z - 0.1], [half, y + 0.12, z]);
-        }
-    }
+/// Returns the path of task 1: a straight line along the right side of the deck, slightly below the slab's surface, facing it.
+fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
+    let half = 0.5 * arch.span_m;
+    let y = -0.5 * arch.deck_width_m - stand_off_m;
+    let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
+    LocalPath { viewing_directions: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
+}
+
+/// Returns the path of task 2: under the arch between the ribs, at the stand-off distance perpendicular to the intrados. The
+/// camera looks up and ahead at the arch.
+fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
+    let reach = 0.5 * arch.span_m * 0.78;
+    let bend = arch.intrados_curvature_per_m();
+    // The ribs are straight between nodes on the curve, so the path stays farther away by their maximum deviation.
+    let step = 0.5 * arch.span_m / arch.panels.round();
+    let off = stand_off_m + 0.25 * bend * step * step;
+    let steepest = 2.0 * bend * reach;
+    let n = (2.0 * reach * (1.0 + steepest * steepest).sqrt() / SPACING_M).ceil() as i32;
+    let on_curve = (0..=n).map(|k| reach * (2.0 * f64::from(k) / f64::from(n) - 1.0));
+    let points: Vec<LocalPoint> = on_curve
+        .map(|x| {
+            let fall = 2.0 * bend * x;
+            let stretch = (1.0 + fall * fall).sqrt();
+            [x - off * fall / stretch, 0.0, arch.intrados_z_m(x) - off / stretch]
+        })
+        .collect();
+    let viewing_directions = points.iter().enumerate().map(|(k, p)| under_arch_viewing_direction(arch, *p, off, k)).collect();
+    LocalPath { points, viewing_directions, closed: false }
+}
+
+/// Returns the viewing direction of task 2 at point `k`: up at the soffits and slightly ahead, panning slowly between
+/// the left and right ribs.
+fn under_arch_viewing_direction(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
+    const PERIOD_POINTS: f64 = 30.0;
+    let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
+    // The closest point of the arch is not vertically above the path point but farther from the crown.
+    let bend = 2.0 * arch.intrados_curvature_per_m();
+    let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
+    let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
+    [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
+}
+
+/// Returns the path of task 3: a horizontal line on the centerline between the deck and the arch, halfway between the
+/// floorbeams and the crown.
+fn interlayer(arch: &Arch) -> LocalPath {
+    let half = 0.3 * arch.span_m;
+    let z = 0.5 * (arch.floorbeam_bottom_z_m() + arch.extrados_z_m(0.0));
+    let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
+    let viewing_directions = (0..points.len()).map(interlayer_viewing_direction).collect();
+    LocalPath { points, viewing_directions, closed: false }
+}
+
+/// Returns the viewing direction of task 3 at point `k`: alternately up at the deck's underside and down at the ribs, panning to
+/// both sides.
+fn interlayer_viewing_direction(k: usize) -> LocalPoint {
+    const PERIOD_POINTS: f64 = 20.0;
+    let phase = math::TAU * k as f64 / PERIOD_POINTS;
+    [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
 }

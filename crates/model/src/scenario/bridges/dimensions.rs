@@ -29,12 +29,25 @@ pub struct Inconsistency {
 
 /// Collects inconsistencies while the dimensions of a bridge are compared.
 #[derive(Debug, Default)]
-pub(super) struct InconsistencyList(pub(super) Vec<Inconsistency>);
+pub struct InconsistencyList(pub(super) Vec<Inconsistency>);
 
 impl InconsistencyList {
     pub(super) fn require_integer(&mut self, key: &'static str, value: f64) {
         if value.fract() != 0.0 {
             self.0.push(Inconsistency { key, value, allowed: "a whole number".into() });
+        }
+    }
+
+    pub(super) fn require_even(&mut self, key: &'static str, value: f64) {
+        if value.round() % 2.0 != 0.0 || value.fract() != 0.0 {
+            self.0.push(Inconsistency { key, value, allowed: "an even number".into() });
+        }
+    }
+
+    pub(super) fn require_one_of(&mut self, key: &'static str, value: f64, allowed: &[f64], why: &str) {
+        if !allowed.contains(&value) {
+            let numbers: Vec<String> = allowed.iter().map(f64::to_string).collect();
+            self.0.push(Inconsistency { key, value, allowed: format!("{why}: {}", numbers.join(", ")) });
         }
     }
 

@@ -1,28 +1,40 @@
-//! Bridge geometry: each bridge type converts its dimensions to members, lanes and task paths. To add a type, add a
-//! file here with a table of its dimensions, and a variant of [`BridgeKind`].
+//! Bridge geometry: each bridge type converts its dimensions to members, quantities and task paths. To add a type, add a file here with
+//! a table of its dimensions and an implementation of [`BridgeShape`] or, for a deck on parallel beams, of
+//! [`BeamBridge`](beam_bridge::BeamBridge), and a row in `bridge_types!` below.
 
 pub mod arch;
+pub mod beam_bridge;
+pub mod beam_layout;
+mod beam_members;
+mod beam_path;
 pub mod dimensions;
 pub mod element_map;
 pub mod girder;
-mod girder_path;
 pub mod model;
 pub mod path;
+pub mod prestressed;
 pub mod quantity;
+mod railing;
+pub mod shape;
 pub mod solid;
 pub mod suspension;
+pub mod task_kind;
+pub mod truss;
 
 use crate::frames::{Enu, Vec3};
 use arch::Arch;
 use girder::Girder;
 use model::Model;
 use path::{PathPlace, TaskKind};
+use prestressed::Prestressed;
 use solid::{MemberBuilder, Placement};
 use suspension::Suspension;
+use truss::Truss;
 
 pub use dimensions::{BridgeField, Inconsistency};
 pub use path::TaskPath;
 pub use quantity::ElementQuantity;
+pub use shape::BridgeShape;
 pub use solid::{Footing, Member, Solid};
 
 /// A bridge of any type, with its position and heading.
@@ -36,19 +48,6 @@ pub struct Bridge {
     pub heading_deg: f64,
     /// Bridge type and dimensions.
     pub kind: BridgeKind,
-}
-
-/// Type and dimensions of a bridge. Each type has its own file in `bridges/`.
-#[derive(Debug, Clone, PartialEq)]
-pub enum BridgeKind {
-    /// An open-spandrel deck arch bridge.
-    Arch(Arch),
-    /// A suspension bridge.
-    Suspension(Suspension),
-    /// A steel girder bridge.
-    Girder(Girder),
-    /// A bridge imported from a 3D model.
-    Model(Model),
 }
 
 /// A traffic lane or walkway: a polyline on the deck's upper surface.
@@ -73,27 +72,55 @@ pub struct BridgeType {
     pub create: fn(&[f64]) -> BridgeKind,
 }
 
-impl BridgeKind {
-    /// All bridge types that are defined by dimensions.
-    pub const TYPES: [BridgeType; 3] = [
-        BridgeType { name: Arch::TYPE, fields: Arch::FIELDS, create: |values| Self::Arch(Arch::from_values(values)) },
-        BridgeType {
-            name: Suspension::TYPE,
-            fields: Suspension::FIELDS,
-            create: |values| Self::Suspension(Suspension::from_values(values)),
-        },
-        BridgeType { name: Girder::TYPE, fields: Girder::FIELDS, create: |values| Self::Girder(Girder::from_values(values)) },
-    ];
+/// Defines [`BridgeKind`] from the types whose dimensions are in the scenario file.
+macro_rules! bridge_types {
+    ($($(#[$doc:meta])* $kind:ident;)+) => {
+        /// Type and dimensions of a bridge. Each type has its own file in `bridges/`.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum BridgeKind {
+            $($(#[$doc])* $kind($kind),)+
+            /// A bridge imported from a 3D model.
+            Model(Model),
+        }
 
+        impl BridgeKind {
+            /// All bridge types that are defined by dimensions.
+            pub const TYPES: &'static [BridgeType] = &[$(BridgeType {
+                name: $kind::TYPE,
+                fields: $kind::FIELDS,
+                create: |values| Self::$kind($kind::from_values(values)),
+            }),+];
+
+            /// Returns the bridge's geometry.
+            #[must_use]
+            pub fn shape(&self) -> &dyn BridgeShape {
+                match self {
+                    $(Self::$kind(shape) => shape,)+
+                    Self::Model(shape) => shape,
+                }
+            }
+        }
+    };
+}
+
+bridge_types! {
+    /// An open-spandrel deck arch bridge.
+    Arch;
+    /// A suspension bridge.
+    Suspension;
+    /// A steel girder bridge.
+    Girder;
+    /// A prestressed concrete girder bridge.
+    Prestressed;
+    /// A steel through truss bridge.
+    Truss;
+}
+
+impl BridgeKind {
     /// Returns all inconsistent dimensions. If there are any, the bridge cannot be built.
     #[must_use]
     pub fn inconsistencies(&self) -> Vec<Inconsistency> {
-        match self {
-            Self::Arch(arch) => arch.inconsistencies(),
-            Self::Suspension(suspension) => suspension.inconsistencies(),
-            Self::Girder(girder) => girder.inconsistencies(),
-            Self::Model(_) => Vec::new(),
-        }
+        self.shape().inconsistencies()
     }
 }
 
@@ -108,97 +135,59 @@ impl Bridge {
     #[must_use]
     pub fn members(&self) -> Vec<Member> {
         let mut builder = MemberBuilder::new(&self.name, self.placement());
-        match &self.kind {
-            BridgeKind::Arch(arch) => arch.build(&mut builder),
-            BridgeKind::Suspension(suspension) => suspension.build(&mut builder),
-            BridgeKind::Girder(girder) => girder.build(&mut builder),
-            BridgeKind::Model(model) => model.build(&mut builder),
-        }
+        self.kind.shape().build(&mut builder);
         builder.finish()
     }
 
     /// Returns the deck length in meters.
     #[must_use]
     pub fn deck_length_m(&self) -> f64 {
-        match &self.kind {
-            BridgeKind::Arch(arch) => arch.deck_length_m(),
-            BridgeKind::Suspension(suspension) => suspension.deck_length_m(),
-            BridgeKind::Girder(girder) => girder.deck_length_m(),
-            BridgeKind::Model(model) => model.deck_length_m(),
-        }
+        self.kind.shape().deck_length_m()
     }
 
     /// Returns the deck width in meters.
     #[must_use]
     pub fn deck_width_m(&self) -> f64 {
-        match &self.kind {
-            BridgeKind::Arch(arch) => arch.deck_width_m,
-            BridgeKind::Suspension(suspension) => suspension.deck_width_m,
-            BridgeKind::Girder(girder) => girder.deck_width_m(),
-            BridgeKind::Model(model) => model.deck_width_m(),
-        }
+        self.kind.shape().deck_width_m()
     }
 
     /// Returns the heights, in bridge axes, of the lower and upper edge of the closed side that the deck and its girders show to the wind,
     /// m. Railings and the gaps between floorbeams are open.
     #[must_use]
     pub fn fascia_z_m(&self) -> (f64, f64) {
-        match &self.kind {
-            BridgeKind::Arch(arch) => (-arch.slab_m - arch.stringer_depth_m, 0.0),
-            BridgeKind::Suspension(suspension) => (suspension.girder_bottom_z_m(), 0.0),
-            BridgeKind::Girder(girder) => (girder.girder_bottom_z_m(), girder.barrier_m),
-            BridgeKind::Model(model) => model.fascia_z_m(),
-        }
+        self.kind.shape().fascia_z_m()
     }
 
     /// Returns half the length, in meters, of the opening under the bridge, which must stay free of terrain.
     #[must_use]
     pub fn opening_half_length_m(&self) -> f64 {
-        match &self.kind {
-            BridgeKind::Arch(arch) => 0.5 * arch.span_m,
-            BridgeKind::Suspension(suspension) => 0.5 * suspension.deck_length_m() - suspension.anchorage_m,
-            BridgeKind::Girder(girder) => girder.backwall_back_x_m(),
-            BridgeKind::Model(model) => 0.5 * model.deck_length_m(),
-        }
+        self.kind.shape().opening_half_length_m()
+    }
+
+    /// Returns the depth of the bridge's underside below its deck at the ends of its opening, in meters; `None` for an imported bridge,
+    /// which stands on the ground as it is.
+    #[must_use]
+    pub fn underside_depth_m(&self) -> Option<f64> {
+        self.kind.shape().underside_depth_m()
     }
 
     /// Returns all parts of the bridge that rest on the ground.
     #[must_use]
     pub fn footings(&self) -> Vec<Footing> {
-        match &self.kind {
-            BridgeKind::Arch(arch) => arch.footings(),
-            BridgeKind::Suspension(suspension) => suspension.footings(),
-            BridgeKind::Girder(girder) => girder.footings(),
-            BridgeKind::Model(_) => Vec::new(),
-        }
+        self.kind.shape().footings()
     }
 
     /// Returns the total quantities of the bridge's elements, ordered by element number.
     #[must_use]
     pub fn quantities(&self) -> Vec<ElementQuantity> {
-        match &self.kind {
-            BridgeKind::Arch(arch) => arch.quantities(),
-            BridgeKind::Suspension(suspension) => suspension.quantities(),
-            BridgeKind::Girder(girder) => girder.quantities(),
-            BridgeKind::Model(model) => model.quantities(),
-        }
-    }
-
-    /// Returns the distance of the walkways from the deck's centerline, in meters.
-    fn walkway_y_m(&self) -> f64 {
-        match &self.kind {
-            BridgeKind::Arch(_) | BridgeKind::Suspension(_) | BridgeKind::Model(_) => 0.43 * self.deck_width_m(),
-            BridgeKind::Girder(girder) => girder.walkway_y_m(),
-        }
+        self.kind.shape().quantities()
     }
 
     /// Returns the bridge's two lanes and two walkways; none for an imported bridge, whose road is unknown. `index` is the bridge's index
     /// in the scenario.
     #[must_use]
     pub fn lanes(&self, index: usize) -> Vec<Lane> {
-        if matches!(self.kind, BridgeKind::Model(_)) {
-            return Vec::new();
-        }
+        let Some(walkway) = self.kind.shape().walkway_y_m() else { return Vec::new() };
         let placement = self.placement();
         let half = 0.5 * self.deck_length_m();
         let width = self.deck_width_m();
@@ -207,7 +196,6 @@ impl Bridge {
             Lane { bridge: index, points_m: ends.map(|x| placement.point([x, y, 0.0])).to_vec(), walkway }
         };
         // Traffic keeps to the right: vehicles traveling in +x use y < 0. Walkways are inside the railings.
-        let walkway = self.walkway_y_m();
         vec![lane(-0.19 * width, false), lane(0.19 * width, false), lane(-walkway, true), lane(walkway, true)]
     }
 
@@ -219,28 +207,11 @@ impl Bridge {
         self.task_path_at(kind, stand_off_m, &PathPlace::default())
     }
 
-    /// Returns the reference path of a task kind at a stand-off distance in meters, at a span or support of a girder bridge.
+    /// Returns the reference path of a task kind at a stand-off distance in meters, at a span or support of the bridge.
     ///
     /// # Errors
     /// Returns as text the supported path kinds if the bridge type has no such path, or what the path requires if it does not fit.
     pub fn task_path_at(&self, kind: TaskKind, stand_off_m: f64, place: &PathPlace) -> Result<TaskPath, String> {
-        let placement = self.placement();
-        let drawn = match (&self.kind, kind) {
-            (BridgeKind::Arch(arch), TaskKind::SlabSide) => path::slab_side(arch, stand_off_m),
-            (BridgeKind::Arch(arch), TaskKind::ArchBottom) => path::arch_bottom(arch, stand_off_m),
-            (BridgeKind::Arch(arch), TaskKind::Interlayer) => path::interlayer(arch),
-            (BridgeKind::Suspension(suspension), TaskKind::PierCircle) => path::pier_circle(suspension, stand_off_m)?,
-            (BridgeKind::Girder(girder), TaskKind::SlabSide) => girder_path::slab_side(girder, stand_off_m)?,
-            (BridgeKind::Girder(girder), TaskKind::GirderSoffit) => girder_path::girder_soffit(girder, stand_off_m, place)?,
-            (BridgeKind::Girder(girder), TaskKind::BearingLine) => girder_path::bearing_line(girder, stand_off_m, place)?,
-            (BridgeKind::Girder(girder), TaskKind::PierCap) => girder_path::pier_cap(girder, stand_off_m, place)?,
-            (BridgeKind::Arch(_), _) => return Err("for an arch: slab_side, arch_bottom, interlayer".into()),
-            (BridgeKind::Suspension(_), _) => return Err("for a suspension bridge: pier_circle".into()),
-            (BridgeKind::Girder(_), _) => {
-                return Err("for a girder bridge: slab_side, girder_soffit, bearing_line, pier_cap".into());
-            }
-            (BridgeKind::Model(_), _) => return Err("for an imported bridge: free".into()),
-        };
-        Ok(drawn.to_site(&placement))
+        Ok(self.kind.shape().task_path(kind, stand_off_m, place)?.to_site(&self.placement()))
     }
 }

@@ -1,8 +1,11 @@
 //! A bridge whose members come from a file written by `spandrel import`: binary glTF with one node per convex part.
 
+use super::dimensions::Inconsistency;
 use super::element_map::ElementMap;
+use super::path::{LocalPath, PathPlace, TaskKind};
 use super::quantity::ElementQuantity;
-use super::solid::{LocalPoint, MemberBuilder};
+use super::shape::BridgeShape;
+use super::solid::{Footing, LocalPoint, MemberBuilder};
 use crate::elements::{Element, ElementGroup};
 use crate::mesh::faces::ConvexPart;
 use crate::mesh::gltf_reader;
@@ -109,34 +112,68 @@ impl Model {
         &self.extent
     }
 
-    pub(super) fn build(&self, builder: &mut MemberBuilder) {
-        for ModelPart { name, element, solid } in self.parts.iter() {
-            builder.add_solid(name, *element, &solid.corners_m, solid.faces.clone());
-        }
-    }
-
-    /// Returns the length of a deck about the origin that contains the model's own deck, m.
-    pub(super) fn deck_length_m(&self) -> f64 {
-        self.about_origin_m(0)
-    }
-
-    /// Returns the width of a deck about the origin that contains the model's own deck, m.
-    pub(super) fn deck_width_m(&self) -> f64 {
-        self.about_origin_m(1)
-    }
-
     fn about_origin_m(&self, axis: usize) -> f64 {
         let (low, high) = self.extent.deck;
         2.0 * low[axis].abs().max(high[axis].abs())
     }
+}
 
-    /// Returns the heights of the lower and upper edge of the deck with its girders, m.
-    pub(super) fn fascia_z_m(&self) -> (f64, f64) {
+impl BridgeShape for Model {
+    fn type_in_words(&self) -> &'static str {
+        "an imported bridge"
+    }
+
+    fn task_kinds(&self) -> &'static [TaskKind] {
+        &[TaskKind::Free]
+    }
+
+    fn inconsistencies(&self) -> Vec<Inconsistency> {
+        Vec::new()
+    }
+
+    fn build(&self, b: &mut MemberBuilder) {
+        for ModelPart { name, element, solid } in self.parts.iter() {
+            b.add_solid(name, *element, &solid.corners_m, solid.faces.clone());
+        }
+    }
+
+    /// Returns the length of a deck about the origin that contains the model's own deck, m.
+    fn deck_length_m(&self) -> f64 {
+        self.about_origin_m(0)
+    }
+
+    /// Returns the width of a deck about the origin that contains the model's own deck, m.
+    fn deck_width_m(&self) -> f64 {
+        self.about_origin_m(1)
+    }
+
+    /// Returns `None`, because the road of an imported bridge is unknown.
+    fn walkway_y_m(&self) -> Option<f64> {
+        None
+    }
+
+    fn fascia_z_m(&self) -> (f64, f64) {
         (self.extent.superstructure.0[2].min(self.extent.deck.0[2]), self.extent.deck.1[2])
     }
 
-    pub(super) fn quantities(&self) -> Vec<ElementQuantity> {
+    fn opening_half_length_m(&self) -> f64 {
+        0.5 * self.deck_length_m()
+    }
+
+    fn underside_depth_m(&self) -> Option<f64> {
+        None
+    }
+
+    fn footings(&self) -> Vec<Footing> {
+        Vec::new()
+    }
+
+    fn quantities(&self) -> Vec<ElementQuantity> {
         self.quantities.clone()
+    }
+
+    fn task_path(&self, _: TaskKind, _: f64, _: &PathPlace) -> Result<LocalPath, String> {
+        Err(self.supported_kinds())
     }
 }
 

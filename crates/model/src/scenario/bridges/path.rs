@@ -1,37 +1,15 @@
-//! Derives the tasks' reference paths from a bridge's dimensions, in bridge axes. The paths of girder bridges are in
-//! `girder_path.rs`.
+//! Reference paths of tasks in bridge axes. Each bridge type derives its own paths from its dimensions.
 
-use super::arch::Arch;
 use super::solid::{LocalPoint, Placement};
-use super::suspension::Suspension;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 
 /// Maximum spacing of reference points, m (at most 1 m is allowed: docs/src/reference/assessment.md, "On path").
 pub const SPACING_M: f64 = 0.8;
 
-/// Type of task path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TaskKind {
-    /// A straight line along one side of the deck slab.
-    SlabSide,
-    /// A curve below the arch.
-    ArchBottom,
-    /// A straight line through the space between the deck and the arch.
-    Interlayer,
-    /// A closed loop around a pier near the water.
-    PierCircle,
-    /// A line under the girders of a span, out and back if the bridge is wide.
-    GirderSoffit,
-    /// A straight line along the bearings on a pier or abutment.
-    BearingLine,
-    /// A closed loop around a pier cap.
-    PierCap,
-    /// A path through points listed in the scenario.
-    Free,
-}
+pub use super::task_kind::TaskKind;
 
-/// Part of a girder bridge at which a path is.
+/// Part of a bridge at which a path is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PathPlace {
     /// Number of the span, from 1 at the start; `None` for the middle one.
@@ -78,80 +56,6 @@ impl LocalPath {
 pub(super) fn equal_steps(a: f64, b: f64) -> Vec<f64> {
     let n = ((b - a).abs() / SPACING_M).ceil().max(1.0);
     (0..=n as i32).map(|k| a + (b - a) * f64::from(k) / n).collect()
-}
-
-/// Returns the path of task 1: a straight line along the right side of the deck, slightly below the slab's surface, facing it.
-pub(super) fn slab_side(arch: &Arch, stand_off_m: f64) -> LocalPath {
-    let half = 0.5 * arch.span_m;
-    let y = -0.5 * arch.deck_width_m - stand_off_m;
-    let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, y, -0.6]).collect();
-    LocalPath { viewing_directions: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false }
-}
-
-/// Returns the path of task 2: under the arch between the ribs, at the stand-off distance perpendicular to the intrados. The
-/// camera looks up and ahead at the arch.
-pub(super) fn arch_bottom(arch: &Arch, stand_off_m: f64) -> LocalPath {
-    let reach = 0.5 * arch.span_m * 0.78;
-    let bend = arch.intrados_curvature_per_m();
-    // The ribs are straight between nodes on the curve, so the path stays farther away by their maximum deviation.
-    let step = 0.5 * arch.span_m / arch.panels.round();
-    let off = stand_off_m + 0.25 * bend * step * step;
-    let steepest = 2.0 * bend * reach;
-    let n = (2.0 * reach * (1.0 + steepest * steepest).sqrt() / SPACING_M).ceil() as i32;
-    let on_curve = (0..=n).map(|k| reach * (2.0 * f64::from(k) / f64::from(n) - 1.0));
-    let points: Vec<LocalPoint> = on_curve
-        .map(|x| {
-            let fall = 2.0 * bend * x;
-            let stretch = (1.0 + fall * fall).sqrt();
-            [x - off * fall / stretch, 0.0, arch.intrados_z_m(x) - off / stretch]
-        })
-        .collect();
-    let viewing_directions = points.iter().enumerate().map(|(k, p)| under_arch_viewing_direction(arch, *p, off, k)).collect();
-    LocalPath { points, viewing_directions, closed: false }
-}
-
-/// Returns the viewing direction of task 2 at point `k`: up at the soffits and slightly ahead, panning slowly between
-/// the left and right ribs.
-fn under_arch_viewing_direction(arch: &Arch, from: LocalPoint, off: f64, k: usize) -> LocalPoint {
-    const PERIOD_POINTS: f64 = 30.0;
-    let side = math::sin(math::TAU * k as f64 / PERIOD_POINTS);
-    // The closest point of the arch is not vertically above the path point but farther from the crown.
-    let bend = 2.0 * arch.intrados_curvature_per_m();
-    let square = from[0] / (1.0 - off * bend / (1.0 + (bend * from[0]) * (bend * from[0])).sqrt());
-    let ahead = (square + 0.3 * off).min(0.5 * arch.span_m);
-    [ahead - from[0], 0.5 * arch.rib_spacing_m * side, arch.intrados_z_m(ahead) - from[2]]
-}
-
-/// Returns the path of task 3: a horizontal line on the centerline between the deck and the arch, halfway between the
-/// floorbeams and the crown.
-pub(super) fn interlayer(arch: &Arch) -> LocalPath {
-    let half = 0.3 * arch.span_m;
-    let z = 0.5 * (arch.floorbeam_bottom_z_m() + arch.extrados_z_m(0.0));
-    let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, 0.0, z]).collect();
-    let viewing_directions = (0..points.len()).map(interlayer_viewing_direction).collect();
-    LocalPath { points, viewing_directions, closed: false }
-}
-
-/// Returns the viewing direction of task 3 at point `k`: alternately up at the deck's underside and down at the ribs, panning to
-/// both sides.
-fn interlayer_viewing_direction(k: usize) -> LocalPoint {
-    const PERIOD_POINTS: f64 = 20.0;
-    let phase = math::TAU * k as f64 / PERIOD_POINTS;
-    [0.6, 0.5 * math::sin(0.5 * phase), 0.8 * math::sin(phase)]
-}
-
-/// Returns the path of task 4: one loop around the start pier at the stand-off distance from its faces, rounded at the corners
-/// and facing the pier. It is 2 m below the top of the pier, or lower if the stand-off from the girders requires it.
-pub(super) fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
-    let center_x = -0.5 * suspension.main_span_m;
-    let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
-    let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_bottom_z_m() - stand_off_m);
-    if z < -suspension.pier_top_m - suspension.pier_height_m {
-        return Err("a pier that extends to stand_off_m below the girders".into());
-    }
-    let (points, normals) = rectangle_loop((center_x, z), (hx, hy), stand_off_m);
-    let viewing_directions = normals.into_iter().map(|[nx, ny]| [-nx, -ny, 0.0]).collect();
-    Ok(LocalPath { points, viewing_directions, closed: true })
 }
 
 /// Returns the points of a level loop around a rectangle on the bridge's centerline, at a distance in meters from its sides and rounded

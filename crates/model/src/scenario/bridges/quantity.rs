@@ -17,12 +17,6 @@ pub struct ElementQuantity {
 }
 
 impl ElementQuantity {
-    /// Creates a list from elements and amounts. Omits elements that the bridge does not have.
-    pub(super) fn list(amounts: &[(Element, f64)]) -> Vec<Self> {
-        let present = amounts.iter().filter(|(_, amount)| *amount > 0.0);
-        present.map(|(element, amount)| Self { element: *element, amount: *amount }).collect()
-    }
-
     /// Returns the amount in the unit of inspection reports: ft², ft or a number.
     #[must_use]
     pub fn reported(&self) -> f64 {
@@ -45,9 +39,49 @@ impl ElementQuantity {
     }
 }
 
+/// Collects the quantities of a bridge.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Amounts(Vec<ElementQuantity>);
+
+impl Amounts {
+    /// Adds an amount of an element: an area in m², a length in m or a number.
+    pub fn add(&mut self, element: Element, amount: f64) {
+        match self.0.iter_mut().find(|quantity| quantity.element == element) {
+            Some(quantity) => quantity.amount += amount,
+            None => self.0.push(ElementQuantity { element, amount }),
+        }
+    }
+
+    /// Returns the quantities ordered by element number. Omits elements that the bridge does not have.
+    #[must_use]
+    pub fn list(mut self) -> Vec<ElementQuantity> {
+        self.0.retain(|quantity| quantity.amount > 0.0);
+        self.0.sort_by_key(|quantity| quantity.element);
+        self.0
+    }
+}
+
+impl FromIterator<(Element, f64)> for Amounts {
+    fn from_iter<I: IntoIterator<Item = (Element, f64)>>(rows: I) -> Self {
+        let mut amounts = Self::default();
+        for (element, amount) in rows {
+            amounts.add(element, amount);
+        }
+        amounts
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_amounts_of_one_element_add_up_in_the_order_of_the_numbers() {
+        let rows = [(Element::RcRailing, 8.0), (Element::RcDeck, 2.0), (Element::RcColumn, 0.0), (Element::RcDeck, 3.0)];
+        let list = rows.into_iter().collect::<Amounts>().list();
+        let expected = [(Element::RcDeck, 5.0), (Element::RcRailing, 8.0)];
+        assert_eq!(list, expected.map(|(element, amount)| ElementQuantity { element, amount }));
+    }
 
     #[test]
     fn exact_quantities_have_the_units_of_inspection_reports() {

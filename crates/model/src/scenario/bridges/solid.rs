@@ -167,6 +167,21 @@ impl MemberBuilder {
         self.add_solid(part, element, &corners, prism_faces(profile.len()));
     }
 
+    /// Adds a bar in a vertical plane along the bridge, between two points `[x, z]` on its axis, from `y_low` to `y_high`.
+    pub fn add_bar(
+        &mut self,
+        part: &str,
+        element: Element,
+        ([from_x, from_z], [to_x, to_z]): ([f64; 2], [f64; 2]),
+        depth_m: f64,
+        (y_low, y_high): (f64, f64),
+    ) {
+        let [along, _, up] = unit([to_x - from_x, 0.0, to_z - from_z]);
+        let (dx, dz) = (-0.5 * depth_m * up, 0.5 * depth_m * along);
+        let profile = [[from_x - dx, from_z - dz], [to_x - dx, to_z - dz], [to_x + dx, to_z + dz], [from_x + dx, from_z + dz]];
+        self.add_extrusion(part, element, &profile, y_low, y_high);
+    }
+
     /// Adds a convex profile in the y-z plane (counterclockwise with y right and z up, seen from the end of the bridge), extruded from
     /// `x_low` to `x_high`.
     pub fn add_cross_section(&mut self, part: &str, element: Element, profile: &[[f64; 2]], x_low: f64, x_high: f64) {

@@ -1,8 +1,10 @@
 //! Suspension bridge: towers on piers in the water, main cables, hangers, stiffening girders, deck, railings, anchorages.
 
-use super::arch::add_railing;
 use super::dimensions::{Inconsistency, InconsistencyList, bridge_dimensions};
-use super::quantity::ElementQuantity;
+use super::path::{LocalPath, PathPlace, TaskKind, rectangle_loop};
+use super::quantity::{Amounts, ElementQuantity};
+use super::railing::add_railing;
+use super::shape::BridgeShape;
 use super::solid::{BeamDirection, Footing, MemberBuilder, PlateThickness};
 use crate::elements::Element;
 
@@ -52,13 +54,118 @@ bridge_dimensions! {
     }
 }
 
-impl Suspension {
-    /// Returns the deck length between the far ends of the anchorages, in meters.
-    #[must_use]
-    pub fn deck_length_m(&self) -> f64 {
+impl BridgeShape for Suspension {
+    fn type_in_words(&self) -> &'static str {
+        "a suspension bridge"
+    }
+
+    fn task_kinds(&self) -> &'static [TaskKind] {
+        &[TaskKind::PierCircle]
+    }
+
+    // If there are none, the towers rest on their piers and clear the girders, and all members are connected.
+    fn inconsistencies(&self) -> Vec<Inconsistency> {
+        let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
+        let portal_m = BEARING_HEIGHT_M + PORTAL_DEPTH_M - self.girder_bottom_z_m();
+        let mut m = InconsistencyList::default();
+        m.require_at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
+        m.require_at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
+        m.require_at_least(
+            "cable_clearance_m",
+            self.cable_clearance_m,
+            self.cable_radius_m,
+            "clear of the deck (cable_radius_m)",
+        );
+        m.require_at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
+        m.require_at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
+        m.require_at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
+        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below the girders and the portal (slab_m, girder_depth_m)");
+        m.require_at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
+        m.0
+    }
+
+    fn build(&self, b: &mut MemberBuilder) {
+        self.towers(b);
+        self.cables(b);
+        self.floor(b);
+        add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::MetalRailing);
+        self.anchorages(b);
+    }
+
+    fn deck_length_m(&self) -> f64 {
         self.main_span_m + 2.0 * (self.side_span_m + self.anchorage_m)
     }
 
+    fn deck_width_m(&self) -> f64 {
+        self.deck_width_m
+    }
+
+    fn fascia_z_m(&self) -> (f64, f64) {
+        (self.girder_bottom_z_m(), 0.0)
+    }
+
+    fn opening_half_length_m(&self) -> f64 {
+        0.5 * self.deck_length_m() - self.anchorage_m
+    }
+
+    fn underside_depth_m(&self) -> Option<f64> {
+        Some(self.slab_m + self.girder_depth_m)
+    }
+
+    fn footings(&self) -> Vec<Footing> {
+        let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
+        let (inner, outer) = (self.anchor_x_m(), self.anchor_x_m() + self.anchorage_m);
+        let half = 0.5 * self.main_span_m;
+        let anchor_up_m = -ANCHORAGE_DEPTH_M.max(3.0 - self.girder_bottom_z_m());
+        let at = |low: f64, high: f64, y: f64, up_m: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m };
+        let pier_up_m = -self.pier_top_m - self.pier_height_m;
+        vec![
+            at(-half - px, px - half, py, pier_up_m),
+            at(half - px, half + px, py, pier_up_m),
+            at(-outer, -inner, self.anchorage_half_width_m(), anchor_up_m),
+            at(inner, outer, self.anchorage_half_width_m(), anchor_up_m),
+        ]
+    }
+
+    fn quantities(&self) -> Vec<ElementQuantity> {
+        let length_m = self.deck_length_m();
+        let floorbeams_m: f64 = self.floorbeams().into_iter().map(|x| 2.0 * self.floorbeam_half_length_m(x)).sum();
+        [
+            (Element::RcDeck, length_m * self.deck_width_m),
+            (Element::SteelGirder, 2.0 * length_m),
+            (Element::SteelStringer, 2.0 * length_m),
+            (Element::MainCable, 4.0 * self.anchor_x_m()),
+            (Element::Hanger, 2.0 * self.hangers().len() as f64),
+            (Element::SteelFloorBeam, floorbeams_m),
+            (Element::SteelTower, 2.0 * (self.leg_top_z_m() + self.pier_top_m)),
+            (Element::RcPierWall, 2.0 * self.pier_y_m),
+            (Element::RcFooting, 4.0 * self.anchorage_half_width_m()),
+            (Element::MovableBearing, 10.0),
+            (Element::FixedBearing, 2.0),
+            (Element::MetalRailing, 2.0 * length_m),
+        ]
+        .into_iter()
+        .collect::<Amounts>()
+        .list()
+    }
+
+    fn task_path(&self, kind: TaskKind, stand_off_m: f64, _: &PathPlace) -> Result<LocalPath, String> {
+        match kind {
+            TaskKind::PierCircle => pier_circle(self, stand_off_m),
+            TaskKind::SlabSide
+            | TaskKind::ArchBottom
+            | TaskKind::Interlayer
+            | TaskKind::GirderSoffit
+            | TaskKind::BearingLine
+            | TaskKind::PierCap
+            | TaskKind::TrussPanel
+            | TaskKind::FloorSystem
+            | TaskKind::Free => Err(self.supported_kinds()),
+        }
+    }
+}
+
+impl Suspension {
     /// Returns the height of the cable at x, in meters. The cable is a parabola in the main span and straight in the
     /// side spans.
     #[must_use]
@@ -117,64 +224,11 @@ impl Suspension {
         out
     }
 
-    /// Returns all inconsistent dimensions. If there are none, the towers rest on their piers and clear the girders, and all
-    /// members are connected.
-    #[must_use]
-    pub fn inconsistencies(&self) -> Vec<Inconsistency> {
-        let legs_m = 2.0 * self.cable_y_m() + self.leg_y_m;
-        let portal_m = BEARING_HEIGHT_M + PORTAL_DEPTH_M - self.girder_bottom_z_m();
-        let mut m = InconsistencyList::default();
-        m.require_at_least("sag_m", self.sag_m, self.main_span_m / 20.0, "not too flat for main_span_m");
-        m.require_at_most("sag_m", self.sag_m, self.main_span_m / 4.0, "not too steep for main_span_m");
-        m.require_at_least(
-            "cable_clearance_m",
-            self.cable_clearance_m,
-            self.cable_radius_m,
-            "clear of the deck (cable_radius_m)",
-        );
-        m.require_at_least("leg_y_m", self.leg_y_m, 2.0 * self.cable_radius_m, "no narrower than the cable (cable_radius_m)");
-        m.require_at_most("leg_x_m", self.leg_x_m, self.pier_x_m, "no wider than the pier (pier_x_m)");
-        m.require_at_least("pier_y_m", self.pier_y_m, legs_m, "wide enough for both tower legs (deck_width_m, leg_y_m)");
-        m.require_at_least("pier_top_m", self.pier_top_m, portal_m, "below the girders and the portal (slab_m, girder_depth_m)");
-        m.require_at_least("girder_depth_m", self.girder_depth_m, self.floorbeam_depth_m, "no shallower than the floorbeams");
-        m.0
-    }
-
     /// Returns the positions of the hangers, which are evenly spaced in the main span. There are none at the towers.
     #[must_use]
     pub fn hangers(&self) -> Vec<f64> {
         let n = (self.main_span_m / self.hanger_spacing_m).round() as i32;
         (1..n).map(|k| self.main_span_m * (f64::from(k) / f64::from(n) - 0.5)).collect()
-    }
-
-    /// Returns the total quantities of the elements. Two towers have two girder bearings each, and two anchorages four.
-    #[must_use]
-    pub fn quantities(&self) -> Vec<ElementQuantity> {
-        let length_m = self.deck_length_m();
-        let floorbeams_m: f64 = self.floorbeams().into_iter().map(|x| 2.0 * self.floorbeam_half_length_m(x)).sum();
-        ElementQuantity::list(&[
-            (Element::RcDeck, length_m * self.deck_width_m),
-            (Element::SteelGirder, 2.0 * length_m),
-            (Element::SteelStringer, 2.0 * length_m),
-            (Element::MainCable, 4.0 * self.anchor_x_m()),
-            (Element::Hanger, 2.0 * self.hangers().len() as f64),
-            (Element::SteelFloorBeam, floorbeams_m),
-            (Element::SteelTower, 2.0 * (self.leg_top_z_m() + self.pier_top_m)),
-            (Element::RcPierWall, 2.0 * self.pier_y_m),
-            (Element::RcFooting, 4.0 * self.anchorage_half_width_m()),
-            (Element::MovableBearing, 10.0),
-            (Element::FixedBearing, 2.0),
-            (Element::MetalRailing, 2.0 * length_m),
-        ])
-    }
-
-    /// Adds all the bridge's members to a builder.
-    pub fn build(&self, b: &mut MemberBuilder) {
-        self.towers(b);
-        self.cables(b);
-        self.floor(b);
-        add_railing(b, self.deck_length_m(), 0.5 * self.deck_width_m, self.railing_m, Element::MetalRailing);
-        self.anchorages(b);
     }
 
     /// Returns the height of the tower leg tops, which are below the cables on both sides of the saddle, in meters.
@@ -288,23 +342,6 @@ impl Suspension {
         self.cable_y_m() + self.cable_radius_m + 0.45
     }
 
-    /// Returns the footings of piers and anchorages.
-    #[must_use]
-    pub fn footings(&self) -> Vec<Footing> {
-        let (px, py) = (0.5 * self.pier_x_m, 0.5 * self.pier_y_m);
-        let (inner, outer) = (self.anchor_x_m(), self.anchor_x_m() + self.anchorage_m);
-        let half = 0.5 * self.main_span_m;
-        let anchor_up_m = -ANCHORAGE_DEPTH_M.max(3.0 - self.girder_bottom_z_m());
-        let at = |low: f64, high: f64, y: f64, up_m: f64| Footing { x_m: (low, high), y_m: (-y, y), up_m };
-        let pier_up_m = -self.pier_top_m - self.pier_height_m;
-        vec![
-            at(-half - px, px - half, py, pier_up_m),
-            at(half - px, half + px, py, pier_up_m),
-            at(-outer, -inner, self.anchorage_half_width_m(), anchor_up_m),
-            at(inner, outer, self.anchorage_half_width_m(), anchor_up_m),
-        ]
-    }
-
     fn anchorages(&self, b: &mut MemberBuilder) {
         let near = (self.cable_y_m() - self.cable_radius_m - 0.45).max(0.5 * self.deck_width_m + GIRDER_HALF_WIDTH_M);
         let top = self.girder_bottom_z_m() - BEARING_HEIGHT_M;
@@ -327,4 +364,18 @@ impl Suspension {
             }
         }
     }
+}
+
+/// Returns the path of task 4: one loop around the start pier at the stand-off distance from its faces, rounded at the corners
+/// and facing the pier. It is 2 m below the top of the pier, or lower if the stand-off from the girders requires it.
+fn pier_circle(suspension: &Suspension, stand_off_m: f64) -> Result<LocalPath, String> {
+    let center_x = -0.5 * suspension.main_span_m;
+    let (hx, hy) = (0.5 * suspension.pier_x_m, 0.5 * suspension.pier_y_m);
+    let z = (-suspension.pier_top_m - 2.0).min(suspension.girder_bottom_z_m() - stand_off_m);
+    if z < -suspension.pier_top_m - suspension.pier_height_m {
+        return Err("a pier that extends to stand_off_m below the girders".into());
+    }
+    let (points, normals) = rectangle_loop((center_x, z), (hx, hy), stand_off_m);
+    let viewing_directions = normals.into_iter().map(|[nx, ny]| [-nx, -ny, 0.0]).collect();
+    Ok(LocalPath { points, viewing_directions, closed: true })
 }

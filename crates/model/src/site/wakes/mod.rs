@@ -109,6 +109,7 @@ impl WakeField {
 mod tests {
     use super::*;
     use crate::elements::Element;
+    use crate::scenario::bridges::BridgeShape;
     use crate::scenario::bridges::girder::Girder;
     use crate::scenario::bridges::solid::{MemberBuilder, Placement};
     use cylinders::Section;
