@@ -4,6 +4,7 @@
 pub mod bridges;
 mod briefing_pictures;
 mod certification;
+mod defect_cause;
 mod difficulty;
 pub mod edit;
 mod forms;
@@ -14,6 +15,7 @@ mod point;
 mod read;
 mod resolve;
 mod siblings;
+mod stain_patch;
 pub mod tasks;
 mod toml_text;
 pub mod values;
@@ -23,6 +25,7 @@ pub use bridges::path::TaskKind;
 pub use bridges::{Bridge, BridgeKind};
 pub use briefing_pictures::{BriefingPicture, MAX_BRIEFING_PICTURES, MAX_CAPTION_CHARS, check_picture_files, is_picture_name};
 pub use certification::CertificationParams;
+pub use defect_cause::{DefectCause, DefectPlacement, Stain, StainSubstance};
 pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
@@ -34,3 +37,4 @@ pub use lesson::{LessonPlace, LessonStep};
 pub use read::{FORMAT, MAX_NAME_CHARS, MAX_TERRAIN_M, is_name, is_name_char, read, read_with_keys};
 pub use resolve::{resolve, select_variant, variant_names, variant_with_crc};
 pub use siblings::SiblingLoader;
+pub use stain_patch::{StainPatch, downhill};

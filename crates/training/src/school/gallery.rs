@@ -5,7 +5,7 @@ use spandrel_model::defect_codes;
 use spandrel_model::elements::{Element, ElementMaterial};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
-use spandrel_model::scenario::{DefectSpec, PlacedDefect, Scenario};
+use spandrel_model::scenario::{DefectPlacement, DefectSpec, PlacedDefect, Scenario};
 use spandrel_model::site::close_up::{SurfaceSpot, close_up_pose};
 use spandrel_model::site::visibility::{MIN_EXTENT_PX, MIN_LINE_WIDTH_PX};
 use spandrel_model::site::{CameraPose, DefectView, Site};
@@ -66,6 +66,7 @@ pub fn school_scenario(job: &Scenario, seed: u64) -> Scenario {
         let set_seed = stream.bits() >> 1;
         let defects = DefectSpec {
             count,
+            placement: DefectPlacement::Anywhere,
             size_factor: 1.0,
             elements,
             kinds: Vec::new(),
