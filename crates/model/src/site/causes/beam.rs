@@ -17,6 +17,18 @@ pub(super) struct Peaks {
     pub(super) shear: f64,
 }
 
+/// Minimum ratio of the smaller to the larger of the two peaks. A smaller one, such as that of a short overhang, leaves the concrete
+/// uncracked (estimate).
+const MIN_PEAK_RATIO: f64 = 0.2;
+
+impl Peaks {
+    /// Returns a moment as a share of the largest moment of the same sign, 0 to 1; 0 if that one is small.
+    pub(super) fn share(&self, moment: f64) -> f64 {
+        let (own, other) = if moment > 0.0 { (self.sagging, self.hogging) } else { (self.hogging, self.sagging) };
+        if own <= MIN_PEAK_RATIO * other { 0.0 } else { moment.abs() / own }
+    }
+}
+
 /// Number of positions at which the peaks are searched for.
 const PEAK_STEPS: i32 = 400;
 

@@ -33,8 +33,8 @@ fn of_surface(structure: &Structure, k: usize, surface: &Surface) -> Vec<Place> 
     for u_m in spread(axes.u_m, SPACING_M) {
         let middle_m = axes.point(u_m, 0.5 * (axes.v_m.0 + axes.v_m.1));
         let moment = beam.moment(middle_m.dot(axis));
-        let share = if moment > 0.0 { moment / peaks.sagging } else { -moment / peaks.hogging };
-        if share.is_nan() || share < CRACKING_SHARE || (surface.is_underside() && moment < 0.0) {
+        let share = peaks.share(moment);
+        if share < CRACKING_SHARE || (surface.is_underside() && moment < 0.0) {
             continue;
         }
         let jitter_m = [axes.u * (0.5 * SPACING_M), axes.v * 0.0];

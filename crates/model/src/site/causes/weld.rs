@@ -70,8 +70,8 @@ fn at_plate(structure: &Structure, (k, surface): (usize, &Surface), axes: &FaceA
     let run = structure.run(surface.member);
     let Some((beam, peaks)) = &run.beam else { return Vec::new() };
     let moment = beam.moment(axes.point(plate.u_m.0, plate.v_m.0).dot(run.frame.along));
-    let share = if moment > 0.0 { moment / peaks.sagging } else { -moment / peaks.hogging };
-    if share.is_nan() || share < MIN_MOMENT_SHARE {
+    let share = peaks.share(moment);
+    if share < MIN_MOMENT_SHARE {
         return Vec::new();
     }
     let (end_m, inward) = if moment > 0.0 { (plate.v_m.0 + END_M, axes.v) } else { (plate.v_m.1 - END_M, -axes.v) };
