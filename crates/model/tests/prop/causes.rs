@@ -52,7 +52,8 @@ fn prop_all_defects_with_causes_are_permitted_photographable_and_apart() {
     /// Minimum distance between two defects, m: half of the usual one (`ATTEMPTS` relaxes it near the end).
     const MIN_DISTANCE_M: f64 = 0.2;
     let job = shipped_job("girder");
-    let mut causes = BTreeSet::new();
+    let mut causes = BTreeMap::new();
+    let mut states = BTreeMap::new();
     for (seed, site) in sites(&job) {
         let placed = site.defects();
         assert_eq!(placed.len(), job.defects.count, "seed {seed}");
@@ -62,10 +63,12 @@ fn prop_all_defects_with_causes_are_permitted_photographable_and_apart() {
             assert!(is_photographable(defect, &job, &site), "seed {seed}: {defect:?}");
             let near = placed[k + 1..].iter().any(|other| (other.position_m - defect.position_m).norm() < MIN_DISTANCE_M);
             assert!(!near, "seed {seed}: {defect:?}");
-            causes.insert(defect.cause.unwrap());
+            *causes.entry(defect.cause.unwrap()).or_insert(0) += 1;
+            *states.entry(defect.condition_state).or_insert(0) += 1;
         }
     }
-    assert!(causes.len() >= 9, "{causes:?}");
+    println!("{causes:?}, condition states {states:?}");
+    assert!(causes.len() >= 9 && states.len() == 3, "{causes:?}, {states:?}");
 }
 
 #[test]

@@ -124,6 +124,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::scenario::Stain;
 
     /// Returns a crack that runs straight down.
     fn vertical_crack() -> PlacedDefect {
@@ -159,5 +160,21 @@ mod tests {
         let decay = PlacedDefect { kind: 1140, line: false, ..vertical_crack() };
         assert_eq!(patch(&decay, [0.2, 0.1]).center[3], 1190.0);
         assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).center[3], 1130.0);
+    }
+
+    #[test]
+    fn exact_patterns_of_cracks_and_stains_have_drawings_of_their_own() {
+        let pattern = PlacedDefect { kind: 1130, line: false, width_m: 0.6, ..vertical_crack() };
+        assert_eq!(patch(&pattern, [0.2, 0.1]).center[3], MAP_CRACKS as f32);
+        assert_eq!(stain_patch(&pattern, [0.2, 0.1]), None);
+        for (substance, code) in [(StainSubstance::Lime, LIME_STAIN), (StainSubstance::Rust, RUST_STAIN)] {
+            let stained = PlacedDefect { stain: Some(Stain { substance, length_m: 0.4 }), ..vertical_crack() };
+            let stain = stain_patch(&stained, [0.2, 0.1]).unwrap();
+            let crack = patch(&stained, [0.2, 0.1]);
+            assert_eq!((stain.center[3], stain.normal[3], stain.tint[3]), (code as f32, crack.normal[3], crack.tint[3]));
+            // The crack ends 0.5 m below its center; the middle of the stain is 0.2 m lower.
+            assert!((crack.center[2] - stain.center[2] - 0.7).abs() < 1e-6, "{stain:?}");
+        }
+        assert!(defect_drawings().all(|code| !STAIN_CODES.contains(&code)));
     }
 }

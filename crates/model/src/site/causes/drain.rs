@@ -2,9 +2,10 @@
 //! around its inlet (FHWA Bridge Inspector's Reference Manual, 2022).
 
 use super::place::{FaceAxes, Place, spread};
-use super::structure::{Structure, Surface, is_concrete};
+use super::structure::{Structure, Surface, WaterSource, is_concrete};
 use crate::defect_codes::{CORROSION, EFFLORESCENCE};
 use crate::elements::{ElementGroup, ElementMaterial};
+use crate::math;
 use crate::scenario::DefectCause;
 
 /// Horizontal distance from the drain up to which steel corrodes, m (estimate: splashing water).
@@ -30,11 +31,13 @@ fn of_surface(structure: &Structure, k: usize, surface: &Surface) -> Vec<Place> 
         (false, true) => (CORROSION, STEEL_REACH_M, STEEL_WEIGHT),
         (false, false) => return Vec::new(),
     };
-    let near: Vec<_> = structure.drains.iter().filter(|drain| drain.is_above(surface.face.point_m, 60.0)).collect();
+    let axes = FaceAxes::along(surface, structure.run(surface.member).frame.along);
+    let radius_m = 0.5 * math::hypot(axes.size_m().0, axes.size_m().1);
+    let reachable = |drain: &&WaterSource| drain.level_distance_m(surface.face.point_m) <= radius_m + reach_m;
+    let near: Vec<&WaterSource> = structure.drains.iter().filter(reachable).collect();
     if near.is_empty() {
         return Vec::new();
     }
-    let axes = FaceAxes::along(surface, structure.run(surface.member).frame.along);
     let points = spread(axes.u_m, SPACING_M)
         .into_iter()
         .flat_map(|u_m| spread(axes.v_m, SPACING_M).into_iter().map(move |v_m| axes.point(u_m, v_m)));

@@ -65,7 +65,7 @@ pub(in crate::site) fn place_by_cause(
         places: &places,
         stream: RandomStream::new(seed, "site.defects.causes"),
         placed: Vec::new(),
-        uses: DefectCause::ALL.map(|(_, cause)| (cause, 0)),
+        turns: Vec::new(),
     };
     let first = sampler.stream.below(tasks.len().max(1));
     for (k, slot) in slots.iter().enumerate() {
@@ -118,35 +118,33 @@ struct Sampler<'a> {
     places: &'a [Place],
     stream: RandomStream,
     placed: Vec<PlacedDefect>,
-    /// Number of defects by cause.
-    uses: [(DefectCause, usize); 12],
+    /// Causes of the defects so far, and causes that found no place, with the task where they failed.
+    turns: Vec<(DefectCause, Option<u32>)>,
 }
 
 impl Sampler<'_> {
-    /// Places one defect near a task's path: by the cause that has the fewest defects so far, and at random among several.
+    /// Places one defect near a task's path: by the cause that had the fewest turns so far, and at random among several.
     fn at_task(&mut self, slot: &Slot, task: &Task, choices: &[Choice]) -> Option<PlacedDefect> {
-        let mut order: Vec<(usize, f64, usize)> =
-            choices.iter().enumerate().map(|(k, choice)| (self.uses_of(choice.cause), self.stream.uniform(), k)).collect();
+        let mut order: Vec<(usize, f64, usize)> = choices
+            .iter()
+            .enumerate()
+            .map(|(k, choice)| (self.turns_of(choice.cause, task.id), self.stream.uniform(), k))
+            .collect();
         order.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         for (_, _, k) in order {
             let choice = &choices[k];
             let found = (0..ATTEMPTS).find_map(|attempt| self.attempt(slot, task, choice, attempt));
-            if let Some(defect) = found {
-                self.count(choice.cause);
-                return Some(defect);
+            // A cause without a place that can be photographed waits for its next turn, too, because its attempts take long.
+            self.turns.push((choice.cause, found.is_none().then_some(task.id)));
+            if found.is_some() {
+                return found;
             }
         }
         None
     }
 
-    fn uses_of(&self, cause: DefectCause) -> usize {
-        self.uses.iter().find(|(one, _)| *one == cause).map_or(0, |(_, uses)| *uses)
-    }
-
-    fn count(&mut self, cause: DefectCause) {
-        for (one, uses) in &mut self.uses {
-            *uses += usize::from(*one == cause);
-        }
+    fn turns_of(&self, cause: DefectCause, task: u32) -> usize {
+        self.turns.iter().filter(|(one, failed_at)| *one == cause && failed_at.is_none_or(|at| at == task)).count()
     }
 
     fn attempt(&mut self, slot: &Slot, task: &Task, choice: &Choice, attempt: usize) -> Option<PlacedDefect> {
