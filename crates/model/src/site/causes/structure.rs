@@ -69,8 +69,8 @@ impl<'a> Structure<'a> {
             }
         }
         let mut runs: Vec<Run> = groups.into_iter().map(|group| run(members, group)).collect();
-        for number in 0..runs.len() {
-            runs[number].beam = beam(members, &runs[number], &extents);
+        for run in &mut runs {
+            run.beam = beam(members, run, &extents);
         }
         let sources = |is: &dyn Fn(Element) -> bool| {
             let source = |member: &Member| {
