@@ -58,9 +58,12 @@ pub struct SizeRanges {
     pub width: (f64, f64),
 }
 
-/// Returns the size ranges of a defect code in a condition state (2 fair, 3 poor).
+/// Returns the size ranges of a defect code in a condition state (2 fair, 3 poor, 4 severe).
 #[must_use]
 pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
+    if condition_state >= 4 {
+        return severe_size_ranges(kind);
+    }
     let poor = condition_state >= 3;
     let (length_m, width) = match (kind, poor) {
         // The boundary between the condition states is 6 in (0.152 m).
@@ -88,6 +91,47 @@ pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
     SizeRanges { length_m, width }
 }
 
+/// Returns the size ranges of a defect code in condition state 4. The manual has no measures for it: it is what warrants a structural
+/// review. All values are estimates: beyond the sizes of condition state 3, or in their upper half.
+fn severe_size_ranges(kind: u32) -> SizeRanges {
+    let (length_m, width) = match kind {
+        SPALL => ((0.50, 1.20), (0.5, 0.9)),
+        REBAR => ((0.50, 1.20), (0.25, 0.45)),
+        CRACK => ((0.80, 2.50), (0.003_5, 0.008)),
+        PSC_CRACK => ((0.60, 2.00), (0.001_2, 0.003)),
+        EFFLORESCENCE => ((0.80, 2.00), (0.3, 0.6)),
+        ABRASION => ((0.80, 2.00), (0.4, 0.7)),
+        FATIGUE => ((0.20, 0.50), (0.000_3, 0.001)),
+        CONNECTION => ((0.16, 0.40), (0.4, 0.8)),
+        _ => ((0.35, 1.20), (0.3, 0.7)),
+    };
+    SizeRanges { length_m, width }
+}
+
+/// Returns the size ranges of a pattern of cracks (map cracking) in a condition state. The manual rates the width and the density of the
+/// cracks, not the size of the pattern, so that all values are estimates.
+#[must_use]
+pub fn map_crack_size_ranges(condition_state: u8) -> SizeRanges {
+    let length_m = match condition_state {
+        0..=2 => (0.40, 0.80),
+        3 => (0.50, 1.20),
+        4.. => (0.80, 1.60),
+    };
+    SizeRanges { length_m, width: (0.6, 0.9) }
+}
+
+/// Returns the size ranges of a fatigue crack that a cause places. Long cracks open under the dead load (estimate; the manual rates whether
+/// a crack is arrested, not its size).
+#[must_use]
+pub fn open_fatigue_size_ranges(condition_state: u8) -> SizeRanges {
+    let (length_m, width) = match condition_state {
+        0..=2 => ((0.05, 0.15), (0.000_2, 0.000_6)),
+        3 => ((0.08, 0.30), (0.000_4, 0.001)),
+        4.. => ((0.20, 0.50), (0.000_8, 0.002)),
+    };
+    SizeRanges { length_m, width }
+}
+
 /// Minimum length of a defect whose size follows from its predicted detection, m: the median of the detection curve for
 /// trained inspectors (docs/src/reference/domain.md, "Human detection performance").
 const MIN_TARGET_LENGTH_M: f64 = 0.026;
@@ -95,7 +139,7 @@ const MIN_TARGET_LENGTH_M: f64 = 0.026;
 /// (estimate: from below the 0.012 in that AASHTO MBEI calls insignificant to above the 0.05 in of condition state 3).
 const TARGET_CRACK_WIDTH_M: (f64, f64) = (0.000_2, 0.002);
 /// Boundary between the condition states 2 and 3 of a spall, m: 6 in.
-const SPALL_BOUNDARY_M: f64 = 0.1524;
+pub const SPALL_BOUNDARY_M: f64 = 0.1524;
 /// Boundary between the condition states 2 and 3 of a crack in reinforced concrete, m: 0.05 in.
 const CRACK_BOUNDARY_M: f64 = 0.001_27;
 

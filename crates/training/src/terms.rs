@@ -3,6 +3,7 @@
 
 use spandrel_model::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, PSC_CRACK, REBAR, SPALL};
 use spandrel_model::elements::Element;
+use spandrel_model::scenario::DefectCause;
 use spandrel_model::shipped::SCENARIOS;
 pub use spandrel_text::terms::{contact_title, end_reason_title, purpose_title, score_title};
 use spandrel_text::{Language, find, text};
@@ -28,6 +29,25 @@ pub fn defect_title(kind: u32, language: Language) -> String {
         CRACK => text!(language, "terms-defect-crack"),
         ABRASION => text!(language, "terms-defect-abrasion"),
         _ => text!(language, "terms-defect-unknown"),
+    }
+}
+
+/// Returns the cause of a defect.
+#[must_use]
+pub fn cause_title(cause: DefectCause, language: Language) -> String {
+    match cause {
+        DefectCause::Bending => text!(language, "terms-cause-bending"),
+        DefectCause::Shear => text!(language, "terms-cause-shear"),
+        DefectCause::Shrinkage => text!(language, "terms-cause-shrinkage"),
+        DefectCause::Swelling => text!(language, "terms-cause-swelling"),
+        DefectCause::LeakingJoint => text!(language, "terms-cause-leaking-joint"),
+        DefectCause::Drain => text!(language, "terms-cause-drain"),
+        DefectCause::Reinforcement => text!(language, "terms-cause-reinforcement"),
+        DefectCause::Edge => text!(language, "terms-cause-edge"),
+        DefectCause::WaterLine => text!(language, "terms-cause-water-line"),
+        DefectCause::Weld => text!(language, "terms-cause-weld"),
+        DefectCause::Fasteners => text!(language, "terms-cause-fasteners"),
+        DefectCause::Cable => text!(language, "terms-cause-cable"),
     }
 }
 
@@ -108,6 +128,10 @@ mod tests {
         for (name, [english, german, spanish]) in elements.chain(defects) {
             assert_eq!(english, name);
             assert!(german != english && spanish != english && german != spanish, "{name}: {german}, {spanish}");
+        }
+        for (keyword, cause) in DefectCause::ALL {
+            let [english, german, spanish] = Language::ALL.map(|language| cause_title(cause, language));
+            assert!(german != english && spanish != english && german != spanish, "{keyword}: {english}, {german}, {spanish}");
         }
         assert_eq!(element_title(Element::RcDeck, Language::German), "Fahrbahntafel, Stahlbeton");
         assert_eq!(defect_title(defect_codes::SPALL, Language::Spanish), "delaminación o descascaramiento");

@@ -108,6 +108,8 @@ mod tests {
             length_m: 1.0,
             width_m: 0.002,
             line: true,
+            cause: None,
+            stain: None,
         };
         let masks = LabelMask {
             width: 4,

@@ -248,6 +248,8 @@ impl TestSurvey {
             length_m: 0.3,
             width_m: 0.2,
             line: false,
+            cause: None,
+            stain: None,
         };
         Self { defects: (1..=count).map(one).collect() }
     }

@@ -5,6 +5,7 @@ use super::bridges::Bridge;
 use super::bridges::path::TaskKind;
 use super::briefing_pictures::BriefingPicture;
 use super::certification::CertificationParams;
+use super::defect_cause::{DefectCause, DefectPlacement, Stain};
 use super::lesson::LessonStep;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
@@ -266,6 +267,8 @@ pub struct StandOff {
 pub struct DefectSpec {
     /// Number of defects to place.
     pub count: usize,
+    /// Rule by which they are placed.
+    pub placement: DefectPlacement,
     /// Scale factor for the sizes in [`crate::defect_codes`]; smaller defects are harder to find.
     pub size_factor: f64,
     /// Bridge elements that may have defects; if empty, all elements may.
@@ -294,7 +297,7 @@ pub struct PlacedDefect {
     pub member: String,
     /// AASHTO MBEI defect code (1130 cracking, 1080 spall, …).
     pub kind: u32,
-    /// Condition state 2 or 3.
+    /// Condition state: 2 or 3, with [`DefectPlacement::Causes`] also 4.
     pub condition_state: u8,
     /// Center on the surface, m.
     pub position_m: Vec3<Enu>,
@@ -308,6 +311,10 @@ pub struct PlacedDefect {
     pub width_m: f64,
     /// True for a crack or other line defect, whose width must be resolved in a photo.
     pub line: bool,
+    /// Cause; `None` if the defect was placed anywhere.
+    pub cause: Option<DefectCause>,
+    /// Stain that belongs to the defect, if it has one.
+    pub stain: Option<Stain>,
 }
 
 /// Bridge traffic settings.

@@ -3,6 +3,7 @@
 use super::bridges::element_map::ElementMap;
 use super::bridges::model::{MAX_MODEL_BYTES, Model};
 use super::bridges::{Bridge, BridgeKind, BridgeType};
+use super::defect_cause::DefectPlacement;
 use super::job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HazardSpec, LightSpec,
     Scenario, ScoringParams, SessionRules, TrafficSpec,
@@ -252,6 +253,7 @@ fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
     let mut s = r.section(root, "defects");
     let defects = DefectSpec {
         count: r.integer(&mut s, "count", (0, 200), Some(10)) as usize,
+        placement: r.keyword(&mut s, "placement", &DefectPlacement::WORDS, Some(0)),
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
         elements: r.integers(&mut s, "elements", (1, 999)).into_iter().map(|i| Element::from_number(i as u16)).collect(),
         kinds: r.integers(&mut s, "kinds", (1000, 9999)).into_iter().map(|i| i as u32).collect(),

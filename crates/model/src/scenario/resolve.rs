@@ -2,6 +2,7 @@
 //! CRC as its source.
 
 use super::bridges::model::Model;
+use super::defect_cause::{DefectCause, Stain, StainSubstance};
 use super::job::PlacedDefect;
 use super::point::point;
 use super::siblings::SiblingLoader;
@@ -50,6 +51,13 @@ fn defect_table(defect: &PlacedDefect) -> Table {
     t["length_m"] = value(defect.length_m);
     t["width_m"] = value(defect.width_m);
     t["line"] = value(defect.line);
+    if let Some(cause) = defect.cause {
+        t["cause"] = value(cause.keyword());
+    }
+    if let Some(stain) = defect.stain {
+        t["stain"] = value(stain.substance.keyword());
+        t["stain_m"] = value(stain.length_m);
+    }
     t
 }
 
@@ -85,7 +93,18 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
         length_m: r.number(t, "length_m", (1e-4, 50.0), None),
         width_m: r.number(t, "width_m", (1e-6, 50.0), None),
         line: r.boolean(t, "line", false),
+        cause: r.keyword(t, "cause", &DefectCause::words(), Some(0)),
+        stain: read_stain(r, t),
     }
+}
+
+fn read_stain(r: &mut Reader, t: &mut Section) -> Option<Stain> {
+    let substance = r.keyword(t, "stain", &StainSubstance::WORDS, Some(0));
+    let length_m = r.optional_number(t, "stain_m", (1e-3, 50.0));
+    if substance.is_some() != length_m.is_some() {
+        r.add_problem(t, "stain_m", "", "both stain and stain_m, or none", "an incomplete stain");
+    }
+    Some(Stain { substance: substance?, length_m: length_m? })
 }
 
 /// Returns the CRC-32 of the text in canonical form. Excludes the seed and placed defects, so that a resolved file has

@@ -1,22 +1,23 @@
 //! Places random defects. A line of sight from a task's path finds an exposed face within reach, [`crate::elements`] lists the
 //! defect codes permitted there, and [`super::visibility`] decides whether the defect can be photographed without leaving the
-//! path by more than the task's threshold. Each seed yields different positions.
+//! path by more than the task's threshold. Each seed yields different positions. [`super::causes`] places defects where their causes
+//! produce them instead.
 
-use super::camera_pose::CameraPose;
-use super::detection;
+use super::causes;
+use super::defect_checks::{EDGE_MARGIN_M, fits_in_face, is_exposed};
+pub use super::defect_checks::{PlacementContext, find_view};
+use super::defect_slots::{Slot, draw_slots, resize};
 use super::faces::{MemberFace, face_at};
-use super::light::{RayCast, tangent_vectors};
+use super::light::tangent_vectors;
 use super::query_types::Surface;
 pub use super::reference_camera::{CAMERA_CLEARANCE_M, REFERENCE_CAMERA, REFERENCE_LAMP};
-use super::reference_camera::{CAMERA_DISTANCE_FRACTIONS, nearest_points, pose_toward};
 use super::visibility;
 use crate::defect_codes;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::random::RandomStream;
-use crate::scenario::bridges::Member;
-use crate::scenario::{DefectSpec, PlacedDefect, Task, TaskKind};
+use crate::scenario::{DefectPlacement, DefectSpec, PlacedDefect, Task, TaskKind};
 use crate::vehicle::{Camera, Lamp};
 
 /// Half angle of the search cone about the path's viewing direction, rad (estimate of camera pan and tilt).
@@ -26,15 +27,8 @@ const UP: Vec3<Enu> = Vec3::new(0.0, 0.0, 1.0);
 /// Maximum distance of the search for faces, m (estimate; thin lines fail the visibility check at much shorter
 /// distances).
 const MAX_SEARCH_DISTANCE_M: f64 = 20.0;
-/// Minimum width of bare surface around a defect, m, which keeps defects away from joints and edges.
-const EDGE_MARGIN_M: f64 = 0.03;
-/// Minimum free space in front of a defect, along its normal, m.
-const MIN_FREE_DEPTH_M: f64 = 0.5;
 /// Minimum distance between the centers of two defects, m, so that a photo rarely shows two defects.
 const MIN_SEPARATION_M: f64 = 2.0;
-/// Maximum difference between the predicted detection of a defect and the mean of its set (estimate: the set then contains
-/// easy and hard defects, and none that everybody or nobody finds).
-const MAX_DETECTION_SPREAD: f64 = 0.25;
 /// Maximum number of attempts per defect. The first third requires the full separation; later attempts reduce it
 /// gradually.
 const MAX_ATTEMPTS: usize = 3000;
@@ -65,21 +59,6 @@ pub fn reference_shortfalls(camera: &Camera, lamp: &Lamp) -> Vec<String> {
         .collect()
 }
 
-/// Site data and queries needed to place defects.
-#[derive(Clone, Copy)]
-pub struct PlacementContext<'a> {
-    /// All bridge members. The object ID of a ray hit is an index into this list.
-    pub members: &'a [Member],
-    /// All the job's tasks.
-    pub tasks: &'a [Task],
-    /// Ray queries against static geometry.
-    pub cast: RayCast<'a>,
-    /// Ambient light at session start by position and normal, lx.
-    pub ambient: visibility::AmbientLight<'a>,
-    /// Distance from a point to the nearest surface, m; infinity if it exceeds [`CAMERA_CLEARANCE_M`].
-    pub clearance_m: &'a dyn Fn(Vec3<Enu>) -> f64,
-}
-
 /// Returns the defects of a session: those in a resolved file, or otherwise defects drawn from the seed. Returns fewer
 /// than requested only if the settings leave no position that can be photographed (for example, no bridge within reach
 /// of a task, or defect codes that are not permitted on any element within reach).
@@ -96,6 +75,9 @@ pub fn place_defects(settings: &DefectSpec, context: &PlacementContext, seed: u6
         return defects;
     }
     let slots = draw_slots(settings, seed);
+    if settings.placement == DefectPlacement::Causes {
+        return causes::place_by_cause(settings, context, &slots, seed);
+    }
     let first = stream.below(tasks.len());
     for (k, slot) in slots.iter().enumerate() {
         let found = (0..tasks.len()).find_map(|turn| {
@@ -108,35 +90,6 @@ pub fn place_defects(settings: &DefectSpec, context: &PlacementContext, seed: u6
         }
     }
     defects
-}
-
-/// Requirements of one of the defects to place.
-#[derive(Debug, Clone, Copy, Default)]
-struct Slot {
-    /// True for a line, false for an area, `None` for either.
-    line: Option<bool>,
-    /// Predicted detection, 0 to 1; `None` to draw the size from the catalog.
-    detection: Option<f64>,
-}
-
-/// Returns the requirements of all defects: lines at even intervals, and the difficulties in random order. They use a
-/// stream of their own, so that they do not affect the positions of defects without requirements.
-fn draw_slots(settings: &DefectSpec, seed: u64) -> Vec<Slot> {
-    let count = settings.count;
-    let mut slots = vec![Slot::default(); count];
-    if let Some(lines) = settings.line_count.map(|lines| lines.min(count)) {
-        for (k, slot) in slots.iter_mut().enumerate() {
-            slot.line = Some((k + 1) * lines / count > k * lines / count);
-        }
-    }
-    if let Some(mean) = settings.mean_detection {
-        let mut targets = detection::spread_targets(count, mean, MAX_DETECTION_SPREAD);
-        let mut stream = RandomStream::new(seed, "site.defects.difficulty");
-        for slot in &mut slots {
-            slot.detection = Some(targets.swap_remove(stream.below(targets.len())));
-        }
-    }
-    slots
 }
 
 /// Draws a line of sight, a defect code and a size; `None` if the defect cannot be placed there.
@@ -175,6 +128,8 @@ fn try_place(
         length_m,
         width_m,
         line: defect_codes::is_line(kind),
+        cause: None,
+        stain: None,
     };
     if let Some(target) = slot.detection {
         resize(&mut defect, target, context, stream)?;
@@ -182,25 +137,10 @@ fn try_place(
     let separation = MIN_SEPARATION_M * (1.5 - 1.5 * attempt as f64 / MAX_ATTEMPTS as f64).min(1.0);
     let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
     (apart
-        && fits_in_face(&defect, &face)
-        && is_exposed(&defect, hit.object.0, context)
+        && fits_in_face(&defect, &face, EDGE_MARGIN_M)
+        && is_exposed(&defect, hit.object.0, context, EDGE_MARGIN_M)
         && find_view(&defect, task, context).is_some())
     .then_some(defect)
-}
-
-/// Gives a defect the size with the target detection, and the condition state of this size. `None` if no size in the
-/// catalog has it.
-fn resize(defect: &mut PlacedDefect, target: f64, context: &PlacementContext, stream: &mut RandomStream) -> Option<()> {
-    let limits = defect_codes::target_size_ranges(defect.kind);
-    let width = stream.range(limits.width.0, limits.width.1);
-    let width_m = |length_m: f64| if defect.line { width } else { width * length_m };
-    let view = detection::view_scale(defect, context.tasks, &REFERENCE_CAMERA, context.cast)?;
-    let length_m = view.length_for(target, limits.length_m, &width_m, defect.line)?;
-    (defect.width_m, defect.length_m) = (width_m(length_m), length_m);
-    if let Some(state) = defect_codes::condition_state(defect.kind, defect.length_m, defect.width_m) {
-        defect.condition_state = state;
-    }
-    Some(())
 }
 
 fn choose_code((settings, slot): (&DefectSpec, &Slot), element: Element, draw: f64) -> Option<u32> {
@@ -229,53 +169,6 @@ fn defect_direction(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     }
 }
 
-/// Returns the end points of a defect along its length and its width, each extended by a margin.
-fn end_points(defect: &PlacedDefect, margin_m: f64) -> [Vec3<Enu>; 4] {
-    let across = defect.normal.cross(defect.along);
-    let (l, w) = (0.5 * defect.length_m + margin_m, 0.5 * defect.width_m + margin_m);
-    let c = defect.position_m;
-    [c + defect.along * l, c - defect.along * l, c + across * w, c - across * w]
-}
-
-/// Returns true if the defect and its margin are entirely inside the face.
-fn fits_in_face(defect: &PlacedDefect, face: &MemberFace) -> bool {
-    end_points(defect, EDGE_MARGIN_M).iter().all(|p| face.edge_distance_m(*p) > 0.0)
-}
-
-/// Returns true if no other member covers the defect or touches its surroundings. Rays from slightly above the center and the
-/// ends of the defect must hit this member first.
-fn is_exposed(defect: &PlacedDefect, object: u32, context: &PlacementContext) -> bool {
-    let mut points = end_points(defect, EDGE_MARGIN_M).to_vec();
-    points.push(defect.position_m);
-    points.iter().all(|p| {
-        let above = *p + defect.normal * MIN_FREE_DEPTH_M;
-        let room_up = (context.cast)(*p + defect.normal * 0.005, defect.normal, MIN_FREE_DEPTH_M).is_none();
-        let back = (context.cast)(above, -defect.normal, MIN_FREE_DEPTH_M + 0.01);
-        room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - MIN_FREE_DEPTH_M).abs() < 0.002)
-    })
-}
-
-/// Returns a pose where the reference camera captures the defect, within the task's threshold of its path and with
-/// sufficient clearance; `None` if no candidate qualifies.
-#[must_use]
-pub fn find_view(defect: &PlacedDefect, task: &Task, context: &PlacementContext) -> Option<CameraPose> {
-    nearest_points(defect.position_m, task).into_iter().find_map(|k| {
-        CAMERA_DISTANCE_FRACTIONS.iter().find_map(|share| {
-            let pose = pose_toward(defect.position_m, task, k, *share);
-            // Checks the cheapest conditions first: line of sight and pixels, then clearance, then light.
-            let bright =
-                visibility::evaluate_defect(defect, &pose, (&REFERENCE_CAMERA, &REFERENCE_LAMP), context.cast, &|_, _| 1e9);
-            let air = || (context.clearance_m)(pose.position_m) >= CAMERA_CLEARANCE_M;
-            let lit = || {
-                let lamp = visibility::lamp_lux(&REFERENCE_LAMP, &pose, defect.position_m, defect.normal);
-                let needed = visibility::required_illuminance_lux(&REFERENCE_CAMERA);
-                lamp >= needed || lamp + (context.ambient)(defect.position_m, defect.normal) >= needed
-            };
-            (bright.is_some_and(|v| v.hit) && air() && lit()).then_some(pose)
-        })
-    })
-}
-
 /// Draws a direction uniformly within a cone about an axis.
 fn draw_direction_in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut RandomStream) -> Vec3<Enu> {
     let z = stream.range(math::cos(half_angle_rad), 1.0);
@@ -289,9 +182,11 @@ fn draw_direction_in_cone(axis: Vec3<Enu>, half_angle_rad: f64, stream: &mut Ran
 #[cfg(test)]
 mod tests {
     use super::super::boxes::OrientedBox;
+    use super::super::defect_checks::end_points;
+    use super::super::detection;
     use super::super::query_types::{ObjectId, RayHit};
     use super::*;
-    use crate::scenario::bridges::Solid;
+    use crate::scenario::bridges::{Member, Solid};
 
     const SEED_COUNT: u64 = 50;
 
@@ -368,8 +263,14 @@ mod tests {
         };
         let clearance = |p: Vec3<Enu>| solids.iter().map(|s| s.nearest(p).0).fold(f64::INFINITY, f64::min);
         let ambient = move |_: Vec3<Enu>, _: Vec3<Enu>| lux;
-        let context =
-            PlacementContext { members: &members, tasks: &tasks, cast: &cast, ambient: &ambient, clearance_m: &clearance };
+        let context = PlacementContext {
+            members: &members,
+            tasks: &tasks,
+            cast: &cast,
+            ambient: &ambient,
+            clearance_m: &clearance,
+            water_up_m: 0.0,
+        };
         with(&context, &solids)
     }
 

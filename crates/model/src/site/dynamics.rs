@@ -40,8 +40,14 @@ impl Dynamics {
         let light = LightModel::new(&scenario.light, scenario.origin);
         let ambient = |p, n| light.ambient_lux(p, Some(n), SimTime::ZERO, still.cast);
         let clearance = |p| (still.nearest)(p, defects::CAMERA_CLEARANCE_M).map_or(f64::INFINITY, |n| n.distance_m);
-        let ground =
-            PlacementContext { members, tasks: &scenario.tasks, cast: still.cast, ambient: &ambient, clearance_m: &clearance };
+        let ground = PlacementContext {
+            members,
+            tasks: &scenario.tasks,
+            cast: still.cast,
+            ambient: &ambient,
+            clearance_m: &clearance,
+            water_up_m: scenario.terrain.water_level_m,
+        };
         let placed = defects::place_defects(&scenario.defects, &ground, seed);
         Self { traffic: TrafficPlan::new(lanes, &scenario.traffic, &scenario.ground_team, seed), light, defects: placed }
     }
@@ -252,6 +258,7 @@ mod tests {
                 cast: &still,
                 ambient: &ambient,
                 clearance_m: &clearance,
+                water_up_m: scenario.terrain.water_level_m,
             };
             assert_eq!(site.defects().len(), 10, "seed {seed}");
             let mut per_task = [0; 4];

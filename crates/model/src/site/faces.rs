@@ -1,9 +1,11 @@
 //! Faces of bridge members, used to place defects.
 
 use crate::frames::{Enu, Vec3};
+use crate::math;
 use crate::scenario::bridges::Solid;
 
 /// A planar face of a member, with a point on it.
+#[derive(Debug, Clone)]
 pub(super) struct MemberFace {
     /// Point on the face, m.
     pub(super) point_m: Vec3<Enu>,
@@ -31,6 +33,15 @@ pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
     best.map(|b| b.1)
 }
 
+/// Returns all faces of a solid, each with the mean of its corners as its point.
+pub(super) fn faces(solid: &Solid) -> impl Iterator<Item = MemberFace> + '_ {
+    solid.faces.iter().map(|indices| {
+        let corners_m: Vec<Vec3<Enu>> = indices.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
+        let sum = corners_m.iter().fold(Vec3::zero(), |sum, corner| sum + *corner);
+        MemberFace { point_m: sum / corners_m.len().max(1) as f64, normal: polygon_normal(&corners_m), corners_m }
+    })
+}
+
 /// Returns the unit normal of a planar polygon by Newell's method, which is robust against collinear corners.
 fn polygon_normal(corners_m: &[Vec3<Enu>]) -> Vec3<Enu> {
     let count = corners_m.len();
@@ -48,6 +59,35 @@ impl MemberFace {
                 self.normal.cross(b - a).unit().dot(point_m - a)
             })
             .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the same face with another point on it.
+    pub(super) fn at(&self, point_m: Vec3<Enu>) -> Self {
+        Self { point_m, ..self.clone() }
+    }
+
+    /// Returns the smallest and the largest coordinate of the corners in a direction, m.
+    pub(super) fn extent_m(&self, direction: Vec3<Enu>) -> (f64, f64) {
+        math::range(self.corners_m.iter().map(|corner| corner.dot(direction)))
+    }
+
+    /// Returns the distance from a point in the face's plane to its boundary in a direction, m; `None` if the point is outside. The face
+    /// is convex.
+    pub(super) fn boundary_m(&self, point_m: Vec3<Enu>, direction: Vec3<Enu>) -> Option<f64> {
+        let count = self.corners_m.len();
+        let mut least = f64::INFINITY;
+        for k in 0..count {
+            let (a, b) = (self.corners_m[k], self.corners_m[(k + 1) % count]);
+            let inward = self.normal.cross(b - a).unit();
+            let (height_m, approach) = (inward.dot(point_m - a), -inward.dot(direction));
+            if height_m < 0.0 {
+                return None;
+            }
+            if approach > 1e-9 {
+                least = least.min(height_m / approach);
+            }
+        }
+        Some(least)
     }
 
     /// Returns the direction of the face's longest edge.

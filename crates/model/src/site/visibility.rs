@@ -254,6 +254,8 @@ mod tests {
             length_m: 0.5,
             width_m: 0.002,
             line: true,
+            cause: None,
+            stain: None,
         }
     }
 

@@ -308,6 +308,7 @@ editor-key-look-at = Blickziel
 editor-key-too-close = Zu nah
 editor-key-dark = Dunkel
 editor-key-count = Anzahl
+editor-key-placement = Verteilung
 editor-key-size-factor = Größenfaktor
 editor-key-elements = Bauteile
 editor-key-kinds = Arten

@@ -136,6 +136,7 @@ scenario-keys-tasks-look-at-m = Nur bei `free`: Gibt es so viele Punkte wie in `
 scenario-keys-tasks-too-close-m = Ersetzt `feedback.too_close_m` während dieser Aufgabe, m.
 scenario-keys-tasks-dark = Ob die Aufgabe den Scheinwerfer braucht. Dann erwähnt ihn die Einweisung, und der synthetische Pilot schaltet ihn ein.
 scenario-keys-defects-count = Anzahl der Schäden. Spandrel setzt weniger, wenn es nicht genug Stellen findet, die die Drohne von den Bahnen der Aufgaben aus fotografieren kann.
+scenario-keys-defects-placement = `causes` setzt Schäden dorthin, wo eine Ursache sie erzeugt, mit den zugehörigen Flecken; `anywhere` irgendwohin auf die Flächen in Reichweite. Siehe *Defects and their causes*.
 scenario-keys-defects-size-factor = Faktor für die Größen im Schadenskatalog; kleinere Schäden sind schwerer zu finden.
 scenario-keys-defects-elements = AASHTO-MBEI-Nummern der Bauteile, die Schäden haben dürfen; ohne Angabe alle Bauteile im Schadenskatalog.
 scenario-keys-defects-kinds = AASHTO-MBEI-Codes der Schäden, die vorkommen dürfen; ohne Angabe alle, die am Bauteil möglich sind.

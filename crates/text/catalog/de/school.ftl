@@ -17,5 +17,5 @@ school-spall = Abplatzung: eine Vertiefung mit scharfem Rand. Der Beton darin is
 school-rebar = Freiliegende Bewehrung: orangebraune Stäbe in einer Vertiefung im Beton.
 school-efflorescence = Aussinterung oder Rostfahne: weiße oder braune Streifen, die an der Oberfläche herunterlaufen.
 school-abrasion = Abrieb: eine abgenutzte Stelle, an der die Gesteinskörnung sichtbar ist.
-school-crack = Riss: eine dünne, dunkle, unregelmäßige Linie.
+school-crack = Riss: eine dünne, dunkle, unregelmäßige Linie oder ein Netz solcher Linien.
 school-defect = Ein Schaden.

@@ -326,6 +326,7 @@ editor-key-look-at = Camera target
 editor-key-too-close = Too-close warning distance
 editor-key-dark = Lamp required
 editor-key-count = Number of defects
+editor-key-placement = Placement
 editor-key-size-factor = Size factor
 editor-key-elements = Elements
 editor-key-kinds = Defect types

@@ -19,5 +19,5 @@ school-spall = Spall: a hollow with a sharp edge. The concrete in it is lighter 
 school-rebar = Exposed rebar: orange-brown bars in a hollow in the concrete.
 school-efflorescence = Efflorescence or rust staining: white or brown streaks that run down the surface.
 school-abrasion = Abrasion: a worn patch in which the aggregate shows.
-school-crack = Cracking: a thin, dark, irregular line.
+school-crack = Cracking: a thin, dark, irregular line, or a net of such lines.
 school-defect = A defect.

@@ -86,6 +86,18 @@ terms-defect-efflorescence = efflorescence or rust staining
 terms-defect-crack = cracking
 terms-defect-abrasion = abrasion
 terms-defect-unknown = defect
+terms-cause-bending = bending
+terms-cause-shear = shear
+terms-cause-shrinkage = restrained shrinkage of the deck
+terms-cause-swelling = swelling of the concrete (alkali-silica reaction or frost)
+terms-cause-leaking-joint = leaking joint above
+terms-cause-drain = deck drain
+terms-cause-reinforcement = rusting reinforcement
+terms-cause-edge = load or water at an edge
+terms-cause-water-line = ice, debris and sand at the water line
+terms-cause-weld = stress concentration at the end of a weld
+terms-cause-fasteners = loose fasteners at a splice
+terms-cause-cable = water in the lowest part of the cable
 
 # Scores.
 terms-score-overall = overall

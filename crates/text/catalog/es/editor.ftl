@@ -308,6 +308,7 @@ editor-key-look-at = Punto de mira
 editor-key-too-close = Demasiado cerca
 editor-key-dark = Oscura
 editor-key-count = Cantidad
+editor-key-placement = Distribución
 editor-key-size-factor = Factor de tamaño
 editor-key-elements = Elementos
 editor-key-kinds = Tipos

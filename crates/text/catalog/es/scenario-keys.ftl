@@ -136,6 +136,7 @@ scenario-keys-tasks-look-at-m = Solo con `free`: si hay tantos puntos como en `p
 scenario-keys-tasks-too-close-m = Sustituye a `feedback.too_close_m` durante esta tarea, m.
 scenario-keys-tasks-dark = Si la tarea requiere el foco. En ese caso, la sesión informativa lo menciona y el piloto sintético lo enciende.
 scenario-keys-defects-count = Número de defectos que se colocan. Spandrel coloca menos si no encuentra suficientes posiciones que el dron pueda fotografiar desde las trayectorias de las tareas.
+scenario-keys-defects-placement = `causes` coloca los defectos donde una causa los produce, con sus manchas; `anywhere`, en cualquier lugar de las superficies al alcance. Véase *Defects and their causes*.
 scenario-keys-defects-size-factor = Factor de escala de los tamaños del catálogo de defectos; los más pequeños son más difíciles de encontrar.
 scenario-keys-defects-elements = Números AASHTO MBEI de los elementos que pueden tener defectos; de forma predeterminada, todos los elementos del catálogo de defectos.
 scenario-keys-defects-kinds = Códigos AASHTO MBEI de los defectos que pueden aparecer; de forma predeterminada, todos los posibles en el elemento.

@@ -17,5 +17,5 @@ school-spall = Descascaramiento: una cavidad de borde definido. El concreto en s
 school-rebar = Acero de refuerzo expuesto: barras de color marrón anaranjado en una cavidad del concreto.
 school-efflorescence = Eflorescencia o manchas de óxido: vetas blancas o marrones que bajan por la superficie.
 school-abrasion = Abrasión: una zona desgastada en la que se ve el agregado.
-school-crack = Fisuración: una línea fina, oscura e irregular.
+school-crack = Fisuración: una línea fina, oscura e irregular, o una red de tales líneas.
 school-defect = Un defecto.

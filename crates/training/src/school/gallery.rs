@@ -3,6 +3,7 @@
 use super::card::{Card, Distance, Subject};
 use spandrel_model::defect_codes;
 use spandrel_model::elements::{Element, ElementMaterial};
+use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{DefectSpec, PlacedDefect, Scenario};
@@ -16,6 +17,8 @@ use spandrel_model::vehicle::{Camera, Vehicle};
 const AREA_COUNT: usize = 30;
 const LINE_COUNT: usize = 15;
 const STEEL_COUNT: usize = 15;
+/// Largest condition state whose cracks may be thin. The edges of worse ones crumble.
+const MAX_THIN_STATE: u8 = 3;
 /// Factor by which a defect that can be seen must exceed the scorer's smallest extent and line width (estimate: clear to a
 /// beginner).
 const CLEAR_FACTOR: f64 = 2.0;
@@ -66,6 +69,7 @@ pub fn school_scenario(job: &Scenario, seed: u64) -> Scenario {
         let set_seed = stream.bits() >> 1;
         let defects = DefectSpec {
             count,
+            placement: job.defects.placement,
             size_factor: 1.0,
             elements,
             kinds: Vec::new(),
@@ -78,7 +82,7 @@ pub fn school_scenario(job: &Scenario, seed: u64) -> Scenario {
     }
     for (defect, id) in placed.iter_mut().zip(1..) {
         defect.id = id;
-        if defect.line {
+        if defect.line && defect.condition_state <= MAX_THIN_STATE {
             // A job has only cracks that its paths let a camera resolve. The school has thinner ones, too.
             defect.width_m = crack_width_m(defect.kind, &mut stream);
         }
@@ -155,13 +159,25 @@ impl Studio<'_> {
         let spot = SurfaceSpot { position_m, normal: defect.normal };
         let pose = close_up_pose(self.site, spot, f64::from(distance.m()), SimTime::ZERO)?;
         let empty = self.views(&pose).iter().all(|view| !is_in_picture(view));
-        empty.then(|| self.picture(Card { distance, subject: Subject::Sound }, pose, defect.element))
+        let half_m = 0.5 * f64::from(self.surroundings.width_px) * self.pixel_m(distance);
+        (empty && !self.is_stained(position_m, half_m))
+            .then(|| self.picture(Card { distance, subject: Subject::Sound }, pose, defect.element))
     }
 
     /// Returns a picture without a defect.
     fn picture(&self, card: Card, pose: CameraPose, element: Element) -> SchoolPicture {
-        let pixel_m = f64::from(card.distance.m()) / self.surroundings.focal_px();
-        SchoolPicture { card, pose, element, defect: None, visible: true, pixel_m }
+        SchoolPicture { card, pose, element, defect: None, visible: true, pixel_m: self.pixel_m(card.distance) }
+    }
+
+    /// Returns the size of a pixel on the surface, m.
+    fn pixel_m(&self, distance: Distance) -> f64 {
+        f64::from(distance.m()) / self.surroundings.focal_px()
+    }
+
+    /// Returns whether a stain that belongs to a defect is within a distance of a position.
+    fn is_stained(&self, position_m: Vec3<Enu>, distance_m: f64) -> bool {
+        let mut stains = self.site.defects().iter().filter_map(PlacedDefect::stain_patch);
+        stains.any(|stain| (stain.center_m - position_m).norm() < distance_m + 0.5 * stain.length_m)
     }
 
     /// Returns the defects in front of the camera.

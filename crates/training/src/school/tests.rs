@@ -42,6 +42,8 @@ fn pictures() -> Vec<SchoolPicture> {
             length_m: 0.4,
             width_m: 0.0005,
             line: defect_codes::is_line(kind),
+            cause: None,
+            stain: None,
         });
         let hidden = card.distance == Distance::Far && defect.as_ref().is_some_and(|defect| defect.line);
         let pose = CameraPose { position_m: up, forward: -up, right: Vec3::new(1.0, 0.0, 0.0), lamp_on: true };

@@ -69,7 +69,7 @@ const LAYOUT: &[Layout] = &[
     Layout {
         id: "defects",
         repeated: "",
-        main: &["defects.count", "defects.size_factor", "defects.detection_pct", "defects.lines"],
+        main: &["defects.count", "defects.placement", "defects.size_factor", "defects.detection_pct", "defects.lines"],
         tables: &["defects"],
     },
     Layout {

@@ -188,6 +188,7 @@ fn flight_label(language: Language, name: &str) -> Option<String> {
         "too_close" => text!(language, "editor-key-too-close"),
         "dark" => text!(language, "editor-key-dark"),
         "count" => text!(language, "editor-key-count"),
+        "placement" => text!(language, "editor-key-placement"),
         "size_factor" => text!(language, "editor-key-size-factor"),
         "elements" => text!(language, "editor-key-elements"),
         "kinds" => text!(language, "editor-key-kinds"),

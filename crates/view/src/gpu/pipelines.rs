@@ -7,9 +7,9 @@ use super::device::Gpu;
 use crate::material_groups::MaterialGroup;
 use crate::mesh::Vertex;
 use crate::quality::Quality;
+use crate::scene::defects::{STAIN_CODES, defect_drawings};
 use crate::scene::{DefectPatch, Instance};
 use crate::shaders;
-use spandrel_model::defect_codes;
 use wgpu::VertexFormat::{Float32, Float32x2, Float32x3, Float32x4, Uint32, Unorm8x4};
 
 pub use labels::LabelPipelines;
@@ -47,7 +47,7 @@ pub struct Pipelines {
     pub surfaces_mirrored: [MaterialPipelines; 2],
     /// Translucent surfaces.
     pub translucent: wgpu::RenderPipeline,
-    /// Defects, by AASHTO code.
+    /// Stains, then defects, by drawing.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
     /// Lake, without and with breaking waves, each without and with the lamp.
     pub water: [[wgpu::RenderPipeline; 2]; 2],
@@ -380,9 +380,10 @@ impl Pipelines {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
             translucent: build_pipeline(gpu, &translucent),
-            defects: defect_codes::ALL
-                .iter()
-                .map(|code| (*code, build_with_constants(gpu, &flat, &[("KIND", f64::from(*code))])))
+            defects: STAIN_CODES
+                .into_iter()
+                .chain(defect_drawings())
+                .map(|code| (code, build_with_constants(gpu, &flat, &[("KIND", f64::from(code))])))
                 .collect(),
             water: lakes(gpu, &lake, quality),
             sky_mirrored: build_pipeline(gpu, &PipelineKey { samples: 1, ..back }),

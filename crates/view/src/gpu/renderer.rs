@@ -14,12 +14,12 @@ use super::uniforms::{DevelopUniforms, Globals, MAX_SHADOW_MAPS, ShadowMaps};
 use crate::cells::{self, CellBounds, Frustum};
 use crate::ground_photo::GroundColors;
 use crate::quality::Quality;
+use crate::scene::defects::{STAIN_CODES, defect_drawings};
 use crate::scene::{DefectPatch, Instance, MoverModel, Scene};
 use crate::shadows::{self, ShadowMap};
 use crate::shot::Shot;
 use crate::tiles;
 use culling::ShotView;
-use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
 use static_cells::{StaticCell, fixed};
 
@@ -336,14 +336,15 @@ impl Renderer {
     }
 }
 
-/// Uploads defects grouped by kind.
+/// Uploads defects grouped by drawing, stains first.
 fn patches(gpu: &Gpu, all: &[DefectPatch]) -> Vec<(u32, wgpu::Buffer, u32)> {
     let of = |kind: &u32| {
         let same: Vec<DefectPatch> = all.iter().filter(|patch| patch.center[3] as u32 == *kind).copied().collect();
         let buffer = (!same.is_empty()).then(|| upload(gpu, bytemuck::cast_slice(&same), wgpu::BufferUsages::VERTEX))?;
         Some((*kind, buffer, same.len() as u32))
     };
-    defect_codes::ALL.iter().filter_map(of).collect()
+    let drawings: Vec<u32> = STAIN_CODES.into_iter().chain(defect_drawings()).collect();
+    drawings.iter().filter_map(of).collect()
 }
 
 /// Returns the opaque moving objects.

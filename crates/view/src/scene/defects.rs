@@ -4,11 +4,24 @@ use super::bake::LightBaker;
 use super::bridges;
 use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::PlacedDefect;
+use spandrel_model::scenario::{PlacedDefect, StainSubstance};
 use spandrel_model::site::Site;
 
 /// Number of rays used to compute the light on a patch; the same as for scoring.
 const RAYS_PER_PATCH: usize = 64;
+/// Codes of drawings that are not defect codes: stains that belong to a defect, and patterns of cracks (the same values as in
+/// shaders/defect.wgsl).
+const LIME_STAIN: u32 = 1;
+const RUST_STAIN: u32 = 2;
+const MAP_CRACKS: u32 = 3;
+/// Codes of all stains. They are drawn first, so that the defects are on top of them, and are not labeled.
+pub const STAIN_CODES: [u32; 2] = [LIME_STAIN, RUST_STAIN];
+
+/// Returns the codes of all drawings of defects, without stains.
+pub fn defect_drawings() -> impl Iterator<Item = u32> {
+    std::iter::once(MAP_CRACKS).chain(defect_codes::ALL.iter().copied())
+}
+
 /// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
 const LEAKAGE_MARGIN_M: f64 = 0.03;
 /// Size factor of an area, which leaves space for its ragged edge.
@@ -36,17 +49,52 @@ pub struct DefectPatch {
 /// Returns the patches for all of a site's defects.
 pub fn patches(site: &Site, sun: Vec3<Enu>) -> Vec<DefectPatch> {
     let bake = LightBaker::new(site, sun, RAYS_PER_PATCH);
-    site.defects().iter().map(|defect| patch(defect, bake.at(defect.position_m, defect.normal))).collect()
+    let of_defect = |defect: &PlacedDefect| {
+        let stain = defect.stain_patch().and_then(|at| stain_patch(defect, bake.at(at.center_m, defect.normal)));
+        [stain, Some(patch(defect, bake.at(defect.position_m, defect.normal)))].into_iter().flatten()
+    };
+    site.defects().iter().flat_map(of_defect).collect()
 }
 
 /// Returns the code used to draw a defect. Resolved files may contain kinds that no seed generates; these are drawn as
 /// a crack or exposed aggregate, because scored defects must be visible.
 fn drawn_kind(defect: &PlacedDefect) -> u32 {
     match (defect_codes::ALL.contains(&defect.kind), defect.line) {
+        (true, false) if matches!(defect.kind, defect_codes::CRACK | defect_codes::PSC_CRACK) => MAP_CRACKS,
         (true, _) => defect.kind,
         (false, true) => defect_codes::CRACK,
         (false, false) => defect_codes::ABRASION,
     }
+}
+
+/// Returns the patch of a defect's stain for the given indirect light; `None` if it has none.
+#[must_use]
+pub fn stain_patch(defect: &PlacedDefect, light: [f32; 2]) -> Option<DefectPatch> {
+    let (stain, at) = (defect.stain?, defect.stain_patch()?);
+    let code = match stain.substance {
+        StainSubstance::Lime => LIME_STAIN,
+        StainSubstance::Rust => RUST_STAIN,
+    };
+    // White lime is what the shader draws in a fair state.
+    let area = PlacedDefect {
+        position_m: at.center_m,
+        along: at.along,
+        length_m: at.length_m,
+        width_m: at.width_m,
+        line: false,
+        condition_state: 2,
+        ..defect.clone()
+    };
+    let mut patch = patch(&area, light);
+    patch.center[3] = code as f32;
+    // A seam of lime follows the course of its crack.
+    patch.normal[3] = own_number(defect);
+    Some(patch)
+}
+
+/// Returns a pseudorandom number that differs between defects but is constant for each one.
+fn own_number(defect: &PlacedDefect) -> f32 {
+    (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract() as f32
 }
 
 /// Returns the patch of a defect for the given indirect light.
@@ -63,11 +111,9 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
         (0.5 * EDGE_FACTOR * defect.length_m, 0.5 * EDGE_FACTOR * defect.width_m)
     };
     let [r, g, b] = bridges::material_and_paint(defect.element).1.map(|c| f32::from(c) / 255.0);
-    // Pseudorandom number that differs between defects but is constant for each one.
-    let own = (f64::from(defect.id) * 0.618_034 + defect.length_m * 7.13).fract();
     DefectPatch {
         center: four(defect.position_m, f64::from(drawn_kind(defect))),
-        normal: four(defect.normal, own),
+        normal: four(defect.normal, f64::from(own_number(defect))),
         along: four(defect.along, defect.length_m),
         size: [defect.width_m as f32, f32::from(defect.condition_state), -defect.along.up() as f32, -across.up() as f32],
         light: [sky, sun, half.0 as f32, half.1 as f32],
@@ -78,6 +124,7 @@ pub fn patch(defect: &PlacedDefect, [sky, sun]: [f32; 2]) -> DefectPatch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_model::scenario::Stain;
 
     /// Returns a crack that runs straight down.
     fn vertical_crack() -> PlacedDefect {
@@ -93,6 +140,8 @@ mod tests {
             length_m: 1.0,
             width_m: 0.002,
             line: true,
+            cause: None,
+            stain: None,
         }
     }
 
@@ -111,5 +160,21 @@ mod tests {
         let decay = PlacedDefect { kind: 1140, line: false, ..vertical_crack() };
         assert_eq!(patch(&decay, [0.2, 0.1]).center[3], 1190.0);
         assert_eq!(patch(&PlacedDefect { line: true, ..decay }, [0.2, 0.1]).center[3], 1130.0);
+    }
+
+    #[test]
+    fn exact_patterns_of_cracks_and_stains_have_drawings_of_their_own() {
+        let pattern = PlacedDefect { kind: 1130, line: false, width_m: 0.6, ..vertical_crack() };
+        assert_eq!(patch(&pattern, [0.2, 0.1]).center[3], MAP_CRACKS as f32);
+        assert_eq!(stain_patch(&pattern, [0.2, 0.1]), None);
+        for (substance, code) in [(StainSubstance::Lime, LIME_STAIN), (StainSubstance::Rust, RUST_STAIN)] {
+            let stained = PlacedDefect { stain: Some(Stain { substance, length_m: 0.4 }), ..vertical_crack() };
+            let stain = stain_patch(&stained, [0.2, 0.1]).unwrap();
+            let crack = patch(&stained, [0.2, 0.1]);
+            assert_eq!((stain.center[3], stain.normal[3], stain.tint[3]), (code as f32, crack.normal[3], crack.tint[3]));
+            // The crack ends 0.5 m below its center; the middle of the stain is 0.2 m lower.
+            assert!((crack.center[2] - stain.center[2] - 0.7).abs() < 1e-6, "{stain:?}");
+        }
+        assert!(defect_drawings().all(|code| !STAIN_CODES.contains(&code)));
     }
 }

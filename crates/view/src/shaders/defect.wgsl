@@ -1,8 +1,12 @@
 // Defects, drawn by kind as patches on their members. Lines cover fractions of pixels, so a crack narrower than a pixel
 // fades with the ratio of its width to the ground sampling distance, as on a sensor.
 
-// AASHTO code of the pipeline's defects.
+// AASHTO code of the pipeline's defects, or one of the codes below.
 override KIND: u32 = 0u;
+// Stains that belong to a defect, and patterns of cracks (the same values as in scene/defects.rs).
+const LIME_STAIN: u32 = 1u;
+const RUST_STAIN: u32 = 2u;
+const MAP_CRACKS: u32 = 3u;
 // Whether to write the defect ID instead of radiance.
 override MASK: bool = false;
 // Minimum covered fraction of a labeled pixel. A line half a pixel wide, the minimum for detection
@@ -62,6 +66,14 @@ fn vs(@builtin(vertex_index) k: u32, d: Patch) -> Fragment {
 struct Look {
     matter: Matter,
     alpha: f32,
+}
+
+fn is_fair(in: Fragment) -> bool {
+    return in.size.y < 2.5;
+}
+
+fn is_severe(in: Fragment) -> bool {
+    return in.size.y > 3.5;
 }
 
 // Lateral offset of a crack's center line at x, m: straight segments with kinks, up to 25 mm.
@@ -186,14 +198,21 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let count = max(1.0, floor(in.size.x / 0.11));
     let gap = in.size.x / count;
     let lane = (fract(in.q.y / gap + 0.5 * count) - 0.5) * gap;
-    let radius = 0.011 + 0.004 * seed;
+    // Section loss: notches and thin stretches, up to a broken bar.
+    let whole = 0.011 + 0.004 * seed;
+    let eaten = lumps(vec2<f32>(in.q.x * 30.0 + 17.0 * floor(in.q.y / gap + 0.5 * count), seed * 9.0));
+    let loss = select(select(0.0, 0.45, !is_fair(in)), 0.8, is_severe(in)) * smoothstep(0.42, 0.62, eaten);
+    let radius = whole * (1.0 - loss);
     let t = clamp(lane / radius, -1.0, 1.0);
-    let bar = cover(abs(lane), 2.0 * radius, f) * (1.0 - smoothstep(0.86, 0.94, outline(in.q, half, seed)));
+    let unbroken = 1.0 - select(0.0, 1.0, is_severe(in)) * smoothstep(0.60, 0.63, eaten);
+    let bar = unbroken * cover(abs(lane), 2.0 * radius, f) * (1.0 - smoothstep(0.86, 0.94, outline(in.q, half, seed)));
     let rib = lines(in.q.x + 0.6 * lane, 0.012, 0.004, f);
     // Rust stains on the concrete next to the bars.
     let bleed = exp(-pow(lane / (2.6 * radius), 2.0)) * smoothstep(0.3, 0.7, fbm(in.q * 14.0 + seed * 9.0, f * 14.0));
-    (*look).matter.albedo = mix((*look).matter.albedo, vec3<f32>(0.34, 0.16, 0.07), 0.75 * bleed);
-    let steel = rust(in.q + seed, f) * (1.25 + 0.5 * rib);
+    (*look).matter.albedo = mix((*look).matter.albedo, vec3<f32>(0.34, 0.16, 0.07), select(0.75, 0.25, is_fair(in)) * bleed);
+    // A sound bar has a thin film of rust on gray steel.
+    let film = mix(rust(in.q + seed, f), vec3<f32>(0.17, 0.145, 0.125), select(0.0, 0.75, is_fair(in)));
+    let steel = film * (1.25 + 0.5 * rib);
     (*look).matter.albedo = mix((*look).matter.albedo, steel, bar);
     let round = frame_normal(in, vec2<f32>(0.0, -1.3 * t));
     (*look).matter.normal = normalize(mix((*look).matter.normal, round, bar));
@@ -231,7 +250,8 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let thick = clamp(body * (0.25 + 0.75 * patches) + 0.7 * (crust - 0.5), 0.0, 1.0);
     var color = mix(vec3<f32>(0.50, 0.48, 0.44), vec3<f32>(0.80, 0.79, 0.75), smoothstep(0.3, 0.8, thick)) * (0.60 + 0.7 * crust);
     if in.size.y > 2.5 {
-        let stain = smoothstep(0.45, 0.75, fbm(vec2<f32>(y * 19.0 + 5.0 + seed, in.q.x * 1.2), f * 19.0));
+        let from_share = select(0.45, 0.30, is_severe(in));
+        let stain = smoothstep(from_share, from_share + 0.30, fbm(vec2<f32>(y * 19.0 + 5.0 + seed, in.q.x * 1.2), f * 19.0));
         color = mix(color, vec3<f32>(0.38, 0.17, 0.06), 0.75 * stain);
     }
     (*look).matter.albedo = color;
@@ -240,6 +260,87 @@ fn lime(in: Fragment, f: f32, look: ptr<function, Look>) {
     let bump = 0.35 * (vec2<f32>(fbm(turned * 40.0, f * 40.0), fbm(turned * 40.0 + 19.0, f * 40.0)) - 0.5) * (1.0 - smoothstep(0.004, 0.02, f));
     (*look).matter.normal = frame_normal(in, bump);
     (*look).alpha = smoothstep(0.10, 0.60, thick) * min(1.0, 1.6 * body) * 0.94;
+    if is_severe(in) {
+        // The concrete around the deposits is wet and dark.
+        let wet = 0.55 * (1.0 - smoothstep(0.55, 1.0, outline(in.q, half, seed)));
+        let crusted = (*look).alpha;
+        (*look).matter.albedo = mix(vec3<f32>(0.085, 0.080, 0.070), (*look).matter.albedo, crusted / max(crusted + wet * (1.0 - crusted), 1e-3));
+        (*look).alpha = crusted + wet * (1.0 - crusted);
+    }
+}
+
+// Lime beside a crack in an underside: it follows the crack, whose course depends on the same number.
+fn seam(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
+    let half = 0.5 * in.along.w;
+    let seed = in.normal.w;
+    let ends = 1.0 - smoothstep(0.75 * half, half, abs(in.q.x));
+    let patches = smoothstep(0.30, 0.62, fbm(vec2<f32>(in.q.x * 7.0 + seed * 21.0, seed * 5.0), f * 7.0));
+    let reach = 0.008 + 0.030 * patches * lumps(in.q * 30.0 + seed * 3.0);
+    let crust = fbm(in.q * 60.0, f * 60.0);
+    (*look).matter.albedo = mix(vec3<f32>(0.50, 0.48, 0.44), vec3<f32>(0.80, 0.79, 0.75), patches) * (0.60 + 0.7 * crust);
+    (*look).matter.roughness = 0.8;
+    (*look).alpha = ends * min(0.92, 1.5 * leakage(off, reach, f)) * (0.35 + 0.65 * patches);
+}
+
+// Rust that runs down a wall from its source at the upper end.
+fn rust_run(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let seed = in.normal.w;
+    let u = in.q / half;
+    let y = in.q.y + 0.03 * (lumps(in.q * 13.0 + seed * 3.0) - 0.5);
+    let down = 0.5 + 0.5 * u.x * sign(in.size.z);
+    let tongue = fbm(vec2<f32>(y * 21.0 + seed * 40.0, in.q.x * 0.9), f * 21.0);
+    let drip = fbm(vec2<f32>(y * 70.0 + seed * 11.0, in.q.x * 2.0), f * 70.0);
+    let side = 1.0 - smoothstep(0.35, 1.0, abs(u.y) + 0.7 * (tongue - 0.5));
+    let reach = (0.25 + 0.95 * tongue + 0.3 * (drip - 0.5)) * (0.6 + 0.6 * side);
+    let body = side * smoothstep(0.0, 0.04, down) * (1.0 - smoothstep(0.2 * reach, reach + 0.05, down));
+    (*look).matter.albedo = mix(vec3<f32>(0.30, 0.135, 0.055), vec3<f32>(0.15, 0.062, 0.030), drip);
+    (*look).matter.roughness = 0.9;
+    (*look).alpha = 0.78 * body * (0.55 + 0.6 * drip);
+}
+
+// Distance of a point from the border between the nearest two of the randomly placed cells of size 1.
+fn cell_border(p: vec2<f32>) -> f32 {
+    let base = vec2<i32>(floor(p));
+    var first = 9.0;
+    var second = 9.0;
+    for (var y = -1; y <= 1; y++) {
+        for (var x = -1; x <= 1; x++) {
+            let cell = base + vec2<i32>(x, y);
+            let spot = vec2<f32>(cell) + 0.5 + 0.72 * (vec2<f32>(hash2(cell), hash2(cell + vec2<i32>(71, 13))) - 0.5);
+            let d = distance(p, spot);
+            second = min(second, max(first, d));
+            first = min(first, d);
+        }
+    }
+    return 0.5 * (second - first);
+}
+
+// Map cracking: a network of cracks with gel and lime on their edges. Worse states have smaller cells and wider cracks.
+fn map_cracks(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let seed = in.normal.w;
+    let cell = select(select(0.15, 0.22, is_fair(in)), 0.11, is_severe(in));
+    let width = select(select(0.0028, 0.0012, is_fair(in)), 0.0055, is_severe(in));
+    let bent = in.q + 0.035 * (vec2<f32>(lumps(in.q * 16.0 + seed * 7.0), lumps(in.q * 16.0 + 31.0 + seed * 7.0)) - 0.5)
+        + 0.012 * (vec2<f32>(fbm(in.q * 33.0, f * 33.0), fbm(in.q * 33.0 + 17.0, f * 33.0)) - 0.5);
+    let d = cell * cell_border(bent / cell + seed * 50.0);
+    let line = cover(d, width * (0.6 + 0.8 * noise(in.q * 19.0 + seed * 3.0)), f);
+    let gel = select(select(0.50, 0.30, is_fair(in)), 0.60, is_severe(in));
+    let rim = gel * leakage(d, select(0.006, 0.004, is_fair(in)), f) * smoothstep(0.35, 0.65, fbm(in.q * 9.0 + seed * 13.0, f * 9.0));
+    let inside = 1.0 - smoothstep(0.72, 1.0, outline(in.q, half, seed));
+    // Damp concrete beside the cracks is darker.
+    let damp = select(0.16, 0.08, is_fair(in)) * leakage(d, 0.02, f);
+    // In the worst state, pieces between the cracks have come off.
+    let own = hash2(vec2<i32>(floor(bent / cell + seed * 50.0)));
+    let lost = select(0.0, 1.0, is_severe(in) && own > 0.80) * smoothstep(0.010, 0.016, d);
+    let veil = max(rim, damp);
+    let pale = mix(vec3<f32>(0.10, 0.095, 0.085), vec3<f32>(0.66, 0.65, 0.62), rim / max(rim + damp, 1e-4));
+    var color = mix(pale, vec3<f32>(0.012, 0.011, 0.010), line / max(line + (1.0 - line) * veil, 1e-4));
+    color = mix(color, vec3<f32>(0.30, 0.28, 0.245) * (0.6 + 0.7 * fbm(in.q * 30.0, f * 30.0)), lost);
+    (*look).matter.albedo = color;
+    (*look).matter.roughness = 0.95;
+    (*look).alpha = inside * max(line + (1.0 - line) * veil, 0.9 * lost);
 }
 
 // Abrasion: the surface layer is missing, which exposes aggregate.
@@ -252,9 +353,21 @@ fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     let paste = vec3<f32>(0.25, 0.235, 0.21);
     let mask = 1.0 - smoothstep(0.30, 0.46, stone.x);
     (*look).matter.albedo = mix(vec3<f32>(0.27, 0.25, 0.225), mix(paste, pebble, mask), shown) * (0.85 + 0.4 * (fbm(in.q * 5.0, f * 5.0) - 0.5));
-    let bump = 1.2 * mask * stone_tilt(in.q) * shown;
+    let bump = select(1.2, 0.5, is_fair(in)) * mask * stone_tilt(in.q) * shown;
     (*look).matter.normal = frame_normal(in, bump);
-    (*look).alpha = 1.0 - smoothstep(0.78, 1.02, e);
+    if !is_fair(in) {
+        // Loose stones have fallen out and left dark sockets.
+        let gone = smoothstep(select(0.74, 0.52, is_severe(in)), select(0.78, 0.56, is_severe(in)), stone.y) * mask * shown;
+        (*look).matter.albedo = mix((*look).matter.albedo, vec3<f32>(0.055, 0.050, 0.045), 0.85 * gone);
+        (*look).matter.light *= 1.0 - 0.4 * gone;
+    }
+    if is_severe(in) {
+        let hollow = smoothstep(0.35, 0.75, lumps(in.q * 9.0 + in.normal.w * 6.0));
+        (*look).matter.albedo *= 1.0 - 0.55 * hollow;
+    }
+    // In a fair state, patches of the surface remain.
+    let kept = select(0.0, 0.8 * smoothstep(0.50, 0.62, fbm(in.q * 10.0 + in.normal.w * 3.0, f * 10.0)), is_fair(in));
+    (*look).alpha = (1.0 - smoothstep(0.78, 1.02, e)) * (1.0 - kept);
 }
 
 // Corrosion: missing paint, flaking rust, and a stain that runs down.
@@ -276,6 +389,33 @@ fn corrosion(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).matter.normal = frame_normal(in, bump);
     (*look).matter.roughness = mix(0.6, 0.95, core);
     (*look).alpha = max(core, max(0.85 * rim * stain, 0.55 * stain * smoothstep(0.35, 0.6, fbm(in.q * 6.0 + 4.0, f * 6.0))));
+    if is_fair(in) {
+        freckles(in, f, e, look);
+    } else if is_severe(in) {
+        // A hole in the plate, with a ragged edge of thin steel.
+        let gone = eaten + 0.25 * (fbm(in.q * 37.0 + seed * 8.0, f * 37.0) - 0.5);
+        let hole = 1.0 - smoothstep(0.34, 0.36 + f * 3.0, gone);
+        let lip = 1.0 - smoothstep(0.0, 0.04 + f, abs(gone - 0.37));
+        (*look).matter.albedo = mix((*look).matter.albedo * (1.0 + 0.8 * lip), vec3<f32>(0.004), hole);
+        (*look).alpha = max((*look).alpha, hole);
+    }
+}
+
+// Freckled rust: spots that break through the paint, which is otherwise in place.
+fn freckles(in: Fragment, f: f32, e: f32, look: ptr<function, Look>) {
+    let seed = in.normal.w;
+    let dense = smoothstep(0.25, 0.70, fbm(in.q * 9.0 + seed * 30.0, f * 9.0));
+    let inside = 1.0 - smoothstep(0.70, 1.0, e);
+    let small = cell_noise(in.q * 70.0 + seed * 11.0);
+    let large = cell_noise(in.q * 26.0 + seed * 5.0);
+    let spot = max((1.0 - smoothstep(0.14, 0.30, small.x)) * step(0.45, small.y), (1.0 - smoothstep(0.16, 0.34, large.x)) * step(0.55, large.y));
+    let shown = 1.0 - smoothstep(0.003, 0.015, f);
+    let halo = 0.30 * dense;
+    let rusted = mix(0.30, spot, shown) * (0.35 + 0.65 * dense);
+    (*look).matter.albedo = mix(mix(in.tint, vec3<f32>(0.30, 0.12, 0.04), 0.6), rust(in.q * 1.7 + seed * 3.0, f), rusted);
+    (*look).matter.normal = in.normal.xyz;
+    (*look).matter.roughness = mix(0.6, 0.95, rusted);
+    (*look).alpha = inside * max(rusted, halo);
 }
 
 // Rows of bolts on a splice plate; some are missing, and rust bleeds from their holes.
@@ -291,7 +431,11 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let radius = 0.3 * pitch;
     let luck = hash2(vec2<i32>(cell) + vec2<i32>(i32(in.normal.w * 1000.0), 3));
     let first = all(cell == floor(0.5 * count));
-    let missing = select(0.0, 1.0, luck > 0.88 || first);
+    // In a fair state, bolts are loose; in worse ones, they are missing.
+    let worst = select(0.88, 0.50, is_severe(in));
+    let affected = select(0.0, 1.0, luck > select(worst, 0.75, is_fair(in)) || first);
+    let missing = select(affected, 0.0, is_fair(in));
+    let loose = affected - missing;
     let head = cover(d, 2.0 * radius, f);
     var color = in.tint * 0.92;
     let hole = cover(d, 1.3 * radius, f);
@@ -299,8 +443,17 @@ fn bolts(in: Fragment, f: f32, look: ptr<function, Look>) {
     let gone = mix(mix(color, vec3<f32>(0.45, 0.42, 0.38), ring), vec3<f32>(0.008), hole);
     let bolt = mix(color, in.tint * (1.25 - 0.8 * smoothstep(0.6 * radius, radius, d)), head);
     color = mix(bolt, gone, missing);
-    let bleed = smoothstep(0.2, 0.6, fbm(in.q * 25.0 + in.normal.w * 9.0, f * 25.0)) * missing * (1.0 - smoothstep(radius, 0.5 * pitch, d));
-    color = mix(color, rust(in.q, f), 0.8 * bleed * (1.0 - hole));
+    // A loose head has turned: a bright crescent of bare steel beside it, and a dark gap below it.
+    let slid = cover(abs(length(at - vec2<f32>(0.35, 0.2) * radius) - 1.05 * radius), 0.28 * radius, f) * loose * (1.0 - head);
+    color = mix(color, vec3<f32>(0.50, 0.47, 0.43), 0.8 * slid);
+    color *= 1.0 - 0.65 * loose * cover(abs(d - 1.02 * radius), 0.22 * radius, f);
+    let bleed = smoothstep(0.2, 0.6, fbm(in.q * 25.0 + in.normal.w * 9.0, f * 25.0)) * max(missing, 0.7 * loose) * (1.0 - smoothstep(radius, 0.5 * pitch, d));
+    color = mix(color, rust(in.q, f), 0.8 * bleed * (1.0 - max(hole * missing, 0.75 * head * loose)));
+    if is_severe(in) {
+        // Pack rust bursts out at the plate's edge.
+        let swollen = smoothstep(0.62, 0.90, inside + 0.35 * (fbm(in.q * 21.0 + in.normal.w * 5.0, f * 21.0) - 0.5));
+        color = mix(color, rust(in.q * 1.4 + 2.0, f), 0.9 * swollen * (1.0 - hole * missing));
+    }
     let plate = cover(abs(inside - 0.97) * min(half.x, half.y), 0.004, f);
     (*look).matter.albedo = color * (1.0 - 0.6 * plate);
     (*look).matter.normal = frame_normal(in, -at / radius * 0.8 * head * (1.0 - missing));
@@ -313,9 +466,20 @@ fn fatigue(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let line = crack(in, f, off);
     let half = 0.5 * in.along.w;
     let near = leakage(off, 0.006, f) * (1.0 - smoothstep(half * 0.95, half * 1.05 + f, abs(in.q.x)));
-    let bleed = 0.95 * near * (0.45 + 0.55 * fbm(vec2<f32>(in.q.x * 60.0, in.q.y * 9.0), f * 60.0));
-    let sick = max(line, bleed);
+    var bleed = 0.95 * near * (0.45 + 0.55 * fbm(vec2<f32>(in.q.x * 60.0, in.q.y * 9.0), f * 60.0));
+    if is_severe(in) {
+        // An open crack bleeds far.
+        bleed = max(bleed, 0.9 * leakage(off, 0.014, f) * (1.0 - smoothstep(half * 0.9, half * 1.05 + f, abs(in.q.x))) * smoothstep(0.25, 0.6, fbm(in.q * 40.0, f * 40.0)));
+    }
+    // An arrested crack ends in holes that were drilled at its tips, and no longer bleeds.
+    let tip = length(vec2<f32>(abs(in.q.x) - half, off));
+    let arrested = select(0.0, 1.0, is_fair(in));
+    let drilled = arrested * cover(tip, 0.022, f);
+    let bare = arrested * cover(abs(tip - 0.013), 0.004, f);
+    bleed *= 1.0 - 0.75 * arrested;
+    let sick = max(max(line, bleed), max(drilled, bare));
     (*look).matter.albedo = mix(vec3<f32>(0.30, 0.12, 0.045), vec3<f32>(0.012), line);
+    (*look).matter.albedo = mix(mix((*look).matter.albedo, vec3<f32>(0.50, 0.48, 0.45), bare), vec3<f32>(0.006), drilled);
     (*look).alpha = sick;
     // The weld itself is sound and is not labeled.
     if !MASK {
@@ -354,6 +518,15 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     (*look).matter.albedo = mix(vec3<f32>(0.66, 0.65, 0.62), vec3<f32>(0.012, 0.011, 0.010), line / max(line + veil, 1e-4));
     (*look).matter.roughness = 0.95;
     (*look).alpha = line + veil;
+    if is_severe(in) {
+        // The edges of a severe crack crumble.
+        let ragged = 0.006 + 0.030 * smoothstep(0.45, 0.75, noise(vec2<f32>(in.q.x * 13.0 + in.normal.w * 40.0, 4.0)))
+            * lumps(vec2<f32>(in.q.x * 60.0, in.normal.w * 8.0 + sign(off) * 3.0));
+        let crumbled = (1.0 - smoothstep(0.5 * ragged, ragged + f, abs(off))) * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x))) * (1.0 - line);
+        let paste = vec3<f32>(0.36, 0.335, 0.295) * (0.55 + 0.7 * fbm(in.q * 40.0, f * 40.0));
+        (*look).matter.albedo = mix((*look).matter.albedo, paste, crumbled);
+        (*look).alpha = max((*look).alpha, 0.9 * crumbled);
+    }
 }
 
 @fragment
@@ -379,12 +552,18 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     } else if KIND == 1020u {
         bolts(in, f, &look);
     } else if KIND == 1080u {
-        broken(in, in.q, half, select(0.018, 0.05, in.size.y > 2.5), f, &look);
+        broken(in, in.q, half, select(select(0.018, 0.05, in.size.y > 2.5), 0.09, is_severe(in)), f, &look);
     } else if KIND == 1090u {
         rebar(in, f, &look);
     } else if KIND == 1110u || KIND == 1130u {
         cracked(in, across, off, &look);
-    } else if KIND == 1120u {
+    } else if KIND == MAP_CRACKS {
+        map_cracks(in, f, &look);
+    } else if KIND == RUST_STAIN {
+        rust_run(in, f, &look);
+    } else if KIND == LIME_STAIN && abs(in.size.z) <= 0.3 {
+        seam(in, across, off, &look);
+    } else if KIND == 1120u || KIND == LIME_STAIN {
         lime(in, f, &look);
     } else {
         worn(in, f, &look);

@@ -46,6 +46,8 @@ impl Wall {
             length_m: 8.0,
             width_m: CRACK_WIDTH_M,
             line: true,
+            cause: None,
+            stain: None,
         };
         let mut bare = patch(&crack, [0.6, 0.1]);
         bare.normal[3] = own;

@@ -176,6 +176,8 @@ fn place_defect(studio: &Studio, (from, to): (Vec3<Enu>, Vec3<Enu>), kind: u32, 
         length_m: size_m.0,
         width_m: size_m.1,
         line: defect_codes::is_line(kind),
+        cause: None,
+        stain: None,
     }
 }
 
@@ -199,12 +201,12 @@ fn close_up(studio: &mut Studio, defect: &PlacedDefect, distance_m: f64, hfov_de
 }
 
 /// Returns a line of sight from the lake to a wall of the arch bridge.
-fn wall_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
+pub(super) fn wall_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(-55.0, -15.0, 24.0), at(-55.0, 0.0, 24.0))
 }
 
 /// Returns a line of sight to a girder of the suspension bridge.
-fn girder_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
+pub(super) fn girder_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(-20.0, 138.0, 12.7), at(-20.0, 150.0, 12.7))
 }
 

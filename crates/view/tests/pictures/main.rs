@@ -4,6 +4,7 @@
 #![allow(missing_docs, reason = "test code")]
 
 mod compare;
+mod condition_states;
 mod contrast;
 mod flight_states;
 mod gallery;

@@ -10,7 +10,7 @@ use crate::report::formatting;
 use crate::report::plots::map;
 use crate::report::sketch::{SketchExposure, Sketcher};
 use crate::report::table::{Table, TableCell, folded};
-use crate::terms::{defect_title, element_title};
+use crate::terms::{cause_title, defect_title, element_title};
 use maud::{Markup, html};
 use spandrel_model::scenario::Bridge;
 use spandrel_model::site::outline::ParallelView;
@@ -70,7 +70,7 @@ fn card(review: &Review, outcome: &DefectOutcome, sketcher: &Sketcher) -> Markup
         li.shot {
             (frame(sketcher, (&outcome.reference_view(), &review.vehicle.camera), exposure, &marks, &alt))
             p { span.badge.v-false { (text!(language, "report-defects-missed")) } " " b { (text!(language, "report-defects-number", defect = defect.id)) } ", " (kind) }
-            p { (place) }
+            p { (place) @if let Some(cause) = defect.cause { " " (text!(language, "report-defects-cause", cause = cause_title(cause, language))) } }
             p.note { (description) @if let Some(approach) = &outcome.best_approach { " " (moment::shown(approach.moment_s(), language)) } }
         }
     }
@@ -96,12 +96,14 @@ fn found_label(outcome: &DefectOutcome, language: Language) -> String {
 }
 
 fn table(review: &Review, language: Language) -> Table {
+    // The column would be empty in jobs that place defects anywhere.
+    let has_causes = review.defects.iter().any(|outcome| outcome.defect.cause.is_some());
     let row = |outcome: &DefectOutcome| {
         let defect = &outcome.defect;
         let [east, north, up] = defect.position_m.array();
         let best_approach = outcome.best_approach.as_ref();
         let number = |value: Option<f64>, digits: usize| value.map_or(TableCell::Empty, |value| TableCell::Number(value, digits));
-        vec![
+        let mut cells = vec![
             defect.id.into(),
             defect_title(defect.kind, language).into(),
             u32::from(defect.condition_state).into(),
@@ -117,28 +119,32 @@ fn table(review: &Review, language: Language) -> Table {
             number(best_approach.map(|c| c.in_view_s), 1),
             number(best_approach.map(|c| c.nearest.0), 1),
             outcome.description(language).into(),
-        ]
+        ];
+        cells.extend(has_causes.then(|| defect.cause.map_or(TableCell::Empty, |cause| cause_title(cause, language).into())));
+        cells
     };
+    let mut columns = vec![
+        text!(language, "report-column-defect"),
+        text!(language, "report-column-kind"),
+        text!(language, "report-column-condition-state"),
+        text!(language, "report-column-element"),
+        text!(language, "report-column-element-name"),
+        text!(language, "report-column-member"),
+        text!(language, "report-column-length-mm"),
+        text!(language, "report-column-width-mm"),
+        text!(language, "report-column-east"),
+        text!(language, "report-column-north"),
+        text!(language, "report-column-height"),
+        text!(language, "report-column-found"),
+        text!(language, "report-column-visible-time"),
+        text!(language, "report-column-closest"),
+        text!(language, "report-column-outcome"),
+    ];
+    columns.extend(has_causes.then(|| text!(language, "report-column-cause")));
     Table {
         name: "defects",
         caption: text!(language, "report-defects-caption"),
-        columns: vec![
-            text!(language, "report-column-defect"),
-            text!(language, "report-column-kind"),
-            text!(language, "report-column-condition-state"),
-            text!(language, "report-column-element"),
-            text!(language, "report-column-element-name"),
-            text!(language, "report-column-member"),
-            text!(language, "report-column-length-mm"),
-            text!(language, "report-column-width-mm"),
-            text!(language, "report-column-east"),
-            text!(language, "report-column-north"),
-            text!(language, "report-column-height"),
-            text!(language, "report-column-found"),
-            text!(language, "report-column-visible-time"),
-            text!(language, "report-column-closest"),
-            text!(language, "report-column-outcome"),
-        ],
+        columns,
         rows: review.defects.iter().map(row).collect(),
     }
 }

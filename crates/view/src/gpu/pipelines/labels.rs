@@ -5,13 +5,13 @@ use super::{
     patches,
 };
 use crate::gpu::device::Gpu;
-use spandrel_model::defect_codes;
+use crate::scene::defects::defect_drawings;
 
 /// Pipelines with numeric targets: element in red, defect in green. Half floats represent integers up to 2048 exactly.
 pub struct LabelPipelines {
     /// Solids and the lake.
     pub solid: wgpu::RenderPipeline,
-    /// Defects, by AASHTO code.
+    /// Defects, by drawing.
     pub defects: Vec<(u32, wgpu::RenderPipeline)>,
 }
 
@@ -46,10 +46,8 @@ impl LabelPipelines {
             cull: None,
             ..solid
         };
-        let defects = defect_codes::ALL
-            .iter()
-            .map(|code| (*code, build_with_constants(gpu, &flat, &[("KIND", f64::from(*code))])))
-            .collect();
+        let defects =
+            defect_drawings().map(|code| (code, build_with_constants(gpu, &flat, &[("KIND", f64::from(code))]))).collect();
         Self { solid: build_pipeline(gpu, &solid), defects }
     }
 }

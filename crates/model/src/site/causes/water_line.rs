@@ -1,0 +1,40 @@
+//! Abrasion at the water line: ice, debris and sand wear the concrete of piers between low and high water (FHWA Bridge Inspector's Reference
+//! Manual, 2022).
+
+use super::place::{FaceAxes, Place, spread};
+use super::structure::{Structure, is_concrete};
+use crate::defect_codes::ABRASION;
+use crate::elements::ElementGroup;
+use crate::scenario::DefectCause;
+
+/// Heights above the water between which concrete wears, m (estimate: waves and changes of the water level; below, it is not visible).
+const BAND_M: (f64, f64) = (0.1, 1.1);
+/// Distances between places, level and up, m.
+const SPACING_M: (f64, f64) = (0.4, 0.25);
+
+/// Returns the places for abrasion.
+pub(super) fn places(structure: &Structure) -> Vec<Place> {
+    let mut out = Vec::new();
+    for (k, surface) in structure.surfaces.iter().enumerate() {
+        let element = structure.element(surface);
+        if !surface.is_side() || !is_concrete(element) || element.group() != ElementGroup::Substructure {
+            continue;
+        }
+        let axes = FaceAxes::of_wall(surface);
+        // Walls are steep, so that the second coordinate differs from the height by a constant.
+        let offset_m = axes.v_m.0 - axes.point(axes.u_m.0, axes.v_m.0).up();
+        let in_water = axes.v_m.0 < structure.water_up_m + offset_m;
+        let band = (structure.water_up_m + offset_m + BAND_M.0, axes.v_m.1.min(structure.water_up_m + offset_m + BAND_M.1));
+        if !in_water || band.1 - band.0 < SPACING_M.1 {
+            continue;
+        }
+        for u_m in spread(axes.u_m, SPACING_M.0) {
+            out.extend(spread(band, SPACING_M.1).into_iter().map(|v_m| Place {
+                jitter_m: [axes.u * (0.5 * SPACING_M.0), axes.v * (0.5 * SPACING_M.1)],
+                max_width_m: BAND_M.1 - BAND_M.0,
+                ..Place::new(DefectCause::WaterLine, ABRASION, k, axes.point(u_m, v_m), axes.u)
+            }));
+        }
+    }
+    out
+}

@@ -1,0 +1,157 @@
+//! The series of condition states in the documentation (docs/src/reference/defects.md): every kind of defect in the states 2, 3 and 4, at
+//! the same scale in each row. `SPANDREL_PICTURES=write` draws them anew.
+
+use super::compare::{check_picture_at, difference, side_by_side};
+use super::gallery::{girder_sight_line, wall_sight_line};
+use spandrel_model::defect_codes::{
+    ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, REBAR, SPALL, SizeRanges, is_line, map_crack_size_ranges,
+    open_fatigue_size_ranges, size_ranges,
+};
+use spandrel_model::elements::Element;
+use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::math;
+use spandrel_model::scenario::{DefectCause, PlacedDefect, Stain, StainSubstance};
+use spandrel_model::time::SimTime;
+use spandrel_testkit::studio::{Studio, at, sunny_job};
+use spandrel_view::picture::Picture;
+use spandrel_view::scene::defects::{patch, stain_patch};
+use std::path::Path;
+
+/// Size of each picture, px.
+const PICTURE_PX: (u32, u32) = (300, 225);
+/// Condition states in a row.
+const STATES: [u8; 3] = [2, 3, 4];
+/// Distance of the camera, m.
+const DISTANCE_M: f64 = 1.6;
+
+/// One row of the series.
+struct Series {
+    name: &'static str,
+    kind: u32,
+    /// Whether the kind is drawn as a pattern of cracks.
+    is_map: bool,
+    cause: DefectCause,
+    stain: Option<StainSubstance>,
+    /// True if the defect runs down, false if it is level.
+    down: bool,
+    sight: (Vec3<Enu>, Vec3<Enu>),
+    /// Width of the surface in the pictures, m.
+    width_m: f64,
+}
+
+/// Returns a line of sight to the underside of the arch bridge's deck.
+fn soffit_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
+    (at(30.0, 0.4, 27.0), at(30.0, 0.4, 40.0))
+}
+
+fn all_series() -> Vec<Series> {
+    let row = |name, kind, cause, width_m| Series {
+        name,
+        kind,
+        is_map: false,
+        cause,
+        stain: None,
+        down: false,
+        sight: if kind < SPALL { girder_sight_line() } else { wall_sight_line() },
+        width_m,
+    };
+    vec![
+        Series { down: true, ..row("bending-crack", CRACK, DefectCause::Bending, 0.24) },
+        Series {
+            stain: Some(StainSubstance::Lime),
+            sight: soffit_sight_line(),
+            ..row("shrinkage-crack", CRACK, DefectCause::Shrinkage, 0.5)
+        },
+        Series { is_map: true, ..row("map-cracking", CRACK, DefectCause::Swelling, 1.3) },
+        Series { stain: Some(StainSubstance::Rust), ..row("spall", SPALL, DefectCause::Reinforcement, 1.6) },
+        Series { stain: Some(StainSubstance::Rust), ..row("exposed-rebar", REBAR, DefectCause::Reinforcement, 1.3) },
+        Series { down: true, ..row("efflorescence", EFFLORESCENCE, DefectCause::LeakingJoint, 1.9) },
+        row("abrasion", ABRASION, DefectCause::WaterLine, 1.2),
+        row("corrosion", CORROSION, DefectCause::LeakingJoint, 1.0),
+        Series { down: true, ..row("fatigue-crack", FATIGUE, DefectCause::Weld, 0.5) },
+        row("connection", CONNECTION, DefectCause::Fasteners, 0.4),
+    ]
+}
+
+fn ranges(series: &Series, state: u8) -> SizeRanges {
+    match (series.kind, series.is_map) {
+        (_, true) => map_crack_size_ranges(state),
+        (FATIGUE, false) => open_fatigue_size_ranges(state),
+        (kind, false) => size_ranges(kind, state),
+    }
+}
+
+/// Returns a defect of medium size for its condition state where the line of sight hits the bridge.
+fn defect(studio: &Studio, series: &Series, condition_state: u8) -> PlacedDefect {
+    let (from, to) = series.sight;
+    let ray = (to - from).unit();
+    let hit = studio.site.ray(from, ray, 200.0, SimTime::ZERO).unwrap();
+    let member = &studio.site.members()[hit.object.0 as usize];
+    let level = if hit.normal.up() < -0.8 { at(0.0, 1.0, 0.0) } else { at(0.0, 0.0, 1.0).cross(hit.normal).unit() };
+    let sizes = ranges(series, condition_state);
+    let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
+    let length_m = middle(sizes.length_m);
+    let line = is_line(series.kind) && !series.is_map;
+    let stain = series.stain.map(|substance| Stain {
+        substance,
+        length_m: if hit.normal.up() < -0.8 { 0.8 * length_m } else { 0.15 + 0.25 * f64::from(condition_state - 2) },
+    });
+    PlacedDefect {
+        id: 3,
+        element: if series.kind < SPALL { Element::SteelGirder } else { Element::RcArch },
+        member: member.name.clone(),
+        kind: series.kind,
+        condition_state,
+        position_m: from + ray * hit.distance_m,
+        normal: hit.normal,
+        along: if series.down { level.cross(hit.normal).unit() } else { level },
+        length_m,
+        width_m: middle(sizes.width) * if line { 1.0 } else { length_m },
+        line,
+        cause: Some(series.cause),
+        stain,
+    }
+}
+
+/// Returns a picture of a defect with its stain, slightly from the side and from below; an underside is lit by the lamp.
+fn draw(studio: &mut Studio, series: &Series, defect: &PlacedDefect) -> Picture {
+    let bundle = spandrel_model::site::light::ray_bundle(64);
+    let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
+    let sun = studio.site.light().daylight(studio.at).sun;
+    let (sky, bounced) = studio.site.light().indirect_fractions(defect.position_m, defect.normal, sun, &bundle, &cast);
+    let light = [sky as f32, bounced as f32];
+    let patches: Vec<_> = stain_patch(defect, light).into_iter().chain([patch(defect, light)]).collect();
+    let (gpu, renderer) = studio.renderer();
+    renderer.set_patches(gpu, &patches);
+    let aside = if defect.normal.up() < -0.8 { at(1.0, 0.0, 0.0) } else { at(0.0, 0.0, 1.0).cross(defect.normal).unit() };
+    let out = (defect.normal + aside * 0.2 - at(0.0, 0.0, 0.1)).unit();
+    let hfov_deg = 2.0 * math::atan(0.5 * series.width_m / DISTANCE_M).to_degrees();
+    let shot =
+        studio.seen(defect.position_m + out * DISTANCE_M, defect.position_m, hfov_deg, defect.normal.up() < -0.8, PICTURE_PX);
+    studio.draw(&shot)
+}
+
+/// Every kind in three condition states, which differ from each other more than pictures of the same state may.
+#[test]
+fn regress_condition_states_of_every_kind() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/src/images/defects");
+    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
+    let mut errors = Vec::new();
+    for series in all_series() {
+        let row = STATES.map(|state| {
+            let defect = defect(&studio, &series, state);
+            draw(&mut studio, &series, &defect)
+        });
+        for pair in row.windows(2) {
+            let found = difference(&pair[0], &pair[1]).unwrap();
+            if found.is_within_limits() {
+                errors.push(format!("{}: two condition states look the same: {found:?}", series.name));
+            }
+        }
+        let path = folder.join(format!("{}.jpg", series.name));
+        if let Err(error) = check_picture_at(&path, &format!("state-{}", series.name), &side_by_side(&row)) {
+            errors.push(error);
+        }
+    }
+    assert!(errors.is_empty(), "{}", errors.join("\n"));
+}
