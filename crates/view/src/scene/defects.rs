@@ -24,6 +24,8 @@ pub fn defect_drawings() -> impl Iterator<Item = u32> {
 
 /// Margin around a line for leakage stains, m (the face extends at least this far, `site::defects`).
 const LEAKAGE_MARGIN_M: f64 = 0.03;
+/// Share of an area's half extent behind which its stain begins.
+const HIDDEN_STAIN_SHARE: f64 = 0.6;
 /// Size factor of an area, which leaves space for its ragged edge.
 const EDGE_FACTOR: f64 = 1.06;
 
@@ -75,11 +77,17 @@ pub fn stain_patch(defect: &PlacedDefect, light: [f32; 2]) -> Option<DefectPatch
         StainSubstance::Lime => LIME_STAIN,
         StainSubstance::Rust => RUST_STAIN,
     };
+    // Below an area, the stain is drawn from behind its ragged edge. A seam along a crack stays as it is.
+    let hidden_m = if defect.line {
+        0.0
+    } else {
+        HIDDEN_STAIN_SHARE * (defect.position_m - at.center_m).norm().min(defect.half_extent_m(at.along))
+    };
     // White lime is what the shader draws in a fair state.
     let area = PlacedDefect {
-        position_m: at.center_m,
+        position_m: at.center_m - at.along * (0.5 * hidden_m),
         along: at.along,
-        length_m: at.length_m,
+        length_m: at.length_m + hidden_m,
         width_m: at.width_m,
         line: false,
         condition_state: 2,

@@ -192,7 +192,7 @@ fn rust(q: vec2<f32>, f: f32) -> vec3<f32> {
 
 fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
-    broken(in, in.q, half, 0.035, f, look);
+    broken(in, in.q, half, select(0.035, 0.018, is_fair(in)), f, look);
     let seed = in.normal.w;
     // Bars of 22 to 30 mm along the patch, as many as fit across its width.
     let count = max(1.0, floor(in.size.x / 0.11));
@@ -204,7 +204,7 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let loss = select(select(0.0, 0.45, !is_fair(in)), 0.8, is_severe(in)) * smoothstep(0.42, 0.62, eaten);
     let radius = whole * (1.0 - loss);
     let t = clamp(lane / radius, -1.0, 1.0);
-    let unbroken = 1.0 - select(0.0, 1.0, is_severe(in)) * smoothstep(0.60, 0.63, eaten);
+    let unbroken = 1.0 - select(0.0, 1.0, is_severe(in)) * smoothstep(0.54, 0.56, eaten);
     let bar = unbroken * cover(abs(lane), 2.0 * radius, f) * (1.0 - smoothstep(0.86, 0.94, outline(in.q, half, seed)));
     let rib = lines(in.q.x + 0.6 * lane, 0.012, 0.004, f);
     // Rust stains on the concrete next to the bars.
@@ -214,6 +214,8 @@ fn rebar(in: Fragment, f: f32, look: ptr<function, Look>) {
     let film = mix(rust(in.q + seed, f), vec3<f32>(0.17, 0.145, 0.125), select(0.0, 0.75, is_fair(in)));
     let steel = film * (1.25 + 0.5 * rib);
     (*look).matter.albedo = mix((*look).matter.albedo, steel, bar);
+    // Bars are near the surface, out of the shadow of the edge.
+    (*look).matter.sunlit = mix((*look).matter.sunlit, 1.0, 0.7 * bar);
     let round = frame_normal(in, vec2<f32>(0.0, -1.3 * t));
     (*look).matter.normal = normalize(mix((*look).matter.normal, round, bar));
     // Shadow next to a bar.
@@ -275,11 +277,13 @@ fn seam(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     let seed = in.normal.w;
     let ends = 1.0 - smoothstep(0.75 * half, half, abs(in.q.x));
     let patches = smoothstep(0.30, 0.62, fbm(vec2<f32>(in.q.x * 7.0 + seed * 21.0, seed * 5.0), f * 7.0));
-    let reach = 0.008 + 0.030 * patches * lumps(in.q * 30.0 + seed * 3.0);
     let crust = fbm(in.q * 60.0, f * 60.0);
+    let reach = 0.003 + 0.016 * patches * crust;
+    // The drawing's edges must not show.
+    let faded = 1.0 - smoothstep(0.45, 0.95, abs(in.q.y) / (0.5 * in.size.x));
     (*look).matter.albedo = mix(vec3<f32>(0.50, 0.48, 0.44), vec3<f32>(0.80, 0.79, 0.75), patches) * (0.60 + 0.7 * crust);
     (*look).matter.roughness = 0.8;
-    (*look).alpha = ends * min(0.92, 1.5 * leakage(off, reach, f)) * (0.35 + 0.65 * patches);
+    (*look).alpha = ends * faded * min(0.92, 1.7 * leakage(off, reach, f)) * (0.30 + 0.70 * patches) * (0.55 + 0.75 * crust);
 }
 
 // Rust that runs down a wall from its source at the upper end.
@@ -291,7 +295,7 @@ fn rust_run(in: Fragment, f: f32, look: ptr<function, Look>) {
     let down = 0.5 + 0.5 * u.x * sign(in.size.z);
     let tongue = fbm(vec2<f32>(y * 21.0 + seed * 40.0, in.q.x * 0.9), f * 21.0);
     let drip = fbm(vec2<f32>(y * 70.0 + seed * 11.0, in.q.x * 2.0), f * 70.0);
-    let side = 1.0 - smoothstep(0.35, 1.0, abs(u.y) + 0.7 * (tongue - 0.5));
+    let side = (1.0 - smoothstep(0.30, 1.0, abs(u.y) + 0.7 * (tongue - 0.5))) * (1.0 - smoothstep(0.70, 1.0, abs(u.y)));
     let reach = (0.25 + 0.95 * tongue + 0.3 * (drip - 0.5)) * (0.6 + 0.6 * side);
     let body = side * smoothstep(0.0, 0.04, down) * (1.0 - smoothstep(0.2 * reach, reach + 0.05, down));
     (*look).matter.albedo = mix(vec3<f32>(0.30, 0.135, 0.055), vec3<f32>(0.15, 0.062, 0.030), drip);
@@ -404,11 +408,11 @@ fn corrosion(in: Fragment, f: f32, look: ptr<function, Look>) {
 // Freckled rust: spots that break through the paint, which is otherwise in place.
 fn freckles(in: Fragment, f: f32, e: f32, look: ptr<function, Look>) {
     let seed = in.normal.w;
-    let dense = smoothstep(0.25, 0.70, fbm(in.q * 9.0 + seed * 30.0, f * 9.0));
-    let inside = 1.0 - smoothstep(0.70, 1.0, e);
+    let dense = smoothstep(0.15, 0.55, fbm(in.q * 9.0 + seed * 30.0, f * 9.0));
+    let inside = 1.0 - smoothstep(0.75, 1.0, e);
     let small = cell_noise(in.q * 70.0 + seed * 11.0);
     let large = cell_noise(in.q * 26.0 + seed * 5.0);
-    let spot = max((1.0 - smoothstep(0.14, 0.30, small.x)) * step(0.45, small.y), (1.0 - smoothstep(0.16, 0.34, large.x)) * step(0.55, large.y));
+    let spot = max((1.0 - smoothstep(0.14, 0.30, small.x)) * step(0.25, small.y), (1.0 - smoothstep(0.20, 0.42, large.x)) * step(0.40, large.y));
     let shown = 1.0 - smoothstep(0.003, 0.015, f);
     let halo = 0.30 * dense;
     let rusted = mix(0.30, spot, shown) * (0.35 + 0.65 * dense);
@@ -520,10 +524,12 @@ fn cracked(in: Fragment, f: f32, off: f32, look: ptr<function, Look>) {
     (*look).alpha = line + veil;
     if is_severe(in) {
         // The edges of a severe crack crumble.
-        let ragged = 0.006 + 0.030 * smoothstep(0.45, 0.75, noise(vec2<f32>(in.q.x * 13.0 + in.normal.w * 40.0, 4.0)))
-            * lumps(vec2<f32>(in.q.x * 60.0, in.normal.w * 8.0 + sign(off) * 3.0));
-        let crumbled = (1.0 - smoothstep(0.5 * ragged, ragged + f, abs(off))) * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x))) * (1.0 - line);
-        let paste = vec3<f32>(0.36, 0.335, 0.295) * (0.55 + 0.7 * fbm(in.q * 40.0, f * 40.0));
+        let side = select(11.0, 53.0, off > 0.0) + in.normal.w * 40.0;
+        let chipped = smoothstep(0.52, 0.62, noise(vec2<f32>(in.q.x * 21.0 + side, side)));
+        let ragged = 0.002 + 0.016 * chipped * (0.5 + noise(vec2<f32>(in.q.x * 110.0, side)));
+        let crumbled = (1.0 - smoothstep(ragged - f, ragged + f, abs(off))) * (1.0 - smoothstep(0.85 * half, half, abs(in.q.x))) * (1.0 - line);
+        let depth = 1.0 - abs(off) / ragged;
+        let paste = vec3<f32>(0.36, 0.335, 0.295) * (0.35 + 0.9 * fbm(in.q * 90.0, f * 90.0)) * (1.0 - 0.5 * clamp(depth, 0.0, 1.0));
         (*look).matter.albedo = mix((*look).matter.albedo, paste, crumbled);
         (*look).alpha = max((*look).alpha, 0.9 * crumbled);
     }
