@@ -11,6 +11,8 @@ use super::vehicle_link::snapshot::VehicleSnapshot;
 use crate::autopilot::{Autopilot, AutopilotEvent};
 use spandrel_mavlink::dialect::MavSeverity;
 
+/// Message ID of RC_CHANNELS, which reports the sticks.
+const RC_CHANNELS: u32 = 65;
 /// HEARTBEAT's message ID.
 const HEARTBEAT: u32 = 0;
 
@@ -48,6 +50,7 @@ impl Endpoint {
         for seq in reached_items {
             self.vehicle.report_reached_item(seq, &input, &mut self.payload.equipment, &mut self.links);
         }
+        self.hasten_sticks(&view);
         self.announce_changes(&view, &input);
         self.send_due_streams(&view, &input);
         self.payload.send_scoring(&input, &mut self.links);
@@ -75,6 +78,15 @@ impl Endpoint {
         }
         self.vehicle.send_texts(&inputs.vehicle, &mut self.links);
         self.payload.send_frozen_values(&input, &mut self.links);
+    }
+
+    /// Reports changed sticks at once to clients that have requested them at the highest rate.
+    fn hasten_sticks(&mut self, view: &VehicleSnapshot) {
+        if std::mem::replace(&mut self.published_pulses_us, view.pulses_us) != view.pulses_us {
+            for (_, link) in self.links.iter_mut() {
+                link.streams.hasten(RC_CHANNELS, view.clock.now);
+            }
+        }
     }
 
     /// Broadcasts equipment and autopilot changes once.
