@@ -380,7 +380,10 @@ mod tests {
         let (mut excluded, mut hits) = (0, 0);
         for k in 0..20_000 {
             let at = SimTime::from_ms(37 * k);
-            let origin = Vec3::new(random.range(-60.0, 260.0), random.range(-40.0, 40.0), random.range(0.0, 40.0));
+            // Every second ray starts near the lanes.
+            let (side_m, up_m) = if k % 2 == 0 { (12.0, 6.0) } else { (60.0, 40.0) };
+            let (north_m, above_m) = (random.range(-side_m, side_m), random.range(-up_m, up_m));
+            let origin = Vec3::new(random.range(-60.0, 260.0), north_m, 21.0 + above_m);
             let direction = Vec3::new(random.normal(), random.normal(), random.normal()).unit();
             let max_m = random.range(1.0, 60.0);
             excluded += plan.tracks.iter().filter(|track| !track.ray_may_hit(origin, direction, max_m)).count();
@@ -389,7 +392,7 @@ mod tests {
             hits += usize::from(nearest.is_some());
             assert_eq!(plan.ray(origin, direction, max_m, at).map(|hit| hit.distance_m), nearest, "{origin:?} {direction:?}");
         }
-        assert!(excluded > 10_000 && hits > 100, "{excluded} {hits}");
+        assert!(excluded > 1_000 && hits > 50, "{excluded} {hits}");
     }
 
     #[test]
