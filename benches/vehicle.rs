@@ -1,7 +1,11 @@
 //! Measures how fast the complete vehicle runs on one core, as a multiple of real time: physics, site, sensors,
 //! estimator, autopilot, and telemetry encoding for a ground station, an SDK, and the monitor. Each run is a complete
 //! demo flight at the two bridges, including contacts. The synthetic trainee flies each one once to record its inputs.
-//! The timed runs replay these inputs, so the measurement does not include the trainee.
+//! The timed runs replay these inputs, so the measurement does not include the trainee. The time of one tick is also printed
+//! as a ratio to a step of a minimal quadrotor in the same run, which barely depends on the machine's speed and load.
+
+#[path = "support/baseline.rs"]
+mod baseline;
 
 use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
 use spandrel_mavlink::codec::Decoder;
@@ -24,6 +28,10 @@ const STEP: SimTime = SimTime::from_ms(20);
 const MAX_FLIGHT_DURATION: SimTime = SimTime::from_ms(1_600_000);
 const PILOT_LINK: LinkId = LinkId(1);
 const ROUNDS: usize = 3;
+/// Number of baseline steps per round.
+const BASELINE_STEPS: i64 = 100_000;
+/// Duration of a tick, s.
+const TICK_S: f64 = 1e-3;
 
 type Inputs = Vec<(SimTime, Vec<u8>)>;
 
@@ -100,6 +108,14 @@ impl Job {
     }
 }
 
+/// Returns the wall time of a baseline step, s.
+#[expect(clippy::disallowed_methods, reason = "benchmarks measure wall time")]
+fn baseline_step_s() -> f64 {
+    let start = std::time::Instant::now();
+    baseline::run(BASELINE_STEPS);
+    start.elapsed().as_secs_f64() / BASELINE_STEPS as f64
+}
+
 /// Returns the simulation time of the first message that satisfies `said` on the ground station link.
 fn first(job: &Job, mut said: impl FnMut(&MavMessage) -> bool) -> SimTime {
     let (mut sim, mut decoder) = (job.sim(false), Decoder::new());
@@ -135,14 +151,16 @@ fn main() -> ExitCode {
     let mut misses = false;
     for (name, skill) in [("expert", Skill::EXPERT), ("novice", Skill::NOVICE)] {
         let (inputs, end, crashes, how) = job.fly(skill);
-        let runs = (0..ROUNDS).map(|_| job.replay(&inputs, end));
-        let (wall, sent) = runs.min_by_key(|(wall, _)| *wall).unwrap_or_default();
+        let runs: Vec<(f64, (Duration, usize))> = (0..ROUNDS).map(|_| (baseline_step_s(), job.replay(&inputs, end))).collect();
+        let (wall, sent) = runs.iter().map(|(_, run)| *run).min_by_key(|(wall, _)| *wall).unwrap_or_default();
+        let step_s = runs.iter().map(|(step_s, _)| *step_s).fold(f64::INFINITY, f64::min);
         let times = end.s() / wall.as_secs_f64();
         misses |= times < MIN_SPEED;
         let verdict = if times >= MIN_SPEED { "reaches" } else { "MISSES" };
         println!(
-            "{name}: {end} flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
+            "{name}: {end} flight ({how}, {crashes} contacts) in {:.2} s: {times:.0} x real time, {:.1} x baseline per tick, {:.0} kB/s sent; {verdict} the minimum of {MIN_SPEED:.0}",
             wall.as_secs_f64(),
+            TICK_S / times / step_s,
             sent as f64 / 1e3 / end.s()
         );
     }

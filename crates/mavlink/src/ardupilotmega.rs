@@ -1,6 +1,7 @@
 //! ArduPilot dialect messages that the codec does not support. Each definition has an ID, a name and fields, which
 //! determine the wire order and CRC_EXTRA (MAVLink guide, "Serialization").
 
+use super::checksum::checksum;
 use super::codec::{Encodable, Encoder};
 
 /// Type of a field on the wire.
@@ -127,7 +128,7 @@ impl MessageDefinition {
         let fields = self.order().map(|k| format!("{} {} ", self.fields[k].1.name(), self.fields[k].0));
         let text = format!("{} {}", self.name, fields.collect::<String>());
         let (last, first) = text.as_bytes().split_last().unwrap_or((&0, &[]));
-        let crc = mavlink::calculate_crc(first, *last);
+        let crc = checksum(first, *last);
         (crc as u8) ^ (crc >> 8) as u8
     }
 

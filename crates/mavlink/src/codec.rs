@@ -1,12 +1,16 @@
 //! MAVLink framing: splits bytes into complete frames. Invalid bytes are counted and skipped, so they never stop a link.
 
+use super::checksum::checksum;
 use super::dialect::MavMessage;
-use mavlink::{MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message};
+use mavlink::{MavlinkVersion, Message};
 
 const STX_V1: u8 = 0xFE;
 const STX_V2: u8 = 0xFD;
 const FLAG_SIGNED: u8 = 0x01;
 const SIGNATURE_LEN: usize = 13;
+const V2_HEADER_LEN: usize = 10;
+const CHECKSUM_LEN: usize = 2;
+const MAX_PAYLOAD_LEN: usize = 255;
 
 /// A received frame: its message, its sender and its raw bytes.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,7 +168,7 @@ fn next_v2(bytes: &[u8]) -> ParseStep {
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
     // If a message is not in the dialect, its checksum cannot be verified, so the frame is only routed.
-    if extra.is_some_and(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
+    if extra.is_some_and(|extra| checksum(&bytes[1..body_end], extra) != crc) {
         return ParseStep::Skip(1);
     }
     let message = extra.and_then(|_| MavMessage::parse(MavlinkVersion::V2, message_id, &bytes[10..body_end]).ok());
@@ -191,7 +195,7 @@ fn next_v1(bytes: &[u8]) -> ParseStep {
     let message_id = u32::from(bytes[5]);
     let crc = u16::from_le_bytes([bytes[body_end], bytes[body_end + 1]]);
     let extra = known(message_id).then(|| MavMessage::extra_crc(message_id));
-    if extra.is_none_or(|extra| mavlink::calculate_crc(&bytes[1..body_end], extra) != crc) {
+    if extra.is_none_or(|extra| checksum(&bytes[1..body_end], extra) != crc) {
         return ParseStep::Skip(1);
     }
     let message = MavMessage::parse(MavlinkVersion::V1, message_id, &bytes[6..body_end]).ok();
@@ -259,10 +263,16 @@ impl Encoder {
     /// CRC_EXTRA.
     pub fn encode_foreign(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
         let used = payload.iter().rposition(|b| *b != 0).map_or(1, |last| last + 1).min(255).min(payload.len());
+        self.frame(message_id, crc_extra, &payload[..used])
+    }
+
+    /// Returns a frame with a payload from which the trailing zeros have been truncated.
+    fn frame(&mut self, message_id: u32, crc_extra: u8, payload: &[u8]) -> Vec<u8> {
         let id = message_id.to_le_bytes();
-        let mut out = vec![STX_V2, used as u8, 0, 0, self.sequence, self.system_id, self.component_id, id[0], id[1], id[2]];
-        out.extend_from_slice(&payload[..used]);
-        let crc = mavlink::calculate_crc(&out[1..], crc_extra);
+        let mut out = Vec::with_capacity(V2_HEADER_LEN + payload.len() + CHECKSUM_LEN);
+        out.extend([STX_V2, payload.len() as u8, 0, 0, self.sequence, self.system_id, self.component_id, id[0], id[1], id[2]]);
+        out.extend_from_slice(payload);
+        let crc = checksum(&out[1..], crc_extra);
         out.extend(crc.to_le_bytes());
         self.sequence = self.sequence.wrapping_add(1);
         out
@@ -270,11 +280,10 @@ impl Encoder {
 
     /// Encodes one MAVLink 2 frame.
     pub fn encode(&mut self, message: &MavMessage) -> Vec<u8> {
-        let mut raw = MAVLinkV2MessageRaw::new();
-        let header = MavHeader { system_id: u32::from(self.system_id), component_id: self.component_id, sequence: self.sequence };
-        raw.serialize_message(header, message);
-        self.sequence = self.sequence.wrapping_add(1);
-        raw.raw_bytes().to_vec()
+        let mut payload = [0; MAX_PAYLOAD_LEN];
+        let used = message.ser(MavlinkVersion::V2, &mut payload);
+        let message_id = message.message_id();
+        self.frame(message_id, MavMessage::extra_crc(message_id), &payload[..used])
     }
 }
 

@@ -25,6 +25,7 @@
 //! ```
 
 pub mod ardupilotmega;
+mod checksum;
 pub mod codec;
 pub mod contract;
 pub mod ftp;

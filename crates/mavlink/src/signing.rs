@@ -1,6 +1,7 @@
 //! MAVLink 2 message signing (<https://mavlink.io/en/guide/message_signing.html>): signs frames, verifies them, and rejects
 //! replayed frames.
 
+use super::checksum::checksum;
 use super::codec::ReceivedFrame;
 use super::dialect::MavMessage;
 use mavlink::Message;
@@ -115,7 +116,7 @@ impl Signing {
         frame[FLAGS_OFFSET] |= FLAG_SIGNED;
         let id = u32::from_le_bytes([frame[MESSAGE_ID_OFFSET], frame[MESSAGE_ID_OFFSET + 1], frame[MESSAGE_ID_OFFSET + 2], 0]);
         let end = frame.len() - 2;
-        let crc = mavlink::calculate_crc(&frame[1..end], MavMessage::extra_crc(id));
+        let crc = checksum(&frame[1..end], MavMessage::extra_crc(id));
         frame[end..].copy_from_slice(&crc.to_le_bytes());
         let mut tail = [self.link_id, 0, 0, 0, 0, 0, 0];
         tail[1..].copy_from_slice(&self.newest.to_le_bytes()[..6]);

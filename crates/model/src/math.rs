@@ -97,6 +97,11 @@ pub fn bearing_deg(east: f64, north: f64) -> f64 {
 /// Wraps an angle to (-π, π].
 #[must_use]
 pub fn wrap_pi(angle_rad: f64) -> f64 {
+    // Most angles are within half a turn, and the arithmetic below leaves them unchanged, except for the sign of a zero.
+    const WITHIN_HALF_A_TURN_RAD: f64 = 3.0;
+    if angle_rad.abs() < WITHIN_HALF_A_TURN_RAD && angle_rad != 0.0 {
+        return angle_rad;
+    }
     let turned = angle_rad - TAU * (angle_rad / TAU).round();
     if turned <= -PI { turned + TAU } else { turned }
 }

@@ -108,32 +108,49 @@ pub struct Schedule {
     rate_hz: f64,
     count: i64,
     start: SimTime,
+    /// Due time of the current count. Schedules are asked every tick and fire rarely, and the conversion from seconds is slow.
+    due: SimTime,
 }
 
 impl Schedule {
     /// Creates a schedule that is first due at `start`, then `rate_hz` times per second. A rate of zero or less never fires.
     #[must_use]
     pub fn new(start: SimTime, rate_hz: f64) -> Self {
-        Self { rate_hz, count: 0, start }
+        let mut schedule = Self { rate_hz, count: 0, start, due: SimTime::NEVER };
+        schedule.set_count(0);
+        schedule
     }
 
     /// Returns the next due time.
     #[must_use]
     pub fn next_due(&self) -> SimTime {
-        if self.rate_hz <= 0.0 { SimTime::NEVER } else { self.start + SimTime::from_s(self.count as f64 / self.rate_hz) }
+        self.due
+    }
+
+    fn set_count(&mut self, count: i64) {
+        self.count = count;
+        if self.rate_hz > 0.0 {
+            self.due = self.start + SimTime::from_s(count as f64 / self.rate_hz);
+        }
     }
 
     /// Returns true once for each due time at or before `now`; missed due times are skipped, not repeated.
+    #[inline]
     pub fn fire(&mut self, now: SimTime) -> bool {
-        if now < self.next_due() {
+        if now < self.due {
             return false;
         }
-        let due = (now - self.start).s() * self.rate_hz;
-        self.count = (self.count + 1).max(due.floor() as i64 + 1);
-        if self.next_due() <= now {
-            self.count += 1;
-        }
+        self.skip_to(now);
         true
+    }
+
+    /// Continues with the first due time after `now`.
+    fn skip_to(&mut self, now: SimTime) {
+        let passed = (now - self.start).s() * self.rate_hz;
+        self.set_count((self.count + 1).max(passed.floor() as i64 + 1));
+        if self.due <= now {
+            self.set_count(self.count + 1);
+        }
     }
 }
 

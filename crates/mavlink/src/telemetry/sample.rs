@@ -2,6 +2,7 @@
 //! so skipping any other frame takes only a few nanoseconds. MAVLink units (degE7, mm, cm/s, µs, permille) are
 //! converted here.
 
+use crate::checksum::checksum;
 use crate::contract::contact::ContactKind;
 use crate::contract::modes::ControlSource;
 use crate::contract::named_values::NamedValue;
@@ -139,7 +140,7 @@ impl FrameHeader {
         let Some(header) = Self::peek(frame) else { return false };
         // The dialect returns 0 for unknown messages.
         let extra = MavMessage::extra_crc(header.message_id);
-        extra != 0 && header.checksum(frame) == frame.get(1..header.payload_end).map(|body| mavlink::calculate_crc(body, extra))
+        extra != 0 && header.checksum(frame) == frame.get(1..header.payload_end).map(|body| checksum(body, extra))
     }
 
     /// Returns whether the frame could be valid: its checksum is correct, or the timeline does not store messages of its type.

@@ -224,9 +224,21 @@ impl Geometry {
         let depth = |t: &f64| *t >= 0.0 && direction.up() < 0.0;
         let water = Some((self.terrain.water_m - origin.up()) / direction.up()).filter(depth);
         let reach = offer(water.map(|t| (t, UP)), Surface::Water, WATER);
-        let reach = offer(self.pad_shape.ray(origin, direction, reach), Surface::Pad, PAD);
+        let reach = if self.may_hit_pad(origin, direction, reach) {
+            offer(self.pad_shape.ray(origin, direction, reach), Surface::Pad, PAD)
+        } else {
+            reach
+        };
         let reach = offer(self.terrain.ground.ray(origin, direction, reach), Surface::Terrain, GROUND);
         self.ray_member(origin, direction, reach).or(best)
+    }
+
+    /// Returns false only if a ray misses the sphere around the landing pad.
+    fn may_hit_pad(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
+        let to_pad = self.pad_m - origin;
+        let along_m = to_pad.dot(direction).max(0.0).min(max_m);
+        let reach_m = 2.0 * self.pad_half_m + PAD_THICKNESS_M;
+        (to_pad - direction * along_m).norm_squared() <= reach_m * reach_m
     }
 
     fn ray_member(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<RayHit> {

@@ -8,6 +8,8 @@ use crate::math;
 
 /// Number of cells along each side of a block. Queries use the minimum and maximum heights of blocks to skip cells.
 const BLOCK_CELLS: i64 = 8;
+/// Number of blocks whose heights are compared with a ray before the ray is walked cell by cell.
+const MAX_BLOCKS_TESTED: i64 = 36;
 /// Maximum distance from the surface at which a point gets the triangle's normal, m.
 const CONTACT_TOLERANCE_M: f64 = 1e-9;
 /// Tolerance within which two distances count as equal, m.
@@ -280,7 +282,29 @@ impl HeightGrid {
         };
         let (start, end) = (start.max(0.0), end.min(MAX_RAY_LENGTH_M));
         // A nearly level ray can reach the maximum ground height so far away that cell indices would overflow.
-        if start < end { self.walk_cells(origin, direction, start, end) } else { None }
+        if start < end && !self.passes_above(origin, direction, start, end) {
+            self.walk_cells(origin, direction, start, end)
+        } else {
+            None
+        }
+    }
+
+    /// Returns true only if a ray is above all cells that it could test between two distances. May return false although it is.
+    fn passes_above(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, start: f64, end: f64) -> bool {
+        let up_m = |t: f64| origin.up() + direction.up() * t;
+        let low_m = up_m(start).min(up_m(end));
+        let (x, y) = self.grid_position(origin);
+        let last = self.blocks_per_side as i64 - 1;
+        let blocks = |from: f64, rate_m: f64| {
+            let rate = rate_m / self.spacing_m;
+            let (a, b) = (from + rate * start, from + rate * end);
+            // Rounding can place the ray in a neighboring cell.
+            let block = |at: f64| (at.floor() as i64).div_euclid(BLOCK_CELLS).clamp(0, last);
+            (block(a.min(b) - 1.0), block(a.max(b) + 1.0))
+        };
+        let ((west, east), (south, north)) = (blocks(x, direction.east()), blocks(y, direction.north()));
+        let is_lower = |row: i64| (west..=east).all(|column| self.block_height_range(row, column).1 < low_m);
+        (east - west + 1) * (north - south + 1) <= MAX_BLOCKS_TESTED && (south..=north).all(is_lower)
     }
 
     /// Tests the cells below a ray in order, from distance `start` to `end`.
@@ -291,14 +315,20 @@ impl HeightGrid {
         let mut row = (y0 + dy * start).floor() as i64;
         let (mut next_x, mut next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
         let mut t = start;
+        // A block that the ray does not pass above. It is not tested again for each of its cells.
+        let mut low_block = None;
         while t < end {
-            if let Some(over) = self.skip_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
-                if over.t >= end {
-                    return None;
+            let block = (column.div_euclid(BLOCK_CELLS), row.div_euclid(BLOCK_CELLS));
+            if low_block != Some(block) {
+                if let Some(over) = self.skip_block((origin, direction), (x0, y0), (dx, dy), (column, row), (t, end)) {
+                    if over.t >= end {
+                        return None;
+                    }
+                    (column, row, t) = (over.column, over.row, over.t);
+                    (next_x, next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
+                    continue;
                 }
-                (column, row, t) = (over.column, over.row, over.t);
-                (next_x, next_y) = (exit_distance(column, x0, dx), exit_distance(row, y0, dy));
-                continue;
+                low_block = Some(block);
             }
             // Rounding can place the side of a cell slightly behind the current distance.
             let leave = next_x.min(next_y).min(end).max(t);
@@ -387,5 +417,30 @@ impl HeightGrid {
         let n = self.side as u32;
         let cells = (0..n - 1).flat_map(|row| (0..n - 1).map(move |column| row * n + column));
         (corners, cells.flat_map(|a| [[a, a + 1, a + n + 1], [a, a + n + 1, a + n]]).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::RandomStream;
+
+    #[test]
+    fn prop_rays_above_the_blocks_below_them_hit_no_cell() {
+        // A valley of 96 x 96 cells with rough sides.
+        let mut random = RandomStream::new(5, "valley");
+        let height = |k: usize, noise: f64| 0.02 * (k as f64 % 97.0 - 48.0) * (k as f64 % 97.0 - 48.0) + noise;
+        let grid = HeightGrid::new((0..97 * 97).map(|k| height(k, random.range(-2.0, 2.0))).collect(), 4.0);
+        let mut skipped = 0;
+        for _ in 0..20_000 {
+            let origin = Vec3::new(random.range(-230.0, 230.0), random.range(-230.0, 230.0), random.range(0.0, 40.0));
+            let direction = Vec3::new(random.normal(), random.normal(), 0.4 * random.normal()).unit();
+            let end = random.range(1.0, 300.0);
+            if grid.passes_above(origin, direction, 0.0, end) {
+                skipped += 1;
+                assert_eq!(grid.walk_cells(origin, direction, 0.0, end), None, "{origin:?} {direction:?} {end}");
+            }
+        }
+        assert!(skipped > 200, "{skipped}");
     }
 }

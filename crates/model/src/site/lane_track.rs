@@ -14,7 +14,8 @@ pub(super) struct LaneTrack {
     pub(super) first: usize,
     pub(super) count: usize,
     pub(super) reach_m: f64,
-    pub(super) height_range_m: (f64, f64),
+    /// Corners of the lane's bounding box, m.
+    pub(super) bounds_m: (Vec3<Enu>, Vec3<Enu>),
 }
 
 impl LaneTrack {
@@ -51,13 +52,15 @@ impl LaneTrack {
         squared.fold(f64::INFINITY, f64::min).sqrt()
     }
 
-    /// Returns false only if a ray misses all objects in this lane. Compares the height ranges of ray and lane, extended by the
+    /// Returns false only if a ray misses all objects in this lane. Compares the bounding boxes of ray and lane, extended by the
     /// reach.
     pub(super) fn ray_may_hit(&self, origin_m: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> bool {
-        let (low, high) = self.height_range_m;
-        let end = origin_m.up() + direction.up() * max_m;
-        let (bottom, top) = (origin_m.up().min(end), origin_m.up().max(end));
-        top >= low - self.reach_m && bottom <= high + self.reach_m
+        let (origin, end) = (origin_m.array(), (origin_m + direction * max_m).array());
+        let (low, high) = (self.bounds_m.0.array(), self.bounds_m.1.array());
+        (0..3).all(|k| {
+            let (first, last) = (origin[k].min(end[k]), origin[k].max(end[k]));
+            last >= low[k] - self.reach_m && first <= high[k] + self.reach_m
+        })
     }
 }
 

@@ -118,9 +118,10 @@ impl TrafficPlan {
             self.movers.push(Mover { kind: *kind, number: *number, track: self.tracks.len(), phase_m });
         }
         let reach_m = kinds.iter().map(|k| k.reach_m() + k.half_length_m()).fold(0.0, f64::max);
-        let height_range_m = math::range(points_m.iter().map(|point| point.up()));
+        let range = |k: usize| math::range(points_m.iter().map(|point| point.array()[k]));
+        let [east, north, up] = [range(0), range(1), range(2)];
         self.tracks.push(LaneTrack {
-            height_range_m,
+            bounds_m: (Vec3::new(east.0, north.0, up.0), Vec3::new(east.1, north.1, up.1)),
             points_m,
             arc_lengths_m,
             length_m,
@@ -370,6 +371,28 @@ mod tests {
     fn plan(seed: u64) -> TrafficPlan {
         let settings = TrafficSettings { cars: 8, trucks: 3, pedestrians: 6, car_speed_m_s: 13.4 };
         TrafficPlan::new(&lanes(), &settings, &team(), seed)
+    }
+
+    #[test]
+    fn prop_rays_that_lanes_exclude_miss_all_their_objects() {
+        let plan = plan(3);
+        let mut random = RandomStream::new(2, "rays");
+        let (mut excluded, mut hits) = (0, 0);
+        for k in 0..20_000 {
+            let at = SimTime::from_ms(37 * k);
+            // Every second ray starts near the lanes.
+            let (side_m, up_m) = if k % 2 == 0 { (12.0, 6.0) } else { (60.0, 40.0) };
+            let (north_m, above_m) = (random.range(-side_m, side_m), random.range(-up_m, up_m));
+            let origin = Vec3::new(random.range(-60.0, 260.0), north_m, 21.0 + above_m);
+            let direction = Vec3::new(random.normal(), random.normal(), random.normal()).unit();
+            let max_m = random.range(1.0, 60.0);
+            excluded += plan.tracks.iter().filter(|track| !track.ray_may_hit(origin, direction, max_m)).count();
+            let all = plan.solids(at).into_iter().filter_map(|(.., solid)| solid.ray(origin, direction, max_m));
+            let nearest = all.map(|(distance_m, _)| distance_m).min_by(f64::total_cmp);
+            hits += usize::from(nearest.is_some());
+            assert_eq!(plan.ray(origin, direction, max_m, at).map(|hit| hit.distance_m), nearest, "{origin:?} {direction:?}");
+        }
+        assert!(excluded > 1_000 && hits > 50, "{excluded} {hits}");
     }
 
     #[test]

@@ -21,7 +21,7 @@ pub(super) fn payload_input<'v>(
         plane: aircraft.plane,
         site: aircraft.site,
         position_m: estimate.position_m,
-        heading_rad: estimate.attitude.yaw_rad(),
+        attitude: estimate.attitude,
         home_m: autopilot.status().home_m,
         roi_above_sea_level: vehicle.flavor().roi_altitude_above_sea_level,
         sticks: sticks.map(|s| [s.forward, s.right, s.up, s.yaw]),

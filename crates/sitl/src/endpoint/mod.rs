@@ -51,6 +51,8 @@ pub struct Endpoint {
     /// Inputs that have affected the vehicle and are not yet in the digest.
     digest_input: Vec<u8>,
     row_buffer: Vec<usize>,
+    /// Stick positions in the last tick, as transmitter pulses, microseconds; `None` after the timeout.
+    published_pulses_us: Option<[u16; 4]>,
 }
 
 impl Endpoint {
@@ -63,6 +65,7 @@ impl Endpoint {
             payload: PayloadLink::new(PayloadComponents::BUILTIN),
             digest_input: Vec::new(),
             row_buffer: Vec::new(),
+            published_pulses_us: None,
         }
     }
 

@@ -4,12 +4,15 @@ use super::Endpoint;
 use super::component_ids::{AUTOPILOT, CAMERA};
 use super::inputs::{StreamInputs, payload_input};
 use super::link::{LinkKind, PeerLink};
-use super::payload::PayloadSnapshot;
+use super::payload::{Payload, PayloadInput, PayloadSnapshot};
 use super::simulated_aircraft::SimulatedAircraft;
 use super::streams::{self, STREAMS};
+use super::vehicle_link::snapshot::VehicleSnapshot;
 use crate::autopilot::{Autopilot, AutopilotEvent};
 use spandrel_mavlink::dialect::MavSeverity;
 
+/// Message ID of RC_CHANNELS, which reports the sticks.
+const RC_CHANNELS: u32 = 65;
 /// HEARTBEAT's message ID.
 const HEARTBEAT: u32 = 0;
 
@@ -23,6 +26,11 @@ fn repeat_autopilot(link: &mut PeerLink, inputs: &StreamInputs) {
     for message in rows.filter_map(|(_, row)| row.build(inputs)) {
         link.send(AUTOPILOT, &message);
     }
+}
+
+/// Returns the state from which messages are built. The equipment may have changed since the vehicle's snapshot.
+fn stream_inputs<'a>(view: &VehicleSnapshot<'a>, input: &'a PayloadInput<'a>, equipment: &Payload) -> StreamInputs<'a> {
+    StreamInputs { vehicle: view.with_payload(equipment), payload: PayloadSnapshot::new(input, equipment) }
 }
 
 impl Endpoint {
@@ -42,17 +50,16 @@ impl Endpoint {
         for seq in reached_items {
             self.vehicle.report_reached_item(seq, &input, &mut self.payload.equipment, &mut self.links);
         }
-        let vehicle = view.with_payload(&self.payload.equipment);
-        let inputs = StreamInputs { vehicle, payload: PayloadSnapshot::new(&input, &self.payload.equipment) };
-        self.announce_changes(&inputs);
-        self.send_due_streams(&inputs);
+        self.hasten_sticks(&view);
+        self.announce_changes(&view, &input);
+        self.send_due_streams(&view, &input);
         self.payload.send_scoring(&input, &mut self.links);
         self.payload.send_hazards(&input, &mut self.links);
-        self.vehicle.send_messages(&inputs.vehicle, &mut self.links);
+        self.vehicle.send_messages(&view, &mut self.links);
         self.payload.send_files(&mut self.links);
         self.vehicle.send_logs(&mut self.links);
         self.payload.send_requested_images(&mut self.links);
-        self.vehicle.retry_plan_request(&inputs.vehicle, &mut self.links);
+        self.vehicle.retry_plan_request(&view, &mut self.links);
     }
 
     /// Sends only heartbeats, texts and the values that report a freeze, while simulation time is stopped. The camera's heartbeat
@@ -73,10 +80,23 @@ impl Endpoint {
         self.payload.send_frozen_values(&input, &mut self.links);
     }
 
+    /// Reports changed sticks at once to clients that have requested them at the highest rate.
+    fn hasten_sticks(&mut self, view: &VehicleSnapshot) {
+        if std::mem::replace(&mut self.published_pulses_us, view.pulses_us) != view.pulses_us {
+            for (_, link) in self.links.iter_mut() {
+                link.streams.hasten(RC_CHANNELS, view.clock.now);
+            }
+        }
+    }
+
     /// Broadcasts equipment and autopilot changes once.
-    fn announce_changes(&mut self, inputs: &StreamInputs) {
+    fn announce_changes(&mut self, view: &VehicleSnapshot, input: &PayloadInput) {
         let (mut messages, warnings) = self.payload.equipment.changes.take();
         messages.append(&mut self.vehicle.take_announcements());
+        if messages.is_empty() && warnings.is_empty() {
+            return;
+        }
+        let inputs = stream_inputs(view, input, &self.payload.equipment);
         for (_, row) in messages.into_iter().flat_map(streams::rows_of) {
             for (_, link) in self.links.iter_mut() {
                 if let Some(message) = row.build(&inputs.for_link(link.kind)) {
@@ -89,14 +109,15 @@ impl Endpoint {
         }
     }
 
-    fn send_due_streams(&mut self, inputs: &StreamInputs) {
+    fn send_due_streams(&mut self, view: &VehicleSnapshot, input: &PayloadInput) {
         let mut rows = std::mem::take(&mut self.row_buffer);
         for link in self.links.listeners() {
-            link.due(inputs.vehicle.clock.now, &mut rows);
+            link.due(view.clock.now, &mut rows);
             if rows.is_empty() {
                 continue;
             }
-            let inputs = &inputs.for_link(link.kind);
+            // Streams are due on a link only in every few ticks.
+            let inputs = &stream_inputs(view, input, &self.payload.equipment).for_link(link.kind);
             for row in &rows {
                 let stream = &STREAMS[*row];
                 if let Some(message) = stream.build(inputs) {

@@ -3,6 +3,7 @@
 use super::hull;
 use super::inflow::Inflow;
 use super::multirotor_surfaces::RotorLayout;
+use super::rotor_lanes::RotorGroup;
 use super::state::{Actuators, BatteryState, MAX_ROTORS};
 use super::vortex_ring::VortexRing;
 use super::walls::Walls;
@@ -13,6 +14,13 @@ use spandrel_model::vehicle::{AirDensity, BatterySpec, Lamp, Rotor, RotorModel, 
 
 /// Temperature for which aircraft files state the battery's resistance, °C (estimate: data sheets use 20 to 25 °C).
 const BATTERY_REFERENCE_C: f64 = 25.0;
+
+/// Step for which the decay of the rotor speeds is computed in advance, s.
+const USUAL_STEP_S: f64 = 1e-3;
+
+fn decay(rotor: &RotorModel, dt_s: f64) -> [f64; 2] {
+    [math::exp(-0.5 * dt_s / rotor.time_constant_s), math::exp(-dt_s / rotor.time_constant_s)]
+}
 
 /// Constants of an aircraft in the form that the physics models use.
 #[derive(Debug, Clone)]
@@ -26,7 +34,9 @@ pub struct AirframeModel {
     pub gravity_scale: f64,
     pub(super) rotors: Vec<Rotor>,
     pub(super) rotor: RotorModel,
-    pub(super) inflow: Option<Inflow>,
+    usual_decay: [f64; 2],
+    pub(super) rotor_groups: Vec<RotorGroup>,
+    pub(super) inflow: Inflow,
     pub(super) vortex_ring: Option<VortexRing>,
     pub(super) walls: Option<Walls>,
     pub(super) surface_effects: SurfaceEffects,
@@ -58,6 +68,8 @@ impl AirframeModel {
             gravity_scale: 1.0,
             rotors: vehicle.rotors.clone(),
             rotor: vehicle.rotor,
+            usual_decay: decay(&vehicle.rotor, USUAL_STEP_S),
+            rotor_groups: RotorGroup::all(&vehicle.rotors),
             inflow: Inflow::of(&vehicle.aerodynamics),
             vortex_ring: VortexRing::of(vehicle),
             walls: Walls::of(vehicle),
@@ -97,12 +109,10 @@ impl AirframeModel {
         self.air_density.kg_m3(altitude_m)
     }
 
-    pub(super) fn decay(&self, dt_s: f64) -> f64 {
-        math::exp(-dt_s / self.rotor.time_constant_s)
-    }
-
-    pub(super) fn decay_half_step(&self, dt_s: f64) -> f64 {
-        math::exp(-0.5 * dt_s / self.rotor.time_constant_s)
+    /// Returns the fractions of a difference of the rotor speeds from their targets that are left after half a step and after the
+    /// whole step.
+    pub(super) fn rotor_decay(&self, dt_s: f64) -> [f64; 2] {
+        if dt_s == USUAL_STEP_S { self.usual_decay } else { decay(&self.rotor, dt_s) }
     }
 
     /// Returns the rotor speed at hover, in rad/s.

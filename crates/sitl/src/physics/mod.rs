@@ -9,6 +9,7 @@ mod multirotor_surfaces;
 mod obstacles;
 mod recirculation;
 pub mod rigid;
+mod rotor_lanes;
 mod state;
 pub mod surface_effects;
 pub mod vortex_ring;

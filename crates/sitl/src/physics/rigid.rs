@@ -2,8 +2,9 @@
 //! exact exponential solution, so that only the rigid body is integrated numerically.
 
 use super::airframe::AirframeModel;
+use super::rotor_lanes::{AddedWinds, GROUPS, LANES, LaneVectors, RotorConditionLanes, RotorLoad};
 use super::state::{AirState, MAX_ROTORS, RigidState};
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::math::GRAVITY_M_S2;
 
@@ -54,11 +55,25 @@ impl IntegratedState {
     }
 }
 
-/// Rotor speeds and accelerations at one instant of a step.
+/// Rotor speeds at one instant of a step, and the terms of the forces that depend only on them.
 #[derive(Clone, Copy)]
 struct RotorInstant {
     speed: [f64; MAX_ROTORS],
-    acceleration: [f64; MAX_ROTORS],
+    momentum: Vector3<f64>,
+    loads: [RotorLoad; GROUPS],
+}
+
+/// The air during one step.
+struct StepAir<'a> {
+    air: &'a AirState,
+    added_winds: Option<AddedWinds>,
+    density_ratio: f64,
+}
+
+impl<'a> StepAir<'a> {
+    fn new(air: &'a AirState) -> Self {
+        Self { air, added_winds: air.rotors_m_s.as_ref().map(AddedWinds::of), density_ratio: air.density_ratio() }
+    }
 }
 
 /// Advances the state by `dt_s` while the rotor speeds approach `target_rad_s`. Wind and external force are constant
@@ -77,13 +92,14 @@ pub fn advance(
         q: state.attitude.raw().into_inner(),
         w: state.rates_rad_s.raw(),
     };
-    let start = model.rotor_instant(state, target_rad_s, 1.0);
-    let half = model.rotor_instant(state, target_rad_s, model.decay_half_step(dt_s));
-    let end = model.rotor_instant(state, target_rad_s, model.decay(dt_s));
-    let k1 = derivative(model, &y, &start, air, effect);
-    let k2 = derivative(model, &y.plus(&k1, 0.5 * dt_s), &half, air, effect);
-    let k3 = derivative(model, &y.plus(&k2, 0.5 * dt_s), &half, air, effect);
-    let k4 = derivative(model, &y.plus(&k3, dt_s), &end, air, effect);
+    let air = StepAir::new(air);
+    let rotors = |left| model.rotor_instant(state, target_rad_s, left, effect, air.density_ratio);
+    let [decay_half, decay] = model.rotor_decay(dt_s);
+    let (start, half, end) = (rotors(1.0), rotors(decay_half), rotors(decay));
+    let k1 = derivative(model, &y, &start, &air);
+    let k2 = derivative(model, &y.plus(&k1, 0.5 * dt_s), &half, &air);
+    let k3 = derivative(model, &y.plus(&k2, 0.5 * dt_s), &half, &air);
+    let k4 = derivative(model, &y.plus(&k3, dt_s), &end, &air);
     let sixth = dt_s / 6.0;
     // FRAME: each component keeps its frame.
     state.position_m = Vec3::assume(y.p + (k1.p + (k2.p + k3.p) * 2.0 + k4.p) * sixth);
@@ -94,69 +110,55 @@ pub fn advance(
     state.rotor_rad_s = end.speed;
 }
 
-fn derivative(
-    model: &AirframeModel,
-    y: &IntegratedState,
-    rotors: &RotorInstant,
-    air: &AirState,
-    effect: &[f64; MAX_ROTORS],
-) -> IntegratedState {
+fn derivative(model: &AirframeModel, y: &IntegratedState, rotors: &RotorInstant, air: &StepAir) -> IntegratedState {
     let attitude = UnitQuaternion::new_normalize(y.q);
     // FRAME: the stage's quaternion is the body's attitude, and its velocity is the NED velocity over ground.
     let attitude = Rotation::<Frd, Ned>::assume(attitude);
-    let air_velocity = attitude.inverse() * (Vec3::assume(y.v) - air.velocity_m_s);
-    // One matrix for all rotors takes less time than a quaternion for each.
-    let to_body = air.rotors_m_s.as_ref().map(|_| attitude.inverse().matrix());
-    let wrench = wrench(model, (air_velocity, to_body), Vec3::assume(y.w), rotors, air, effect);
-    let force = (attitude * wrench.force_n + air.force_n).raw();
+    let wrench = wrench(model, attitude, y, rotors, air);
+    let force = (attitude * wrench.force_n + air.air.force_n).raw();
     let acceleration = force * model.inverse_mass + Vector3::new(0.0, 0.0, GRAVITY_M_S2 * model.gravity_scale);
-    let momentum = model.inertia.component_mul(&y.w) + model.rotor_momentum(&rotors.speed);
+    let momentum = model.inertia.component_mul(&y.w) + rotors.momentum;
     let spin = (wrench.torque_n_m.raw() - y.w.cross(&momentum)).component_mul(&model.inverse_inertia);
     let q_dot = y.q * Quaternion::new(0.0, y.w.x, y.w.y, y.w.z) * 0.5;
     IntegratedState { p: y.v, v: acceleration, q: q_dot, w: spin }
 }
 
-/// Returns the wrench for a velocity relative to the air at the center of mass, and the rotation to the body if the wind differs at the
-/// rotors.
+/// Returns the wrench of body and rotors.
+#[inline]
 fn wrench(
     model: &AirframeModel,
-    (air_velocity_m_s, to_body): (Vec3<Frd>, Option<Matrix3<f64>>),
-    rates_rad_s: Vec3<Frd>,
+    attitude: Rotation<Frd, Ned>,
+    y: &IntegratedState,
     rotors: &RotorInstant,
-    air: &AirState,
-    effect: &[f64; MAX_ROTORS],
+    air: &StepAir,
 ) -> Wrench {
-    let mut total = body_drag(model, air_velocity_m_s, rates_rad_s, air.density_kg_m3);
-    let density_ratio = air.density_ratio();
-    for (i, rotor) in model.rotors.iter().enumerate() {
-        let (speed_rad_s, acceleration_rad_s2) = (rotors.speed[i], rotors.acceleration[i]);
-        // FRAME: the matrix turns NED into body axes.
-        let added_m_s = to_body.zip(air.rotors_m_s.as_ref()).map(|(to_body, winds)| Vec3::assume(to_body * winds[i].raw()));
-        let hub_air_m_s = hub_velocity(air_velocity_m_s, rates_rad_s, rotor.position_m, added_m_s);
-        let conditions = RotorConditions { hub_air_m_s, speed_rad_s, acceleration_rad_s2, effect: effect[i], density_ratio };
-        let one = model.rotor_wrench(i, &conditions);
-        total.force_n += one.force_n;
-        total.torque_n_m += one.torque_n_m;
+    let to_body = attitude.inverse();
+    let air_velocity_m_s = to_body * (Vec3::assume(y.v) - air.air.velocity_m_s);
+    let rates_rad_s = Vec3::assume(y.w);
+    let drag = body_drag(model, air_velocity_m_s, rates_rad_s, air.air.density_kg_m3);
+    // One matrix for all rotors takes less time than a quaternion for each.
+    let added = air.added_winds.as_ref().map(|winds| (winds, to_body.matrix()));
+    let (mut force_n, mut torque_n_m) = (drag.force_n.raw(), drag.torque_n_m.raw());
+    for (index, (group, load)) in model.rotor_groups.iter().zip(&rotors.loads).enumerate() {
+        let mut hub_air_m_s = group.hub_velocities(air_velocity_m_s, rates_rad_s);
+        if let Some((winds, to_body)) = &added {
+            hub_air_m_s = winds.subtract_from(index, &hub_air_m_s, to_body);
+        }
+        for (force, torque) in group.wrenches(load, &hub_air_m_s, air.density_ratio) {
+            force_n += force;
+            torque_n_m += torque;
+        }
     }
-    total
+    // FRAME: the rotors' forces are in body axes, like the drag.
+    Wrench { force_n: Vec3::assume(force_n), torque_n_m: Vec3::assume(torque_n_m) }
 }
 
 /// Returns the velocity of a rotor's hub relative to the air, m/s.
 pub(super) fn hub_air_velocity(rigid: &RigidState, air: &AirState, index: usize, position_m: Vec3<Frd>) -> Vec3<Frd> {
     let to_body = rigid.attitude.inverse();
-    let added_m_s = air.rotors_m_s.as_ref().map(|added| to_body * added[index]);
-    hub_velocity(to_body * (rigid.velocity_m_s - air.velocity_m_s), rigid.rates_rad_s, position_m, added_m_s)
-}
-
-/// Returns the velocity of a hub relative to the air, from that of the center of mass and the wind that is added at the hub, m/s.
-fn hub_velocity(
-    air_velocity_m_s: Vec3<Frd>,
-    rates_rad_s: Vec3<Frd>,
-    position_m: Vec3<Frd>,
-    added_m_s: Option<Vec3<Frd>>,
-) -> Vec3<Frd> {
-    let hub = air_velocity_m_s + rates_rad_s.cross(position_m);
-    added_m_s.map_or(hub, |wind| hub - wind)
+    let center_m_s = to_body * (rigid.velocity_m_s - air.velocity_m_s);
+    let hub_m_s = center_m_s + rigid.rates_rad_s.cross(position_m);
+    air.rotors_m_s.as_ref().map_or(hub_m_s, |added| hub_m_s - to_body * added[index])
 }
 
 fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Vec3<Frd>, density_kg_m3: f64) -> Wrench {
@@ -170,17 +172,30 @@ fn body_drag(model: &AirframeModel, air_velocity_m_s: Vec3<Frd>, rates_rad_s: Ve
 }
 
 impl AirframeModel {
-    /// Returns the rotor speeds and accelerations at the time when their difference from the target has decayed to the
-    /// fraction `left` of its initial value.
-    fn rotor_instant(&self, state: &RigidState, target_rad_s: &[f64; MAX_ROTORS], left: f64) -> RotorInstant {
-        let mut out = RotorInstant { speed: [0.0; MAX_ROTORS], acceleration: [0.0; MAX_ROTORS] };
+    /// Returns the rotors at the time when the difference of their speeds from the target has decayed to the fraction `left` of its
+    /// initial value.
+    #[inline]
+    fn rotor_instant(
+        &self,
+        state: &RigidState,
+        target_rad_s: &[f64; MAX_ROTORS],
+        left: f64,
+        effect: &[f64; MAX_ROTORS],
+        density_ratio: f64,
+    ) -> RotorInstant {
+        let (mut speed, mut acceleration) = ([0.0; MAX_ROTORS], [0.0; MAX_ROTORS]);
         let pairs = state.rotor_rad_s.iter().zip(target_rad_s).take(self.rotors.len());
         for (i, (now, target)) in pairs.enumerate() {
             let gap = (now - target) * left;
-            out.speed[i] = target + gap;
-            out.acceleration[i] = -gap / self.rotor.time_constant_s;
+            speed[i] = target + gap;
+            acceleration[i] = -gap / self.rotor.time_constant_s;
         }
-        out
+        let mut loads = [RotorLoad::NONE; GROUPS];
+        for (index, (load, group)) in loads.iter_mut().zip(&self.rotor_groups).enumerate() {
+            let conditions = RotorConditionLanes::of(&speed, &acceleration, effect, index);
+            *load = RotorLoad::new(&self.rotor, &self.inflow, group, &conditions, density_ratio);
+        }
+        RotorInstant { speed, momentum: self.rotor_momentum(&speed), loads }
     }
 
     fn rotor_momentum(&self, speed: &[f64; MAX_ROTORS]) -> Vector3<f64> {
@@ -191,27 +206,19 @@ impl AirframeModel {
     }
 
     /// Returns the wrench of one rotor about the center of mass: thrust, in-plane drag, drag torque and the reaction to
-    /// its acceleration.
+    /// its acceleration. There is none without such a rotor.
     #[must_use]
     pub fn rotor_wrench(&self, index: usize, at: &RotorConditions) -> Wrench {
-        let rotor = &self.rotors[index];
-        let m = &self.rotor;
-        let squared = at.speed_rad_s * at.speed_rad_s;
-        let h = -m.drag_coefficient_n_s2_m * at.speed_rad_s * at.density_ratio;
-        let thrust_n = self.thrust_n(at) * at.density_ratio;
-        let force_n = Vec3::new(h * at.hub_air_m_s.forward(), h * at.hub_air_m_s.right(), -thrust_n);
-        let torque = m.torque_coefficient_n_m_s2 * squared * at.density_ratio;
-        let yaw = rotor.spin * (torque + m.inertia_kg_m2 * at.acceleration_rad_s2);
-        let torque_n_m = rotor.position_m.cross(force_n) + Vec3::new(0.0, 0.0, yaw);
-        Wrench { force_n, torque_n_m }
-    }
-
-    /// Returns the thrust of a rotor at sea-level density, N.
-    fn thrust_n(&self, at: &RotorConditions) -> f64 {
-        let static_n = self.rotor.thrust_coefficient_n_s2 * (at.speed_rad_s * at.speed_rad_s) * at.effect;
-        match &self.inflow {
-            None => static_n,
-            Some(inflow) => static_n + inflow.change_n(at.hub_air_m_s, at.speed_rad_s, static_n),
-        }
+        let lanes = |value| [value; MAX_ROTORS];
+        let (speed, acceleration) = (lanes(at.speed_rad_s), lanes(at.acceleration_rad_s2));
+        let wrench = self.rotor_groups.get(index / LANES).and_then(|group| {
+            let conditions = RotorConditionLanes::of(&speed, &acceleration, &lanes(at.effect), index / LANES);
+            let load = RotorLoad::new(&self.rotor, &self.inflow, group, &conditions, at.density_ratio);
+            let hub_air_m_s = LaneVectors::splat(at.hub_air_m_s.raw());
+            group.wrenches(&load, &hub_air_m_s, at.density_ratio).nth(index % LANES)
+        });
+        let (force_n, torque_n_m) = wrench.unwrap_or_default();
+        // FRAME: both are in body axes.
+        Wrench { force_n: Vec3::assume(force_n), torque_n_m: Vec3::assume(torque_n_m) }
     }
 }

@@ -33,6 +33,8 @@ pub struct RotorVibration {
     hover_rad_s: f64,
     spins: Vec<f64>,
     phases_rad: [f64; MAX_ROTORS],
+    /// Sine and cosine of each phase.
+    phases_sin_cos: [(f64, f64); MAX_ROTORS],
     turned_rad: [f64; MAX_ROTORS],
     /// Integral of the squared rotor speeds over time, rad²/s.
     squared_speed_time: [f64; MAX_ROTORS],
@@ -50,6 +52,10 @@ struct RotorSample {
     spin: f64,
 }
 
+impl RotorSample {
+    const NONE: Self = Self { cos: 0.0, sin: 0.0, strength: 0.0, spin: 0.0 };
+}
+
 impl RotorVibration {
     /// Returns `None` if the aircraft file has no vibration.
     #[must_use]
@@ -65,6 +71,7 @@ impl RotorVibration {
             hover_rad_s: vehicle.hover_rotor_rad_s(),
             spins: vehicle.rotors.iter().map(|rotor| rotor.spin).collect(),
             phases_rad,
+            phases_sin_cos: phases_rad.map(math::sin_cos),
             turned_rad: [0.0; MAX_ROTORS],
             squared_speed_time: [0.0; MAX_ROTORS],
             time_s: 0.0,
@@ -87,7 +94,9 @@ impl RotorVibration {
         if self.time_s <= 0.0 {
             return;
         }
-        let rotors: Vec<RotorSample> = (0..self.spins.len()).map(|i| self.take_rotor(i)).collect();
+        let mut rotors = [RotorSample::NONE; MAX_ROTORS];
+        let rotors = &mut rotors[..self.spins.len().min(MAX_ROTORS)];
+        rotors.iter_mut().enumerate().for_each(|(i, rotor)| *rotor = self.take_rotor(i));
         self.time_s = 0.0;
         let count = rotors.len().max(1) as f64;
         // The rotors' phases are independent, and a sine of amplitude 1 has the variance 1/2.
@@ -114,11 +123,14 @@ impl RotorVibration {
     fn take_rotor(&mut self, index: usize) -> RotorSample {
         let (start, turned) = (self.phases_rad[index], self.turned_rad[index]);
         let end = start + turned;
-        let ((sin_start, cos_start), (sin_end, cos_end)) = (math::sin_cos(start), math::sin_cos(end));
+        let ((sin_start, cos_start), (sin_end, cos_end)) = (self.phases_sin_cos[index], math::sin_cos(end));
         let (cos, sin) =
             if turned > 0.0 { ((sin_end - sin_start) / turned, (cos_start - cos_end) / turned) } else { (cos_start, sin_start) };
         let strength = self.squared_speed_time[index] / self.time_s / (self.hover_rad_s * self.hover_rad_s);
-        self.phases_rad[index] = math::wrap_pi(end);
+        let phase = math::wrap_pi(end);
+        self.phases_rad[index] = phase;
+        // The sine of a wrapped angle can differ in the last bit.
+        self.phases_sin_cos[index] = if phase == end { (sin_end, cos_end) } else { math::sin_cos(phase) };
         (self.turned_rad[index], self.squared_speed_time[index]) = (0.0, 0.0);
         RotorSample { cos, sin, strength, spin: self.spins[index] }
     }

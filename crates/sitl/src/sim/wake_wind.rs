@@ -28,6 +28,8 @@ pub(super) struct WakeWind {
     field: WakeField,
     gusts: WakeGusts,
     hubs: Vec<Vec3<Frd>>,
+    /// Largest distance of a hub from the center of mass, m.
+    arm_m: f64,
     sampled_at: SimTime,
     previous: AddedWind,
     current: AddedWind,
@@ -41,6 +43,7 @@ impl WakeWind {
             field: WakeField::new(members, &scenario.bridges, seed),
             gusts: WakeGusts::new(rotors.iter().map(|rotor| rotor.position_m.norm()).collect(), seed),
             hubs: rotors.iter().map(|rotor| rotor.position_m).collect(),
+            arm_m: rotors.iter().map(|rotor| rotor.position_m.norm()).fold(0.0, f64::max),
             sampled_at: SimTime::ZERO,
             previous: AddedWind::NONE,
             current: AddedWind::NONE,
@@ -50,10 +53,11 @@ impl WakeWind {
     /// Draws the next sample, in a mean wind, with the height of the water or ground below the aircraft.
     pub(super) fn sample(&mut self, rigid: &RigidState, mean_m_s: Vec3<Ned>, surface_up_m: f64, now: SimTime) {
         self.field.advance(mean_m_s, SAMPLE_PERIOD);
-        let center = self.field.air(rigid.position_m.enu(), surface_up_m);
+        let nearby = self.field.near(rigid.position_m.enu(), self.arm_m);
+        let center = nearby.air(rigid.position_m.enu(), surface_up_m);
         let mut rotors = [LocalAir::default(); MAX_ROTORS];
         for (rotor, hub) in rotors.iter_mut().zip(&self.hubs) {
-            *rotor = self.field.air((rigid.position_m + rigid.attitude * *hub).enu(), surface_up_m);
+            *rotor = nearby.air((rigid.position_m + rigid.attitude * *hub).enu(), surface_up_m);
         }
         self.previous = self.current;
         self.current = self.added(&center, &rotors, rigid, mean_m_s);

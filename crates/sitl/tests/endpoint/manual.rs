@@ -59,6 +59,34 @@ fn echoed_channels(station: &mut Station, send: impl Fn(&mut Station)) -> Vec<(L
     out.into_iter().rev().take(3).collect()
 }
 
+/// At 400 Hz, a client waits at most one control tick of 2.5 ms for the sticks that it has sent. The ticks are 1 ms long, and so the
+/// stream alone would leave 3 ms between every second pair of messages.
+#[test]
+fn exact_echo_of_changed_sticks_at_the_highest_rate_comes_with_the_next_tick() {
+    const TICK: SimTime = SimTime::from_ms(1);
+    let mut station = Station::new("drill-hover", 7);
+    station.run_ms(1_000);
+    let rate = [65.0, 2_500.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(station.command(1, MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL, rate), MavResult::MAV_RESULT_ACCEPTED);
+    for round in 0..20_u16 {
+        // Different phases of the stream.
+        station.run_ms(7 + i64::from(round));
+        let pitch = 1_200 + 10 * round;
+        channels(&mut station, pitch, 1500);
+        let until = station.vehicle.sim.now() + TICK;
+        station.vehicle.sim.handle_timeout(until);
+        let mut echoed = Vec::new();
+        while let Some(transmit) = station.sim.poll_transmit() {
+            let frames = Decoder::new().datagram(&transmit.bytes);
+            echoed.extend(frames.into_iter().filter_map(|frame| match frame.message {
+                Some(MavMessage::RC_CHANNELS(c)) => Some(c.chan2_raw),
+                _ => None,
+            }));
+        }
+        assert_eq!(echoed, [pitch], "round {round}");
+    }
+}
+
 #[test]
 fn wire_stick_echo_matches_the_input_on_each_link() {
     const SDK: LinkId = LinkId(5);

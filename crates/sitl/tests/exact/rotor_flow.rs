@@ -101,7 +101,13 @@ fn static_wrench(vehicle: &Vehicle, index: usize, at: &RotorConditions) -> Wrenc
 
 #[test]
 fn exact_wrench_without_the_keys_has_the_same_bits_as_the_static_model() {
-    let vehicle = quad();
+    let mut vehicle = quad();
+    // Six rotors: one group of four, and one that is not full.
+    vehicle.rotors.extend_from_within(..2);
+    for (rotor, side) in vehicle.rotors[4..].iter_mut().zip([1.5, -1.5]) {
+        rotor.position_m = rotor.position_m * side;
+    }
+    let count = vehicle.rotors.len();
     let model = model(&vehicle);
     let mut random = RandomStream::new(1, "rotor flow");
     for k in 0..10_000 {
@@ -112,7 +118,7 @@ fn exact_wrench_without_the_keys_has_the_same_bits_as_the_static_model() {
             effect: 1.0 + random.uniform(),
             density_ratio: 1.0,
         };
-        let (got, expected) = (model.rotor_wrench(k % 4, &at), static_wrench(&vehicle, k % 4, &at));
+        let (got, expected) = (model.rotor_wrench(k % count, &at), static_wrench(&vehicle, k % count, &at));
         let bits = |w: &Wrench| [w.force_n.array(), w.torque_n_m.array()].map(|v| v.map(f64::to_bits));
         assert_eq!(bits(&got), bits(&expected), "{at:?}");
     }

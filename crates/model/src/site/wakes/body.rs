@@ -81,11 +81,15 @@ impl BluffBody {
     /// Turns the wake into a wind, and advances its vortices by one time step.
     pub(super) fn advance(&mut self, wind: &Stream, step: SimTime) {
         // The speed of the wind changes with the aircraft's height, its direction seldom.
-        if (self.facing.0 - wind.along).norm_squared() > SAME_DIRECTION {
+        let has_turned = (self.facing.0 - wind.along).norm_squared() > SAME_DIRECTION;
+        if has_turned {
             self.facing = (wind.along, self.extent_m(wind.along), self.extent_m(wind.left).max(MIN_SIZE_M.0));
         }
-        let (_, length_m, width_m) = self.facing;
-        self.wake = PlaneWake { width_m, shedding: Shedding::of(self.section, length_m, width_m, wind.speed_m_s) };
+        // The shedding of sharp sections does not depend on the speed of the wind.
+        if has_turned || self.section == Section::Round {
+            let (_, length_m, width_m) = self.facing;
+            self.wake = PlaneWake { width_m, shedding: Shedding::of(self.section, length_m, width_m, wind.speed_m_s) };
+        }
         self.phase_rad = self.wake.next_phase_rad(self.phase_rad, wind.speed_m_s, step);
     }
 
@@ -98,6 +102,19 @@ impl BluffBody {
     fn extent_m(&self, direction: Vec3<Enu>) -> f64 {
         let (low, high) = math::range(self.corners_m.iter().map(|corner| (*corner - self.center_m).dot(direction)));
         high - low
+    }
+
+    /// Returns false only if the wake does not reach any position within a radius.
+    pub(super) fn may_reach(&self, center_m: Vec3<Enu>, radius_m: f64, wind: &Stream) -> bool {
+        let from_center = center_m - self.center_m;
+        let ahead_m = from_center.dot(wind.along);
+        let up_m = center_m.up();
+        let width_m = self.wake.width_m;
+        ahead_m > -radius_m
+            && ahead_m <= LENGTH_WIDTHS.0 * width_m + self.radius_m + radius_m
+            && up_m > self.base_up_m - width_m - radius_m
+            && up_m < self.top_up_m + width_m + radius_m
+            && self.wake.may_reach(ahead_m - 0.5 * self.facing.1 + radius_m, from_center.dot(wind.left).abs() - radius_m)
     }
 
     /// Returns the wake at a position; `None` outside it. It fades within half a width at the ends of the body (estimate).

@@ -106,6 +106,18 @@ impl Deck {
         self.crossing = (speed_m_s >= MIN_WIND_M_S).then_some(Crossing { sign, along: left * sign, speed_m_s, wake });
     }
 
+    /// Returns false only if the deck does not disturb the air at any position within a radius.
+    pub(super) fn may_reach(&self, center_m: Vec3<Enu>, radius_m: f64) -> bool {
+        let Some(crossing) = &self.crossing else { return false };
+        let [x, y, z] = self.placement.local(center_m);
+        let behind_m = self.half_width_m + crossing.sign * y;
+        let (above_m, reach_m) = ((z - self.middle_z_m).abs(), REACH.0 * self.depth_m);
+        x.abs() < self.half_length_m + radius_m
+            && above_m < 0.5 * self.depth_m + reach_m + radius_m
+            && behind_m > -reach_m - radius_m
+            && behind_m < 2.0 * self.half_width_m + LENGTH_WIDTHS.0 * self.depth_m + radius_m
+    }
+
     /// Returns the air at a position, with the height of the water or ground below it; `None` where the deck does not disturb it.
     pub(super) fn at(&self, position_m: Vec3<Enu>, surface_up_m: f64) -> Option<DeckAir> {
         let crossing = self.crossing.as_ref()?;

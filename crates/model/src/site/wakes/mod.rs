@@ -27,6 +27,8 @@ use plane_wake::squared;
 const MAX_DEFICIT: f64 = 1.2;
 /// Length of the eddies that carry the turbulence, in widths of the body or depths of the deck (estimate).
 const EDDY_WIDTHS: f64 = 0.5;
+/// Distance that exceeds the rounding errors of positions, m.
+const ROUNDING_M: f64 = 1e-3;
 
 /// Wakes of a site in the present wind, with the phase of the vortices that each body sheds.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,7 +84,35 @@ impl WakeField {
     /// Returns the air at a position in the wind of the last [`Self::advance`], with the height of the water or ground below it.
     #[must_use]
     pub fn air(&self, position_m: Vec3<Enu>, surface_up_m: f64) -> LocalAir {
-        let Some(wind) = &self.wind else { return LocalAir::default() };
+        self.near(position_m, 0.0).air(position_m, surface_up_m)
+    }
+
+    /// Returns the wakes that can reach positions within a radius of another one, for queries of several positions.
+    #[must_use]
+    pub fn near(&self, center_m: Vec3<Enu>, radius_m: f64) -> NearbyWakes<'_> {
+        let Some(wind) = &self.wind else { return NearbyWakes { wind: None, bodies: Vec::new(), decks: Vec::new() } };
+        let radius_m = radius_m + ROUNDING_M;
+        NearbyWakes {
+            wind: Some(wind),
+            bodies: self.bodies.iter().filter(|body| body.may_reach(center_m, radius_m, wind)).collect(),
+            decks: self.decks.iter().filter(|deck| deck.may_reach(center_m, radius_m)).collect(),
+        }
+    }
+}
+
+/// Wakes that can reach a region.
+#[derive(Debug, Clone)]
+pub struct NearbyWakes<'a> {
+    wind: Option<&'a Stream>,
+    bodies: Vec<&'a BluffBody>,
+    decks: Vec<&'a Deck>,
+}
+
+impl NearbyWakes<'_> {
+    /// Returns the air at a position in the region, with the height of the water or ground below it.
+    #[must_use]
+    pub fn air(&self, position_m: Vec3<Enu>, surface_up_m: f64) -> LocalAir {
+        let Some(wind) = self.wind else { return LocalAir::default() };
         let mut turbulence = TurbulenceSum::default();
         // Overlapping deficits add as the root of the sum of squares, as wakes of wind turbines (Katic et al. 1986).
         let (mut squares, mut sway) = (0.0, 0.0);
@@ -146,6 +176,36 @@ mod tests {
         for (place, at) in [("ahead", [-6.0, 0.0, 10.0]), ("beside", [6.0, 15.0, 10.0]), ("above", [6.0, 0.0, 24.0])] {
             assert_eq!(field.air(Vec3::new(at[0], at[1], at[2]), 0.0), LocalAir::default(), "{place}");
         }
+    }
+
+    #[test]
+    fn prop_wakes_near_a_position_include_all_that_reach_its_surroundings() {
+        const RADIUS_M: f64 = 0.5;
+        const EVERYWHERE_M: f64 = 1e6;
+        let bridge = Bridge {
+            name: "test".into(),
+            center_m: Vec3::new(0.0, 0.0, 20.0),
+            heading_deg: 70.0,
+            kind: crate::scenario::bridges::BridgeKind::Girder(Girder::default()),
+        };
+        let mut random = RandomStream::new(4, "positions");
+        let (mut few, mut disturbed) = (0, 0);
+        for k in 0..40 {
+            let (s, c) = math::sin_cos(0.4 * f64::from(k));
+            let mut field = WakeField::new(&bridge.members(), std::slice::from_ref(&bridge), 1);
+            field.advance(Vec3::new(7.0 * s, 7.0 * c, 0.0), SimTime::ZERO);
+            let all = field.near(Vec3::zero(), EVERYWHERE_M);
+            for _ in 0..500 {
+                let center = Vec3::<Enu>::new(random.range(-90.0, 90.0), random.range(-60.0, 60.0), random.range(0.0, 30.0));
+                let offset = Vec3::new(random.normal(), random.normal(), random.normal()).unit() * RADIUS_M;
+                let near = field.near(center, RADIUS_M);
+                few += usize::from(near.bodies.len() < all.bodies.len());
+                let air = near.air(center + offset, 0.0);
+                disturbed += usize::from(air != LocalAir::default());
+                assert_eq!(air, all.air(center + offset, 0.0), "{center:?} {offset:?}");
+            }
+        }
+        assert!(few > 10_000 && disturbed > 1_000, "{few} {disturbed}");
     }
 
     #[test]

@@ -77,6 +77,11 @@ impl PlaneWake {
         })
     }
 
+    /// Returns false only if the wake is nowhere as wide as a distance off its axis, m, up to a distance behind the body's rear, m.
+    pub(super) fn may_reach(&self, behind_m: f64, across_m: f64) -> bool {
+        behind_m > 0.0 && across_m < SWAY_HALF_WIDTHS * self.half_width_m(behind_m)
+    }
+
     /// Returns the phase of the vortices after one time step in a wind, rad.
     pub(super) fn next_phase_rad(&self, phase_rad: f64, wind_m_s: f64, step: SimTime) -> f64 {
         let frequency_hz = self.shedding.strouhal * wind_m_s / self.width_m;

@@ -6,7 +6,7 @@ use super::hazard_truth::HazardTruth;
 use super::scoring_truth::ScoringTruth;
 use crate::endpoint::clock::VehicleClock;
 use crate::physics::{BatteryState, RigidState};
-use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::frames::{Frd, Ned, Rotation, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
 use spandrel_model::site::Site;
 use spandrel_model::vehicle::Vehicle;
@@ -24,8 +24,8 @@ pub struct PayloadInput<'a> {
     pub site: &'a Site,
     /// Estimated position, site frame, m.
     pub position_m: Vec3<Ned>,
-    /// Estimated heading, rad.
-    pub heading_rad: f64,
+    /// Estimated attitude.
+    pub attitude: Rotation<Frd, Ned>,
     /// Home position, site frame, m; `None` before it is set.
     pub home_m: Option<Vec3<Ned>>,
     /// Whether the altitude of a region-of-interest command is above mean sea level, regardless of its frame.
@@ -49,6 +49,12 @@ pub struct PayloadInput<'a> {
 }
 
 impl PayloadInput<'_> {
+    /// Returns the estimated heading, rad.
+    #[must_use]
+    pub fn heading_rad(&self) -> f64 {
+        self.attitude.yaw_rad()
+    }
+
     /// Returns the estimated geographic position.
     #[must_use]
     pub fn geo(&self) -> Geo {

@@ -42,6 +42,9 @@ impl PayloadLink {
     /// Sends the state of the hazards that the job simulates if it is due: the radio link's to all clients, and all of them to
     /// clients that receive the scoring data.
     pub(crate) fn send_hazards(&mut self, input: &PayloadInput, links: &mut Links) {
+        if input.clock.now < self.hazards_due.next_due() {
+            return;
+        }
         let Some(report) = input.hazards.report().filter(|_| self.hazards_due.fire(input.clock.now)) else { return };
         let message = report.message(input.clock.sim_time_us());
         let status = input.hazards.radio.map(|radio| radio_status::message(radio.signal_dbm, NOISE_DBM, radio.silent_intervals));
@@ -65,6 +68,9 @@ impl PayloadLink {
     }
 
     fn send_values(&self, values: Vec<NamedValue>, input: &PayloadInput, links: &mut Links) {
+        if values.is_empty() {
+            return;
+        }
         let time_ms = input.clock.sim_time_ms();
         let messages: Vec<(bool, MavMessage)> =
             values.into_iter().map(|value| (value.is_practice_value(), value.message(time_ms))).collect();

@@ -49,7 +49,7 @@ impl<'a> PayloadSnapshot<'a> {
     /// and follows the heading.
     #[must_use]
     pub fn camera_attitude(&self) -> [f64; 4] {
-        let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, self.gimbal.pitch_rad, self.input.heading_rad);
+        let looking: Rotation<Frd, Ned> = Rotation::from_euler(0.0, self.gimbal.pitch_rad, self.input.heading_rad());
         looking.wxyz()
     }
 }

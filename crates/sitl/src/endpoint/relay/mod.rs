@@ -178,7 +178,7 @@ impl RelayEndpoint {
             plane: aircraft.plane,
             site: aircraft.site,
             position_m: aircraft.truth.position_m,
-            heading_rad: aircraft.truth.attitude.yaw_rad(),
+            attitude: aircraft.truth.attitude,
             home_m: Some(self.home_m),
             roi_above_sea_level: self.rules.roi_above_sea_level,
             sticks: sticks.map(|s| [s.forward, s.right, s.up, s.yaw]),

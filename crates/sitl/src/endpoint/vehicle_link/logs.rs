@@ -228,6 +228,12 @@ impl LogTransfers {
         }
     }
 
+    /// Returns whether there is nothing to send.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        self.entries.is_empty() && self.downloads.is_empty()
+    }
+
     /// Returns the messages to send in this tick on links that are ready.
     pub fn poll(&mut self, ready: impl Fn(&LinkId) -> bool) -> Vec<(LinkId, MavMessage)> {
         let mut out = Vec::new();

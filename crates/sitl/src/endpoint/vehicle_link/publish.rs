@@ -84,6 +84,9 @@ impl VehicleLink {
 
     /// Sends the next parts of the log downloads on links with capacity.
     pub(crate) fn send_logs(&mut self, links: &mut Links) {
+        if self.logs.is_idle() {
+            return;
+        }
         for (link, message) in self.logs.poll(|link| links.has_capacity(*link)) {
             links.answer(AUTOPILOT, link, &message);
         }

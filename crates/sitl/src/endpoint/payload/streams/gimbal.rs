@@ -81,7 +81,7 @@ pub(crate) fn attitude(v: &PayloadSnapshot) -> Option<MavMessage> {
         angular_velocity_y: v.gimbal.rate_rad_s as f32,
         failure_flags,
         flags,
-        delta_yaw: v.input.heading_rad as f32,
+        delta_yaw: v.input.heading_rad() as f32,
         delta_yaw_velocity: f32::NAN,
         gimbal_device_id: v.input.components.own_gimbal_id(),
         ..Default::default()

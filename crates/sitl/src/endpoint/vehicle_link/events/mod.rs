@@ -36,14 +36,14 @@ impl VehicleLink {
         if !self.flavor.events {
             return;
         }
-        let (reasons, masks) = (view.status.arming_blockers.clone(), masks(view));
-        let changed = self.events.reported.as_ref().is_none_or(|(known, before)| (known, before) != (&reasons, &masks));
+        let (reasons, masks) = (&view.status.arming_blockers, masks(view));
+        let changed = self.events.reported.as_ref().is_none_or(|(known, before)| (known, before) != (reasons, &masks));
         if self.events.requested || (changed && view.clock.now >= self.events.next_report) {
             self.events.requested = false;
             self.events.next_report = view.clock.now + REPORT_INTERVAL;
             let before = self.events.sequence;
-            self.add_report(&reasons, masks, view);
-            self.events.reported = Some((reasons, masks));
+            self.add_report(reasons, masks, view);
+            self.events.reported = Some((reasons.clone(), masks));
             let fresh = self
                 .events
                 .history
