@@ -65,17 +65,30 @@ fn wire_demo_session_is_complete_and_reproducible() {
 
 #[test]
 fn flight_expert_completes_the_girder_bridge_without_contact() {
-    // Least number of the ten defects that the expert finds.
-    const MIN_FOUND: u64 = 7;
+    assert_expert_completes("girder", "3", 7);
+}
+
+#[test]
+fn flight_expert_completes_the_prestressed_bridge_without_contact() {
+    assert_expert_completes("prestressed", "3", 5);
+}
+
+#[test]
+fn flight_expert_completes_the_truss_bridge_without_contact() {
+    assert_expert_completes("truss", "3", 5);
+}
+
+/// Checks that the expert lands after all tasks of a job without contact, and finds at least a number of its defects.
+fn assert_expert_completes(job: &str, seed: &str, min_found: u64) {
     let folder = tempfile::tempdir().unwrap();
-    successful_stdout(&demo_of("girder", folder.path(), "3").output().unwrap());
+    successful_stdout(&demo_of(job, folder.path(), seed).output().unwrap());
     let assessment = json(&only_session(folder.path()).join("assessment.json"));
     assert_eq!(assessment["end"]["reason"], "landed");
     assert_eq!(assessment["crashes"]["other"], 0, "{}", assessment["crashes"]);
     let states: Vec<&str> = assessment["tasks"].as_array().unwrap().iter().filter_map(|task| task["state"].as_str()).collect();
     assert_eq!(states, ["done"; 4]);
     let found = assessment["snapshots"]["defects_found"].as_u64().unwrap_or(0);
-    assert!(found >= MIN_FOUND, "{found} defects found");
+    assert!(found >= min_found, "{found} defects found");
 }
 
 #[test]

@@ -166,23 +166,13 @@ impl BeamBridge for Truss {
             clear_m,
             "5.33 m below the bracing (bracing_depth_m, floorbeam_depth_m)",
         );
-        let panel_m = self.span_m / self.panels.round();
-        m.require_at_least(
-            "span_m",
-            panel_m,
-            3.0 * self.chord_m * GUSSET_SHARE.0 / 2.0,
-            "room for the gusset plates in a panel (panels, chord_m)",
-        );
+        let gussets_m = 1.5 * GUSSET_SHARE.0 * self.chord_m * self.panels.round();
+        m.require_at_least("span_m", self.span_m, gussets_m, "room for the gusset plates (panels, chord_m)");
         let between_m = self.truss_spacing_m - self.chord_m - 2.0 * self.gusset_m - 2.0 * DECK_SPACE_M;
         m.require_at_most("deck_width_m", self.deck_width_m, between_m, "room between the trusses (truss_spacing_m, chord_m)");
         m.require_at_least("truss_spacing_m", self.truss_spacing_m, self.span_m / 20.0, "span_m / 20 (estimate)");
-        let stringers_m = (self.deck_width_m - 2.0 * STRINGER_INSET_M) / (self.stringers.round() - 1.0);
-        m.require_at_least(
-            "deck_width_m",
-            stringers_m,
-            MIN_STRINGER_SPACING_M,
-            "stringers at least 0.6 m apart (stringers), with a spacing of",
-        );
+        let stringers_m = 2.0 * STRINGER_INSET_M + MIN_STRINGER_SPACING_M * (self.stringers.round() - 1.0);
+        m.require_at_least("deck_width_m", self.deck_width_m, stringers_m, "stringers at least 0.6 m apart (stringers)");
         m.require_at_most("stringer_depth_m", self.stringer_depth_m, self.floorbeam_depth_m, "no deeper than the floorbeams");
         m.require_at_least("cap_depth_m", self.cap_depth_m, 0.5 * self.cap_width_m, "half of cap_width_m (estimate)");
         layout.require_pier_room(m, "joint_gap_m", "truss_spacing_m");
