@@ -24,10 +24,10 @@ def run_with(text, *args):
 
 @pytest.fixture(scope="module")
 def sessions(tmp_path_factory):
-    """Two real sessions by a novice in a separate folder."""
+    """Two real sessions by a trained pilot in a separate folder. Novices don't complete every session, and plans leave incomplete ones out."""
     folder = tmp_path_factory.mktemp("training") / "sessions"
     for seed in ("7", "8"):
-        spandrel.run("demo", "--skill", "novice", "--seed", seed, "--speed", "max", "--trainee", "anna", "--sessions", str(folder))
+        spandrel.run("demo", "--skill", "trained", "--seed", seed, "--speed", "max", "--trainee", "anna", "--sessions", str(folder))
     return folder
 
 

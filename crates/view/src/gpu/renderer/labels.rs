@@ -21,7 +21,7 @@ impl Renderer {
     /// Returns an error if the shot is too large for the device, or if the device fails or has failed before.
     pub fn labels(&mut self, gpu: &Gpu, shot: &Shot) -> Result<LabelMask, GpuError> {
         gpu.check_size(shot.size_px)?;
-        let globals = Globals::new(shot, self.water_m, &ShadowMaps { sun: &[], lamp: None }, false);
+        let globals = Globals::new(shot, (self.water_m, self.photo_half_m), &ShadowMaps { sun: &[], lamp: None }, false);
         gpu.queue.write_buffer(&self.globals, 0, bytemuck::bytes_of(&globals));
         let pipelines = self.labels.take().unwrap_or_else(|| LabelPipelines::new(gpu, &self.pipelines.globals_layout));
         let target = color_texture(gpu, shot.size_px, (RADIANCE_FORMAT, wgpu::TextureUsages::COPY_SRC));
