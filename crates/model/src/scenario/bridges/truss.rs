@@ -44,6 +44,9 @@ const STRINGER_INSET_M: f64 = 0.9;
 const MIN_STRINGER_SPACING_M: f64 = 0.6;
 /// Factor for the panel length, so that rounding does not add a panel.
 const ROUNDING: f64 = 1.0 + 1e-9;
+/// Largest distance from the middle to which the camera looks at the floor, as a share of the deck width: views stay inside the gaps between
+/// the deck and the trusses.
+const VIEW_SHARE: f64 = 0.45;
 /// Radius of the turn below the floor, as a share of the distance between the trusses.
 const TURN_SHARE: f64 = 0.3;
 
@@ -215,7 +218,7 @@ impl BeamBridge for Truss {
             Some(self.truss_panel(layout, stand_off_m, place))
         } else if kind == TaskKind::FloorSystem {
             let turn_m = TURN_SHARE * self.truss_spacing_m;
-            Some(beam_path::below_beams(layout, stand_off_m, place, (turn_m, 0.5 * self.truss_spacing_m - turn_m)))
+            Some(beam_path::below_beams(layout, stand_off_m, place, (turn_m, (VIEW_SHARE * self.deck_width_m - turn_m).max(0.0))))
         } else {
             beam_path::of_kind(layout, kind, stand_off_m, place)
         }
