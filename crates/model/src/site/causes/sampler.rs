@@ -48,7 +48,7 @@ struct Choice {
 
 /// Places the defects of a session by their causes, which take turns, so that a session shows as many as possible.
 #[must_use]
-pub(in crate::site) fn place_by_cause(
+pub(crate) fn place_by_cause(
     settings: &DefectSpec,
     context: &PlacementContext,
     slots: &[Slot],
