@@ -13,7 +13,7 @@ const MAX_DETECTION_SPREAD: f64 = 0.25;
 
 /// Requirements of one of the defects to place.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Slot {
+pub(crate) struct Slot {
     /// True for a line, false for an area, `None` for either.
     pub(super) line: Option<bool>,
     /// Predicted detection, 0 to 1; `None` to draw the size from the catalog.

@@ -29,6 +29,10 @@ impl Peaks {
     }
 }
 
+/// Minimum distance of a contraflexure from the supports, as a share of the span. A short overhang has one right beside its support,
+/// which is no place for a splice (estimate).
+const MIN_CONTRAFLEXURE_SHARE: f64 = 0.05;
+
 /// Number of positions at which the peaks are searched for.
 const PEAK_STEPS: i32 = 400;
 
@@ -86,7 +90,7 @@ impl ContinuousBeam {
         peaks
     }
 
-    /// Returns the positions in the spans where the moment changes its sign.
+    /// Returns the positions in the spans where the moment changes its sign, except right beside the supports.
     pub(super) fn contraflexures_m(&self) -> Vec<f64> {
         let mut out = Vec::new();
         for (k, pair) in self.supports_m.windows(2).enumerate() {
@@ -96,7 +100,8 @@ impl ContinuousBeam {
             let linear = b - a + half_square;
             let root = (linear * linear + 4.0 * half_square * a).max(0.0).sqrt();
             let zeros = [-1.0, 1.0].map(|sign| (linear + sign * root) / (2.0 * half_square));
-            out.extend(zeros.into_iter().filter(|t| *t > 1e-6 && *t < 1.0 - 1e-6).map(|t| pair[0] + t * length_m));
+            let is_inside = |t: &f64| (MIN_CONTRAFLEXURE_SHARE..=1.0 - MIN_CONTRAFLEXURE_SHARE).contains(t);
+            out.extend(zeros.into_iter().filter(is_inside).map(|t| pair[0] + t * length_m));
         }
         out
     }

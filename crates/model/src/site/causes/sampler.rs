@@ -48,12 +48,7 @@ struct Choice {
 
 /// Places the defects of a session by their causes, which take turns, so that a session shows as many as possible.
 #[must_use]
-pub(in crate::site) fn place_by_cause(
-    settings: &DefectSpec,
-    context: &PlacementContext,
-    slots: &[Slot],
-    seed: u64,
-) -> Vec<PlacedDefect> {
+pub(crate) fn place_by_cause(settings: &DefectSpec, context: &PlacementContext, slots: &[Slot], seed: u64) -> Vec<PlacedDefect> {
     let tasks: Vec<&Task> = context.tasks.iter().filter(|task| !task.path_m.is_empty()).collect();
     let structure = Structure::new(context.members, &tasks, context.water_up_m);
     let places = permitted_places(settings, &structure);
