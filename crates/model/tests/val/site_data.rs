@@ -133,8 +133,8 @@ fn exact_grid_has_the_heights_above_the_origin() {
         let north_m = 20.0 * (k as f64 - 5.0);
         for (column, up_m) in row.iter().enumerate() {
             let east_m = 20.0 * (column as f64 - 5.0);
-            // UTM north differs from true north by the meridian convergence, 0.45 degrees here, and its scale is 0.99963.
-            let expected_m = SLOPE * (north_m + 0.00786 * east_m);
+            // UTM north differs from true north by the meridian convergence, -0.45 degrees here, and the scale of the map is 0.99963.
+            let expected_m = SLOPE * (0.99963 * north_m - 0.00786 * east_m);
             assert!((up_m - expected_m).abs() < 0.01, "{east_m}, {north_m}: {up_m} instead of {expected_m}");
         }
     }
@@ -146,14 +146,14 @@ fn regress_missing_heights_name_the_place() {
     pixels[0] = -9999.0;
     let form = Form { no_data: Some("-9999"), ..Form::around(UTM) };
     let elevation = Elevation::read(&form.file::<Gray32Float>(SIDE, &pixels)).unwrap();
-    let grid = |side| elevation.heights_on_grid(&plane(), SiteGrid { side, spacing_m: 20.0 });
+    let grid = |side| elevation.heights_on_grid(&plane(), SiteGrid { side, spacing_m: 21.0 });
     assert!(grid(11).is_ok());
-    // The grid reaches 140 m to the north-west, where the height is missing.
+    // The grid reaches 147 m to the north-west, where the height is missing.
     let message = grid(15).unwrap_err();
-    assert!(message.starts_with("no height -140 m east and 140 m north of the origin (46.706"), "{message}");
+    assert!(message.starts_with("no height -147 m east and 147 m north of the origin (46.706"), "{message}");
     // Beyond the file.
     let message = grid(21).unwrap_err();
-    assert!(message.starts_with("no height -200 m east and -200 m north"), "{message}");
+    assert!(message.starts_with("no height -210 m east and -210 m north"), "{message}");
 }
 
 #[test]
