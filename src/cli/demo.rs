@@ -167,10 +167,12 @@ fn wait_for_end(monitor: &mut Child, pilot: &mut Child, sim: &mut Child, stop: &
             return None;
         }
         for (name, child) in [("simulator", &mut *sim), ("pilot", &mut *pilot)] {
-            // The monitor exits slightly before the other processes.
-            if let Some(status) = child.exit_status()
-                && monitor.exit_status().is_none()
-            {
+            let Some(status) = child.exit_status() else { continue };
+            if name == "pilot" && status.success() {
+                // On a busy computer, a pilot that has finished can exit before its report arrives, and before the monitor.
+                pilot_done.get_or_insert_with(Stopwatch::start);
+            } else if monitor.exit_status().is_none() {
+                // The monitor exits slightly before the other processes.
                 return Some(early_exit(name, status));
             }
         }
