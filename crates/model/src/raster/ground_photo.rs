@@ -109,14 +109,28 @@ impl Pixels {
         inside(x, self.size[0]) && inside(y, self.size[1])
     }
 
-    /// Returns the color of the pixel at a place; `None` outside.
+    /// Returns the color at a place, interpolated between the four nearest pixels, with the opacity of the nearest one; `None` outside.
     fn color(&self, [x, y]: [f64; 2]) -> Option<[u8; 4]> {
         if !self.contains([x, y]) {
             return None;
         }
-        let [column, row] = [x, y].map(|at| at.round().max(0.0) as usize);
+        let [_, _, _, opacity] = self.pixel(x.round(), y.round());
+        let (left, top) = (x.floor(), y.floor());
+        let row = |row: f64| {
+            let (a, b) = (self.pixel(left, row), self.pixel(left + 1.0, row));
+            [0, 1, 2].map(|k| math::lerp(f64::from(a[k]), f64::from(b[k]), x - left))
+        };
+        let (above, below) = (row(top), row(top + 1.0));
+        let mix = |k: usize| math::lerp(above[k], below[k], y - top).round() as u8;
+        Some([mix(0), mix(1), mix(2), opacity])
+    }
+
+    /// Returns a pixel; beyond the edge, the nearest one.
+    fn pixel(&self, column: f64, row: f64) -> [u8; 4] {
+        let [column, row] =
+            [(column, self.size[0]), (row, self.size[1])].map(|(at, size)| at.clamp(0.0, (size - 1) as f64) as usize);
         let at = self.samples * (row * self.size[0] + column);
-        Some(rgba(&self.values[at..at + self.samples]))
+        rgba(&self.values[at..at + self.samples])
     }
 }
 
