@@ -1,4 +1,4 @@
-"""Makes the files of this folder: the heights and the aerial photograph of an imagined river valley, as surveys deliver them (EPSG:32616, GeoTIFF).
+"""Makes the files of this folder: the heights and the aerial photograph of a fictitious river valley, as surveys deliver them (EPSG:32616, GeoTIFF).
 
 usage: python make.py FOLDER
 

@@ -131,5 +131,5 @@ def test_wire_problems_name_file_line_key_and_what_is_allowed(tmp_path):
     for name, problem in (("small.tif", "no height"), ("text.tif", "not a TIFF file"), ("none.tif", "none.tif")):
         done = spandrel_program("check", str(job(tmp_path, f'source = "geotiff"\nfile = "{name}"')))
         assert done.returncode != 0
-        assert "scenario.toml:" in done.stderr and "terrain.file" in done.stderr and name in done.stderr and problem in done.stderr, done.stderr
-        assert "a GeoTIFF file with heights for the whole terrain" in done.stderr, done.stderr
+        assert "scenario.toml:" in done.stdout and "terrain.file" in done.stdout and name in done.stdout and problem in done.stdout, done.stdout
+        assert "a GeoTIFF file with heights for the whole terrain" in done.stdout, done.stdout

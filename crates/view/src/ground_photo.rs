@@ -21,7 +21,7 @@ impl GroundColors {
     #[must_use]
     pub fn new(scenario: &Scenario, site: &Site) -> Option<Self> {
         let size_m = scenario.terrain.size_m;
-        // The file was decoded when the scenario was read, so this succeeds.
+        // The file was decoded when the scenario was read, so this fails only if the coordinate system ends within the site.
         let picture = scenario.terrain.photo.as_ref()?.picture(site.plane(), size_m, SIDE_PX).ok()?;
         Some(Self { half_m: 0.5 * size_m, picture })
     }

@@ -58,7 +58,9 @@ impl Elevation {
         let no_data = file.no_data();
         let height = |value: f64| {
             let height_m = value * unit_m;
-            let is_height = Some(value) != no_data && (LAND_HEIGHTS_M.0..=LAND_HEIGHTS_M.1).contains(&height_m);
+            // Files with 32-bit floats round the value that the text states.
+            let is_missing = no_data.is_some_and(|none| value == none || value as f32 == none as f32);
+            let is_height = !is_missing && (LAND_HEIGHTS_M.0..=LAND_HEIGHTS_M.1).contains(&height_m);
             if is_height { height_m as f32 } else { f32::NAN }
         };
         let heights_m: Vec<f32> = values(file.pixels()?)?.into_iter().map(height).collect();

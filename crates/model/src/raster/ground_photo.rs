@@ -10,7 +10,7 @@ use tiff::ColorType;
 use tiff::decoder::DecodingResult;
 
 /// Number of cells per side between the places at which the photograph's coordinates are computed; they are interpolated between them. On a
-/// site of 4 km, a cell is 62 m wide, within which a map projection differs from a straight one by less than 1 mm.
+/// site of 4 km, a cell is 62 m wide, within which a map projection differs from a linear one by less than 1 mm.
 const PLACE_CELLS: usize = 64;
 /// Largest number of samples per side of a pixel whose mean is its color.
 const MAX_SAMPLES: usize = 4;
@@ -85,12 +85,15 @@ struct Pixels {
     /// Number of samples per pixel: gray, RGB or RGBA.
     samples: usize,
     values: Vec<u8>,
+    /// Value of all samples of a pixel without data.
+    no_data: Option<u8>,
 }
 
 impl Pixels {
     fn read(bytes: &[u8]) -> Result<Self, String> {
         let mut file = GeoTiff::open(bytes)?;
         let samples = samples_per_pixel(file.color)?;
+        let no_data = file.no_data().filter(|value| (0.0..=255.0).contains(value)).map(|value| value as u8);
         let DecodingResult::U8(values) = file.pixels()? else {
             return Err("pixels that are not bytes (allowed: 8 bits per color)".into());
         };
@@ -101,7 +104,7 @@ impl Pixels {
                 values.len()
             ));
         }
-        Ok(Self { place: file.place, size: file.size, samples, values })
+        Ok(Self { place: file.place, size: file.size, samples, values, no_data })
     }
 
     fn contains(&self, [x, y]: [f64; 2]) -> bool {
@@ -116,12 +119,15 @@ impl Pixels {
         }
         let [_, _, _, opacity] = self.pixel(x.round(), y.round());
         let (left, top) = (x.floor(), y.floor());
-        let row = |row: f64| {
-            let (a, b) = (self.pixel(left, row), self.pixel(left + 1.0, row));
-            [0, 1, 2].map(|k| math::lerp(f64::from(a[k]), f64::from(b[k]), x - left))
-        };
-        let (above, below) = (row(top), row(top + 1.0));
-        let mix = |k: usize| math::lerp(above[k], below[k], y - top).round() as u8;
+        let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(right, down)| {
+            let share = |at: f64, one: f64| if one > 0.0 { at } else { 1.0 - at };
+            let color = self.pixel(left + right, top + down);
+            // Invisible pixels have no color.
+            (share(x - left, right) * share(y - top, down) * f64::from(color[3]), color)
+        });
+        let total = corners.iter().map(|(weight, _)| weight).sum::<f64>().max(f64::MIN_POSITIVE);
+        let mix =
+            |k: usize| (corners.iter().map(|(weight, color)| weight * f64::from(color[k])).sum::<f64>() / total).round() as u8;
         Some([mix(0), mix(1), mix(2), opacity])
     }
 
@@ -130,7 +136,8 @@ impl Pixels {
         let [column, row] =
             [(column, self.size[0]), (row, self.size[1])].map(|(at, size)| at.clamp(0.0, (size - 1) as f64) as usize);
         let at = self.samples * (row * self.size[0] + column);
-        rgba(&self.values[at..at + self.samples])
+        let samples = &self.values[at..at + self.samples];
+        if self.no_data.is_some_and(|none| samples.iter().all(|sample| *sample == none)) { [0; 4] } else { rgba(samples) }
     }
 }
 
@@ -177,7 +184,7 @@ fn mean_color(across: usize, sample: impl Fn(f64, f64) -> Option<[u8; 4]>) -> [u
     if 2 * seen.len() < across * across {
         return [0; 4];
     }
-    let mean = |k: usize| (seen.iter().map(|color| usize::from(color[k])).sum::<usize>() / seen.len()) as u8;
+    let mean = |k: usize| ((seen.iter().map(|color| usize::from(color[k])).sum::<usize>() + seen.len() / 2) / seen.len()) as u8;
     [mean(0), mean(1), mean(2), u8::MAX]
 }
 

@@ -35,6 +35,7 @@ enum TerrainSourceKind {
 /// Reads the terrain. `plane` is at the origin of the site.
 pub(super) fn read(r: &mut Reader, root: &mut Section, plane: &LocalPlane, siblings: SiblingLoader) -> TerrainSpec {
     let mut s = r.section(root, TABLE);
+    let before = r.problems.len();
     let size_m = r.number(&mut s, "size_m", (50.0, MAX_TERRAIN_M), Some(800.0));
     let spacing_m = r.number(&mut s, "spacing_m", (1.0, 50.0), Some(4.0));
     if size_m / spacing_m > MAX_CELLS_PER_SIDE {
@@ -65,7 +66,7 @@ pub(super) fn read(r: &mut Reader, root: &mut Section, plane: &LocalPlane, sibli
         TerrainSourceKind::File => read_height_file(r, &mut s, siblings),
         TerrainSourceKind::GeoTiff => {
             let grid = SiteGrid { side: (size_m / spacing_m).round().max(1.0) as usize + 1, spacing_m };
-            read_elevation(r, &mut s, (plane, grid, water_level_m), siblings)
+            read_elevation(r, &mut s, (plane, grid, water_level_m), (siblings, before))
         }
     };
     let photo = read_photo(r, &mut s, plane, siblings);
@@ -87,14 +88,13 @@ fn read_height_file(r: &mut Reader, s: &mut Section, siblings: SiblingLoader) ->
     TerrainSource::File { heights_m }
 }
 
-/// Reads the heights of a real site at the places of the terrain's grid.
+/// Reads the heights of a real site at the places of the terrain's grid. `before` is the number of problems before the terrain.
 fn read_elevation(
     r: &mut Reader,
     s: &mut Section,
     (plane, grid, water_level_m): (&LocalPlane, SiteGrid, f64),
-    siblings: SiblingLoader,
+    (siblings, before): (SiblingLoader, usize),
 ) -> TerrainSource {
-    let before = r.problems.len();
     let file = r.text(s, FILE, None);
     let offset_m = r.number(s, "offset_m", (-200.0, 200.0), Some(0.0));
     let water_depth_m = r.number(s, "water_depth_m", (0.0, 100.0), Some(5.0));

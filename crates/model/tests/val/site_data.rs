@@ -223,6 +223,18 @@ fn exact_photograph_is_turned_to_the_site_and_invisible_outside() {
     assert_eq!(at(-200.0, 0.0), [0; 4]);
 }
 
+#[test]
+fn exact_colors_beside_missing_pixels_are_those_of_the_photograph() {
+    let photo = GroundPhoto::new("photo.tif".into(), quarters(), &plane()).unwrap();
+    let picture = photo.picture(&plane(), 300.0, 256).unwrap();
+    let colors = [[250, 0, 0], [0, 250, 0], [0, 0, 250]];
+    // In a mixture of two quarters, the parts add up to the brightness of one. A missing pixel would make it darker.
+    let sum = |color: &[u8; 4]| color[..3].iter().map(|part| u32::from(*part)).sum::<u32>();
+    let seen = picture.pixels.iter().filter(|color| color[3] > 0);
+    assert!(seen.clone().all(|color| sum(color).abs_diff(250) <= 2), "a color is darker than {colors:?}");
+    assert!(seen.count() > 256 * 256 / 2);
+}
+
 const JOB: &str = include_str!("../../../../scenarios/drill-hover.toml");
 
 fn job(terrain: &str) -> String {

@@ -39,7 +39,7 @@ pub(super) fn of_kind(
 }
 
 /// Returns a straight line along the right side of the deck, halfway between the road surface and the girders' undersides, facing
-/// the outer layout.
+/// the outer beam.
 pub(super) fn slab_side(layout: &BeamLayout, stand_off_m: f64) -> Result<LocalPath, String> {
     let half = layout.abutment_front_x_m() - stand_off_m;
     if half <= 0.0 {

@@ -171,6 +171,14 @@ impl BeamBridge for Truss {
         );
         let gussets_m = 1.5 * GUSSET_SHARE.0 * self.chord_m * self.panels.round();
         m.require_at_least("span_m", self.span_m, gussets_m, "room for the gusset plates (panels, chord_m)");
+        // The spans between bearings are shorter than between supports, but have the same number of panels.
+        let panels_m = 2.0 * (DECK_OVERHANG_M + 0.5 * self.joint_gap_m) * self.panels.round() * ROUNDING;
+        m.require_at_least(
+            "span_m",
+            self.span_m,
+            panels_m,
+            "longer panels than the distance between the bearings on a pier (panels)",
+        );
         let between_m = self.truss_spacing_m - self.chord_m - 2.0 * self.gusset_m - 2.0 * DECK_SPACE_M;
         m.require_at_most("deck_width_m", self.deck_width_m, between_m, "room between the trusses (truss_spacing_m, chord_m)");
         m.require_at_least("truss_spacing_m", self.truss_spacing_m, self.span_m / 20.0, "span_m / 20 (estimate)");

@@ -37,8 +37,7 @@ const MIN_CONTRAFLEXURE_SHARE: f64 = 0.05;
 const PEAK_STEPS: i32 = 400;
 
 impl ContinuousBeam {
-    /// Creates a beam. `supports_m` must be in ascending order within the ends. `None` if the beam has no supports, or only one at an
-    /// end.
+    /// Creates a beam. `supports_m` must be in ascending order within the ends. `None` if the beam has no supports.
     pub(super) fn new(ends_m: (f64, f64), supports_m: Vec<f64>) -> Option<Self> {
         let (first, last) = (*supports_m.first()?, *supports_m.last()?);
         let cantilever = |length_m: f64| -0.5 * length_m * length_m;
@@ -98,7 +97,12 @@ impl ContinuousBeam {
             // a (1 - t) + b t + L²/2 t (1 - t) = 0.
             let half_square = 0.5 * length_m * length_m;
             let linear = b - a + half_square;
-            let root = (linear * linear + 4.0 * half_square * a).max(0.0).sqrt();
+            let square = linear * linear + 4.0 * half_square * a;
+            // A short span between long ones hogs throughout.
+            if square <= 0.0 {
+                continue;
+            }
+            let root = square.sqrt();
             let zeros = [-1.0, 1.0].map(|sign| (linear + sign * root) / (2.0 * half_square));
             let is_inside = |t: &f64| (MIN_CONTRAFLEXURE_SHARE..=1.0 - MIN_CONTRAFLEXURE_SHARE).contains(t);
             out.extend(zeros.into_iter().filter(is_inside).map(|t| pair[0] + t * length_m));
@@ -174,6 +178,15 @@ mod tests {
         close(overhang.moment(0.0), -2.0);
         close(overhang.moment(5.0), 12.5 - 2.0);
         assert_eq!(ContinuousBeam::new((0.0, 1.0), vec![]), None);
+    }
+
+    #[test]
+    fn regress_a_short_span_that_hogs_throughout_has_no_contraflexure() {
+        let beam = ContinuousBeam::new((0.0, 70.0), vec![0.0, 30.0, 40.0, 70.0]).unwrap();
+        assert!(beam.moment(35.0) < 0.0);
+        let zeros = beam.contraflexures_m();
+        assert_eq!(zeros.len(), 2, "{zeros:?}");
+        assert!(zeros.iter().all(|x_m| beam.moment(*x_m).abs() < 1e-6 && !(30.0..40.0).contains(x_m)), "{zeros:?}");
     }
 
     #[test]

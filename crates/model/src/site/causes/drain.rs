@@ -1,5 +1,5 @@
 //! Damage beside deck drains: corrosion of the girder beside a pipe, which leaks and splashes, and efflorescence on the deck's underside
-//! around its inlet (FHWA Bridge Inspector's Reference Manual, 2022).
+//! around its inlet (FHWA Bridge Inspector's Reference Manual, 2012).
 
 use super::place::{FaceAxes, Place, spread};
 use super::structure::{Structure, Surface, WaterSource, is_concrete};

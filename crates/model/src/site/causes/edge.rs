@@ -1,5 +1,5 @@
 //! Spalls at edges: where bearings press on the edge of a pedestal or cap, and at the lower edges of a deck's sides, where water drips off
-//! (FHWA Bridge Inspector's Reference Manual, 2022).
+//! (FHWA Bridge Inspector's Reference Manual, 2012).
 
 use super::place::{Anchor, FaceAxes, Place, spread};
 use super::structure::{Structure, Surface, is_concrete};

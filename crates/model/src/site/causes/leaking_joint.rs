@@ -1,5 +1,5 @@
 //! Damage below leaking deck joints: efflorescence and rust stains that run down caps and abutments, and corrosion with section loss at the
-//! ends of girders, on their webs just above the bottom flange, and on bearings (FHWA Bridge Inspector's Reference Manual, 2022; the ends
+//! ends of girders, on their webs just above the bottom flange, and on bearings (FHWA Bridge Inspector's Reference Manual, 2012; the ends
 //! of beams corrode most within about their depth from the joint: Tzortzinis et al., "Development of Load Rating Procedures for
 //! Deteriorated Steel Beam Ends", MassDOT 19-008, 2019).
 
@@ -25,10 +25,9 @@ const STEEL_WEIGHT: f64 = 4.0;
 
 /// Returns the places for damage below joints.
 pub(super) fn places(structure: &Structure) -> Vec<Place> {
-    let near = |surface: &Surface, joint: &WaterSource| joint.is_above(surface.face.point_m, 50.0);
     let mut out = Vec::new();
     for (k, surface) in structure.surfaces.iter().enumerate() {
-        for joint in structure.joints.iter().filter(|joint| near(surface, joint)) {
+        for joint in &structure.joints {
             out.extend(of_surface(structure, joint, (k, surface)));
         }
     }

@@ -1,5 +1,5 @@
 //! Map cracking of concrete that swells: alkali-silica reaction or frost. Both need water, so it is most frequent below joints and drains,
-//! and on parts in the rain: walls, barriers and the ends of caps (FHWA-HIF-09-004, "Report on the Diagnosis, Prognosis, and Mitigation of
+//! and on parts in the rain: walls, barriers, caps and columns (FHWA-HIF-09-004, "Report on the Diagnosis, Prognosis, and Mitigation of
 //! Alkali-Silica Reaction in Transportation Structures", 2010).
 
 use super::place::{FaceAxes, Place, crack_code, spread};

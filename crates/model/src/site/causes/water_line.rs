@@ -1,5 +1,5 @@
 //! Abrasion at the water line: ice, debris and sand wear the concrete of piers between low and high water (FHWA Bridge Inspector's Reference
-//! Manual, 2022).
+//! Manual, 2012).
 
 use super::place::{FaceAxes, Place, spread};
 use super::structure::{Structure, is_concrete};
