@@ -262,6 +262,13 @@ fn exact_suspension_bridge_member_counts_match_the_formulas() {
     assert_eq!((count[&148], count[&147], count[&152], count[&12], count[&330]), (38, 44, 3 * 29, 34, 254));
 }
 
+/// Returns the area of a standard section: 1085 square inches for type VI and 767 for BT-72 are published, the others follow from their
+/// dimensions.
+fn section_area_m2(section: f64) -> f64 {
+    const AREAS_IN2: [(f64, f64); 4] = [(3.0, 559.5), (4.0, 789.0), (6.0, 1085.0), (72.0, 767.0)];
+    AREAS_IN2.iter().find(|(known, _)| *known == section).unwrap().1 * 0.0254 * 0.0254
+}
+
 #[test]
 fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
     let sum = |members: &[Member], part: &str| members_named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
@@ -319,16 +326,13 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 close(sum(&members, "column").max(1e-9), columns.max(1e-9));
             }
             BridgeKind::Prestressed(p) => {
-                // Areas of the sections in square inches, from their dimensions: 1085 for type VI and 767 for BT-72 are published.
-                const AREAS_IN2: [(f64, f64); 4] = [(3.0, 559.5), (4.0, 789.0), (6.0, 1085.0), (72.0, 767.0)];
-                let area_in2 = AREAS_IN2.iter().find(|(section, _)| *section == p.section).unwrap().1;
                 let gap_m = if p.simple_spans > 0.0 { p.joint_gap_m } else { 0.3 };
                 let deck_m =
                     p.layout().length_m() + 0.5 - if p.simple_spans > 0.0 { (p.spans - 1.0) * p.joint_gap_m } else { 0.0 };
                 let girders_m = p.girders * (p.layout().length_m() + 0.5 - (p.spans - 1.0) * gap_m);
                 let width_m = (p.girders - 1.0) * p.girder_spacing_m + 2.0 * p.overhang_m;
                 close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
-                close(sum(&members, "girder"), girders_m * area_in2 * 0.0254 * 0.0254);
+                close(sum(&members, "girder"), girders_m * section_area_m2(p.section));
             }
             BridgeKind::Truss(t) => {
                 // The deck extends 0.8 m beyond the bearings of each span.

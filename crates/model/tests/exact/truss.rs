@@ -79,7 +79,7 @@ fn exact_bracing_leaves_the_clearance_of_aashto_above_the_road() {
         let bracing = members.iter().filter(|member| above.iter().any(|part| member.name.contains(part)));
         let lowest = bracing.map(|member| extent(&bridge, member)[2].0).fold(f64::INFINITY, f64::min);
         // AASHTO LRFD 2.3.3.2: 17.5 ft.
-        assert!(lowest >= 17.5 * 0.3048 - 0.005 && lowest < 6.0, "{lowest}");
+        assert!((17.5 * 0.3048 - 0.005..6.0).contains(&lowest), "{lowest}");
     }
 }
 

@@ -322,11 +322,16 @@ fn develop(gpu: &Gpu, film: &PipelineKey) -> [wgpu::RenderPipeline; 3] {
         .map(|(sensor, lossy)| build_with_constants(gpu, film, &[("SENSOR", sensor), ("LOSSY", lossy)]))
 }
 
+/// Builds the pipeline that draws a kind of defect or stain.
+fn defect(gpu: &Gpu, flat: &PipelineKey, code: u32) -> (u32, wgpu::RenderPipeline) {
+    (code, build_with_constants(gpu, flat, &[("KIND", f64::from(code))]))
+}
+
 impl Pipelines {
     /// Compiles all pipelines.
     pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
         let layouts = BindLayouts::new(gpu, quality);
-        let [surface, sky, defect, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
+        let [surface, sky, patch, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
         let film_module = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
         let globals = [Some(&layouts.globals)];
@@ -360,7 +365,7 @@ impl Pipelines {
             PipelineKey { blend: Some(wgpu::BlendState::ALPHA_BLENDING), depth: shown, constants: &see_through, ..solid };
         // Biased toward the camera, so that defects appear in front of the surfaces that they are on.
         let flat =
-            PipelineKey { module: &defect, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
+            PipelineKey { module: &patch, buffers: &patch_buffers, blend: over, depth: shown, bias: 2, cull: None, ..solid };
         let lake =
             PipelineKey { module: &water, layouts: &lake_layouts, buffers: &water_buffers, blend: over, cull: None, ..solid };
         // Biased away from the sun.
@@ -380,11 +385,7 @@ impl Pipelines {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
             translucent: build_pipeline(gpu, &translucent),
-            defects: STAIN_CODES
-                .into_iter()
-                .chain(defect_drawings())
-                .map(|code| (code, build_with_constants(gpu, &flat, &[("KIND", f64::from(code))])))
-                .collect(),
+            defects: STAIN_CODES.into_iter().chain(defect_drawings()).map(|code| defect(gpu, &flat, code)).collect(),
             water: lakes(gpu, &lake, quality),
             sky_mirrored: build_pipeline(gpu, &PipelineKey { samples: 1, ..back }),
             sky: build_pipeline(gpu, &back),

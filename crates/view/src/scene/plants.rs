@@ -37,18 +37,19 @@ const NEEDLES: SurfaceFinish = SurfaceFinish::new(Material::Foliage, [17, 30, 15
 const BARK: SurfaceFinish = SurfaceFinish::new(Material::Bark, [42, 30, 22]);
 const STONE: SurfaceFinish = SurfaceFinish::new(Material::Rock, [74, 70, 64]);
 
-/// Builds the trees and boulders of a site; their positions come from the terrain's seed.
+/// Builds the trees and boulders of a site. An aerial photograph already shows the site's own.
 pub fn parts(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneItem> {
+    if scenario.terrain.photo.is_some() { Vec::new() } else { generated(scenario, site, quality) }
+}
+
+/// Builds trees and boulders whose positions come from the terrain's seed.
+fn generated(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneItem> {
     let seed = match &scenario.terrain.source {
         TerrainSource::Valley { seed, .. } => *seed,
         TerrainSource::Flat { .. } | TerrainSource::File { .. } => 1,
     };
     let mut stream = RandomStream::new(seed, "view.plants");
     let (mut tall, mut slim, mut rocks) = (Vec::new(), Vec::new(), Vec::new());
-    // A photograph already shows the site's own trees and rocks.
-    if scenario.terrain.photo.is_some() {
-        return Vec::new();
-    }
     let half = 0.49 * scenario.terrain.size_m;
     for _ in 0..40 * quality.trees {
         if tall.len() + slim.len() >= quality.trees {
