@@ -1,6 +1,6 @@
 //! Places random defects. A line of sight from a task's path finds an exposed face within reach, [`crate::elements`] lists the
 //! defect codes permitted there, and [`super::visibility`] decides whether the defect can be photographed without leaving the
-//! path by more than the task's threshold. Each seed yields different positions. [`super::causes`] places defects where their causes
+//! path by more than the task's threshold. Each seed yields different positions. `causes` places defects where their causes
 //! produce them instead.
 
 use super::causes;

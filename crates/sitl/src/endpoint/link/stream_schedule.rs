@@ -84,7 +84,7 @@ impl StreamSchedule {
         self.next_due = soonest;
     }
 
-    /// Makes a message due now on which a client waits that requested it at [`MAX_RATE_HZ`]. With ticks of 1 ms, every second interval
+    /// Makes a message due now on which a client waits that requested it at `MAX_RATE_HZ`. With ticks of 1 ms, every second interval
     /// of such a stream is 3 ms, longer than a control tick. Slower streams keep their times.
     pub fn hasten(&mut self, message: u32, now: SimTime) {
         let fastest = period(MAX_RATE_HZ);
