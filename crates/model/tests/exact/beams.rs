@@ -1,9 +1,12 @@
 //! What the tests of beam bridges share.
 
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::Bridge;
+use spandrel_model::scenario::bridges::beam_layout::BeamLayout;
+use spandrel_model::scenario::bridges::path::PathPlace;
 use spandrel_model::scenario::bridges::{Member, TaskPath};
+use spandrel_model::scenario::{Bridge, TaskKind};
 use spandrel_model::site::convex::Convex;
+use std::ops::RangeInclusive;
 
 /// Tolerance for rounding errors in positions, m.
 pub const ROUNDING_TOLERANCE_M: f64 = 1e-9;
@@ -44,4 +47,19 @@ pub fn hit(shapes: &[(String, Convex)], from: Vec3<Enu>, view: Vec3<Enu>) -> Opt
 /// Returns the name of the first member in view from a point of a path.
 pub fn seen(shapes: &[(String, Convex)], path: &TaskPath, k: usize) -> Option<String> {
     hit(shapes, path.path_m[k], path.viewing_directions[k])
+}
+
+/// Asserts that the bearing lines of these supports view the bearing of each beam.
+pub fn assert_bearings_are_in_view(bridge: &Bridge, layout: &BeamLayout, supports: RangeInclusive<usize>) {
+    let shapes = shapes(bridge);
+    for support in supports {
+        let place = PathPlace { support: Some(support), span: None };
+        let path = bridge.task_path_at(TaskKind::BearingLine, 2.5, &place).unwrap();
+        let [x, _, z] = bridge.placement().local(path.path_m[0]);
+        for (line, y) in layout.numbered_lines() {
+            let from = bridge.placement().point([x, y, z]);
+            let name = hit(&shapes, from, path.viewing_directions[0]).unwrap();
+            assert!(name.starts_with(&format!("b/bearing-{support}")) && name.ends_with(&format!("/{line}")), "{name}");
+        }
+    }
 }

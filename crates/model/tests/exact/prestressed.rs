@@ -1,10 +1,9 @@
 //! Tests of prestressed girder bridges: sections and quantities against published values and values computed by hand, and task paths
 //! against the geometry.
 
-use crate::beams::{FOOT_M, ROUNDING_TOLERANCE_M, extent, hit, is_close, named, seen, shapes};
+use crate::beams::{FOOT_M, ROUNDING_TOLERANCE_M, assert_bearings_are_in_view, extent, is_close, named, seen, shapes};
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
-use spandrel_model::scenario::bridges::path::PathPlace;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::{Bridge, BridgeKind, TaskKind};
 
@@ -187,17 +186,7 @@ fn exact_quantities_of_the_default_bridge_match_values_computed_by_hand() {
 fn exact_bearings_are_in_view_from_the_bearing_line() {
     for kind in [Prestressed::default(), simple(), Prestressed { columns: 1.0, column_m: 1.5, ..simple() }] {
         let (layout, bridge) = (kind.layout(), bridge(kind));
-        let shapes = shapes(&bridge);
-        for support in 0..=3 {
-            let place = PathPlace { support: Some(support), span: None };
-            let path = bridge.task_path_at(TaskKind::BearingLine, 2.5, &place).unwrap();
-            let [x, _, z] = bridge.placement().local(path.path_m[0]);
-            for (line, y) in layout.numbered_lines() {
-                let from = bridge.placement().point([x, y, z]);
-                let name = hit(&shapes, from, path.viewing_directions[0]).unwrap();
-                assert!(name.starts_with(&format!("b/bearing-{support}")) && name.ends_with(&format!("/{line}")), "{name}");
-            }
-        }
+        assert_bearings_are_in_view(&bridge, &layout, 0..=3);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tests of through truss bridges: their geometry and quantities against values computed by hand, and their task paths against the
 //! geometry.
 
-use crate::beams::{ROUNDING_TOLERANCE_M, extent, hit, is_close, named, seen, shapes};
+use crate::beams::{ROUNDING_TOLERANCE_M, assert_bearings_are_in_view, extent, is_close, named, seen, shapes};
 use spandrel_model::elements::Element;
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
@@ -176,16 +176,7 @@ fn exact_floor_path_views_the_floor_and_the_bearing_line_views_the_bearings() {
     for k in 0..path.path_m.len() {
         assert!(is_close(bridge.placement().local(path.path_m[k])[2], layout.lines.bottom_z_m - 4.0));
     }
-    for support in 0..=2 {
-        let place = PathPlace { support: Some(support), span: None };
-        let path = bridge.task_path_at(TaskKind::BearingLine, 2.5, &place).unwrap();
-        let [x, _, z] = bridge.placement().local(path.path_m[0]);
-        for (line, y) in layout.numbered_lines() {
-            let from = bridge.placement().point([x, y, z]);
-            let name = hit(&shapes, from, path.viewing_directions[0]).unwrap();
-            assert!(name.starts_with(&format!("b/bearing-{support}")) && name.ends_with(&format!("/{line}")), "{name}");
-        }
-    }
+    assert_bearings_are_in_view(&bridge, &layout, 0..=2);
 }
 
 #[test]
