@@ -15,6 +15,9 @@ const SETTLED_TOLERANCE_M: f32 = 0.5;
 const ROUNDING_TOLERANCE_M: f64 = 0.03;
 /// Maximum height error in the vehicle's own estimate, m.
 const HOLD_TOLERANCE_M: f32 = 0.5;
+/// Maximum error of the estimated climb in the first seconds of a flight, m: the barometer's offset under the rotors' wash
+/// and the height's own noise. An origin that follows the takeoff is wrong by 0.4 m and more.
+const CLIMB_TOLERANCE_M: f64 = 0.25;
 
 fn place(latitude: i32, longitude: i32, altitude: i32) -> Geo {
     Geo {
@@ -121,4 +124,24 @@ fn regress_local_setpoint_is_relative_to_the_pad() {
     let moved = station.sim.truth().rigid.position_m - pad;
     // Ground truth differs from the estimate, because GNSS drifts by a meter or two.
     assert!(moved.horizontal_norm() < 5.0 && (-8.0..-4.0).contains(&moved.down()), "{moved:?}");
+}
+
+#[test]
+fn regress_local_origin_does_not_follow_a_takeoff_at_the_first_moment() {
+    for seed in 1..=5 {
+        let mut station = Station::with_flavor(&flavor::px4::FLAVOR, "drill-hover", seed);
+        let pad = station.sim.truth().rigid.position_m;
+        let armed = (0..100).any(|_| {
+            station.run_ms(20);
+            station.command(1, MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, p(&[1.0])) == MavResult::MAV_RESULT_ACCEPTED
+        });
+        assert!(armed, "seed {seed}");
+        let away = station.command(1, MavCmd::MAV_CMD_NAV_TAKEOFF, p(&[-1.0, 0.0, 0.0, f32::NAN, f32::NAN, f32::NAN, f32::NAN]));
+        assert_eq!(away, MavResult::MAV_RESULT_ACCEPTED);
+        station.run_ms(4_000);
+        let climbed_m = (pad - station.sim.truth().rigid.position_m).down();
+        assert!(climbed_m > 1.0, "seed {seed}: {climbed_m}");
+        let apart_m = (climbed_m + f64::from(local(&mut station)[2])).abs();
+        assert!(apart_m < CLIMB_TOLERANCE_M, "seed {seed}: climbed {climbed_m} m, {apart_m} m more than the local frame says");
+    }
 }

@@ -270,13 +270,18 @@ impl Estimator {
         GnssReading { position_m: fix.position_m + moved_m, velocity_m_s: fix.velocity_m_s + gained_m_s, ..*fix }
     }
 
-    /// Sets the origin of the local frame to the vehicle position once the first fixes are averaged.
+    /// Sets the origin of the local frame to the vehicle position once the first fixes are averaged, or as soon as the
+    /// motors run, because an origin that follows a moving vehicle hides its motion.
     fn set_local_origin(&mut self, now: SimTime) {
-        let first = *self.first_fix.get_or_insert(now);
-        if !self.local_origin_set {
-            self.local_origin_m = self.position_m;
-            self.local_origin_set = (now - first).s() >= LOCAL_ORIGIN_AVERAGING_TIME_S;
+        if self.local_origin_set {
+            return;
         }
+        let averaged_s = self.first_fix.map(|first| (now - first).s());
+        if self.motors_off || averaged_s.is_none() {
+            self.local_origin_m = self.position_m;
+        }
+        self.first_fix.get_or_insert(now);
+        self.local_origin_set = !self.motors_off || averaged_s.is_some_and(|s| s >= LOCAL_ORIGIN_AVERAGING_TIME_S);
     }
 
     fn align(&mut self, reading: &ImuReading, readings: &Readings, dt_s: f64, now: SimTime) {
