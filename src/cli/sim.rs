@@ -452,6 +452,7 @@ fn run_vehicle(
     while !stop.is_requested() && shell.core.now() < end {
         if let Err(error) = shell.run_until(end) {
             stop.request();
+            shell.finish();
             return Err(error);
         }
         if let Some(progress) = &mut progress {

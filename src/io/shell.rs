@@ -200,7 +200,7 @@ impl VehicleShell {
         self.pacer.resync(wall, self.core.now());
         if let Some(autopilot) = &mut self.autopilot {
             // A pause is no silence of the autopilot.
-            autopilot.host.note_answer(wall);
+            autopilot.host.note_progress(wall);
         }
         self.links.wait(MAX_SOCKET_WAIT);
     }
@@ -400,9 +400,10 @@ impl VehicleShell {
             }
             LinkEvent::AutopilotConnected => self.connect_autopilot(),
             LinkEvent::AutopilotBytes(bytes) => {
+                let before = self.core.autopilot_state();
                 self.core.handle_autopilot_bytes(&bytes);
                 if let Some(autopilot) = &mut self.autopilot {
-                    autopilot.host.note_answer(self.stopwatch.elapsed());
+                    autopilot.host.note_bytes(before, self.core.autopilot_state(), self.stopwatch.elapsed());
                 }
             }
             LinkEvent::AutopilotClosed => {

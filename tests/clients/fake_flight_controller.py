@@ -36,7 +36,7 @@ class FlightController(fake_px4.Autopilot):
         self.mav = mavlink.MAVLink(None, srcSystem=system_id, srcComponent=1)
         self.mav.robust_parsing = True
         self.behavior, self.first_reading, self.last_reading = behavior, None, None
-        self.readings, self.armed, self.throttle = 0, False, 0.0
+        self.readings, self.armed, self.throttle, self.version = 0, False, 0.0, fake_px4.VERSION
         self.sensor, self.reboots, self.commands, self.kinds = None, 0, 0, {}
         self.clock_start_ns = -int(CLOCK_OFFSET_S * 1e9)
         self.ends, self.power_cycle = threading.Event(), threading.Event()

@@ -4,10 +4,13 @@ It is started in place of PX4. The file `behavior` in its build folder selects h
   fly       answers every HIL_SENSOR 0 with motor commands and takes MANUAL_CONTROL and arming commands
   absent    never connects
   mute      connects and never answers
+  babble    connects and sends bytes that are no answers
   silent    answers for a while, then only keeps the connection open
-  close     answers for a while, then closes the connection
-  exit      answers for a while, then exits
+  chatter   answers for a while, then sends bytes that are no answers
+  close     takes off, then closes the connection in flight
+  exit      takes off, then exits in flight
   garbage   like fly, with bytes between the answers that are no messages
+  version   like fly, with a version that Spandrel has not been flown with
 """
 
 import os
@@ -22,6 +25,12 @@ from pymavlink.dialects.v20 import common as mavlink  # noqa: E402
 
 # Readings before the first answer, until the autopilot can arm, and until it misbehaves.
 SILENT_READINGS, READY, MISBEHAVES = 10, 250, 1500
+# Bytes that are no message, and the time between them, s.
+NOISE, NOISE_PAUSE_S = b"\x00\xfdnoise", 0.1
+# Versions as in AUTOPILOT_VERSION: major, minor, patch, release type.
+VERSION, OTHER_VERSION = bytes((255, 0, 16, 1)), bytes((255, 0, 9, 9))
+GIT_HASH = 0x1234_5678_9ABC_DEF0
+PARAMETERS = {b"MPC_XY_CRUISE": 5.0, b"MIS_TAKEOFF_ALT": 2.5}
 # Motor command at hover (phantom2), gains on the angular rate (per rad/s) and the specific force (per m/s2), and the
 # change of the command at full throttle.
 HOVER, RATE_GAIN, TILT_GAIN, CLIMB = 0.59, 0.05, 0.004, 0.06
@@ -43,6 +52,7 @@ class Autopilot:
         self.wire = mavlink.MAVLink(None, srcSystem=instance + 1, srcComponent=1)
         self.wire.robust_parsing = True
         self.readings, self.armed, self.throttle = 0, False, 0.0
+        self.version = VERSION
 
     def say(self, message):
         """Sends a message on the MAVLink link."""
@@ -51,10 +61,20 @@ class Autopilot:
     def report(self):
         """Sends the periodic messages."""
         self.say(mavlink.MAVLink_heartbeat_message(2, 12, self.mode(), 3 << 16, 3, 3))
-        health = mavlink.MAV_SYS_STATUS_PREARM_CHECK if self.readings > READY else 0
+        self.report_state()
+
+    def can_arm(self):
+        """Returns whether the checks before arming pass."""
+        return self.readings > READY
+
+    def report_state(self):
+        """Sends the messages that the autopilots have in common."""
+        health = mavlink.MAV_SYS_STATUS_PREARM_CHECK if self.can_arm() else 0
         self.say(mavlink.MAVLink_sys_status_message(0, 0, health, 0, 12000, 0, 100, 0, 0, 0, 0, 0, 0))
         flying = self.armed and self.throttle > 0.4
         self.say(mavlink.MAVLink_extended_sys_state_message(0, 2 if flying else 1))
+        custom, version = GIT_HASH.to_bytes(8, "little"), int.from_bytes(self.version, "little")
+        self.say(mavlink.MAVLink_autopilot_version_message(0, version, 0, 0, 0, custom, custom, custom, 0, 0, 0))
 
     def hear(self):
         """Handles the messages on the MAVLink link."""
@@ -71,6 +91,9 @@ class Autopilot:
         kind = message.get_type()
         if kind == "MANUAL_CONTROL":
             self.throttle = message.z / 1000.0
+        elif kind == "PARAM_REQUEST_LIST":
+            for index, (name, value) in enumerate(PARAMETERS.items()):
+                self.say(mavlink.MAVLink_param_value_message(name, value, mavlink.MAV_PARAM_TYPE_REAL32, len(PARAMETERS), index))
         elif kind == "COMMAND_LONG" and message.target_component <= 1:
             if message.command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
                 self.armed = message.param1 > 0.5
@@ -107,6 +130,7 @@ def main():
     if behavior == "absent":
         time.sleep(3600)
     autopilot = Autopilot(instance)
+    autopilot.version = OTHER_VERSION if behavior == "version" else VERSION
     link = socket.create_connection(("127.0.0.1", port))
     link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     while data := link.recv(65536):
@@ -117,16 +141,28 @@ def main():
             autopilot.hear()
             if autopilot.readings % 50 == 1:
                 autopilot.report()
-            if behavior == "mute" or autopilot.readings <= SILENT_READINGS:
+            if behavior == "babble":
+                link.sendall(NOISE)
+            if behavior in ("mute", "babble") or autopilot.readings <= SILENT_READINGS:
                 continue
+            if behavior in ("close", "exit"):
+                autopilot.armed, autopilot.throttle = True, 1.0
             if autopilot.readings > MISBEHAVES:
-                if behavior == "silent":
-                    time.sleep(3600)
-                if behavior in ("close", "exit"):
-                    link.close()
-                    time.sleep(0 if behavior == "exit" else 3600)
-                    sys.exit(7)
-            link.sendall((b"\x00\xfdnoise" if behavior == "garbage" else b"") + autopilot.answer(message))
+                misbehave(link, behavior)
+            link.sendall((NOISE if behavior == "garbage" else b"") + autopilot.answer(message))
+
+
+def misbehave(link, behavior):
+    """Does what the behavior demands after a while. Some don't return."""
+    if behavior == "silent":
+        time.sleep(3600)
+    while behavior == "chatter":
+        link.sendall(NOISE)
+        time.sleep(NOISE_PAUSE_S)
+    if behavior in ("close", "exit"):
+        link.close()
+        time.sleep(0 if behavior == "exit" else 3600)
+        sys.exit(7)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,11 @@
-"""External autopilots as processes, with a small program in place of PX4: start, misbehavior, restarts, several vehicles.
+"""External autopilots as processes, with small programs in place of PX4 and ArduPilot: start, misbehavior, restarts, several vehicles.
 Real PX4 and ArduPilot are in test_real_autopilots.py."""
 
 import json
+import os
 import pathlib
 import re
+import signal
 import socket
 import subprocess
 import sys
@@ -11,48 +13,58 @@ import sys
 import pytest
 from pymavlink import mavutil
 
+import fake_px4
 import spandrel
 from spandrel import wait_for
 
-FAKE = pathlib.Path(__file__).with_name("fake_px4.py")
+HERE = pathlib.Path(__file__).parent
+NAMES = {"px4": "PX4", "ardupilot": "ArduPilot"}
+BOTH = pytest.mark.parametrize("kind", NAMES)
 # Height that counts as flying, m.
 HEIGHT_M = 2.0
 # Timeout of the simulator for an autopilot that does not answer, s: short, so that the tests of failures end soon.
 TIMEOUT_S = 2
 
 
-def build(folder, behavior="fly"):
-    """Creates a folder that looks like PX4's build folder, with the small autopilot as its program."""
-    folder = pathlib.Path(folder) / "px4"
-    (folder / "bin").mkdir(parents=True)
-    (folder / "etc" / "init.d-posix").mkdir(parents=True)
-    (folder / "etc" / "init.d-posix" / "rcS").write_text("", encoding="utf-8")
-    (folder / "behavior").write_text(behavior, encoding="utf-8")
-    program = folder / "bin" / "px4"
-    text = f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(FAKE.parent)!r})\nimport fake_px4\nfake_px4.main()\n"
+def build(folder, behavior="fly", kind="px4"):
+    """Creates a folder that looks like the autopilot's build folder, with the small autopilot as its program."""
+    folder = pathlib.Path(folder) / kind
+    program = folder / {"px4": "bin/px4", "ardupilot": "build/sitl/bin/arducopter"}[kind]
+    program.parent.mkdir(parents=True)
+    if kind == "px4":
+        (folder / "etc" / "init.d-posix").mkdir(parents=True)
+        (folder / "etc" / "init.d-posix" / "rcS").write_text("", encoding="utf-8")
+    set_behavior(folder, behavior)
+    text = f"#!{sys.executable}\nimport sys\nsys.path.insert(0, {str(HERE)!r})\nimport fake_{kind}\nfake_{kind}.main()\n"
     program.write_text(text, encoding="utf-8")
     program.chmod(0o755)
     return folder
 
 
-def arguments(px4, *more, scenario="drill-hover", timeout_s=TIMEOUT_S):
+def set_behavior(folder, behavior):
+    """Sets how the small autopilot behaves after its next start."""
+    place = folder if folder.name == "px4" else folder / "build/sitl/bin"
+    (place / "behavior").write_text(behavior, encoding="utf-8")
+
+
+def arguments(autopilot, *more, scenario="drill-hover", timeout_s=TIMEOUT_S, command=("sim", "--ports", "ephemeral")):
     """Returns the command line of a simulator with that autopilot: a build folder, or a tuple of options in place of --px4."""
-    own = px4 if isinstance(px4, tuple) else ("--px4", str(px4))
+    own = ("px4", *autopilot) if isinstance(autopilot, tuple) else (autopilot.name, f"--{autopilot.name}", str(autopilot))
     return [
-        spandrel.PROGRAM, "sim", "--scenario", scenario, "--seed", "7", "--ports", "ephemeral", "--autopilot", "px4", *own,
-        "--autopilot-timeout", str(timeout_s), *more,
+        spandrel.PROGRAM, *command, "--scenario", scenario, "--seed", "7", "--autopilot", *own, "--autopilot-timeout", str(timeout_s), *more,
     ]
 
 
 class Vehicle:
     """A simulator with an external autopilot, and a ground station."""
 
-    def __init__(self, folder, px4, *more, stdin=subprocess.DEVNULL, timeout_s=TIMEOUT_S):
+    def __init__(self, folder, autopilot, *more, stdin=subprocess.DEVNULL, timeout_s=TIMEOUT_S):
+        self.autopilot = autopilot
         self.folder = pathlib.Path(folder)
         self.port = spandrel.free_udp_port()
         self.station = mavutil.mavlink_connection(f"udpin:127.0.0.1:{self.port}", source_system=255, source_component=190)
         self.log = open(self.folder / "sim.txt", "w", encoding="utf-8")
-        command = arguments(px4, "--gcs", f"127.0.0.1:{self.port}", "--autopilot-dir", str(self.folder / "work"), "--announce", *more, timeout_s=timeout_s)
+        command = arguments(autopilot, "--gcs", f"127.0.0.1:{self.port}", "--autopilot-dir", str(self.folder / "work"), "--announce", *more, timeout_s=timeout_s)
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.log, stdin=stdin, text=True)
         self.bound = json.loads(self.process.stdout.readline())
 
@@ -67,6 +79,14 @@ class Vehicle:
             assert message is not None or self.process.poll() is None, f"the simulator has exited: {self.output()[-1000:]}"
             return message if message is not None and predicate(message) else None
         return wait_for(kind, next_one)
+
+    def started(self):
+        """Returns the numbers of the processes that were started."""
+        return [int(number) for number in re.findall(r"started \w+ \(process (\d+)\)", self.output())]
+
+    def record(self):
+        """Returns the record of the autopilot."""
+        return json.loads((self.folder / "work" / "autopilot.json").read_text(encoding="utf-8"))
 
     def discard(self):
         """Discards the messages that have arrived so far. Otherwise, they fill the socket's buffer, which then loses the next ones."""
@@ -101,41 +121,73 @@ class Vehicle:
 
 
 @pytest.fixture
-def vehicle(request, tmp_path):
-    """A simulator with the small autopilot."""
-    vehicle = Vehicle(tmp_path, build(tmp_path, getattr(request, "param", "fly")))
-    yield vehicle
-    vehicle.close()
+def start(tmp_path):
+    """Returns a function that starts a simulator with the small autopilot."""
+    started = []
+
+    def one(*more, behavior="fly", kind="px4", **options):
+        started.append(Vehicle(tmp_path, build(tmp_path, behavior, kind), *more, **options))
+        return started[-1]
+
+    yield one
+    for vehicle in started:
+        vehicle.close()
 
 
-@pytest.mark.parametrize("vehicle", ["fly", "garbage"], indirect=True)
-def test_takes_off_and_records_the_autopilot(vehicle):
+@pytest.fixture
+def vehicle(start):
+    """A simulator with the small autopilot in place of PX4."""
+    return start()
+
+
+@pytest.mark.parametrize(("kind", "behavior"), [("px4", "fly"), ("px4", "garbage"), ("ardupilot", "fly"), ("ardupilot", "garbage"), ("ardupilot", "resend")])
+def test_takes_off_and_records_the_autopilot(start, kind, behavior):
+    vehicle = start(behavior=behavior, kind=kind)
     vehicle.take_off()
     spandrel.end(vehicle.process)
-    record = json.loads((vehicle.folder / "work" / "autopilot.json").read_text(encoding="utf-8"))
-    assert record["autopilot"] == "PX4" and record["reproducible"] is False
-    assert float(record["parameters_set_at_start"]["CA_ROTOR_COUNT"]) == 4
+    record = vehicle.record()
+    assert record["autopilot"] == NAMES[kind] and record["reproducible"] is False
+    set_at_start = {"px4": ("CA_ROTOR_COUNT", 4), "ardupilot": ("FRAME_CLASS", 1)}[kind]
+    assert float(record["parameters_set_at_start"][set_at_start[0]]) == set_at_start[1]
+    assert record["version"]["number"] == {"px4": "1.16.0", "ardupilot": "4.6.3"}[kind]
+    assert record["parameters"].keys() == {name.decode() for name in fake_px4.PARAMETERS}
     assert (vehicle.folder / "work" / "output.log").exists()
+    assert "has been flown with" not in vehicle.output()
+
+
+@BOTH
+def test_other_version_is_named_in_a_warning(start, kind):
+    vehicle = start(behavior="version", kind=kind)
+    vehicle.take_off()
+    assert re.search(rf"WARN Spandrel has been flown with {NAMES[kind]} [\d.]+ to [\d.]+ only", vehicle.output()), vehicle.output()
 
 
 @pytest.mark.parametrize(
-    ("behavior", "code", "words"),
+    ("kind", "behavior", "code", "words"),
     [
-        ("absent", 3, "has not connected to the simulator"),
-        ("mute", 3, "has not sent motor commands"),
-        ("silent", 4, "has not answered"),
-        ("close", 5, "closed its connection"),
-        ("exit", 5, "exited"),
+        ("px4", "absent", 3, "has not connected to the simulator"),
+        ("px4", "mute", 3, "has not sent motor commands"),
+        ("px4", "babble", 3, "has not sent motor commands"),
+        ("px4", "silent", 4, "has not answered"),
+        ("px4", "chatter", 4, "has not answered"),
+        ("px4", "close", 5, "has closed its connection"),
+        # The connection closes slightly before the process exits; both messages are correct then.
+        ("px4", "exit", 5, "exited|has closed its connection"),
+        ("ardupilot", "absent", 3, "has not connected to the simulator"),
+        ("ardupilot", "blind", 4, "has not answered"),
+        ("ardupilot", "silent", 4, "has not answered"),
+        ("ardupilot", "exit", 5, "exited"),
     ],
 )
-def test_misbehavior_ends_with_its_own_message_and_exit_code(tmp_path, behavior, code, words):
-    command = arguments(build(tmp_path, behavior), "--autopilot-dir", str(tmp_path / "work"), "--speed", "max")
+def test_misbehavior_ends_with_its_own_message_and_exit_code(tmp_path, kind, behavior, code, words):
+    command = arguments(build(tmp_path, behavior, kind), "--autopilot-dir", str(tmp_path / "work"), "--speed", "max")
     done = subprocess.run(command, capture_output=True, text=True, timeout=spandrel.FLIGHT_LIMIT_S, check=False)
-    accepted = {code} if behavior != "exit" else {5}
-    assert done.returncode in accepted, done.stderr
-    # The connection closes slightly before the process exits; both messages are correct then.
-    words = f"{words}|closed its connection" if behavior == "exit" else words
-    assert re.search(words, done.stderr) and "output.log" in done.stderr, done.stderr
+    assert done.returncode == code, done.stderr
+    assert re.search(f"{NAMES[kind]} ({words})", done.stderr) and "output.log" in done.stderr, done.stderr
+    assert ("lift-off" in done.stderr) == (behavior in ("close", "exit")), done.stderr
+    # What was known of the autopilot is recorded even if the flight ends so.
+    record = json.loads((tmp_path / "work" / "autopilot.json").read_text(encoding="utf-8"))
+    assert (record["version"] is not None) == (behavior in ("silent", "chatter", "close", "exit")), record["version"]
 
 
 def test_demo_keeps_the_exit_code(tmp_path):
@@ -181,39 +233,83 @@ def test_second_connection_is_rejected_and_the_flight_goes_on(vehicle):
     assert "rejected a second connection" in vehicle.output()
 
 
-def test_reboot_command_restarts_the_process(vehicle):
+@BOTH
+def test_reboot_command_restarts_the_autopilot(start, kind):
+    """PX4 gets a new process. ArduPilot restarts in its process, and counts its packets from 0 again."""
+    vehicle = start(kind=kind)
     vehicle.hear("HIL_STATE_QUATERNION")
-    started = lambda: re.findall(r"started PX4 \(process (\d+)\)", vehicle.output())  # noqa: E731
     reboot = mavutil.mavlink.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN
     assert vehicle.command(1, reboot, 1) == mavutil.mavlink.MAV_RESULT_ACCEPTED
-    wait_for("a second process", lambda: len(started()) == 2)
+    processes = {"px4": 2, "ardupilot": 1}[kind]
+    wait_for("the processes", lambda: len(vehicle.started()) == processes)
+    wait_for("a second start", lambda: vehicle.output().count("the autopilot is ready") == 2)
     vehicle.take_off()
-    assert len(set(started())) == 2
+    assert len(set(vehicle.started())) == processes
 
 
-def test_autopilot_ends_with_the_simulator(vehicle):
+def test_record_survives_a_process_that_does_not_become_ready(start):
+    vehicle = start()
     vehicle.hear("HIL_STATE_QUATERNION")
-    process = int(re.search(r"started PX4 \(process (\d+)\)", vehicle.output())[1])
+    wait_for("the record", lambda: (vehicle.folder / "work" / "autopilot.json").exists())
+    wait_for("the parameters", lambda: vehicle.hear("PARAM_VALUE"))
+    set_behavior(vehicle.autopilot, "mute")
+    vehicle.command(1, mavutil.mavlink.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, 1)
+    vehicle.process.wait(timeout=spandrel.FLIGHT_LIMIT_S)
+    assert vehicle.process.returncode == 3, vehicle.output()
+    assert vehicle.record()["version"]["number"] == "1.16.0"
+
+
+def test_ardupilot_keeps_its_parameters_after_a_crash(start):
+    """Only the first start deletes those that an earlier session saved."""
+    vehicle = start("--after-crash", "respawn", kind="ardupilot")
+    given = lambda: (vehicle.folder / "work" / "arguments.txt").read_text(encoding="utf-8").split()  # noqa: E731
+    vehicle.take_off()
+    assert given()[-1] == "-w"
+    motor = mavutil.mavlink.FAILURE_UNIT_SYSTEM_MOTOR
+    assert vehicle.command(1, mavutil.mavlink.MAV_CMD_INJECT_FAILURE, motor, mavutil.mavlink.FAILURE_TYPE_OFF, 1) == mavutil.mavlink.MAV_RESULT_ACCEPTED
+    wait_for("a second process", lambda: vehicle.discard() or len(vehicle.started()) == 2)
+    wait_for("its arguments", lambda: given()[-1] != "-w")
+
+
+@pytest.mark.parametrize("kill", [signal.SIGTERM, signal.SIGKILL])
+@BOTH
+def test_autopilot_ends_with_the_simulator(start, kind, kill):
+    vehicle = start(kind=kind)
+    vehicle.hear("HIL_STATE_QUATERNION")
+    process, = vehicle.started()
     assert pathlib.Path(f"/proc/{process}").exists()
-    spandrel.end(vehicle.process)
-    assert not pathlib.Path(f"/proc/{process}").exists()
+    vehicle.process.send_signal(kill)
+    vehicle.process.wait(timeout=spandrel.FLIGHT_LIMIT_S)
+    wait_for("the end of the autopilot", lambda: has_ended(process))
 
 
-def test_user_can_start_the_autopilot(tmp_path):
-    vehicle = Vehicle(tmp_path, build(tmp_path), "--wait")
+def has_ended(process):
+    """Returns whether a process has ended. Nobody may collect the exit status of an orphan in a container."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+@BOTH
+def test_user_can_start_the_autopilot(tmp_path, kind):
+    vehicle = Vehicle(tmp_path, build(tmp_path, kind=kind), "--wait")
     command = wait_for("the command", lambda: re.search(r"^\(cd .*\)$", vehicle.output(), re.MULTILINE))[0]
     with open(tmp_path / "autopilot.txt", "w", encoding="utf-8") as log:
-        autopilot = subprocess.Popen(["sh", "-c", command], stdout=log, stderr=log, stdin=subprocess.DEVNULL)
+        autopilot = subprocess.Popen(["sh", "-c", command], stdout=log, stderr=log, stdin=subprocess.DEVNULL, start_new_session=True)
         try:
             vehicle.take_off()
         finally:
             vehicle.close()
-            # The autopilot ends by itself when the simulator closes the connection.
+            # PX4 ends by itself when the simulator closes the connection. ArduPilot waits for another simulator.
+            if kind == "ardupilot":
+                os.killpg(autopilot.pid, signal.SIGTERM)
             autopilot.wait(timeout=spandrel.FLIGHT_LIMIT_S)
 
 
-def test_four_vehicles_have_four_autopilots(tmp_path):
-    vehicle = Vehicle(tmp_path, build(tmp_path), "--instances", "4")
+@BOTH
+def test_four_vehicles_have_four_autopilots(tmp_path, kind):
+    vehicle = Vehicle(tmp_path, build(tmp_path, kind=kind), "--instances", "4")
     ready = set()
 
     def all_ready():

@@ -71,11 +71,12 @@ impl AutopilotKind {
         }
     }
 
-    /// Returns the versions that Spandrel has been flown with: the first and the last one, major and minor number.
+    /// Returns the versions that Spandrel has been flown with (docs/src/measured/autopilots.md): the first and the last one, major and
+    /// minor number.
     pub fn tested_versions(self) -> [[u8; 2]; 2] {
         match self {
             Self::Px4 => [[1, 16], [1, 16]],
-            Self::ArduPilot => [[4, 6], [4, 6]],
+            Self::ArduPilot => [[4, 6], [4, 7]],
         }
     }
 

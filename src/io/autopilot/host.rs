@@ -50,6 +50,8 @@ pub struct AutopilotHost {
     last_exit_check: Duration,
     starts: u32,
     recorded: Option<String>,
+    /// Whether the record has a version, and its number of parameters.
+    recorded_amount: (bool, usize),
     logged: Option<FirmwareVersion>,
 }
 
@@ -99,6 +101,7 @@ impl AutopilotHost {
             last_exit_check: Duration::ZERO,
             starts: 0,
             recorded: None,
+            recorded_amount: (false, 0),
             logged: None,
         }
     }
@@ -138,7 +141,7 @@ impl AutopilotHost {
         }
         match &self.program {
             Some(program) if !self.wait => {
-                self.process = Some(AutopilotProcess::start(self.kind, program, &self.launch, &self.folder)?);
+                self.process = Some(AutopilotProcess::start(self.kind, program, &self.launch, &self.folder, self.starts == 1)?);
             }
             _ => self.print_command(),
         }
@@ -171,7 +174,7 @@ impl AutopilotHost {
         let path: Vec<_> = path.map(|path| ("PATH".to_owned(), path.to_string_lossy().into_owned())).into_iter().collect();
         let etc = self.program.as_ref().and_then(|program| program.etc.as_ref());
         let etc: Vec<_> = etc.map(|etc| etc.to_string_lossy().into_owned()).into_iter().collect();
-        let line = self.launch.command_line(&program, &path, &etc);
+        let line = self.launch.command_line(self.starts == 1, &program, &path, &etc);
         let folder = std::fs::canonicalize(&self.folder).unwrap_or_else(|_| self.folder.clone());
         eprintln!("Waiting for {name}. {again}:\n(cd {} && env {line})", shell_quoted(&folder.to_string_lossy()));
     }
@@ -199,8 +202,16 @@ impl AutopilotHost {
         self.check_silence(stage, wall.saturating_sub(self.stage.1))
     }
 
-    /// Records that an answer has arrived, which ends a silence even if the next readings are sent at once.
-    pub fn note_answer(&mut self, wall: Duration) {
+    /// Records what bytes from the autopilot have changed. An answer ends a silence even if the next readings are sent at once; bytes that
+    /// are no answer don't. A flight controller's motor commands answer no particular readings, so all of them count.
+    pub fn note_bytes(&mut self, before: Option<AutopilotState>, after: Option<AutopilotState>, wall: Duration) {
+        if self.is_flight_controller() || is_answer(before, after) {
+            self.note_progress(wall);
+        }
+    }
+
+    /// Records that the time so far is no silence of the autopilot.
+    pub fn note_progress(&mut self, wall: Duration) {
         self.stage.1 = wall;
         self.warned = false;
     }
@@ -293,9 +304,15 @@ impl AutopilotHost {
         }
     }
 
-    /// Writes which autopilot flew, with its version and parameters, if this is not recorded yet.
+    /// Writes which autopilot flew, with its version and parameters, if this is not recorded yet. A process that starts again has not
+    /// reported everything, so its report replaces a record only when it contains as much.
     pub fn record(&mut self, core: &Sim) {
         let Some(report) = core.autopilot_report() else { return };
+        let amount = (report.version.is_some(), report.parameters.len());
+        if self.recorded.is_some() && (amount.0 < self.recorded_amount.0 || amount.1 < self.recorded_amount.1) {
+            return;
+        }
+        self.recorded_amount = amount;
         let text = record::text(self.kind, report, &self.launch.parameters);
         if self.recorded.as_ref() == Some(&text) {
             return;
@@ -305,4 +322,14 @@ impl AutopilotHost {
         }
         self.recorded = Some(text);
     }
+}
+
+/// Returns whether the exchange has progressed from one state to another: the first answer or the one that was outstanding has arrived.
+fn is_answer(before: Option<AutopilotState>, after: Option<AutopilotState>) -> bool {
+    let has_answered =
+        |state| !matches!(state, AutopilotState::Disconnected | AutopilotState::Starting { has_answered: false, .. });
+    let is_waiting =
+        |state| matches!(state, AutopilotState::Starting { is_waiting: true, .. } | AutopilotState::Running { is_waiting: true });
+    let (Some(before), Some(after)) = (before, after) else { return false };
+    has_answered(after) && (!has_answered(before) || (is_waiting(before) && !is_waiting(after)))
 }

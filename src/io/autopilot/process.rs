@@ -18,17 +18,23 @@ pub struct AutopilotProcess {
 }
 
 impl AutopilotProcess {
-    /// Writes the files and starts the process in its working directory.
+    /// Starts the process in its working directory, for the first time or again.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written or the process cannot be started.
-    pub fn start(kind: AutopilotKind, program: &AutopilotProgram, launch: &Launch, folder: &Path) -> Result<Self, AppError> {
+    pub fn start(
+        kind: AutopilotKind,
+        program: &AutopilotProgram,
+        launch: &Launch,
+        folder: &Path,
+        is_first: bool,
+    ) -> Result<Self, AppError> {
         let output = output_file(folder)?;
         let errors = output.try_clone().map_err(|error| AppError::failed(format!("{}: {error}", folder.display())))?;
         let child =
-            command(program, launch, folder).stdin(Stdio::null()).stdout(output).stderr(errors).spawn().map_err(|error| {
-                AppError::failed(format!("cannot start {} ({}): {error}", kind.name(), program.binary.display()))
-            })?;
+            command(program, launch, folder, is_first).stdin(Stdio::null()).stdout(output).stderr(errors).spawn().map_err(
+                |error| AppError::failed(format!("cannot start {} ({}): {error}", kind.name(), program.binary.display())),
+            )?;
         tracing::info!(
             "started {} (process {}); its output goes to {}",
             kind.name(),
@@ -95,9 +101,9 @@ fn output_file(folder: &Path) -> Result<File, AppError> {
 
 /// Returns the command. The working directory and the program's folder come first on the search path, because PX4's startup script
 /// finds our scripts and its own commands there.
-fn command(program: &AutopilotProgram, launch: &Launch, folder: &Path) -> Command {
-    let mut command = Command::new(&program.binary);
-    command.args(&launch.args);
+fn command(program: &AutopilotProgram, launch: &Launch, folder: &Path, is_first: bool) -> Command {
+    let mut command = ends_with_owner(&program.binary);
+    command.args(launch.args(is_first));
     if let Some(etc) = &program.etc {
         command.arg(etc);
     }
@@ -105,6 +111,24 @@ fn command(program: &AutopilotProgram, launch: &Launch, folder: &Path) -> Comman
     if let Some(path) = search_path(program, folder) {
         command.env("PATH", path);
     }
+    command
+}
+
+/// Returns a command whose process the kernel ends when the calling thread has ended, even if the thread was killed. Otherwise, PX4 would
+/// run on and keep a core busy. Elsewhere than on Linux, or without util-linux's setpriv, returns the plain command.
+fn ends_with_owner(binary: &Path) -> Command {
+    const OPTIONS: [&str; 3] = ["--pdeathsig", "KILL", "--"];
+    let setpriv = || {
+        let mut command = Command::new("setpriv");
+        command.args(OPTIONS);
+        command
+    };
+    let probe = setpriv().arg("true").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    if !cfg!(target_os = "linux") || !probe.is_ok_and(|status| status.success()) {
+        return Command::new(binary);
+    }
+    let mut command = setpriv();
+    command.arg(binary);
     command
 }
 

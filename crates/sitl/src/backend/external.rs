@@ -12,6 +12,9 @@ use spandrel_model::vehicle::SensorSpec;
 
 /// Time on the autopilot's clock within which it should report that it can arm (estimate: ArduPilot's GNSS checks take up to 42 s).
 const READY_TIMEOUT: SimTime = SimTime::from_ms(90_000);
+/// Time on the autopilot's clock for which it must report without a break that it can arm. PX4 withdraws its first report for up to 2 s
+/// while its height estimate settles.
+const READY_HOLD: SimTime = SimTime::from_ms(3_000);
 /// Offset between the seeds of the inertial sensors: any odd number, so that their noise differs.
 const SEED_STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
@@ -38,6 +41,8 @@ pub struct ExternalAutopilot {
     clock_offset: SimTime,
     more_imus: Vec<Imu>,
     sent_at: Option<SimTime>,
+    /// The autopilot's clock since which it has reported that it can arm.
+    ready_since: Option<SimTime>,
 }
 
 impl ExternalAutopilot {
@@ -46,7 +51,7 @@ impl ExternalAutopilot {
     pub fn new(interface: Box<dyn SimulatorInterface>, sensors: &SensorSpec, seed: u64) -> Self {
         let seeds = (1..IMU_COUNT as u64).map(|k| seed.wrapping_add(k.wrapping_mul(SEED_STEP)));
         let more_imus = seeds.map(|seed| Imu::new(sensors, seed)).collect();
-        Self { interface, phase: Phase::Disconnected, clock_offset: SimTime::ZERO, more_imus, sent_at: None }
+        Self { interface, phase: Phase::Disconnected, clock_offset: SimTime::ZERO, more_imus, sent_at: None, ready_since: None }
     }
 
     /// Returns the phase of its process.
@@ -77,6 +82,7 @@ impl ExternalAutopilot {
     pub fn begin_start(&mut self, now: SimTime) {
         self.phase = Phase::Starting { since: self.clock(now) };
         self.sent_at = None;
+        self.ready_since = None;
     }
 
     /// Stops simulation time until another process has connected.
@@ -84,12 +90,15 @@ impl ExternalAutopilot {
         self.phase = Phase::Disconnected;
     }
 
-    /// Ends the start if the autopilot is ready to arm or takes too long. Returns whether it has just ended, with the time that the
+    /// Ends the start if the autopilot stays ready to arm or takes too long. Returns whether it has just ended, with the time that the
     /// start took and whether the autopilot is ready.
     pub fn finish_start(&mut self, now: SimTime, is_ready: bool) -> Option<(SimTime, bool)> {
         let Phase::Starting { since } = self.phase else { return None };
-        let took = self.clock(now) - since;
-        if self.interface.has_answered() && (is_ready || took >= READY_TIMEOUT) {
+        let clock = self.clock(now);
+        let took = clock - since;
+        self.ready_since = if is_ready { self.ready_since.or(Some(clock)) } else { None };
+        let stays_ready = self.ready_since.is_some_and(|ready| clock - ready >= READY_HOLD);
+        if self.interface.has_answered() && (stays_ready || took >= READY_TIMEOUT) {
             self.phase = Phase::Running;
             return Some((took, is_ready));
         }

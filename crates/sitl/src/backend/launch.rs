@@ -25,6 +25,8 @@ pub struct LaunchParam {
 pub struct Launch {
     /// Arguments after the program.
     pub args: Vec<String>,
+    /// Arguments after those, for the first start only.
+    pub first_args: Vec<String>,
     /// Environment variables, sorted by name.
     pub environment: Vec<(String, String)>,
     /// Files in the working directory.
@@ -34,13 +36,24 @@ pub struct Launch {
 }
 
 impl Launch {
+    /// Returns the arguments of the first or of a later start.
+    pub fn args(&self, is_first: bool) -> impl Iterator<Item = &String> {
+        self.args.iter().chain(self.first_args.iter().filter(move |_| is_first))
+    }
+
     /// Returns the line that starts `program` from a POSIX shell in the working directory, with more environment variables and
     /// with arguments after those of the launch.
     #[must_use]
-    pub fn command_line(&self, program: &str, more_environment: &[(String, String)], last_args: &[String]) -> String {
+    pub fn command_line(
+        &self,
+        is_first: bool,
+        program: &str,
+        more_environment: &[(String, String)],
+        last_args: &[String],
+    ) -> String {
         let variables =
             self.environment.iter().chain(more_environment).map(|(name, value)| format!("{name}={}", shell_quoted(value)));
-        let args = self.args.iter().chain(last_args).map(|arg| shell_quoted(arg));
+        let args = self.args(is_first).chain(last_args).map(|arg| shell_quoted(arg));
         let words: Vec<String> = variables.chain([shell_quoted(program)]).chain(args).collect();
         words.join(" ")
     }

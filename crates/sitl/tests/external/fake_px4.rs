@@ -26,6 +26,8 @@ pub struct FakePx4 {
     simulator: (Encoder, Decoder),
     mavlink: (Encoder, Decoder),
     readings: u32,
+    /// Number of readings after which the autopilot can arm.
+    ready_after: u32,
     /// Whether the motors are armed.
     pub armed: bool,
     throttle: f64,
@@ -43,12 +45,23 @@ impl FakePx4 {
             simulator: (Encoder::new(system_id, 1), Decoder::new()),
             mavlink: (Encoder::new(system_id, 1), Decoder::new()),
             readings: 0,
+            ready_after: READINGS_UNTIL_READY,
             armed: false,
             throttle: 0.0,
             tilt: [0.0; 2],
             received: Vec::new(),
             out: Vec::new(),
         }
+    }
+
+    /// Returns whether the autopilot reports that it can arm.
+    pub fn is_ready(&self) -> bool {
+        self.readings > self.ready_after
+    }
+
+    /// Reports that the autopilot cannot arm, for as long as after a start.
+    pub fn withdraw_readiness(&mut self) {
+        self.ready_after = self.readings + READINGS_UNTIL_READY;
     }
 
     /// Returns what PX4 sends when it has connected.
@@ -115,7 +128,7 @@ impl FakePx4 {
             mavlink_version: 3,
         }));
         let mut health = MavSysStatusSensor::empty();
-        health.set(MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK, self.readings > READINGS_UNTIL_READY);
+        health.set(MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK, self.is_ready());
         self.send(&MavMessage::SYS_STATUS(SYS_STATUS_DATA { onboard_control_sensors_health: health, ..Default::default() }));
         let landed_state = if self.armed && self.throttle > 0.4 {
             MavLandedState::MAV_LANDED_STATE_IN_AIR

@@ -2,28 +2,38 @@
 
 use crate::rig::{AUTOPILOT, MONITOR, Rig, STATION};
 use mavlink::MessageData;
+use spandrel_mavlink::codec::Decoder;
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::dialect::*;
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::AfterCrash;
+use spandrel_model::shipped;
+use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
 use std::collections::BTreeSet;
 
 const CAMERA: u8 = 100;
 const GIMBAL: u8 = 154;
 const LAMP: u8 = 243;
 const SIMULATOR: u8 = 192;
+/// ZOOM_TYPE_RANGE: the zoom as a percentage of its range.
+const ZOOM_BY_RANGE: f32 = 2.0;
+/// Place on the bank between the first abutment and the first pier of the girder bridge, below the middle of its deck: east, north, m.
+const BELOW_DECK_M: [f64; 2] = [-54.0, 0.0];
 
 #[test]
 fn wire_ground_station_sees_one_autopilot_and_its_equipment() {
     let mut rig = Rig::ready(AfterCrash::Continue);
+    rig.heard.clear();
+    let start = rig.sim.now();
     rig.run_s(5.0);
     let beats = rig.heard(STATION, HEARTBEAT_DATA::ID);
     let senders: BTreeSet<(u8, u8)> = beats.iter().map(|frame| (frame.system_id, frame.component_id)).collect();
     assert_eq!(senders, BTreeSet::from([(1, 1), (1, CAMERA), (1, GIMBAL), (1, LAMP)]));
     // The small autopilot sends five heartbeats a second; all of them are its own.
     let own = beats.iter().filter(|frame| frame.component_id == 1).count();
-    let sent = rig.sim.now().s() * 5.0;
-    assert!((own as f64 - sent).abs() <= 10.0, "{own} heartbeats, {sent} expected");
+    let sent = (rig.sim.now() - start).s() * 5.0;
+    assert!((own as f64 - sent).abs() <= 1.0, "{own} heartbeats, {sent} expected");
 }
 
 #[test]
@@ -63,6 +73,63 @@ fn wire_commands_reach_the_component_that_executes_them() {
     for own in [MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, MavCmd::MAV_CMD_INJECT_FAILURE, MavCmd::MAV_CMD_IMAGE_START_CAPTURE] {
         assert!(!seen.contains(&own), "the autopilot must not execute {own:?} as well");
     }
+}
+
+#[test]
+fn wire_camera_zooms_and_describes_its_video_beside_another_autopilot() {
+    let mut rig = Rig::with_aircraft(shipped::M30);
+    rig.command(CAMERA, MavCmd::MAV_CMD_SET_CAMERA_ZOOM, &[ZOOM_BY_RANGE, 50.0]);
+    rig.command(CAMERA, MavCmd::MAV_CMD_REQUEST_MESSAGE, &[VIDEO_STREAM_INFORMATION_DATA::ID as f32]);
+    rig.run_s(3.0);
+    assert_eq!(rig.last_ack(MavCmd::MAV_CMD_SET_CAMERA_ZOOM), Some((CAMERA, MavResult::MAV_RESULT_ACCEPTED)));
+    let level = rig.sim.payload().camera.zoom.level();
+    assert!((level - 0.5).abs() < 0.01, "{level}");
+    let told = rig.heard(STATION, VIDEO_STREAM_INFORMATION_DATA::ID);
+    assert!(told.iter().any(|frame| frame.component_id == CAMERA), "{told:?}");
+    let seen = rig.px4.commands();
+    assert!(!seen.contains(&MavCmd::MAV_CMD_SET_CAMERA_ZOOM), "the autopilot must not zoom as well: {seen:?}");
+}
+
+/// Returns the GNSS messages that the autopilot gets on a landing pad at this place of the girder bridge's site.
+fn gnss_on_pad(east_m: f64, north_m: f64) -> Vec<HIL_GPS_DATA> {
+    let job = spandrel_model::scenario::read("girder.toml", shipped::GIRDER, &|_| Err("none".into())).unwrap();
+    let site = Site::build(&job, 1);
+    let mut rig = Rig::with_job(AfterCrash::Continue, |changed| {
+        *changed = job;
+        changed.hazards.sky = true;
+        changed.ground_team.pad_m = Vec3::new(east_m, north_m, site.ground_up_m(east_m, north_m));
+    });
+    let mut fixes = Vec::new();
+    let end = rig.sim.now() + SimTime::from_s(10.0);
+    while rig.sim.now() < end {
+        rig.sim.handle_timeout(rig.sim.now() + SimTime::from_ms(4));
+        while let Some(bytes) = rig.sim.poll_autopilot_transmit() {
+            let frames = Decoder::new().datagram(&bytes);
+            fixes.extend(frames.into_iter().filter_map(|frame| match frame.message {
+                Some(MavMessage::HIL_GPS(fix)) => Some(fix),
+                _ => None,
+            }));
+            let answer = rig.px4.simulator(&bytes);
+            rig.sim.handle_autopilot_bytes(&answer);
+        }
+    }
+    fixes
+}
+
+#[test]
+fn wire_sky_below_a_deck_reaches_the_autopilot() {
+    let (open, below) = (gnss_on_pad(-84.0, -46.0), gnss_on_pad(BELOW_DECK_M[0], BELOW_DECK_M[1]));
+    let satellites =
+        |fixes: &[HIL_GPS_DATA]| fixes.iter().map(|fix| f64::from(fix.satellites_visible)).sum::<f64>() / fixes.len() as f64;
+    let accuracy_cm = |fixes: &[HIL_GPS_DATA]| fixes.iter().map(|fix| f64::from(fix.eph)).sum::<f64>() / fixes.len() as f64;
+    let told = format!(
+        "{:.1} and {:.1} satellites, accuracy {:.0} and {:.0} cm",
+        satellites(&open),
+        satellites(&below),
+        accuracy_cm(&open),
+        accuracy_cm(&below)
+    );
+    assert!(satellites(&below) < 0.7 * satellites(&open) && accuracy_cm(&below) > accuracy_cm(&open), "{told}");
 }
 
 /// The inspector belongs to the site, so the simulator answers instead of the autopilot.

@@ -45,20 +45,27 @@ impl Rig {
 
     /// Creates a vehicle whose autopilot has not connected and takes sticks only from this sender.
     pub fn with_stick_sender(after_crash: AfterCrash, stick_sender: Option<(u8, u8)>) -> Self {
-        Self::with_scenario(job(), after_crash, stick_sender)
+        Self::with_scenario(job(), shipped::PHANTOM2, after_crash, stick_sender)
+    }
+
+    /// Creates a vehicle of another aircraft file, whose autopilot is ready.
+    pub fn with_aircraft(text: &str) -> Self {
+        let mut rig = Self::with_scenario(job(), text, AfterCrash::Continue, None);
+        rig.start();
+        rig
     }
 
     /// Creates a vehicle in a changed job, whose autopilot is ready.
     pub fn with_job(after_crash: AfterCrash, change: impl FnOnce(&mut Scenario)) -> Self {
         let mut scenario = job();
         change(&mut scenario);
-        let mut rig = Self::with_scenario(scenario, after_crash, None);
+        let mut rig = Self::with_scenario(scenario, shipped::PHANTOM2, after_crash, None);
         rig.start();
         rig
     }
 
-    fn with_scenario(scenario: Scenario, after_crash: AfterCrash, stick_sender: Option<(u8, u8)>) -> Self {
-        let vehicle = Arc::new(vehicle::read("phantom2.toml", shipped::PHANTOM2).unwrap());
+    fn with_scenario(scenario: Scenario, aircraft: &str, after_crash: AfterCrash, stick_sender: Option<(u8, u8)>) -> Self {
+        let vehicle = Arc::new(vehicle::read("aircraft.toml", aircraft).unwrap());
         let site = Arc::new(Site::build(&scenario, 1));
         let interface = Box::new(Px4Interface::new(&vehicle, 250.0).unwrap());
         let rules = RelayRules { params: &param_view::PX4, restarts_by_process: true, roi_above_sea_level: true, stick_sender };

@@ -9,6 +9,10 @@ use spandrel_sitl::sim::{AutopilotState, SimEvent};
 
 /// Height of the takeoff in these tests, m.
 const HEIGHT_M: f64 = 3.0;
+/// Parameters of MAV_CMD_INJECT_FAILURE: FAILURE_UNIT_SYSTEM_MOTOR, FAILURE_TYPE_OFF, FAILURE_TYPE_OK.
+const MOTOR: f32 = 101.0;
+const FAILURE_OFF: f32 = 1.0;
+const FAILURE_OK: f32 = 0.0;
 /// Tolerance for the position on the pad, m: the aircraft settles on its feet.
 const PAD_TOLERANCE_M: f64 = 0.05;
 
@@ -62,9 +66,10 @@ fn flight_aircraft_is_placed_on_the_pad_after_a_crash_and_takes_off_again() {
     let mut rig = Rig::ready(AfterCrash::Respawn);
     let start = rig.sim.truth().rigid.position_m;
     rig.take_off(HEIGHT_M);
-    // Without lift, the aircraft falls.
-    rig.throttle(0);
+    // Without one motor, the aircraft tips over.
+    rig.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, &[MOTOR, FAILURE_OFF, 1.0]);
     rig.exchange_until(|rig| rig.events.contains(&SimEvent::Respawn));
+    rig.command(1, MavCmd::MAV_CMD_INJECT_FAILURE, &[MOTOR, FAILURE_OK, 1.0]);
     let placed = rig.sim.truth().rigid.position_m;
     assert!((placed - start).norm() < PAD_TOLERANCE_M, "{placed:?} {start:?}");
     assert!(rig.events.iter().any(|event| matches!(event, SimEvent::AutopilotRestart { .. })));
@@ -80,6 +85,40 @@ fn flight_aircraft_is_placed_on_the_pad_after_a_crash_and_takes_off_again() {
     assert!(!rig.sim.armed(), "a new process starts disarmed");
     rig.take_off(HEIGHT_M);
     assert_eq!(rig.sim.hits(), hits, "the respawn is no contact");
+}
+
+#[test]
+fn flight_after_a_crash_the_autopilot_goes_on_or_the_flight_ends() {
+    for (rule, ends) in [(AfterCrash::Continue, false), (AfterCrash::End, true)] {
+        let mut rig = Rig::ready(rule);
+        rig.take_off(HEIGHT_M);
+        rig.throttle(0);
+        rig.exchange_until(|rig| rig.events.iter().any(|event| matches!(event, SimEvent::Crash { .. })));
+        let crashed_at = rig.sim.now();
+        rig.run_s(2.0);
+        assert!(!rig.events.iter().any(|event| matches!(event, SimEvent::AutopilotRestart { .. })), "{rule:?}: {:?}", rig.events);
+        assert_eq!(rig.events.iter().any(|event| matches!(event, SimEvent::Ended { .. })), ends, "{rule:?}: {:?}", rig.events);
+        let placed = rig.events.iter().any(|event| matches!(event, SimEvent::Respawn));
+        assert!(!placed && rig.sim.now() > crashed_at, "{rule:?}: {:?}", rig.events);
+    }
+}
+
+#[test]
+fn exact_start_ends_once_the_autopilot_stays_ready() {
+    let mut rig = Rig::new(AfterCrash::Continue);
+    rig.connect();
+    rig.exchange_until(|rig| rig.px4.is_ready());
+    // As PX4 does while its height estimate settles.
+    rig.px4.withdraw_readiness();
+    rig.exchange_until(|rig| matches!(rig.sim.autopilot_state(), Some(AutopilotState::Running { .. })));
+    let took = rig.events.iter().find_map(|event| match event {
+        SimEvent::AutopilotStarted { took, is_ready: true } => Some(*took),
+        _ => None,
+    });
+    // One second until the first report, another one after it was withdrawn, and then three seconds without a break; reports are 0.2 s
+    // apart.
+    let took = took.unwrap_or_else(|| panic!("{:?}", rig.events));
+    assert!((took.s() - 5.0).abs() < 0.5, "{took}");
 }
 
 #[test]

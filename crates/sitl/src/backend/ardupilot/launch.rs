@@ -10,6 +10,10 @@ pub const DEFAULTS_FILE: &str = "spandrel.parm";
 /// Simulated seconds per second above which ArduPilot would slow itself down. The simulator sets the pace by the time of its
 /// replies.
 const MAX_SPEEDUP: u32 = 100;
+/// Deletes the parameters that an earlier session saved in the working directory, because they would override the defaults. Only
+/// at the first start: parameters that were set in flight survive a crash and a reboot, as on a real aircraft. ArduPilot removes
+/// this option, but not `--wipe`, when a reboot command restarts it.
+const WIPE: &str = "-w";
 /// Number of serial ports besides the first one. All of them stay closed: they would listen on TCP ports.
 const OTHER_SERIAL_PORTS: [u8; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
 
@@ -21,7 +25,7 @@ const OTHER_SERIAL_PORTS: [u8; 8] = [1, 2, 3, 4, 5, 6, 7, 8];
 pub fn launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Result<Launch, FrameError> {
     let parameters = parameters(vehicle, settings)?;
     let file = LaunchFile { name: DEFAULTS_FILE.into(), text: defaults_text(&parameters), executable: false };
-    Ok(Launch { args: args(settings), environment: Vec::new(), files: vec![file], parameters })
+    Ok(Launch { args: args(settings), first_args: vec![WIPE.into()], environment: Vec::new(), files: vec![file], parameters })
 }
 
 fn args(settings: &LaunchSettings) -> Vec<String> {
@@ -41,8 +45,6 @@ fn args(settings: &LaunchSettings) -> Vec<String> {
     for port in OTHER_SERIAL_PORTS {
         option(&format!("serial{port}"), "none:".into());
     }
-    // Parameters that an earlier run saved in the working directory must not override the defaults.
-    args.push("--wipe".into());
     args
 }
 

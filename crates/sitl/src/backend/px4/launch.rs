@@ -24,7 +24,13 @@ pub fn launch(vehicle: &Vehicle, settings: &LaunchSettings) -> Launch {
     environment.extend(parameters.iter().map(|param| (format!("{PARAM_PREFIX}{}", param.name), param.value.clone())));
     environment.sort();
     let files = std::iter::once(scripts::mavlink(settings)).chain(scripts::simulator(settings)).collect();
-    Launch { args: vec!["-i".to_owned(), settings.instance.to_string(), "-d".to_owned()], environment, files, parameters }
+    Launch {
+        args: vec!["-i".to_owned(), settings.instance.to_string(), "-d".to_owned()],
+        first_args: Vec::new(),
+        environment,
+        files,
+        parameters,
+    }
 }
 
 /// Component ID of the autopilot in a parameter file.

@@ -193,7 +193,7 @@ fn exact_other_simulator_port_needs_a_script() {
 fn exact_command_line_quotes_paths_and_contains_everything() {
     let out = launch(&shipped()[0], &settings());
     let path = [("PATH".to_owned(), "/tmp/run:/opt/it's px4/bin".to_owned())];
-    let line = out.command_line("/opt/it's px4/bin/px4", &path, &["/opt/it's px4/etc".to_owned()]);
+    let line = out.command_line(true, "/opt/it's px4/bin/px4", &path, &["/opt/it's px4/etc".to_owned()]);
     let end = r" PATH='/tmp/run:/opt/it'\''s px4/bin' '/opt/it'\''s px4/bin/px4' -i 2 -d '/opt/it'\''s px4/etc'";
     assert!(line.ends_with(end), "{line}");
     for (name, value) in &out.environment {

@@ -130,14 +130,17 @@ fn wire_arguments_open_only_the_chosen_ports() {
     assert_eq!((value("--serial1"), value("--serial8")), ("none:", "none:"));
     assert_eq!(value("--home"), "47.39774200,8.54559400,488.000,90.0");
     assert_eq!((value("--rate"), value("--defaults")), ("500", DEFAULTS_FILE));
-    assert!(launch.args.contains(&"--wipe".into()));
+    // ArduPilot removes only this spelling when a reboot command restarts it.
+    assert_eq!(launch.first_args, ["-w"]);
+    assert!(launch.args(true).any(|arg| arg == "-w") && !launch.args(false).any(|arg| arg == "-w" || arg == "--wipe"));
     assert!(launch.environment.is_empty());
 }
 
 #[test]
 fn exact_command_line_can_be_pasted() {
     let launch = launch(&aircraft("phantom2"), &settings()).expect("frame");
-    let line = launch.command_line("/opt/my builds/arducopter", &[], &[]);
+    let line = launch.command_line(true, "/opt/my builds/arducopter", &[], &[]);
     assert!(line.starts_with("'/opt/my builds/arducopter' --model JSON:127.0.0.1 --sim-port-out 9022 "), "{line}");
-    assert!(line.ends_with("--wipe"), "{line}");
+    assert!(line.ends_with(" -w"), "{line}");
+    assert!(!launch.command_line(false, "arducopter", &[], &[]).contains(" -w"), "parameters survive a restart");
 }
