@@ -26,7 +26,7 @@ pub struct AutopilotArgs {
     /// Do not start the autopilot: print the command, and wait until you have started it
     #[arg(long)]
     pub wait: bool,
-    /// Rate at which the autopilot gets sensor readings, Hz: 250, 500 or 1000 for PX4 [default: the autopilot's own]
+    /// Rate at which the autopilot gets sensor readings, Hz: 250, 500 or 1000 for PX4, 1000 or 500 for ArduPilot [default: the first of these]
     #[arg(long, value_name = "HZ")]
     pub autopilot_rate: Option<u32>,
     /// Port of the simulator interface on this machine, 0 for any free port [default: 4560 + instance for PX4, 9002 + 10 x

@@ -1,7 +1,7 @@
 """The multicopter cases from PX4's own integration tests, with their limits, in the shipped job and above flat ground.
-Omitted because the simulated aircraft lacks the feature: optical flow, terrain estimate without GNSS, several instances
+Omitted because the built-in autopilot lacks the feature: optical flow, terrain estimate without GNSS, several instances
 of sensors or estimators (EKF and GNSS selectors), control allocation of more than four motors, VTOL and fixed wing,
-gravity of the SIH simulator. Parameters by FTP are tested in test_transfers.py, home and geofence in test_plans.py.
+gravity of the SIH simulator, "Follow target - RC Adjustment". Parameters by FTP are tested in test_transfers.py, home and geofence in test_plans.py.
 
 With SPANDREL_PX4, a real PX4 also flies the cases on the simulated aircraft.
 """
