@@ -163,7 +163,7 @@ enum PracticeControls {
 enum AfterCrashArg {
     /// The flight continues; the vehicle stays where it crashed
     Continue,
-    /// The vehicle respawns at its last safe hover
+    /// The vehicle respawns at its last safe hover; with a real autopilot, on the landing pad
     Respawn,
     /// The flight ends
     End,

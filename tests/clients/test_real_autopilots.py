@@ -106,6 +106,17 @@ def test_hovers_flies_a_square_and_lands(autopilot, vehicle, start, measured):
     measured(f"{autopilot}, {vehicle}: hover spread {spread[0]:.2f}, {spread[1]:.2f}, {spread[2]:.2f} m; legs (m/s, m) {legs}")
 
 
+@skip_without("px4")
+@pytest.mark.parametrize("rate_hz", [500, 1000])
+def test_px4_hovers_with_readings_at_higher_rates(rate_hz, start, measured):
+    flown = start("px4", "--autopilot-rate", str(rate_hz))
+    flown.take_off(HEIGHT_M)
+    spread = [max(axis) - min(axis) for axis in zip(*(position for _, position, _ in flown.pass_time(HOVER_S)))]
+    assert math.hypot(*spread[:2]) < HOVER_HORIZONTAL_M and spread[2] < HOVER_VERTICAL_M, spread
+    flown.land()
+    measured(f"px4, {rate_hz} Hz: hover spread {spread[0]:.2f}, {spread[1]:.2f}, {spread[2]:.2f} m")
+
+
 @BOTH
 def test_wire_pymavlink_uses_the_camera_the_gimbal_and_the_lamp(autopilot, start):
     """One vehicle with equipment: one picture, a gimbal that moves while the autopilot manages it, the lamp."""

@@ -14,6 +14,7 @@ from pymavlink import mavutil
 import sdk
 import spandrel
 from spandrel import wait_for
+from test_autopilots import build
 
 # Height that counts as flying in the drill's session, m.
 HEIGHT_M = 2.0
@@ -171,3 +172,14 @@ def test_regress_killed_monitor_is_replaced_in_the_same_session(training):
     assert events.count("monitor_restarted") == 1 and events.count('"lift_off"') == 1
     mavsdk.destroy()
     assert training.end() == 0
+
+
+def test_session_contains_the_output_and_the_record_of_another_autopilot(tmp_path):
+    training = Training(tmp_path, "--autopilot", "px4", "--px4", str(build(tmp_path)))
+    try:
+        folder = training.session() / "autopilot"
+        wait_for("the output", (folder / "output.log").exists)
+        record = json.loads(wait_for("the record", lambda: (folder / "autopilot.json").exists() and (folder / "autopilot.json").read_text(encoding="utf-8")))
+        assert record["autopilot"] == "PX4" and record["version"]["number"] == "1.16.0", record
+    finally:
+        training.close()
