@@ -18,7 +18,7 @@ const COMPASS_RESOLUTION_MGAUSS: f64 = 1.5;
 /// was never calibrated.
 pub const COMPASS_OFFSETS_MGAUSS: [f64; 3] = [5.0, 13.0, -18.0];
 
-/// A parameter and the value that ArduPilot has.
+/// A parameter and the value that ArduPilot got last.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Remote {
     name: &'static str,
@@ -30,7 +30,8 @@ struct Remote {
 
 impl Remote {
     fn new(name: &'static str, default: f64, resolution: f64) -> Self {
-        Self { name, sent: default, resolution, age: 0 }
+        // Sent with the first update, because an ArduPilot that starts again has the values of its last flight.
+        Self { name, sent: default, resolution, age: REPEAT_UPDATES }
     }
 }
 
