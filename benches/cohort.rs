@@ -1,5 +1,5 @@
 //! Measures how long it takes to process a cohort of 10,000 sessions, from parsing the records to computing the last
-//! statistic. The sessions are renamed copies of the example study.
+//! statistic. The sessions are renamed copies of the example study, most of whose sessions are incomplete.
 
 #[path = "support/best.rs"]
 mod best;
@@ -27,7 +27,7 @@ fn main() {
     let lines: Vec<String> = (0..SESSION_COUNT).map(renamed).collect();
     let took = best(ROUNDS, || {
         let records: Vec<SessionRecord> = lines.iter().filter_map(|line| serde_json::from_str(line).ok()).collect();
-        cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Exclude })
+        cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 3, incomplete: IncompletePolicy::Include })
     });
     println!("cohort of {SESSION_COUNT} sessions: {:.2} s (limit {} s)", took.as_secs_f64(), MAX_PROCESSING_TIME.as_secs());
     assert!(took < MAX_PROCESSING_TIME, "limit exceeded");

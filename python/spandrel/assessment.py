@@ -39,13 +39,24 @@ class Assessment:
     """The scored frames, as written by `spandrel export --frames`."""
 
     @property
+    def completion(self) -> dict[str, Any]:
+        """How much of the job was done: whether it is `complete`, `tasks_done` of `tasks`, and the `path_share` from 0 to 1."""
+        return dict(self.data["completion"])
+
+    @property
+    def overall(self) -> float | None:
+        """Sum of the applicable scores; None if the flight is incomplete, because the scores then cover only a part of the job."""
+        return float(self.data["scores"]["overall"]) if self.data["completion"]["complete"] else None
+
+    @property
     def scores(self) -> pandas.DataFrame:
-        """One row per applicable score (index `score`): `raw`, and `pct` from 0 to 100. `overall` is the sum of the `pct` values."""
+        """One row per applicable score (index `score`): `raw`, and `pct` from 0 to 100. `overall` is the sum of the `pct` values;
+        its `pct` is NaN if the flight is incomplete, because the scores then cover only a part of the job."""
         import pandas
 
         scores = self.data["scores"]
         rows = {name: scores[name] for name in ("conformity", "efficiency", "safety", "accuracy") if scores[name]}
-        rows["overall"] = {"raw": None, "pct": scores["overall"]}
+        rows["overall"] = {"raw": None, "pct": self.overall}
         return pandas.DataFrame.from_dict(rows, orient="index", dtype=float).rename_axis("score")
 
     @property

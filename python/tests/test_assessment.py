@@ -1,5 +1,6 @@
 """Tests that this package scores its own recorded flights correctly."""
 
+import dataclasses
 import json
 import math
 import os
@@ -37,7 +38,11 @@ def test_tables_match_the_assessment(flight):
     assessment = spandrel.assess(flight, JOB, AIRCRAFT)
     scores = assessment.data["scores"]
     table = assessment.scores
-    assert table.loc["overall", "pct"] == scores["overall"] > 0.0
+    # The flight did not follow the drill's line to its end.
+    assert assessment.completion == assessment.data["completion"] and assessment.completion["complete"] is False
+    assert assessment.overall is None and math.isnan(table.loc["overall", "pct"])
+    complete = dataclasses.replace(assessment, data={**assessment.data, "completion": {**assessment.completion, "complete": True}})
+    assert complete.scores.loc["overall", "pct"] == complete.overall == scores["overall"] > 0.0
     for name in ("conformity", "efficiency", "safety"):
         assert table.loc[name, "pct"] == scores[name]["pct"]
         assert table.loc[name, "raw"] == scores[name]["raw"]

@@ -9,7 +9,7 @@ use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
-use spandrel_training::record::{IncompletePolicy, excluded_sessions_note};
+use spandrel_training::record::{IncompletePolicy, excluded_sessions_note, included_sessions_note};
 use spandrel_training::report::page::cohort as page;
 use spandrel_training::report::page::within_error::{measure_name, words};
 use std::fmt::Write;
@@ -113,7 +113,10 @@ fn first_session_summary(cohort: &Cohort) -> String {
     if let Some(words) = excluded_sessions_note(cohort.left_out, Language::English) {
         let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
     }
-    out.push('\n');
+    if let Some(words) = included_sessions_note(cohort.incomplete, Language::English) {
+        let _ = writeln!(out, "{words}: the scores of an incomplete session cover only a part of the job");
+    }
+    let _ = writeln!(out, "certified {} of {} sessions\n", cohort.certified, cohort.sessions);
     let _ = writeln!(out, "{:<12}{:>5}{:>9}{:>8}{:>8}{:>8}{:>8}", "first", "n", "mean", "sd", "min", "median", "max");
     for one in &cohort.distributions {
         let s = &one.summary;
@@ -134,9 +137,11 @@ fn first_session_summary(cohort: &Cohort) -> String {
 /// Formats the reliability of the measures as text.
 fn reliability_text(cohort: &Cohort) -> String {
     let mut out = String::new();
+    let names = cohort.reliability.iter().map(|one| measure_name(&one.measure, one.unit, Language::English).chars().count());
+    let width = names.max().unwrap_or(0) + 1;
     let _ = writeln!(
         out,
-        "\n{:<22}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
+        "\n{:<width$}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
         "reliability", "ceiling", "trainees", "ICC(2,1)", "ICC(3,1)", "SEM", "MDC"
     );
     let shown = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |value| format!("{value:.digits$}"));
@@ -144,7 +149,7 @@ fn reliability_text(cohort: &Cohort) -> String {
         let known = one.reliability;
         let _ = writeln!(
             out,
-            "{:<22}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
+            "{:<width$}{:>9}{:>10}{:>10}{:>10}{:>9}{:>8}",
             measure_name(&one.measure, one.unit, Language::English),
             one.at_ceiling.map_or("-".to_owned(), |share| format!("{:.0}%", 100.0 * share)),
             known.map_or("-".to_owned(), |one| one.n.to_string()),
@@ -227,4 +232,27 @@ fn summary_text(cohort: &Cohort) -> String {
         let _ = writeln!(out, "note: {}", limitation.words(Language::English));
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_training::testing::{aborted_record, perfect_record};
+
+    #[test]
+    fn exact_summary_states_how_many_sessions_are_certified_and_incomplete() {
+        let records = [aborted_record("anna", 1), perfect_record("ben", 1), perfect_record("cleo", 1)];
+        let text = |incomplete| {
+            let selection = Selection { scenarios: Vec::new(), repetitions: 1, incomplete };
+            first_session_summary(&cohort(&records, &selection))
+        };
+        let with = text(IncompletePolicy::Include);
+        assert!(
+            with.contains("1 incomplete session included: the scores of an incomplete session cover only a part of the job\n"),
+            "{with}"
+        );
+        assert!(with.contains("certified 2 of 3 sessions\n"), "{with}");
+        let without = text(IncompletePolicy::Exclude);
+        assert!(without.contains("certified 2 of 2 sessions\n") && !without.contains("included"), "{without}");
+    }
 }

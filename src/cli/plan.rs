@@ -10,8 +10,10 @@ use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
-use spandrel_training::plan::{MeasureChange, TrainingPlan, plan_for_policy};
-use spandrel_training::record::{IncompletePolicy, SessionOutcome, excluded_sessions_note};
+use spandrel_training::cohort::job_reliability;
+use spandrel_training::plan::{MeasureChange, PlanHeadlines, TrainingPlan, plan_for_policy};
+use spandrel_training::record::{IncompletePolicy, SessionRecord, excluded_sessions_note};
+use spandrel_training::report::page::within_error::words;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -56,31 +58,33 @@ pub struct Args {
 /// Returns an error if files or the database are invalid, or the trainee has no session.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
-    let mut records = match &args.records {
+    let everyone = match &args.records {
         Some(file) => read_json_lines(file)?,
-        None => args.records_location.location().open()?.records(Some(trainee))?,
+        None => args.records_location.location().open()?.records(None)?,
     };
-    records.retain(|record| record.trainee == trainee);
+    let mut records: Vec<SessionRecord> = everyone.iter().filter(|record| record.trainee == trainee).cloned().collect();
     records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
-    let results: Vec<(String, String)> =
-        records.iter().map(|record| (record.id.clone(), record.headlines(Language::English))).collect();
+    let job = records.last().map(SessionRecord::scenario_with_level);
     let rules = rules(args.rules.as_deref())?;
     let incomplete = IncompletePolicy::included(args.include_incomplete);
-    let Some(plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us(), Language::English) else {
+    let Some(mut plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us(), Language::English) else {
         return Err(AppError::invalid(format!(
             "the records contain no sessions of '{trainee}'; to add sessions, use `{}`",
             typed("spandrel records import")
         )));
     };
-    let result = results.iter().find(|(id, _)| *id == plan.session).map(|(_, headlines)| format!("Last session: {headlines}.\n"));
-    let text = if args.json { json_text(&plan) } else { result.unwrap_or_default() + &plan_text(&plan) };
+    if let (Some(changes), Some(job)) = (&mut plan.changes, job) {
+        changes.label(&job_reliability(&everyone, &job, incomplete));
+    }
+    let text = if args.json { json_text(&plan) } else { plan_text(&plan) };
     files::write("-", text.as_bytes())
 }
 
 fn plan_text(plan: &TrainingPlan) -> String {
     let day = |unix_us: u64| clock::utc(unix_us).0.chars().take(10).collect::<String>();
+    let PlanHeadlines { completion, certification, .. } = &plan.headlines;
     let mut out = format!(
-        "Recommended exercises after {}, to fly between {} and {}:\n",
+        "Last session: {completion}. {certification}.\nRecommended exercises after {}, to fly between {} and {}:\n",
         plan.session,
         day(plan.from_unix_us),
         day(plan.until_unix_us)
@@ -103,15 +107,16 @@ fn plan_text(plan: &TrainingPlan) -> String {
     if let Some(note) = &plan.note {
         let _ = writeln!(out, "{note}");
     }
-    if let Some(words) = excluded_sessions_note(plan.left_out, Language::English) {
-        let _ = writeln!(out, "{words} (use --include-incomplete to count them)");
+    if let Some(note) = excluded_sessions_note(plan.left_out, Language::English) {
+        let _ = writeln!(out, "{note} (use --include-incomplete to count them)");
     }
     if let Some(changes) = &plan.changes {
         let _ = writeln!(out, "Since {}:", changes.since);
         let told = |change: &&MeasureChange| change.better.is_some();
         for change in changes.changes.iter().filter(told) {
             let better = if change.better == Some(true) { "better" } else { "worse" };
-            let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}", change.what, change.before, change.now);
+            let error = change.within_error.map_or(String::new(), |within| format!(" ({})", words(within, Language::English)));
+            let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}{error}", change.what, change.before, change.now);
         }
     }
     out
@@ -120,6 +125,7 @@ fn plan_text(plan: &TrainingPlan) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spandrel_training::cohort::MeasureReliability;
     use spandrel_training::record::SessionLevel;
     use spandrel_training::testing::perfect_record;
 
@@ -135,6 +141,38 @@ mod tests {
         assert!(text.contains(command) && text.contains("level 5 or harder); next level: 6\n"), "{text}");
         let json = json_text(&plan);
         assert!(json.contains("\"level\": 6") && json.contains("\"next_level\": {"), "{json}");
+    }
+
+    #[test]
+    fn exact_plan_labels_changes_with_the_error_of_the_measure() {
+        let mut everyone = Vec::new();
+        for (trainee, safety) in [("anna", [50.0, 52.0]), ("ben", [70.0, 76.0]), ("cleo", [90.0, 95.0])] {
+            for (number, safety) in (1..).zip(safety) {
+                let mut record = perfect_record(trainee, number);
+                record.scores.safety = safety;
+                everyone.push(record);
+            }
+        }
+        let flown = everyone[..2].to_vec();
+        let of = |known: &[MeasureReliability]| {
+            let mut plan =
+                plan_for_policy(flown.clone(), IncompletePolicy::Exclude, &rules(None).unwrap(), 0, Language::English).unwrap();
+            plan.changes.as_mut().unwrap().label(known);
+            (plan_text(&plan), serde_json::from_str::<serde_json::Value>(&json_text(&plan)).unwrap())
+        };
+        let (text, json) = of(&job_reliability(&everyone, "two-bridges", IncompletePolicy::Exclude));
+        assert!(text.starts_with("Last session: Complete: 4 of 4 tasks, 100% of the path. Certified.\n"), "{text}");
+        assert!(text.contains("   safety: 50.0 -> 52.0, better (within error)\n"), "{text}");
+        let change = |json: &serde_json::Value| {
+            let changes = json["changes"]["changes"].as_array().unwrap().clone();
+            changes.into_iter().find(|one| one["what"] == "safety").unwrap()
+        };
+        assert_eq!((&change(&json)["better"], &change(&json)["within_error"]), (&true.into(), &true.into()));
+        let headlines = &json["headlines"];
+        assert_eq!((&headlines["certified"], &headlines["certification"]), (&true.into(), &"Certified".into()));
+        assert_eq!(headlines["completion"], "Complete: 4 of 4 tasks, 100% of the path");
+        let (text, json) = of(&[]);
+        assert!(text.contains("   safety: 50.0 -> 52.0, better\n") && change(&json).get("within_error").is_none(), "{text}");
     }
 
     #[test]

@@ -70,7 +70,12 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
     others.retain(|other| other.id != record.id && state.folder(&other.id).is_some());
     let folder = state.folder(&record.id);
     let advice = folder.as_deref().and_then(report::saved_advice);
-    let standing = standing(&record, &state.database.records(Some(&record.trainee))?);
+    let standing = match standing(&record, &state.database.records(Some(&record.trainee))?) {
+        Some(found) if found.change.is_some() => {
+            Some(found.labeled(&state.figures.reliability(&record.scenario_with_level(), IncompletePolicy::Exclude)?))
+        }
+        found => found,
+    };
     let marks = folder.as_deref().map(valid_marks).unwrap_or_default();
     let pictures = folder.as_deref().map(|folder| report::photograph_numbers(&folder.join(SNAPSHOTS))).unwrap_or_default();
     let has_folder = folder.is_some();

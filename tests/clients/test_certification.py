@@ -16,9 +16,11 @@ TOLERANCE = 1e-7
 
 
 def fly(folder, scenario, skill, seed):
-    """Flies one demo and returns its session folder."""
+    """Flies one demo and returns its session folder. A form may follow the scenario's name after @."""
+    name, _, form = scenario.partition("@")
     spandrel.run(
-        "demo", "--scenario", scenario, "--skill", skill, "--seed", str(seed), "--speed", "max", "--sessions", str(folder), "--log", "error"
+        "demo", "--scenario", name, *(["--form", form] if form else []), "--skill", skill, "--seed", str(seed), "--speed", "max",
+        "--sessions", str(folder), "--log", "error",
     )
     (session,) = pathlib.Path(folder).iterdir()
     return session
@@ -36,7 +38,10 @@ def close(ours, theirs):
     return ours is None if theirs is None else ours == pytest.approx(theirs, rel=TOLERANCE, abs=TOLERANCE)
 
 
-@pytest.mark.parametrize("scenario, skill", [("two-bridges", "novice"), ("two-bridges", "expert"), ("drill-hover", "trained")])
+@pytest.mark.parametrize(
+    "scenario, skill",
+    [("two-bridges", "novice"), ("two-bridges", "expert"), ("drill-hover", "trained"), ("certification@B", "trained")],
+)
 def test_val_certification_is_recomputed_from_the_exports(scenario, skill, tmp_path, measured):
     ours, theirs = recompute(fly(tmp_path, scenario, skill, 2))
     for name, value in theirs["scores"].items():

@@ -26,6 +26,21 @@ PICKS = {
     "accuracy": lambda record: record["scores"]["accuracy"],
     "overall": lambda record: record["scores"]["overall"],
 }
+CERTIFICATION = ("conformity", "precision", "safety", "accuracy", "efficiency", "sum")
+# Measures whose reliability is reported: the scores, those of the certification, and the RMS distance in percent of the threshold.
+MEASURES = {
+    **PICKS,
+    **{f"certification_{name}": lambda record, name=name: record["certification"]["scores"][name] for name in CERTIFICATION},
+    "rms_distance": lambda record: 100.0 * record["certification"]["precision"]["rms_distance_ratio"],
+}
+
+
+def random_certification(random):
+    """Returns certification results with random scores."""
+    scores = {name: float(random.uniform(20, 100)) for name in CERTIFICATION}
+    precision = {"frames": 1000, "rms_speeding_ratio": 0.0, "rms_framing_deg": None, "low_clearance_share": 0.0}
+    precision["rms_distance_ratio"] = float(random.uniform(0.2, 1.0))
+    return {"scores": {**scores, "sum_max": 500.0}, "requirements": [], "precision": precision}
 
 
 def random_record(random, trainee, number):
@@ -40,7 +55,7 @@ def random_record(random, trainee, number):
     keys = ["time_pressure", "frustration", "feedback"]
     keys += [f"{phase}.{aspect}" for phase in PHASES for aspect in ("performance", "mental_demand", "physical_demand")]
     return {
-        "format": 2, "id": f"{trainee}-{number}", "fingerprint": f"{trainee}-{number}", "trainee": trainee,
+        "format": 7, "id": f"{trainee}-{number}", "fingerprint": f"{trainee}-{number}", "trainee": trainee,
         "started_unix_us": 1_700_000_000_000_000 + number, "spandrel_version": "0.1.0", "scorer_version": 1, "scenario": "two-bridges",
         "scenario_sha256": "", "vehicle": "phantom2", "vehicle_sha256": "", "telemetry_sha256": "", "seed": 7,
         "scores": {
@@ -50,6 +65,7 @@ def random_record(random, trainee, number):
         "completion": {"complete": True, "tasks_done": 4, "tasks": 4, "path_share": 1.0, "landed_at_home": True, "done_share": 0.8},
         "tasks": [task(k + 1, kind) for k, kind in enumerate(TASKS)], "crashes_outside": nothing, "defects": [], "snapshots": 3, "hits": 1,
         "end_reason": "landed", "seconds": 700.0, "battery_failed": False, "battery_at_end_pct": 50.0, "covered": 1.0, "certified": False,
+        "certification": random_certification(random),
         "answers": {"language": "en", "answers": {key: int(random.integers(1, 6)) for key in keys}},
     }
 
@@ -115,10 +131,10 @@ def pingouin_reliability(values):
 def test_val_reliability_matches_pingouin(study):
     people, cohort = study
     group = [records for records in people.values() if len(records) == 5]
-    for one in cohort["reliability"]:
-        if one["measure"] not in PICKS:
-            continue
-        values = np.array([[PICKS[one["measure"]](record) for record in records] for records in group])
+    measured = [one for one in cohort["reliability"] if one["measure"] in MEASURES]
+    assert len(measured) == len(MEASURES)
+    for one in measured:
+        values = np.array([[MEASURES[one["measure"]](record) for record in records] for records in group])
         agreement, consistency, residual = pingouin_reliability(values)
         ours = one["reliability"]
         assert (ours["n"], ours["repetitions"]) == (15, 5)

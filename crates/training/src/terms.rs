@@ -5,6 +5,7 @@ use spandrel_model::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLO
 use spandrel_model::elements::Element;
 use spandrel_model::scenario::DefectCause;
 use spandrel_model::shipped::SCENARIOS;
+use spandrel_monitor::score::certification::names::title as certification_title;
 pub use spandrel_text::terms::{contact_title, end_reason_title, purpose_title, score_title};
 use spandrel_text::{Language, find, text};
 
@@ -51,15 +52,19 @@ pub fn cause_title(cause: DefectCause, language: Language) -> String {
     }
 }
 
-/// Returns the name of a measure with this key: a score, or `flight_time`, `crashes` or `certification_sum`; the key if there is no
-/// such measure.
+/// Returns the name of a measure with this key: a score, `flight_time`, `crashes`, `rms_distance`, `certification_sum`, or
+/// `certification_` and a score of the certification profile; the key if there is no such measure.
 #[must_use]
 pub fn measure_title(key: &str, language: Language) -> String {
     match key {
         "certification_sum" => text!(language, "report-measure-certification-sum"),
         "flight_time" => text!(language, "report-measure-flight-time"),
         "crashes" => text!(language, "report-measure-crashes"),
-        score => score_title(score, language),
+        "rms_distance" => text!(language, "report-column-rms-distance"),
+        other => match other.strip_prefix("certification_").and_then(|score| certification_title(score, language)) {
+            Some(title) => title,
+            None => score_title(other, language),
+        },
     }
 }
 

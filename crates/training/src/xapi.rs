@@ -14,7 +14,7 @@ pub const VERSION: &str = "1.0.3";
 pub const DEFAULT_ACCOUNT_HOME_PAGE: &str = "https://spandrel.invalid/trainees";
 /// Namespace UUID for statement IDs (RFC 9562, version 5).
 const STATEMENT_NAMESPACE: Uuid = Uuid::from_u128(0x7f0c_4e0a_93c1_4d43_9b0e_5d61_5c1e_7a10);
-/// Key of the session result extension for job completion.
+/// Key of the extension for job completion, in the results of the session and of its scores.
 const COMPLETION_EXTENSION_KEY: &str = "urn:spandrel:completion";
 /// Key of the session result extension for the certification.
 const CERTIFICATION_EXTENSION_KEY: &str = "urn:spandrel:certification";
@@ -35,7 +35,10 @@ pub fn statements(record: &SessionRecord, home: &str) -> Vec<Value> {
         ("accuracy", scores.accuracy),
     ] {
         if let Some(pct) = pct {
-            let result = json!({ "score": score(pct, 100.0) });
+            let mut result = json!({ "score": score(pct, 100.0), "completion": record.is_complete() });
+            if let Some(completion) = &record.completion {
+                result["extensions"] = json!({ COMPLETION_EXTENSION_KEY: completion });
+            }
             out.push(statement(record, home, &format!("scores/{name}"), ("scored", name), result));
         }
     }
@@ -158,6 +161,14 @@ mod tests {
             "Incomplete: 0 of 4 tasks, 15% of the path. Not certified: task 1 not done: 60% of its path, 80% needed (and 1 more)"
         );
         assert_eq!(flight["result"]["extensions"][COMPLETION_EXTENSION_KEY]["path_share"], 0.15);
+        let scored: Vec<&Value> = all.iter().filter(|one| one["verb"]["display"]["en"] == "scored").collect();
+        assert_eq!(scored.len(), 4);
+        for one in scored {
+            let share = &one["result"]["extensions"][COMPLETION_EXTENSION_KEY]["path_share"];
+            assert_eq!((&one["result"]["completion"], share), (&json!(false), &json!(0.15)), "{one}");
+        }
+        let perfect = statements(&perfect_record("anna", 1), DEFAULT_ACCOUNT_HOME_PAGE);
+        assert!(perfect[1..5].iter().all(|one| one["result"]["completion"] == true), "{}", perfect[1]);
         let task = all.iter().find(|one| one["object"]["id"].as_str().is_some_and(|id| id.ends_with("/tasks/1"))).unwrap();
         assert_eq!(
             (&task["result"]["completion"], &task["result"]["extensions"][COVERAGE_EXTENSION_KEY]),

@@ -1,14 +1,16 @@
-//! Tests with the example study (examples/cohort, created by `tools/cohort`): 22 synthetic trainees, eight with three
-//! sessions. Checks that Spandrel can compute the TASBID study's tables from flights and that the plans match the
-//! flights.
+//! Tests with the example study (examples/cohort, created by `tools/cohort`): the TASBID pilot study with 22 synthetic
+//! trainees, eight with three sessions. Checks that Spandrel can compute the study's tables from flights, that these are the
+//! published ones, and that the plans match the flights.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_text::Language;
-use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
+use spandrel_training::cohort::{Cohort, Comparison, Selection, cohort, tables};
 use spandrel_training::plan::{DEFAULT_RULES, plan, read_rules};
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 
 const RECORDS: &str = include_str!("../../../examples/cohort/records.jsonl");
+/// Page with the results, which `tools/pilot-study` prints.
+const PAGE: &str = include_str!("../../../docs/src/measured/paper-cohort.md");
 /// Limits from the shipped rules. An interlayer flight is poor if it exceeds one of them or includes a crash.
 const MAX_OFF_PATH_SHARE: f64 = 0.1;
 const MAX_SPEEDING_SHARE: f64 = 0.02;
@@ -34,18 +36,59 @@ fn val_pilot_study_design_yields_expected_tables() {
     assert_eq!(study.self_rating.people.len(), 22);
     assert!(study.causal.is_some() && study.homogeneity.len() >= 3);
     assert!(study.limitations.iter().any(|one| one.words(Language::English).contains("fewer than 78")));
-    // Three repetitions are too few for a learning curve, and none of these answers contradicts the measurements.
-    let expected = ["contradictions.csv", "learning_curves.csv", "learning_of_the_group.csv"];
+    // Three repetitions are too few for a learning curve.
+    let expected = ["learning_curves.csv", "learning_of_the_group.csv"];
     let empty: Vec<_> =
         tables(&study).into_iter().filter(|(_, table)| table.lines().count() <= 1).map(|(name, _)| name).collect();
     assert_eq!(empty, expected);
 }
 
+/// Returns the cells of the page's tables whose first cell is a score.
+fn published_rows(columns: usize) -> Vec<Vec<&'static str>> {
+    let scores = ["conformity", "efficiency", "safety", "accuracy", "overall"];
+    let rows = PAGE.lines().map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
+    rows.filter(|row| row.len() == columns && scores.contains(&row[0])).collect()
+}
+
 #[test]
-fn val_less_stick_noise_improves_scores() {
+fn exact_published_results_are_those_of_the_records() {
     let study = study();
-    let safety = study.tests.iter().find(|test| test.score == "safety" && (test.earlier, test.later) == (1, 3)).unwrap();
-    assert!(safety.test.mean_difference > 0.0);
+    let means = published_rows(7);
+    assert_eq!(means.len(), study.distributions.len());
+    for (row, one) in means.iter().zip(&study.distributions) {
+        let s = &one.summary;
+        let ours = [s.mean, s.sd.unwrap(), s.min, s.max].map(|value| format!("{value:.1}"));
+        assert_eq!((row[0], [row[2], row[4], row[5], row[6]]), (one.score.as_str(), ours.each_ref().map(String::as_str)));
+    }
+    let tests = published_rows(9);
+    assert_eq!(tests.len(), 12);
+    for row in tests {
+        let is_same = |one: &&Comparison| one.score == row[0] && format!("{}, {}", one.earlier, one.later) == row[1];
+        let ours = &study.tests.iter().find(is_same).unwrap().test;
+        let (t, dz, p) = (ours.t.unwrap(), ours.effect_size_dz.unwrap(), ours.p.unwrap().two);
+        assert_eq!([row[3], row[7], row[8]], [format!("{t:.3}"), format!("{dz:.2}"), format!("{p:.3}")], "{row:?}");
+        let paper: f64 = row[2].parse().unwrap();
+        assert_eq!((row[4], row[6]), (&*format!("{:+.2}", t - paper), &*format!("{:.2}", paper / 8.0_f64.sqrt())), "{row:?}");
+    }
+    let crashes = format!("| all | 203 | {} |", study.crashes.total);
+    assert!(PAGE.contains(&crashes), "{crashes}");
+    let places = ["slab side", "arch bottom", "interlayer", "pier", "outside"];
+    for (k, (place, total)) in places.iter().zip(&study.crashes.by_task).enumerate() {
+        let people = study.crashes.rows.iter().filter(|row| row.by_task[k] > 0).count();
+        let is_row =
+            |line: &&str| line.starts_with(&format!("| {place} |")) && line.ends_with(&format!("| {total} | {people} |"));
+        assert!(PAGE.lines().any(|line| is_row(&line)), "{place}: {total} crashes by {people} people");
+    }
+}
+
+#[test]
+fn val_practice_improves_scores_and_harder_defects_lower_accuracy() {
+    let study = study();
+    let change = |score: &str, pair: (usize, usize)| {
+        study.tests.iter().find(|test| test.score == score && (test.earlier, test.later) == pair).unwrap().test.mean_difference
+    };
+    assert!(change("conformity", (1, 3)) > 0.0 && change("safety", (1, 3)) > 0.0);
+    assert!(change("accuracy", (2, 3)) < 0.0, "the defects of form H are harder to find");
     let spread = |repetition: usize| {
         let one = study.boxes.iter().find(|one| one.score == "overall" && one.repetition == repetition).unwrap();
         one.plot.q3 - one.plot.q1
@@ -74,5 +117,6 @@ fn val_only_poor_interlayer_flights_are_found_in_the_plan() {
             spared += 1;
         }
     }
-    assert!(sent >= 5 && spared >= 5, "{sent} flights found, {spared} spared");
+    // These trainees rarely fly the interlayer well.
+    assert!(sent >= 5 && spared >= 2, "{sent} flights found, {spared} spared");
 }

@@ -10,6 +10,7 @@ cohort-summary =
         [one] { $sessions } Sitzung
        *[other] { $sessions } Sitzungen
     } mit { $scenarios }.
+cohort-certified = Zertifiziert: { $certified } von { $sessions } Sitzungen.
 cohort-group =
     { $trainees ->
         [one] { $trainees } Trainee flog
@@ -50,6 +51,8 @@ cohort-column-self-rating-scale = Selbsteinschätzung (1 bis 5)
 cohort-column-measured = gemessene Wertung (%)
 cohort-column-trainee = Trainee
 cohort-column-trainees = Trainees
+cohort-column-completion = Vollständigkeit
+cohort-column-certification = Zertifizierung
 
 ## Causal model
 

@@ -18,6 +18,10 @@ completion-excluded-sessions = { $count ->
         [one] { $count } unvollständige Sitzung nicht gezählt
        *[other] { $count } unvollständige Sitzungen nicht gezählt
     }
+completion-included-sessions = { $count ->
+        [one] { $count } unvollständige Sitzung mitgezählt
+       *[other] { $count } unvollständige Sitzungen mitgezählt
+    }
 completion-certified = Zertifiziert
 completion-not-certified = Nicht zertifiziert
 completion-not-certified-why = Nicht zertifiziert: { $unmet }

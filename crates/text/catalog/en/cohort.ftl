@@ -10,6 +10,7 @@ cohort-summary =
         [one] { $sessions } session
        *[other] { $sessions } sessions
     } of { $scenarios }.
+cohort-certified = Certified: { $certified } of { $sessions } sessions.
 cohort-group =
     { $trainees ->
         [one] { $trainees } trainee
@@ -50,6 +51,8 @@ cohort-column-self-rating-scale = self-rating (1 to 5)
 cohort-column-measured = measured score (%)
 cohort-column-trainee = trainee
 cohort-column-trainees = trainees
+cohort-column-completion = completion
+cohort-column-certification = certification
 
 ## Causal model
 

@@ -19,6 +19,10 @@ completion-excluded-sessions = { $count ->
         [one] { $count } incomplete session excluded
        *[other] { $count } incomplete sessions excluded
     }
+completion-included-sessions = { $count ->
+        [one] { $count } incomplete session included
+       *[other] { $count } incomplete sessions included
+    }
 completion-certified = Certified
 completion-not-certified = Not certified
 completion-not-certified-why = Not certified: { $unmet }

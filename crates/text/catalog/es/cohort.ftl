@@ -10,6 +10,7 @@ cohort-summary =
         [one] { $sessions } sesión
        *[other] { $sessions } sesiones
     } de { $scenarios }.
+cohort-certified = Certificadas: { $certified } de { $sessions } sesiones.
 cohort-group =
     { $trainees ->
         [one] { $trainees } alumno voló
@@ -50,6 +51,8 @@ cohort-column-self-rating-scale = autoevaluación (1 a 5)
 cohort-column-measured = puntuación medida (%)
 cohort-column-trainee = alumno
 cohort-column-trainees = alumnos
+cohort-column-completion = compleción
+cohort-column-certification = certificación
 
 ## Causal model
 

@@ -18,6 +18,10 @@ completion-excluded-sessions = { $count ->
         [one] { $count } sesión incompleta excluida
        *[other] { $count } sesiones incompletas excluidas
     }
+completion-included-sessions = { $count ->
+        [one] { $count } sesión incompleta incluida
+       *[other] { $count } sesiones incompletas incluidas
+    }
 completion-certified = Certificado
 completion-not-certified = No certificado
 completion-not-certified-why = No certificado: { $unmet }

@@ -24,7 +24,7 @@ pub use sample_sizes::RECOMMENDED_RESPONDENTS;
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, FirstSession, GroupHomogeneityTest, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
-use super::record::{IncompletePolicy, SessionRecord};
+use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
 use sample_sizes::RECOMMENDED_PAIRS;
 use samples::SessionsByTrainee;
 use serde::Serialize;
@@ -50,6 +50,10 @@ pub struct Cohort {
     pub sessions: usize,
     /// Number of incomplete sessions excluded from the analysis.
     pub left_out: usize,
+    /// Number of incomplete sessions among the analyzed ones.
+    pub incomplete: usize,
+    /// Number of analyzed sessions that meet all certification requirements.
+    pub certified: usize,
     /// Number of trainees who flew the job.
     pub trainees: usize,
     /// Number of repetitions compared.
@@ -83,6 +87,12 @@ pub struct Cohort {
     /// Limitations to consider when interpreting the results.
     #[serde(rename = "warnings")]
     pub limitations: Vec<Limitation>,
+}
+
+/// Returns the reliability of the measures on a job, by scenario name and level, from the first two sessions of each trainee.
+#[must_use]
+pub fn job_reliability(records: &[SessionRecord], scenario: &str, incomplete: IncompletePolicy) -> Vec<MeasureReliability> {
+    cohort(records, &Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete }).reliability
 }
 
 /// Analyzes the selected sessions of a cohort.
@@ -119,6 +129,8 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     Cohort {
         sessions: runs.values().map(Vec::len).sum(),
         left_out: left_out.len(),
+        incomplete: counted_sessions(&runs, |record| !record.is_complete()),
+        certified: counted_sessions(&runs, |record| record.certified),
         trainees: runs.len(),
         repetitions,
         group: group.keys().map(|trainee| (*trainee).to_owned()).collect(),
@@ -137,6 +149,10 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         limitations,
         scenarios,
     }
+}
+
+fn counted_sessions(runs: &SessionsByTrainee<'_>, counts: fn(&SessionRecord) -> bool) -> usize {
+    runs.values().flatten().filter(|record| counts(record)).count()
 }
 
 /// Returns the selected scenarios or, if none are selected, the most frequently flown one (the first by name in a tie).

@@ -1,6 +1,7 @@
 //! Cohort samples: each trainee's sessions and the measures taken from them.
 
-use crate::record::SessionRecord;
+use crate::record::{CertificationRecord, SessionRecord};
+use spandrel_monitor::score::certification::CertificationScores;
 use std::collections::BTreeMap;
 
 /// Function that returns one of a record's scores; `None` if it does not apply.
@@ -32,23 +33,37 @@ pub(super) struct Measure {
     pub best: Option<fn(&SessionRecord) -> f64>,
 }
 
-/// The five scores, the sum of the certification profile, and the two measures behind efficiency and safety, which have no
-/// upper limit. Records before format 3 have no certification sum.
-pub(super) const MEASURES: [Measure; 8] = [
+/// The five scores, the scores of the certification profile and their sum, the RMS distance from the path, and the two measures
+/// behind efficiency and safety, which have no upper limit. Records before format 3 have no certification scores, and those before
+/// format 7 no RMS distance.
+pub(super) const MEASURES: [Measure; 14] = [
     score(SCORES[0], |_| 100.0),
     score(SCORES[1], |_| 100.0),
     score(SCORES[2], |_| 100.0),
     score(SCORES[3], |_| 100.0),
     score(SCORES[4], |record| record.scores.overall_max),
-    Measure {
-        name: "certification_sum",
-        unit: "points",
-        pick: |record| record.certification.as_ref().map(|one| one.scores.sum),
-        best: Some(|record| record.certification.as_ref().map_or(500.0, |one| one.scores.sum_max)),
-    },
+    score(("certification_conformity", |record| certification(record)?.conformity), |_| 100.0),
+    score(("certification_precision", |record| certification(record)?.precision), |_| 100.0),
+    score(("certification_safety", |record| Some(certification(record)?.safety)), |_| 100.0),
+    score(("certification_accuracy", |record| certification(record)?.accuracy), |_| 100.0),
+    score(("certification_efficiency", |record| Some(certification(record)?.efficiency)), |_| 100.0),
+    score(("certification_sum", |record| Some(certification(record)?.sum)), |record| {
+        certification(record).map_or(500.0, |scores| scores.sum_max)
+    }),
+    Measure { name: "rms_distance", unit: "%", pick: rms_distance_pct, best: Some(|_| 0.0) },
     Measure { name: FLIGHT_TIME, unit: "s", pick: |record| Some(record.seconds), best: None },
     Measure { name: "crashes", unit: "", pick: |record| Some(record.crashes().total() as f64), best: Some(|_| 0.0) },
 ];
+
+fn certification(record: &SessionRecord) -> Option<&CertificationScores> {
+    record.certification.as_ref().map(|one| &one.scores)
+}
+
+/// Returns the RMS distance from the path, as a percentage of the task's threshold.
+fn rms_distance_pct(record: &SessionRecord) -> Option<f64> {
+    let certification: &CertificationRecord = record.certification.as_ref()?;
+    Some(100.0 * certification.precision?.rms_distance_ratio)
+}
 
 const fn score((name, pick): (&'static str, ScorePicker), best: fn(&SessionRecord) -> f64) -> Measure {
     Measure { name, unit: "points", pick, best: Some(best) }

@@ -3,12 +3,13 @@
 use super::limitation::Limitation;
 use super::reliability::{MeasureReliability, reliability_of};
 use super::samples::{OVERALL, SCORES, ScorePicker, SessionsByTrainee};
-use crate::record::{Crashes, SessionRecord};
+use crate::record::{Crashes, SessionOutcome, SessionRecord};
 use crate::statistics::{
     BoxPlot, HistogramBin, Homogeneity, PairedTest, SampleSummary, TailProbabilities, box_plot, histogram, holm, homogeneity,
     paired_t, quantile, summary,
 };
 use serde::Serialize;
+use spandrel_monitor::score::completion::Completion;
 
 /// Number of bins in a score histogram.
 const HISTOGRAM_BINS: usize = 20;
@@ -46,8 +47,26 @@ pub struct FirstSession {
     pub overall: f64,
     /// Flight duration, s.
     pub seconds: f64,
+    /// Whether the job was done and the drone landed at home. The scores of an incomplete session cover only a part of the job.
+    pub complete: bool,
+    /// Job completion; absent if the record lacks it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub completion: Option<Completion>,
+    /// Whether the session meets all certification requirements.
+    pub certified: bool,
+    /// Unmet certification requirements, as text.
+    pub unmet: Vec<String>,
     /// On-path share and speeding by task.
     pub tasks: Vec<TaskShare>,
+}
+
+impl SessionOutcome for FirstSession {
+    fn completion(&self) -> Option<&Completion> {
+        self.completion.as_ref()
+    }
+    fn certification(&self) -> (bool, &[String]) {
+        (self.certified, &self.unmet)
+    }
 }
 
 /// One task's contribution to conformity.
@@ -175,6 +194,10 @@ pub fn first_session(record: &SessionRecord) -> FirstSession {
         accuracy: record.scores.accuracy,
         overall: record.scores.overall,
         seconds: record.seconds,
+        complete: record.is_complete(),
+        completion: record.completion,
+        certified: record.certified,
+        unmet: record.unmet.clone(),
         tasks: record.tasks.iter().map(share).collect(),
     }
 }

@@ -1,6 +1,7 @@
 //! Cohort tables as CSV (RFC 4180), one file per table. Numbers use the fewest digits that represent the value exactly.
 
 use super::Cohort;
+use crate::record::SessionOutcome;
 use crate::statistics::{Regression, TailProbabilities};
 use spandrel_text::Language;
 use std::fmt::Display;
@@ -113,11 +114,15 @@ fn histograms(cohort: &Cohort) -> String {
 }
 
 fn individuals(cohort: &Cohort) -> String {
-    let columns = ["trainee", "session", "conformity", "efficiency", "safety", "accuracy", "overall", "seconds", "purpose"];
+    let scores = ["conformity", "efficiency", "safety", "accuracy", "overall", "seconds"];
+    let columns = [&["trainee", "session"], &scores[..], &["purpose", "complete", "completion", "certified", "unmet"]].concat();
     CsvWriter::new(&columns).rows(cohort.individuals.iter().map(|one| {
         let purpose = one.purpose.as_deref().map_or(String::new(), text);
         let scores = [one.conformity, Some(one.efficiency), Some(one.safety), one.accuracy, Some(one.overall), Some(one.seconds)];
-        [vec![text(&one.trainee), text(&one.session)], scores.map(optional_number).to_vec(), vec![purpose]].concat()
+        let completion = [number(u8::from(one.complete)), text(&one.completion_summary(Language::English))];
+        let certification = [number(u8::from(one.certified)), text(&one.unmet.join("; "))];
+        let start = vec![text(&one.trainee), text(&one.session)];
+        [start, scores.map(optional_number).to_vec(), vec![purpose], completion.to_vec(), certification.to_vec()].concat()
     }))
 }
 

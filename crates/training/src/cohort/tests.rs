@@ -1,7 +1,11 @@
 use super::*;
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem};
+use crate::record::CertificationRecord;
+use crate::terms::measure_title;
 use crate::testing::{aborted_record, perfect_record};
 use spandrel_model::random::RandomStream;
+use spandrel_monitor::score::certification::CertificationScores;
+use spandrel_monitor::score::certification::precision::PrecisionMeasures;
 use spandrel_text::Language;
 
 /// Returns records of 22 trainees, the first eight with three sessions each. Scores and answers are random, but higher demand
@@ -199,14 +203,11 @@ fn exact_small_and_empty_cohorts_have_warnings() {
     let one = analyzed(&[perfect_record("anna", 1)]);
     assert_eq!((one.trainees, one.distributions.len(), one.distributions[0].summary.sd), (1, 5, None));
     assert!(words(&one).iter().any(|words| words.contains("could not be estimated")));
+    // Commas in quotes do not separate fields.
+    let fields = |line: &str| 1 + line.split('"').step_by(2).map(|unquoted| unquoted.matches(',').count()).sum::<usize>();
     for (name, table) in tables(&one) {
-        let columns = table.lines().next().unwrap().split(',').count();
-        assert!(
-            table
-                .lines()
-                .all(|line| name == "contradictions.csv" || name == "warnings.csv" || line.split(',').count() == columns),
-            "{name}"
-        );
+        let columns = fields(table.lines().next().unwrap());
+        assert!(table.lines().all(|line| fields(line) == columns), "{name}");
     }
 }
 
@@ -286,7 +287,7 @@ fn exact_reliability_covers_every_measure_and_labels_changes() {
     }
     let cohort = analyzed(&records);
     let of = |measure: &str| reliability_of(&cohort.reliability, measure).unwrap();
-    assert_eq!(cohort.reliability.len(), 8);
+    assert_eq!(cohort.reliability.len(), 14);
     let conformity = of("conformity").reliability.unwrap();
     assert_eq!((conformity.n, conformity.repetitions), (8, 3));
     assert!(
@@ -312,6 +313,82 @@ fn exact_reliability_covers_every_measure_and_labels_changes() {
             assert_eq!(labeled, change.abs() < conformity.minimal_detectable_change, "{change}");
         }
     }
+}
+
+/// Returns certification results that a trainee's ability determines up to a random part.
+fn certification(ability: f64, stream: &mut RandomStream) -> CertificationRecord {
+    let mut score = || 40.0 + 2.0 * ability + stream.range(0.0, 5.0);
+    let scores = CertificationScores {
+        conformity: Some(score()),
+        efficiency: score(),
+        safety: score(),
+        accuracy: Some(score()),
+        precision: Some(score()),
+        sum: score(),
+        sum_max: 500.0,
+    };
+    let precision = PrecisionMeasures {
+        frames: 1000,
+        rms_distance_ratio: 0.01 * score(),
+        rms_speeding_ratio: 0.0,
+        rms_framing_deg: None,
+        low_clearance_share: 0.0,
+    };
+    CertificationRecord { scores, requirements: Vec::new(), precision: Some(precision) }
+}
+
+#[test]
+fn exact_reliability_covers_the_certification_and_the_distance_from_the_path() {
+    let mut stream = RandomStream::new(12, "made-up certifications");
+    let mut records = pilot_study_records();
+    for record in &mut records {
+        let ability: f64 = record.trainee[1..].parse().unwrap();
+        record.certification = Some(certification(ability, &mut stream));
+    }
+    // Records before format 7 have no RMS distance.
+    records.last_mut().unwrap().certification.as_mut().unwrap().precision = None;
+    let cohort = analyzed(&records);
+    let names =
+        ["conformity", "precision", "safety", "accuracy", "efficiency", "sum"].map(|name| format!("certification_{name}"));
+    for name in names.iter().map(String::as_str).chain(["rms_distance"]) {
+        let one = reliability_of(&cohort.reliability, name).unwrap();
+        let known = one.reliability.unwrap();
+        assert!((known.n, known.repetitions) == (8, 3) && known.icc_2_1 > 0.8, "{name}: {known:?}");
+        assert_eq!((one.unit, one.sessions), if name == "rms_distance" { ("%", 37) } else { ("points", 38) }, "{name}");
+        assert_eq!(one.at_ceiling, Some(0.0), "{name}");
+    }
+    let titles = |key: &str| Language::ALL.map(|language| measure_title(key, language));
+    for one in &cohort.reliability {
+        let [english, german, spanish] = titles(&one.measure);
+        assert!(!english.contains('_') && german != english && spanish != english, "{english}, {german}, {spanish}");
+    }
+    assert_eq!(titles("certification_safety")[0], "impact-weighted safety");
+    let row = |table: &str| table.lines().find(|line| line.starts_with("rms_distance,%,37,")).map(str::to_owned);
+    assert!(table(&cohort, "reliability.csv").is_some_and(|table| row(&table).is_some()));
+    // A session of a trainee with repetitions without the measure: this trainee does not count.
+    records[0].certification = None;
+    let fewer = reliability_of(&analyzed(&records).reliability, "certification_safety").unwrap().reliability.unwrap().n;
+    assert_eq!(fewer, 7);
+}
+
+#[test]
+fn exact_first_sessions_have_both_headlines() {
+    let mut records = vec![aborted_record("anna", 1), perfect_record("anna", 2), perfect_record("ben", 1)];
+    (records[2].certified, records[2].unmet) = (false, vec!["accuracy 40, 50 needed".into(), "precision 30, 45 needed".into()]);
+    let of = |incomplete| cohort(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
+    let (with, without) = (of(IncompletePolicy::Include), of(IncompletePolicy::Exclude));
+    assert_eq!((with.sessions, with.incomplete, with.certified), (3, 1, 1));
+    assert_eq!((without.sessions, without.incomplete, without.left_out, without.certified), (2, 0, 1, 1));
+    let state = |cohort: &Cohort| cohort.individuals.iter().map(|one| (one.complete, one.certified)).collect::<Vec<_>>();
+    assert_eq!((state(&with), state(&without)), (vec![(false, false), (true, false)], vec![(true, true), (true, false)]));
+    let csv = table(&with, "individuals.csv").unwrap();
+    let end = |k: usize| csv.lines().nth(k).unwrap().split_once("700.25,").unwrap().1.to_owned();
+    assert!(csv.lines().next().unwrap().ends_with(",purpose,complete,completion,certified,unmet"), "{csv}");
+    assert_eq!(
+        end(1),
+        ",0,\"Incomplete: 0 of 4 tasks, 15% of the path\",0,\"task 1 not done: 60% of its path, 80% needed; not landed at home\""
+    );
+    assert_eq!(end(2), ",1,\"Complete: 4 of 4 tasks, 100% of the path\",0,\"accuracy 40, 50 needed; precision 30, 45 needed\"");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Changes since the previous session.
 
+use crate::cohort::{MeasureReliability, reliability_of};
 use crate::record::SessionRecord;
 use crate::terms::{contact_title, score_title, task_title};
 use serde::Serialize;
@@ -31,6 +32,20 @@ pub struct MeasureChange {
     pub now: f64,
     /// Whether the change is an improvement; `None` if the values are equal.
     pub better: Option<bool>,
+    /// Whether the change is smaller than the minimal detectable change; absent if the measure's reliability is unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within_error: Option<bool>,
+}
+
+impl SessionChanges {
+    /// Labels each change with the reliability of the measures on the job.
+    pub fn label(&mut self, known: &[MeasureReliability]) {
+        for change in &mut self.changes {
+            let ChangedMeasure::Score(key) = change.measure else { continue };
+            let reliability = reliability_of(known, key);
+            change.within_error = reliability.and_then(|one| one.is_within_error(change.now - change.before));
+        }
+    }
 }
 
 /// Measure that is compared between two sessions.
@@ -82,7 +97,7 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
             let same = (now - before).abs() < MIN_REPORTED_CHANGE;
             let what = measure.title(&last.scenario, Language::English);
             let better = (!same).then_some((now > before) == more_is_better);
-            changes.push(MeasureChange { what, measure, before, now, better });
+            changes.push(MeasureChange { what, measure, before, now, better, within_error: None });
         }
     };
     let (then, now) = (&before.scores, &last.scores);

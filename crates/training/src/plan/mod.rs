@@ -38,6 +38,8 @@ pub struct TrainingPlan {
     pub trainee: String,
     /// ID of the latest session, the basis of the plan.
     pub session: String,
+    /// Completion and certification verdict of that session.
+    pub headlines: PlanHeadlines,
     /// Scenarios to fly, most urgent first; never empty.
     pub steps: Vec<PlanStep>,
     /// Earliest time of the next session, µs since the Unix epoch.
@@ -55,6 +57,17 @@ pub struct TrainingPlan {
     /// Note that the latest session is incomplete and counts nevertheless; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+}
+
+/// The two headlines of the session on which a plan is based; they are always shown together.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PlanHeadlines {
+    /// Job completion, as text.
+    pub completion: String,
+    /// Whether the session meets all certification requirements.
+    pub certified: bool,
+    /// Certification verdict, as text.
+    pub certification: String,
 }
 
 /// One scenario to fly.
@@ -135,6 +148,11 @@ fn plan_from(
     Some(TrainingPlan {
         trainee: last.trainee.clone(),
         session: last.id.clone(),
+        headlines: PlanHeadlines {
+            completion: last.completion_summary(language),
+            certified: last.certified,
+            certification: last.verdict(language),
+        },
         steps,
         from_unix_us: after(rules.rest_days),
         until_unix_us: after(rules.retention_days),

@@ -21,6 +21,7 @@ use super::questionnaire::{Answers, ScaleScores, scales};
 use serde::{Deserialize, Serialize};
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::certification::CertificationScores;
+use spandrel_monitor::score::certification::precision::PrecisionMeasures;
 use spandrel_monitor::score::certification::requirements::Requirement;
 use spandrel_monitor::score::completion::Completion;
 use spandrel_monitor::score::{SCORER_VERSION, Score};
@@ -115,6 +116,9 @@ pub struct CertificationRecord {
     pub scores: CertificationScores,
     /// Every requirement, in report order.
     pub requirements: Vec<Requirement>,
+    /// Precision measures over the visits to all tasks; absent if no path was entered, and in records before format 7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub precision: Option<PrecisionMeasures>,
 }
 
 /// The four scores, each from 0 to 100, and their sum.
@@ -191,6 +195,12 @@ pub fn excluded_sessions_note(count: usize, language: Language) -> Option<String
     (count > 0).then(|| text!(language, "completion-excluded-sessions", count = count))
 }
 
+/// Returns a note with the number of incomplete sessions that are included; `None` if it is 0.
+#[must_use]
+pub fn included_sessions_note(count: usize, language: Language) -> Option<String> {
+    (count > 0).then(|| text!(language, "completion-included-sessions", count = count))
+}
+
 impl SessionOutcome for SessionListEntry {
     fn completion(&self) -> Option<&Completion> {
         self.completion.as_ref()
@@ -249,6 +259,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         certification: Some(CertificationRecord {
             scores: assessment.certification.scores,
             requirements: assessment.certification.requirements.clone(),
+            precision: assessment.certification.precision,
         }),
         answers: source.answers.cloned(),
     }

@@ -8,8 +8,9 @@ use super::standing::SessionStanding;
 use crate::advice::SessionAdvice;
 use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
-use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
+use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord, excluded_sessions_note};
 use crate::report::formatting;
+use crate::report::page::within_error;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
 use crate::terms::{end_reason_title, job_title, purpose_title, score_title, task_title};
@@ -258,13 +259,18 @@ fn standing_text(language: Language, standing: &SessionStanding, most: f64) -> S
         text!(language, "sessions-standing-other", best = best, most = most)
     };
     let change = standing.change.map(|change| (change, formatting::number(change.abs(), 0)));
-    let change = match change {
-        Some((_, points)) if points == "0" => text!(language, "sessions-standing-same"),
-        Some((change, points)) if change > 0.0 => text!(language, "sessions-standing-up", points = points),
-        Some((_, points)) => text!(language, "sessions-standing-down", points = points),
-        None => return best,
+    let change = change.map(|(change, points)| match change {
+        _ if points == "0" => text!(language, "sessions-standing-same"),
+        change if change > 0.0 => text!(language, "sessions-standing-up", points = points),
+        _ => text!(language, "sessions-standing-down", points = points),
+    });
+    let error = standing.within_error.map(|within| format!("({}).", within_error::words(within, language)));
+    let change = match (change, error) {
+        (Some(change), Some(error)) => Some(format!("{} {error}", change.trim_end_matches('.'))),
+        (change, _) => change,
     };
-    format!("{best} {change}")
+    let left_out = excluded_sessions_note(standing.left_out, language).map(|note| note + ".");
+    [Some(best), change, left_out].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 fn actions(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
@@ -457,7 +463,8 @@ mod tests {
         };
         let next = Some(NextFlight { scenario: HOSTILE_NAME.into(), command: HOSTILE_NAME.into() });
         let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next, ..SessionAdvice::default() };
-        let standing = Some(SessionStanding { best: 350.0, is_best: false, change: Some(-30.0) });
+        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(-30.0), within_error: None, left_out: 0 };
+        let standing = Some(standing);
         let record = perfect_record("anna", 1);
         let data = SessionPageData { advice: Some(&advice), standing, ..page_data(true, &[]) };
         let text = session(&administrator(), &record, &data).into_string();
@@ -591,12 +598,19 @@ mod tests {
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
         assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");
-        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0) };
-        let told = standing_text(Language::German, &standing, 400.0);
+        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0), within_error: None, left_out: 0 };
+        let told = |standing: &SessionStanding| standing_text(Language::German, standing, 400.0);
         assert_eq!(
-            told,
+            told(&standing),
             "Persönliche Bestleistung bei diesem Auftrag: 350 von 400. Änderung seit dem letzten Mal: 30 Punkte mehr."
         );
+        let labeled = SessionStanding { is_best: true, within_error: Some(true), left_out: 2, ..standing };
+        assert_eq!(
+            standing_text(Language::English, &labeled, 400.0),
+            "This is the personal best on this job. Change since last time: 30 points up (within error). 2 incomplete sessions excluded."
+        );
+        let first = SessionStanding { change: None, within_error: None, left_out: 1, ..labeled };
+        assert!(told(&first).ends_with(" 1 unvollständige Sitzung nicht gezählt."), "{}", told(&first));
     }
 
     #[test]

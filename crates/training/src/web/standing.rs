@@ -1,5 +1,6 @@
 //! A session compared with the trainee's other sessions on the same job.
 
+use crate::cohort::{MeasureReliability, reliability_of};
 use crate::record::{SessionOutcome, SessionRecord};
 
 /// A complete session compared with the trainee's other complete sessions on the same job and level.
@@ -11,20 +12,34 @@ pub struct SessionStanding {
     pub is_best: bool,
     /// Change of the overall score since the last session before this one; `None` for the first one.
     pub change: Option<f64>,
+    /// Whether that change is smaller than the minimal detectable change; `None` if the score's reliability is unknown.
+    pub within_error: Option<bool>,
+    /// Number of the trainee's incomplete sessions on this job, which are left out.
+    pub left_out: usize,
+}
+
+impl SessionStanding {
+    /// Labels the change with the reliability of the measures on the job.
+    #[must_use]
+    pub fn labeled(self, known: &[MeasureReliability]) -> Self {
+        let overall = self.change.zip(reliability_of(known, "overall"));
+        Self { within_error: overall.and_then(|(change, known)| known.is_within_error(change)), ..self }
+    }
 }
 
 /// Compares a session with the trainee's other records; `None` if it is incomplete, was frozen or rewound, or there is no other
 /// comparable session.
 #[must_use]
 pub fn standing(record: &SessionRecord, records: &[SessionRecord]) -> Option<SessionStanding> {
-    let is_comparable = |other: &&SessionRecord| {
-        other.is_complete()
-            && other.is_unaided()
+    let is_on_job = |other: &&SessionRecord| {
+        other.is_unaided()
             && (&other.trainee, other.scenario_with_level()) == (&record.trainee, record.scenario_with_level())
-            && other.scores.overall_max == record.scores.overall_max
             && other.id != record.id
     };
-    let others: Vec<&SessionRecord> = records.iter().filter(is_comparable).collect();
+    let (complete, left_out): (Vec<&SessionRecord>, Vec<&SessionRecord>) =
+        records.iter().filter(is_on_job).partition(|other| other.is_complete());
+    let is_comparable = |other: &&SessionRecord| other.scores.overall_max == record.scores.overall_max;
+    let others: Vec<&SessionRecord> = complete.into_iter().filter(is_comparable).collect();
     if !record.is_complete() || !record.is_unaided() || others.is_empty() {
         return None;
     }
@@ -32,7 +47,8 @@ pub fn standing(record: &SessionRecord, records: &[SessionRecord]) -> Option<Ses
     let best = others.iter().map(|other| other.scores.overall).fold(own, f64::max);
     let earlier = others.iter().filter(|other| other.started_unix_us < record.started_unix_us);
     let last = earlier.max_by_key(|other| other.started_unix_us);
-    Some(SessionStanding { best, is_best: own >= best, change: last.map(|last| own - last.scores.overall) })
+    let change = last.map(|last| own - last.scores.overall);
+    Some(SessionStanding { best, is_best: own >= best, change, within_error: None, left_out: left_out.len() })
 }
 
 #[cfg(test)]
@@ -50,13 +66,42 @@ mod tests {
     }
 
     #[test]
+    fn exact_change_is_labeled_with_the_error_of_the_score() {
+        let mut everyone = records(&[300.0, 305.0]);
+        for (trainee, scores) in [("ben", [200.0, 212.0]), ("cleo", [380.0, 379.0])] {
+            for (k, score) in scores.into_iter().enumerate() {
+                let mut record = perfect_record(trainee, k + 1);
+                record.scores.overall = score;
+                everyone.push(record);
+            }
+        }
+        let known = crate::cohort::job_reliability(&everyone, "two-bridges", crate::record::IncompletePolicy::Exclude);
+        let own = |change: f64| {
+            let mut all = records(&[300.0, 300.0 + change]);
+            all[1].scores.overall_max = 400.0;
+            standing(&all[1], &all).unwrap().labeled(&known).within_error
+        };
+        assert_eq!([own(5.0), own(90.0)], [Some(true), Some(false)]);
+        let all = records(&[300.0, 305.0]);
+        assert_eq!(standing(&all[1], &all).unwrap().labeled(&[]).within_error, None, "the reliability is unknown");
+    }
+
+    #[test]
     fn exact_best_and_change_come_from_complete_sessions_on_the_same_job() {
         let mut all = records(&[300.0, 350.0, 320.0]);
-        assert_eq!(standing(&all[2], &all), Some(SessionStanding { best: 350.0, is_best: false, change: Some(-30.0) }));
-        assert_eq!(standing(&all[1], &all), Some(SessionStanding { best: 350.0, is_best: true, change: Some(50.0) }));
+        let unlabeled =
+            |best, is_best, change, left_out| Some(SessionStanding { best, is_best, change, within_error: None, left_out });
+        assert_eq!(standing(&all[2], &all), unlabeled(350.0, false, Some(-30.0), 0));
+        assert_eq!(standing(&all[1], &all), unlabeled(350.0, true, Some(50.0), 0));
         assert_eq!(standing(&all[0], &all).and_then(|standing| standing.change), None, "the first has no session before it");
         all[1].scenario = "practice".into();
-        assert_eq!(standing(&all[2], &all), Some(SessionStanding { best: 320.0, is_best: true, change: Some(20.0) }));
+        assert_eq!(standing(&all[2], &all), unlabeled(320.0, true, Some(20.0), 0));
+        let with_aborted = [all.clone(), vec![aborted_record("anna", 4), aborted_record("ben", 1)]].concat();
+        assert_eq!(
+            standing(&all[2], &with_aborted),
+            unlabeled(320.0, true, Some(20.0), 1),
+            "only the trainee's own sessions count"
+        );
         all[0] = aborted_record("anna", 1);
         assert_eq!(standing(&all[2], &all), None, "nothing to compare with");
         let mut rewound = records(&[300.0, 400.0]);

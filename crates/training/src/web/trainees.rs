@@ -5,8 +5,8 @@ use super::assignments::trainee_assignments;
 use super::layout::{ELEMENT, page, role_text, section, table, token, with_element};
 use super::sessions::lines;
 use crate::assignment::AssignedJob;
-use crate::cohort::{JobReliability, MeasureReliability, by_job, reliability_of};
-use crate::plan::{DrillProgress, MeasureChange, TrainingPlan};
+use crate::cohort::{JobReliability, MeasureReliability, by_job};
+use crate::plan::{DrillProgress, MeasureChange, SessionChanges, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
 use crate::report::formatting;
 use crate::report::page::progress::job_progress;
@@ -138,11 +138,11 @@ fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -
             h3 { (text!(language, "people-changes")) }
             @let previous = html! { a href={ "/sessions/" (changes.since) } { (text!(language, "people-changes-session")) } };
             p.note { (with_element(&text!(language, "people-changes-compared", session = ELEMENT), &previous)) }
-            @let known = reliability_of_session(profile, &changes.since);
+            @let changes = labeled(changes, reliability_of_session(profile, &changes.since));
             ul {
                 @let scenario = profile.records.last().map_or("", |record| record.scenario.as_str());
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change_line(language, scenario, change)) @if change_is_within_error(change, known) { " (" (within_error::words(true, language)) ")" } }
+                    li { (change_line(language, scenario, change)) @if change.within_error == Some(true) { " (" (within_error::words(true, language)) ")" } }
                 }
             }
         }
@@ -168,14 +168,16 @@ fn change_line(language: Language, scenario: &str, change: &MeasureChange) -> St
     }
 }
 
+fn labeled(changes: &SessionChanges, known: &[MeasureReliability]) -> SessionChanges {
+    let mut labeled = changes.clone();
+    labeled.label(known);
+    labeled
+}
+
 /// Returns the reliability of the measures on the job of a session; empty if unknown.
 fn reliability_of_session<'a>(profile: &TraineeProfile<'a>, session: &str) -> &'a [MeasureReliability] {
     let flown = profile.records.iter().find(|record| record.id == session);
     flown.and_then(|record| profile.reliability.get(&record.scenario_with_level())).map_or(&[], Vec::as_slice)
-}
-
-fn change_is_within_error(change: &MeasureChange, known: &[MeasureReliability]) -> bool {
-    reliability_of(known, &change.what).and_then(|one| one.is_within_error(change.now - change.before)) == Some(true)
 }
 
 /// Renders progress separately for each job because practice on one says little about another.

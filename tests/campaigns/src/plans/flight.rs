@@ -26,8 +26,7 @@ const STEP: SimTime = SimTime::from_ms(20);
 const PATIENCE: SimTime = SimTime::from_ms(5_000);
 /// Simulation time beyond the time limit after which a flight counts as stuck, s.
 const EXTRA_TIME_S: f64 = 300.0;
-/// The job that the pilots fly, and its aircraft.
-const JOB: &str = "two-bridges";
+/// The aircraft of all flights.
 const AIRCRAFT: &str = "phantom2";
 
 struct PlantedFlight {
@@ -42,13 +41,13 @@ struct PlantedFlight {
 }
 
 /// Returns the session ID of a flight.
-pub fn flight_id(weakness: &Weakness, seed: u64) -> String {
-    format!("{}-{seed}", weakness.name)
+pub fn flight_id(job: &str, weakness: &Weakness, seed: u64) -> String {
+    format!("{job}-{}-{seed}", weakness.name)
 }
 
-/// Flies the job and returns the session record.
-pub fn fly(weakness: &Weakness, seed: u64) -> SessionRecord {
-    let job = Arc::new(shipped::scenario(JOB));
+/// Flies a shipped job and returns the session record.
+pub fn fly(job_name: &str, weakness: &Weakness, seed: u64) -> SessionRecord {
+    let job = Arc::new(shipped::scenario(job_name));
     let aircraft = Arc::new(shipped::vehicle(AIRCRAFT));
     let site = Site::build(&job, seed);
     let placed = site.defects().to_vec();
@@ -60,7 +59,7 @@ pub fn fly(weakness: &Weakness, seed: u64) -> SessionRecord {
     flight.run(job.scoring.time_max_s + EXTRA_TIME_S);
     let assessed_session = flight.monitor.finished().unwrap().as_ref().unwrap_or_else(|error| panic!("{error}"));
     record(&RecordSource {
-        id: &flight_id(weakness, seed),
+        id: &flight_id(job_name, weakness, seed),
         trainee: "planted",
         purpose: None,
         started_unix_us: 1_000_000,

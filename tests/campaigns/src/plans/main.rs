@@ -1,11 +1,14 @@
-//! Training plans for planted weaknesses: the synthetic pilot flies the job with one fault, and the plan must recommend
-//! the drill for it.
+//! Planted weaknesses: the synthetic pilot flies the job with one fault. The training plan must recommend the drill for it, and a
+//! grave fault must prevent the certification.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+mod certification;
 mod flight;
+mod flights;
 mod table;
 mod weaknesses;
 
+use certification::{CERTIFICATION_FAULTS, CertificationTable};
 use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
 use table::PlanTable;
 use weaknesses::WEAKNESSES;
@@ -42,4 +45,11 @@ fn flight_plans_recommend_the_drill_for_the_planted_weakness() {
     assert!(table.share_first() >= MIN_FIRST, "the right drill is first in {:.0}% of the plans", 100.0 * table.share_first());
     assert!(table.share_among_three() >= MIN_AMONG_THREE, "{:.0}% have it", 100.0 * table.share_among_three());
     assert!(table.share_spurious() <= MAX_SPURIOUS, "{:.0}% are spurious", 100.0 * table.share_spurious());
+}
+
+#[test]
+fn flight_planted_faults_are_not_certified_for_the_right_reason() {
+    let table = CertificationTable::fly(CERTIFICATION_FAULTS, &seeds());
+    println!("{table}");
+    assert_eq!(table.problems(), Vec::<String>::new());
 }

@@ -1,19 +1,16 @@
 //! Plans for the planted flights, and how often they recommend the right drill.
 
-use crate::flight::{flight_id, fly};
+use crate::flights::fly_all;
 use crate::weaknesses::{NO_WEAKNESS, Weakness};
 use spandrel_text::Language;
 use spandrel_training::plan::{PlanRules, TrainingPlan, plan};
 use spandrel_training::record::SessionRecord;
 use std::fmt;
-use std::io::Write;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Position of the right drill from which it no longer counts.
 const AMONG: usize = 3;
-/// Environment variable with the file for the flights' records, to inspect them or to continue after an interruption.
-const KEPT_RECORDS: &str = "SPANDREL_PLANTED_RECORDS";
+/// The job of the plans.
+const JOB: &str = "two-bridges";
 
 /// Result of one flight.
 struct PlantedPlan {
@@ -49,32 +46,12 @@ impl PlanTable {
             .chain(weaknesses)
             .flat_map(|weakness| seeds.iter().map(move |seed| (weakness, *seed)))
             .collect();
-        let known = kept_records();
-        let next = AtomicUsize::new(0);
-        let flown: Mutex<Vec<Option<SessionRecord>>> = Mutex::new(flights.iter().map(|_| None).collect());
-        std::thread::scope(|scope| {
-            for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-                scope.spawn(|| {
-                    while let Some((weakness, seed)) = flights.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        let id = flight_id(weakness, *seed);
-                        let record = known.iter().find(|record| record.id == id).cloned();
-                        let record = record.unwrap_or_else(|| fly(weakness, *seed));
-                        let index = flights.iter().position(|flight| std::ptr::eq(flight.0, *weakness) && flight.1 == *seed);
-                        let mut flown = flown.lock().unwrap();
-                        if !known.iter().any(|known| known.id == record.id) {
-                            keep(&record);
-                        }
-                        flown[index.unwrap()] = Some(record);
-                    }
-                });
-            }
-        });
-        let records = flown.into_inner().unwrap().into_iter().map(Option::unwrap);
-        let of = |((weakness, seed), record): (&(&'static Weakness, u64), SessionRecord)| {
+        let records = fly_all(JOB, &flights);
+        let of = |((weakness, seed), record): ((&'static Weakness, u64), SessionRecord)| {
             let plan = plan(std::slice::from_ref(&record), rules, record.started_unix_us, Language::English).unwrap();
-            PlantedPlan { weakness, seed: *seed, plan }
+            PlantedPlan { weakness, seed, plan }
         };
-        let mut planted: Vec<PlantedPlan> = flights.iter().zip(records).map(of).collect();
+        let mut planted: Vec<PlantedPlan> = flights.iter().copied().zip(records).map(of).collect();
         let faulty = planted.split_off(seeds.len());
         Self { planted: faulty, clean: planted }
     }
@@ -98,19 +75,6 @@ impl PlanTable {
         let all = self.planted.iter().chain(&self.clean);
         all.clone().filter(|one| !one.spurious().is_empty()).count() as f64 / all.count() as f64
     }
-}
-
-/// Returns the records in the file in `SPANDREL_PLANTED_RECORDS`. These flights are not flown again.
-fn kept_records() -> Vec<SessionRecord> {
-    let text = std::env::var(KEPT_RECORDS).ok().and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_default();
-    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
-}
-
-/// Appends a record to that file.
-fn keep(record: &SessionRecord) {
-    let Ok(path) = std::env::var(KEPT_RECORDS) else { return };
-    let mut file = std::fs::OpenOptions::new().create(true).append(true).open(path).unwrap();
-    writeln!(file, "{}", serde_json::to_string(record).unwrap()).unwrap();
 }
 
 impl fmt::Display for PlanTable {

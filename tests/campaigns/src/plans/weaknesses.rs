@@ -32,6 +32,11 @@ const RANDOM_PICTURE_PERIOD: u64 = 100;
 /// Only every fourth picture is taken by a pilot who overlooks defects.
 const OVERLOOKED: u64 = 4;
 
+/// A pilot who drives into the bridge pushes the stick forward for 2 s out of 30 s at 50 Hz, with this deflection.
+const RUN_UP: u64 = 100;
+const RUN_UP_PERIOD: u64 = 1500;
+const RUN_UP_STICK: f64 = 0.5;
+
 /// State of the pilot's hands.
 pub struct Hands {
     status: String,
@@ -117,13 +122,25 @@ fn move_away(job: &mut Scenario, away_m: f64) {
     }
 }
 
-fn halve_paths(job: &mut Scenario) {
+/// Shortens every path to its first points.
+fn shorten_paths(job: &mut Scenario, points: fn(&[Vec3<Enu>]) -> usize) {
     for task in &mut job.tasks {
-        let half = task.path_m.len().div_ceil(2);
-        task.path_m.truncate(half);
-        task.viewing_directions.truncate(half);
+        let kept = points(&task.path_m);
+        task.path_m.truncate(kept);
+        task.viewing_directions.truncate(kept);
         task.closed = false;
     }
+}
+
+/// Returns the number of points up to 49% of the path's length.
+fn points_to_49_percent(path_m: &[Vec3<Enu>]) -> usize {
+    let lengths_m: Vec<f64> = path_m.windows(2).map(|ends| (ends[1] - ends[0]).norm()).collect();
+    let limit_m = 0.49 * lengths_m.iter().sum::<f64>();
+    let flown_m = lengths_m.iter().scan(0.0, |sum_m, length_m| {
+        *sum_m += length_m;
+        Some(*sum_m)
+    });
+    1 + flown_m.take_while(|flown_m| *flown_m <= limit_m).count()
 }
 
 fn lower_paths(job: &mut Scenario) {
@@ -143,7 +160,13 @@ fn look_aside(job: &mut Scenario) {
 
 /// The planted weaknesses, with the drill that each calls for.
 pub const WEAKNESSES: &[Weakness] = &[
-    Weakness { name: "half of every path", drills: &["practice"], also: &[], belief: halve_paths, tamper: untouched },
+    Weakness {
+        name: "half of every path",
+        drills: &["practice"],
+        also: &[],
+        belief: |job| shorten_paths(job, |path_m| path_m.len().div_ceil(2)),
+        tamper: untouched,
+    },
     Weakness {
         name: "only the first task",
         drills: &["practice"],
@@ -298,6 +321,29 @@ pub const WEAKNESSES: &[Weakness] = &[
         also: &[],
         belief: |job| job.ground_team.pad_m += Vec3::new(0.0, -9.0, 0.0),
         tamper: untouched,
+    },
+];
+
+/// Further weaknesses, which must prevent the certification. The tests of the plans leave them out.
+pub const GRAVE_FAULTS: &[Weakness] = &[
+    Weakness {
+        name: "49% of every path",
+        drills: &[],
+        also: &[],
+        belief: |job| shorten_paths(job, points_to_49_percent),
+        tamper: untouched,
+    },
+    Weakness {
+        name: "drives into the bridge",
+        drills: &[],
+        also: &[],
+        belief: as_intended,
+        tamper: |hands, message| {
+            with_sticks(hands, message, |hands, [x, y, z, r]| {
+                let is_driving = hands.stick_messages % RUN_UP_PERIOD < RUN_UP;
+                [if is_driving { RUN_UP_STICK } else { x }, y, z, r]
+            })
+        },
     },
 ];
 

@@ -5,7 +5,7 @@ use super::inputs::CertificationInputs;
 use super::visits::VisitRanges;
 use crate::measures::attention;
 use crate::measures::image_quality::angle_rad;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Angle between the optical axis and the viewing direction up to which the framing error is 0, degrees (estimate: the
 /// point of the surface straight across from the drone leaves the picture of the shipped cameras at 42 degrees; paths
@@ -16,7 +16,7 @@ pub const FRAMING_TOLERANCE_DEG: f64 = 45.0;
 const MAX_FRAMING_ERROR_DEG: f64 = 67.5;
 
 /// Precision measures of one task or of the whole session. Frames in telemetry gaps are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PrecisionMeasures {
     /// Number of frames measured.
     pub frames: usize,

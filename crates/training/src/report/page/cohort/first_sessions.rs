@@ -5,6 +5,7 @@ use super::super::figure::{figure, legend};
 use super::lists_individuals::lists_individuals;
 use super::pooled;
 use crate::cohort::Cohort;
+use crate::record::SessionOutcome;
 use crate::report::plots::bars::{CountRow, ShareRow, counts, shares};
 use crate::report::plots::histogram::histogram;
 use crate::report::table::{Table, TableCell, shown};
@@ -103,11 +104,15 @@ fn individual_table(cohort: &Cohort, language: Language) -> Table {
             maybe(one.accuracy),
             TableCell::Number(one.overall, 1),
             TableCell::Clock(one.seconds),
+            one.completion_summary(language).into(),
+            one.verdict(language).into(),
         ]
     });
     let mut columns = vec![text!(language, "cohort-column-trainee")];
     columns.extend(["conformity", "efficiency", "safety", "accuracy", "overall"].map(|score| score_title(score, language)));
     columns.push(text!(language, "report-column-flight-time"));
+    columns.push(text!(language, "cohort-column-completion"));
+    columns.push(text!(language, "cohort-column-certification"));
     Table { name: "individuals", caption: text!(language, "cohort-individuals-caption"), columns, rows: rows.collect() }
 }
 

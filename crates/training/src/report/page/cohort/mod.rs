@@ -15,7 +15,7 @@ pub use lists_individuals::MAX_LISTED_TRAINEES;
 use super::figure::{SLOT, filled};
 use super::{PageScripts, document};
 use crate::cohort::{Cohort, Limitation, TABLES, tables};
-use crate::record::excluded_sessions_note;
+use crate::record::{excluded_sessions_note, included_sessions_note};
 use crate::report::table::download;
 use lists_individuals::lists_individuals;
 use maud::{Markup, html};
@@ -62,7 +62,9 @@ pub fn summary_lines(cohort: &Cohort, language: Language) -> Markup {
     html! {
         p { (text!(language, "cohort-summary", trainees = cohort.trainees, sessions = cohort.sessions, scenarios = scenarios)) " "
             @if !cohort.group.is_empty() && cohort.repetitions > 1 { (group()) }
-            @if let Some(words) = excluded_sessions_note(cohort.left_out, language) { " " (words) "." } }
+            @if let Some(words) = excluded_sessions_note(cohort.left_out, language) { " " (words) "." }
+            @if let Some(words) = included_sessions_note(cohort.incomplete, language) { " " (words) "." } }
+        p { (text!(language, "cohort-certified", certified = cohort.certified, sessions = cohort.sessions)) }
     }
 }
 
@@ -142,7 +144,7 @@ mod tests {
     use super::*;
     use crate::cohort::{Selection, cohort as of};
     use crate::record::{IncompletePolicy, SessionRecord};
-    use crate::testing::perfect_record;
+    use crate::testing::{aborted_record, perfect_record};
 
     fn group() -> Vec<SessionRecord> {
         let mut records = Vec::new();
@@ -169,6 +171,26 @@ mod tests {
             assert!(page.contains(figure), "{figure}");
         }
         assert!(!page.contains(" style=") && !page.contains("NaN"));
+    }
+
+    #[test]
+    fn exact_page_shows_completion_and_certification() {
+        let records = [aborted_record("anna", 1), perfect_record("ben", 1)];
+        let of = |incomplete| of(&records, &Selection { scenarios: Vec::new(), repetitions: 1, incomplete });
+        let page = super::cohort(&of(IncompletePolicy::Include), Language::English);
+        for words in [
+            "Certified: 1 of 2 sessions.",
+            "1 incomplete session included.",
+            ">Incomplete: 0 of 4 tasks, 15% of the path<",
+            ">Not certified: task 1 not done: 60% of its path, 80% needed (and 1 more)<",
+            ">Complete: 4 of 4 tasks, 100% of the path<",
+            ">Certified<",
+        ] {
+            assert!(page.contains(words), "{words}");
+        }
+        let page = super::cohort(&of(IncompletePolicy::Exclude), Language::German);
+        assert!(page.contains("Zertifiziert: 1 von 1 Sitzungen.") && page.contains(">Vollständigkeit<"), "{page}");
+        assert!(!page.contains("mitgezählt"));
     }
 
     #[test]
