@@ -4,7 +4,6 @@ use super::access::{AccessLevel, Visitor};
 use super::assets;
 use super::layout::{ELEMENT, page, page_navigation, page_with_script, section, table, token, with_element};
 use super::rubric::MAX_NAME_LEN;
-use super::standing::SessionStanding;
 use crate::advice::SessionAdvice;
 use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
@@ -12,6 +11,7 @@ use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, Sessi
 use crate::report::formatting;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
+use crate::standing::SessionStanding;
 use crate::terms::{end_reason_title, job_title, purpose_title, score_title, task_title};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
@@ -158,7 +158,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
 fn to_do_better(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     html! {
         p { b { (record.completion_summary(language)) ". " (record.verdict(language)) "." } }
-        @if let Some(standing) = &page_data.standing { p { (standing_text(language, standing, record.scores.overall_max)) } }
+        @if let Some(standing) = &page_data.standing { p { (standing.words(language)) } }
         @if let Some(advice) = page_data.advice {
             @if let Some(note) = &advice.note { p { (note) } }
             ol.advice {
@@ -247,24 +247,6 @@ fn photographs(language: Language, record: &SessionRecord, pictures: &[u32]) -> 
             }
         }
     }
-}
-
-/// Describes how a session compares with the trainee's other sessions on the job.
-fn standing_text(language: Language, standing: &SessionStanding, most: f64) -> String {
-    let best = if standing.is_best {
-        text!(language, "sessions-standing-best")
-    } else {
-        let (best, most) = (formatting::number(standing.best, 0), formatting::number(most, 0));
-        text!(language, "sessions-standing-other", best = best, most = most)
-    };
-    let change = standing.change.map(|change| (change, formatting::number(change.abs(), 0)));
-    let change = match change {
-        Some((_, points)) if points == "0" => text!(language, "sessions-standing-same"),
-        Some((change, points)) if change > 0.0 => text!(language, "sessions-standing-up", points = points),
-        Some((_, points)) => text!(language, "sessions-standing-down", points = points),
-        None => return best,
-    };
-    format!("{best} {change}")
 }
 
 fn actions(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
@@ -457,7 +439,7 @@ mod tests {
         };
         let next = Some(NextFlight { scenario: HOSTILE_NAME.into(), command: HOSTILE_NAME.into() });
         let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next, ..SessionAdvice::default() };
-        let standing = Some(SessionStanding { best: 350.0, is_best: false, change: Some(-30.0) });
+        let standing = Some(SessionStanding { best: 350.0, is_best: false, change: Some(-30.0), most: 400.0 });
         let record = perfect_record("anna", 1);
         let data = SessionPageData { advice: Some(&advice), standing, ..page_data(true, &[]) };
         let text = session(&administrator(), &record, &data).into_string();
@@ -591,8 +573,8 @@ mod tests {
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
         assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");
-        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0) };
-        let told = standing_text(Language::German, &standing, 400.0);
+        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0), most: 400.0 };
+        let told = standing.words(Language::German);
         assert_eq!(
             told,
             "Persönliche Bestleistung bei diesem Auftrag: 350 von 400. Änderung seit dem letzten Mal: 30 Punkte mehr."
