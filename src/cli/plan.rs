@@ -13,7 +13,7 @@ use spandrel_text::Language;
 use spandrel_training::cohort::job_reliability;
 use spandrel_training::plan::{MeasureChange, PlanHeadlines, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionRecord, excluded_sessions_note};
-use spandrel_training::report::page::within_error::words;
+use spandrel_training::terms::error_label;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -115,7 +115,8 @@ fn plan_text(plan: &TrainingPlan) -> String {
         let told = |change: &&MeasureChange| change.better.is_some();
         for change in changes.changes.iter().filter(told) {
             let better = if change.better == Some(true) { "better" } else { "worse" };
-            let error = change.within_error.map_or(String::new(), |within| format!(" ({})", words(within, Language::English)));
+            let error =
+                change.within_error.map_or(String::new(), |within| format!(" ({})", error_label(within, Language::English)));
             let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}{error}", change.what, change.before, change.now);
         }
     }

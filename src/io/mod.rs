@@ -39,6 +39,7 @@ pub mod session_folder;
 pub mod shell;
 pub mod signing_store;
 pub mod simulator_socket;
+pub mod standing;
 pub mod station_key;
 pub mod stop;
 pub mod store;

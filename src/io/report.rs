@@ -4,6 +4,7 @@ use super::clock;
 use super::marks::valid_marks;
 use super::replace::replace;
 use super::session_folder::StoredSession;
+use super::standing::standing_when_flown;
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::export::json_text;
@@ -161,6 +162,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
         pictures: Vec::new(),
         marks: valid_marks(session),
         video: Some(VIDEO).filter(|video| session.join(video).is_file()),
+        standing: standing_when_flown(session),
     })
 }
 

@@ -15,9 +15,9 @@ use spandrel_training::marks::marks_key;
 use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_training::report::assets;
 use spandrel_training::report::page::MARKS_META_NAME;
+use spandrel_training::standing::standing;
 use spandrel_training::web::back_links::{ParentPage, with_back_links};
 use spandrel_training::web::sessions as pages;
-use spandrel_training::web::standing::standing;
 use std::path::{Path, PathBuf};
 
 /// Number of sessions on each list page.

@@ -19,10 +19,10 @@ use spandrel_view::arrange::ViewLayout;
 use spandrel_view::flow::pipe::{FlightStarted, FromWindow};
 use spandrel_view::flow::{Page, PageLayout, SettingChange, WindowRequest};
 use spandrel_view::gpu::{PageTextures, paint_sheet};
-use spandrel_view::hud::{self, TextScale};
+use spandrel_view::hud::{StatusAlarms, TextScale};
 use spandrel_view::live::LiveMoment;
 use spandrel_view::path_guide::PathAids;
-use spandrel_view::sound::SoundInputs;
+use spandrel_view::sound::{ActiveAlarms, SoundInputs};
 
 /// Turn rate of the inspector's view under keyboard control, rad/s, and zoom factor per second (estimates: comfortable
 /// on a laptop).
@@ -76,9 +76,7 @@ impl Cockpit {
 
     /// Passes rotor speeds, the distance and warnings to the sound output.
     fn sound(&mut self, now: Option<&LiveMoment>) {
-        // Without recent telemetry, the rotor speeds are unknown, so no sound is played.
-        let moves = |now: &&LiveMoment| now.hud.telemetry_age_s <= hud::LINK_TIMEOUT_S && !now.hud.is_frozen;
-        let now = now.filter(moves).filter(|_| !self.flow.is_paused());
+        let now = now.filter(|_| !self.flow.is_paused());
         let (Some(flight), Some(now)) = (&self.threads.flight, now) else {
             self.speaker.silence();
             return;
@@ -87,14 +85,18 @@ impl Cockpit {
         if self.speaker.is_on() {
             live.request_rotor_outputs();
         }
-        self.speaker.set(SoundInputs {
+        let distance_m = (now.moment.drone.pose.position_m - flight.inspector(now).feet_m).norm();
+        let feed = live.feed();
+        let status = StatusAlarms::new(now.hud.telemetry_age_s, feed.gnss(), feed.radio(now.moment.at));
+        let inputs = SoundInputs {
             rotors_rad_s: live.rotors_rad_s(&flight.job.1),
-            distance_m: (now.moment.drone.pose.position_m - flight.inspector(now).feet_m).norm(),
-            cues: live.feed().cues(now.moment.at, false),
-            cue_texts: live.feed().cue_texts().clone(),
+            distance_m,
+            alarms: ActiveAlarms { cues: feed.cues(now.moment.at, false), status },
+            cue_texts: feed.cue_texts().clone(),
             style: self.flow.style(),
             silent: false,
-        });
+        };
+        self.speaker.set(inputs.with_freeze(now.hud.is_frozen));
     }
 
     fn apply_requests(&mut self, order: WindowRequest) -> Result<(), AppError> {

@@ -70,7 +70,9 @@ fn exact_messages_page_matches_the_code() {
          rate, and REQUEST_MESSAGE requests a single message. [Scoring data](wire.md#scoring-data) lists the named values used for scoring.",
         asks.join(" or ")
     );
-    let acts = "The vehicle handles these messages. It forwards all other messages to the links of the target.";
+    let acts = "The vehicle handles these messages. It forwards all other messages to the links of the target, such as those of [the \
+                monitor](wire.md#the-monitor): its NAV_CONTROLLER_OUTPUT (component 191) is about the next step of the job, the autopilot's own \
+                about the autopilot's target.";
     let page = format!(
         "{}\n## Streams\n\n{}\n## Handled messages\n\n{acts}\n\n{}",
         page_head("Messages", &about),

@@ -57,6 +57,38 @@ pub fn purpose_title(purpose: &str, language: Language) -> String {
     }
 }
 
+/// Returns the name of a task of a shipped job by its name in the job's file; the name itself if it is another one.
+#[must_use]
+pub fn shipped_task_title(task: &str, language: Language) -> String {
+    match task {
+        "Curve under the arch" => text!(language, "job-task-curve"),
+        "Side of the slab, camera on the slab" => text!(language, "job-task-slab-framing"),
+        "Gap between deck and arch" => text!(language, "job-task-gap"),
+        "Hover" => text!(language, "job-task-hover"),
+        "Arch bottom in the dark" => text!(language, "job-task-dark-arch"),
+        "Out and back" => text!(language, "job-task-out-and-back"),
+        "Orbit" => text!(language, "job-task-orbit"),
+        "Pier, all faces" => text!(language, "job-task-pier-faces"),
+        "Pier at 3 m" => text!(language, "job-task-pier-stand-off"),
+        "Straight line" => text!(language, "job-task-straight-line"),
+        "Square" => text!(language, "job-task-square"),
+        "Slab of the arch bridge from one side" => text!(language, "job-task-slab"),
+        "Arch-shaped bottom" => text!(language, "job-task-arch"),
+        "Interlayer between deck and arch" => text!(language, "job-task-interlayer"),
+        "Pier of the suspension bridge near the water" => text!(language, "job-task-pier"),
+        "Outer girder and deck edge" => text!(language, "job-task-outer-girder"),
+        "Girder bays of the last span" => text!(language, "job-task-girder-bays"),
+        "Bearings on the start abutment" => text!(language, "job-task-bearings"),
+        "Cap of the first pier" => text!(language, "job-task-pier-cap"),
+        "Girder bays of the middle span" => text!(language, "job-task-middle-bays"),
+        "Right truss of the first span" => text!(language, "job-task-right-truss"),
+        "Floor system of the second span" => text!(language, "job-task-floor"),
+        "Pins and bearings on the pier" => text!(language, "job-task-pins"),
+        "Bearings on the second pier" => text!(language, "job-task-pier-bearings"),
+        _ => task.to_owned(),
+    }
+}
+
 /// Returns the words with an uppercase first letter.
 #[must_use]
 pub fn capitalized(words: &str) -> String {

@@ -25,6 +25,7 @@ pub mod report;
 pub mod rubric;
 pub mod scenario_check;
 pub mod school;
+pub mod standing;
 pub mod stations;
 pub mod statistics;
 pub mod terms;

@@ -23,6 +23,8 @@ use spandrel_training::report::feedback::KINDS;
 use spandrel_training::report::navigation_errors::NavigationErrors;
 use spandrel_training::report::radio_losses::RadioLosses;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page};
+use spandrel_training::standing::SessionStanding;
+use spandrel_training::terms::job_title;
 use spandrel_training::testing::perfect_record;
 use std::sync::OnceLock;
 
@@ -188,6 +190,27 @@ fn exact_marks_are_on_the_timeline_and_change_nothing_else() {
     assert!(page.contains("data-t=\"61.50\">1:02</a> turn the camera earlier"), "the list links to the moment");
     let key = format!("name=\"{}\" content=\"{}\"", page::MARKS_META_NAME, marks_key(&marks).unwrap());
     assert!(page.contains(&key) && !plain.contains(page::MARKS_META_NAME) && !plain.contains("Instructor's marks"));
+}
+
+#[test]
+fn exact_the_first_section_has_the_personal_best_and_titles_of_drills() {
+    let (tape, job) = (record_inspection(&two_bridges(), 200.0, 9), two_bridges());
+    let standing = SessionStanding::new((2, 310.0, 400.0), &[(1, 340.0)]);
+    let metadata = SessionMetadata { standing, language: Language::German, ..metadata() };
+    let review = Review::of(&tape.log(0), &job, &phantom(), metadata).expect("a session");
+    let page = page::session(&review);
+    let better = page.split("id=\"better\"").nth(1).unwrap().split("</section>").next().unwrap();
+    let best = "Persönliche Bestleistung bei diesem Auftrag: 340 von 400. Änderung seit dem letzten Mal: 30 Punkte weniger.";
+    assert!(better.contains(best), "{better}");
+    let next = page.split("id=\"next\"").nth(1).unwrap().split("<details").next().unwrap();
+    let drills: Vec<&str> = review.advice.points.iter().map(|point| point.drill.as_str()).collect();
+    assert!(!drills.is_empty() && !review.next.is_empty());
+    for (section, drills) in [(better, drills), (next, review.next.iter().map(|step| step.scenario.as_str()).collect())] {
+        for drill in drills {
+            let title = job_title(drill, Language::German);
+            assert!(title != drill && section.contains(&title) && !section.contains(&format!(">{drill}<")), "{drill}: {section}");
+        }
+    }
 }
 
 /// Returns the values of all attributes that cause a browser to load a resource.

@@ -5,7 +5,7 @@ use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::ghost::GhostView;
 use super::hud::lesson_words::how_to;
-use super::hud::{DisplayStyle, DrawItem, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, WayBack, marker};
+use super::hud::{DisplayStyle, DrawItem, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, TaskNames, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};
 use super::scene::{DronePose, Scene};
@@ -330,6 +330,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         pad_m,
         inspector: InspectorMarks::new(&scenario.ground_team, stage.site.inspector().at(at).feet_m),
         guidance: feed.guidance(at),
+        tasks: TaskNames::of(scenario),
         lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
             how: how_to(status.task, Language::default(), &|binding| format!("{{{binding}}}")),
             remark: remark.map(str::to_owned),
@@ -337,6 +338,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         }),
         ghost: None,
         tracks: if map { MapPath::all(scenario) } else { Vec::new() },
+        site: stage.scene.outline.clone(),
         style: DisplayStyle::default(),
     }
 }

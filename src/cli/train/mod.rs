@@ -35,10 +35,10 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     }
     // Errors in the files are reported before any process starts.
     files::scenario(&args.scenario_argument())?;
-    files::vehicle(&args.vehicle)?;
+    let aircraft = files::vehicle(&args.vehicle)?.vehicle;
     controller::keys(args.keys.as_deref())?;
     args.quality.as_deref().map_or(Ok(()), check_quality)?;
-    TrainRun::new(args, log, StopRequest::install(false)?).run()
+    TrainRun::new(args, aircraft, log, StopRequest::install(false)?).run()
 }
 
 /// Checks a quality preset's name. Without the `view` feature, accepts every name.

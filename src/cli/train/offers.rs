@@ -3,6 +3,7 @@
 use crate::io::files::{self, ScenarioFile};
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
+use crate::io::standing::standing_when_flown;
 use crate::records::session_folders;
 use crate::web::scenario_library::{UPLOAD_FOLDER, uploaded};
 use serde::Deserialize;
@@ -10,13 +11,15 @@ use serde_json::Value;
 use spandrel_model::scenario::{BriefingPicture, Scenario, form_names};
 use spandrel_model::shipped;
 use spandrel_model::site::Site;
+use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
 use spandrel_monitor::measures::practice_aids::PracticeAids;
+use spandrel_monitor::score::certification::requirements;
 use spandrel_monitor::score::completion::{Completion, verdict};
 use spandrel_text::terms::{capitalized, end_reason_title};
 use spandrel_text::{Language, text};
 use spandrel_training::advice::SessionAdvice;
-use spandrel_training::briefing::{SiteBriefing, TaskBriefing, text as briefing_text};
+use spandrel_training::briefing::{Briefing, TaskBriefing, flight_conditions, text as briefing_text};
 use spandrel_training::terms::scenario_title;
 use spandrel_view::flow::pipe::{
     BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress,
@@ -29,8 +32,13 @@ use std::path::{Path, PathBuf};
 /// Trainee ID of the sessions that the synthetic expert flies.
 pub const EXPERT_ID: &str = "synthetic-expert";
 
-/// Returns the choices that the start page offers.
-pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>, language: Language) -> FlightOptions {
+/// Returns the choices that the start page offers, for flights with an aircraft.
+pub fn flight_options(
+    (sessions, vehicle): (&Path, &Vehicle),
+    choice: &FlightChoice,
+    web: Option<&str>,
+    language: Language,
+) -> FlightOptions {
     let mut names: Vec<String> = files::scenario_names().into_iter().flat_map(scenarios_by_form).collect();
     names.extend(uploaded(&sessions.join(UPLOAD_FOLDER)).iter().map(|path| path.display().to_string()));
     if !names.contains(&choice.scenario) {
@@ -39,40 +47,58 @@ pub fn flight_options(sessions: &Path, choice: &FlightChoice, web: Option<&str>,
     FlightOptions {
         trainees: trainee_summaries(sessions, language),
         lesson: job_named(FIRST_LESSON, language),
-        scenarios: names.into_iter().filter_map(|name| job_offer(name, language)).collect(),
+        scenarios: names.into_iter().filter_map(|name| job_offer(name, vehicle, language)).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
     }
 }
 
-/// Returns the job with this name or path in a language, with its briefing; `None` if it cannot be read.
-pub fn job_offer(name: String, language: Language) -> Option<JobOffer> {
+/// Returns the job with this name or path in a language, with its briefing for an aircraft; `None` if it cannot be read.
+pub fn job_offer(name: String, vehicle: &Vehicle, language: Language) -> Option<JobOffer> {
     let file = files::scenario(&name).ok()?;
+    let (briefing, conditions) = job_briefing(&file, vehicle, language);
     Some(JobOffer {
         name,
         title: job_title(&file.scenario, language),
         kind: contents_summary(&file.scenario, language),
-        briefing: job_briefing(&file, language),
+        conditions,
+        is_lesson: !file.scenario.lesson.is_empty(),
+        briefing,
     })
 }
 
 /// Lesson for trainees without sessions.
 const FIRST_LESSON: &str = "first-flight";
 
-/// Returns what the window's briefing page shows.
-fn job_briefing(file: &ScenarioFile, language: Language) -> JobBriefing {
+/// Returns what the window's briefing page shows, and aircraft, wind and light in short.
+fn job_briefing(file: &ScenarioFile, vehicle: &Vehicle, language: Language) -> (JobBriefing, String) {
     let scenario = &file.scenario;
-    let briefing = SiteBriefing::new(scenario, &Site::without_defects(scenario), language);
+    let site = Site::without_defects(scenario);
+    let briefing = Briefing::new(scenario, vehicle, &site, language);
     let task = |task: &TaskBriefing| {
         format!("{}  {}: {}, {}", task.id, task.name, task.place, briefing_text::task_numbers(task, language))
     };
-    JobBriefing {
-        notes: scenario.briefing.clone(),
+    let condition = |(name, value): &(String, String)| format!("{}: {value}", capitalized(name));
+    let short = flight_conditions(scenario, vehicle, &site, language).each_ref().map(condition).join(" · ");
+    let briefing = JobBriefing {
         tasks: briefing.tasks.iter().map(task).collect(),
+        conditions: vec![briefing.conditions.iter().map(condition).collect::<Vec<_>>().join(" · ")],
+        notes: briefing.notes,
         hazards: briefing.hazards,
+        counts: brief_counts(scenario, briefing.counts, language),
         site_check: briefing.site_check,
         pictures: briefing_images(file),
-    }
+    };
+    (briefing, short)
+}
+
+/// Returns what counts, with all requirements of the certification in one paragraph.
+fn brief_counts(scenario: &Scenario, mut counts: Vec<String>, language: Language) -> Vec<String> {
+    let requirements = requirements::describe(scenario, language);
+    counts.truncate(counts.len().saturating_sub(requirements.len()));
+    let all = requirements.join("; ");
+    counts.extend((!all.is_empty()).then(|| text!(language, "briefing-to-be-certified", requirement = all)));
+    counts
 }
 
 /// Returns the pictures of the briefing that can be used. The others are logged in one line.
@@ -387,6 +413,7 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
             Some(lesson) => job_named(&lesson.scenario, language),
             None => advice.as_ref().and_then(|advice| next_job(advice, language)),
         },
+        standing: standing_when_flown(session).filter(|_| lesson.is_none()).map(|standing| standing.words(language)),
         watched: false,
         // The sentence after a lesson is about its scores, which the page does not show.
         advice: advice.iter().filter(|_| lesson.is_none()).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
@@ -404,7 +431,7 @@ pub fn questionnaire(session: &Path, web: &str) -> String {
 /// Returns the end page of a flight that the trainee only watched: the next flight is the trainee's own.
 pub fn watched(ended: FlightSummary, scenario: &str, language: Language) -> FlightSummary {
     let next = job_named(scenario, language);
-    FlightSummary { watched: true, advice: Vec::new(), questionnaire: String::new(), next, ..ended }
+    FlightSummary { watched: true, standing: None, advice: Vec::new(), questionnaire: String::new(), next, ..ended }
 }
 
 fn end_reason_text(end: &Value, session: &Path, language: Language) -> String {
@@ -427,6 +454,35 @@ mod tests {
     use spandrel_view::flow::pipe::FlownBy;
     use spandrel_view::picture::Picture;
 
+    fn phantom() -> Vehicle {
+        files::vehicle("phantom2").unwrap().vehicle
+    }
+
+    #[test]
+    fn exact_the_briefing_in_the_window_has_everything_that_the_printed_one_has() {
+        let job = job_offer("two-bridges".into(), &phantom(), Language::English).unwrap();
+        let scenario = files::scenario("two-bridges").unwrap().scenario;
+        let printed = Briefing::new(&scenario, &phantom(), &Site::without_defects(&scenario), Language::English);
+        let JobBriefing { conditions, counts, hazards, tasks, site_check, .. } = job.briefing;
+        assert_eq!((hazards, site_check, tasks.len()), (printed.hazards, printed.site_check, printed.tasks.len()));
+        assert!(
+            conditions[0].starts_with("Aircraft: Phantom 2 class · ")
+                && conditions[0].contains(" · Speed: 1.0 m/s for inspection")
+        );
+        for (_, value) in &printed.conditions {
+            assert!(conditions[0].contains(value.as_str()), "{value} is missing in {conditions:?}");
+        }
+        let counts = counts.join(" ");
+        for line in &printed.counts {
+            let line = line.trim_start_matches("To be certified: ").trim_end_matches('.');
+            assert!(counts.contains(line), "{line} is missing in {counts}");
+        }
+        assert_eq!(counts.matches("To be certified").count(), 1);
+        for part in ["Aircraft: Phantom 2 class", "Wind: ", "Light: ", "Sky: "] {
+            assert!(job.conditions.contains(part), "{part} is missing in {}", job.conditions);
+        }
+    }
+
     fn choice() -> FlightChoice {
         FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee }
     }
@@ -434,13 +490,13 @@ mod tests {
     #[test]
     fn exact_every_shipped_scenario_is_offered_with_its_contents() {
         let folder = tempfile::tempdir().unwrap();
-        let offers = flight_options(&folder.path().join("none-yet"), &choice(), None, Language::English);
+        let offers = flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, Language::English);
         assert_eq!(offers.trainees, []);
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
         assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
         let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
-        let offers = flight_options(&folder.path().join("none-yet"), &harder, None, Language::English);
+        let offers = flight_options((&folder.path().join("none-yet"), &phantom()), &harder, None, Language::English);
         assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
     }
 
@@ -456,7 +512,7 @@ mod tests {
         let job = folder.path().join("job.toml");
         std::fs::write(&job, text).unwrap();
         let scenario = job.display().to_string();
-        let offers = flight_options(folder.path(), &FlightChoice { scenario, ..choice() }, None, Language::English);
+        let offers = flight_options((folder.path(), &phantom()), &FlightChoice { scenario, ..choice() }, None, Language::English);
         let path = folder.path().join("gate.png").display().to_string();
         let expected = BriefingImage { path, caption: "GATE.PNG".into(), size_px: (3, 2) };
         assert_eq!(offers.scenarios.last().unwrap().briefing.pictures, [expected]);
@@ -638,7 +694,7 @@ mod tests {
     #[test]
     fn exact_offers_and_results_are_in_the_language_of_the_window() {
         let folder = tempfile::tempdir().unwrap();
-        let offers = |language| flight_options(&folder.path().join("none-yet"), &choice(), None, language);
+        let offers = |language| flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, language);
         let kind = |language| {
             let offers = offers(language);
             offers.scenarios.into_iter().find(|job| job.name == "drill-hover").map(|job| job.kind).unwrap_or_default()

@@ -20,6 +20,7 @@ use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
+use spandrel_model::vehicle::Vehicle;
 use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow};
 use std::net::SocketAddr;
@@ -38,6 +39,8 @@ struct ServedPages {
 /// A run of `spandrel train`.
 pub struct TrainRun<'a> {
     args: &'a Args,
+    /// Aircraft of all flights.
+    aircraft: Vehicle,
     log: tracing::Level,
     stop: StopRequest,
     /// The window, while it is open.
@@ -71,9 +74,10 @@ enum NextFlight {
 
 impl<'a> TrainRun<'a> {
     /// Creates a run without starting anything.
-    pub fn new(args: &'a Args, log: tracing::Level, stop: StopRequest) -> Self {
+    pub fn new(args: &'a Args, aircraft: Vehicle, log: tracing::Level, stop: StopRequest) -> Self {
         Self {
             args,
+            aircraft,
             log,
             stop,
             window: None,
@@ -231,7 +235,7 @@ impl<'a> TrainRun<'a> {
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
-        let mut offers = offers::flight_options(&self.args.sessions, choice, web.as_deref(), language);
+        let mut offers = offers::flight_options((&self.args.sessions, &self.aircraft), choice, web.as_deref(), language);
         assigned::put_first(&mut offers.trainees, &self.args.sessions, language);
         self.web_announced = true;
         self.offered_language = Some(language);
@@ -298,7 +302,7 @@ impl<'a> TrainRun<'a> {
 
     /// Leads the trainee in the window to an ordered flight, which starts after the briefing, as a chosen one does.
     fn brief(&mut self, choice: FlightChoice) {
-        match offers::job_offer(choice.scenario.clone(), self.language()) {
+        match offers::job_offer(choice.scenario.clone(), &self.aircraft, self.language()) {
             Some(job) => {
                 self.briefed = Some(choice.clone());
                 self.station.iter_mut().for_each(StationLink::report_briefing);
@@ -520,7 +524,8 @@ mod tests {
     #[test]
     fn exact_crashed_window_is_dropped_before_flight() {
         let args = parse_args(&["--scenario", "drill-hover"]);
-        let mut course = TrainRun::new(&args, tracing::Level::WARN, StopRequest::default());
+        let mut course =
+            TrainRun::new(&args, files::vehicle("phantom2").unwrap().vehicle, tracing::Level::WARN, StopRequest::default());
         course.window = Some(WindowProcess::failing_process());
         let choice = FlightChoice {
             trainee: "anna".into(),

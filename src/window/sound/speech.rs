@@ -2,7 +2,7 @@
 
 use super::inputs::Inputs;
 use spandrel_text::Language;
-use spandrel_view::sound::spoken;
+use spandrel_view::sound::{ActiveAlarms, spoken};
 use std::process::{Child, Command, Stdio};
 
 /// Programs that speak their last argument, with their options for a language tag.
@@ -21,15 +21,15 @@ const fn voice(language: Language) -> &'static str {
 pub struct SpeechVoice {
     /// True once no program for speech was found.
     is_missing: bool,
-    cues: i32,
+    alarms: ActiveAlarms,
     speaking: Option<Child>,
 }
 
 impl SpeechVoice {
     /// Speaks a warning that has become active, unless the previous one is still being spoken.
     pub fn update_inputs(&mut self, (now, settings): &Inputs) {
-        let cues = if now.silent { 0 } else { now.cues };
-        let words = spoken(std::mem::replace(&mut self.cues, cues), cues, &now.cue_texts, now.style);
+        let alarms = if now.silent { ActiveAlarms::default() } else { now.alarms };
+        let words = spoken(std::mem::replace(&mut self.alarms, alarms), alarms, &now.cue_texts, now.style);
         let busy = self.speaking.as_mut().is_some_and(|child| matches!(child.try_wait(), Ok(None)));
         let (Some(words), true, false) = (words, settings.speech && !self.is_missing, busy) else { return };
         let started = SPEECH_PROGRAMS.iter().find_map(|(name, option)| {

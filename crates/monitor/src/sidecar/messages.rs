@@ -10,10 +10,12 @@ use serde_json::json;
 use spandrel_mavlink::codec::{Encoder, ReceivedFrame};
 use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::contract::cue;
-use spandrel_mavlink::contract::guidance::{Detour, Guidance};
+use spandrel_mavlink::contract::guidance::{Detour, Guidance, WayTo};
 use spandrel_mavlink::contract::named_values::NamedValue;
 use spandrel_mavlink::contract::truth::Truth;
-use spandrel_mavlink::dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, STATUSTEXT_DATA, TIMESYNC_DATA};
+use spandrel_mavlink::dialect::{
+    COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, MavSeverity, NAV_CONTROLLER_OUTPUT_DATA, STATUSTEXT_DATA, TIMESYNC_DATA,
+};
 use spandrel_mavlink::station;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::Task;
@@ -30,6 +32,20 @@ fn surface_distance(task: &Task, nearest: NearestOnPath, way_back_m: Vec3<Enu>) 
         recommended_m: stand_off.recommended_m,
         tolerance_m: stand_off.tolerance_m,
         sideways_m: (way_back_m - toward_surface * farther_m).norm(),
+    })
+}
+
+/// Returns bearing, distance and height of the next place for ground stations, which show them beside the map. Without a place, the
+/// distance is zero.
+fn navigation(way: Option<WayTo>, heading_rad: f64) -> MavMessage {
+    let WayTo { distance_m, bearing_rad, up_m } = way.unwrap_or(WayTo { distance_m: 0.0, bearing_rad: 0.0, up_m: 0.0 });
+    let bearing_deg = (heading_rad + bearing_rad).to_degrees().rem_euclid(360.0).round() as i16 % 360;
+    MavMessage::NAV_CONTROLLER_OUTPUT(NAV_CONTROLLER_OUTPUT_DATA {
+        nav_bearing: bearing_deg,
+        target_bearing: bearing_deg,
+        wp_dist: distance_m.round().clamp(0.0, f64::from(u16::MAX)) as u16,
+        alt_error: up_m as f32,
+        ..NAV_CONTROLLER_OUTPUT_DATA::default()
     })
 }
 
@@ -67,6 +83,7 @@ impl Monitor {
         self.holds.update(truth.time, self.live.current_task);
         let guidance = self.guidance(truth);
         self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
+        self.send(&navigation(guidance.first_way(), truth.motion.ned_from_frd.yaw_rad()));
         if self.lesson.is_some() {
             return;
         }

@@ -72,3 +72,30 @@ fn exact_policy_and_purpose_select_the_guided_flights() {
         assert_eq!((!steps.is_empty(), !texts.is_empty()), (guided, guided), "{policy:?}, {purpose:?}");
     }
 }
+
+#[test]
+fn wire_ground_stations_get_bearing_and_distance_of_the_next_place() {
+    let mut monitor = new_monitor_with_purpose(guided_job(GuidancePolicy::Practice), None);
+    let mut tape = Tape::new();
+    tape.hold(2.0);
+    // The path leads from (10, 0, 10) to (60, 0, 10); from here, its start is 40 m north and 4 m up.
+    tape.fly((10.0, -40.0, 6.0), 4.0);
+    tape.hold(1.0);
+    let mut shown = None;
+    for datagram in std::mem::take(&mut tape.datagrams) {
+        monitor.handle_datagram(&datagram);
+        for message in sent_messages(&mut monitor) {
+            if let MavMessage::NAV_CONTROLLER_OUTPUT(navigation) = message {
+                shown = Some((navigation.target_bearing, navigation.wp_dist, navigation.alt_error.round()));
+            }
+        }
+    }
+    assert_eq!(shown, Some((0, 40, 4.0)));
+    let mut monitor = new_monitor_with_purpose(guided_job(GuidancePolicy::Never), None);
+    tape.hold(1.0);
+    for datagram in std::mem::take(&mut tape.datagrams) {
+        monitor.handle_datagram(&datagram);
+        let sent = sent_messages(&mut monitor);
+        assert!(!sent.iter().any(|message| matches!(message, MavMessage::NAV_CONTROLLER_OUTPUT(_))), "no guidance, no bearing");
+    }
+}

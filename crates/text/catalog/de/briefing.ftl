@@ -4,6 +4,7 @@ briefing-time = Zeit
 briefing-speed = Geschwindigkeit
 briefing-defects = Schäden
 briefing-wind = Wind
+briefing-light = Licht
 briefing-sky = Himmel
 briefing-traffic = Verkehr
 
@@ -14,6 +15,8 @@ briefing-no-defects = keine
 briefing-defects-to-find = { $count } zu finden
 briefing-wind-from = { $wind } aus { $bearing }°
 briefing-calm = windstill
+briefing-sun = { $time } Sonnenzeit, Sonne { $height }° hoch
+briefing-no-sun = { $time } Sonnenzeit, keine Sonne
 briefing-clouds = zu { $share }% bewölkt
 briefing-cars = { $count ->
         [one] { $count } Pkw

@@ -119,6 +119,10 @@ flight-spoken-feet = Fuß
 flight-spoken-miles-per-hour = Meilen pro Stunde
 flight-spoken-meters-per-second = Meter pro Sekunde
 flight-spoken-percent = Prozent
+flight-spoken-link-lost = Link verloren
+flight-spoken-gnss-lost = G N S S verloren
+flight-spoken-control-weak = Steuerung schwach
+flight-spoken-video-weak = Video schwach
 
 ## Instruments and markers
 

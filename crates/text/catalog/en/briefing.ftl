@@ -7,6 +7,7 @@ briefing-time = time
 briefing-speed = speed
 briefing-defects = defects
 briefing-wind = wind
+briefing-light = light
 briefing-sky = sky
 briefing-traffic = traffic
 
@@ -18,6 +19,8 @@ briefing-no-defects = none
 briefing-defects-to-find = { $count } to find
 briefing-wind-from = { $wind } from { $bearing }°
 briefing-calm = calm
+briefing-sun = { $time } solar time, sun { $height }° high
+briefing-no-sun = { $time } solar time, no sun
 briefing-clouds = { $share }% clouds
 briefing-cars = { $count ->
         [one] { $count } car

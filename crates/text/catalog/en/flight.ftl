@@ -131,6 +131,11 @@ flight-spoken-feet = feet
 flight-spoken-miles-per-hour = miles per hour
 flight-spoken-meters-per-second = meters per second
 flight-spoken-percent = percent
+# Spoken alarms. The letters of abbreviations are spoken one by one.
+flight-spoken-link-lost = Link lost
+flight-spoken-gnss-lost = G N S S lost
+flight-spoken-control-weak = Control link weak
+flight-spoken-video-weak = Video link weak
 
 ## Instruments and markers
 

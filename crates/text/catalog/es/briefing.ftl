@@ -4,6 +4,7 @@ briefing-time = tiempo
 briefing-speed = velocidad
 briefing-defects = defectos
 briefing-wind = viento
+briefing-light = luz
 briefing-sky = cielo
 briefing-traffic = tráfico
 
@@ -14,6 +15,8 @@ briefing-no-defects = ninguno
 briefing-defects-to-find = { $count } por encontrar
 briefing-wind-from = { $wind } desde { $bearing }°
 briefing-calm = en calma
+briefing-sun = { $time } hora solar, sol a { $height }°
+briefing-no-sun = { $time } hora solar, sin sol
 briefing-clouds = { $share }% de nubes
 briefing-cars = { $count ->
         [one] { $count } auto

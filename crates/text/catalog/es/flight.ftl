@@ -122,6 +122,10 @@ flight-spoken-feet = pies
 flight-spoken-miles-per-hour = millas por hora
 flight-spoken-meters-per-second = metros por segundo
 flight-spoken-percent = por ciento
+flight-spoken-link-lost = Enlace perdido
+flight-spoken-gnss-lost = G N S S perdido
+flight-spoken-control-weak = Enlace de control débil
+flight-spoken-video-weak = Enlace de vídeo débil
 
 ## Instruments and markers
 

@@ -10,8 +10,10 @@ pub use tasks::TaskBriefing;
 
 use crate::terms::scenario_title;
 use serde::Serialize;
+use spandrel_model::math;
 use spandrel_model::scenario::{BriefingPicture, Scenario, Task, WindModel};
 use spandrel_model::site::Site;
+use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
 use spandrel_monitor::score::certification::{job_time, requirements};
 use spandrel_text::{Language, text};
@@ -39,55 +41,48 @@ pub struct Briefing {
     pub site_check: Vec<String>,
 }
 
-/// The parts of a briefing that follow from the job and its site alone.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SiteBriefing {
-    /// The tasks in the order in which they are flown.
-    pub tasks: Vec<TaskBriefing>,
-    /// Hazards, one sentence each.
-    pub hazards: Vec<String>,
-    /// Items of the site check, which the trainee acknowledges before takeoff.
-    pub site_check: Vec<String>,
-}
-
-impl SiteBriefing {
-    /// Computes the parts. The result does not depend on the seed and the defects of the site.
-    #[must_use]
-    pub fn new(scenario: &Scenario, site: &Site, language: Language) -> Self {
-        let tasks = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site, language));
-        let tasks: Vec<TaskBriefing> = tasks.collect();
-        Self { hazards: hazards::hazards(scenario, site, &tasks, language), site_check: site_check(scenario, language), tasks }
-    }
-}
-
 impl Briefing {
     /// Computes the briefing for a job with an aircraft. The result does not depend on the seed of the site.
     #[must_use]
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, site: &Site, language: Language) -> Self {
-        let SiteBriefing { tasks, hazards, site_check } = SiteBriefing::new(scenario, site, language);
+        let tasks = scenario.tasks.iter().map(|task| TaskBriefing::new(task, scenario, site, language));
+        let tasks: Vec<TaskBriefing> = tasks.collect();
         Self {
             job: scenario.name_with_form(),
             title: scenario_title(&scenario.name, &scenario.title, language),
             notes: scenario.briefing.clone(),
             pictures: scenario.briefing_pictures.clone(),
+            conditions: conditions(scenario, vehicle, site, language),
+            hazards: hazards::hazards(scenario, site, &tasks, language),
             tasks,
-            conditions: conditions(scenario, vehicle, language),
-            hazards,
             counts: counts(scenario, language),
-            site_check,
+            site_check: site_check(scenario, language),
         }
     }
 }
 
-fn conditions(scenario: &Scenario, vehicle: &Vehicle, language: Language) -> Vec<(String, String)> {
-    let mut rows = vec![
+/// Returns aircraft, wind and light, a name and a value each.
+#[must_use]
+pub fn flight_conditions(scenario: &Scenario, vehicle: &Vehicle, site: &Site, language: Language) -> [(String, String); 4] {
+    [
         (text!(language, "briefing-aircraft"), vehicle.name.clone()),
+        (text!(language, "briefing-wind"), wind_words(scenario, language)),
+        (text!(language, "briefing-light"), light_words(scenario, site, language)),
+        (text!(language, "briefing-sky"), clouds_words(scenario, language)),
+    ]
+}
+
+fn conditions(scenario: &Scenario, vehicle: &Vehicle, site: &Site, language: Language) -> Vec<(String, String)> {
+    let [aircraft, wind, light, sky] = flight_conditions(scenario, vehicle, site, language);
+    let mut rows = vec![
+        aircraft,
         (text!(language, "briefing-tasks"), tasks_words(scenario, language)),
         (text!(language, "briefing-time"), time_words(scenario, language)),
         (text!(language, "briefing-speed"), speed_words(scenario, language)),
         (text!(language, "briefing-defects"), defects_words(scenario, language)),
-        (text!(language, "briefing-wind"), wind_words(scenario, language)),
-        (text!(language, "briefing-sky"), clouds_words(scenario, language)),
+        wind,
+        light,
+        sky,
         (text!(language, "briefing-traffic"), traffic_words(scenario, language)),
     ];
     rows.retain(|(_, value)| !value.is_empty());
@@ -128,6 +123,20 @@ fn wind_words(scenario: &Scenario, language: Language) -> String {
         WindModel::Paper => format!("{:.1} N", wind.paper_force_n),
     };
     text!(language, "briefing-wind-from", wind = strength, bearing = format!("{:.0}", wind.from_deg))
+}
+
+/// Returns the solar time at the start of the job, and the height of the sun.
+fn light_words(scenario: &Scenario, site: &Site, language: Language) -> String {
+    const DAY_S: f64 = 86_400.0;
+    let day_share = (scenario.light.start_unix_s as f64 / DAY_S + scenario.origin.longitude_deg / 360.0).rem_euclid(1.0);
+    let minutes = (day_share * 1_440.0).floor();
+    let time = format!("{:02.0}:{:02.0}", (minutes / 60.0).floor(), minutes % 60.0);
+    let height_deg = math::asin(site.light().daylight(SimTime::ZERO).sun.up()).to_degrees();
+    if height_deg > 0.0 {
+        text!(language, "briefing-sun", time = time, height = format!("{height_deg:.0}"))
+    } else {
+        text!(language, "briefing-no-sun", time = time)
+    }
 }
 
 fn clouds_words(scenario: &Scenario, language: Language) -> String {

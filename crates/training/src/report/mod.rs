@@ -29,6 +29,7 @@ use crate::advice::{FlightEvidence, MissedDefect, SessionAdvice, lesson_advice, 
 use crate::marks::TimelineMark;
 use crate::plan::{self, DEFAULT_RULES, PlanRules, PlanStep, read_rules};
 use crate::record::{RecordSource, SessionRecord, SourceHashes, record};
+use crate::standing::SessionStanding;
 use crate::terms::{scenario_title, task_title};
 use spandrel_mavlink::telemetry::log_stream::TelemetryLog;
 use spandrel_mavlink::telemetry::timeline::LinkCounts;
@@ -74,6 +75,8 @@ pub struct SessionMetadata {
     pub marks: Vec<TimelineMark>,
     /// File name of the video beside the report, which begins at lift-off; `None` without a video.
     pub video: Option<&'static str>,
+    /// Comparison with the trainee's earlier sessions of the job; `None` without any.
+    pub standing: Option<SessionStanding>,
 }
 
 /// A JPEG picture.

@@ -161,6 +161,9 @@ pub fn message(kind: &str, text: &str) -> Markup {
     html! { p class={ "message " (kind) } role="status" { (text) } }
 }
 
+/// Largest number of details that are not folded.
+const MAX_OPEN_DETAILS: usize = 3;
+
 /// Result of a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Notice<'a> {
@@ -185,13 +188,25 @@ impl<'a> Notice<'a> {
         Self { kind: "bad", text, details: "" }
     }
 
+    /// Renders the details. Many lines fold into the first one, which tells how many there are.
+    fn detail_lines(&self) -> Markup {
+        let lines: Vec<&str> = self.details.lines().collect();
+        let paragraphs = |lines: &[&str]| html! { @for line in lines { p { (line) } } };
+        match lines.split_first() {
+            Some((first, rest)) if lines.len() > MAX_OPEN_DETAILS => {
+                html! { details { summary { (first) " (+" (rest.len()) ")" } (paragraphs(rest)) } }
+            }
+            _ => paragraphs(&lines),
+        }
+    }
+
     /// Renders a message box with one paragraph per line.
     #[must_use]
     pub fn render(&self) -> Markup {
         html! {
             div class={ "message " (self.kind) } role="status" {
                 @for line in self.text.lines() { p { (line) } }
-                @if !self.details.is_empty() { div lang="en" { @for line in self.details.lines() { p { (line) } } } }
+                @if !self.details.is_empty() { div lang="en" { (self.detail_lines()) } }
             }
         }
     }
@@ -274,6 +289,14 @@ pub(super) mod tests {
             has_stations: false,
             address: String::new(),
         }
+    }
+
+    #[test]
+    fn exact_many_details_of_a_notice_fold_into_one_line_that_opens() {
+        let shown = |details: &str| Notice { kind: "bad", text: "Not saved.", details }.render().into_string();
+        assert!(!shown("one\ntwo\nthree").contains("<details>"), "a few lines stay visible");
+        let folded = shown("one\ntwo\nthree\nfour");
+        assert!(folded.contains("<details><summary>one (+3)</summary><p>two</p><p>three</p><p>four</p></details>"), "{folded}");
     }
 
     /// Panics if texts of a page are not in the catalogs: with the pseudo language, all letters of the catalogs have accents.

@@ -29,7 +29,6 @@ mod scenario_labels;
 pub mod scenarios;
 pub mod sessions;
 pub mod settings;
-pub mod standing;
 pub mod stations;
 pub mod tiles;
 pub mod trainees;

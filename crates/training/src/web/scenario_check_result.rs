@@ -82,6 +82,10 @@ fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) 
     })
 }
 
+fn warning_list(language: Language, warnings: &[String]) -> Markup {
+    html! { ul.warnings { @for warning in warnings { li { (text!(language, "editor-warning")) " " span lang="en" { (warning) } } } } }
+}
+
 impl CheckedScenario {
     /// Returns the answer for the page's script. `shape` is the shape of the form that the page shows.
     #[must_use]
@@ -143,7 +147,11 @@ impl CheckedScenario {
                     @if more > 0 { li { (text!(language, "editor-more-problems", count = more)) } }
                 }
             }
-            @if !warnings.is_empty() { ul.warnings { @for warning in warnings { li { (text!(language, "editor-warning")) " " span lang="en" { (warning) } } } } }
+            @match warnings.len() {
+                0 => {},
+                1 => (warning_list(language, warnings)),
+                count => { details.warnings id="check-warnings" { summary { (text!(language, "editor-warning-count", count = count)) } (warning_list(language, warnings)) } },
+            }
             @if !notes.is_empty() { details.notes id="check-notes" { summary { (text!(language, "editor-notes", count = notes.len())) } ul lang="en" { @for note in notes { li { (note) } } } } }
         }
     }
@@ -302,6 +310,22 @@ mod tests {
     fn exact_a_check_without_time_ends_with_a_warning() {
         let checked = checked(PRACTICE, &|| false);
         assert!(checked.preview.is_none() && checked.findings.warnings[0].contains("took too long"));
+    }
+
+    #[test]
+    fn exact_several_warnings_fold_into_one_line_that_opens() {
+        let mut checked = checked(PRACTICE, &|| true);
+        checked.findings.warnings = vec!["the path is close to a pier".into()];
+        let one = checked.findings_list(Language::English).into_string();
+        assert!(
+            one.contains("<ul class=\"warnings\">") && !one.contains("check-warnings"),
+            "a single warning stays visible: {one}"
+        );
+        checked.findings.warnings.extend(["the stand-off is large".into(), "the job is long".into()]);
+        let folded = checked.findings_list(Language::German).into_string();
+        let start = "<details class=\"warnings\" id=\"check-warnings\"><summary>3 Warnungen</summary><ul class=\"warnings\">";
+        assert!(folded.contains(start), "{folded}");
+        assert_eq!(folded.matches("<li>").count() - checked.findings.notes.len(), 3, "{folded}");
     }
 
     #[test]

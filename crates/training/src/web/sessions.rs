@@ -4,15 +4,14 @@ use super::access::{AccessLevel, Visitor};
 use super::assets;
 use super::layout::{ELEMENT, page, page_navigation, page_with_script, section, table, token, with_element};
 use super::rubric::MAX_NAME_LEN;
-use super::standing::SessionStanding;
 use crate::advice::SessionAdvice;
 use crate::marks::{MAX_TEXT_LEN, TimelineMark};
 use crate::questionnaire::QuestionnaireItem;
-use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord, excluded_sessions_note};
+use crate::record::{CertificationRecord, SessionListEntry, SessionOutcome, SessionRecord, TaskRecord};
 use crate::report::formatting;
-use crate::report::page::within_error;
 use crate::report::plots::bars::{ShareRow, shares};
 use crate::report::plots::radar::{RadarAxis, radar};
+use crate::standing::SessionStanding;
 use crate::terms::{end_reason_title, job_title, purpose_title, score_title, task_title};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
@@ -159,7 +158,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
 fn to_do_better(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     html! {
         p { b { (record.completion_summary(language)) ". " (record.verdict(language)) "." } }
-        @if let Some(standing) = &page_data.standing { p { (standing_text(language, standing, record.scores.overall_max)) } }
+        @if let Some(standing) = &page_data.standing { p { (standing.words(language)) } }
         @if let Some(advice) = page_data.advice {
             @if let Some(note) = &advice.note { p { (note) } }
             ol.advice {
@@ -248,29 +247,6 @@ fn photographs(language: Language, record: &SessionRecord, pictures: &[u32]) -> 
             }
         }
     }
-}
-
-/// Describes how a session compares with the trainee's other sessions on the job.
-fn standing_text(language: Language, standing: &SessionStanding, most: f64) -> String {
-    let best = if standing.is_best {
-        text!(language, "sessions-standing-best")
-    } else {
-        let (best, most) = (formatting::number(standing.best, 0), formatting::number(most, 0));
-        text!(language, "sessions-standing-other", best = best, most = most)
-    };
-    let change = standing.change.map(|change| (change, formatting::number(change.abs(), 0)));
-    let change = change.map(|(change, points)| match change {
-        _ if points == "0" => text!(language, "sessions-standing-same"),
-        change if change > 0.0 => text!(language, "sessions-standing-up", points = points),
-        _ => text!(language, "sessions-standing-down", points = points),
-    });
-    let error = standing.within_error.map(|within| format!("({}).", within_error::words(within, language)));
-    let change = match (change, error) {
-        (Some(change), Some(error)) => Some(format!("{} {error}", change.trim_end_matches('.'))),
-        (change, _) => change,
-    };
-    let left_out = excluded_sessions_note(standing.left_out, language).map(|note| note + ".");
-    [Some(best), change, left_out].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 fn actions(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
@@ -463,7 +439,8 @@ mod tests {
         };
         let next = Some(NextFlight { scenario: HOSTILE_NAME.into(), command: HOSTILE_NAME.into() });
         let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next, ..SessionAdvice::default() };
-        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(-30.0), within_error: None, left_out: 0 };
+        let standing =
+            SessionStanding { best: 350.0, is_best: false, change: Some(-30.0), within_error: None, left_out: 0, most: 400.0 };
         let standing = Some(standing);
         let record = perfect_record("anna", 1);
         let data = SessionPageData { advice: Some(&advice), standing, ..page_data(true, &[]) };
@@ -598,15 +575,16 @@ mod tests {
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
         assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");
-        let standing = SessionStanding { best: 350.0, is_best: false, change: Some(30.0), within_error: None, left_out: 0 };
-        let told = |standing: &SessionStanding| standing_text(Language::German, standing, 400.0);
+        let standing =
+            SessionStanding { best: 350.0, is_best: false, change: Some(30.0), within_error: None, left_out: 0, most: 400.0 };
+        let told = |standing: &SessionStanding| standing.words(Language::German);
         assert_eq!(
             told(&standing),
             "Persönliche Bestleistung bei diesem Auftrag: 350 von 400. Änderung seit dem letzten Mal: 30 Punkte mehr."
         );
         let labeled = SessionStanding { is_best: true, within_error: Some(true), left_out: 2, ..standing };
         assert_eq!(
-            standing_text(Language::English, &labeled, 400.0),
+            labeled.words(Language::English),
             "This is the personal best on this job. Change since last time: 30 points up (within error). 2 incomplete sessions excluded."
         );
         let first = SessionStanding { change: None, within_error: None, left_out: 1, ..labeled };

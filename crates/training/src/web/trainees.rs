@@ -10,7 +10,7 @@ use crate::plan::{DrillProgress, MeasureChange, SessionChanges, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
 use crate::report::formatting;
 use crate::report::page::progress::job_progress;
-use crate::report::page::within_error;
+use crate::terms::error_label;
 use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
@@ -142,7 +142,7 @@ fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -
             ul {
                 @let scenario = profile.records.last().map_or("", |record| record.scenario.as_str());
                 @for change in changes.changes.iter().filter(told) {
-                    li { (change_line(language, scenario, change)) @if change.within_error == Some(true) { " (" (within_error::words(true, language)) ")" } }
+                    li { (change_line(language, scenario, change)) @if change.within_error == Some(true) { " (" (error_label(true, language)) ")" } }
                 }
             }
         }

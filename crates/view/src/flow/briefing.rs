@@ -1,5 +1,5 @@
-//! Briefing page before the flight: drawings of the site with the tasks, hazards, the instructor's words and pictures, and the site
-//! check, which the user acknowledges to start.
+//! Briefing page before the flight: drawings of the site with the tasks, conditions, hazards, what counts, the instructor's words and
+//! pictures, and the site check, which the user acknowledges to start.
 
 use super::menu::{self, MenuAction, MenuRow};
 use super::pipe::{BriefingImage, JobBriefing, JobOffer};
@@ -124,12 +124,15 @@ fn draw_picture(pen: &mut PageWriter, picture: &BriefingImage, ((x, top), width)
 }
 
 fn columns(briefing: &JobBriefing, language: Language) -> [Vec<Block<'_>>; 2] {
+    // Both columns have about the same length.
     let left: Vec<Block<'_>> = vec![
         (text!(language, "window-briefing-site-check"), &briefing.site_check),
         (text!(language, "window-briefing-tasks"), &briefing.tasks),
+        (text!(language, "window-briefing-conditions"), &briefing.conditions),
     ];
     let right: Vec<Block<'_>> = vec![
         (text!(language, "window-briefing-hazards"), &briefing.hazards),
+        (text!(language, "window-briefing-counts"), &briefing.counts),
         (text!(language, "window-briefing-notes"), &briefing.notes),
     ];
     [left, right].map(|column| column.into_iter().filter(|(_, lines)| !lines.is_empty()).collect())

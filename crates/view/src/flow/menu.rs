@@ -8,6 +8,8 @@ use crate::hud::{HudColor, TextAlign};
 /// Row height and row spacing.
 const ROW_HEIGHT: f64 = 0.06;
 pub const ROW_SPACING: f64 = 0.07;
+/// Smallest gap between two rows.
+const MIN_ROW_GAP: f64 = 0.004;
 
 /// Action of a menu row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +137,14 @@ impl MenuRow {
 
 /// Draws the rows from top to bottom and returns the y position below the last one.
 pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
-    draw_part(pen, (x, y), width, rows, (0, focus))
+    draw_part(pen, (x, y), width, rows, (0, focus), ROW_SPACING - ROW_HEIGHT)
+}
+
+/// Like [`draw`], with smaller gaps if the rows would otherwise not end above `bottom`.
+pub fn draw_above(pen: &mut PageWriter, (x, y): (f64, f64), (width, bottom): (f64, f64), rows: &[MenuRow], focus: usize) -> f64 {
+    let count = rows.len().max(1) as f64;
+    let gap = ((bottom - y) / count - ROW_HEIGHT).clamp(MIN_ROW_GAP, ROW_SPACING - ROW_HEIGHT);
+    draw_part(pen, (x, y), width, rows, (0, focus), gap)
 }
 
 /// Draws the rows in columns, each from top to bottom, and returns the y position below the longest one.
@@ -146,18 +155,25 @@ pub fn draw_columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: 
     let mut bottom = y;
     for (k, part) in rows.chunks(length).enumerate() {
         let left = x + (column + COLUMN_GAP) * k as f64;
-        bottom = draw_part(pen, (left, y), column, part, (k * length, focus)).max(bottom);
+        bottom = draw_part(pen, (left, y), column, part, (k * length, focus), ROW_SPACING - ROW_HEIGHT).max(bottom);
     }
     bottom
 }
 
 /// Draws rows, of which the first has the number `first`.
-fn draw_part(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], (first, focus): (usize, usize)) -> f64 {
+fn draw_part(
+    pen: &mut PageWriter,
+    (x, y): (f64, f64),
+    width: f64,
+    rows: &[MenuRow],
+    (first, focus): (usize, usize),
+    gap: f64,
+) -> f64 {
     let mut y = y;
     for (k, row) in (first..).zip(rows) {
         let shape = RowShape::of(row, width, k == focus);
         draw_row(pen, (x, y), width, row, (k, &shape));
-        y += shape.height + ROW_SPACING - ROW_HEIGHT;
+        y += shape.height + gap;
     }
     y
 }

@@ -86,6 +86,12 @@ pub struct JobOffer {
     pub title: String,
     /// Short description of the job type.
     pub kind: String,
+    /// Aircraft, wind and light in short.
+    #[serde(default)]
+    pub conditions: String,
+    /// Whether the job is a lesson.
+    #[serde(default)]
+    pub is_lesson: bool,
     /// The job's briefing.
     #[serde(default)]
     pub briefing: JobBriefing,
@@ -102,6 +108,12 @@ pub struct JobBriefing {
     pub hazards: Vec<String>,
     /// Items of the site check.
     pub site_check: Vec<String>,
+    /// Aircraft, speed, wind, light and other conditions.
+    #[serde(default)]
+    pub conditions: Vec<String>,
+    /// The scores and the requirements of certification.
+    #[serde(default)]
+    pub counts: Vec<String>,
     /// The instructor's pictures.
     #[serde(default)]
     pub pictures: Vec<BriefingImage>,
@@ -250,6 +262,9 @@ pub struct FlightSummary {
     pub verdict: Option<String>,
     /// Reason why the flight ended or why it has no scores.
     pub why: String,
+    /// Personal best on the job and change since the last time; `None` if there is nothing to compare with.
+    #[serde(default)]
+    pub standing: Option<String>,
     /// Sentences on what to do better, at most three.
     #[serde(default)]
     pub advice: Vec<String>,
@@ -405,9 +420,27 @@ mod tests {
         }
     }
 
+    fn flight_summary(next: NextJob) -> FlightSummary {
+        let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
+        FlightSummary {
+            scores: [score, None, score, None],
+            overall: Some((182.5, 200.0)),
+            completion: Some("Complete: 1 of 1 task, 92% of the path".into()),
+            complete: true,
+            verdict: Some("Certified".into()),
+            why: "landed".into(),
+            standing: Some("This is the personal best on this job.".into()),
+            advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
+            next: Some(next),
+            watched: false,
+            lesson: None,
+            report: Some("file:///a%20b".into()),
+            questionnaire: "http://127.0.0.1:9/sessions/x/questions".into(),
+        }
+    }
+
     #[test]
     fn exact_messages_survive_serialization() {
-        let score = Some(FinalScore { raw: -9.0, pct: 91.0 });
         let next = NextJob { scenario: "drill-gap".into(), title: "Drill: gap".into(), due: None };
         let offers = FlightOptions {
             trainees: vec![TraineeSummary {
@@ -421,6 +454,8 @@ mod tests {
                 name: "drill-hover".into(),
                 title: "Drill: \"hover\"\n".into(),
                 kind: "drill".into(),
+                conditions: "Wind: calm".into(),
+                is_lesson: true,
                 briefing: JobBriefing::default(),
             }],
             choice: choice(),
@@ -437,20 +472,7 @@ mod tests {
             ghost: Some(GhostFlight { telemetry: "sessions/a b/telemetry.tlog".into(), words: "your best flight".into() }),
             is_ghost_outdated: true,
         };
-        let ended = FlightSummary {
-            scores: [score, None, score, None],
-            overall: Some((182.5, 200.0)),
-            completion: Some("Complete: 1 of 1 task, 92% of the path".into()),
-            complete: true,
-            verdict: Some("Certified".into()),
-            why: "landed".into(),
-            advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
-            next: Some(next),
-            watched: false,
-            lesson: None,
-            report: Some("file:///a%20b".into()),
-            questionnaire: "http://127.0.0.1:9/sessions/x/questions".into(),
-        };
+        let ended = flight_summary(next);
         let ordered = OrderedFlight { choice: choice(), job: offers.scenarios[0].clone() };
         for message in [
             ToWindow::Offers(offers),

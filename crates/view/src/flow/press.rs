@@ -144,8 +144,11 @@ impl WindowFlow {
         }
     }
 
-    /// Checks whether the trainee has neither flown a practice session here nor read the tutorial.
+    /// Checks whether the trainee has neither flown a practice session here nor read the tutorial. A lesson is the tutorial itself.
     pub(super) fn needs_tutorial(&self) -> bool {
+        if self.chosen_job().is_some_and(|job| job.is_lesson) {
+            return false;
+        }
         let flown = |offers: &FlightOptions| offers.trainees.iter().any(|p| p.name == self.choice.trainee && p.practices > 0);
         !self.tutorial_done.contains(&self.choice.trainee) && !self.offers.as_ref().is_some_and(flown)
     }

@@ -1,6 +1,7 @@
 //! Menu rows of each page.
 
 use super::menu::{MenuAction, MenuRow};
+use super::settings_page::quality_title;
 use super::{Page, Setting, WindowFlow, briefing, school, summary, tutorial};
 use spandrel_text::{Language, text};
 
@@ -70,6 +71,11 @@ impl WindowFlow {
             MenuRow::button(MenuAction::School, text!(language, "window-start-school")),
             MenuRow::button(MenuAction::Settings, text!(language, "window-start-settings")),
             MenuRow::choice(MenuAction::Setting(Setting::Language), text!(language, "window-language"), language.name()),
+            MenuRow::choice(
+                MenuAction::Setting(Setting::Quality),
+                text!(language, "window-settings-picture"),
+                quality_title(self.settings.quality, language),
+            ),
             MenuRow::button(MenuAction::Quit, text!(language, "window-start-quit")),
         ];
         // The trainee comes first, because the recommendation depends on it.

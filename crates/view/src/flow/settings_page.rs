@@ -249,7 +249,7 @@ fn quality_names() -> Vec<Option<&'static str>> {
 }
 
 /// Returns the title of a quality preset, or of the automatic choice.
-fn quality_title(quality: Option<&str>, language: Language) -> String {
+pub(super) fn quality_title(quality: Option<&str>, language: Language) -> String {
     match quality {
         None => text!(language, "window-settings-auto"),
         Some("low") => text!(language, "window-settings-low"),

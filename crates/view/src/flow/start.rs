@@ -83,7 +83,7 @@ impl WindowFlow {
         let whole = pen.width - 2.0 * left;
         pen.title((left, 0.08), whole, &text!(self.language(), "window-start-title"));
         let half = if narrow { whole } else { 0.56 * pen.width };
-        let bottom = menu::draw(pen, (left, 0.145), half, rows, self.focus);
+        let bottom = menu::draw_above(pen, (left, 0.145), (half, pen.height - HELP_ROOM), rows, self.focus);
         let help = text!(self.language(), "window-help");
         let bottom = pen.lines((left, bottom + 0.02), half, SMALL_TEXT_SIZE, HudColor::Gray, &help);
         let (x, top) = if narrow { (left, bottom + 0.04) } else { (left + half + 0.06, 0.165) };
@@ -140,6 +140,9 @@ impl WindowFlow {
             (Topic::Job, text!(language, "window-start-job"), job),
             (Topic::Purpose, text!(language, "window-start-purpose"), purpose),
         ];
+        if let Some(job) = self.chosen_job().filter(|job| !job.conditions.is_empty()) {
+            told.insert(2, (Topic::Conditions, text!(language, "window-start-conditions"), job.conditions.clone()));
+        }
         if let Some(web) = self.offers.as_ref().and_then(|offers| offers.web.as_ref()) {
             told.push((Topic::Web, text!(language, "window-start-web"), web.clone()));
         }
@@ -171,10 +174,13 @@ impl WindowFlow {
 enum Topic {
     Trainee,
     Job,
+    Conditions,
     Purpose,
     Web,
 }
 
+/// Room for the help below the menu.
+const HELP_ROOM: f64 = 0.065;
 /// Height of a heading with its gap, and gap between two blocks.
 const HEADING_HEIGHT: f64 = 0.052;
 const BLOCK_GAP: f64 = 0.03;

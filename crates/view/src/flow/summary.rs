@@ -24,12 +24,7 @@ fn is_openable(address: &str) -> bool {
 pub fn rows(ended: Option<&FlightSummary>, language: Language) -> Vec<MenuRow> {
     let watched = ended.is_some_and(|ended| ended.watched);
     let mut rows = Vec::new();
-    if ended.is_some_and(|ended| ended.report.is_some()) {
-        rows.push(MenuRow::button(MenuAction::Report, text!(language, "window-result-open-report")));
-    }
-    if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
-        rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, text!(language, "window-result-open-questionnaire")));
-    }
+    // First, so that Enter flies it.
     if let Some(next) = ended.and_then(|ended| ended.next.as_ref()) {
         let job = next.title.as_str();
         let words = if watched {
@@ -38,6 +33,12 @@ pub fn rows(ended: Option<&FlightSummary>, language: Language) -> Vec<MenuRow> {
             text!(language, "window-result-fly-next", job = job)
         };
         rows.push(MenuRow::button(MenuAction::FlyNext, words));
+    }
+    if ended.is_some_and(|ended| ended.report.is_some()) {
+        rows.push(MenuRow::button(MenuAction::Report, text!(language, "window-result-open-report")));
+    }
+    if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
+        rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, text!(language, "window-result-open-questionnaire")));
     }
     let again = if watched { text!(language, "window-result-watch-again") } else { text!(language, "window-result-fly-again") };
     rows.push(MenuRow::button(MenuAction::FlyAgain, again));
@@ -62,7 +63,8 @@ pub fn page(pen: &mut PageWriter, ended: Option<&FlightSummary>, rows: &[MenuRow
     if pen.is_narrow() {
         menu::draw(pen, (LEFT, bottom + 0.02), whole, rows, focus);
     } else {
-        menu::draw(pen, (LEFT + half + 0.08, top), whole - half - 0.08, rows, focus);
+        let room = (whole - half - 0.08, pen.height - 0.02);
+        menu::draw_above(pen, (LEFT + half + 0.08, top), room, rows, focus);
     }
 }
 
@@ -76,11 +78,17 @@ fn headline(pen: &mut PageWriter, ended: &FlightSummary) -> f64 {
     }
     let (title, note) = match &ended.completion {
         Some(words) if !ended.complete => (words.clone(), text!(language, "window-result-part", why = ended.why.as_str())),
-        _ => (text!(language, "window-result-title"), ended.why.clone()),
+        Some(words) => (words.clone(), ended.why.clone()),
+        None => (text!(language, "window-result-title"), ended.why.clone()),
     };
+    let whole = pen.width - 2.0 * LEFT;
     // The headline's length depends on the job.
-    pen.title((LEFT, 0.08), pen.width - 2.0 * LEFT, &title);
-    pen.lines((LEFT, 0.155), pen.width - 2.0 * LEFT, SMALL_TEXT_SIZE, HudColor::Gray, &note)
+    pen.title((LEFT, 0.08), whole, &title);
+    let y = pen.lines((LEFT, 0.155), whole, SMALL_TEXT_SIZE, HudColor::Gray, &note);
+    match &ended.standing {
+        Some(words) => pen.lines((LEFT, y), whole, SMALL_TEXT_SIZE, HudColor::White, words),
+        None => y,
+    }
 }
 
 fn lesson_title(lesson: LessonProgress, language: Language) -> String {

@@ -5,11 +5,13 @@ use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, text_width, wrap_text};
 use crate::hud::{
-    DisplayStyle, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TextAlign, TextScale, instruments, layout,
+    DisplayStyle, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TaskNames, TextAlign, TextScale, instruments,
+    layout,
 };
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_model::frames::Vec3;
 use spandrel_text::{Language, message_id, text};
+use std::sync::Arc;
 
 /// Embedded JPEG pictures by name.
 pub const PICTURES: [(&str, &[u8]); 9] = [
@@ -255,7 +257,9 @@ fn example(cues: i32, style: DisplayStyle) -> Hud {
         pad_m: Vec3::new(-120.0, 60.0, 5.0),
         guidance: None,
         lesson: None,
+        tasks: TaskNames::default(),
         tracks: Vec::new(),
+        site: Arc::new(SiteOutline::empty()),
         style: DisplayStyle { text_scale: TextScale::Normal, ..style },
     }
 }

@@ -66,6 +66,7 @@ pub fn marker((eye, aspect): (&PinholeCamera, f64), drone_m: Vec3<Enu>, hidden: 
 
 #[cfg(test)]
 mod tests {
+    use super::super::contrast;
     use super::*;
 
     #[test]
@@ -83,5 +84,8 @@ mod tests {
         let told =
             |item: &DrawItem| matches!(item, DrawItem::Text { words, color: HudColor::Gray, .. } if words == "80 m, hidden");
         assert!(hidden.len() > items.len() && hidden.iter().any(told), "the marker must be dashed and labeled");
+        for (marks, name) in [(items, "marker"), (hidden, "hidden marker")] {
+            contrast::check(&marks, 1.5, name);
+        }
     }
 }

@@ -3,6 +3,8 @@
 //! lower left). Renderers draw the items without interpreting them.
 
 mod battery;
+#[cfg(test)]
+pub(crate) mod contrast;
 mod icons;
 pub mod instruments;
 pub mod layout;
@@ -23,7 +25,7 @@ mod status;
 mod style;
 mod task_panel;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 pub(crate) mod text_metrics;
 
 pub(crate) use instruments::Area;
@@ -31,8 +33,8 @@ pub use instruments::{JobDrawing, SiteOutline, instruments};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub(crate) use pane::Pane;
-pub use state::{GnssStatus, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, UNKNOWN_MODE, WayBack};
-pub use status::LINK_TIMEOUT_S;
+pub use state::{GnssStatus, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, TaskNames, UNKNOWN_MODE, WayBack};
+pub use status::{LINK_TIMEOUT_S, StatusAlarm, StatusAlarms};
 pub use style::{DisplayStyle, DisplayUnits, TextScale};
 
 /// A position in the picture, as fractions of its width and height.
@@ -58,7 +60,7 @@ pub enum HudColor {
     White,
     /// Secondary text.
     Gray,
-    /// Background of text; half transparent.
+    /// Background of text; translucent, but dark enough for all text colors in front of a bright sky.
     TextBackground,
     /// Normal.
     Green,
@@ -102,11 +104,11 @@ impl HudColor {
     pub const fn rgba(self) -> [u8; 4] {
         match self {
             Self::White => [245, 245, 245, 255],
-            Self::Gray => [200, 204, 208, 255],
-            Self::TextBackground => [12, 14, 18, 150],
+            Self::Gray => [206, 210, 214, 255],
+            Self::TextBackground => [12, 14, 18, 220],
             Self::Green => [0, 190, 130, 255],
             Self::Yellow => [240, 228, 66, 255],
-            Self::Red => [235, 60, 40, 255],
+            Self::Red => [255, 112, 96, 255],
             Self::Blue => [86, 180, 233, 255],
             Self::Orange => [240, 150, 20, 255],
             Self::Black => [0, 0, 0, 255],

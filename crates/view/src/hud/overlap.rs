@@ -1,5 +1,6 @@
 //! Tests that HUD items do not overlap, in pictures of any aspect ratio and size.
 
+use super::contrast;
 use super::tests::{ALL_CUES, crash, hud};
 use super::text_metrics::text_width;
 use super::*;
@@ -11,6 +12,7 @@ use spandrel_model::frames::{Rotation, Vec3};
 use spandrel_model::pose::Pose;
 use spandrel_model::radio::RadioWay;
 use spandrel_text::{Language, text};
+use std::sync::Arc;
 
 /// A rectangle: left, top, right, bottom, in units of the picture's height.
 type PictureRect = [f64; 4];
@@ -218,6 +220,7 @@ fn states() -> Vec<(&'static str, Hud)> {
     let hit = |words: &str| Hud { cues: ALL_CUES, cue_texts: crash(words), ..hud() };
     let track =
         |id, east| MapPath { id, path_m: vec![Vec3::new(east, 150.0, 30.0), Vec3::new(-90.0, 20.0, 30.0)], closed: id == 2 };
+    let tracks = [1, 2, 3, 4].map(|id| track(id, 150.0));
     let full = Hud {
         speed_m_s: 44.4,
         battery_pct: Some(100.0),
@@ -234,7 +237,8 @@ fn states() -> Vec<(&'static str, Hud)> {
         pictures: 999,
         guidance: Some(longest_guidance()),
         ghost: Some(Pose { position_m: Vec3::new(400.0, -300.0, 30.0), ned_from_frd: Rotation::identity() }),
-        tracks: [1, 2, 3, 4].map(|id| track(id, 150.0)).to_vec(),
+        site: Arc::new(SiteOutline::around(tracks.iter().flat_map(|track| track.path_m.iter().copied()))),
+        tracks: tracks.to_vec(),
         ..hit("bridge member suspension/hanger-left/upper/07")
     };
     let shown = [
@@ -363,6 +367,19 @@ fn prop_status_text_does_not_cover_the_hud() {
                     let covered = !are_separate(&in_window(&block.background, lens, window), &room);
                     assert!(!covered, "{name}: {block:?} is covered by the status text, lens {lens}, window {window}");
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn prop_texts_have_enough_contrast_over_bright_and_dark_scenery() {
+    for text_scale in TextScale::ALL {
+        for (name, state) in states() {
+            for (aspect, height_px) in [(4.0 / 3.0, 720.0), (16.0 / 9.0, 720.0), (1.0, 720.0), (16.0 / 9.0, 162.0)] {
+                let style = DisplayStyle { text_scale, ..DisplayStyle::default() };
+                let items = layout_px(&Hud { style, ..state.clone() }, (aspect * height_px, height_px));
+                contrast::check(&items, aspect, &format!("{name}, {text_scale:?}, {height_px} px high"));
             }
         }
     }

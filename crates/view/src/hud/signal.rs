@@ -3,7 +3,6 @@
 
 use super::metrics::SMALL_FONT_SIZE;
 use super::pane::Pane;
-use super::state::Hud;
 use super::text_metrics::text_width;
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::hazards::RadioMargins;
@@ -70,15 +69,9 @@ fn bars(margin_db: f64) -> usize {
     }
 }
 
-/// Returns that a link loses data, as a short line; the control link comes first. `None` without the simulation of the links.
-pub fn weak(hud: &Hud) -> Option<String> {
-    let margins = hud.radio?;
-    let language = hud.style.language;
-    if bars(margins.control_db) < 2 {
-        Some(text!(language, "flight-status-control-weak"))
-    } else {
-        (bars(margins.video_db) < 2).then(|| text!(language, "flight-status-video-weak"))
-    }
+/// Returns whether a link with this margin in dB loses data.
+pub fn is_weak(margin_db: f64) -> bool {
+    bars(margin_db) < 2
 }
 
 /// Returns the width of a row with these links; 0 without links.

@@ -1,5 +1,6 @@
 //! Inputs of the head-up display.
 
+use super::instruments::SiteOutline;
 use super::style::DisplayStyle;
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
@@ -8,6 +9,10 @@ use spandrel_mavlink::contract::lesson::LessonStatus;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::{GroundTeam, Scenario, Task};
+use spandrel_model::shipped;
+use spandrel_text::Language;
+use spandrel_text::terms::shipped_task_title;
+use std::sync::Arc;
 
 /// Name of the flight mode before it has been received.
 pub const UNKNOWN_MODE: &str = "no mode";
@@ -102,6 +107,30 @@ impl MapPath {
     }
 }
 
+/// Names of a job's tasks.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct TaskNames {
+    /// Number and name of each task, as in the job's file.
+    names: Vec<(u32, String)>,
+    is_shipped: bool,
+}
+
+impl TaskNames {
+    /// Returns the names of a job's tasks.
+    #[must_use]
+    pub fn of(scenario: &Scenario) -> Self {
+        let names = scenario.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
+        Self { names, is_shipped: shipped::SCENARIOS.iter().any(|(name, _)| *name == scenario.name) }
+    }
+
+    /// Returns the name of a task in a language. Names in files other than the shipped ones are the user's and stay as they are.
+    #[must_use]
+    pub fn title(&self, task: u32, language: Language) -> Option<String> {
+        let (_, name) = self.names.iter().find(|(id, _)| *id == task)?;
+        Some(if self.is_shipped { shipped_task_title(name, language) } else { name.clone() })
+    }
+}
+
 /// Inputs of the HUD as plain data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hud {
@@ -165,12 +194,16 @@ pub struct Hud {
     pub inspector: Option<InspectorMarks>,
     /// The next step of the job; `None` if the monitor does not guide the pilot.
     pub guidance: Option<Guidance>,
+    /// Names of the job's tasks.
+    pub tasks: TaskNames,
     /// The current step of a lesson.
     pub lesson: Option<LessonDisplay>,
     /// Ghost of an earlier flight, on the maps.
     pub ghost: Option<Pose<Enu>>,
     /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
+    /// Bridges and shore on the map.
+    pub site: Arc<SiteOutline>,
     /// Units and text size.
     pub style: DisplayStyle,
 }

@@ -2,9 +2,10 @@
 
 use super::metrics::{BLOCK_GAP, EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
-use super::signal::{self, RadioLink, weak};
+use super::signal::{self, RadioLink, is_weak};
 use super::state::{GnssStatus, Hud, UNKNOWN_MODE};
 use super::{DrawItem, HudColor, TextAlign, battery, speed};
+use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_text::{Language, text};
 
 /// Minimum telemetry age for the link to count as lost, s.
@@ -42,9 +43,67 @@ fn mode(hud: &Hud) -> String {
     if hud.mode == UNKNOWN_MODE { text!(hud.style.language, "flight-status-no-mode") } else { hud.mode.clone() }
 }
 
+/// Alarm of the aircraft's links and satellites, the most serious first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StatusAlarm {
+    /// No telemetry arrives.
+    LinkLost,
+    /// No position from satellites.
+    GnssLost,
+    /// The control link loses data.
+    ControlWeak,
+    /// The video link loses data.
+    VideoWeak,
+}
+
+/// Set of status alarms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StatusAlarms(u8);
+
+impl StatusAlarms {
+    /// Returns the alarms for the age of the latest telemetry, s. While the link is lost, the state of the satellites and of the
+    /// signals is unknown.
+    #[must_use]
+    pub fn new(telemetry_age_s: f64, gnss: Option<GnssStatus>, radio: Option<RadioMargins>) -> Self {
+        if telemetry_age_s > LINK_TIMEOUT_S {
+            return [StatusAlarm::LinkLost].into_iter().collect();
+        }
+        let no_fix = gnss.is_some_and(|gnss| !gnss.has_fix);
+        let [control, video] = radio.map_or([false; 2], |margins| [margins.control_db, margins.video_db].map(is_weak));
+        let all = [(StatusAlarm::GnssLost, no_fix), (StatusAlarm::ControlWeak, control), (StatusAlarm::VideoWeak, video)];
+        all.into_iter().filter_map(|(alarm, is_on)| is_on.then_some(alarm)).collect()
+    }
+
+    /// Returns whether the set contains an alarm.
+    #[must_use]
+    pub fn contains(self, alarm: StatusAlarm) -> bool {
+        self.0 & (1 << alarm as u8) != 0
+    }
+
+    /// Returns the alarms of this set that are not in another one.
+    #[must_use]
+    pub fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+}
+
+impl FromIterator<StatusAlarm> for StatusAlarms {
+    fn from_iter<I: IntoIterator<Item = StatusAlarm>>(alarms: I) -> Self {
+        Self(alarms.into_iter().fold(0, |set, alarm| set | 1 << alarm as u8))
+    }
+}
+
 /// Returns the active alarm, or a freeze, as a short line.
 pub fn alarm(hud: &Hud) -> Option<String> {
-    status_alarm(hud).or_else(|| weak(hud))
+    status_alarm(hud).or_else(|| {
+        let alarms = StatusAlarms::new(hud.telemetry_age_s, hud.gnss, hud.radio);
+        let language = hud.style.language;
+        if alarms.contains(StatusAlarm::ControlWeak) {
+            Some(text!(language, "flight-status-control-weak"))
+        } else {
+            alarms.contains(StatusAlarm::VideoWeak).then(|| text!(language, "flight-status-video-weak"))
+        }
+    })
 }
 
 /// Returns the alarm of the status line. While the link is lost, the satellite status is unknown, so only the link is reported.

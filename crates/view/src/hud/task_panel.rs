@@ -18,6 +18,8 @@ pub(super) const TOP: f64 = 0.455;
 pub(super) const WIDTH: f64 = 0.42;
 pub(super) const LINE_HEIGHT: f64 = 0.037;
 pub(super) const PADDING: f64 = 0.012;
+/// Number of lines for which there is room above the map.
+const MAX_ROWS: usize = 6;
 /// Width of the arrow's column, and the arrow's half length.
 const ARROW_COLUMN: f64 = 0.045;
 const ARROW_SIZE: f64 = 0.015;
@@ -57,6 +59,9 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
         PanelDetail::None => return Vec::new(),
     };
     let rows = 1 + usize::from(first.is_some()) + usize::from(way.is_some()) + lines.len();
+    let name = guidance.task.and_then(|task| hud.tasks.title(task, hud.style.language));
+    let name = name.filter(|_| detail == PanelDetail::Full && rows < MAX_ROWS);
+    let rows = rows + usize::from(name.is_some());
     let (left, right) = (pane.width - EDGE_MARGIN - WIDTH, pane.width - EDGE_MARGIN);
     let middle = |row: usize| top + PADDING + LINE_HEIGHT * (row as f64 + 0.5);
     let mut items = vec![pane.panel((left, top), (right, top + 2.0 * PADDING + LINE_HEIGHT * rows as f64))];
@@ -71,6 +76,11 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
         items.push(pane.text((to, middle(0)), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, progress));
     }
     let mut row = 1;
+    if let Some(name) = name {
+        let size = fitted(&name, SMALL_FONT_SIZE, to - from);
+        items.push(pane.text((from, middle(row)), TextAlign::Left, size, HudColor::Gray, name));
+        row += 1;
+    }
     if let Some(first) = first {
         let size = fitted(&first, SMALL_FONT_SIZE, to - from);
         items.push(pane.text((from, middle(row)), TextAlign::Left, size, HudColor::Yellow, first));

@@ -4,11 +4,15 @@ use super::*;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_mavlink::contract::hazards::RadioMargins;
-use spandrel_model::frames::Vec3;
+use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::radio::RadioWay;
 use spandrel_text::Language;
+use std::sync::Arc;
 
 const WIDE_ASPECT: f64 = 16.0 / 9.0;
+/// Path and landing pad on the map.
+const PATH_M: [Vec3<Enu>; 2] = [Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)];
+const PAD_M: Vec3<Enu> = Vec3::new(-100.0, 60.0, 5.0);
 /// All cues shown in the lower left corner.
 pub(super) const ALL_CUES: i32 = cue::SPEEDING | cue::OFF_PATH | cue::TOO_CLOSE | cue::CRASH;
 
@@ -18,7 +22,7 @@ pub(super) fn crash(object: &str) -> CueTexts {
 }
 
 /// Returns the HUD during a normal flight.
-pub(super) fn hud() -> Hud {
+pub(crate) fn hud() -> Hud {
     Hud {
         speed_m_s: 3.2,
         limit_m_s: 4.4704,
@@ -49,10 +53,12 @@ pub(super) fn hud() -> Hud {
         obstacles: None,
         way_back: None,
         inspector: None,
-        pad_m: Vec3::new(-100.0, 60.0, 5.0),
+        pad_m: PAD_M,
         guidance: None,
+        tasks: TaskNames::default(),
         lesson: None,
-        tracks: vec![MapPath { id: 1, path_m: vec![Vec3::new(-50.0, -5.0, 30.0), Vec3::new(50.0, -5.0, 30.0)], closed: false }],
+        tracks: vec![MapPath { id: 1, path_m: PATH_M.to_vec(), closed: false }],
+        site: Arc::new(SiteOutline::around(PATH_M.into_iter().chain([PAD_M]))),
         style: DisplayStyle::default(),
     }
 }
@@ -65,7 +71,7 @@ fn texts(hud: &Hud) -> Vec<(ScreenPoint, HudColor, String)> {
     layout(hud, WIDE_ASPECT).into_iter().filter_map(of).collect()
 }
 
-fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
+pub(crate) fn find(hud: &Hud, part: &str) -> Option<(ScreenPoint, HudColor)> {
     texts(hud).into_iter().find(|(_, _, words)| words.contains(part)).map(|(place, color, _)| (place, color))
 }
 
@@ -82,7 +88,7 @@ fn regress_hud_in_normal_flight() {
     let expected = "  2   6 White: 3.2 m/s\n  2  11 Gray: limit 4.47 m/s\n 98   6 Green: 76%\n 50   5 White: Position   GNSS 14   link ok\n \
                     87  13 Gray: height\n 98  13 White: 21.4 m\n 87  17 Gray: home\n 98  17 White: 118 m\n 87  21 Gray: gimbal\n \
                     98  21 White: +20°\n 87  25 Gray: time left\n 98  25 White: 20:34\n 87  28 Gray: lamp\n 98  28 White: off\n \
-                    87  32 Gray: pictures\n 98  32 White: 3\n 89  88 Gray: 1\n 91  72 Gray: N\n";
+                    87  32 Gray: pictures\n 98  32 White: 3\n 89  87 White: 1\n 84  94 White: 50 m\n 97  75 White: N\n";
     assert_eq!(snapshot(&hud()), expected, "\n{}", snapshot(&hud()));
 }
 
@@ -371,4 +377,34 @@ fn exact_task_panel_shows_the_next_step() {
     let inside = StandOffReading { actual_m: 6.4, recommended_m: 5.0, tolerance_m: 1.5 };
     let guided = Hud { guidance: Some(Guidance { stand_off: Some(inside), ..guidance }), ..hud() };
     assert_eq!(find(&guided, "6.4 m (5.0 ± 1.5)").unwrap().1, HudColor::White);
+}
+
+#[test]
+fn exact_the_task_panel_names_the_task_in_the_language_of_the_window() {
+    let text = spandrel_model::shipped::TWO_BRIDGES;
+    let job = spandrel_model::scenario::read("job.toml", text, &|file| Err(file.to_owned())).unwrap();
+    let guidance = |step| Guidance {
+        step,
+        task: Some(job.tasks[1].id),
+        way: (step == GuidanceStep::FlyToTask).then_some(WayTo { distance_m: 40.0, bearing_rad: 0.7, up_m: 3.0 }),
+        progress: None,
+        tasks_done: 1,
+        tasks: 4,
+        deviation: None,
+        stand_off: None,
+        flown_s: 10.0,
+        needed_s: 300.0,
+        detour: None,
+    };
+    for step in [GuidanceStep::FlyToTask, GuidanceStep::FollowPath] {
+        for language in Language::ALL {
+            let style = DisplayStyle { language, ..DisplayStyle::default() };
+            let hud = Hud { guidance: Some(guidance(step)), tasks: TaskNames::of(&job), style, ..hud() };
+            let name = hud.tasks.title(job.tasks[1].id, language).unwrap();
+            assert!(find(&hud, &name).is_some(), "{name} is missing: {:?}", texts(&hud));
+            assert_eq!(name == job.tasks[1].name, language == Language::English, "{name}");
+        }
+    }
+    let own = spandrel_model::scenario::Scenario { name: "my-bridge".into(), ..job };
+    assert_eq!(TaskNames::of(&own).title(own.tasks[1].id, Language::German), Some(own.tasks[1].name.clone()));
 }

@@ -29,6 +29,7 @@ use spandrel_model::site::movers::MoverKind;
 use spandrel_model::site::{QueryTime, Site};
 use spandrel_model::vehicle::Vehicle;
 use spandrel_text::{Language, text};
+use std::sync::Arc;
 
 /// Models of moving objects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -123,7 +124,7 @@ pub struct Scene {
     /// Paths of the tasks.
     pub paths: PathGuide,
     /// Outlines of the site for the instruments.
-    pub outline: SiteOutline,
+    pub outline: Arc<SiteOutline>,
     /// Bounding sphere of all structures, m.
     pub bounds_m: (Vec3<Enu>, f64),
     rotors: Vec<(Vec3<Frd>, f64)>,
@@ -194,7 +195,7 @@ impl Scene {
                 drone::propeller_disk(vehicle),
             ],
             paths: PathGuide::new(scenario),
-            outline: SiteOutline::new(scenario, site),
+            outline: Arc::new(SiteOutline::new(scenario, site)),
             bounds_m: bounds(site),
             rotors: vehicle.rotors.iter().map(|rotor| (rotor.position_m, rotor.spin)).collect(),
             water_m: scenario.terrain.water_level_m,

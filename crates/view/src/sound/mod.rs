@@ -8,9 +8,9 @@ mod warnings;
 
 pub use resampled::ResampledSound;
 pub use smoothing::SAMPLE_RATE_HZ;
-pub use warnings::spoken;
+pub use warnings::{ActiveAlarms, spoken};
 
-use crate::hud::DisplayStyle;
+use crate::hud::{DisplayStyle, StatusAlarm};
 use propellers::Propellers;
 use smoothing::SmoothedValue;
 use spandrel_mavlink::contract::cue::CueTexts;
@@ -46,14 +46,27 @@ pub struct SoundInputs {
     pub rotors_rad_s: Vec<f64>,
     /// Distance from the inspector to the drone, m.
     pub distance_m: f64,
-    /// Mask of active cues, as in the HUD.
-    pub cues: i32,
+    /// Active alarms, as in the HUD.
+    pub alarms: ActiveAlarms,
     /// The monitor's texts for the active cues.
     pub cue_texts: CueTexts,
     /// Language and units in which the texts are displayed and spoken.
     pub style: DisplayStyle,
     /// Whether all sound is off, because it is muted or the flight is paused.
     pub silent: bool,
+}
+
+impl SoundInputs {
+    /// Mutes a frozen flight. Without a link, the rotor speeds are unknown; the alarm of the lost link sounds, also in a freeze.
+    #[must_use]
+    pub fn with_freeze(self, is_frozen: bool) -> Self {
+        let is_lost = self.alarms.status.contains(StatusAlarm::LinkLost);
+        Self {
+            rotors_rad_s: if is_lost { Vec::new() } else { self.rotors_rad_s },
+            silent: self.silent || (is_frozen && !is_lost),
+            ..self
+        }
+    }
 }
 
 /// Sound synthesizer for a flight.
@@ -89,8 +102,8 @@ impl FlightSound {
         for sample in out {
             let loud = volume.follow(if heard.silent { 0.0 } else { settings.volume.clamp(0.0, 1.0) });
             let rotors: &[f64] = if settings.propellers { &heard.rotors_rad_s } else { &[] };
-            let cues = if settings.warnings { heard.cues } else { 0 };
-            let mixed = PROPELLER_LEVEL * propellers.next(rotors, heard.distance_m) + WARNING_LEVEL * warnings.next(cues);
+            let alarms = if settings.warnings { heard.alarms } else { ActiveAlarms::default() };
+            let mixed = PROPELLER_LEVEL * propellers.next(rotors, heard.distance_m) + WARNING_LEVEL * warnings.next(alarms);
             *sample = (loud * mixed) as f32;
         }
     }

@@ -1,15 +1,25 @@
 //! Tests of frequencies, levels, silence, and absence of clicks.
 
 use super::propellers::BLADES_PER_PROPELLER;
-use super::{FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
-use crate::hud::{DisplayStyle, DisplayUnits};
+use super::{ActiveAlarms, FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
+use crate::hud::{DisplayStyle, DisplayUnits, GnssStatus, Hud, HudColor, StatusAlarm, StatusAlarms, tests as hud_tests};
 use spandrel_mavlink::contract::cue::{self, CueTexts};
+use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_model::math;
+use spandrel_model::radio::RadioWay;
 use spandrel_model::random::RandomStream;
 use spandrel_text::Language;
 
-fn sound_inputs(rad_s: f64, distance_m: f64, cues: i32) -> SoundInputs {
-    SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, cues, ..SoundInputs::default() }
+fn cues(cues: i32) -> ActiveAlarms {
+    ActiveAlarms { cues, ..ActiveAlarms::default() }
+}
+
+fn status(alarm: StatusAlarm) -> ActiveAlarms {
+    ActiveAlarms { status: [alarm].into_iter().collect(), ..ActiveAlarms::default() }
+}
+
+fn sound_inputs(rad_s: f64, distance_m: f64, mask: i32) -> SoundInputs {
+    SoundInputs { rotors_rad_s: vec![rad_s; 4], distance_m, alarms: cues(mask), ..SoundInputs::default() }
 }
 
 /// Returns `seconds` of sound, recorded after the levels have settled for one second.
@@ -34,6 +44,9 @@ fn amplitude_at(samples: &[f64], hz: f64, rate_hz: f64) -> f64 {
     }
     2.0 * math::hypot(re, im) / samples.len() as f64
 }
+
+const STATUS_ALARMS: [StatusAlarm; 4] =
+    [StatusAlarm::LinkLost, StatusAlarm::GnssLost, StatusAlarm::ControlWeak, StatusAlarm::VideoWeak];
 
 fn only(propellers: bool, warnings: bool) -> SoundSettings {
     SoundSettings { propellers, warnings, speech: false, volume: 1.0 }
@@ -84,7 +97,7 @@ fn exact_only_the_most_severe_warning_sounds_at_its_pitch() {
 #[test]
 fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
     let texts: CueTexts = ["Off path 3.4 m: left and up", "Too fast: 11 mph, limit 10 mph", "Battery 29%"].into_iter().collect();
-    let spoken = |before, now| super::spoken(before, now, &texts, DisplayStyle::default());
+    let spoken = |before, now| super::spoken(cues(before), cues(now), &texts, DisplayStyle::default());
     assert_eq!(spoken(0, cue::CRASH | cue::SPEEDING).as_deref(), Some("Crash"));
     let off = Some("Off path 3.4 meters: left and up");
     assert_eq!(spoken(cue::SPEEDING, cue::SPEEDING | cue::OFF_PATH).as_deref(), off);
@@ -94,10 +107,10 @@ fn exact_the_displayed_text_of_the_most_severe_new_cue_is_spoken() {
     assert_eq!(spoken(cue::STAND_OFF | cue::OFF_PATH, cue::OFF_PATH).as_deref(), off);
     assert_eq!(spoken(cue::CRASH | cue::SPEEDING, cue::SPEEDING), None);
     let german = DisplayStyle { language: Language::German, ..DisplayStyle::default() };
-    let said = super::spoken(0, cue::SPEEDING, &texts, german);
+    let said = super::spoken(cues(0), cues(cue::SPEEDING), &texts, german);
     assert_eq!(said.as_deref(), Some("Zu schnell: 4.92 Meter pro Sekunde, höchstens 4.47 Meter pro Sekunde"));
     let us = DisplayStyle { units: DisplayUnits::UsCustomary, ..DisplayStyle::default() };
-    let said = super::spoken(0, cue::SPEEDING, &texts, us);
+    let said = super::spoken(cues(0), cues(cue::SPEEDING), &texts, us);
     assert_eq!(said.as_deref(), Some("Too fast: 11 miles per hour, limit 10 miles per hour"));
 }
 
@@ -127,7 +140,7 @@ fn prop_sound_never_clips_or_clicks() {
     // Additional allowance for transitions of tones and levels.
     const TRANSITION_ALLOWANCE: f64 = 1.1;
     let steepest = TRANSITION_ALLOWANCE
-        * (slope(0.5 * harmonics, top_hz) + slope(0.45, 1_050.0) + 0.45 / (0.008 * f64::from(SAMPLE_RATE_HZ)));
+        * (slope(0.5 * harmonics, top_hz) + slope(0.45, 2_100.0) + 0.45 / (0.008 * f64::from(SAMPLE_RATE_HZ)));
     assert!(steepest < 0.5, "the limit must be low enough to reveal a click: {steepest}");
     for seed in 0..20 {
         let mut random = RandomStream::new(seed, "sound");
@@ -138,7 +151,10 @@ fn prop_sound_never_clips_or_clicks() {
             sound.set(SoundInputs {
                 rotors_rad_s: (0..(any(9.0) as usize)).map(|_| any(4_000.0) - 500.0).collect(),
                 distance_m: any(300.0) - 10.0,
-                cues: any(128.0) as i32,
+                alarms: ActiveAlarms {
+                    cues: any(128.0) as i32,
+                    status: STATUS_ALARMS.into_iter().filter(|_| any(1.0) < 0.1).collect(),
+                },
                 cue_texts: CueTexts::default(),
                 style: DisplayStyle::default(),
                 silent: any(1.0) < 0.2,
@@ -189,4 +205,71 @@ fn exact_sound_at_its_own_rate_is_not_changed() {
     let expected = render_sound(&mut flight, sound_inputs(120.0 * math::TAU, 1.0, 0), 0.5);
     // Interpolation delays the sound by two samples.
     assert_eq!(resampled(SAMPLE_RATE_HZ, 0.5)[2..], expected[..expected.len() - 2]);
+}
+
+/// Returns the inputs for a flight as it is displayed.
+fn of_display(hud: &Hud, rotors_rad_s: Vec<f64>, distance_m: f64) -> SoundInputs {
+    let status = StatusAlarms::new(hud.telemetry_age_s, hud.gnss, hud.radio);
+    let (cue_texts, style) = (hud.cue_texts.clone(), hud.style);
+    let alarms = ActiveAlarms { cues: hud.cues, status };
+    SoundInputs { rotors_rad_s, distance_m, alarms, cue_texts, style, silent: false }.with_freeze(hud.is_frozen)
+}
+
+/// Returns how long a sound is audible, as a fraction of the time.
+fn audible_share(samples: &[f64]) -> f64 {
+    /// Above the tones' zero crossings over 1 ms, and far below their peaks (0.45).
+    const AUDIBLE_LEVEL: f64 = 0.05;
+    let windows: Vec<&[f64]> = samples.chunks(SAMPLE_RATE_HZ as usize / 1_000).collect();
+    let audible = windows.iter().filter(|window| window.iter().any(|sample| sample.abs() > AUDIBLE_LEVEL));
+    audible.count() as f64 / windows.len() as f64
+}
+
+#[test]
+fn exact_everything_that_is_displayed_as_an_alarm_sounds_and_is_spoken() {
+    let radio = |control_db, video_db| Some(RadioMargins { control_db, video_db, way: RadioWay::AroundEdge, losses: 0 });
+    let calm = Hud { radio: radio(20.0, 20.0), ..hud_tests::hud() };
+    let no_fix = Some(GnssStatus { has_fix: false, satellites: 4 });
+    // Pitch in Hz and the share of the time for which it sounds.
+    let cases = [
+        (Hud { telemetry_age_s: 3.0, ..calm.clone() }, "LINK LOST 3 s", (1_575.0, 0.3 / 0.5), "Link lost"),
+        (Hud { telemetry_age_s: 3.0, is_frozen: true, ..calm.clone() }, "LINK LOST 3 s", (1_575.0, 0.3 / 0.5), "Link lost"),
+        (Hud { gnss: no_fix, ..calm.clone() }, "GNSS lost (4)", (2_100.0, 0.1 / 1.5), "G N S S lost"),
+        (Hud { radio: radio(0.0, 20.0), ..calm.clone() }, "control", (1_575.0, 0.1), "Control link weak"),
+        (Hud { radio: radio(20.0, 0.0), ..calm.clone() }, "video", (1_575.0, 0.1 / 2.0), "Video link weak"),
+    ];
+    /// Attack and release are audible for a part of their 8 ms.
+    const SHARE_TOLERANCE: f64 = 0.02;
+    for (hud, words, (hz, share), said) in cases {
+        let displayed = hud_tests::find(&hud, words).map(|(_, color)| color);
+        assert_eq!(displayed, Some(HudColor::Orange), "{words}");
+        let inputs = of_display(&hud, Vec::new(), 10.0);
+        let samples = render_sound(&mut FlightSound::new(only(true, true)), inputs.clone(), 6.0);
+        assert!(amplitude(&samples, hz) > 10.0 * amplitude(&samples, 1.2 * hz), "{words}: pitch");
+        let audible = audible_share(&samples);
+        assert!((audible - share).abs() < SHARE_TOLERANCE, "{words}: sounds for {audible} of the time, not {share}");
+        let spoken = super::spoken(ActiveAlarms::default(), inputs.alarms, &hud.cue_texts, hud.style);
+        assert_eq!(spoken.as_deref(), Some(said));
+        assert_eq!(super::spoken(inputs.alarms, inputs.alarms, &hud.cue_texts, hud.style), None, "only once");
+    }
+    for hud in [calm.clone(), Hud { is_frozen: true, cues: cue::SPEEDING, ..calm }] {
+        let inputs = of_display(&hud, vec![0.0; 4], 10.0);
+        assert_eq!(audible_share(&render_sound(&mut FlightSound::new(only(true, true)), inputs, 3.0)), 0.0);
+    }
+}
+
+#[test]
+fn exact_without_a_link_only_its_alarm_sounds() {
+    let hud = Hud { telemetry_age_s: 2.0, cues: cue::CRASH | cue::TOO_CLOSE, ..hud_tests::hud() };
+    let inputs = of_display(&hud, vec![700.0; 4], 1.0);
+    assert!(inputs.rotors_rad_s.is_empty(), "the rotor speeds are unknown");
+    let samples = render_sound(&mut FlightSound::new(only(true, true)), inputs, 3.0);
+    for hz in [220.0, 1_050.0] {
+        assert!(amplitude(&samples, 1_575.0) > 10.0 * amplitude(&samples, hz), "{hz} Hz");
+    }
+    let both = ActiveAlarms { cues: cue::SPEEDING, ..status(StatusAlarm::ControlWeak) };
+    let texts: CueTexts = ["Too fast: 11 mph, limit 10 mph"].into_iter().collect();
+    assert_eq!(
+        super::spoken(status(StatusAlarm::ControlWeak), both, &texts, DisplayStyle::default()).as_deref(),
+        Some("Too fast: 4.92 meters per second, limit 4.47 meters per second"),
+    );
 }

@@ -12,7 +12,7 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, girder_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
-use spandrel_view::hud::{self, DisplayStyle, GnssStatus, Hud, InspectorMarks, MapPath, Obstacles, WayBack};
+use spandrel_view::hud::{self, DisplayStyle, GnssStatus, Hud, InspectorMarks, MapPath, Obstacles, TaskNames, WayBack};
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::patch;
@@ -292,8 +292,10 @@ pub(super) fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         inspector: InspectorMarks::new(&studio.scenario.ground_team, studio.scenario.ground_team.inspector_m),
         pad_m: studio.scenario.ground_team.pad_m,
         guidance: None,
+        tasks: TaskNames::of(&studio.scenario),
         lesson: None,
         tracks: MapPath::all(&studio.scenario),
+        site: studio.scene.outline.clone(),
         style: DisplayStyle::default(),
     }
 }

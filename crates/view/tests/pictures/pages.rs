@@ -46,15 +46,27 @@ const KEYS: [&str; 19] = [
 /// Number of pages of the tutorial.
 const TUTORIAL_PAGES: usize = 6;
 
+/// Aircraft, wind and light of a job.
+const CONDITIONS: &str = "Aircraft: Phantom 2 class · Wind: 4.0 m/s from 250° · Light: 12:05 solar time, sun 41° high";
+
 fn job(name: &str, title: &str) -> JobOffer {
     let briefing = JobBriefing {
         notes: vec!["Begin with the arch bridge.".into()],
         tasks: vec!["1  Arch soffit: north arch, 152 m long, 12 to 24 m above the pad, stand-off 5.0 ± 1.5 m".into()],
         hazards: vec!["Wind: 4 m/s from 250°, gusts up to 7 m/s.".into(), "Traffic on both bridges.".into()],
         site_check: vec!["Battery at least 95%".into(), "Landing pad free of people".into()],
+        conditions: vec!["Aircraft: Phantom 2 class".into(), "Speed: 1.0 m/s for inspection, limit 10 mph".into()],
+        counts: vec!["Safety: touch nothing.".into(), "To be certified: conformity of at least 80%.".into()],
         pictures: Vec::new(),
     };
-    JobOffer { name: name.into(), title: title.into(), kind: "4 tasks, 10 defects".into(), briefing }
+    JobOffer {
+        name: name.into(),
+        title: title.into(),
+        kind: "4 tasks, 10 defects".into(),
+        conditions: CONDITIONS.into(),
+        is_lesson: false,
+        briefing,
+    }
 }
 
 fn options() -> FlightOptions {
@@ -96,6 +108,7 @@ fn ended() -> FlightSummary {
         complete: true,
         verdict: Some("Not certified: 12% battery at landing, 20% needed".into()),
         why: "landed after 12 min 30 s".into(),
+        standing: Some("Personal best on this job: 350 of 400. Change since last time: 12 points up.".into()),
         advice: vec!["You flew up to 6.2 m/s in tasks 1, 2 and 4, over the 4.5 m/s limit for 2 min 34 s: slow down.".into()],
         next: None,
         watched: false,

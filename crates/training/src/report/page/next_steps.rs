@@ -3,6 +3,7 @@
 use crate::plan::{PlanReason, PlanStep, rule_title};
 use crate::report::Review;
 use crate::report::table::{Table, TableCell, folded};
+use crate::terms::job_title;
 use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
@@ -14,7 +15,7 @@ pub fn section(review: &Review) -> Markup {
         ol.steps {
             @for step in &review.next {
                 li {
-                    b { (step.scenario) }
+                    b { (job_title(&step.scenario, language)) }
                     @if let Some(level) = &step.level { p { (level.words) } }
                     ul { @for reason in &step.reasons { li { (reason_words(reason, language)) } } }
                 }

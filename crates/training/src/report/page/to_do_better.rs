@@ -1,4 +1,4 @@
-//! The first section: the things to do better, and the next flight.
+//! The first section: the personal best, the things to do better, and the next flight.
 
 use super::{gallery, moment};
 use crate::advice::{AdvicePoint, SessionAdvice};
@@ -16,6 +16,7 @@ const MAX_PICTURE_AGE_S: f64 = 5.0;
 pub fn section(review: &Review) -> Markup {
     let advice = &review.advice.in_language(review.metadata.language);
     html! {
+        @if let Some(standing) = &review.metadata.standing { p.standing { (standing.words(review.metadata.language)) } }
         @if advice.points.is_empty() {
             p { (advice.note.as_deref().unwrap_or_default()) }
         } @else {
@@ -32,7 +33,7 @@ fn item(review: &Review, point: &AdvicePoint) -> Markup {
             b { (point.words) }
             p { (moment::shown(point.t_s, language))
                 @if let Some(picture) = picture_near(review, point.t_s) { " · " a href={ "#" (gallery::anchor(picture)) } { (text!(language, "report-better-picture", picture = picture.number)) } }
-                " · " (text!(language, "report-better-practice")) " " b.drill { (point.drill) } }
+                " · " (text!(language, "report-better-practice")) " " b.drill { (job_title(&point.drill, language)) } }
         }
     }
 }

@@ -1,18 +1,12 @@
 //! Labels for changes: within the error of the measure, or beyond it.
 
 use crate::report::table::TableCell;
-use crate::terms::measure_title;
+use crate::terms::{error_label, measure_title};
 use spandrel_text::{Language, text};
 
 /// Returns a table cell with the label of a change; empty if the measure's error is unknown.
 pub fn label(within_error: Option<bool>, language: Language) -> TableCell {
-    within_error.map_or(TableCell::Empty, |within| words(within, language).into())
-}
-
-/// Returns the label of a change.
-#[must_use]
-pub fn words(within_error: bool, language: Language) -> String {
-    if within_error { text!(language, "report-within-error") } else { text!(language, "report-beyond-error") }
+    within_error.map_or(TableCell::Empty, |within| error_label(within, language).into())
 }
 
 /// Returns a measure's name with its unit, as in "flight time (s)".

@@ -100,9 +100,10 @@ function show(answer, sent) {
   if (caret !== null) caret.input.setSelectionRange(caret.start, caret.end);
   caret = null;
   showProblems(answer.problems);
-  const open = document.getElementById("check-notes")?.open ?? false;
+  const folds = ["check-warnings", "check-notes"];
+  const open = folds.filter((id) => document.getElementById(id)?.open);
   findings.innerHTML = answer.findings;
-  if (open) document.getElementById("check-notes")?.setAttribute("open", "");
+  for (const id of open) document.getElementById(id)?.setAttribute("open", "");
   say(status, answer.rejected ? `${answer.rejected}. ${answer.status}` : answer.status);
   if (answer.preview !== null) preview.innerHTML = answer.preview;
   stale.hidden = answer.preview !== null || preview.querySelector("svg") === null;

@@ -142,7 +142,7 @@ fn sides(scenario: &Scenario, outline: &SiteOutline, tracks: &[MapPath]) -> Vec<
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::{HudColor, TextAlign};
+    use super::super::super::{HudColor, TextAlign, contrast};
     use super::*;
     use spandrel_model::{scenario, shipped};
 
@@ -202,6 +202,17 @@ mod tests {
                     };
                     assert!(points.iter().all(inside), "{name}, drawing {index}: {item:?}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn prop_texts_on_drawings_of_every_shipped_job_have_enough_contrast() {
+        for (name, text) in shipped::SCENARIOS {
+            let drawing = drawing(text);
+            for index in 0..drawing.count() {
+                let items = drawing.draw(index, DisplayStyle::default(), PANE, AREA);
+                contrast::check(&items, PANE.width / PANE.height, &format!("{name}, drawing {index}"));
             }
         }
     }

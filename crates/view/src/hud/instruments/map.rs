@@ -24,7 +24,7 @@ pub(super) fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
     scale.place((point_m.east(), point_m.north()))
 }
 
-pub(super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+pub(in super::super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     let scale = DrawingScale::fit(site.bounds, area.inside(0.5 * font));
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
     items.extend(ground(site, pane, area, &scale));
@@ -200,6 +200,11 @@ pub(super) fn legend_texts(style: DisplayStyle, area: Area, (scale, font): (&Dra
     scale_text.chain([(area.x + area.width - 1.1 * font, area.y + 2.3 * font)]).collect()
 }
 
+/// Returns the ground of a text that may be over a bridge.
+pub(super) fn text_ground(pane: Pane, (left, top): Point, (right, bottom): Point) -> DrawItem {
+    pane.fill(&[(left, top), (right, top), (right, bottom), (left, bottom)], HudColor::TextBackground)
+}
+
 /// Returns the north arrow and the scale.
 pub(super) fn legend(style: DisplayStyle, pane: Pane, area: Area, (scale, font): (&DrawingScale, f64)) -> Vec<DrawItem> {
     let (units, length_m) = (style.units, scale_length_m(style, area, scale));
@@ -207,9 +212,13 @@ pub(super) fn legend(style: DisplayStyle, pane: Pane, area: Area, (scale, font):
     let right = left + length_m * scale.px_per_m;
     let bar = [(left, bottom - 0.4 * font), (left, bottom), (right, bottom), (right, bottom - 0.4 * font)];
     let north = (area.x + area.width - 1.1 * font, area.y + 1.2 * font);
+    let (words, pad) = (units.length(length_m, 0), 0.3 * font);
+    let end = right.max(left + text_width(&words, font));
     vec![
+        text_ground(pane, (left - pad, bottom - 1.5 * font), (end + pad, bottom + pad)),
+        text_ground(pane, (north.0 - 0.8 * font, north.1 - font), (north.0 + 0.8 * font, north.1 + 1.7 * font)),
         pane.line(&bar, 0.14 * font, HudColor::White),
-        pane.text((left, bottom - 0.95 * font), TextAlign::Left, font, HudColor::White, units.length(length_m, 0)),
+        pane.text((left, bottom - 0.95 * font), TextAlign::Left, font, HudColor::White, words),
         pane.fill(&arrow((north.0, north.1 - 0.2 * font), 0.0, 0.7 * font), HudColor::White),
         pane.text(
             (north.0, north.1 + 1.1 * font),

@@ -13,6 +13,7 @@ mod tests;
 
 pub(crate) use area::Area;
 pub use job_drawing::JobDrawing;
+pub(super) use map::map as site_map;
 pub use site_outline::SiteOutline;
 
 use super::DrawItem;

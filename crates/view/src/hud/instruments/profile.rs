@@ -2,11 +2,19 @@
 
 use super::super::pane::Pane;
 use super::super::state::Hud;
+use super::super::text_metrics::text_width;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
+use super::map::text_ground;
 use super::scale::DrawingScale;
 use super::site_outline::{Point, SideView, SiteOutline};
+
+/// Steps of the scale of heights, in units of length, the smallest distance between two marks, and the size of their text, in font
+/// sizes.
+const HEIGHT_STEPS: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
+const MIN_STEP: f64 = 1.6;
+const SCALE_FONT: f64 = 0.8;
 
 pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
@@ -19,6 +27,9 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
         items.extend(path(&track.path_m, track.closed, (side, &scale), pane, area, (0.14 * font, color)));
     }
     let drone = clamp_point(scale.place(side.view.at(hud.position_m)), area.inside(0.6 * font));
+    // The height of the aircraft stands at the side with more space, the scale at the other one.
+    let left = drone.0 > area.x + 0.5 * area.width;
+    items.extend(height_scale(hud, (side, &scale), pane, area, (font, !left)));
     let level = [(area.x, drone.1), (area.x + area.width, drone.1)];
     items.push(pane.line(&level, 0.07 * font, HudColor::Gray));
     let size = 0.55 * font;
@@ -30,12 +41,50 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
     }
     items.push(pane.fill(&diamond(drone, 1.35 * size), HudColor::Black));
     items.push(pane.fill(&diamond(drone, size), HudColor::Yellow));
-    // Above the line, at the side with more space.
-    let left = drone.0 > area.x + 0.5 * area.width;
+    // Above the line.
     let (x, side) =
         if left { (area.x + 0.4 * font, TextAlign::Left) } else { (area.x + area.width - 0.4 * font, TextAlign::Right) };
     let y = if drone.1 - area.y > 1.5 * font { drone.1 - 0.65 * font } else { drone.1 + 0.65 * font };
-    items.push(pane.text((x, y), side, font, HudColor::White, hud.style.units.length(hud.height_m, 0)));
+    let words = hud.style.units.length(hud.height_m, 0);
+    let (half, width) = (0.55 * font, text_width(&words, font));
+    let pad = 0.2 * font;
+    let (from, to) = if left { (x - pad, x + width + pad) } else { (x - width - pad, x + pad) };
+    items.push(text_ground(pane, (from, y - half), (to, y + half)));
+    items.push(pane.text((x, y), side, font, HudColor::White, words));
+    items
+}
+
+/// Returns marks with heights above the pad, at the left or right edge.
+fn height_scale(
+    hud: &Hud,
+    (side, scale): (&SideView, &DrawingScale),
+    pane: Pane,
+    area: Area,
+    (font, at_left): (f64, bool),
+) -> Vec<DrawItem> {
+    let (units, pad_m) = (hud.style.units, side.view.at(hud.pad_m).1);
+    let steps_m = HEIGHT_STEPS.map(|step| step * units.length_unit_m());
+    let Some(step_m) = steps_m.into_iter().find(|step_m| step_m * scale.px_per_m >= MIN_STEP * font) else { return Vec::new() };
+    let ((across_m, low_m), (_, high_m)) = side.bounds;
+    let (edge, inward) = if at_left { (area.x, 1.0) } else { (area.x + area.width, -1.0) };
+    let align = if at_left { TextAlign::Left } else { TextAlign::Right };
+    let inside = area.inside(0.6 * font);
+    let (first, last) = (((low_m - pad_m) / step_m).ceil() as i32, ((high_m - pad_m) / step_m).floor() as i32);
+    let mut items = Vec::new();
+    for k in first..=last {
+        let height_m = f64::from(k) * step_m;
+        let (_, y) = scale.place((across_m, pad_m + height_m));
+        if clamp_point((inside.x, y), inside).1 != y {
+            continue;
+        }
+        let (words, font) = (units.length(height_m, 0), SCALE_FONT * font);
+        let (tick, text) = (edge + 0.5 * inward * font, edge + 0.7 * inward * font);
+        let end = text + inward * text_width(&words, font);
+        let pad = 0.15 * font;
+        items.push(text_ground(pane, (text.min(end) - pad, y - 0.55 * font), (text.max(end) + pad, y + 0.55 * font)));
+        items.push(pane.line(&[(edge, y), (tick, y)], 0.12 * font, HudColor::White));
+        items.push(pane.text((text, y), align, font, HudColor::White, words));
+    }
     items
 }
 

@@ -21,7 +21,7 @@ pub(super) type Point = (f64, f64);
 pub(super) type Bounds = (Point, Point);
 
 /// A side view.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct SideView {
     pub view: ParallelView,
     /// Silhouettes of the members, farthest first.
@@ -32,7 +32,7 @@ pub(super) struct SideView {
 }
 
 /// The site as line drawings.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SiteOutline {
     pub(super) water: Vec<WaterStrip>,
     /// Silhouettes of the members from above, lowest first.
@@ -52,6 +52,13 @@ impl SiteOutline {
     pub fn empty() -> Self {
         let bounds = ((0.0, 0.0), (0.0, 0.0));
         Self { water: Vec::new(), members: Vec::new(), bounds, sides: Vec::new(), bridges: Vec::new(), water_level_m: 0.0 }
+    }
+
+    /// Returns an outline that has only the area of the map, around points.
+    #[cfg(test)]
+    pub(in super::super) fn around(points_m: impl Iterator<Item = Vec3<Enu>>) -> Self {
+        let plan = ParallelView::plan();
+        Self { bounds: bounds(points_m.map(|point_m| plan.at(point_m))), ..Self::empty() }
     }
 
     /// Computes the outlines of a job's site.

@@ -1,5 +1,6 @@
 //! Tests of the instruments.
 
+use super::super::contrast;
 use super::super::tests::hud;
 use super::super::text_metrics::text_width;
 use super::super::{DisplayStyle, DisplayUnits, HudColor, InspectorMarks, Obstacles, TextAlign, TextScale};
@@ -212,4 +213,48 @@ fn exact_the_horizon_tilts_against_the_roll_and_sinks_when_the_nose_rises() {
     let highest = |points: Vec<super::super::ScreenPoint>| points.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)).unwrap();
     // Rolled right, the ground is higher on the right side of the display.
     assert!(highest(ground(0.5, 0.0).unwrap()).x > 0.6);
+}
+
+#[test]
+fn prop_texts_of_the_instruments_have_enough_contrast() {
+    let (job, site) = job();
+    let state = flying(&job);
+    let assessed = Hud { tracks: Vec::new(), ..state.clone() };
+    for text_scale in TextScale::ALL {
+        for state in [&state, &assessed] {
+            for (width, height) in [(300.0, 720.0), (600.0, 1080.0), (900.0, 240.0), (250.0, 250.0)] {
+                for east_m in [-60.0, 20.0, 90.0] {
+                    let style = DisplayStyle { text_scale, ..DisplayStyle::default() };
+                    let hud = Hud { style, position_m: Vec3::new(east_m, -10.0, 12.0), ..state.clone() };
+                    let items = instruments(&hud, &site, (width, height));
+                    contrast::check(&items, width / height, &format!("{text_scale:?}, {width} x {height} px, {east_m} m east"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn exact_the_profile_has_a_scale_of_heights_above_the_pad() {
+    /// Rounding of positions, fraction of the picture.
+    const ROUNDING: f64 = 1e-9;
+    let (job, site) = job();
+    let (pane, area) = (Pane { width: 400.0, height: 200.0 }, Area { x: 0.0, y: 0.0, width: 400.0, height: 200.0 });
+    // The middle of the aircraft's symbol and a mark at its height must agree.
+    for height_m in [10.0, 20.0] {
+        let hud = Hud { position_m: job.ground_team.pad_m + Vec3::new(0.0, 0.0, height_m), ..flying(&job) };
+        let items = profile::profile(&hud, &site, pane, area, 12.0);
+        let mark = items.iter().find_map(|item| match item {
+            DrawItem::Text { place, words, height, .. } if *words == format!("{height_m:.0} m") && *height < 12.0 / 200.0 => {
+                Some(place.y)
+            }
+            DrawItem::Text { .. } | DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        });
+        let drone = items.iter().find_map(|item| match item {
+            DrawItem::Fill { points, color: HudColor::Yellow } if points.len() == 4 => Some(points[1].y),
+            DrawItem::Text { .. } | DrawItem::Panel { .. } | DrawItem::Fill { .. } | DrawItem::Line { .. } => None,
+        });
+        let (mark, drone) = (mark.unwrap(), drone.unwrap());
+        assert!((mark - drone).abs() < ROUNDING, "{height_m} m: mark at {mark}, aircraft at {drone}");
+    }
 }

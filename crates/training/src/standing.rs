@@ -1,7 +1,9 @@
 //! A session compared with the trainee's other sessions on the same job.
 
 use crate::cohort::{MeasureReliability, reliability_of};
-use crate::record::{SessionOutcome, SessionRecord};
+use crate::record::{SessionOutcome, SessionRecord, excluded_sessions_note};
+use crate::terms::error_label;
+use spandrel_text::{Language, text};
 
 /// A complete session compared with the trainee's other complete sessions on the same job and level.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,14 +18,58 @@ pub struct SessionStanding {
     pub within_error: Option<bool>,
     /// Number of the trainee's incomplete sessions on this job, which are left out.
     pub left_out: usize,
+    /// Highest possible score.
+    pub most: f64,
 }
 
 impl SessionStanding {
+    /// Compares a score with those of other sessions of the same job, which are given with their start times. `None` without others.
+    #[must_use]
+    pub fn new((own_start_us, own, most): (u64, f64, f64), others: &[(u64, f64)]) -> Option<Self> {
+        if others.is_empty() {
+            return None;
+        }
+        let best = others.iter().map(|(_, score)| *score).fold(own, f64::max);
+        let earlier = others.iter().filter(|(start_us, _)| *start_us < own_start_us);
+        let last = earlier.max_by_key(|(start_us, _)| *start_us);
+        let change = last.map(|(_, score)| own - score);
+        Some(Self { best, is_best: own >= best, change, within_error: None, left_out: 0, most })
+    }
+
     /// Labels the change with the reliability of the measures on the job.
     #[must_use]
     pub fn labeled(self, known: &[MeasureReliability]) -> Self {
         let overall = self.change.zip(reliability_of(known, "overall"));
         Self { within_error: overall.and_then(|(change, known)| known.is_within_error(change)), ..self }
+    }
+
+    /// Returns the personal best and the change since the last session as sentences.
+    #[must_use]
+    pub fn words(&self, language: Language) -> String {
+        let left_out = excluded_sessions_note(self.left_out, language).map(|note| note + ".");
+        [Some(self.best_words(language)), self.change_words(language), left_out]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    fn best_words(&self, language: Language) -> String {
+        if self.is_best {
+            return text!(language, "sessions-standing-best");
+        }
+        text!(language, "sessions-standing-other", best = points(self.best), most = points(self.most))
+    }
+
+    fn change_words(&self, language: Language) -> Option<String> {
+        let change = self.change?;
+        let said = match points(change.abs()) {
+            points if points == "0" => text!(language, "sessions-standing-same"),
+            points if change > 0.0 => text!(language, "sessions-standing-up", points = points),
+            points => text!(language, "sessions-standing-down", points = points),
+        };
+        let Some(within) = self.within_error else { return Some(said) };
+        Some(format!("{} ({}).", said.trim_end_matches('.'), error_label(within, language)))
     }
 }
 
@@ -39,16 +85,18 @@ pub fn standing(record: &SessionRecord, records: &[SessionRecord]) -> Option<Ses
     let (complete, left_out): (Vec<&SessionRecord>, Vec<&SessionRecord>) =
         records.iter().filter(is_on_job).partition(|other| other.is_complete());
     let is_comparable = |other: &&SessionRecord| other.scores.overall_max == record.scores.overall_max;
-    let others: Vec<&SessionRecord> = complete.into_iter().filter(is_comparable).collect();
-    if !record.is_complete() || !record.is_unaided() || others.is_empty() {
+    let others: Vec<(u64, f64)> =
+        complete.into_iter().filter(is_comparable).map(|other| (other.started_unix_us, other.scores.overall)).collect();
+    if !record.is_complete() || !record.is_unaided() {
         return None;
     }
-    let own = record.scores.overall;
-    let best = others.iter().map(|other| other.scores.overall).fold(own, f64::max);
-    let earlier = others.iter().filter(|other| other.started_unix_us < record.started_unix_us);
-    let last = earlier.max_by_key(|other| other.started_unix_us);
-    let change = last.map(|last| own - last.scores.overall);
-    Some(SessionStanding { best, is_best: own >= best, change, within_error: None, left_out: left_out.len() })
+    let standing = SessionStanding::new((record.started_unix_us, record.scores.overall, record.scores.overall_max), &others)?;
+    Some(SessionStanding { left_out: left_out.len(), ..standing })
+}
+
+/// Returns a score without decimals.
+fn points(value: f64) -> String {
+    format!("{value:.0}")
 }
 
 #[cfg(test)]
@@ -89,8 +137,9 @@ mod tests {
     #[test]
     fn exact_best_and_change_come_from_complete_sessions_on_the_same_job() {
         let mut all = records(&[300.0, 350.0, 320.0]);
+        let most = all[0].scores.overall_max;
         let unlabeled =
-            |best, is_best, change, left_out| Some(SessionStanding { best, is_best, change, within_error: None, left_out });
+            |best, is_best, change, left_out| Some(SessionStanding { best, is_best, change, within_error: None, left_out, most });
         assert_eq!(standing(&all[2], &all), unlabeled(350.0, false, Some(-30.0), 0));
         assert_eq!(standing(&all[1], &all), unlabeled(350.0, true, Some(50.0), 0));
         assert_eq!(standing(&all[0], &all).and_then(|standing| standing.change), None, "the first has no session before it");
