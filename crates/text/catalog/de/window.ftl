@@ -13,7 +13,6 @@ window-start-title = Spandrel: eine Brücke mit der Drohne prüfen
 window-start-trainee = Trainee
 window-start-job = Auftrag
 window-start-purpose = Zweck
-window-start-conditions = Fluggerät, Wind und Licht
 window-start-check-controller = Weiter: Steuerung prüfen
 window-start-watch-expert = Experten bei diesem Auftrag zusehen
 window-start-tutorial = Einführung lesen

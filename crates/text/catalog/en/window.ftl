@@ -14,7 +14,6 @@ window-start-title = Spandrel: inspect a bridge with a drone
 window-start-trainee = Trainee
 window-start-job = Job
 window-start-purpose = Purpose
-window-start-conditions = Aircraft, wind and light
 window-start-check-controller = Next: check controller
 window-start-watch-expert = Watch an expert fly this job
 window-start-tutorial = Read the tutorial

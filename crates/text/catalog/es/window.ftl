@@ -13,7 +13,6 @@ window-start-title = Spandrel: inspeccione un puente con un dron
 window-start-trainee = Alumno
 window-start-job = Trabajo
 window-start-purpose = Propósito
-window-start-conditions = Aeronave, viento y luz
 window-start-check-controller = Siguiente: revisar el control
 window-start-watch-expert = Ver a un experto volar este trabajo
 window-start-tutorial = Leer el tutorial

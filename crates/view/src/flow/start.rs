@@ -130,7 +130,10 @@ impl WindowFlow {
     /// Returns a heading and an explanation for each selected value.
     fn choice_explanation(&self) -> Vec<(Topic, String, String)> {
         let language = self.language();
-        let job = self.chosen_job().map_or(String::new(), |job| format!("{} ({})", job.kind, job.name));
+        let job = self.chosen_job().map_or(String::new(), |job| {
+            let contents = format!("{} ({})", job.kind, job.name);
+            if job.conditions.is_empty() { contents } else { format!("{contents} · {}", job.conditions) }
+        });
         let purpose = match self.choice.purpose {
             Purpose::Practice => text!(language, "window-start-about-practice"),
             Purpose::Assessment => text!(language, "window-start-about-assessment"),
@@ -140,9 +143,6 @@ impl WindowFlow {
             (Topic::Job, text!(language, "window-start-job"), job),
             (Topic::Purpose, text!(language, "window-start-purpose"), purpose),
         ];
-        if let Some(job) = self.chosen_job().filter(|job| !job.conditions.is_empty()) {
-            told.insert(2, (Topic::Conditions, text!(language, "window-start-conditions"), job.conditions.clone()));
-        }
         if let Some(web) = self.offers.as_ref().and_then(|offers| offers.web.as_ref()) {
             told.push((Topic::Web, text!(language, "window-start-web"), web.clone()));
         }
@@ -174,18 +174,17 @@ impl WindowFlow {
 enum Topic {
     Trainee,
     Job,
-    Conditions,
     Purpose,
     Web,
 }
 
 /// Room for the help below the menu.
-const HELP_ROOM: f64 = 0.065;
+const HELP_ROOM: f64 = 0.105;
 /// Height of a heading with its gap, and gap between two blocks.
 const HEADING_HEIGHT: f64 = 0.052;
 const BLOCK_GAP: f64 = 0.03;
 /// Smallest and largest height of the job's picture.
-const PICTURE_HEIGHTS: (f64, f64) = (0.15, 0.34);
+const PICTURE_HEIGHTS: (f64, f64) = (0.12, 0.34);
 /// Corners of the window.
 const WHOLE_WINDOW: [ScreenPoint; 4] = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
 
