@@ -11,7 +11,8 @@ use spandrel_text::Language;
 use spandrel_training::cohort::{Cohort, Selection, cohort, tables};
 use spandrel_training::record::{IncompletePolicy, excluded_sessions_note, included_sessions_note};
 use spandrel_training::report::page::cohort as page;
-use spandrel_training::report::page::within_error::{measure_name, words};
+use spandrel_training::report::page::within_error::measure_name;
+use spandrel_training::terms::error_label;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -187,7 +188,7 @@ fn summary_text(cohort: &Cohort) -> String {
             shown(p.map(|p| p.two)),
             shown(t.effect_size_dz),
             shown(one.p_holm.map(|p| p.two)),
-            one.within_error.map_or_else(|| "unknown".to_owned(), |within| words(within, Language::English)),
+            one.within_error.map_or_else(|| "unknown".to_owned(), |within| error_label(within, Language::English)),
         );
     }
     for one in &cohort.homogeneity {
@@ -214,7 +215,7 @@ fn summary_text(cohort: &Cohort) -> String {
             one.means.len(),
             one.people,
             one.curve.exponent,
-            one.within_error.map_or(String::new(), |within| format!(", {}", words(within, Language::English)))
+            one.within_error.map_or(String::new(), |within| format!(", {}", error_label(within, Language::English)))
         );
     }
     let contradictions = &cohort.self_rating.contradictions;
