@@ -286,8 +286,7 @@ def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
         assert (told["trainee"], told["purpose"]) == ("synthetic-expert", "practice"), told
         ended = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
         assert ended["end"]["reason"] == "landed" and ended["tasks"][0]["attempted"], ended["end"]
-        # The first row is the report; the next one flies the job oneself.
-        screen.tap(DOWN)
+        # The first row flies the job oneself.
         training.wait_for_screenshot("own-flight", in_flight_or_briefing, ENTER)
     finally:
         training.close()
