@@ -123,7 +123,7 @@ def is_start_page(photograph):
     """Returns whether the start page is shown with the picture of the job, which appears later. Without a picture, only the page's
     background is there."""
     height, width = photograph.shape[:2]
-    picture = photograph[int(0.5 * height) : int(0.75 * height), int(0.63 * width) : int(0.84 * width)]
+    picture = photograph[int(0.56 * height) : int(0.63 * height), int(0.615 * width) : int(0.69 * width)]
     return is_page(photograph) and count(picture, NIGHT) == 0
 
 
