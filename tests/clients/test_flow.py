@@ -123,7 +123,7 @@ def is_start_page(photograph):
     """Returns whether the start page is shown with the picture of the job, which appears later. Without a picture, only the page's
     background is there."""
     height, width = photograph.shape[:2]
-    picture = photograph[int(0.5 * height) : int(0.75 * height), int(0.63 * width) : int(0.84 * width)]
+    picture = photograph[int(0.56 * height) : int(0.63 * height), int(0.615 * width) : int(0.69 * width)]
     return is_page(photograph) and count(picture, NIGHT) == 0
 
 
@@ -286,8 +286,7 @@ def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
         assert (told["trainee"], told["purpose"]) == ("synthetic-expert", "practice"), told
         ended = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
         assert ended["end"]["reason"] == "landed" and ended["tasks"][0]["attempted"], ended["end"]
-        # The first row is the report; the next one flies the job oneself.
-        screen.tap(DOWN)
+        # The first row flies the job oneself.
         training.wait_for_screenshot("own-flight", in_flight_or_briefing, ENTER)
     finally:
         training.close()

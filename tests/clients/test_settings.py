@@ -36,9 +36,9 @@ def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):  # 
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", "--no-sound")
     try:
         training.wait_for_screenshot("start", is_start_page)
-        # The settings are above the language and "Quit", the last rows.
+        # The settings are above the language, the quality of the pictures and "Quit", the last rows.
         training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
-        settings = training.wait_for_screenshot("settings", other_page(move_focus(training, UP, 2)), ENTER)
+        settings = training.wait_for_screenshot("settings", other_page(move_focus(training, UP, 3)), ENTER)
         # The first row of the settings is the language.
         keys = training.wait_for_screenshot("keys", other_page(move_focus(training, DOWN, 1, settings)), ENTER)
         for _ in range(ROWS_ABOVE_TAKE_OFF):
@@ -79,7 +79,7 @@ def test_wire_the_language_changes_the_pages_at_once(screen, tmp_path):
     try:
         training.wait_for_screenshot("start", is_start_page)
         training.wait_for_screenshot("last-row", lambda photograph: is_page(photograph) and focus(photograph)[1] > 0.75, UP)
-        english = move_focus(training, UP, 1)
+        english = move_focus(training, UP, 2)
         german = training.wait_for_screenshot("german", lambda photograph: is_page(photograph) and numpy.abs(photograph - english).mean() > 2.0, "Right")
         spandrel.wait_for("the stored language", lambda: (settings_of(training) or {}).get("display", {}).get("language") == "de", LIMIT_S)
         # The names of the jobs, which `train` sends, follow.
