@@ -308,11 +308,12 @@ impl AutopilotHost {
     /// reported everything, so its report replaces a record only when it contains as much.
     pub fn record(&mut self, core: &Sim) {
         let Some(report) = core.autopilot_report() else { return };
-        let amount = (report.version.is_some(), report.parameters.len());
-        if self.recorded.is_some() && (amount.0 < self.recorded_amount.0 || amount.1 < self.recorded_amount.1) {
+        let (has_version, parameters) = (report.version.is_some(), report.parameters.len());
+        let (had_version, had_parameters) = self.recorded_amount;
+        if self.recorded.is_some() && ((had_version && !has_version) || parameters < had_parameters) {
             return;
         }
-        self.recorded_amount = amount;
+        self.recorded_amount = (has_version, parameters);
         let text = record::text(self.kind, report, &self.launch.parameters);
         if self.recorded.as_ref() == Some(&text) {
             return;

@@ -163,7 +163,7 @@ fn exact_stuck_barometer_lags_by_the_whole_climb() {
     let mut scene = Scene::at_rest();
     let stuck_up_m = scene.truth.position_m.enu().up();
     scene.fresh.baro_up_m = Some(stuck_up_m);
-    scene.truth.position_m = scene.truth.position_m + Vec3::new(0.0, 0.0, -5.0);
+    scene.truth.position_m += Vec3::new(0.0, 0.0, -5.0);
     let set = parameters_after(&mut scene, 1);
     assert!((set["SIM_BARO_GLITCH"] + 5.0).abs() < 1e-3, "{set:?}");
     assert_eq!(set["SIM_BARO_DISABLE"], 0.0, "the sensor still delivers readings");
