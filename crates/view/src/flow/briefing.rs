@@ -56,23 +56,24 @@ pub fn page(pen: &mut PageWriter, (job, drawing): (&JobOffer, Option<&Arc<JobDra
         Some(_) | None => whole,
     };
     let width = if is_narrow { whole } else { 0.5 * (texts - COLUMN_GAP) };
-    // A page that fits has its menu at the bottom; otherwise, it is scrolled.
+    // A page that fits has its menu at the bottom. Otherwise, it is scrolled, and has its menu at the top, where it is always seen first.
     let pictures = &job.briefing.pictures;
     let fits = fitting_size(&columns, width).filter(|_| !is_narrow && pen.height >= 1.0 && pictures.is_empty());
-    let mut bottom = TOP;
+    let first = if fits.is_some() { TOP } else { TOP + 1.0 - MENU_TOP };
+    let mut bottom = first;
     for (k, column) in columns.iter().enumerate() {
-        let (x, top) = if is_narrow { (LEFT, bottom) } else { (LEFT + (width + COLUMN_GAP) * k as f64, TOP) };
+        let (x, top) = if is_narrow { (LEFT, bottom) } else { (LEFT + (width + COLUMN_GAP) * k as f64, first) };
         bottom = draw_column(pen, ((x, top), width), column, fits.unwrap_or(SMALL_TEXT_SIZE)).max(bottom);
     }
     if let Some(drawing) = drawing {
         let (place, room) =
-            if is_narrow { ((LEFT, bottom), f64::INFINITY) } else { ((LEFT + whole - drawn, TOP), MENU_TOP - TOP) };
+            if is_narrow { ((LEFT, bottom), f64::INFINITY) } else { ((LEFT + whole - drawn, first), MENU_TOP - TOP) };
         bottom = draw_site(pen, drawing, (place, drawn), room).max(bottom);
     }
     if !pictures.is_empty() {
-        bottom = draw_pictures(pen, pictures, ((LEFT, bottom + PICTURE_GAP), whole));
+        draw_pictures(pen, pictures, ((LEFT, bottom + PICTURE_GAP), whole));
     }
-    let menu_top = if fits.is_some() { MENU_TOP } else { bottom + 0.02 };
+    let menu_top = if fits.is_some() { MENU_TOP } else { TOP };
     menu::draw(pen, (LEFT, menu_top), whole, rows, focus);
 }
 
