@@ -202,6 +202,8 @@ def test_wire_keyboard_controls_a_complete_session(screen, speakers, tmp_path):
             return '"event":"snapshot"' in (folders(training)[-1] / "events.jsonl").read_text(encoding="utf-8")
 
         spandrel.wait_for("a photograph", taken, LIMIT_S)
+        # The second of the takeoff alone does not suffice: the blade frequency still rises in it.
+        spandrel.wait_for("the sound of the propellers", lambda: propellers_share(speakers.recording) > MIN_HARMONIC_SHARE, LIMIT_S)
         training.wait_for_screenshot("paused-again", paused, ESCAPE)
         screen.tap(UP)
         over = training.wait_for_screenshot("over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200, ENTER)
@@ -217,20 +219,18 @@ def test_wire_keyboard_controls_a_complete_session(screen, speakers, tmp_path):
     drawn = sorted((folders(training)[1] / "snapshots").glob("*.jpg"))
     assert drawn and all(Image.open(path).size[0] > 600 for path in drawn)
     assert "data:image/jpeg;base64," in (folders(training)[1] / "report.html").read_text(encoding="utf-8")
-    assert_propellers_audible(speakers.recording)
 
 
-def assert_propellers_audible(recording):
-    """Checks the audio output: in its loudest second, the power is at the harmonics of a blade frequency. The fundamental alone isn't a criterion, because
-    two rotors in opposite phase cancel it, but not their second harmonic."""
+def propellers_share(recording):
+    """Returns the share of the power at the harmonics of a blade frequency, in the last complete second of the audio output. The fundamental alone isn't a
+    criterion, because two rotors in opposite phase cancel it, but not their second harmonic."""
     data = recording.read_bytes()
-    samples = numpy.frombuffer(data[: len(data) // 2 * 2], dtype="<i2").astype(float)
-    pieces = samples[: len(samples) // RATE_HZ * RATE_HZ].reshape(-1, RATE_HZ)
-    loudest = pieces[numpy.abs(pieces).mean(axis=1).argmax()]
-    power = numpy.abs(numpy.fft.rfft(loudest * numpy.hanning(len(loudest)))) ** 2
+    samples = numpy.frombuffer(data[: len(data) // 2 * 2], dtype="<i2").astype(float)[-RATE_HZ:]
+    power = numpy.abs(numpy.fft.rfft(samples * numpy.hanning(len(samples)))) ** 2
+    if len(samples) < RATE_HZ or not power.any():
+        return 0.0
     # A Phantom's rotors have two blades and turn at about 60 to 150 revolutions per second.
-    share, blade_hz = max((power_at_harmonics(power, hz) / power.sum(), hz) for hz in range(120, 301))
-    assert share > MIN_HARMONIC_SHARE, f"{share:.2f} of the power at the harmonics of {blade_hz} Hz"
+    return max(power_at_harmonics(power, hz) for hz in range(120, 301)) / power.sum()
 
 
 # Share of the power within the bands around three harmonics. White noise has 5 % there.
