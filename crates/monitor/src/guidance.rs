@@ -329,6 +329,7 @@ mod tests {
                 too_close_m: None,
                 id: self.scenario.tasks[task].id,
                 at_path_end: false,
+                half_flown: self.flown[task].coverage().share >= 0.5,
                 done: self.flown[task].coverage().share >= done_share,
                 finished: self.finished[task],
             };

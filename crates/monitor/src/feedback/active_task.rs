@@ -15,7 +15,9 @@ const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 /// A visit to a task begins when the drone enters its path. If the task is already done, or if another task is being flown,
 /// it begins only after the drone has stayed on the path for `visit_delay`, so that crossing a path doesn't begin a visit.
 /// A visit ends when the drone moves away for `leave_delay` from an end of the path or, once the task is done, from any part
-/// of it. After the whole path has been flown, it ends as soon as the drone is off the path.
+/// of it. During that time, a pilot who has flown at least half of the path counts as leaving, so that there is no cue; one who
+/// has flown less is more likely to have overshot the beginning. After the whole path has been flown, the visit ends as soon
+/// as the drone is off the path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ActiveTask {
     visited: Option<usize>,
@@ -76,7 +78,7 @@ struct DepartureDetector {
 }
 
 impl DepartureDetector {
-    /// Returns whether the drone is leaving or has left the task.
+    /// Returns whether the drone has left the task, or is leaving it after at least half of the path.
     fn update(&mut self, now: SimTime, task: &TaskProximity, leave_delay: SimTime) -> bool {
         let known = self.last_distance_change;
         let (before_m, since, grows) = known.unwrap_or((task.distance_m, now, false));
@@ -89,6 +91,6 @@ impl DepartureDetector {
         let may_leave = task.at_path_end || task.done || self.leaving_since.is_some();
         self.leaving_since = (away && may_leave).then(|| self.leaving_since.unwrap_or(now));
         self.has_left |= self.leaving_since.is_some_and(|since| now - since >= leave_delay);
-        self.has_left || self.leaving_since.is_some()
+        self.has_left || (self.leaving_since.is_some() && task.half_flown)
     }
 }

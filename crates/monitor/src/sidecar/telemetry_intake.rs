@@ -217,7 +217,9 @@ impl Monitor {
         if let Some((task, _)) = on {
             let done_share = self.config.scenario.scoring.task_completion_fraction;
             let flown = &self.live.flown[task];
-            self.live.done[task] = self.live.done[task] || flown.coverage().share >= done_share;
+            let share = flown.coverage().share;
+            self.live.half_flown[task] |= share >= 0.5;
+            self.live.done[task] |= share >= done_share;
             let closed = self.config.scenario.tasks[task].closed;
             self.live.finished[task] = self.live.finished[task] || flown.is_finished(closed, done_share);
         }

@@ -103,6 +103,23 @@ fn regress_entering_or_leaving_at_path_end_is_not_off_path() {
 }
 
 #[test]
+fn regress_overshooting_the_beginning_is_off_path() {
+    // The drone enters the path near its first point, at 10 m east, drifts past it and comes back.
+    let mut monitored = MonitoredFlight::in_flight();
+    monitored.tape.fly((14.0, 0.0, 10.0), 4.0);
+    monitored.tape.fly((4.0, 0.0, 10.0), 3.0);
+    monitored.tape.fly((14.0, 0.0, 10.0), 3.0);
+    assert!(monitored.run().iter().any(|(_, cues)| cues & cue::OFF_PATH != 0));
+    // Flying away from there for longer ends the visit, and the cue with it.
+    monitored.tape.fly((10.0, 6.0, 10.0), 1.0);
+    monitored.tape.hold(1.0);
+    monitored.tape.fly((10.0, 30.0, 10.0), 3.0);
+    monitored.tape.fly((10.0, 6.0, 10.0), 8.0);
+    let cues = monitored.run();
+    assert_eq!(cues.last().unwrap().1 & cue::OFF_PATH, 0, "{:?}", monitored.texts);
+}
+
+#[test]
 fn regress_hovering_beside_path_end_or_leaving_mid_path_is_off_path() {
     for (from_m, to_m) in [((60.0, 0.0), (64.0, 0.0)), ((40.0, 0.0), (40.0, 4.0))] {
         let mut monitored = MonitoredFlight::in_flight();

@@ -39,6 +39,8 @@ impl Estimator {
             self.set_height_weights(reference);
             if self.gnss_is_reference() {
                 self.move_height_to_gnss();
+            } else if reference == HeightReference::Gnss {
+                self.doubt_height();
             }
         }
     }
@@ -49,6 +51,11 @@ impl Estimator {
         self.position_m += Vec3::new(0.0, 0.0, step_m);
         self.baro_offset_m += step_m;
         self.reset_height_drift();
+        self.doubt_height();
+    }
+
+    /// Lets the height follow GNSS slowly after the configured reference was lost: from now on, it is no more certain than GNSS.
+    fn doubt_height(&mut self) {
         let usual = self.noise.gnss_drift_m[1];
         self.covariance.reset(P + 2, 1, usual * usual);
     }
