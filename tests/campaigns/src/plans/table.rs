@@ -12,7 +12,24 @@ const AMONG: usize = 3;
 /// The job of the plans.
 const JOB: &str = "two-bridges";
 
-/// Result of one flight.
+/// One flight of the job.
+pub struct Flown {
+    pub weakness: &'static Weakness,
+    pub seed: u64,
+    pub record: SessionRecord,
+}
+
+/// Flies the job without a weakness and then with each one, with every seed, on all cores.
+pub fn fly_job(weaknesses: impl Iterator<Item = &'static Weakness>, seeds: &[u64]) -> Vec<Flown> {
+    let flights: Vec<(&'static Weakness, u64)> = std::iter::once(&NO_WEAKNESS)
+        .chain(weaknesses)
+        .flat_map(|weakness| seeds.iter().map(move |seed| (weakness, *seed)))
+        .collect();
+    let records = fly_all(JOB, &flights);
+    flights.into_iter().zip(records).map(|((weakness, seed), record)| Flown { weakness, seed, record }).collect()
+}
+
+/// Plan for one flight.
 struct PlantedPlan {
     weakness: &'static Weakness,
     seed: u64,
@@ -40,20 +57,15 @@ pub struct PlanTable {
 }
 
 impl PlanTable {
-    /// Flies every weakness, and the pilot without one, with every seed, on all cores.
-    pub fn fly(weaknesses: &'static [Weakness], seeds: &[u64], rules: &PlanRules) -> Self {
-        let flights: Vec<(&'static Weakness, u64)> = std::iter::once(&NO_WEAKNESS)
-            .chain(weaknesses)
-            .flat_map(|weakness| seeds.iter().map(move |seed| (weakness, *seed)))
-            .collect();
-        let records = fly_all(JOB, &flights);
-        let of = |((weakness, seed), record): ((&'static Weakness, u64), SessionRecord)| {
+    /// Plans for flights with and without a weakness.
+    pub fn of(flown: Vec<Flown>, rules: &PlanRules) -> Self {
+        let of = |Flown { weakness, seed, record }: Flown| {
             let plan = plan(std::slice::from_ref(&record), rules, record.started_unix_us, Language::English).unwrap();
             PlantedPlan { weakness, seed, plan }
         };
-        let mut planted: Vec<PlantedPlan> = flights.iter().copied().zip(records).map(of).collect();
-        let faulty = planted.split_off(seeds.len());
-        Self { planted: faulty, clean: planted }
+        let is_clean = |one: &PlantedPlan| one.weakness.name == NO_WEAKNESS.name;
+        let (clean, planted) = flown.into_iter().map(of).partition(is_clean);
+        Self { planted, clean }
     }
 
     fn share(&self, holds: impl Fn(&PlantedPlan) -> bool) -> f64 {

@@ -6,6 +6,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, Task, TaskKind};
+use std::collections::VecDeque;
 
 /// Changes a message from the pilot to the vehicle; an empty list drops it.
 pub type Tamper = fn(&mut Hands, MavMessage) -> Vec<MavMessage>;
@@ -43,8 +44,12 @@ pub struct Hands {
     last_task_flown: bool,
     random: RandomStream,
     noise: [f64; 4],
-    stick_messages: u64,
+    pub stick_messages: u64,
     pictures: u64,
+    /// Messages that the hands still owe, each with the count of stick messages at which it goes out.
+    pub owed: VecDeque<(u64, MavMessage)>,
+    /// Stick positions that the hands have not followed yet.
+    pub late_sticks: VecDeque<[f64; 4]>,
 }
 
 impl Hands {
@@ -56,6 +61,8 @@ impl Hands {
             noise: [0.0; 4],
             stick_messages: 0,
             pictures: 0,
+            owed: VecDeque::new(),
+            late_sticks: VecDeque::new(),
         }
     }
 
@@ -63,6 +70,16 @@ impl Hands {
     pub fn observe(&mut self, status: &str) {
         self.last_task_flown |= self.status == "task 4" && status != "task 4";
         status.clone_into(&mut self.status);
+    }
+
+    /// Returns whether the pilot flies the task with this number.
+    pub fn flies_task(&self, id: u32) -> bool {
+        self.status == format!("task {id}")
+    }
+
+    /// Returns whether the pilot lands.
+    pub fn lands(&self) -> bool {
+        self.status == "landing"
     }
 
     fn in_task(&self) -> bool {
@@ -78,14 +95,14 @@ impl Hands {
     }
 }
 
-fn as_intended(_: &mut Scenario) {}
+pub fn as_intended(_: &mut Scenario) {}
 
-fn untouched(_: &mut Hands, message: MavMessage) -> Vec<MavMessage> {
+pub fn untouched(_: &mut Hands, message: MavMessage) -> Vec<MavMessage> {
     vec![message]
 }
 
 /// Changes the sticks while the pilot flies a task.
-fn with_sticks(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, [f64; 4]) -> [f64; 4]) -> Vec<MavMessage> {
+pub fn with_sticks(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, [f64; 4]) -> [f64; 4]) -> Vec<MavMessage> {
     let MavMessage::MANUAL_CONTROL(sticks) = message else { return vec![message] };
     hands.stick_messages += 1;
     if !hands.in_task() {
@@ -97,7 +114,7 @@ fn with_sticks(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, [f
 }
 
 /// Returns the command in a message, if it is one.
-fn command(message: &MavMessage) -> Option<MavCmd> {
+pub fn command(message: &MavMessage) -> Option<MavCmd> {
     match message {
         MavMessage::COMMAND_LONG(COMMAND_LONG_DATA { command, .. }) => Some(*command),
         _ => None,
