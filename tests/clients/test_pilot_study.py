@@ -1,5 +1,7 @@
 """Checks the tables and charts of docs/src/measured/paper-cohort.md, which `tools/pilot-study` makes from examples/cohort, against the records."""
 
+import importlib.machinery
+import importlib.util
 import json
 import math
 import os
@@ -237,6 +239,23 @@ def test_exact_bars_are_as_high_as_their_numbers(printed, sessions):
         assert all(abs(one - own * height / number) <= slack * 2 for one, own in bars)
     people = [int(tip.split()[0]) for _, tip in read("scores.svg")]
     assert sum(people) == 22 * len(SCORES)
+
+
+def test_exact_records_and_flights_are_the_same_people(tmp_path, printed, modules):
+    """The records have the people's seeds, and rows of flights with their results give the same tables as the records."""
+    loader = importlib.machinery.SourceFileLoader("pilot_study_program", str(TOOLS / "pilot-study"))
+    program = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(program)
+    for number, session in enumerate(modules["records"].sessions_of(RECORDS), 1):
+        for person, record in enumerate(session):
+            assert (record["seed"], record["form"]) == (program.seed_of(14, person, number), program.FORMS[number - 1])
+            name = f"{person + 1:02}-{number}"
+            (tmp_path / f"pilot-{name}.toml").write_text(program.pilot_text(14, person, number), encoding="utf-8")
+            (tmp_path / f"row-{name}.json").write_text(json.dumps({"result": modules["records"].row(record)}), encoding="utf-8")
+    done = run(tmp_path)
+    assert done.returncode == 0, done.stderr
+    flown = blocks(done.stdout)
+    assert len(flown) == 4 and all(block in blocks(printed[0]) for block in flown)
 
 
 def test_exact_wrong_input_is_an_error(tmp_path):
