@@ -15,9 +15,9 @@ const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
 /// A visit to a task begins when the drone enters its path. If the task is already done, or if another task is being flown,
 /// it begins only after the drone has stayed on the path for `visit_delay`, so that crossing a path doesn't begin a visit.
 /// A visit ends when the drone moves away for `leave_delay` from an end of the path or, once the task is done, from any part
-/// of it. During that time, a pilot who has flown at least half of the path counts as leaving, so that there is no cue; one who
-/// has flown less is more likely to have overshot the beginning. After the whole path has been flown, the visit ends as soon
-/// as the drone is off the path.
+/// of it. At an end of a path of which at least half has been flown, a pilot who moves away counts as leaving at once, so that
+/// there is no cue. Elsewhere, it is more likely a deviation, so that the cues stay on during that time. After the whole path
+/// has been flown, the visit ends as soon as the drone is off the path.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ActiveTask {
     visited: Option<usize>,
@@ -73,12 +73,14 @@ struct DepartureDetector {
     last_distance_change: Option<(f64, SimTime, bool)>,
     /// Time when the drone started to leave the task; `None` if it is not leaving.
     leaving_since: Option<SimTime>,
+    /// Whether the drone counts as leaving from the beginning of that time on.
+    leaves_at_once: bool,
     /// Whether the drone has left the task.
     has_left: bool,
 }
 
 impl DepartureDetector {
-    /// Returns whether the drone has left the task, or is leaving it after at least half of the path.
+    /// Returns whether the drone has left the task, or counts as leaving it.
     fn update(&mut self, now: SimTime, task: &TaskProximity, leave_delay: SimTime) -> bool {
         let known = self.last_distance_change;
         let (before_m, since, grows) = known.unwrap_or((task.distance_m, now, false));
@@ -89,8 +91,13 @@ impl DepartureDetector {
         }
         let away = if moved { by_m > 0.0 } else { grows && now - since < MAX_MOVEMENT_AGE };
         let may_leave = task.at_path_end || task.done || self.leaving_since.is_some();
-        self.leaving_since = (away && may_leave).then(|| self.leaving_since.unwrap_or(now));
+        if !(away && may_leave) {
+            self.leaving_since = None;
+        } else if self.leaving_since.is_none() {
+            self.leaving_since = Some(now);
+            self.leaves_at_once = task.at_path_end && task.half_flown;
+        }
         self.has_left |= self.leaving_since.is_some_and(|since| now - since >= leave_delay);
-        self.has_left || (self.leaving_since.is_some() && task.half_flown)
+        self.has_left || (self.leaving_since.is_some() && self.leaves_at_once)
     }
 }

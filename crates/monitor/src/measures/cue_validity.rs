@@ -73,7 +73,7 @@ pub struct CueValidity {
     pub stand_off: usize,
     /// Too-close cues.
     pub too_close: usize,
-    /// Deviations of more than three seconds from the path of the task that is being flown.
+    /// Deviations from the path of the task that is being flown, with more than three seconds near the path.
     pub deviations: usize,
     /// Deviations during which neither the off-path cue nor the stand-off cue was on.
     pub deviations_missed: usize,
@@ -141,24 +141,25 @@ impl<'a> FlownTasks<'a> {
         self.is_flown(i)
     }
 
-    /// Returns the intervals of more than three seconds during which the drone was off the path of the task that was
-    /// being flown, but within `max_m` of it.
+    /// Returns the deviations from the path of the task that was being flown: the intervals from leaving the path to
+    /// returning to a path, in which the drone was within `max_m` of it for more than three seconds in total.
     fn deviations(&self, max_m: f64) -> Vec<(SimTime, SimTime)> {
-        let is_off = |i: usize| {
-            let near =
-                |task: usize| self.paths.nearest(task, self.frames[i].position_m).is_some_and(|near| near.distance_m <= max_m);
-            self.on_path.task[i].is_none() && self.is_flown(i) && self.entered[i].is_some_and(near)
+        let is_near = |i: usize, task: usize| {
+            self.paths.nearest(task, self.frames[i].position_m).is_some_and(|near| near.distance_m <= max_m)
         };
         let mut out = Vec::new();
-        let mut since = None;
+        // First frame off the path, and time near it.
+        let mut since: Option<(usize, SimTime)> = None;
         for i in 0..self.frames.len() {
-            if is_off(i) {
-                since.get_or_insert(i);
-            } else if let Some(from) = since.take() {
+            let flown = self.entered[i].filter(|_| self.on_path.task[i].is_none() && self.is_flown(i));
+            if let Some(task) = flown {
+                let (_, near) = since.get_or_insert((i, SimTime::ZERO));
+                let next = self.frames.get(i + 1).unwrap_or(&self.frames[i]);
+                *near = if is_near(i, task) { *near + (next.time - self.frames[i].time) } else { *near };
+            } else if let Some((from, _)) = since.take().filter(|(_, near)| near.s() > MIN_DEVIATION_S) {
                 out.push((self.frames[from].time, self.frames[i].time));
             }
         }
-        out.retain(|(from, to)| (*to - *from).s() > MIN_DEVIATION_S);
         out
     }
 }
