@@ -84,6 +84,8 @@ pub fn shipped_task_title(task: &str, language: Language) -> String {
         "Right truss of the first span" => text!(language, "job-task-right-truss"),
         "Floor system of the second span" => text!(language, "job-task-floor"),
         "Pins and bearings on the pier" => text!(language, "job-task-pins"),
+        "Outer web and deck edge" => text!(language, "job-task-outer-web"),
+        "Soffit of the main span" => text!(language, "job-task-main-soffit"),
         "Bearings on the second pier" => text!(language, "job-task-pier-bearings"),
         _ => task.to_owned(),
     }

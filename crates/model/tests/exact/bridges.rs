@@ -5,6 +5,7 @@ use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
+use spandrel_model::scenario::bridges::box_girder::BoxGirder;
 use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
@@ -41,6 +42,10 @@ fn truss() -> Bridge {
 
 fn prestressed() -> Bridge {
     bridge(BridgeKind::Prestressed(Prestressed::default()))
+}
+
+fn box_girder() -> Bridge {
+    bridge(BridgeKind::BoxGirder(BoxGirder::default()))
 }
 
 /// Returns random values near the defaults, within their ranges.
@@ -100,6 +105,21 @@ fn random_trusses() -> Vec<Bridge> {
     out
 }
 
+/// Returns box girder bridges with default and random dimensions, half of them of constant depth. Omits inconsistent bridges.
+fn random_box_girders() -> Vec<Bridge> {
+    let mut random = RandomStream::new(8, "box girders");
+    let mut out = vec![box_girder()];
+    for k in 0..400 {
+        let values = BoxGirder::from_values(&random_values(BoxGirder::FIELDS, &mut random));
+        let pier_depth_m = if k % 2 == 0 { values.midspan_depth_m } else { values.pier_depth_m };
+        let kind = BoxGirder { spans: f64::from(1 + k % 4), pier_depth_m, round_columns: f64::from(k / 2 % 2), ..values };
+        out.push(bridge(BridgeKind::BoxGirder(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -114,6 +134,7 @@ fn random_bridges() -> Vec<Bridge> {
     out.extend(random_girders().into_iter().take(12));
     out.extend(random_prestressed().into_iter().take(10));
     out.extend(random_trusses().into_iter().take(8));
+    out.extend(random_box_girders().into_iter().take(10));
     out
 }
 
@@ -334,6 +355,29 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
                 close(sum(&members, "girder"), girders_m * section_area_m2(p.section));
             }
+            BridgeKind::BoxGirder(g) => {
+                let layout = g.layout();
+                let width_m = g.cells * g.cell_width_m + 2.0 * g.overhang_m;
+                close(sum(&members, "slab"), (layout.length_m() + 1.2) * width_m * g.slab_m);
+                let supports = layout.support_positions();
+                let depth_m = |x: f64| {
+                    let piers = &supports[1..supports.len() - 1];
+                    let shares = piers.iter().map(|pier| (1.0 - (x - pier).abs() / g.haunch_length_m).max(0.0));
+                    let share = shares.fold(0.0, f64::max);
+                    g.midspan_depth_m + (g.pier_depth_m - g.midspan_depth_m) * share * share
+                };
+                // The area is linear in the depth, so that the trapezoidal rule is exact for straight segments.
+                let area_m2 = |depth_m: f64| {
+                    let below_m = depth_m - g.slab_m;
+                    let outer_m = 0.5 * (g.cells * g.cell_width_m + g.web_m) - g.web_slope * (below_m - 0.5 * g.bottom_slab_m);
+                    let webs_m2 = 2.0 * g.web_m * below_m + (g.cells - 1.0) * g.web_m * (below_m - g.bottom_slab_m);
+                    webs_m2 + 2.0 * (outer_m - g.web_m) * g.bottom_slab_m
+                };
+                let panels = layout.beam_panels();
+                let box_m3 = panels.iter().map(|(a, b)| 0.5 * (b - a) * (area_m2(depth_m(*a)) + area_m2(depth_m(*b)))).sum();
+                let diaphragms_m3 = sum(&members, "box/diaphragm");
+                close(sum(&members, "box/") - diaphragms_m3, box_m3);
+            }
             BridgeKind::Truss(t) => {
                 // The deck extends 0.8 m beyond the bearings of each span.
                 let deck_m = t.spans * t.span_m + 1.6 - (t.spans - 1.0) * t.joint_gap_m;
@@ -457,7 +501,9 @@ fn prop_paths_keep_the_stand_off_distance() {
                 );
                 // Below the arch and below the bays, the path is not directly under the nearest member.
                 let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit | TaskKind::FloorSystem);
-                assert!(is_beside || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
+                // In front of the bearings on a pier, a haunched soffit rises above the path.
+                let is_below_haunch = kind == TaskKind::BearingLine && matches!(bridge.kind, BridgeKind::BoxGirder(_));
+                assert!(is_beside || is_below_haunch || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
     }
@@ -516,6 +562,10 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (prestressed(), TaskKind::GirderSoffit, 1.0),
         (prestressed(), TaskKind::BearingLine, 1.0),
         (prestressed(), TaskKind::PierCap, 0.9),
+        (box_girder(), TaskKind::SlabSide, 1.0),
+        (box_girder(), TaskKind::GirderSoffit, 1.0),
+        (box_girder(), TaskKind::BearingLine, 1.0),
+        (box_girder(), TaskKind::PierCap, 0.9),
         (truss(), TaskKind::TrussPanel, 0.9),
         (truss(), TaskKind::FloorSystem, 0.95),
         (truss(), TaskKind::BearingLine, 1.0),
@@ -549,8 +599,10 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 27] = [
+const MEMBER_NAMES: [(u16, &[&str]); 30] = [
     (12, &["slab", "haunch"]),
+    (15, &["slab"]),
+    (104, &["box"]),
     (107, &["girder", "stiffener", "cross-frame"]),
     (109, &["girder", "diaphragm"]),
     (113, &["stringer"]),
@@ -573,6 +625,7 @@ const MEMBER_NAMES: [(u16, &[&str]); 27] = [
     (310, &["bearing"]),
     (311, &["bearing"]),
     (313, &["bearing"]),
+    (314, &["bearing"]),
     (321, &["approach-slab"]),
     (330, &["post", "rail"]),
     (331, &["post", "rail", "barrier"]),
@@ -582,7 +635,7 @@ const MEMBER_NAMES: [(u16, &[&str]); 27] = [
 
 #[test]
 fn exact_every_member_has_the_correct_element() {
-    let steel = [107, 113, 120, 147, 148, 152, 161, 162, 207, 310, 311, 313, 330];
+    let steel = [107, 113, 120, 147, 148, 152, 161, 162, 207, 310, 311, 313, 314, 330];
     for bridge in random_bridges() {
         for member in bridge.members() {
             let part = member.name.split('/').nth(1).unwrap();
@@ -590,13 +643,13 @@ fn exact_every_member_has_the_correct_element() {
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
             // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
-            // the girders with their stiffeners and cross-frames and the bearings are steel, on the prestressed one only the bearings. On the
+            // the girders with their stiffeners and cross-frames and the bearings are steel, on the concrete ones only the bearings. On the
             // truss bridge, everything above the piers except the deck is steel.
             let concrete = match bridge.kind {
                 BridgeKind::Arch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
                 BridgeKind::Model(_) => panic!("an imported bridge"),
-                BridgeKind::Prestressed(_) => !part.starts_with("bearing"),
+                BridgeKind::Prestressed(_) | BridgeKind::BoxGirder(_) => !part.starts_with("bearing"),
                 BridgeKind::Truss(_) => {
                     let of_concrete = ["slab", "approach", "pedestal", "cap", "column", "footing", "abutment", "joint", "drain"];
                     of_concrete.iter().any(|n| part.starts_with(n))

@@ -3,6 +3,7 @@
 
 mod almanac;
 mod beams;
+mod box_girder;
 mod bridges;
 mod difficulty;
 mod elements;

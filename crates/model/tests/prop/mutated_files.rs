@@ -5,6 +5,7 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::box_girder::BoxGirder;
 use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
@@ -282,4 +283,9 @@ fn prop_all_valid_prestressed_bridges_build_with_positive_volumes() {
 #[test]
 fn prop_all_valid_truss_bridges_build_with_positive_volumes() {
     assert_random_bridges_build("truss", Truss::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_box_girder_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("box_girder", BoxGirder::FIELDS);
 }

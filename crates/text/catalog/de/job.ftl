@@ -1,3 +1,4 @@
+job-box-girder = Hohlkastenbrücke: Außensteg, Untersicht des Mittelfelds, Pfeilerkopfbalken, Lager
 job-certification = Zertifizierung: zwei Brücken, 26 Schäden
 job-drill-curve-under-arch = Übung: Kurve unter dem Bogen
 job-drill-framing = Übung: Bildausschnitt
@@ -39,6 +40,8 @@ job-task-girder-bays = Trägerzwischenräume des letzten Feldes
 job-task-bearings = Lager auf dem Widerlager am Anfang
 job-task-pier-cap = Pfeilerkopfbalken des ersten Pfeilers
 job-task-middle-bays = Trägerzwischenräume des mittleren Feldes
+job-task-outer-web = Außensteg und Rand der Fahrbahntafel
+job-task-main-soffit = Untersicht des Mittelfelds
 job-task-pier-bearings = Lager auf dem zweiten Pfeiler
 job-task-right-truss = Rechter Fachwerkträger des ersten Feldes
 job-task-floor = Fahrbahnrost des zweiten Feldes

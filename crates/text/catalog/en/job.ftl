@@ -1,6 +1,7 @@
 # Titles and task names of the shipped jobs, and states of assigned jobs.
 
 # Titles. The English ones are those in the scenario files.
+job-box-girder = Box girder bridge: outer web, soffit of the main span, pier cap, bearings
 job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
@@ -43,6 +44,8 @@ job-task-girder-bays = Girder bays of the last span
 job-task-bearings = Bearings on the start abutment
 job-task-pier-cap = Cap of the first pier
 job-task-middle-bays = Girder bays of the middle span
+job-task-outer-web = Outer web and deck edge
+job-task-main-soffit = Soffit of the main span
 job-task-pier-bearings = Bearings on the second pier
 job-task-right-truss = Right truss of the first span
 job-task-floor = Floor system of the second span

@@ -1,3 +1,4 @@
+job-box-girder = Puente de viga cajón: alma exterior, intradós del vano central, cabezal, apoyos
 job-certification = Certificación: dos puentes, 26 defectos
 job-drill-curve-under-arch = Ejercicio: curva bajo el arco
 job-drill-framing = Ejercicio: encuadre
@@ -39,6 +40,8 @@ job-task-girder-bays = Espacios entre vigas del último vano
 job-task-bearings = Apoyos del estribo inicial
 job-task-pier-cap = Cabezal de la primera pila
 job-task-middle-bays = Espacios entre vigas del vano central
+job-task-outer-web = Alma exterior y borde del tablero
+job-task-main-soffit = Intradós del vano central
 job-task-pier-bearings = Apoyos de la segunda pila
 job-task-right-truss = Celosía derecha del primer vano
 job-task-floor = Sistema de piso del segundo vano

@@ -43,6 +43,7 @@ fn in_words(name: &str) -> String {
 fn translated(language: Language, name: &str) -> Option<String> {
     let place = place_label(language, name).or_else(|| bridge_label(language, name));
     let place = place.or_else(|| girder_label(language, name)).or_else(|| truss_label(language, name));
+    let place = place.or_else(|| box_girder_label(language, name));
     place.or_else(|| flight_label(language, name)).or_else(|| rule_label(language, name))
 }
 
@@ -170,6 +171,20 @@ fn truss_label(language: Language, name: &str) -> Option<String> {
         "chord" => text!(language, "editor-key-chord"),
         "gusset" => text!(language, "editor-key-gusset"),
         "bracing_depth" => text!(language, "editor-key-bracing-depth"),
+        _ => return None,
+    })
+}
+
+/// Labels of box girder bridges, for keys that other bridges don't have.
+fn box_girder_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "midspan_depth" => text!(language, "editor-key-midspan-depth"),
+        "pier_depth" => text!(language, "editor-key-pier-depth"),
+        "haunch_length" => text!(language, "editor-key-haunch-length"),
+        "cells" => text!(language, "editor-key-cells"),
+        "cell_width" => text!(language, "editor-key-cell-width"),
+        "web_slope" => text!(language, "editor-key-web-slope"),
+        "bottom_slab" => text!(language, "editor-key-bottom-slab"),
         _ => return None,
     })
 }

@@ -7,6 +7,7 @@ pub mod beam_bridge;
 pub mod beam_layout;
 mod beam_members;
 mod beam_path;
+pub mod box_girder;
 pub mod dimensions;
 pub mod element_map;
 pub mod girder;
@@ -23,6 +24,7 @@ pub mod truss;
 
 use crate::frames::{Enu, Vec3};
 use arch::Arch;
+use box_girder::BoxGirder;
 use girder::Girder;
 use model::Model;
 use path::{PathPlace, TaskKind};
@@ -114,6 +116,8 @@ bridge_types! {
     Prestressed;
     /// A steel through truss bridge.
     Truss;
+    /// A prestressed concrete box girder bridge.
+    BoxGirder;
 }
 
 impl BridgeKind {
