@@ -86,6 +86,10 @@ pub fn shipped_task_title(task: &str, language: Language) -> String {
         "Pins and bearings on the pier" => text!(language, "job-task-pins"),
         "Outer web and deck edge" => text!(language, "job-task-outer-web"),
         "Soffit of the main span" => text!(language, "job-task-main-soffit"),
+        "Right spandrel wall and parapet" => text!(language, "job-task-spandrel-wall"),
+        "Barrel of the middle span" => text!(language, "job-task-barrel"),
+        "Arch ring of the first span" => text!(language, "job-task-arch-ring"),
+        "First pier and its cutwaters" => text!(language, "job-task-cutwaters"),
         "Bearings on the second pier" => text!(language, "job-task-pier-bearings"),
         _ => task.to_owned(),
     }

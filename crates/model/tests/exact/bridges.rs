@@ -7,6 +7,7 @@ use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
 use spandrel_model::scenario::bridges::box_girder::BoxGirder;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::masonry_arch::MasonryArch;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::bridges::truss::Truss;
@@ -46,6 +47,10 @@ fn prestressed() -> Bridge {
 
 fn box_girder() -> Bridge {
     bridge(BridgeKind::BoxGirder(BoxGirder::default()))
+}
+
+fn masonry_arch() -> Bridge {
+    bridge(BridgeKind::MasonryArch(MasonryArch::default()))
 }
 
 /// Returns random values near the defaults, within their ranges.
@@ -120,6 +125,19 @@ fn random_box_girders() -> Vec<Bridge> {
     out
 }
 
+/// Returns masonry arch bridges with default and random dimensions. Omits inconsistent bridges.
+fn random_masonry_arches() -> Vec<Bridge> {
+    let mut random = RandomStream::new(9, "masonry arches");
+    let mut out = vec![masonry_arch()];
+    for k in 0..200 {
+        let values = MasonryArch::from_values(&random_values(MasonryArch::FIELDS, &mut random));
+        out.push(bridge(BridgeKind::MasonryArch(MasonryArch { spans: f64::from(1 + k % 4), ..values })));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -135,6 +153,7 @@ fn random_bridges() -> Vec<Bridge> {
     out.extend(random_prestressed().into_iter().take(10));
     out.extend(random_trusses().into_iter().take(8));
     out.extend(random_box_girders().into_iter().take(10));
+    out.extend(random_masonry_arches().into_iter().take(12));
     out
 }
 
@@ -355,6 +374,42 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
                 close(sum(&members, "girder"), girders_m * section_area_m2(p.section));
             }
+            BridgeKind::MasonryArch(m) => {
+                // A voussoir is a trapezoid between two chords of the same angle: (R + t)² - R² times half the sine of the angle.
+                let (radius_m, count) = (m.radius_m(), f64::from(m.voussoirs()));
+                let half = math::atan2(0.5 * m.clear_span_m, radius_m - m.rise_m);
+                let outer_m = radius_m + m.ring_m;
+                let voussoir_m2 = 0.5 * (outer_m * outer_m - radius_m * radius_m) * math::sin(2.0 * half / count);
+                close(sum(&members, "arch-"), m.spans * count * voussoir_m2 * m.width_m);
+                close(sum(&members, "parapet"), 2.0 * m.deck_length_m() * 0.4 * m.parapet_m);
+                let shafts: f64 = members.iter().filter(|m| m.name.contains("/shaft")).map(|m| volume(&m.solid)).sum();
+                close(shafts.max(1e-9), ((m.spans - 1.0) * m.pier_m * m.width_m * m.pier_height_m).max(1e-9));
+                // A cutwater is a triangular prism, and its cap a pyramid.
+                let cutwaters: f64 = members.iter().filter(|m| m.name.ends_with("/cutwater")).map(|m| volume(&m.solid)).sum();
+                let plan_m2 = (m.spans - 1.0) * m.pier_m * m.cutwater_m;
+                close(cutwaters.max(1e-9), (plan_m2 * m.pier_height_m).max(1e-9));
+                let caps: f64 = members.iter().filter(|m| m.name.ends_with("/cap")).map(|m| volume(&m.solid)).sum();
+                close(caps.max(1e-9), (plan_m2 * 0.6 * m.cutwater_m / 3.0).max(1e-9));
+                // Barrels, skewbacks, walls, fill and road fill the bridge between the abutments, except for the openings: segments of
+                // polygons of chords.
+                let inside_m = m.spans * m.clear_span_m + (m.spans - 1.0) * m.pier_m;
+                let height_m = m.cover_m + m.ring_m + m.rise_m;
+                let segment_m2 = 0.5 * radius_m * radius_m * (count * math::sin(2.0 * half / count) - math::sin(2.0 * half));
+                let back_m = m.ring_m * 0.5 * m.clear_span_m / radius_m;
+                let up_m = m.ring_m * (radius_m - m.rise_m) / radius_m;
+                let between: f64 = ["spandrel", "fill", "road", "arch-"].iter().map(|part| sum(&members, part)).sum();
+                let piers: f64 = members
+                    .iter()
+                    .filter(|m| m.name.contains("pier-") && m.name.ends_with("/skewback"))
+                    .map(|m| volume(&m.solid))
+                    .sum();
+                // The outer barrels lean over the abutments, where walls, fill and road are above the skewbacks.
+                let over_m = 2.0 * (m.abutment_m * (height_m - up_m) + 0.5 * back_m * up_m);
+                let approach_m2 = 2.0 * m.approach_m * 0.15;
+                let expected = (inside_m * height_m - m.spans * segment_m2 + over_m) * m.width_m
+                    + approach_m2 * (m.width_m - 2.0 * m.wall_m);
+                close(between + piers, expected);
+            }
             BridgeKind::BoxGirder(g) => {
                 let layout = g.layout();
                 let width_m = g.cells * g.cell_width_m + 2.0 * g.overhang_m;
@@ -490,7 +545,7 @@ fn prop_paths_keep_the_stand_off_distance() {
     for bridge in random_bridges() {
         let shapes = solids(&bridge.members());
         for stand_off_m in [4.0, 6.5] {
-            for kind in LEVEL_PATHS.into_iter().chain([TaskKind::ArchBottom]) {
+            for kind in LEVEL_PATHS.into_iter().chain([TaskKind::ArchBottom, TaskKind::BarrelSoffit, TaskKind::ArchRing]) {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
                 let gap = min_clearance_m(&shapes, &path);
@@ -566,6 +621,10 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (box_girder(), TaskKind::GirderSoffit, 1.0),
         (box_girder(), TaskKind::BearingLine, 1.0),
         (box_girder(), TaskKind::PierCap, 0.9),
+        (masonry_arch(), TaskKind::SlabSide, 1.0),
+        (masonry_arch(), TaskKind::BarrelSoffit, 1.0),
+        (masonry_arch(), TaskKind::ArchRing, 1.0),
+        (masonry_arch(), TaskKind::PierCircle, 0.9),
         (truss(), TaskKind::TrussPanel, 0.9),
         (truss(), TaskKind::FloorSystem, 0.95),
         (truss(), TaskKind::BearingLine, 1.0),
@@ -599,7 +658,7 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 30] = [
+const MEMBER_NAMES: [(u16, &[&str]); 36] = [
     (12, &["slab", "haunch"]),
     (15, &["slab"]),
     (104, &["box"]),
@@ -609,6 +668,7 @@ const MEMBER_NAMES: [(u16, &[&str]); 30] = [
     (116, &["stringer"]),
     (120, &["truss", "bracing"]),
     (144, &["rib", "strut"]),
+    (145, &["arch-", "spandrel"]),
     (147, &["cable"]),
     (148, &["hanger"]),
     (152, &["floorbeam"]),
@@ -618,7 +678,9 @@ const MEMBER_NAMES: [(u16, &[&str]); 30] = [
     (205, &["column"]),
     (207, &["tower"]),
     (210, &["pier"]),
+    (213, &["pier"]),
     (215, &["abutment", "skewback", "pedestal"]),
+    (217, &["abutment"]),
     (220, &["anchorage", "footing"]),
     (234, &["cap", "pedestal"]),
     (300, &["joint"]),
@@ -629,8 +691,11 @@ const MEMBER_NAMES: [(u16, &[&str]); 30] = [
     (321, &["approach-slab"]),
     (330, &["post", "rail"]),
     (331, &["post", "rail", "barrier"]),
-    // Deck drains have no MBEI element.
+    (334, &["parapet"]),
+    (510, &["road"]),
+    // Deck drains and fill have no MBEI element.
     (850, &["drain"]),
+    (851, &["fill"]),
 ];
 
 #[test]
@@ -642,11 +707,11 @@ fn exact_every_member_has_the_correct_element() {
             let names = MEMBER_NAMES.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
-            // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
+            // The entire arch bridge is concrete, and the masonry one stone. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
             // the girders with their stiffeners and cross-frames and the bearings are steel, on the concrete ones only the bearings. On the
             // truss bridge, everything above the piers except the deck is steel.
             let concrete = match bridge.kind {
-                BridgeKind::Arch(_) => true,
+                BridgeKind::Arch(_) | BridgeKind::MasonryArch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
                 BridgeKind::Model(_) => panic!("an imported bridge"),
                 BridgeKind::Prestressed(_) | BridgeKind::BoxGirder(_) => !part.starts_with("bearing"),

@@ -248,7 +248,8 @@ fn exact_inconsistent_dimensions_name_their_key_and_limit() {
 #[test]
 fn exact_quantities_list_the_elements_of_the_members() {
     use spandrel_model::scenario::bridges::{
-        arch::Arch, box_girder::BoxGirder, prestressed::Prestressed, suspension::Suspension, truss::Truss,
+        arch::Arch, box_girder::BoxGirder, masonry_arch::MasonryArch, prestressed::Prestressed, suspension::Suspension,
+        truss::Truss,
     };
     let of = |kind: BridgeKind| Bridge { name: "b".into(), center_m: Vec3::zero(), heading_deg: 0.0, kind };
     let kinds = [
@@ -262,6 +263,8 @@ fn exact_quantities_list_the_elements_of_the_members() {
         BridgeKind::Truss(Truss::default()),
         BridgeKind::Truss(Truss { spans: 1.0, ..Truss::default() }),
         BridgeKind::BoxGirder(BoxGirder::default()),
+        BridgeKind::MasonryArch(MasonryArch::default()),
+        BridgeKind::MasonryArch(MasonryArch { spans: 1.0, ..MasonryArch::default() }),
     ];
     for bridge in kinds.map(of) {
         let mut built: Vec<u16> =

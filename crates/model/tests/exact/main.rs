@@ -11,6 +11,7 @@ mod geometry;
 mod girder;
 mod ground;
 mod imported;
+mod masonry_arch;
 mod prestressed;
 mod site;
 mod truss;

@@ -7,6 +7,7 @@ use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::box_girder::BoxGirder;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::masonry_arch::MasonryArch;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::bridges::truss::Truss;
@@ -199,6 +200,7 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
         "arch" => "interlayer",
         "suspension" => "pier_circle",
         "truss" => "floor_system",
+        "masonry_arch" => "barrel_soffit",
         _ => "girder_soffit",
     };
     let numbers: Vec<String> = values.iter().map(|(key, value)| format!("{key} = {value:?}")).collect();
@@ -288,4 +290,9 @@ fn prop_all_valid_truss_bridges_build_with_positive_volumes() {
 #[test]
 fn prop_all_valid_box_girder_bridges_build_with_positive_volumes() {
     assert_random_bridges_build("box_girder", BoxGirder::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_masonry_arches_build_with_positive_volumes() {
+    assert_random_bridges_build("masonry_arch", MasonryArch::FIELDS);
 }

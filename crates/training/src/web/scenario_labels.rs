@@ -43,7 +43,7 @@ fn in_words(name: &str) -> String {
 fn translated(language: Language, name: &str) -> Option<String> {
     let place = place_label(language, name).or_else(|| bridge_label(language, name));
     let place = place.or_else(|| girder_label(language, name)).or_else(|| truss_label(language, name));
-    let place = place.or_else(|| box_girder_label(language, name));
+    let place = place.or_else(|| box_girder_label(language, name)).or_else(|| masonry_label(language, name));
     place.or_else(|| flight_label(language, name)).or_else(|| rule_label(language, name))
 }
 
@@ -185,6 +185,21 @@ fn box_girder_label(language: Language, name: &str) -> Option<String> {
         "cell_width" => text!(language, "editor-key-cell-width"),
         "web_slope" => text!(language, "editor-key-web-slope"),
         "bottom_slab" => text!(language, "editor-key-bottom-slab"),
+        _ => return None,
+    })
+}
+
+/// Labels of masonry arch bridges, for keys that other bridges don't have.
+fn masonry_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "clear_span" => text!(language, "editor-key-clear-span"),
+        "ring" => text!(language, "editor-key-ring"),
+        "cover" => text!(language, "editor-key-cover"),
+        "width" => text!(language, "editor-key-width"),
+        "wall" => text!(language, "editor-key-wall"),
+        "parapet" => text!(language, "editor-key-parapet"),
+        "pier" => text!(language, "editor-key-pier"),
+        "cutwater" => text!(language, "editor-key-cutwater"),
         _ => return None,
     })
 }

@@ -151,6 +151,8 @@ impl BridgeShape for Arch {
             | TaskKind::PierCap
             | TaskKind::TrussPanel
             | TaskKind::FloorSystem
+            | TaskKind::BarrelSoffit
+            | TaskKind::ArchRing
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }

@@ -34,6 +34,8 @@ pub(super) fn of_kind(
         | TaskKind::PierCircle
         | TaskKind::TrussPanel
         | TaskKind::FloorSystem
+        | TaskKind::BarrelSoffit
+        | TaskKind::ArchRing
         | TaskKind::Free => None,
     }
 }

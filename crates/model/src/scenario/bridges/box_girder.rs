@@ -6,6 +6,7 @@ use super::beam_layout::{BARRIER_WIDTH_M, BeamLayout, BearingLayout, DeckLayout,
 use super::beam_path;
 use super::dimensions::{InconsistencyList, bridge_dimensions};
 use super::path::{LocalPath, PathPlace, SPACING_M, TaskKind};
+use super::plan_polygon;
 use super::quantity::Amounts;
 use super::solid::MemberBuilder;
 use crate::elements::Element;
@@ -206,17 +207,8 @@ impl BoxGirder {
 
     /// Returns the height of a path at the stand-off distance from the soffit in meters: below the circles around all points of the soffit.
     fn height_below_soffit_m(&self, layout: &BeamLayout, x_m: f64, stand_off_m: f64) -> f64 {
-        let below = |(from, to): (f64, f64)| {
-            let (start, end) = ((from - x_m).max(-stand_off_m), (to - x_m).min(stand_off_m));
-            if start > end {
-                return f64::INFINITY;
-            }
-            let (z, end_z) = (-self.depth_at_m(layout, from), -self.depth_at_m(layout, to));
-            let slope = (end_z - z) / (to - from);
-            // The circle around this point touches the straight edge; near its ends, those around the ends are lower.
-            let aside_m = (-slope * stand_off_m / (1.0 + slope * slope).sqrt()).clamp(start, end);
-            z + slope * (x_m + aside_m - from) - (stand_off_m * stand_off_m - aside_m * aside_m).max(0.0).sqrt()
-        };
+        let node = |x: f64| [x, -self.depth_at_m(layout, x)];
+        let below = |(from, to): (f64, f64)| plan_polygon::height_below_edge_m((node(from), node(to)), x_m, stand_off_m);
         layout.beam_panels().into_iter().map(below).fold(f64::INFINITY, f64::min)
     }
 }

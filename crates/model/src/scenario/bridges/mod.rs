@@ -11,8 +11,10 @@ pub mod box_girder;
 pub mod dimensions;
 pub mod element_map;
 pub mod girder;
+pub mod masonry_arch;
 pub mod model;
 pub mod path;
+mod plan_polygon;
 pub mod prestressed;
 pub mod quantity;
 mod railing;
@@ -26,6 +28,7 @@ use crate::frames::{Enu, Vec3};
 use arch::Arch;
 use box_girder::BoxGirder;
 use girder::Girder;
+use masonry_arch::MasonryArch;
 use model::Model;
 use path::{PathPlace, TaskKind};
 use prestressed::Prestressed;
@@ -118,6 +121,8 @@ bridge_types! {
     Truss;
     /// A prestressed concrete box girder bridge.
     BoxGirder;
+    /// A masonry arch bridge.
+    MasonryArch;
 }
 
 impl BridgeKind {

@@ -160,6 +160,8 @@ impl BridgeShape for Suspension {
             | TaskKind::PierCap
             | TaskKind::TrussPanel
             | TaskKind::FloorSystem
+            | TaskKind::BarrelSoffit
+            | TaskKind::ArchRing
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }
