@@ -34,7 +34,7 @@ fn task_speed_m_s(task: &Task) -> f64 {
         TaskKind::ArchBottom => 3.0,
         TaskKind::BarrelSoffit => 2.0,
         TaskKind::Interlayer => 1.4,
-        TaskKind::PierCircle | TaskKind::PierCap | TaskKind::TrussPanel | TaskKind::ArchRing => 2.2,
+        TaskKind::PierCircle | TaskKind::PierCap | TaskKind::TrussPanel | TaskKind::ArchRing | TaskKind::StayCable => 2.2,
         TaskKind::GirderSoffit | TaskKind::FloorSystem => 2.5,
         TaskKind::BearingLine => 1.4,
         TaskKind::Free => 2.5,

@@ -6,6 +6,7 @@ use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
 use spandrel_model::scenario::bridges::box_girder::BoxGirder;
+use spandrel_model::scenario::bridges::cable_stayed::CableStayed;
 use spandrel_model::scenario::bridges::girder::Girder;
 use spandrel_model::scenario::bridges::masonry_arch::MasonryArch;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
@@ -51,6 +52,10 @@ fn box_girder() -> Bridge {
 
 fn masonry_arch() -> Bridge {
     bridge(BridgeKind::MasonryArch(MasonryArch::default()))
+}
+
+fn cable_stayed() -> Bridge {
+    bridge(BridgeKind::CableStayed(CableStayed::default()))
 }
 
 /// Returns random values near the defaults, within their ranges.
@@ -138,6 +143,19 @@ fn random_masonry_arches() -> Vec<Bridge> {
     out
 }
 
+/// Returns cable-stayed bridges with default and random dimensions. Omits inconsistent bridges.
+fn random_cable_stayed() -> Vec<Bridge> {
+    let mut random = RandomStream::new(10, "cable-stayed bridges");
+    let mut out = vec![cable_stayed()];
+    for _ in 0..400 {
+        let values = random_values(CableStayed::FIELDS, &mut random);
+        out.push(bridge(BridgeKind::CableStayed(CableStayed::from_values(&values))));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 8, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -154,6 +172,7 @@ fn random_bridges() -> Vec<Bridge> {
     out.extend(random_trusses().into_iter().take(8));
     out.extend(random_box_girders().into_iter().take(10));
     out.extend(random_masonry_arches().into_iter().take(12));
+    out.extend(random_cable_stayed().into_iter().take(6));
     out
 }
 
@@ -374,6 +393,32 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
                 close(sum(&members, "girder"), girders_m * section_area_m2(p.section));
             }
+            BridgeKind::CableStayed(c) => {
+                // The deck extends 0.8 m beyond the outer bearings.
+                let floor_m = c.main_span_m + 2.0 * c.side_span_m + 1.6;
+                close(sum(&members, "slab"), floor_m * c.deck_width_m * c.slab_m);
+                // The flanges are 500 mm by 50 mm, the webs 20 mm thick.
+                let section = 2.0 * 0.5 * 0.05 + (c.girder_depth_m - 0.1) * 0.02;
+                close(sum(&members, "girder"), 2.0 * floor_m * section);
+                // From the slab's underside to the towers: in the main span, the stays end main span / (2 n + 1) apart.
+                let n = c.stays;
+                let octagon = 2.0 * 2f64.sqrt() * c.stay_radius_m * c.stay_radius_m;
+                let length_m = |spacing_m: f64, k: f64| {
+                    math::hypot(spacing_m * k, c.tower_height_m - (n - k) * c.anchor_spacing_m + c.slab_m)
+                };
+                let spacings = [c.main_span_m / (2.0 * n + 1.0), c.side_span_m / n];
+                let stays_m: f64 =
+                    spacings.iter().flat_map(|spacing| (1..=n as u32).map(move |k| length_m(*spacing, f64::from(k)))).sum();
+                let stays: f64 = members
+                    .iter()
+                    .filter(|m| m.name.contains("/stay-") && !m.name.ends_with("/pipe"))
+                    .map(|m| volume(&m.solid))
+                    .sum();
+                close(stays, 4.0 * octagon * stays_m);
+                // The guide pipes are 1.5 m long and half as thick again.
+                let pipes: f64 = members.iter().filter(|m| m.name.ends_with("/pipe")).map(|m| volume(&m.solid)).sum();
+                close(pipes, 8.0 * n * 1.5 * 2.25 * octagon);
+            }
             BridgeKind::MasonryArch(m) => {
                 // A voussoir is a trapezoid between two chords of the same angle: (R + t)² - R² times half the sine of the angle.
                 let (radius_m, count) = (m.radius_m(), f64::from(m.voussoirs()));
@@ -545,7 +590,12 @@ fn prop_paths_keep_the_stand_off_distance() {
     for bridge in random_bridges() {
         let shapes = solids(&bridge.members());
         for stand_off_m in [4.0, 6.5] {
-            for kind in LEVEL_PATHS.into_iter().chain([TaskKind::ArchBottom, TaskKind::BarrelSoffit, TaskKind::ArchRing]) {
+            for kind in LEVEL_PATHS.into_iter().chain([
+                TaskKind::ArchBottom,
+                TaskKind::BarrelSoffit,
+                TaskKind::ArchRing,
+                TaskKind::StayCable,
+            ]) {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
                 let gap = min_clearance_m(&shapes, &path);
@@ -625,6 +675,10 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (masonry_arch(), TaskKind::BarrelSoffit, 1.0),
         (masonry_arch(), TaskKind::ArchRing, 1.0),
         (masonry_arch(), TaskKind::PierCircle, 0.9),
+        (cable_stayed(), TaskKind::SlabSide, 0.95),
+        (cable_stayed(), TaskKind::FloorSystem, 0.95),
+        (cable_stayed(), TaskKind::PierCircle, 0.9),
+        (cable_stayed(), TaskKind::StayCable, 0.95),
         (truss(), TaskKind::TrussPanel, 0.9),
         (truss(), TaskKind::FloorSystem, 0.95),
         (truss(), TaskKind::BearingLine, 1.0),
@@ -669,13 +723,13 @@ const MEMBER_NAMES: [(u16, &[&str]); 36] = [
     (120, &["truss", "bracing"]),
     (144, &["rib", "strut"]),
     (145, &["arch-", "spandrel"]),
-    (147, &["cable"]),
+    (147, &["cable", "stay"]),
     (148, &["hanger"]),
     (152, &["floorbeam"]),
     (155, &["floorbeam"]),
     (161, &["pin"]),
     (162, &["gusset"]),
-    (205, &["column"]),
+    (205, &["column", "tower"]),
     (207, &["tower"]),
     (210, &["pier"]),
     (213, &["pier"]),
@@ -713,6 +767,9 @@ fn exact_every_member_has_the_correct_element() {
             let concrete = match bridge.kind {
                 BridgeKind::Arch(_) | BridgeKind::MasonryArch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
+                BridgeKind::CableStayed(_) => {
+                    !["girder", "floorbeam", "stay", "bearing", "post", "rail"].iter().any(|n| part.starts_with(n))
+                }
                 BridgeKind::Model(_) => panic!("an imported bridge"),
                 BridgeKind::Prestressed(_) | BridgeKind::BoxGirder(_) => !part.starts_with("bearing"),
                 BridgeKind::Truss(_) => {

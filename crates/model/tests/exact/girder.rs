@@ -248,8 +248,8 @@ fn exact_inconsistent_dimensions_name_their_key_and_limit() {
 #[test]
 fn exact_quantities_list_the_elements_of_the_members() {
     use spandrel_model::scenario::bridges::{
-        arch::Arch, box_girder::BoxGirder, masonry_arch::MasonryArch, prestressed::Prestressed, suspension::Suspension,
-        truss::Truss,
+        arch::Arch, box_girder::BoxGirder, cable_stayed::CableStayed, masonry_arch::MasonryArch, prestressed::Prestressed,
+        suspension::Suspension, truss::Truss,
     };
     let of = |kind: BridgeKind| Bridge { name: "b".into(), center_m: Vec3::zero(), heading_deg: 0.0, kind };
     let kinds = [
@@ -264,6 +264,7 @@ fn exact_quantities_list_the_elements_of_the_members() {
         BridgeKind::Truss(Truss { spans: 1.0, ..Truss::default() }),
         BridgeKind::BoxGirder(BoxGirder::default()),
         BridgeKind::MasonryArch(MasonryArch::default()),
+        BridgeKind::CableStayed(CableStayed::default()),
         BridgeKind::MasonryArch(MasonryArch { spans: 1.0, ..MasonryArch::default() }),
     ];
     for bridge in kinds.map(of) {

@@ -5,6 +5,7 @@ mod almanac;
 mod beams;
 mod box_girder;
 mod bridges;
+mod cable_stayed;
 mod difficulty;
 mod elements;
 mod geometry;

@@ -28,6 +28,7 @@ advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
         [floor_system] vom Fahrbahnrost
         [barrel_soffit] vom Gewölbe
         [arch_ring] vom Gewölbering
+        [stay_cable] von den Schrägseilen
        *[structure] vom Bauwerk
     } geflogen, { $when }: Fliegen Sie näher heran.
 advice-too-close = Sie sind { $mean } m zu nah { $surface ->
@@ -40,6 +41,7 @@ advice-too-close = Sie sind { $mean } m zu nah { $surface ->
         [floor_system] am Fahrbahnrost
         [barrel_soffit] am Gewölbe
         [arch_ring] am Gewölbering
+        [stay_cable] an den Schrägseilen
        *[structure] am Bauwerk
     } geflogen, { $when }: Vergrößern Sie den Abstand.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
@@ -71,6 +73,7 @@ advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
         [floor_system] vom Fahrbahnrost
         [barrel_soffit] vom Gewölbe
         [arch_ring] vom Gewölbering
+        [stay_cable] von den Schrägseilen
        *[structure] vom Bauwerk
     } weg, { $when }: Drehen Sie die Nase dorthin.
 advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.

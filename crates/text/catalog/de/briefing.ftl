@@ -44,6 +44,7 @@ briefing-place = { $kind ->
         [floor_system] unter dem Fahrbahnrost
         [barrel_soffit] unter dem Gewölbe
         [arch_ring] am Gewölbering entlang
+        [stay_cable] am Schrägseil entlang
        *[free] entlang der freien Bahn
     }{ $named ->
         [yes] {" "}der Brücke „{ $bridge }“

@@ -31,6 +31,7 @@ advice-too-far = You flew { $mean } m too far from { $surface ->
         [floor_system] the floor
         [barrel_soffit] the barrel
         [arch_ring] the arch ring
+        [stay_cable] the stays
        *[structure] the structure
     } { $when }: move closer.
 advice-too-close = You flew { $mean } m too close to { $surface ->
@@ -43,6 +44,7 @@ advice-too-close = You flew { $mean } m too close to { $surface ->
         [floor_system] the floor
         [barrel_soffit] the barrel
         [arch_ring] the arch ring
+        [stay_cable] the stays
        *[structure] the structure
     } { $when }: back off.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
@@ -75,6 +77,7 @@ advice-framing = Your camera pointed up to { $most } degrees away from { $surfac
         [floor_system] the floor
         [barrel_soffit] the barrel
         [arch_ring] the arch ring
+        [stay_cable] the stays
        *[structure] the structure
     } { $when }: turn the nose toward it.
 advice-lamp-off = Your lamp was off in the dark { $when }: switch it on in the shade.

@@ -49,6 +49,7 @@ briefing-place = { $kind ->
         [floor_system] under the floor
         [barrel_soffit] under the barrel
         [arch_ring] along the arch ring
+        [stay_cable] along the stay
        *[free] along the free path
     }{ $named ->
         [yes] {" "}of bridge '{ $bridge }'

@@ -2,6 +2,7 @@
 
 # Titles. The English ones are those in the scenario files.
 job-box-girder = Box girder bridge: outer web, soffit of the main span, pier cap, bearings
+job-cable-stayed = Cable-stayed bridge: edge girder, floor, stay, tower pier
 job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
@@ -51,6 +52,10 @@ job-task-spandrel-wall = Right spandrel wall and parapet
 job-task-barrel = Barrel of the middle span
 job-task-arch-ring = Arch ring of the first span
 job-task-cutwaters = First pier and its cutwaters
+job-task-edge-girder = Edge girder, stays and deck edge
+job-task-main-floor = Floor of the main span
+job-task-longest-stay = Longest stay of the start tower
+job-task-tower-pier = Pier of the start tower
 job-task-pier-bearings = Bearings on the second pier
 job-task-right-truss = Right truss of the first span
 job-task-floor = Floor system of the second span

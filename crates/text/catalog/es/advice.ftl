@@ -28,6 +28,7 @@ advice-too-far = Voló { $mean } m demasiado lejos { $surface ->
         [floor_system] del sistema de piso
         [barrel_soffit] de la bóveda
         [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: acérquese.
 advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
@@ -40,6 +41,7 @@ advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
         [floor_system] del sistema de piso
         [barrel_soffit] de la bóveda
         [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: aléjese.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
@@ -71,6 +73,7 @@ advice-framing = Su cámara se apartó hasta { $most } grados { $surface ->
         [floor_system] del sistema de piso
         [barrel_soffit] de la bóveda
         [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: gire la nariz hacia la superficie.
 advice-lamp-off = El foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.

@@ -44,6 +44,7 @@ briefing-place = { $kind ->
         [floor_system] bajo el sistema de piso
         [barrel_soffit] bajo la bóveda
         [arch_ring] a lo largo del anillo del arco
+        [stay_cable] a lo largo del tirante
        *[free] a lo largo de la trayectoria libre
     }{ $named ->
         [yes] {" "}del puente «{ $bridge }»

@@ -44,6 +44,7 @@ fn translated(language: Language, name: &str) -> Option<String> {
     let place = place_label(language, name).or_else(|| bridge_label(language, name));
     let place = place.or_else(|| girder_label(language, name)).or_else(|| truss_label(language, name));
     let place = place.or_else(|| box_girder_label(language, name)).or_else(|| masonry_label(language, name));
+    let place = place.or_else(|| cable_stayed_label(language, name));
     place.or_else(|| flight_label(language, name)).or_else(|| rule_label(language, name))
 }
 
@@ -200,6 +201,17 @@ fn masonry_label(language: Language, name: &str) -> Option<String> {
         "parapet" => text!(language, "editor-key-parapet"),
         "pier" => text!(language, "editor-key-pier"),
         "cutwater" => text!(language, "editor-key-cutwater"),
+        _ => return None,
+    })
+}
+
+/// Labels of cable-stayed bridges, for keys that other bridges don't have.
+fn cable_stayed_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "tower_height" => text!(language, "editor-key-tower-height"),
+        "stays" => text!(language, "editor-key-stays"),
+        "anchor_spacing" => text!(language, "editor-key-anchor-spacing"),
+        "stay_radius" => text!(language, "editor-key-stay-radius"),
         _ => return None,
     })
 }

@@ -344,8 +344,7 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
         }
         case 16u: {
             // A voussoir is one stone, with joints across the barrel only; its own tone is in the tint.
-            let flat = abs(n.z) > 0.94;
-            let at = select(wall_position(in.p, n), in.uv.yx, flat);
+            let at = select(wall_position(in.p, n), in.uv.yx, abs(n.z) > 0.94);
             let coursed = stones_in_courses(at, STONE_JOINT_M, f);
             let whole = in.aux > 0.5;
             let under = select(0.0, lines(at.x, 0.9, STONE_JOINT_M, f), n.z < -0.2);

@@ -153,6 +153,7 @@ impl BridgeShape for Arch {
             | TaskKind::FloorSystem
             | TaskKind::BarrelSoffit
             | TaskKind::ArchRing
+            | TaskKind::StayCable
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }

@@ -36,6 +36,7 @@ pub(super) fn of_kind(
         | TaskKind::FloorSystem
         | TaskKind::BarrelSoffit
         | TaskKind::ArchRing
+        | TaskKind::StayCable
         | TaskKind::Free => None,
     }
 }

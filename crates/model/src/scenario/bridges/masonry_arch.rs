@@ -189,6 +189,7 @@ impl BridgeShape for MasonryArch {
             | TaskKind::PierCap
             | TaskKind::TrussPanel
             | TaskKind::FloorSystem
+            | TaskKind::StayCable
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }
@@ -416,12 +417,21 @@ impl MasonryArch {
         Ok(LocalPath { viewing_directions: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false })
     }
 
-    /// Returns the distance from the spandrel walls that keeps the stand-off from them and from the tips of the cutwaters.
+    /// Returns the distance from the spandrel walls that keeps the stand-off from them, from the tips of the cutwaters and from the ridges of
+    /// their caps.
     fn away_from_cutwaters_m(&self, z: f64, stand_off_m: f64) -> f64 {
+        if self.piers().is_empty() {
+            return stand_off_m;
+        }
         let over_m = z - self.springing_z_m();
-        let beside_m = (stand_off_m * stand_off_m - over_m * over_m).max(0.0).sqrt();
-        let tips_m = if self.piers().is_empty() || over_m >= stand_off_m { 0.0 } else { self.cutwater_m + beside_m };
-        stand_off_m.max(tips_m)
+        let beside_tip_m = (stand_off_m * stand_off_m - over_m * over_m).max(0.0).sqrt();
+        // High above the tip, the ridge is nearer, which rises by the cap's share.
+        let from_tip_m = if beside_tip_m >= CAP_SHARE * over_m {
+            beside_tip_m
+        } else {
+            ((1.0 + CAP_SHARE * CAP_SHARE).sqrt() * stand_off_m - over_m) / CAP_SHARE
+        };
+        stand_off_m.max(self.cutwater_m + from_tip_m)
     }
 
     /// Returns a curve below the barrel of a span, at the stand-off distance from the voussoirs, piers and abutments. The views pan over
@@ -452,6 +462,9 @@ impl MasonryArch {
     fn arch_ring(&self, stand_off_m: f64, place: &PathPlace) -> Result<LocalPath, String> {
         let center = self.span_center(place)?;
         let radius_m = self.radius_m() + 0.5 * self.ring_m;
+        if radius_m < MIN_PATH_RADIUS_M {
+            return Err("a wider or higher arch (clear_span_m, rise_m)".into());
+        }
         let y = -0.5 * self.width_m - stand_off_m;
         let is_clear = |angle_rad: f64| {
             let [x, z] = self.at(center, angle_rad, radius_m);

@@ -8,6 +8,7 @@ pub mod beam_layout;
 mod beam_members;
 mod beam_path;
 pub mod box_girder;
+pub mod cable_stayed;
 pub mod dimensions;
 pub mod element_map;
 pub mod girder;
@@ -27,6 +28,7 @@ pub mod truss;
 use crate::frames::{Enu, Vec3};
 use arch::Arch;
 use box_girder::BoxGirder;
+use cable_stayed::CableStayed;
 use girder::Girder;
 use masonry_arch::MasonryArch;
 use model::Model;
@@ -123,6 +125,8 @@ bridge_types! {
     BoxGirder;
     /// A masonry arch bridge.
     MasonryArch;
+    /// A cable-stayed bridge.
+    CableStayed;
 }
 
 impl BridgeKind {

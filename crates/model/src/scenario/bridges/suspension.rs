@@ -162,6 +162,7 @@ impl BridgeShape for Suspension {
             | TaskKind::FloorSystem
             | TaskKind::BarrelSoffit
             | TaskKind::ArchRing
+            | TaskKind::StayCable
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }

@@ -11,6 +11,8 @@ use crate::scenario::{DefectCause, StainSubstance};
 
 /// Distances between places, along the first and the second side of a face, m.
 const SPACING_M: (f64, f64) = (0.4, 0.5);
+/// Minimum height of a wall in which mortar is missing, m: the faces of voussoirs, which are lower, have no courses (estimate).
+const MIN_WALL_M: f64 = 1.3;
 /// Largest upward component of the normal of a face from which water drips.
 const MAX_UP: f64 = -0.3;
 /// Frequency at the foot of a wall relative to its top (estimate).
@@ -51,7 +53,9 @@ fn on_wall(k: usize, surface: &Surface) -> Vec<Place> {
                 ..Place::new(DefectCause::Seepage, kind, k, axes.point(u_m, v_m), -axes.v)
             };
             out.push(place(EFFLORESCENCE));
-            out.push(Place { stain: Some(StainSubstance::Lime), ..place(MORTAR) });
+            if high - low > MIN_WALL_M {
+                out.push(Place { stain: Some(StainSubstance::Lime), ..place(MORTAR) });
+            }
         }
     }
     out
