@@ -93,7 +93,7 @@ pub fn shipped_task_title(task: &str, language: Language) -> String {
         "Edge girder, stays and deck edge" => text!(language, "job-task-edge-girder"),
         "Floor of the main span" => text!(language, "job-task-main-floor"),
         "Longest stay of the start tower" => text!(language, "job-task-longest-stay"),
-        "Pier of the start tower" => text!(language, "job-task-tower-pier"),
+        "Floor of the start side span" => text!(language, "job-task-side-floor"),
         "Bearings on the second pier" => text!(language, "job-task-pier-bearings"),
         _ => task.to_owned(),
     }

@@ -135,8 +135,8 @@ fn exact_rules_name_the_keys_that_do_not_fit() {
     };
     let keys = |kind: CableStayed| of(kind).into_iter().map(|(key, _)| key).collect::<Vec<_>>();
     assert_eq!(
-        of(CableStayed { side_span_m: 40.0, ..CableStayed::default() })[0],
-        ("side_span_m", "0.3 main_span_m (estimate): at least 48.00".to_owned())
+        of(CableStayed { side_span_m: 38.0, ..CableStayed::default() })[0],
+        ("side_span_m", "0.25 main_span_m (estimate): at least 40.00".to_owned())
     );
     assert_eq!(keys(CableStayed { side_span_m: 85.0, ..CableStayed::default() }), ["side_span_m"]);
     // The longest stay covers 7 x 160/15 = 74.67 m: at least 21.41 m high.

@@ -239,8 +239,8 @@ fn prop_box_girders_crack_where_they_bend() {
         let to_pier_m = (x.abs() - 27.43).abs();
         if defect.normal.up() < -0.8 {
             assert!(to_pier_m > 8.0, "{defect:?}");
-            // They run across the box.
-            assert!(bridge.placement().direction([1.0, 0.0, 0.0]).dot(defect.along).abs() < 1e-6, "{defect:?}");
+            // They run across the box, within a few degrees.
+            assert!(bridge.placement().direction([1.0, 0.0, 0.0]).dot(defect.along).abs() < 0.2, "{defect:?}");
         }
         assert_eq!(defect.kind, defect_codes::PSC_CRACK);
     }

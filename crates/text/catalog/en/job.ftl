@@ -2,7 +2,7 @@
 
 # Titles. The English ones are those in the scenario files.
 job-box-girder = Box girder bridge: outer web, soffit of the main span, pier cap, bearings
-job-cable-stayed = Cable-stayed bridge: edge girder, floor, stay, tower pier
+job-cable-stayed = Cable-stayed bridge: edge girder, floor, stay, side span
 job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
@@ -55,7 +55,7 @@ job-task-cutwaters = First pier and its cutwaters
 job-task-edge-girder = Edge girder, stays and deck edge
 job-task-main-floor = Floor of the main span
 job-task-longest-stay = Longest stay of the start tower
-job-task-tower-pier = Pier of the start tower
+job-task-side-floor = Floor of the start side span
 job-task-pier-bearings = Bearings on the second pier
 job-task-right-truss = Right truss of the first span
 job-task-floor = Floor system of the second span
