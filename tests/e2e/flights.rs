@@ -78,6 +78,21 @@ fn flight_expert_completes_the_truss_bridge_without_contact() {
     assert_expert_completes("truss", "3", 5);
 }
 
+#[test]
+fn flight_expert_completes_the_box_girder_bridge_without_contact() {
+    assert_expert_completes("box-girder", "3", 5);
+}
+
+#[test]
+fn flight_expert_completes_the_masonry_arch_bridge_without_contact() {
+    assert_expert_completes("masonry-arch", "3", 5);
+}
+
+#[test]
+fn flight_expert_completes_the_cable_stayed_bridge_without_contact() {
+    assert_expert_completes("cable-stayed", "3", 5);
+}
+
 /// Checks that the expert lands after all tasks of a job without contact, and finds at least a number of its defects.
 fn assert_expert_completes(job: &str, seed: &str, min_found: u64) {
     let folder = tempfile::tempdir().unwrap();

@@ -23,8 +23,14 @@ pub const CRACK: u32 = 1130;
 /// Abrasion or wear of concrete.
 pub const ABRASION: u32 = 1190;
 
+/// Breakdown of the mortar of masonry.
+pub const MORTAR: u32 = 1610;
+/// Split or spalled stones or bricks of masonry.
+pub const SPLIT_STONE: u32 = 1620;
+
 /// All defect codes used in random placement, in ascending order.
-pub const ALL: &[u32] = &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION];
+pub const ALL: &[u32] =
+    &[CORROSION, FATIGUE, CONNECTION, SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, CRACK, ABRASION, MORTAR, SPLIT_STONE];
 
 /// Returns true if a defect code represents a line defect (a crack), whose width must be resolved in a photo.
 #[must_use]
@@ -45,6 +51,8 @@ pub fn defect_name(kind: u32) -> &'static str {
         EFFLORESCENCE => "efflorescence or rust staining",
         CRACK => "cracking",
         ABRASION => "abrasion",
+        MORTAR => "mortar breakdown",
+        SPLIT_STONE => "split or spalled stone",
         _ => "defect",
     }
 }
@@ -81,6 +89,10 @@ pub fn size_ranges(kind: u32, condition_state: u8) -> SizeRanges {
         (EFFLORESCENCE, true) => ((0.40, 1.50), (0.3, 0.6)),
         (ABRASION, false) => ((0.20, 0.80), (0.4, 0.7)),
         (ABRASION, true) => ((0.40, 1.50), (0.4, 0.7)),
+        (MORTAR, false) => ((0.40, 0.90), (0.4, 0.8)),
+        (MORTAR, true) => ((0.60, 1.60), (0.4, 0.8)),
+        (SPLIT_STONE, false) => ((0.15, 0.35), (0.6, 0.9)),
+        (SPLIT_STONE, true) => ((0.25, 0.70), (0.6, 0.9)),
         (FATIGUE, false) => ((0.03, 0.15), (0.000_05, 0.000_2)),
         (FATIGUE, true) => ((0.05, 0.30), (0.000_1, 0.000_3)),
         (CONNECTION, false) => ((0.06, 0.20), (0.4, 0.8)),
@@ -101,6 +113,8 @@ fn severe_size_ranges(kind: u32) -> SizeRanges {
         PSC_CRACK => ((0.60, 2.00), (0.001_2, 0.003)),
         EFFLORESCENCE => ((0.80, 2.00), (0.3, 0.6)),
         ABRASION => ((0.80, 2.00), (0.4, 0.7)),
+        MORTAR => ((0.90, 2.00), (0.4, 0.8)),
+        SPLIT_STONE => ((0.40, 0.90), (0.6, 0.9)),
         FATIGUE => ((0.20, 0.50), (0.000_3, 0.001)),
         CONNECTION => ((0.16, 0.40), (0.4, 0.8)),
         _ => ((0.35, 1.20), (0.3, 0.7)),

@@ -1,7 +1,9 @@
 //! Bridge elements of the AASHTO *Manual for Bridge Element Inspection* (MBEI) with their numbers, names, materials, units of
 //! quantity and permitted defects. The sources are listed in docs/src/reference/domain.md, "Elements" and "Defects".
 
-use crate::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, PSC_CRACK, REBAR, SPALL};
+use crate::defect_codes::{
+    ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, MORTAR, PSC_CRACK, REBAR, SPALL, SPLIT_STONE,
+};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -173,6 +175,7 @@ elements! {
     RcPierWall 210 "pier wall, reinforced concrete" Substructure ReinforcedConcrete Feet;
     MasonryPierWall 213 "pier wall, masonry" Substructure Masonry Feet;
     RcAbutment 215 "abutment, reinforced concrete" Substructure ReinforcedConcrete Feet;
+    MasonryAbutment 217 "abutment, masonry" Substructure Masonry Feet;
     RcFooting 220 "footing, reinforced concrete" Substructure ReinforcedConcrete Feet;
     SteelPile 225 "pile, steel" Substructure Steel Each;
     PscPile 226 "pile, prestressed concrete" Substructure PrestressedConcrete Each;
@@ -211,6 +214,9 @@ impl Element {
     /// A deck drain. The MBEI leaves drains to the agencies, which number their own elements from 800 on (the number is an estimate).
     pub const DECK_DRAIN: Self = Self::Unlisted(850);
 
+    /// Fill between the spandrel walls of a masonry arch: earth or rubble, which the MBEI does not list (the number is an estimate).
+    pub const FILL: Self = Self::Unlisted(851);
+
     /// Returns the defect codes permitted on the element; empty if the simulator has no defects for its material.
     #[must_use]
     pub const fn permitted_defects(self) -> &'static [u32] {
@@ -218,7 +224,8 @@ impl Element {
             ElementMaterial::ReinforcedConcrete => &[SPALL, REBAR, EFFLORESCENCE, CRACK, ABRASION],
             ElementMaterial::PrestressedConcrete => &[SPALL, REBAR, PSC_CRACK, EFFLORESCENCE, ABRASION],
             ElementMaterial::Steel => &[CORROSION, FATIGUE, CONNECTION],
-            ElementMaterial::Timber | ElementMaterial::Masonry | ElementMaterial::Other => &[],
+            ElementMaterial::Masonry => &[EFFLORESCENCE, MORTAR, SPLIT_STONE],
+            ElementMaterial::Timber | ElementMaterial::Other => &[],
         }
     }
 }

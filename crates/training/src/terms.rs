@@ -1,7 +1,9 @@
 //! Names of bridge elements, defects, scores, tasks and jobs in the language of a page: AASHTO MBEI in English, DIN 1076 and
 //! RI-EBW-PRÜF in German.
 
-use spandrel_model::defect_codes::{ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, PSC_CRACK, REBAR, SPALL};
+use spandrel_model::defect_codes::{
+    ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, MORTAR, PSC_CRACK, REBAR, SPALL, SPLIT_STONE,
+};
 use spandrel_model::elements::Element;
 use spandrel_model::scenario::DefectCause;
 use spandrel_model::shipped::SCENARIOS;
@@ -30,6 +32,8 @@ pub fn defect_title(kind: u32, language: Language) -> String {
         EFFLORESCENCE => text!(language, "terms-defect-efflorescence"),
         CRACK => text!(language, "terms-defect-crack"),
         ABRASION => text!(language, "terms-defect-abrasion"),
+        MORTAR => text!(language, "terms-defect-mortar"),
+        SPLIT_STONE => text!(language, "terms-defect-split-stone"),
         _ => text!(language, "terms-defect-unknown"),
     }
 }
@@ -50,6 +54,8 @@ pub fn cause_title(cause: DefectCause, language: Language) -> String {
         DefectCause::Weld => text!(language, "terms-cause-weld"),
         DefectCause::Fasteners => text!(language, "terms-cause-fasteners"),
         DefectCause::Cable => text!(language, "terms-cause-cable"),
+        DefectCause::Seepage => text!(language, "terms-cause-seepage"),
+        DefectCause::Frost => text!(language, "terms-cause-frost"),
     }
 }
 

@@ -39,6 +39,8 @@ pub enum Material {
     Blur = 14,
     /// Paint with a color that instances do not override.
     Enamel = 15,
+    /// Cut stone in courses. `aux` is 1 on a voussoir, which is one stone, and 0 elsewhere.
+    Masonry = 16,
 }
 
 /// A vertex in the scenario's frame (east, north, up), m.

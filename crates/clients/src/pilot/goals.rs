@@ -32,8 +32,9 @@ fn task_speed_m_s(task: &Task) -> f64 {
     match task.kind {
         TaskKind::SlabSide => 3.3,
         TaskKind::ArchBottom => 3.0,
+        TaskKind::BarrelSoffit => 2.0,
         TaskKind::Interlayer => 1.4,
-        TaskKind::PierCircle | TaskKind::PierCap | TaskKind::TrussPanel => 2.2,
+        TaskKind::PierCircle | TaskKind::PierCap | TaskKind::TrussPanel | TaskKind::ArchRing | TaskKind::StayCable => 2.2,
         TaskKind::GirderSoffit | TaskKind::FloorSystem => 2.5,
         TaskKind::BearingLine => 1.4,
         TaskKind::Free => 2.5,

@@ -43,11 +43,15 @@ pub enum DefectCause {
     Fasteners,
     /// Water that collects in the lowest part of a cable.
     Cable,
+    /// Water that seeps through the fill of a masonry arch.
+    Seepage,
+    /// Frost in wet stones.
+    Frost,
 }
 
 impl DefectCause {
     /// All causes with their keywords in resolved files.
-    pub const ALL: [(&'static str, Self); 12] = [
+    pub const ALL: [(&'static str, Self); 14] = [
         ("bending", Self::Bending),
         ("shear", Self::Shear),
         ("shrinkage", Self::Shrinkage),
@@ -60,6 +64,8 @@ impl DefectCause {
         ("weld", Self::Weld),
         ("fasteners", Self::Fasteners),
         ("cable", Self::Cable),
+        ("seepage", Self::Seepage),
+        ("frost", Self::Frost),
     ];
 
     /// Returns the keyword in resolved files.

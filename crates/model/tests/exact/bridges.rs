@@ -5,7 +5,10 @@ use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::arch::Arch;
 use spandrel_model::scenario::bridges::beam_bridge::BeamBridge;
+use spandrel_model::scenario::bridges::box_girder::BoxGirder;
+use spandrel_model::scenario::bridges::cable_stayed::CableStayed;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::masonry_arch::MasonryArch;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::bridges::truss::Truss;
@@ -41,6 +44,18 @@ fn truss() -> Bridge {
 
 fn prestressed() -> Bridge {
     bridge(BridgeKind::Prestressed(Prestressed::default()))
+}
+
+fn box_girder() -> Bridge {
+    bridge(BridgeKind::BoxGirder(BoxGirder::default()))
+}
+
+fn masonry_arch() -> Bridge {
+    bridge(BridgeKind::MasonryArch(MasonryArch::default()))
+}
+
+fn cable_stayed() -> Bridge {
+    bridge(BridgeKind::CableStayed(CableStayed::default()))
 }
 
 /// Returns random values near the defaults, within their ranges.
@@ -100,6 +115,47 @@ fn random_trusses() -> Vec<Bridge> {
     out
 }
 
+/// Returns box girder bridges with default and random dimensions, half of them of constant depth. Omits inconsistent bridges.
+fn random_box_girders() -> Vec<Bridge> {
+    let mut random = RandomStream::new(8, "box girders");
+    let mut out = vec![box_girder()];
+    for k in 0..400 {
+        let values = BoxGirder::from_values(&random_values(BoxGirder::FIELDS, &mut random));
+        let pier_depth_m = if k % 2 == 0 { values.midspan_depth_m } else { values.pier_depth_m };
+        let kind = BoxGirder { spans: f64::from(1 + k % 4), pier_depth_m, round_columns: f64::from(k / 2 % 2), ..values };
+        out.push(bridge(BridgeKind::BoxGirder(kind)));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
+/// Returns masonry arch bridges with default and random dimensions. Omits inconsistent bridges.
+fn random_masonry_arches() -> Vec<Bridge> {
+    let mut random = RandomStream::new(9, "masonry arches");
+    let mut out = vec![masonry_arch()];
+    for k in 0..200 {
+        let values = MasonryArch::from_values(&random_values(MasonryArch::FIELDS, &mut random));
+        out.push(bridge(BridgeKind::MasonryArch(MasonryArch { spans: f64::from(1 + k % 4), ..values })));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 10, "{}", out.len());
+    out
+}
+
+/// Returns cable-stayed bridges with default and random dimensions. Omits inconsistent bridges.
+fn random_cable_stayed() -> Vec<Bridge> {
+    let mut random = RandomStream::new(10, "cable-stayed bridges");
+    let mut out = vec![cable_stayed()];
+    for _ in 0..400 {
+        let values = random_values(CableStayed::FIELDS, &mut random);
+        out.push(bridge(BridgeKind::CableStayed(CableStayed::from_values(&values))));
+    }
+    out.retain(|b| b.kind.inconsistencies().is_empty());
+    assert!(out.len() >= 8, "{}", out.len());
+    out
+}
+
 /// Returns bridges of all types, with default and random dimensions. Omits inconsistent bridges.
 fn random_bridges() -> Vec<Bridge> {
     let mut random = RandomStream::new(4, "bridges");
@@ -114,6 +170,9 @@ fn random_bridges() -> Vec<Bridge> {
     out.extend(random_girders().into_iter().take(12));
     out.extend(random_prestressed().into_iter().take(10));
     out.extend(random_trusses().into_iter().take(8));
+    out.extend(random_box_girders().into_iter().take(10));
+    out.extend(random_masonry_arches().into_iter().take(12));
+    out.extend(random_cable_stayed().into_iter().take(6));
     out
 }
 
@@ -334,6 +393,91 @@ fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
                 close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
                 close(sum(&members, "girder"), girders_m * section_area_m2(p.section));
             }
+            BridgeKind::CableStayed(c) => {
+                // The deck extends 0.8 m beyond the outer bearings.
+                let floor_m = c.main_span_m + 2.0 * c.side_span_m + 1.6;
+                close(sum(&members, "slab"), floor_m * c.deck_width_m * c.slab_m);
+                // The flanges are 500 mm by 50 mm, the webs 20 mm thick.
+                let section = 2.0 * 0.5 * 0.05 + (c.girder_depth_m - 0.1) * 0.02;
+                close(sum(&members, "girder"), 2.0 * floor_m * section);
+                // From the slab's underside to the towers: in the main span, the stays end main span / (2 n + 1) apart.
+                let n = c.stays;
+                let octagon = 2.0 * 2f64.sqrt() * c.stay_radius_m * c.stay_radius_m;
+                let length_m = |spacing_m: f64, k: f64| {
+                    math::hypot(spacing_m * k, c.tower_height_m - (n - k) * c.anchor_spacing_m + c.slab_m)
+                };
+                let spacings = [c.main_span_m / (2.0 * n + 1.0), c.side_span_m / n];
+                let stays_m: f64 =
+                    spacings.iter().flat_map(|spacing| (1..=n as u32).map(move |k| length_m(*spacing, f64::from(k)))).sum();
+                let stays: f64 = members
+                    .iter()
+                    .filter(|m| m.name.contains("/stay-") && !m.name.ends_with("/pipe"))
+                    .map(|m| volume(&m.solid))
+                    .sum();
+                close(stays, 4.0 * octagon * stays_m);
+                // The guide pipes are 1.5 m long and half as thick again.
+                let pipes: f64 = members.iter().filter(|m| m.name.ends_with("/pipe")).map(|m| volume(&m.solid)).sum();
+                close(pipes, 8.0 * n * 1.5 * 2.25 * octagon);
+            }
+            BridgeKind::MasonryArch(m) => {
+                // A voussoir is a trapezoid between two chords of the same angle: (R + t)² - R² times half the sine of the angle.
+                let (radius_m, count) = (m.radius_m(), f64::from(m.voussoirs()));
+                let half = math::atan2(0.5 * m.clear_span_m, radius_m - m.rise_m);
+                let outer_m = radius_m + m.ring_m;
+                let voussoir_m2 = 0.5 * (outer_m * outer_m - radius_m * radius_m) * math::sin(2.0 * half / count);
+                close(sum(&members, "arch-"), m.spans * count * voussoir_m2 * m.width_m);
+                close(sum(&members, "parapet"), 2.0 * m.deck_length_m() * 0.4 * m.parapet_m);
+                let shafts: f64 = members.iter().filter(|m| m.name.contains("/shaft")).map(|m| volume(&m.solid)).sum();
+                close(shafts.max(1e-9), ((m.spans - 1.0) * m.pier_m * m.width_m * m.pier_height_m).max(1e-9));
+                // A cutwater is a triangular prism, and its cap a pyramid.
+                let cutwaters: f64 = members.iter().filter(|m| m.name.ends_with("/cutwater")).map(|m| volume(&m.solid)).sum();
+                let plan_m2 = (m.spans - 1.0) * m.pier_m * m.cutwater_m;
+                close(cutwaters.max(1e-9), (plan_m2 * m.pier_height_m).max(1e-9));
+                let caps: f64 = members.iter().filter(|m| m.name.ends_with("/cap")).map(|m| volume(&m.solid)).sum();
+                close(caps.max(1e-9), (plan_m2 * 0.6 * m.cutwater_m / 3.0).max(1e-9));
+                // Barrels, skewbacks, walls, fill and road fill the bridge between the abutments, except for the openings: segments of
+                // polygons of chords.
+                let inside_m = m.spans * m.clear_span_m + (m.spans - 1.0) * m.pier_m;
+                let height_m = m.cover_m + m.ring_m + m.rise_m;
+                let segment_m2 = 0.5 * radius_m * radius_m * (count * math::sin(2.0 * half / count) - math::sin(2.0 * half));
+                let back_m = m.ring_m * 0.5 * m.clear_span_m / radius_m;
+                let up_m = m.ring_m * (radius_m - m.rise_m) / radius_m;
+                let between: f64 = ["spandrel", "fill", "road", "arch-"].iter().map(|part| sum(&members, part)).sum();
+                let piers: f64 = members
+                    .iter()
+                    .filter(|m| m.name.contains("pier-") && m.name.ends_with("/skewback"))
+                    .map(|m| volume(&m.solid))
+                    .sum();
+                // The outer barrels lean over the abutments, where walls, fill and road are above the skewbacks.
+                let over_m = 2.0 * (m.abutment_m * (height_m - up_m) + 0.5 * back_m * up_m);
+                let approach_m2 = 2.0 * m.approach_m * 0.15;
+                let expected = (inside_m * height_m - m.spans * segment_m2 + over_m) * m.width_m
+                    + approach_m2 * (m.width_m - 2.0 * m.wall_m);
+                close(between + piers, expected);
+            }
+            BridgeKind::BoxGirder(g) => {
+                let layout = g.layout();
+                let width_m = g.cells * g.cell_width_m + 2.0 * g.overhang_m;
+                close(sum(&members, "slab"), (layout.length_m() + 1.2) * width_m * g.slab_m);
+                let supports = layout.support_positions();
+                let depth_m = |x: f64| {
+                    let piers = &supports[1..supports.len() - 1];
+                    let shares = piers.iter().map(|pier| (1.0 - (x - pier).abs() / g.haunch_length_m).max(0.0));
+                    let share = shares.fold(0.0, f64::max);
+                    g.midspan_depth_m + (g.pier_depth_m - g.midspan_depth_m) * share * share
+                };
+                // The area is linear in the depth, so that the trapezoidal rule is exact for straight segments.
+                let area_m2 = |depth_m: f64| {
+                    let below_m = depth_m - g.slab_m;
+                    let outer_m = 0.5 * (g.cells * g.cell_width_m + g.web_m) - g.web_slope * (below_m - 0.5 * g.bottom_slab_m);
+                    let webs_m2 = 2.0 * g.web_m * below_m + (g.cells - 1.0) * g.web_m * (below_m - g.bottom_slab_m);
+                    webs_m2 + 2.0 * (outer_m - g.web_m) * g.bottom_slab_m
+                };
+                let panels = layout.beam_panels();
+                let box_m3 = panels.iter().map(|(a, b)| 0.5 * (b - a) * (area_m2(depth_m(*a)) + area_m2(depth_m(*b)))).sum();
+                let diaphragms_m3 = sum(&members, "box/diaphragm");
+                close(sum(&members, "box/") - diaphragms_m3, box_m3);
+            }
             BridgeKind::Truss(t) => {
                 // The deck extends 0.8 m beyond the bearings of each span.
                 let deck_m = t.spans * t.span_m + 1.6 - (t.spans - 1.0) * t.joint_gap_m;
@@ -446,7 +590,12 @@ fn prop_paths_keep_the_stand_off_distance() {
     for bridge in random_bridges() {
         let shapes = solids(&bridge.members());
         for stand_off_m in [4.0, 6.5] {
-            for kind in LEVEL_PATHS.into_iter().chain([TaskKind::ArchBottom]) {
+            for kind in LEVEL_PATHS.into_iter().chain([
+                TaskKind::ArchBottom,
+                TaskKind::BarrelSoffit,
+                TaskKind::ArchRing,
+                TaskKind::StayCable,
+            ]) {
                 let Ok(path) = bridge.task_path(kind, stand_off_m) else { continue };
                 assert_smooth(&path);
                 let gap = min_clearance_m(&shapes, &path);
@@ -457,7 +606,9 @@ fn prop_paths_keep_the_stand_off_distance() {
                 );
                 // Below the arch and below the bays, the path is not directly under the nearest member.
                 let is_beside = matches!(kind, TaskKind::ArchBottom | TaskKind::GirderSoffit | TaskKind::FloorSystem);
-                assert!(is_beside || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
+                // In front of the bearings on a pier, a haunched soffit rises above the path.
+                let is_below_haunch = kind == TaskKind::BearingLine && matches!(bridge.kind, BridgeKind::BoxGirder(_));
+                assert!(is_beside || is_below_haunch || gap < 1.1 * stand_off_m, "{kind:?}: {gap} m");
             }
         }
     }
@@ -516,6 +667,18 @@ fn prop_viewing_directions_point_at_the_bridge() {
         (prestressed(), TaskKind::GirderSoffit, 1.0),
         (prestressed(), TaskKind::BearingLine, 1.0),
         (prestressed(), TaskKind::PierCap, 0.9),
+        (box_girder(), TaskKind::SlabSide, 1.0),
+        (box_girder(), TaskKind::GirderSoffit, 1.0),
+        (box_girder(), TaskKind::BearingLine, 1.0),
+        (box_girder(), TaskKind::PierCap, 0.9),
+        (masonry_arch(), TaskKind::SlabSide, 1.0),
+        (masonry_arch(), TaskKind::BarrelSoffit, 1.0),
+        (masonry_arch(), TaskKind::ArchRing, 1.0),
+        (masonry_arch(), TaskKind::PierCircle, 0.9),
+        (cable_stayed(), TaskKind::SlabSide, 0.95),
+        (cable_stayed(), TaskKind::FloorSystem, 0.95),
+        (cable_stayed(), TaskKind::PierCircle, 0.9),
+        (cable_stayed(), TaskKind::StayCable, 0.95),
         (truss(), TaskKind::TrussPanel, 0.9),
         (truss(), TaskKind::FloorSystem, 0.95),
         (truss(), TaskKind::BearingLine, 1.0),
@@ -549,54 +712,66 @@ fn exact_inconsistent_dimensions_are_rejected_with_their_line() {
 }
 
 /// AASHTO MBEI element numbers (2015 interims), with the names of the members that they apply to.
-const MEMBER_NAMES: [(u16, &[&str]); 27] = [
+const MEMBER_NAMES: [(u16, &[&str]); 36] = [
     (12, &["slab", "haunch"]),
+    (15, &["slab"]),
+    (104, &["box"]),
     (107, &["girder", "stiffener", "cross-frame"]),
     (109, &["girder", "diaphragm"]),
     (113, &["stringer"]),
     (116, &["stringer"]),
     (120, &["truss", "bracing"]),
     (144, &["rib", "strut"]),
-    (147, &["cable"]),
+    (145, &["arch-", "spandrel"]),
+    (147, &["cable", "stay"]),
     (148, &["hanger"]),
     (152, &["floorbeam"]),
     (155, &["floorbeam"]),
     (161, &["pin"]),
     (162, &["gusset"]),
-    (205, &["column"]),
+    (205, &["column", "tower"]),
     (207, &["tower"]),
     (210, &["pier"]),
+    (213, &["pier"]),
     (215, &["abutment", "skewback", "pedestal"]),
+    (217, &["abutment"]),
     (220, &["anchorage", "footing"]),
     (234, &["cap", "pedestal"]),
     (300, &["joint"]),
     (310, &["bearing"]),
     (311, &["bearing"]),
     (313, &["bearing"]),
+    (314, &["bearing"]),
     (321, &["approach-slab"]),
     (330, &["post", "rail"]),
     (331, &["post", "rail", "barrier"]),
-    // Deck drains have no MBEI element.
+    (334, &["parapet"]),
+    (510, &["road"]),
+    // Deck drains and fill have no MBEI element.
     (850, &["drain"]),
+    (851, &["fill"]),
 ];
 
 #[test]
 fn exact_every_member_has_the_correct_element() {
-    let steel = [107, 113, 120, 147, 148, 152, 161, 162, 207, 310, 311, 313, 330];
+    let steel = [107, 113, 120, 147, 148, 152, 161, 162, 207, 310, 311, 313, 314, 330];
     for bridge in random_bridges() {
         for member in bridge.members() {
             let part = member.name.split('/').nth(1).unwrap();
             let names = MEMBER_NAMES.iter().find(|(number, _)| *number == member.element.number()).map(|(_, names)| *names);
             let fits = names.is_some_and(|names| names.iter().any(|n| part.starts_with(n)));
             assert!(fits, "{} is element {}", member.name, member.element.number());
-            // The entire arch bridge is concrete. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
-            // the girders with their stiffeners and cross-frames and the bearings are steel, on the prestressed one only the bearings. On the
+            // The entire arch bridge is concrete, and the masonry one stone. On the suspension bridge, only the deck, piers and anchorages are; on the girder bridge,
+            // the girders with their stiffeners and cross-frames and the bearings are steel, on the concrete ones only the bearings. On the
             // truss bridge, everything above the piers except the deck is steel.
             let concrete = match bridge.kind {
-                BridgeKind::Arch(_) => true,
+                BridgeKind::Arch(_) | BridgeKind::MasonryArch(_) => true,
                 BridgeKind::Suspension(_) => ["slab", "pier", "anchorage"].iter().any(|n| part.starts_with(n)),
+                BridgeKind::CableStayed(_) => {
+                    !["girder", "floorbeam", "stay", "bearing", "post", "rail"].iter().any(|n| part.starts_with(n))
+                }
                 BridgeKind::Model(_) => panic!("an imported bridge"),
-                BridgeKind::Prestressed(_) => !part.starts_with("bearing"),
+                BridgeKind::Prestressed(_) | BridgeKind::BoxGirder(_) => !part.starts_with("bearing"),
                 BridgeKind::Truss(_) => {
                     let of_concrete = ["slab", "approach", "pedestal", "cap", "column", "footing", "abutment", "joint", "drain"];
                     of_concrete.iter().any(|n| part.starts_with(n))

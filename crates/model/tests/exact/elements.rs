@@ -9,6 +9,7 @@ use spandrel_model::site::Site;
 /// Element numbers by material (docs/src/reference/domain.md, "Elements"). Bearings and cables have steel defects.
 const REINFORCED_CONCRETE: [u16; 16] = [12, 16, 38, 105, 110, 116, 144, 155, 205, 210, 215, 220, 227, 234, 321, 331];
 const PRESTRESSED_CONCRETE: [u16; 12] = [13, 15, 39, 104, 109, 115, 143, 154, 204, 226, 233, 320];
+const MASONRY: [u16; 4] = [145, 213, 217, 334];
 const STEEL: [u16; 26] = [
     28, 29, 30, 102, 107, 113, 120, 141, 147, 148, 149, 152, 161, 162, 202, 207, 225, 231, 310, 311, 312, 313, 314, 315, 316, 330,
 ];
@@ -24,6 +25,7 @@ fn exact_numbers_map_to_elements_with_the_documented_material() {
         let material = element.material();
         assert_eq!(material == ElementMaterial::ReinforcedConcrete, REINFORCED_CONCRETE.contains(&number), "{number}");
         assert_eq!(material == ElementMaterial::PrestressedConcrete, PRESTRESSED_CONCRETE.contains(&number), "{number}");
+        assert_eq!(material == ElementMaterial::Masonry, MASONRY.contains(&number), "{number}");
         assert_eq!(material == ElementMaterial::Steel, STEEL.contains(&number), "{number}");
     }
 }
@@ -46,12 +48,14 @@ fn exact_permitted_defects_match_the_material() {
         assert!(permitted.is_sorted(), "{element:?}");
         for code in permitted {
             assert!(defect_codes::ALL.contains(code), "{element:?} has the unknown code {code}");
-            // In the MBEI, codes 1000 to 1020 are for metal and 1080 to 1190 for concrete; 1110 and 1130 are each for one type of
-            // concrete.
+            // In the MBEI, codes 1000 to 1020 are for metal, 1080 to 1190 for concrete and 1610 to 1640 for masonry; 1110 and 1130 are
+            // each for one type of concrete, and 1120 is for masonry, too.
             let legal = match code {
                 1000..=1020 => element.material() == ElementMaterial::Steel,
                 1110 => element.material() == ElementMaterial::PrestressedConcrete,
                 1130 => element.material() == ElementMaterial::ReinforcedConcrete,
+                1610..=1640 => element.material() == ElementMaterial::Masonry,
+                1120 if element.material() == ElementMaterial::Masonry => true,
                 _ => matches!(element.material(), ElementMaterial::ReinforcedConcrete | ElementMaterial::PrestressedConcrete),
             };
             assert!(legal, "{code} is not permitted on {element:?}");
@@ -87,7 +91,8 @@ fn exact_shipped_jobs_have_only_permitted_defects() {
             placed += 1;
         }
         for member in site.members() {
-            let is_known = Element::ALL.contains(&member.element) || member.element == Element::DECK_DRAIN;
+            let unlisted = [Element::DECK_DRAIN, Element::FILL];
+            let is_known = Element::ALL.contains(&member.element) || unlisted.contains(&member.element);
             assert!(is_known, "{}: {}", job.name, member.name);
         }
     }

@@ -107,7 +107,7 @@ fn exact_bearings_fill_the_space_between_girders_and_pedestals() {
         for (bearing, pedestal) in bearings.iter().zip(&pedestals) {
             let (upper, lower) = (extent(&bridge, bearing), extent(&bridge, pedestal));
             assert!(is_close(upper[2].1, girder.layout().lines.bottom_z_m) && is_close(upper[2].0, lower[2].1));
-            assert!(is_close(lower[2].0, girder.layout().seat_z_m()), "{lower:?}");
+            assert!(is_close(lower[2].0, girder.layout().seat_z_m(1)), "{lower:?}");
             assert!(lower[0].0 < upper[0].0 && lower[1].0 < upper[1].0, "the pedestal is wider");
         }
         let fixed = members.iter().filter(|member| member.element == Element::FixedBearing).count();
@@ -247,7 +247,10 @@ fn exact_inconsistent_dimensions_name_their_key_and_limit() {
 
 #[test]
 fn exact_quantities_list_the_elements_of_the_members() {
-    use spandrel_model::scenario::bridges::{arch::Arch, prestressed::Prestressed, suspension::Suspension, truss::Truss};
+    use spandrel_model::scenario::bridges::{
+        arch::Arch, box_girder::BoxGirder, cable_stayed::CableStayed, masonry_arch::MasonryArch, prestressed::Prestressed,
+        suspension::Suspension, truss::Truss,
+    };
     let of = |kind: BridgeKind| Bridge { name: "b".into(), center_m: Vec3::zero(), heading_deg: 0.0, kind };
     let kinds = [
         BridgeKind::Arch(Arch::default()),
@@ -259,6 +262,10 @@ fn exact_quantities_list_the_elements_of_the_members() {
         BridgeKind::Prestressed(Prestressed { spans: 1.0, ..Prestressed::default() }),
         BridgeKind::Truss(Truss::default()),
         BridgeKind::Truss(Truss { spans: 1.0, ..Truss::default() }),
+        BridgeKind::BoxGirder(BoxGirder::default()),
+        BridgeKind::MasonryArch(MasonryArch::default()),
+        BridgeKind::CableStayed(CableStayed::default()),
+        BridgeKind::MasonryArch(MasonryArch { spans: 1.0, ..MasonryArch::default() }),
     ];
     for bridge in kinds.map(of) {
         let mut built: Vec<u16> =
@@ -272,7 +279,11 @@ fn exact_quantities_list_the_elements_of_the_members() {
             let members = bridge.members().iter().filter(|m| m.element == quantity.element).count() as f64;
             let counted = matches!(
                 quantity.element,
-                Element::Hanger | Element::ElastomericBearing | Element::FixedBearing | Element::MovableBearing
+                Element::Hanger
+                    | Element::ElastomericBearing
+                    | Element::PotBearing
+                    | Element::FixedBearing
+                    | Element::MovableBearing
             );
             assert!(!counted || members == quantity.amount, "{quantity:?}: {members} members");
         }

@@ -3,13 +3,16 @@
 
 mod almanac;
 mod beams;
+mod box_girder;
 mod bridges;
+mod cable_stayed;
 mod difficulty;
 mod elements;
 mod geometry;
 mod girder;
 mod ground;
 mod imported;
+mod masonry_arch;
 mod prestressed;
 mod site;
 mod truss;

@@ -1,6 +1,7 @@
 //! Tests of defects that are placed by their causes, at the shipped girder bridge, and of placement without causes, which must keep every
 //! bit.
 
+use spandrel_model::defect_codes;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{self, DefectCause, DefectPlacement, DefectSpec, PlacedDefect, Scenario, TaskKind, resolve};
 use spandrel_model::shipped::SCENARIOS;
@@ -209,4 +210,78 @@ fn regress_placement_without_causes_keeps_every_bit() {
     for (name, count, checksum) in EXPECTED {
         assert_eq!(checksum_anywhere(name), (count, checksum), "{name}");
     }
+}
+
+/// Returns the defects of a job at some seeds, with their causes, members and codes.
+fn defects_of(name: &str) -> Vec<PlacedDefect> {
+    let job = shipped_job(name);
+    let mut out = Vec::new();
+    for seed in 0..6 {
+        let site = Site::build(&job, seed);
+        assert_eq!(site.defects().len(), job.defects.count, "{name}, seed {seed}");
+        out.extend(site.defects().iter().cloned());
+    }
+    out
+}
+
+#[test]
+fn prop_box_girders_crack_where_they_bend() {
+    let job = shipped_job("box-girder");
+    let bridge = &job.bridges[0];
+    let defects = defects_of("box-girder");
+    let bent = defects.iter().filter(|one| one.cause == Some(DefectCause::Bending) && one.member.contains("/box/"));
+    let mut count = 0;
+    for defect in bent {
+        count += 1;
+        let [x, _, _] = bridge.placement().local(defect.position_m);
+        // Cracks in the soffit and at the lower edges of the webs are in the middle of a span, those at the upper edges above a pier. The piers
+        // are 27.43 m from midspan.
+        let to_pier_m = (x.abs() - 27.43).abs();
+        if defect.normal.up() < -0.8 {
+            assert!(to_pier_m > 8.0, "{defect:?}");
+            // They run across the box, within a few degrees.
+            assert!(bridge.placement().direction([1.0, 0.0, 0.0]).dot(defect.along).abs() < 0.2, "{defect:?}");
+        }
+        assert_eq!(defect.kind, defect_codes::PSC_CRACK);
+    }
+    assert!(count >= 3, "{count}");
+}
+
+#[test]
+fn prop_masonry_has_its_own_defects_where_water_is() {
+    let job = shipped_job("masonry-arch");
+    let defects = defects_of("masonry-arch");
+    let mut seen = BTreeMap::new();
+    for defect in &defects {
+        let cause = defect.cause.unwrap();
+        *seen.entry(cause).or_insert(0) += 1;
+        let over_m = defect.position_m.up() - job.terrain.water_level_m;
+        match cause {
+            DefectCause::WaterLine => {
+                assert!(
+                    defect.kind == defect_codes::MORTAR && defect.element.number() == 213 || defect.element.number() == 217,
+                    "{defect:?}"
+                );
+                assert!((0.0..=1.4).contains(&over_m), "{over_m}");
+            }
+            // The walls above the barrels and the barrels themselves.
+            DefectCause::Seepage => assert_eq!(defect.element.number(), 145, "{defect:?}"),
+            DefectCause::Frost => assert!(defect.kind == defect_codes::SPLIT_STONE && over_m > 0.0, "{defect:?}"),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(seen.len() == 3 && seen.values().all(|count| *count >= 6), "{seen:?}");
+    assert!(defects.iter().any(|one| one.kind == defect_codes::EFFLORESCENCE && one.normal.up() < -0.3), "lime below the barrel");
+}
+
+#[test]
+fn prop_stays_corrode_at_their_lower_ends() {
+    let job = shipped_job("cable-stayed");
+    let deck_up_m = job.bridges[0].center_m.up();
+    let defects = defects_of("cable-stayed");
+    let of_stays: Vec<f64> =
+        defects.iter().filter(|one| one.cause == Some(DefectCause::Cable)).map(|one| one.position_m.up() - deck_up_m).collect();
+    assert!(of_stays.len() >= 3, "{of_stays:?}");
+    let low = of_stays.iter().filter(|up_m| **up_m < 9.0).count();
+    assert!(2 * low >= of_stays.len(), "{of_stays:?}");
 }

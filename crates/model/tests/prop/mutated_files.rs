@@ -5,7 +5,10 @@ use spandrel_model::frames::Vec3;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::BridgeField;
 use spandrel_model::scenario::bridges::arch::Arch;
+use spandrel_model::scenario::bridges::box_girder::BoxGirder;
+use spandrel_model::scenario::bridges::cable_stayed::CableStayed;
 use spandrel_model::scenario::bridges::girder::Girder;
+use spandrel_model::scenario::bridges::masonry_arch::MasonryArch;
 use spandrel_model::scenario::bridges::prestressed::Prestressed;
 use spandrel_model::scenario::bridges::suspension::Suspension;
 use spandrel_model::scenario::bridges::truss::Truss;
@@ -197,7 +200,8 @@ fn bridge_text(kind: &str, values: &[(&str, f64)]) -> String {
     let task = match kind {
         "arch" => "interlayer",
         "suspension" => "pier_circle",
-        "truss" => "floor_system",
+        "truss" | "cable_stayed" => "floor_system",
+        "masonry_arch" => "barrel_soffit",
         _ => "girder_soffit",
     };
     let numbers: Vec<String> = values.iter().map(|(key, value)| format!("{key} = {value:?}")).collect();
@@ -282,4 +286,19 @@ fn prop_all_valid_prestressed_bridges_build_with_positive_volumes() {
 #[test]
 fn prop_all_valid_truss_bridges_build_with_positive_volumes() {
     assert_random_bridges_build("truss", Truss::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_box_girder_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("box_girder", BoxGirder::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_masonry_arches_build_with_positive_volumes() {
+    assert_random_bridges_build("masonry_arch", MasonryArch::FIELDS);
+}
+
+#[test]
+fn prop_all_valid_cable_stayed_bridges_build_with_positive_volumes() {
+    assert_random_bridges_build("cable_stayed", CableStayed::FIELDS);
 }

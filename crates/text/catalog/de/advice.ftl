@@ -26,6 +26,9 @@ advice-too-far = Sie sind { $mean } m zu weit weg { $surface ->
         [pier_cap] vom Pfeilerkopfbalken
         [truss_panel] vom Fachwerk
         [floor_system] vom Fahrbahnrost
+        [barrel_soffit] vom Gewölbe
+        [arch_ring] vom Gewölbering
+        [stay_cable] von den Schrägseilen
        *[structure] vom Bauwerk
     } geflogen, { $when }: Fliegen Sie näher heran.
 advice-too-close = Sie sind { $mean } m zu nah { $surface ->
@@ -36,6 +39,9 @@ advice-too-close = Sie sind { $mean } m zu nah { $surface ->
         [pier_cap] am Pfeilerkopfbalken
         [truss_panel] am Fachwerk
         [floor_system] am Fahrbahnrost
+        [barrel_soffit] am Gewölbe
+        [arch_ring] am Gewölbering
+        [stay_cable] an den Schrägseilen
        *[structure] am Bauwerk
     } geflogen, { $when }: Vergrößern Sie den Abstand.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
@@ -65,6 +71,9 @@ advice-framing = Ihre Kamera zeigte bis zu { $most } Grad { $surface ->
         [pier_cap] vom Pfeilerkopfbalken
         [truss_panel] vom Fachwerk
         [floor_system] vom Fahrbahnrost
+        [barrel_soffit] vom Gewölbe
+        [arch_ring] vom Gewölbering
+        [stay_cable] von den Schrägseilen
        *[structure] vom Bauwerk
     } weg, { $when }: Drehen Sie die Nase dorthin.
 advice-lamp-off = Ihr Scheinwerfer war im Dunkeln aus, { $when }: Schalten Sie ihn im Schatten ein.

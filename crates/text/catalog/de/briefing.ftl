@@ -42,6 +42,9 @@ briefing-place = { $kind ->
         [pier_cap] um den Pfeilerkopfbalken
         [truss_panel] an der Außenseite des Fachwerks entlang
         [floor_system] unter dem Fahrbahnrost
+        [barrel_soffit] unter dem Gewölbe
+        [arch_ring] am Gewölbering entlang
+        [stay_cable] am Schrägseil entlang
        *[free] entlang der freien Bahn
     }{ $named ->
         [yes] {" "}der Brücke „{ $bridge }“

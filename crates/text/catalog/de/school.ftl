@@ -17,5 +17,7 @@ school-spall = Abplatzung: eine Vertiefung mit scharfem Rand. Der Beton darin is
 school-rebar = Freiliegende Bewehrung: orangebraune Stäbe in einer Vertiefung im Beton.
 school-efflorescence = Aussinterung oder Rostfahne: weiße oder braune Streifen, die an der Oberfläche herunterlaufen.
 school-abrasion = Abrieb: eine abgenutzte Stelle, an der die Gesteinskörnung sichtbar ist.
+school-mortar = Mörtelausbruch: offene, tiefe, dunkle Fugen zwischen den Steinen.
+school-split-stone = Gespaltener Stein: ein Stein, dessen Stirn abgeplatzt ist, mit frischer, hellerer Oberfläche.
 school-crack = Riss: eine dünne, dunkle, unregelmäßige Linie oder ein Netz solcher Linien.
 school-defect = Ein Schaden.

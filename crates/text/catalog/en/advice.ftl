@@ -29,6 +29,9 @@ advice-too-far = You flew { $mean } m too far from { $surface ->
         [pier_cap] the pier cap
         [truss_panel] the truss
         [floor_system] the floor
+        [barrel_soffit] the barrel
+        [arch_ring] the arch ring
+        [stay_cable] the stays
        *[structure] the structure
     } { $when }: move closer.
 advice-too-close = You flew { $mean } m too close to { $surface ->
@@ -39,6 +42,9 @@ advice-too-close = You flew { $mean } m too close to { $surface ->
         [pier_cap] the pier cap
         [truss_panel] the truss
         [floor_system] the floor
+        [barrel_soffit] the barrel
+        [arch_ring] the arch ring
+        [stay_cable] the stays
        *[structure] the structure
     } { $when }: back off.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
@@ -69,6 +75,9 @@ advice-framing = Your camera pointed up to { $most } degrees away from { $surfac
         [pier_cap] the pier cap
         [truss_panel] the truss
         [floor_system] the floor
+        [barrel_soffit] the barrel
+        [arch_ring] the arch ring
+        [stay_cable] the stays
        *[structure] the structure
     } { $when }: turn the nose toward it.
 advice-lamp-off = Your lamp was off in the dark { $when }: switch it on in the shade.

@@ -47,6 +47,9 @@ briefing-place = { $kind ->
         [pier_cap] around the pier cap
         [truss_panel] along the outside of the truss
         [floor_system] under the floor
+        [barrel_soffit] under the barrel
+        [arch_ring] along the arch ring
+        [stay_cable] along the stay
        *[free] along the free path
     }{ $named ->
         [yes] {" "}of bridge '{ $bridge }'

@@ -1,6 +1,8 @@
 # Titles and task names of the shipped jobs, and states of assigned jobs.
 
 # Titles. The English ones are those in the scenario files.
+job-box-girder = Box girder bridge: outer web, soffit of the main span, pier cap, bearings
+job-cable-stayed = Cable-stayed bridge: edge girder, floor, stay, side span
 job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
@@ -16,6 +18,7 @@ job-drill-straight-line = Drill: straight line
 job-drill-truss-panels = Drill: truss panels
 job-first-flight = Lesson: first flight
 job-girder = Girder bridge: outer girder, girder bays, pier cap, bearings
+job-masonry-arch = Masonry arch bridge: spandrel wall, arch ring, barrel, pier
 job-pilot-study = Pilot study: slab side, arch bottom, interlayer, pier
 job-practice = Practice at two bridges
 job-prestressed = Prestressed girder bridge: outer girder, girder bays, pier cap, bearings
@@ -43,6 +46,16 @@ job-task-girder-bays = Girder bays of the last span
 job-task-bearings = Bearings on the start abutment
 job-task-pier-cap = Cap of the first pier
 job-task-middle-bays = Girder bays of the middle span
+job-task-outer-web = Outer web and deck edge
+job-task-main-soffit = Soffit of the main span
+job-task-spandrel-wall = Right spandrel wall and parapet
+job-task-barrel = Barrel of the middle span
+job-task-arch-ring = Arch ring of the first span
+job-task-cutwaters = First pier and its cutwaters
+job-task-edge-girder = Edge girder, stays and deck edge
+job-task-main-floor = Floor of the main span
+job-task-longest-stay = Longest stay of the start tower
+job-task-side-floor = Floor of the start side span
 job-task-pier-bearings = Bearings on the second pier
 job-task-right-truss = Right truss of the first span
 job-task-floor = Floor system of the second span

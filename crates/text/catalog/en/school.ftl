@@ -19,5 +19,7 @@ school-spall = Spall: a hollow with a sharp edge. The concrete in it is lighter 
 school-rebar = Exposed rebar: orange-brown bars in a hollow in the concrete.
 school-efflorescence = Efflorescence or rust staining: white or brown streaks that run down the surface.
 school-abrasion = Abrasion: a worn patch in which the aggregate shows.
+school-mortar = Mortar breakdown: joints between stones that are open, deep and dark.
+school-split-stone = Split stone: a stone whose face has come off, with a fresh, lighter surface.
 school-crack = Cracking: a thin, dark, irregular line, or a net of such lines.
 school-defect = A defect.

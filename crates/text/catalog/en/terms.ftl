@@ -41,6 +41,7 @@ terms-element-207 = tower, steel
 terms-element-210 = pier wall, reinforced concrete
 terms-element-213 = pier wall, masonry
 terms-element-215 = abutment, reinforced concrete
+terms-element-217 = abutment, masonry
 terms-element-220 = footing, reinforced concrete
 terms-element-225 = pile, steel
 terms-element-226 = pile, prestressed concrete
@@ -85,6 +86,8 @@ terms-defect-psc-crack = cracking (prestressed)
 terms-defect-efflorescence = efflorescence or rust staining
 terms-defect-crack = cracking
 terms-defect-abrasion = abrasion
+terms-defect-mortar = mortar breakdown
+terms-defect-split-stone = split or spalled stone
 terms-defect-unknown = defect
 terms-cause-bending = bending
 terms-cause-shear = shear
@@ -98,6 +101,8 @@ terms-cause-water-line = ice, debris and sand at the water line
 terms-cause-weld = stress concentration at the end of a weld
 terms-cause-fasteners = loose fasteners at a splice
 terms-cause-cable = water in the lowest part of the cable
+terms-cause-seepage = water that seeps through the fill
+terms-cause-frost = frost in wet stones
 
 # Scores.
 terms-score-overall = overall

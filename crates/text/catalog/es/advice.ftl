@@ -26,6 +26,9 @@ advice-too-far = Voló { $mean } m demasiado lejos { $surface ->
         [pier_cap] del cabezal de la pila
         [truss_panel] de la celosía
         [floor_system] del sistema de piso
+        [barrel_soffit] de la bóveda
+        [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: acérquese.
 advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
@@ -36,6 +39,9 @@ advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
         [pier_cap] del cabezal de la pila
         [truss_panel] de la celosía
         [floor_system] del sistema de piso
+        [barrel_soffit] de la bóveda
+        [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: aléjese.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
@@ -65,6 +71,9 @@ advice-framing = Su cámara se apartó hasta { $most } grados { $surface ->
         [pier_cap] del cabezal de la pila
         [truss_panel] de la celosía
         [floor_system] del sistema de piso
+        [barrel_soffit] de la bóveda
+        [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: gire la nariz hacia la superficie.
 advice-lamp-off = El foco estaba apagado en la oscuridad { $when }: enciéndalo en la sombra.

@@ -42,6 +42,9 @@ briefing-place = { $kind ->
         [pier_cap] alrededor del cabezal de la pila
         [truss_panel] a lo largo del exterior de la celosía
         [floor_system] bajo el sistema de piso
+        [barrel_soffit] bajo la bóveda
+        [arch_ring] a lo largo del anillo del arco
+        [stay_cable] a lo largo del tirante
        *[free] a lo largo de la trayectoria libre
     }{ $named ->
         [yes] {" "}del puente «{ $bridge }»

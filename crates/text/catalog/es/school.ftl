@@ -17,5 +17,7 @@ school-spall = Descascaramiento: una cavidad de borde definido. El concreto en s
 school-rebar = Acero de refuerzo expuesto: barras de color marrón anaranjado en una cavidad del concreto.
 school-efflorescence = Eflorescencia o manchas de óxido: vetas blancas o marrones que bajan por la superficie.
 school-abrasion = Abrasión: una zona desgastada en la que se ve el agregado.
+school-mortar = Deterioro del mortero: juntas abiertas, profundas y oscuras entre las piedras.
+school-split-stone = Piedra partida: una piedra cuya cara se ha desprendido, con una superficie fresca y más clara.
 school-crack = Fisuración: una línea fina, oscura e irregular, o una red de tales líneas.
 school-defect = Un defecto.

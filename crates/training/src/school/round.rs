@@ -232,6 +232,8 @@ fn appearance(code: u32, language: Language) -> String {
         defect_codes::REBAR => text!(language, "school-rebar"),
         defect_codes::EFFLORESCENCE => text!(language, "school-efflorescence"),
         defect_codes::ABRASION => text!(language, "school-abrasion"),
+        defect_codes::MORTAR => text!(language, "school-mortar"),
+        defect_codes::SPLIT_STONE => text!(language, "school-split-stone"),
         defect_codes::CRACK | defect_codes::PSC_CRACK => text!(language, "school-crack"),
         _ => text!(language, "school-defect"),
     }

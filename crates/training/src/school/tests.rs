@@ -231,8 +231,8 @@ fn val_gallery_of_a_shipped_job_has_clear_pictures_of_most_defects() {
     let site = spandrel_model::site::Site::build(&scenario, 1);
     let pictures = gallery(&site, &vehicle, 1);
     let cards: BTreeSet<Card> = pictures.iter().map(|picture| picture.card).collect();
-    // The bridges have no prestressed concrete, and fatigue cracks are too thin for the job's paths.
-    let absent = [defect_codes::PSC_CRACK, defect_codes::FATIGUE];
+    // The bridges have no prestressed concrete and no masonry, and fatigue cracks are too thin for the job's paths.
+    let absent = [defect_codes::PSC_CRACK, defect_codes::FATIGUE, defect_codes::MORTAR, defect_codes::SPLIT_STONE];
     for code in defect_codes::ALL.iter().filter(|code| !absent.contains(code)) {
         let some = cards.iter().any(|card| card.subject == Subject::Defect(*code));
         assert!(some, "{code}: no picture");

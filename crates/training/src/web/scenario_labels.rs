@@ -43,6 +43,8 @@ fn in_words(name: &str) -> String {
 fn translated(language: Language, name: &str) -> Option<String> {
     let place = place_label(language, name).or_else(|| bridge_label(language, name));
     let place = place.or_else(|| girder_label(language, name)).or_else(|| truss_label(language, name));
+    let place = place.or_else(|| box_girder_label(language, name)).or_else(|| masonry_label(language, name));
+    let place = place.or_else(|| cable_stayed_label(language, name));
     place.or_else(|| flight_label(language, name)).or_else(|| rule_label(language, name))
 }
 
@@ -170,6 +172,46 @@ fn truss_label(language: Language, name: &str) -> Option<String> {
         "chord" => text!(language, "editor-key-chord"),
         "gusset" => text!(language, "editor-key-gusset"),
         "bracing_depth" => text!(language, "editor-key-bracing-depth"),
+        _ => return None,
+    })
+}
+
+/// Labels of box girder bridges, for keys that other bridges don't have.
+fn box_girder_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "midspan_depth" => text!(language, "editor-key-midspan-depth"),
+        "pier_depth" => text!(language, "editor-key-pier-depth"),
+        "haunch_length" => text!(language, "editor-key-haunch-length"),
+        "cells" => text!(language, "editor-key-cells"),
+        "cell_width" => text!(language, "editor-key-cell-width"),
+        "web_slope" => text!(language, "editor-key-web-slope"),
+        "bottom_slab" => text!(language, "editor-key-bottom-slab"),
+        _ => return None,
+    })
+}
+
+/// Labels of masonry arch bridges, for keys that other bridges don't have.
+fn masonry_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "clear_span" => text!(language, "editor-key-clear-span"),
+        "ring" => text!(language, "editor-key-ring"),
+        "cover" => text!(language, "editor-key-cover"),
+        "width" => text!(language, "editor-key-width"),
+        "wall" => text!(language, "editor-key-wall"),
+        "parapet" => text!(language, "editor-key-parapet"),
+        "pier" => text!(language, "editor-key-pier"),
+        "cutwater" => text!(language, "editor-key-cutwater"),
+        _ => return None,
+    })
+}
+
+/// Labels of cable-stayed bridges, for keys that other bridges don't have.
+fn cable_stayed_label(language: Language, name: &str) -> Option<String> {
+    Some(match name {
+        "tower_height" => text!(language, "editor-key-tower-height"),
+        "stays" => text!(language, "editor-key-stays"),
+        "anchor_spacing" => text!(language, "editor-key-anchor-spacing"),
+        "stay_radius" => text!(language, "editor-key-stay-radius"),
         _ => return None,
     })
 }

@@ -21,6 +21,10 @@ const SEAL_COLOR: [u8; 3] = [6, 6, 6];
 const DRAIN_COLOR: [u8; 3] = [44, 44, 42];
 /// Galvanized wire.
 const WIRE_COLOR: [u8; 3] = [92, 94, 92];
+/// Sandstone.
+const STONE_COLOR: [u8; 3] = [122, 108, 86];
+/// Largest difference of a voussoir's brightness from the mean, as a share.
+const VOUSSOIR_CONTRAST: f64 = 0.16;
 const WHITE: [u8; 3] = [255, 255, 255];
 /// Maximum width of a face with constant light across it, m.
 const MAX_NARROW_FACE_WIDTH_M: f64 = 0.8;
@@ -42,6 +46,7 @@ pub(super) fn material_and_paint(element: Element) -> (Material, [u8; 3]) {
         (ElementGroup::Unlisted, _) => (Material::Rubber, DRAIN_COLOR),
         (ElementGroup::Railing, ElementMaterial::Steel) => (Material::Steel, RAILING_PAINT),
         (_, ElementMaterial::Steel) => (Material::Steel, STEEL_PAINT),
+        (_, ElementMaterial::Masonry) => (Material::Masonry, STONE_COLOR),
         _ => (Material::Concrete, WHITE),
     }
 }
@@ -119,7 +124,9 @@ fn add(
     bake: &LightBaker,
     (light_cell_m, thinned): (f64, &[LightTolerance]),
 ) {
-    let (material, tint) = material_and_paint(member.element);
+    let (material, paint) = material_and_paint(member.element);
+    let voussoir = voussoir_tone(member);
+    let tint = voussoir.map_or(paint, |tone| paint.map(|c| (f64::from(c) * tone) as u8));
     for face in &member.solid.faces {
         let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
         let normal = normal(&corners);
@@ -127,13 +134,15 @@ fn add(
         if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
             continue;
         }
-        let road = matches!(member.element.group(), ElementGroup::Deck | ElementGroup::ApproachSlab) && normal.up() > 0.9;
+        let carries_road = matches!(member.element.group(), ElementGroup::Deck | ElementGroup::ApproachSlab);
+        let road = (carries_road || member.element == Element::WearingSurface) && normal.up() > 0.9;
         let look = FaceAppearance {
             element: member.element,
             normal,
             material: if road { Material::Deck } else { material },
             tint,
             smooth: material == Material::Cable && face.len() == 4,
+            is_voussoir: voussoir.is_some(),
         };
         let wanted = meshes.iter_mut().zip(thinned).filter_map(|(mesh, thinned)| Some((mesh, off(thinned)?)));
         match <[Vec3<Enu>; 4]>::try_from(corners.as_slice()) {
@@ -141,6 +150,15 @@ fn add(
             Err(_) => fan_face(wanted, &corners, &look, axes, bake),
         }
     }
+}
+
+/// Returns the brightness of a voussoir, which differs from that of its neighbors; `None` for all other members. The pieces of a barrel are
+/// named `arch-1/00` and so on.
+fn voussoir_tone(member: &Member) -> Option<f64> {
+    let mut parts = member.name.split('/').skip(1);
+    let is_barrel = parts.next().is_some_and(|part| part.starts_with("arch-")) && member.element == Element::MasonryArch;
+    let number: f64 = parts.next().filter(|_| is_barrel)?.parse().ok()?;
+    Some(1.0 + VOUSSOIR_CONTRAST * (2.0 * (number * 0.618_034).fract() - 1.0))
 }
 
 /// A quadrilateral face.
@@ -186,6 +204,7 @@ struct FaceAppearance {
     material: Material,
     tint: [u8; 3],
     smooth: bool,
+    is_voussoir: bool,
 }
 
 fn normal(corners: &[Vec3<Enu>]) -> Vec3<Enu> {
@@ -212,7 +231,7 @@ fn corner(p: Vec3<Enu>, look: &FaceAppearance, axes: &TextureAxes, light: [f32; 
         light,
         material: look.material as u32 | (u32::from(look.element.number()) << 8),
         tint: [r, g, b, 255],
-        aux: if look.material == Material::Deck { axes.half_deck_m as f32 } else { 0.0 },
+        aux: if look.material == Material::Deck { axes.half_deck_m as f32 } else { f32::from(u8::from(look.is_voussoir)) },
     }
 }
 

@@ -123,6 +123,24 @@ fn lines(x: f32, spacing: f32, width: f32, footprint: f32) -> f32 {
     return mix(cover(0.5 * spacing - d, width, footprint), mean, smoothstep(0.25, 0.6, footprint / spacing));
 }
 
+// Courses of cut stone: height of a course and mean length of a stone, and width of the joints, m.
+const STONE_M: vec2<f32> = vec2<f32>(0.78, 0.38);
+const STONE_JOINT_M: f32 = 0.014;
+
+// Position on a wall, level and up, m. It is the same for a wall and for the defects on it.
+fn wall_position(p: vec3<f32>, n: vec3<f32>) -> vec2<f32> {
+    let level = normalize(vec3<f32>(-n.y, n.x, 0.0) + vec3<f32>(1e-6, 0.0, 0.0));
+    return vec2<f32>(dot(p, level), dot(p, cross(n, level)));
+}
+
+// Stones in courses: coverage by joints of the given width, and a random number for each stone.
+fn stones_in_courses(at: vec2<f32>, width: f32, f: f32) -> vec2<f32> {
+    let course = floor(at.y / STONE_M.y);
+    let shifted = at.x + STONE_M.x * (0.5 * course + 0.35 * hash2(vec2<i32>(i32(course), 5)));
+    let own = hash2(vec2<i32>(i32(floor(shifted / STONE_M.x)), i32(course)));
+    return vec2<f32>(max(lines(at.y, STONE_M.y, width, f), lines(shifted, STONE_M.x, width, f)), own);
+}
+
 // ---- sky ----
 
 fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {

@@ -374,6 +374,48 @@ fn worn(in: Fragment, f: f32, look: ptr<function, Look>) {
     (*look).alpha = (1.0 - smoothstep(0.78, 1.02, e)) * (1.0 - kept);
 }
 
+// Mortar breakdown: joints between the stones of a wall that are open, deep and dark. In worse states, they are wider, and stones are loose.
+fn open_joints(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let seed = in.normal.w;
+    let width = select(select(0.036, 0.022, is_fair(in)), 0.052, is_severe(in)) * (0.75 + 0.5 * fbm(in.q * 13.0 + seed * 9.0, f * 13.0));
+    let wall = stones_in_courses(wall_position(in.p, in.normal.xyz), width, f);
+    let inside = 1.0 - smoothstep(0.70, 1.0, outline(in.q, half, seed) + 0.3 * (fbm(in.q * 7.0 + seed * 5.0, f * 7.0) - 0.5));
+    // Remains of mortar in the joints.
+    let kept = select(0.0, smoothstep(0.52, 0.60, fbm(in.q * 9.0 + seed * 17.0, f * 9.0)), is_fair(in));
+    let open = wall.x * inside * (1.0 - kept);
+    // Washed-out mortar has left a pale veil beside the joints.
+    let beside = stones_in_courses(wall_position(in.p, in.normal.xyz), 3.2 * width, f).x * inside * smoothstep(0.35, 0.65, fbm(in.q * 15.0, f * 15.0));
+    var color = mix(vec3<f32>(0.33, 0.31, 0.27), vec3<f32>(0.012, 0.011, 0.010), open / max(max(open, 0.3 * beside), 1e-4));
+    (*look).alpha = max(open, 0.3 * beside);
+    if !is_fair(in) {
+        // Stones beside empty joints are loose; the worst have fallen out.
+        let gone = select(0.0, 1.0, wall.y > select(1.1, 0.72, is_severe(in))) * (1.0 - wall.x) * smoothstep(0.5, 0.9, inside);
+        color = mix(color, vec3<f32>(0.035, 0.031, 0.026) * (0.6 + 0.8 * fbm(in.q * 19.0, f * 19.0)), gone);
+        (*look).alpha = max((*look).alpha, 0.96 * gone);
+    }
+    (*look).matter.albedo = color;
+    (*look).matter.roughness = 0.95;
+}
+
+// A split stone: its face has come off along a bed of the stone, which leaves a fresh, stepped surface.
+fn split_stone(in: Fragment, f: f32, look: ptr<function, Look>) {
+    let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
+    let seed = in.normal.w;
+    broken(in, in.q, half, select(select(0.05, 0.025, is_fair(in)), 0.09, is_severe(in)), f, look);
+    let beds = fbm(vec2<f32>(in.q.x * 3.0 + seed * 7.0, in.q.y * 26.0), f * 26.0);
+    let grain = fbm(in.q * 55.0 + seed * 3.0, f * 55.0);
+    var color = mix(vec3<f32>(0.26, 0.215, 0.155), vec3<f32>(0.46, 0.39, 0.29), smoothstep(0.35, 0.65, beds)) * (0.65 + 0.7 * grain);
+    let e = outline(in.q, half, seed);
+    color *= 1.0 - 0.5 * (1.0 - smoothstep(0.0, 0.08 + fwidth(e), abs(e - 0.95)));
+    if !is_fair(in) {
+        // A crack through the stone, which has shifted.
+        let crooked = in.q.x - 0.12 * half.x + 0.10 * half.x * (noise(vec2<f32>(in.q.y * 9.0, seed * 31.0)) - 0.5);
+        color *= 1.0 - 0.9 * cover(abs(crooked), select(0.004, 0.012, is_severe(in)), f);
+    }
+    (*look).matter.albedo = color;
+}
+
 // Corrosion: missing paint, flaking rust, and a stain that runs down.
 fn corrosion(in: Fragment, f: f32, look: ptr<function, Look>) {
     let half = vec2<f32>(0.5 * in.along.w, 0.5 * in.size.x);
@@ -563,6 +605,10 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         rebar(in, f, &look);
     } else if KIND == 1110u || KIND == 1130u {
         cracked(in, across, off, &look);
+    } else if KIND == 1610u {
+        open_joints(in, f, &look);
+    } else if KIND == 1620u {
+        split_stone(in, f, &look);
     } else if KIND == MAP_CRACKS {
         map_cracks(in, f, &look);
     } else if KIND == RUST_STAIN {

@@ -342,6 +342,24 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
             color = mix(color, vec3<f32>(0.10, 0.12, 0.04), 0.5 * smoothstep(0.5, 0.7, stone) * clamp(n.z, 0.0, 1.0));
             color *= mix(0.5, 1.0, smoothstep(0.0, 0.35, in.p.z - g.scene.y));
         }
+        case 16u: {
+            // A voussoir is one stone, with joints across the barrel only; its own tone is in the tint.
+            let at = select(wall_position(in.p, n), in.uv.yx, abs(n.z) > 0.94);
+            let coursed = stones_in_courses(at, STONE_JOINT_M, f);
+            let whole = in.aux > 0.5;
+            let under = select(0.0, lines(at.x, 0.9, STONE_JOINT_M, f), n.z < -0.2);
+            let joint = select(coursed.x, under, whole);
+            let own = select(coursed.y, 0.5, whole);
+            let grain = fbm(at * 11.0, f * 11.0);
+            let worn = fbm(at * 0.4 + 7.0, f * 0.4);
+            color *= (0.72 + 0.42 * own) * (0.70 + 0.34 * grain + 0.26 * worn);
+            color = mix(color, vec3<f32>(0.13, 0.125, 0.11), 0.45 * smoothstep(0.55, 0.8, fbm(at * vec2<f32>(0.9, 0.16) + 3.0, f)));
+            color = mix(color, vec3<f32>(0.25, 0.235, 0.20) * (0.7 + 0.5 * grain), 0.9 * joint);
+            // Moss and algae near the water.
+            let over = in.p.z - g.scene.y;
+            color = mix(color, vec3<f32>(0.05, 0.062, 0.035), 0.85 * (1.0 - smoothstep(0.15, 0.7 + 0.6 * worn, over)));
+            roughness = 0.93;
+        }
         case 8u, 15u: { roughness = 0.3; }
         case 9u: { roughness = 0.08; }
         case 10u: { roughness = 0.7; }

@@ -151,6 +151,9 @@ impl BridgeShape for Arch {
             | TaskKind::PierCap
             | TaskKind::TrussPanel
             | TaskKind::FloorSystem
+            | TaskKind::BarrelSoffit
+            | TaskKind::ArchRing
+            | TaskKind::StayCable
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }

@@ -89,7 +89,7 @@ impl<T: BeamBridge> BridgeShape for T {
     }
 
     fn underside_depth_m(&self) -> Option<f64> {
-        Some(-self.layout().seat_z_m())
+        Some(-self.layout().seat_z_m(0))
     }
 
     fn footings(&self) -> Vec<Footing> {

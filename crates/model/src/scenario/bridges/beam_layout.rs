@@ -61,8 +61,10 @@ pub struct LineLayout {
     pub haunch_width_m: f64,
     /// Height of the beams' tops, m.
     pub top_z_m: f64,
-    /// Height of the beams' undersides, m.
+    /// Height of the beams' undersides, m; above the piers if the depth varies.
     pub bottom_z_m: f64,
+    /// Height of the beams' undersides at the abutments, m.
+    pub abutment_bottom_z_m: f64,
 }
 
 /// Deck of a beam bridge.
@@ -72,6 +74,8 @@ pub struct DeckLayout {
     pub width_m: f64,
     /// Thickness of the slab, m.
     pub slab_m: f64,
+    /// Element of the slab: a deck, or the top flange of a box girder.
+    pub element: Element,
     /// Height of the barriers or railings, m.
     pub railing_m: f64,
     /// Element of the railings: barriers of reinforced concrete, or posts and rails of another material.
@@ -438,21 +442,33 @@ impl BeamLayout {
 
 // Heights.
 impl BeamLayout {
-    /// Returns the height of the bearings' undersides in meters.
-    pub(super) fn bearing_bottom_z_m(&self) -> f64 {
-        self.lines.bottom_z_m - self.bearings.height_m
+    /// Returns the height of the beams' undersides at a support in meters.
+    #[must_use]
+    pub fn beam_bottom_z_m(&self, support: usize) -> f64 {
+        if self.piers().contains(&support) { self.lines.bottom_z_m } else { self.lines.abutment_bottom_z_m }
     }
 
-    /// Returns the height of the tops of caps and abutments, below the pedestals, in meters.
+    /// Returns the height of the undersides of a support's bearings in meters.
+    pub(super) fn bearing_bottom_z_m(&self, support: usize) -> f64 {
+        self.beam_bottom_z_m(support) - self.bearings.height_m
+    }
+
+    /// Returns the height of the top of a support's cap or abutment, below the pedestals, in meters.
     #[must_use]
-    pub fn seat_z_m(&self) -> f64 {
-        self.bearing_bottom_z_m() - self.bearings.pedestal_m
+    pub fn seat_z_m(&self, support: usize) -> f64 {
+        self.bearing_bottom_z_m(support) - self.bearings.pedestal_m
+    }
+
+    /// Returns the height of the tops of the piers' caps in meters.
+    #[must_use]
+    pub fn cap_top_z_m(&self) -> f64 {
+        self.lines.bottom_z_m - self.bearings.height_m - self.bearings.pedestal_m
     }
 
     /// Returns the height of the caps' undersides in meters.
     #[must_use]
     pub fn cap_bottom_z_m(&self) -> f64 {
-        self.seat_z_m() - self.supports.cap_depth_m
+        self.cap_top_z_m() - self.supports.cap_depth_m
     }
 
     /// Returns the height of the footings' tops in meters.
@@ -504,7 +520,7 @@ impl BeamLayout {
         let fixed = runs.len() as f64 * lines;
         let bearings = runs.iter().map(|run| run.bearings.len() as f64).sum::<f64>() * lines;
         let mut amounts = Amounts::default();
-        amounts.add(Element::RcDeck, deck_m * width_m);
+        amounts.add(self.deck.element, deck_m * width_m);
         amounts.add(Element::RcColumn, piers * columns.round());
         amounts.add(Element::RcAbutment, 2.0 * (abutment_width_m + 2.0 * approach_m));
         amounts.add(Element::RcFooting, piers * self.footing_length_m());
@@ -526,7 +542,7 @@ impl BeamLayout {
         let abutment = |side: f64| Footing {
             x_m: math::range([side * front, side * back].into_iter()),
             y_m: (-half, half),
-            up_m: self.seat_z_m() - self.supports.abutment_m,
+            up_m: self.seat_z_m(0) - self.supports.abutment_m,
         };
         let pier = |k: usize| {
             let (along, across) = (self.footing_half_width_m(), 0.5 * self.footing_length_m());

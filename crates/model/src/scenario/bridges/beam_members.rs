@@ -19,7 +19,7 @@ impl BeamLayout {
     pub(super) fn add_deck(&self, b: &mut MemberBuilder) {
         let (half, soffit) = (0.5 * self.deck.width_m, -self.deck.slab_m);
         for (k, (from, to)) in self.deck_panels().into_iter().enumerate() {
-            b.add_box(&format!("slab/{k:02}"), Element::RcDeck, [from, -half, soffit], [to, half, 0.0]);
+            b.add_box(&format!("slab/{k:02}"), self.deck.element, [from, -half, soffit], [to, half, 0.0]);
         }
         if self.lines.top_z_m < soffit {
             self.add_haunches(b, soffit);
@@ -36,7 +36,7 @@ impl BeamLayout {
         for (k, run) in self.deck_runs().iter().enumerate() {
             for (line, y) in self.numbered_lines() {
                 let name = format!("haunch-{line}/{k}");
-                b.add_box(&name, Element::RcDeck, [run.start_x_m, y - half, top], [run.end_x_m, y + half, soffit]);
+                b.add_box(&name, self.deck.element, [run.start_x_m, y - half, top], [run.end_x_m, y + half, soffit]);
             }
         }
     }
@@ -44,7 +44,7 @@ impl BeamLayout {
     fn add_drain_pipes(&self, b: &mut MemberBuilder) {
         for (side, y) in [("left", self.drain_y_m()), ("right", -self.drain_y_m())] {
             for (k, x) in self.drains().into_iter().enumerate() {
-                let (inlet, outlet) = ([x, y, -self.deck.slab_m], [x, y, self.lines.bottom_z_m]);
+                let (inlet, outlet) = ([x, y, -self.deck.slab_m], [x, y, self.lines.abutment_bottom_z_m]);
                 b.add_rod(&format!("drain-{side}/{k:02}"), Element::DECK_DRAIN, inlet, outlet, DRAIN_M.0, 8);
             }
         }
@@ -102,7 +102,8 @@ impl BeamLayout {
 
     fn add_bearing(&self, b: &mut MemberBuilder, (row, element): (&BearingRow, Element), place: &str, y: f64) {
         let (along, across) = (0.5 * self.bearings.length_m, 0.5 * self.bearings.width_m);
-        let (bottom, top, seat) = (self.bearing_bottom_z_m(), self.lines.bottom_z_m, self.seat_z_m());
+        let (bottom, top, seat) =
+            (self.bearing_bottom_z_m(row.support), self.beam_bottom_z_m(row.support), self.seat_z_m(row.support));
         let name = format!("bearing-{}{place}", row.support);
         b.add_box(&name, element, [row.x_m - along, y - across, bottom], [row.x_m + along, y + across, top]);
         let below = if self.piers().contains(&row.support) { Element::RcPierCap } else { Element::RcAbutment };
@@ -115,7 +116,7 @@ impl BeamLayout {
     fn add_pier(&self, b: &mut MemberBuilder, pier: usize) {
         let x = self.support_positions()[pier];
         let (half_width, half_length) = (0.5 * self.supports.cap_width_m, 0.5 * self.cap_length_m());
-        let (top, bottom) = (self.seat_z_m(), self.cap_bottom_z_m());
+        let (top, bottom) = (self.cap_top_z_m(), self.cap_bottom_z_m());
         let columns = self.column_lines();
         let (column, middle) = (0.5 * self.supports.column_m, 0.5 * (top + bottom));
         let reach = columns[columns.len() - 1] + column;
@@ -144,7 +145,7 @@ impl BeamLayout {
 
     /// Adds the abutment on one side: the stem with the bearing seat, the backwall, the wing walls and the approach slab.
     fn add_abutment(&self, b: &mut MemberBuilder, name: &str, side: f64) {
-        let (seat, half, road) = (self.seat_z_m(), 0.5 * self.supports.abutment_width_m, 0.5 * self.deck.width_m);
+        let (seat, half, road) = (self.seat_z_m(0), 0.5 * self.supports.abutment_width_m, 0.5 * self.deck.width_m);
         let bottom = seat - self.supports.abutment_m;
         let (front, wall, back, end) =
             (self.abutment_front_x_m(), self.backwall_x_m(), self.backwall_back_x_m(), 0.5 * self.deck_length_m());

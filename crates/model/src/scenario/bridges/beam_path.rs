@@ -1,4 +1,4 @@
-//! Reference paths of tasks at beam bridges, in bridge axes. They are level, and keep the stand-off to every member.
+//! Reference paths of tasks at beam bridges, in bridge axes. They are level unless the beams' depth varies, and keep the stand-off to every member.
 
 use super::beam_layout::BeamLayout;
 use super::path::{LocalPath, PathPlace, SPACING_M, TaskKind, equal_steps, rectangle_loop};
@@ -34,18 +34,21 @@ pub(super) fn of_kind(
         | TaskKind::PierCircle
         | TaskKind::TrussPanel
         | TaskKind::FloorSystem
+        | TaskKind::BarrelSoffit
+        | TaskKind::ArchRing
+        | TaskKind::StayCable
         | TaskKind::Free => None,
     }
 }
 
-/// Returns a straight line along the right side of the deck, halfway between the road surface and the girders' undersides, facing
-/// the outer beam.
+/// Returns a straight line along the right side of the deck, halfway between the road surface and the girders' undersides at the
+/// abutments, facing the outer beam.
 pub(super) fn slab_side(layout: &BeamLayout, stand_off_m: f64) -> Result<LocalPath, String> {
     let half = layout.abutment_front_x_m() - stand_off_m;
     if half <= 0.0 {
         return Err("a bridge that is longer than 2 stand_off_m".into());
     }
-    let (y, z) = (-0.5 * layout.deck.width_m - stand_off_m, 0.5 * layout.lines.bottom_z_m);
+    let (y, z) = (-0.5 * layout.deck.width_m - stand_off_m, 0.5 * layout.lines.abutment_bottom_z_m);
     let points: Vec<LocalPoint> = equal_steps(-half, half).into_iter().map(|x| [x, y, z]).collect();
     Ok(LocalPath { viewing_directions: vec![[0.0, 1.0, 0.0]; points.len()], points, closed: false })
 }
@@ -65,15 +68,25 @@ pub(super) fn below_beams(
     place: &PathPlace,
     (radius_m, pan_m): (f64, f64),
 ) -> Result<LocalPath, String> {
+    below_soffit(layout, stand_off_m, place, (radius_m, pan_m), &|_| layout.lines.bottom_z_m - stand_off_m)
+}
+
+/// Returns the path under the beams of a span at a height that varies along the bridge.
+pub(super) fn below_soffit(
+    layout: &BeamLayout,
+    stand_off_m: f64,
+    place: &PathPlace,
+    (radius_m, pan_m): (f64, f64),
+    height_m: &dyn Fn(f64) -> f64,
+) -> Result<LocalPath, String> {
     let (from, to) = span_between_stand_offs(layout, stand_off_m, place)?;
     let is_wide = radius_m >= MIN_TURN_RADIUS_M && to - from > 2.0 * radius_m;
     let course = if is_wide { out_and_back((from, to), radius_m) } else { straight((from, to), middle_bay_y_m(layout)) };
-    let z = layout.lines.bottom_z_m - stand_off_m;
-    let rise_m = -layout.deck.slab_m - z;
-    let points = course.iter().map(|(at, _)| [at[0], at[1], z]).collect();
-    let view = |(k, (_, ahead)): (usize, &([f64; 2], [f64; 2]))| {
+    let points = course.iter().map(|(at, _)| [at[0], at[1], height_m(at[0])]).collect();
+    let view = |(k, (at, ahead)): (usize, &([f64; 2], [f64; 2]))| {
         let aside_m = pan_m * math::sin(math::TAU * k as f64 / PAN_PERIOD_POINTS);
         let ahead_m = AHEAD_SHARE * stand_off_m;
+        let rise_m = -layout.deck.slab_m - height_m(at[0]);
         [ahead_m * ahead[0] - aside_m * ahead[1], ahead_m * ahead[1] + aside_m * ahead[0], rise_m]
     };
     let viewing_directions = course.iter().enumerate().map(view).collect();
@@ -152,7 +165,7 @@ pub(super) fn bearing_line(layout: &BeamLayout, stand_off_m: f64, place: &PathPl
     if !(from..=to).contains(&x) {
         return Err("a longer span, higher bearings and pedestals or a smaller stand_off_m".into());
     }
-    let (half, z) = (0.5 * layout.beam_group_m(), layout.lines.bottom_z_m - stand_off_m);
+    let (half, z) = (0.5 * layout.beam_group_m(), layout.beam_bottom_z_m(support) - stand_off_m);
     let points: Vec<LocalPoint> = equal_steps(half, -half).into_iter().map(|y| [x, y, z]).collect();
     let viewing_directions = vec![[toward * away_m, 0.0, rise_m]; points.len()];
     Ok(LocalPath { points, viewing_directions, closed: false })
@@ -170,7 +183,7 @@ pub(super) fn pier_cap(layout: &BeamLayout, stand_off_m: f64, place: &PathPlace)
     if !(1..last).contains(&pier) {
         return Err(format!("support_number = 1 to {} (a pier)", last - 1));
     }
-    let middle_z = 0.5 * (layout.seat_z_m() + layout.cap_bottom_z_m());
+    let middle_z = 0.5 * (layout.cap_top_z_m() + layout.cap_bottom_z_m());
     let z = middle_z.min(layout.lines.bottom_z_m - stand_off_m);
     if z - stand_off_m < layout.footing_top_z_m() {
         return Err("columns that extend to stand_off_m below the path".into());

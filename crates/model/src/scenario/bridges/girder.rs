@@ -91,10 +91,12 @@ impl BeamBridge for Girder {
                 haunch_width_m: self.flange_width_m,
                 top_z_m,
                 bottom_z_m: top_z_m - self.web_depth_m - 2.0 * self.flange_m,
+                abutment_bottom_z_m: top_z_m - self.web_depth_m - 2.0 * self.flange_m,
             },
             deck: DeckLayout {
                 width_m,
                 slab_m: self.slab_m,
+                element: Element::RcDeck,
                 railing_m: self.barrier_m,
                 railing: Element::RcRailing,
                 drain_spacing_m: self.drain_spacing_m,

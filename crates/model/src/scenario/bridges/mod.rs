@@ -7,11 +7,15 @@ pub mod beam_bridge;
 pub mod beam_layout;
 mod beam_members;
 mod beam_path;
+pub mod box_girder;
+pub mod cable_stayed;
 pub mod dimensions;
 pub mod element_map;
 pub mod girder;
+pub mod masonry_arch;
 pub mod model;
 pub mod path;
+mod plan_polygon;
 pub mod prestressed;
 pub mod quantity;
 mod railing;
@@ -23,7 +27,10 @@ pub mod truss;
 
 use crate::frames::{Enu, Vec3};
 use arch::Arch;
+use box_girder::BoxGirder;
+use cable_stayed::CableStayed;
 use girder::Girder;
+use masonry_arch::MasonryArch;
 use model::Model;
 use path::{PathPlace, TaskKind};
 use prestressed::Prestressed;
@@ -114,6 +121,12 @@ bridge_types! {
     Prestressed;
     /// A steel through truss bridge.
     Truss;
+    /// A prestressed concrete box girder bridge.
+    BoxGirder;
+    /// A masonry arch bridge.
+    MasonryArch;
+    /// A cable-stayed bridge.
+    CableStayed;
 }
 
 impl BridgeKind {

@@ -197,10 +197,12 @@ impl BeamBridge for Prestressed {
                 haunch_width_m: section.top_width_m,
                 top_z_m,
                 bottom_z_m: top_z_m - section.depth_m,
+                abutment_bottom_z_m: top_z_m - section.depth_m,
             },
             deck: DeckLayout {
                 width_m,
                 slab_m: self.slab_m,
+                element: Element::RcDeck,
                 railing_m: self.barrier_m,
                 railing: Element::RcRailing,
                 drain_spacing_m: self.drain_spacing_m,

@@ -185,10 +185,22 @@ impl MemberBuilder {
     /// Adds a convex profile in the y-z plane (counterclockwise with y right and z up, seen from the end of the bridge), extruded from
     /// `x_low` to `x_high`.
     pub fn add_cross_section(&mut self, part: &str, element: Element, profile: &[[f64; 2]], x_low: f64, x_high: f64) {
-        let near = profile.iter().map(|p| [x_high, p[0], p[1]]);
-        let far = profile.iter().map(|p| [x_low, p[0], p[1]]);
+        self.add_loft(part, element, (profile, x_low), (profile, x_high));
+    }
+
+    /// Adds a solid between two convex profiles in y-z planes, each with its position along the bridge. The profiles have the same number
+    /// of corners, and the sides between their edges must be planar.
+    pub fn add_loft(
+        &mut self,
+        part: &str,
+        element: Element,
+        (start, x_low): (&[[f64; 2]], f64),
+        (end, x_high): (&[[f64; 2]], f64),
+    ) {
+        let near = end.iter().map(|p| [x_high, p[0], p[1]]);
+        let far = start.iter().map(|p| [x_low, p[0], p[1]]);
         let corners: Vec<LocalPoint> = near.chain(far).collect();
-        self.add_solid(part, element, &corners, prism_faces(profile.len()));
+        self.add_solid(part, element, &corners, prism_faces(end.len()));
     }
 
     /// Adds a regular prism with `sides` faces around the line from `a` to `b`, with its corners at `radius_m`.

@@ -160,6 +160,9 @@ impl BridgeShape for Suspension {
             | TaskKind::PierCap
             | TaskKind::TrussPanel
             | TaskKind::FloorSystem
+            | TaskKind::BarrelSoffit
+            | TaskKind::ArchRing
+            | TaskKind::StayCable
             | TaskKind::Free => Err(self.supported_kinds()),
         }
     }

@@ -91,6 +91,12 @@ task_kinds! {
     TrussPanel "truss_panel" 2.0 false Span Beside;
     /// A line under the floorbeams and stringers of a span, out and back.
     FloorSystem "floor_system" 3.0 true Span Above;
+    /// A curve below the barrel of a masonry arch.
+    BarrelSoffit "barrel_soffit" 3.0 true Span Above;
+    /// A curve along the face of the ring of a masonry arch.
+    ArchRing "arch_ring" 2.0 false Span Beside;
+    /// A line along a stay of a cable-stayed bridge, from the deck up.
+    StayCable "stay_cable" 2.0 false None Beside;
     /// A path through points listed in the scenario.
     Free "free" 2.0 false None None;
 }
@@ -131,7 +137,10 @@ mod tests {
     #[test]
     fn exact_kinds_are_listed_in_words() {
         assert_eq!(TaskKind::keys_in_words(|rules| rules.threshold_m < 2.0), "interlayer");
-        assert_eq!(TaskKind::keys_in_words(|rules| rules.surface == SurfaceSide::Beside), "pier_cap and truss_panel");
+        assert_eq!(
+            TaskKind::keys_in_words(|rules| rules.surface == SurfaceSide::Beside),
+            "pier_cap, truss_panel, arch_ring and stay_cable"
+        );
         assert_eq!(TaskKind::keys_in_words(|rules| rules.key.starts_with("pier")), "pier_circle and pier_cap");
         assert_eq!(TaskKind::keys_in_words(|_| false), "");
         assert!(TaskKind::thresholds_in_words().starts_with("3, 3, 1.75, 2"));

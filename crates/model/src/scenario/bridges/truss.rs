@@ -119,10 +119,12 @@ impl BeamBridge for Truss {
                 haunch_width_m: 0.0,
                 top_z_m: -self.slab_m,
                 bottom_z_m: self.lower_axis_z_m() - 0.5 * self.chord_m,
+                abutment_bottom_z_m: self.lower_axis_z_m() - 0.5 * self.chord_m,
             },
             deck: DeckLayout {
                 width_m: self.deck_width_m,
                 slab_m: self.slab_m,
+                element: Element::RcDeck,
                 railing_m: self.railing_m,
                 railing: Element::MetalRailing,
                 drain_spacing_m: self.drain_spacing_m,

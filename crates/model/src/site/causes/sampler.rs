@@ -4,7 +4,10 @@
 use super::measures::{self, Measure};
 use super::place::{Anchor, Place};
 use super::structure::{REACH_M, Structure};
-use super::{bending, cable, drain, edge, fasteners, leaking_joint, reinforcement, shear, shrinkage, swelling, water_line, weld};
+use super::{
+    bending, cable, drain, edge, fasteners, frost, leaking_joint, reinforcement, seepage, shear, shrinkage, swelling, water_line,
+    weld,
+};
 use crate::frames::{Enu, Vec3};
 use crate::random::RandomStream;
 use crate::scenario::{DefectCause, DefectSpec, PlacedDefect, Stain, StainSubstance, Task, downhill};
@@ -24,7 +27,7 @@ const STAIN_LENGTH_M: (f64, f64) = (0.15, 1.5);
 const STAIN_SHARES: [f64; 3] = [0.5, 0.85, 1.0];
 
 /// Functions that list the places of each cause.
-const SOURCES: [fn(&Structure) -> Vec<Place>; 12] = [
+const SOURCES: [fn(&Structure) -> Vec<Place>; 14] = [
     bending::places,
     shear::places,
     shrinkage::places,
@@ -37,6 +40,8 @@ const SOURCES: [fn(&Structure) -> Vec<Place>; 12] = [
     weld::places,
     fasteners::places,
     cable::places,
+    seepage::places,
+    frost::places,
 ];
 
 /// Places of one cause within reach of one task, with the sums of their weights.

@@ -135,6 +135,11 @@ pub(super) fn is_concrete(element: Element) -> bool {
     matches!(element.material(), ElementMaterial::ReinforcedConcrete | ElementMaterial::PrestressedConcrete)
 }
 
+/// Returns whether an element is of masonry.
+pub(super) fn is_masonry(element: Element) -> bool {
+    element.material() == ElementMaterial::Masonry
+}
+
 /// Returns a member's name up to its first numbered part, such as `bridge/girder-1` for `bridge/girder-1/03/web`.
 fn series(member: &Member) -> String {
     let numbered = |part: &str| part.starts_with(|c: char| c.is_ascii_digit());
