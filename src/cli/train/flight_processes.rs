@@ -67,17 +67,22 @@ pub enum FlightOutcome {
 }
 
 impl FlightProcesses {
-    /// Starts the processes.
+    /// Starts the processes. The session records when the site check was acknowledged, in µs since the Unix epoch.
     ///
     /// # Errors
     /// Returns an error if files or ports are invalid.
-    pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level, language: Language) -> Result<Self, AppError> {
+    pub fn start(
+        args: &Args,
+        (choice, site_check_unix_us): (&FlightChoice, Option<u64>),
+        log: tracing::Level,
+        language: Language,
+    ) -> Result<Self, AppError> {
         let job = args.job(&choice.scenario);
         let title = files::scenario(&job.scenario)?.scenario.title;
         let ghost = available_ghost(args, choice, language);
         let common = common_args(&job, log);
         let expert_args = expert_args(&common);
-        let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
+        let monitor_args = [common.clone(), monitor_args(args, choice, site_check_unix_us)].concat();
         let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
         let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
         let announced = monitor.read_announcement()?;
@@ -235,7 +240,7 @@ impl FlightProcesses {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
             // An order is declined before the flight begins.
-            FromWindow::Ready | FromWindow::Language { .. } | FromWindow::Declined => {}
+            FromWindow::Ready | FromWindow::Language { .. } | FromWindow::Declined | FromWindow::Acknowledged(_) => {}
             FromWindow::Showing => {
                 self.start_expert();
                 self.background_expert.start();
@@ -356,8 +361,8 @@ fn expert_args(common: &[String]) -> Vec<String> {
     [common, &["--skill", "expert"].map(str::to_owned)].concat()
 }
 
-fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
-    [
+fn monitor_args(args: &Args, choice: &FlightChoice, site_check_unix_us: Option<u64>) -> Vec<String> {
+    let mut words = [
         "--sessions",
         &args.sessions.display().to_string(),
         "--trainee",
@@ -371,5 +376,7 @@ fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
         &args.ports.instance.to_string(),
     ]
     .map(str::to_owned)
-    .to_vec()
+    .to_vec();
+    words.extend(site_check_unix_us.into_iter().flat_map(|time| ["--site-check-unix-us".to_owned(), time.to_string()]));
+    words
 }

@@ -15,6 +15,7 @@ use crate::cli::invocation::typed;
 use crate::cli::table::report_outcome;
 use crate::errors::AppError;
 use crate::io::addresses;
+use crate::io::clock;
 use crate::io::files;
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
@@ -61,6 +62,14 @@ pub struct TrainRun<'a> {
     station: Option<StationLink>,
     /// Ordered flight whose briefing the window shows.
     briefed: Option<FlightChoice>,
+    /// The latest acknowledgement in the window.
+    site_check: Option<SiteCheck>,
+}
+
+/// The acknowledgement of the site check in a briefing. It holds for each attempt at this flight.
+struct SiteCheck {
+    choice: FlightChoice,
+    acknowledged_unix_us: u64,
 }
 
 /// What to do after a flight.
@@ -91,6 +100,7 @@ impl<'a> TrainRun<'a> {
             school: SchoolRoom::new(&args.sessions),
             station: None,
             briefed: None,
+            site_check: None,
         }
     }
 
@@ -110,11 +120,7 @@ impl<'a> TrainRun<'a> {
             purpose: self.args.purpose.display_name(),
             by: FlownBy::Trainee,
         };
-        let mut next = if self.args.choose || self.args.scenario.is_none() {
-            self.first_choice(&usual)
-        } else {
-            self.command_line_choice(&usual)
-        };
+        let mut next = self.first_choice(&usual);
         let mut result = Ok(());
         let mut last = None;
         while let NextFlight::Fly(choice) = next {
@@ -197,11 +203,9 @@ impl<'a> TrainRun<'a> {
         self.send_to_window(&message);
     }
 
-    /// Returns the command line's choice once the window is shown or has failed to open, so that no flight starts
-    /// without its views.
-    fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
-        self.wait_for_window();
-        if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
+    /// Returns true if the command line fixes the first flight, of which the window then shows only the briefing.
+    fn is_fixed(&self) -> bool {
+        self.args.scenario.is_some() && !self.args.choose
     }
 
     /// Returns the first choice: from the window or, without a window, from the command line.
@@ -209,6 +213,10 @@ impl<'a> TrainRun<'a> {
         if self.wait_for_window() {
             self.serve(None);
             self.offer(usual);
+            if self.is_fixed() {
+                tracing::info!("read the briefing in the window and confirm the site check there to start the flight");
+                self.send_to_window(&ToWindow::Briefing);
+            }
             match self.next_choice(usual) {
                 NextFlight::NoChoice => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
@@ -220,6 +228,9 @@ impl<'a> TrainRun<'a> {
         }
         if self.stop.is_requested() {
             return NextFlight::Leave;
+        }
+        if self.is_fixed() {
+            return NextFlight::Fly(usual.clone());
         }
         if self.station.is_some() {
             return self.wait_for_order();
@@ -257,6 +268,9 @@ impl<'a> TrainRun<'a> {
                         decline(&mut self.station, text!(Language::English, "stations-refusal-declined"));
                     }
                     FromWindow::Quit => return NextFlight::Leave,
+                    FromWindow::Acknowledged(choice) => {
+                        self.site_check = Some(SiteCheck { choice, acknowledged_unix_us: clock::unix_us() });
+                    }
                     FromWindow::School(request) => self.school.handle(request, language),
                     FromWindow::Chosen(choice) => match validate_choice(&choice) {
                         Ok(()) => {
@@ -383,7 +397,9 @@ impl<'a> TrainRun<'a> {
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
             let expert = self.end_vehicle();
-            let mut flight = FlightProcesses::start(self.args, choice, self.log, self.language())?;
+            let acknowledged = self.site_check.as_ref().filter(|check| check.choice == *choice);
+            let site_check_unix_us = acknowledged.map(|check| check.acknowledged_unix_us);
+            let mut flight = FlightProcesses::start(self.args, (choice, site_check_unix_us), self.log, self.language())?;
             expert.into_iter().for_each(|expert| flight.take_over_expert(expert));
             self.station.iter_mut().for_each(|station| station.report_start(choice));
             self.serve(flight.port("payload_port"));
@@ -533,9 +549,9 @@ mod tests {
             purpose: Purpose::Practice,
             by: FlownBy::Trainee,
         };
-        assert!(matches!(course.command_line_choice(&choice), NextFlight::Fly(flown) if flown == choice));
+        assert!(matches!(course.first_choice(&choice), NextFlight::Fly(flown) if flown == choice));
         assert!(course.window.is_none() && !course.has_display() && !course.closed);
         course.stop.request();
-        assert!(matches!(course.command_line_choice(&choice), NextFlight::Leave), "no flight after a stop request");
+        assert!(matches!(course.first_choice(&choice), NextFlight::Leave), "no flight after a stop request");
     }
 }

@@ -293,6 +293,7 @@ impl WindowFlow {
                 }
             }
             ToWindow::Ordered(order) => self.begin_ordered(order),
+            ToWindow::Briefing => self.brief(),
             ToWindow::Flying(flying) => {
                 // After an expert's flight, the trainee's own choice is still selected.
                 if flying.choice.by == FlownBy::Trainee {

@@ -334,6 +334,8 @@ pub enum ToWindow {
     Offers(FlightOptions),
     /// An instructor has ordered a flight: lead the trainee to it.
     Ordered(OrderedFlight),
+    /// Show the briefing of the selected flight, which the command line fixes.
+    Briefing,
     /// A flight has started.
     Flying(FlightStarted),
     /// The simulation has been paused or resumed.
@@ -367,6 +369,8 @@ pub enum FromWindow {
     },
     /// The window shows the flight.
     Showing,
+    /// The trainee has read the briefing of this flight and acknowledged its site check; [`Self::Chosen`] follows.
+    Acknowledged(FlightChoice),
     /// Start this flight.
     Chosen(FlightChoice),
     /// The trainee has left the pages of the ordered flight without starting it.
@@ -477,6 +481,7 @@ mod tests {
         for message in [
             ToWindow::Offers(offers),
             ToWindow::Ordered(ordered),
+            ToWindow::Briefing,
             ToWindow::Flying(flying),
             ToWindow::Paused { on: true },
             ToWindow::Refused { words: "no".into() },
@@ -491,6 +496,7 @@ mod tests {
             FromWindow::Ready,
             FromWindow::Language { tag: "de".into() },
             FromWindow::Showing,
+            FromWindow::Acknowledged(choice()),
             FromWindow::Chosen(choice()),
             FromWindow::Declined,
             FromWindow::Restart,

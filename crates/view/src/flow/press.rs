@@ -195,7 +195,10 @@ impl WindowFlow {
                 self.show_page(Page::Tutorial(0, true))
             }
             MenuAction::Fly => self.brief(),
-            MenuAction::Acknowledge => self.choose(),
+            MenuAction::Acknowledge => {
+                self.send(FromWindow::Acknowledged(self.choice.clone()));
+                self.choose();
+            }
             MenuAction::Back => self.back(),
             MenuAction::Next => self.turn_tutorial_page(),
             MenuAction::Skip => self.finish_tutorial(),
@@ -281,7 +284,7 @@ impl WindowFlow {
     }
 
     /// Shows the briefing of the chosen job, or starts the flight if there is none.
-    fn brief(&mut self) {
+    pub(super) fn brief(&mut self) {
         if self.chosen_job().is_some_and(|job| !job.briefing.is_empty()) {
             self.show_page(Page::Briefing);
         } else {

@@ -913,7 +913,29 @@ fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
     assert_eq!(flow.page(), Page::Controls);
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting);
-    assert!(matches!(pending_requests(&mut flow)[..], [WindowRequest::Send(FromWindow::Chosen(_))]));
+    let choice = flow.choice().clone();
+    assert_eq!(pending_requests(&mut flow), acknowledged(choice));
+}
+
+/// Returns the messages with which the window starts a flight after its briefing.
+fn acknowledged(choice: FlightChoice) -> [WindowRequest; 2] {
+    [FromWindow::Acknowledged(choice.clone()), FromWindow::Chosen(choice)].map(WindowRequest::Send)
+}
+
+#[test]
+fn exact_a_flight_from_the_command_line_begins_with_its_briefing() {
+    let mut flow = opened();
+    flow.handle_message(ToWindow::Offers(briefed_offers()));
+    flow.handle_message(ToWindow::Briefing);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Briefing, vec![]), "nothing starts yet");
+    let choice = flow.choice().clone();
+    press(&mut flow, &[KeyPress::Enter]);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Waiting, acknowledged(choice).to_vec()));
+    // A job without a briefing has nothing to acknowledge.
+    let mut flow = started();
+    flow.handle_message(ToWindow::Briefing);
+    let choice = flow.choice().clone();
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(choice))]);
 }
 
 /// Returns an assessment of a job that is not among the offers, as an instructor orders it.
@@ -943,7 +965,7 @@ fn exact_an_ordered_flight_needs_the_controller_check_and_the_briefing() {
     assert!(words(&flow).contains("Briefing: Windy"));
     assert_eq!(pending_requests(&mut flow), [], "nothing starts before the briefing is acknowledged");
     press(&mut flow, &[KeyPress::Enter]);
-    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(order.choice))]);
+    assert_eq!(pending_requests(&mut flow), acknowledged(order.choice));
     assert_eq!(flow.page(), Page::Waiting);
 }
 
