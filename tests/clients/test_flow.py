@@ -27,7 +27,7 @@ LIMIT_S = 400
 # Wall seconds before a key without an effect is pressed again.
 AGAIN_S = 20.0
 # X names of the keys that navigate the rows of a window.
-ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
+ENTER, DOWN, UP, LEFT, RIGHT, ESCAPE = "Return", "Down", "Up", "Left", "Right", "Escape"
 
 
 # Message of `train` to a window that is started alone.
@@ -173,10 +173,10 @@ def test_wire_keyboard_controls_a_complete_session(screen, speakers, tmp_path):
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", speakers=speakers)
     try:
         start = training.wait_for_screenshot("start", is_start_page)
-        # Moves the focus down past the recommendation, the job and the purpose to "Next", which opens the controller check.
+        # Moves the focus down past the recommendation, the job, the aircraft and the purpose to "Next", which opens the controller check.
         moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
         assert focus(moved)[1] < 0.5
-        for _ in range(3):
+        for _ in range(4):
             screen.tap(DOWN)
         controls = training.wait_for_screenshot("controls", other_page(moved), ENTER)
         screen.key("w", True)
@@ -289,15 +289,16 @@ def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
     try:
         start = training.wait_for_screenshot("start", is_start_page)
         moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
-        # Below the recommendation: job, purpose, controller check, expert.
-        for _ in range(4):
-            screen.tap(DOWN)
+        # Below the recommendation: job, aircraft, purpose, controller check, expert. Another aircraft is chosen on the way.
+        for key in (DOWN, DOWN, RIGHT, DOWN, DOWN, DOWN):
+            screen.tap(key)
         spandrel.wait_for("the focus on the expert", lambda: focus(screen.photograph())[1] > focus(moved)[1] + 0.2, LIMIT_S)
         training.wait_for_screenshot("expert-flies", in_flight, ENTER)
         training.wait_for_screenshot("expert-over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200)
         (session,) = folders(training)
         told = json.loads((session / "session.json").read_text(encoding="utf-8"))
         assert (told["trainee"], told["purpose"]) == ("synthetic-expert", "practice"), told
+        assert told["vehicle"] == "elios3", told
         assert "site_check_unix_us" not in told, "nobody has acknowledged a site check"
         ended = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
         assert ended["end"]["reason"] == "landed" and ended["tasks"][0]["attempted"], ended["end"]

@@ -8,6 +8,7 @@ use crate::io::addresses;
 use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
 use crate::io::trainee_id::TraineeId;
+use spandrel_view::flow::pipe::FlightChoice;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -148,9 +149,10 @@ impl Args {
         files::with_variant(self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO), self.form.as_deref(), self.level)
     }
 
-    /// Returns a scenario's job with the requested aircraft and seed. The argument includes the form or the level.
-    pub fn job(&self, scenario: &str) -> JobArgs {
-        JobArgs { scenario: scenario.to_owned(), form: None, level: None, vehicle: self.vehicle.clone(), seed: self.seed }
+    /// Returns a chosen flight's job with the requested seed. Its scenario includes the form or the level.
+    pub fn job(&self, choice: &FlightChoice) -> JobArgs {
+        let (scenario, vehicle) = (choice.scenario.clone(), choice.vehicle.clone());
+        JobArgs { scenario, form: None, level: None, vehicle, seed: self.seed }
     }
 }
 

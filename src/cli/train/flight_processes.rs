@@ -77,7 +77,7 @@ impl FlightProcesses {
         log: tracing::Level,
         language: Language,
     ) -> Result<Self, AppError> {
-        let job = args.job(&choice.scenario);
+        let job = args.job(choice);
         let title = files::scenario(&job.scenario)?.scenario.title;
         let ghost = available_ghost(args, choice, language);
         let common = common_args(&job, log);
@@ -136,7 +136,7 @@ impl FlightProcesses {
     pub fn open_second_window(&mut self, args: &Args, log: tracing::Level) {
         let Some(payload) = self.port("payload_port") else { return };
         let seed = self.ports["seed"].as_u64();
-        let mut words = common_args(&JobArgs { seed, ..args.job(&self.choice.scenario) }, log);
+        let mut words = common_args(&JobArgs { seed, ..args.job(&self.choice) }, log);
         words.extend(["--connect".to_owned(), payload.to_string()]);
         words.extend(["--layout", "inspector-only", "--second-screen", "--no-sound"].map(str::to_owned));
         words.extend(args.quality.iter().flat_map(|quality| ["--quality".to_owned(), quality.clone()]));
@@ -166,7 +166,6 @@ impl FlightProcesses {
     pub fn started_message(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
-            vehicle: args.vehicle.clone(),
             seed: self.ports["seed"].as_u64().unwrap_or_default(),
             connect: self.port("payload_port")?,
             // A trainee who watches does not move the sticks.
@@ -240,7 +239,11 @@ impl FlightProcesses {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
             // An order is declined before the flight begins.
-            FromWindow::Ready | FromWindow::Language { .. } | FromWindow::Declined | FromWindow::Acknowledged(_) => {}
+            FromWindow::Ready
+            | FromWindow::Language { .. }
+            | FromWindow::Aircraft { .. }
+            | FromWindow::Declined
+            | FromWindow::Acknowledged(_) => {}
             FromWindow::Showing => {
                 self.start_expert();
                 self.background_expert.start();
@@ -336,7 +339,7 @@ struct AvailableGhost {
 
 fn available_ghost(args: &Args, choice: &FlightChoice, language: Language) -> AvailableGhost {
     let practices = choice.purpose == Purpose::Practice && choice.by == FlownBy::Trainee;
-    let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&args.vehicle).ok());
+    let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&choice.vehicle).ok());
     let Some((scenario, vehicle)) = job else { return AvailableGhost::default() };
     let recorded = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario, language);
     let is_outdated = recorded.is_outdated;

@@ -1,5 +1,6 @@
 //! Contents of the window's start page and end page.
 
+use super::aircraft::SelectedAircraft;
 use crate::io::files::{self, ScenarioFile};
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
@@ -32,9 +33,9 @@ use std::path::{Path, PathBuf};
 /// Trainee ID of the sessions that the synthetic expert flies.
 pub const EXPERT_ID: &str = "synthetic-expert";
 
-/// Returns the choices that the start page offers, for flights with an aircraft.
+/// Returns the choices that the start page offers, with briefings for an aircraft, but without the aircraft to choose from.
 pub fn flight_options(
-    (sessions, vehicle): (&Path, &Vehicle),
+    (sessions, aircraft): (&Path, &SelectedAircraft),
     choice: &FlightChoice,
     web: Option<&str>,
     language: Language,
@@ -47,16 +48,17 @@ pub fn flight_options(
     FlightOptions {
         trainees: trainee_summaries(sessions, language),
         lesson: job_named(FIRST_LESSON, language),
-        scenarios: names.into_iter().filter_map(|name| job_offer(name, vehicle, language)).collect(),
+        scenarios: names.into_iter().filter_map(|name| job_offer(name, aircraft, language)).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
+        vehicles: Vec::new(),
     }
 }
 
 /// Returns the job with this name or path in a language, with its briefing for an aircraft; `None` if it cannot be read.
-pub fn job_offer(name: String, vehicle: &Vehicle, language: Language) -> Option<JobOffer> {
+pub fn job_offer(name: String, aircraft: &SelectedAircraft, language: Language) -> Option<JobOffer> {
     let file = files::scenario(&name).ok()?;
-    let (briefing, conditions) = job_briefing(&file, vehicle, language);
+    let (briefing, conditions) = job_briefing(&file, &aircraft.vehicle, language);
     Some(JobOffer {
         name,
         title: job_title(&file.scenario, language),
@@ -64,6 +66,7 @@ pub fn job_offer(name: String, vehicle: &Vehicle, language: Language) -> Option<
         conditions,
         is_lesson: !file.scenario.lesson.is_empty(),
         briefing,
+        vehicle: aircraft.name.clone(),
     })
 }
 
@@ -454,15 +457,15 @@ mod tests {
     use spandrel_view::flow::pipe::FlownBy;
     use spandrel_view::picture::Picture;
 
-    fn phantom() -> Vehicle {
-        files::vehicle("phantom2").unwrap().vehicle
+    fn phantom() -> SelectedAircraft {
+        SelectedAircraft::read("phantom2").unwrap()
     }
 
     #[test]
     fn exact_the_briefing_in_the_window_has_everything_that_the_printed_one_has() {
         let job = job_offer("two-bridges".into(), &phantom(), Language::English).unwrap();
         let scenario = files::scenario("two-bridges").unwrap().scenario;
-        let printed = Briefing::new(&scenario, &phantom(), &Site::without_defects(&scenario), Language::English);
+        let printed = Briefing::new(&scenario, &phantom().vehicle, &Site::without_defects(&scenario), Language::English);
         let JobBriefing { conditions, counts, hazards, tasks, site_check, .. } = job.briefing;
         assert_eq!((hazards, site_check, tasks.len()), (printed.hazards, printed.site_check, printed.tasks.len()));
         assert!(
@@ -484,7 +487,13 @@ mod tests {
     }
 
     fn choice() -> FlightChoice {
-        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee }
+        FlightChoice {
+            trainee: "anna".into(),
+            scenario: "drill-hover".into(),
+            purpose: Purpose::Practice,
+            by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The flights in one run of `train`: those chosen in the window, or the one specified on the command line.
 
+use super::aircraft::{self, SelectedAircraft};
 use super::args::{Args, camera_file};
 use super::assigned;
 use super::expert_ghost::BackgroundExpert;
@@ -21,7 +22,6 @@ use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
-use spandrel_model::vehicle::Vehicle;
 use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow};
 use std::net::SocketAddr;
@@ -40,8 +40,8 @@ struct ServedPages {
 /// A run of `spandrel train`.
 pub struct TrainRun<'a> {
     args: &'a Args,
-    /// Aircraft of all flights.
-    aircraft: Vehicle,
+    /// Aircraft that is selected in the window, or flown.
+    aircraft: SelectedAircraft,
     log: tracing::Level,
     stop: StopRequest,
     /// The window, while it is open.
@@ -50,8 +50,9 @@ pub struct TrainRun<'a> {
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
-    /// Language of the offers in the window.
+    /// Language and aircraft of the offers in the window.
     offered_language: Option<Language>,
+    offered_aircraft: Option<String>,
     pictures: PictureJobs,
     /// Processes of the last flight. Its vehicle stays connected until the next flight or the end of the run, so ground
     /// stations can download its logs.
@@ -83,7 +84,7 @@ enum NextFlight {
 
 impl<'a> TrainRun<'a> {
     /// Creates a run without starting anything.
-    pub fn new(args: &'a Args, aircraft: Vehicle, log: tracing::Level, stop: StopRequest) -> Self {
+    pub fn new(args: &'a Args, aircraft: SelectedAircraft, log: tracing::Level, stop: StopRequest) -> Self {
         Self {
             args,
             aircraft,
@@ -94,6 +95,7 @@ impl<'a> TrainRun<'a> {
             web: None,
             web_announced: false,
             offered_language: None,
+            offered_aircraft: None,
             pictures: PictureJobs::default(),
             vehicle: None,
             prompt: TerminalPrompt::default(),
@@ -119,6 +121,7 @@ impl<'a> TrainRun<'a> {
             scenario: self.args.scenario_argument(),
             purpose: self.args.purpose.display_name(),
             by: FlownBy::Trainee,
+            vehicle: self.args.vehicle.clone(),
         };
         let mut next = self.first_choice(&usual);
         let mut result = Ok(());
@@ -243,13 +246,15 @@ impl<'a> TrainRun<'a> {
         NextFlight::Fly(usual.clone())
     }
 
+    /// Offers flights in the window, with the briefings for the selected aircraft.
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
         let mut offers = offers::flight_options((&self.args.sessions, &self.aircraft), choice, web.as_deref(), language);
+        offers.vehicles = aircraft::offered(&self.args.vehicle);
         assigned::put_first(&mut offers.trainees, &self.args.sessions, language);
         self.web_announced = true;
-        self.offered_language = Some(language);
+        (self.offered_language, self.offered_aircraft) = (Some(language), Some(self.aircraft.name.clone()));
         self.send_to_window(&ToWindow::Offers(offers));
     }
 
@@ -279,6 +284,10 @@ impl<'a> TrainRun<'a> {
                         }
                         Err(error) => window.send(&refusal(&error, language)),
                     },
+                    FromWindow::Aircraft { name } => match SelectedAircraft::read(&name) {
+                        Ok(aircraft) => self.aircraft = aircraft,
+                        Err(error) => window.send(&refusal(&error, language)),
+                    },
                     // Ignore late messages about a flight that has just ended.
                     FromWindow::Ready
                     | FromWindow::Language { .. }
@@ -289,7 +298,7 @@ impl<'a> TrainRun<'a> {
                     | FromWindow::End => {}
                 }
             }
-            if self.offered_language.is_some_and(|offered| offered != self.language()) {
+            if self.are_offers_outdated() {
                 let shown = self.briefed.clone().unwrap_or_else(|| last.clone());
                 self.offer(&shown);
             }
@@ -314,15 +323,23 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
+    /// Returns true if the window shows another language or aircraft than the offers.
+    fn are_offers_outdated(&self) -> bool {
+        self.offered_language.is_some_and(|offered| offered != self.language())
+            || self.offered_aircraft.as_ref().is_some_and(|offered| *offered != self.aircraft.name)
+    }
+
     /// Leads the trainee in the window to an ordered flight, which starts after the briefing, as a chosen one does.
     fn brief(&mut self, choice: FlightChoice) {
-        match offers::job_offer(choice.scenario.clone(), &self.aircraft, self.language()) {
+        let aircraft = SelectedAircraft::read(&choice.vehicle).ok();
+        let job = |aircraft| offers::job_offer(choice.scenario.clone(), aircraft, self.language());
+        match aircraft.as_ref().and_then(job) {
             Some(job) => {
                 self.briefed = Some(choice.clone());
                 self.station.iter_mut().for_each(StationLink::report_briefing);
                 self.send_to_window(&ToWindow::Ordered(OrderedFlight { choice, job }));
             }
-            // The file was readable a moment ago.
+            // The files were readable a moment ago.
             None => decline(&mut self.station, format!("cannot read {}", choice.scenario)),
         }
     }
@@ -336,7 +353,7 @@ impl<'a> TrainRun<'a> {
 
     /// Returns a flight that an instructor has ordered at this station.
     fn ordered_flight(&mut self) -> Option<FlightChoice> {
-        self.station.as_mut().and_then(StationLink::next_flight)
+        self.station.as_mut().and_then(|station| station.next_flight(&self.args.vehicle))
     }
 
     /// Waits for an instructor's order at a station without a window.
@@ -524,6 +541,7 @@ fn refusal(error: &AppError, language: Language) -> ToWindow {
 /// Validates a choice made in the window in the same way as a choice on the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     choice.trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
+    files::vehicle(&choice.vehicle)?;
     files::scenario(&choice.scenario).map(|_| ())
 }
 
@@ -541,13 +559,14 @@ mod tests {
     fn exact_crashed_window_is_dropped_before_flight() {
         let args = parse_args(&["--scenario", "drill-hover"]);
         let mut course =
-            TrainRun::new(&args, files::vehicle("phantom2").unwrap().vehicle, tracing::Level::WARN, StopRequest::default());
+            TrainRun::new(&args, SelectedAircraft::read("phantom2").unwrap(), tracing::Level::WARN, StopRequest::default());
         course.window = Some(WindowProcess::failing_process());
         let choice = FlightChoice {
             trainee: "anna".into(),
             scenario: "drill-hover".into(),
             purpose: Purpose::Practice,
             by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
         };
         assert!(matches!(course.first_choice(&choice), NextFlight::Fly(flown) if flown == choice));
         assert!(course.window.is_none() && !course.has_display() && !course.closed);

@@ -18,6 +18,11 @@ const EXPO_STEP: f64 = 0.1;
 impl WindowFlow {
     /// Handles a key press or click.
     pub fn press(&mut self, press: KeyPress) {
+        self.press_on_page(press);
+        self.request_briefings();
+    }
+
+    fn press_on_page(&mut self, press: KeyPress) {
         self.notice = None;
         if self.is_awaiting_key() {
             // A click, because the host passes keys to `bind_key`.
@@ -75,6 +80,7 @@ impl WindowFlow {
         match row.action {
             MenuAction::Trainee => self.next_trainee(on),
             MenuAction::Scenario => self.next_scenario(on),
+            MenuAction::Aircraft => self.next_aircraft(on),
             MenuAction::Purpose => {
                 self.choice.purpose = match self.choice.purpose {
                     Purpose::Practice => Purpose::Assessment,
@@ -144,6 +150,24 @@ impl WindowFlow {
         }
     }
 
+    fn next_aircraft(&mut self, on: bool) {
+        let Some(offers) = &self.offers else { return };
+        let names: Vec<&str> = offers.vehicles.iter().map(|offer| offer.name.as_str()).collect();
+        if let Some(name) = adjacent_name(&names, &self.choice.vehicle, on) {
+            self.choice.vehicle = name.to_owned();
+        }
+    }
+
+    /// Requests the briefings for the selected aircraft, if the chosen job's briefing is for another one.
+    pub(super) fn request_briefings(&mut self) {
+        let is_missing = self.chosen_job().is_some() && !self.is_briefing_current();
+        if is_missing && self.requested_vehicle.as_ref() != Some(&self.choice.vehicle) {
+            let name = self.choice.vehicle.clone();
+            self.requested_vehicle = Some(name.clone());
+            self.send(FromWindow::Aircraft { name });
+        }
+    }
+
     /// Checks whether the trainee has neither flown a practice session here nor read the tutorial. A lesson is the tutorial itself.
     pub(super) fn needs_tutorial(&self) -> bool {
         if self.chosen_job().is_some_and(|job| job.is_lesson) {
@@ -166,6 +190,7 @@ impl WindowFlow {
             }
             MenuAction::Trainee
             | MenuAction::Scenario
+            | MenuAction::Aircraft
             | MenuAction::Purpose
             | MenuAction::Mode
             | MenuAction::DeadBand
@@ -238,12 +263,8 @@ impl WindowFlow {
     /// briefing.
     fn fly_next(&mut self) {
         let Some(next) = self.next_job().cloned() else { return };
-        self.choice = FlightChoice {
-            scenario: next.scenario,
-            purpose: Purpose::Practice,
-            by: FlownBy::Trainee,
-            trainee: self.choice.trainee.clone(),
-        };
+        self.choice =
+            FlightChoice { scenario: next.scenario, purpose: Purpose::Practice, by: FlownBy::Trainee, ..self.choice.clone() };
         if self.page == Page::Results {
             self.brief();
         } else {
