@@ -9,6 +9,7 @@ mod expert_ghost;
 mod flight_processes;
 mod offers;
 mod picture_jobs;
+mod planned;
 mod prompt;
 mod questionnaire_state;
 mod school;

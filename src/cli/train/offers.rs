@@ -55,6 +55,16 @@ pub fn flight_options(
     }
 }
 
+/// Adds the trainees' next jobs that are not offered yet, such as another level of a drill: without its offer, a job has neither a
+/// title nor a briefing.
+pub fn add_next_jobs(options: &mut FlightOptions, aircraft: &SelectedAircraft, language: Language) {
+    for next in options.trainees.iter().filter_map(|trainee| trainee.next.as_ref()) {
+        if options.scenarios.iter().all(|job| job.name != next.scenario) {
+            options.scenarios.extend(job_offer(next.scenario.clone(), aircraft, language));
+        }
+    }
+}
+
 /// Returns the job with this name or path in a language, with its briefing for an aircraft; `None` if it cannot be read.
 pub fn job_offer(name: String, aircraft: &SelectedAircraft, language: Language) -> Option<JobOffer> {
     let file = files::scenario(&name).ok()?;
@@ -349,16 +359,31 @@ impl LessonSession {
     }
 }
 
-/// Returns a job with its title in a language, if it is installed.
+/// Returns a job with its title in a language, if it is installed. The title distinguishes forms and levels.
 pub fn job_named(scenario: &str, language: Language) -> Option<NextJob> {
-    let job = files::scenario(scenario).ok()?.scenario;
-    let title = scenario_title(&job.name, &job.title, language);
+    let title = job_title(&files::scenario(scenario).ok()?.scenario, language);
     Some(NextJob { scenario: scenario.to_owned(), title, due: None })
 }
 
 /// Returns the job that the advice recommends, if it is installed.
 fn next_job(advice: &SessionAdvice, language: Language) -> Option<NextJob> {
     job_named(&advice.next.as_ref()?.scenario, language)
+}
+
+/// Returns each trainee's session folders in the order of their starts.
+pub fn sessions_by_trainee(sessions: &Path) -> BTreeMap<String, Vec<PathBuf>> {
+    let mut stored = stored_sessions(sessions);
+    stored.sort_by_key(|session| session.started_unix_us);
+    let mut found: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
+    for StoredSessionFolder { trainee, folder, .. } in stored {
+        found.entry(trainee).or_default().push(folder);
+    }
+    found
+}
+
+/// Returns whether a session is one of a lesson of which not all steps were done.
+pub fn has_unfinished_lesson(session: &Path) -> bool {
+    LessonSession::unfinished(session).is_some()
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.
@@ -507,6 +532,28 @@ mod tests {
         let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
         let offers = flight_options((&folder.path().join("none-yet"), &phantom()), &harder, None, Language::English);
         assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
+    }
+
+    #[test]
+    fn regress_another_level_of_a_drill_that_is_recommended_or_assigned_has_a_briefing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut offers = flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, Language::English);
+        let offered = offers.scenarios.len();
+        let trainee = |name: &str, scenario: &str| {
+            let next = job_named(scenario, Language::English);
+            TraineeSummary { name: name.into(), sessions: 1, practices: 1, last: None, next }
+        };
+        offers.trainees = vec![
+            trainee("anna", "drill-gap@6"),
+            trainee("bert", "drill-gap@6"),
+            trainee("cora", "drill-gap"),
+            trainee("dan", "none"),
+        ];
+        add_next_jobs(&mut offers, &phantom(), Language::English);
+        assert_eq!(offers.scenarios.len(), offered + 1);
+        let added = offers.scenarios.last().unwrap();
+        assert_eq!((added.name.as_str(), added.vehicle.as_str()), ("drill-gap@6", "phantom2"));
+        assert!(!added.briefing.site_check.is_empty());
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::expert_ghost::BackgroundExpert;
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::picture_jobs::PictureJobs;
+use super::planned;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::school::SchoolRoom;
@@ -252,7 +253,9 @@ impl<'a> TrainRun<'a> {
         let language = self.language();
         let mut offers = offers::flight_options((&self.args.sessions, &self.aircraft), choice, web.as_deref(), language);
         offers.vehicles = aircraft::offered(&self.args.vehicle);
+        planned::recommend(&mut offers.trainees, &self.args.sessions, language);
         assigned::put_first(&mut offers.trainees, &self.args.sessions, language);
+        offers::add_next_jobs(&mut offers, &self.aircraft, language);
         self.web_announced = true;
         (self.offered_language, self.offered_aircraft) = (Some(language), Some(self.aircraft.name.clone()));
         self.send_to_window(&ToWindow::Offers(offers));
@@ -467,6 +470,9 @@ impl<'a> TrainRun<'a> {
             self.pictures.draw_video(session, self.args.video);
         }
         if open {
+            if result.is_ok() {
+                planned::import(session, &self.args.sessions);
+            }
             self.offer(choice);
             let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());
