@@ -220,10 +220,7 @@ impl WindowFlow {
                 self.show_page(Page::Tutorial(0, true))
             }
             MenuAction::Fly => self.brief(),
-            MenuAction::Acknowledge => {
-                self.send(FromWindow::Acknowledged(self.choice.clone()));
-                self.choose();
-            }
+            MenuAction::Acknowledge => self.acknowledge(),
             MenuAction::Back => self.back(),
             MenuAction::Next => self.turn_tutorial_page(),
             MenuAction::Skip => self.finish_tutorial(),
@@ -244,11 +241,7 @@ impl WindowFlow {
                 self.send(FromWindow::Again);
             }
             MenuAction::FlyNext => self.fly_next(),
-            MenuAction::WatchExpert => {
-                let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
-                self.send(FromWindow::Chosen(choice));
-                self.wait(PendingOperation::Simulator);
-            }
+            MenuAction::WatchExpert => self.watch_expert(),
             MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
             MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
@@ -311,6 +304,18 @@ impl WindowFlow {
         } else {
             self.choose();
         }
+    }
+
+    /// Acknowledges the site check of the briefing, and starts the flight.
+    fn acknowledge(&mut self) {
+        self.send(FromWindow::Acknowledged(self.choice.clone()));
+        self.choose();
+    }
+
+    fn watch_expert(&mut self) {
+        let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
+        self.send(FromWindow::Chosen(choice));
+        self.wait(PendingOperation::Simulator);
     }
 
     fn choose(&mut self) {
