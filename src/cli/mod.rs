@@ -16,7 +16,7 @@ mod monitor;
 #[cfg(feature = "view")]
 mod picture_args;
 mod pilot;
-mod plan;
+pub mod plan;
 mod ports;
 mod questionnaire;
 mod rc;

@@ -19,6 +19,7 @@ use crate::io::user_language::user_language;
 use serde_json::json;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
+use spandrel_monitor::folder::SessionInfo;
 use spandrel_monitor::sidecar::build_site;
 use spandrel_monitor::{AssessError, AssessedSession, Monitor, MonitorConfig, export};
 use std::net::{IpAddr, SocketAddr};
@@ -63,6 +64,10 @@ pub struct Args {
     /// Purpose of the flight, saved in session.json [default: not recorded]
     #[arg(long, value_name = "PURPOSE")]
     purpose: Option<args::Purpose>,
+    /// Time at which the trainee acknowledged the briefing's site check, microseconds since 1970-01-01 UTC, saved in session.json
+    /// [default: not recorded]
+    #[arg(long, value_name = "US")]
+    site_check_unix_us: Option<u64>,
     /// Ignored, because the monitor takes the time from the telemetry; accepted for compatibility with train and demo
     #[arg(long, value_name = "X|max")]
     speed: Option<SimulationSpeed>,
@@ -108,6 +113,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     tracing::info!("listening on UDP {}, writing {}", hub.port(socket), folder.path().display());
     let watch = Stopwatch::start();
     let defects_saved = config.scenario.defects.placed.is_some();
+    let site_check_unix_us = args.site_check_unix_us.or_else(|| start.recorded_site_check_unix_us());
     let mut shell = MonitorProcess {
         hub,
         socket,
@@ -116,6 +122,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         monitor,
         folder,
         defects_saved,
+        site_check_unix_us,
         session_json_saved: false,
         last_flush: Duration::ZERO,
         last_warning_time: None,
@@ -147,6 +154,14 @@ impl SessionStart {
         match &args.session {
             Some(path) => Ok(Self::Resumed(path.clone(), Box::new(StoredSession::read(path)?))),
             None => Ok(Self::New(Box::new((args.job.load_scenario()?, files::vehicle(&args.job.vehicle)?)))),
+        }
+    }
+
+    /// Returns the time of the site check that the resumed session has recorded.
+    fn recorded_site_check_unix_us(&self) -> Option<u64> {
+        match self {
+            Self::New(_) => None,
+            Self::Resumed(_, stored) => stored.site_check_unix_us,
         }
     }
 
@@ -191,6 +206,8 @@ struct MonitorProcess {
     folder: SessionFolder,
     /// True after the seed and the placed defects have been saved in `scenario.toml`.
     defects_saved: bool,
+    /// Wall time of the site check, for `session.json`.
+    site_check_unix_us: Option<u64>,
     /// True if `session.json` is up to date.
     session_json_saved: bool,
     last_flush: Duration,
@@ -273,8 +290,11 @@ impl MonitorProcess {
             self.session_json_saved = false;
         }
         if !self.session_json_saved {
-            self.folder
-                .write_session_json(|scenario, vehicle, utc, starts| self.monitor.session_info(scenario, vehicle, utc, starts))?;
+            let (monitor, site_check_unix_us) = (&self.monitor, self.site_check_unix_us);
+            self.folder.write_session_json(|scenario, vehicle, utc, starts| SessionInfo {
+                site_check_unix_us,
+                ..monitor.session_info(scenario, vehicle, utc, starts)
+            })?;
             self.session_json_saved = true;
         }
         Ok(())

@@ -11,7 +11,7 @@ use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
 use spandrel_text::Language;
 use spandrel_training::cohort::job_reliability;
-use spandrel_training::plan::{MeasureChange, PlanHeadlines, TrainingPlan, plan_for_policy};
+use spandrel_training::plan::{MeasureChange, PlanHeadlines, PlanRules, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionRecord, excluded_sessions_note};
 use spandrel_training::terms::error_label;
 use std::fmt::Write;
@@ -58,26 +58,36 @@ pub struct Args {
 /// Returns an error if files or the database are invalid, or the trainee has no session.
 pub fn run(args: &Args) -> Result<(), AppError> {
     let trainee = args.trainee.as_str();
+    let incomplete = IncompletePolicy::included(args.include_incomplete);
     let everyone = match &args.records {
         Some(file) => read_json_lines(file)?,
         None => args.records_location.location().open()?.records(None)?,
     };
-    let mut records: Vec<SessionRecord> = everyone.iter().filter(|record| record.trainee == trainee).cloned().collect();
-    records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
-    let job = records.last().map(SessionRecord::scenario_with_level);
-    let rules = rules(args.rules.as_deref())?;
-    let incomplete = IncompletePolicy::included(args.include_incomplete);
-    let Some(mut plan) = plan_for_policy(records, incomplete, &rules, clock::unix_us(), Language::English) else {
+    let Some(plan) = plan_of(trainee, &everyone, incomplete, &rules(args.rules.as_deref())?) else {
         return Err(AppError::invalid(format!(
             "the records contain no sessions of '{trainee}'; to add sessions, use `{}`",
             typed("spandrel records import")
         )));
     };
-    if let (Some(changes), Some(job)) = (&mut plan.changes, job) {
-        changes.label(&job_reliability(&everyone, &job, incomplete));
-    }
     let text = if args.json { json_text(&plan) } else { plan_text(&plan) };
     files::write("-", text.as_bytes())
+}
+
+/// Returns a trainee's plan from everyone's records; `None` if there are none of the trainee.
+pub fn plan_of(
+    trainee: &str,
+    everyone: &[SessionRecord],
+    incomplete: IncompletePolicy,
+    rules: &PlanRules,
+) -> Option<TrainingPlan> {
+    let mut records: Vec<SessionRecord> = everyone.iter().filter(|record| record.trainee == trainee).cloned().collect();
+    records.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
+    let job = records.last().map(SessionRecord::scenario_with_level);
+    let mut plan = plan_for_policy(records, incomplete, rules, clock::unix_us(), Language::English)?;
+    if let (Some(changes), Some(job)) = (&mut plan.changes, job) {
+        changes.label(&job_reliability(everyone, &job, incomplete));
+    }
+    Some(plan)
 }
 
 fn plan_text(plan: &TrainingPlan) -> String {

@@ -45,6 +45,8 @@ pub struct StoredSession {
     pub trainee: String,
     /// Purpose of the flight, if one was chosen.
     pub purpose: Option<String>,
+    /// Wall time at which the trainee acknowledged the briefing's site check, µs since the Unix epoch, if a briefing was shown.
+    pub site_check_unix_us: Option<u64>,
     /// Wall time at simulation time zero, µs since the Unix epoch.
     pub started_unix_us: u64,
     /// Number of monitor starts for this session.
@@ -226,6 +228,7 @@ impl StoredSession {
             },
             trainee: text("trainee").or_else(|| trainee_from_folder_name(path, &scenario.scenario.name)).unwrap_or_default(),
             purpose: text("purpose"),
+            site_check_unix_us: number("site_check_unix_us"),
             started_unix_us: started_unix_us.unwrap_or_default(),
             spandrel_version: text("spandrel_version").unwrap_or_default(),
             monitor_starts: u32::try_from(number("monitor_starts").unwrap_or_default()).unwrap_or(u32::MAX - 1),

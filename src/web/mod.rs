@@ -19,7 +19,7 @@ mod own_file;
 pub mod passwords;
 mod person;
 pub mod picture_store;
-mod plan_rules;
+pub mod plan_rules;
 mod questions;
 mod request;
 mod request_pipeline;

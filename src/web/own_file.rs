@@ -5,7 +5,7 @@ use super::state::ServerState;
 use crate::errors::AppError;
 use crate::io::files;
 use crate::io::replace::replace;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A file that replaces shipped data while it exists. It is in a folder of its own, because the scenario folder lists its
 /// files as scenarios.
@@ -20,7 +20,12 @@ pub struct OwnFile {
 impl OwnFile {
     /// Returns the file's path.
     pub fn path(self, state: &ServerState) -> PathBuf {
-        state.scenarios.join(self.folder).join(self.name)
+        self.path_in(&state.scenarios)
+    }
+
+    /// Returns the file's path in a folder of scenarios.
+    pub fn path_in(self, scenarios: &Path) -> PathBuf {
+        scenarios.join(self.folder).join(self.name)
     }
 
     /// Returns true if the file exists.

@@ -12,6 +12,7 @@ use spandrel_text::{Language, text};
 use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
 use spandrel_training::web::layout::Notice;
 use spandrel_training::web::plan_rules::{PlanRulesPage, plan_rules_page};
+use std::path::Path;
 
 /// Path of the page.
 const PAGE: &str = "/plan-rules";
@@ -19,28 +20,37 @@ const PAGE: &str = "/plan-rules";
 /// The server's own rules.
 const OWN: OwnFile = OwnFile { folder: "plan-rules", name: "rules.toml" };
 
-/// Returns the rules in use with the difficulty levels of the drills, which may be uploaded scenarios, and a note if the server's
-/// own rules can't be used.
+/// Returns the rules in use on the server, as [`rules_beside`].
 ///
 /// # Errors
 /// Returns an error if the shipped rules are invalid.
 pub fn rules_in_use(state: &ServerState, language: Language) -> Result<(PlanRules, Option<String>), AppError> {
-    let (rules, note) = valid_rules(state, language)?;
+    rules_beside(&state.scenarios, language)
+}
+
+/// Returns the rules in use beside a folder of scenarios, with the difficulty levels of the drills, which may be uploaded scenarios,
+/// and a note if the instructors' own rules can't be used.
+///
+/// # Errors
+/// Returns an error if the shipped rules are invalid.
+pub fn rules_beside(scenarios: &Path, language: Language) -> Result<(PlanRules, Option<String>), AppError> {
+    let (rules, note) = valid_rules(scenarios, language)?;
     // Reading all scenarios takes longer than the plan, and only uploaded ones can add anything.
     if rules.drills.iter().all(|drill| drill.difficulty.is_some()) {
         return Ok((rules, note));
     }
-    let known = all(&state.scenarios);
+    let known = all(scenarios);
     let levels = |name: &str| known.iter().find(|job| job.named.name == name)?.scenario.difficulty.clone();
     Ok((rules.with_levels(levels), note))
 }
 
-fn valid_rules(state: &ServerState, language: Language) -> Result<(PlanRules, Option<String>), AppError> {
+fn valid_rules(scenarios: &Path, language: Language) -> Result<(PlanRules, Option<String>), AppError> {
     let shipped = || plan_rules::rules(None);
-    if !OWN.exists(state) {
+    let own = OWN.path_in(scenarios);
+    if !own.is_file() {
         return Ok((shipped()?, None));
     }
-    match plan_rules::rules(Some(&OWN.path(state))) {
+    match plan_rules::rules(Some(&own)) {
         Ok(rules) => Ok((rules, None)),
         Err(AppError::Wrong(_) | AppError::Failed(_) | AppError::Autopilot(..)) => {
             Ok((shipped()?, Some(text!(language, "editor-rules-invalid"))))

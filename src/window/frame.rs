@@ -158,7 +158,7 @@ impl Cockpit {
     fn show(&mut self, flying: &FlightStarted) -> Result<(), AppError> {
         self.end_flight();
         let scenario = files::scenario(&flying.choice.scenario)?.scenario;
-        let vehicle = files::vehicle(&flying.vehicle)?.vehicle;
+        let vehicle = files::vehicle(&flying.choice.vehicle)?.vehicle;
         if let Some(screen) = &self.screen {
             screen.window.set_title(&format!("Spandrel: {}", scenario.title));
         }

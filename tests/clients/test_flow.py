@@ -27,7 +27,7 @@ LIMIT_S = 400
 # Wall seconds before a key without an effect is pressed again.
 AGAIN_S = 20.0
 # X names of the keys that navigate the rows of a window.
-ENTER, DOWN, UP, LEFT, ESCAPE = "Return", "Down", "Up", "Left", "Escape"
+ENTER, DOWN, UP, LEFT, RIGHT, ESCAPE = "Return", "Down", "Up", "Left", "Right", "Escape"
 
 
 # Message of `train` to a window that is started alone.
@@ -143,6 +143,18 @@ def in_flight(photograph):
     return count(photograph, GREEN) > 50 and count(photograph, FOCUS) < 200
 
 
+def acknowledge(training, name):
+    """Confirms the site check of the briefing with which a flight from the command line begins, and waits for the flight."""
+    training.wait_for_screenshot(f"{name}-briefing", is_page)
+    assert not folders(training), "the flight must wait for the site check"
+    return training.wait_for_screenshot(name, in_flight, ENTER)
+
+
+def was_site_check_acknowledged(session):
+    """Returns whether the session records a site check before its start."""
+    return 0 < session.get("site_check_unix_us", 0) <= session["started_unix_us"]
+
+
 def paused(photograph):
     """Returns whether a page is displayed over the flight."""
     return count(photograph, FOCUS) > 500 and count(photograph, GREEN) > 50
@@ -161,10 +173,10 @@ def test_wire_keyboard_controls_a_complete_session(screen, speakers, tmp_path):
     training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "drill-hover", "--choose", "--seed", "7", speakers=speakers)
     try:
         start = training.wait_for_screenshot("start", is_start_page)
-        # Moves the focus down past the recommendation, the job and the purpose to "Next", which opens the controller check.
+        # Moves the focus down past the recommendation, the job, the aircraft and the purpose to "Next", which opens the controller check.
         moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
         assert focus(moved)[1] < 0.5
-        for _ in range(3):
+        for _ in range(4):
             screen.tap(DOWN)
         controls = training.wait_for_screenshot("controls", other_page(moved), ENTER)
         screen.key("w", True)
@@ -216,6 +228,7 @@ def test_wire_keyboard_controls_a_complete_session(screen, speakers, tmp_path):
         training.close()
     sessions = [json.loads((folder / "session.json").read_text(encoding="utf-8")) for folder in folders(training)]
     assert [session["purpose"] for session in sessions] == ["practice"] * 2 and {session["trainee"] for session in sessions} == {"nina"}
+    assert all(was_site_check_acknowledged(session) for session in sessions), sessions
     drawn = sorted((folders(training)[1] / "snapshots").glob("*.jpg"))
     assert drawn and all(Image.open(path).size[0] > 600 for path in drawn)
     assert "data:image/jpeg;base64," in (folders(training)[1] / "report.html").read_text(encoding="utf-8")
@@ -247,7 +260,7 @@ def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_pa
     """The pause key asks whether to end the session while the flight continues."""
     training = Training(screen, tmp_path, "--trainee", "otto", "--scenario", "drill-hover", "--purpose", "assessment", "--no-sound")
     try:
-        training.wait_for_screenshot("assessment", in_flight)
+        acknowledge(training, "assessment")
         screen.focus()
         again = asking.Repeater(lambda: screen.tap("BackSpace"), again_s=AGAIN_S)
 
@@ -265,7 +278,8 @@ def test_wire_assessment_can_be_ended_but_not_paused_or_restarted(screen, tmp_pa
         assert "so there is no session to score" in training.output(), "the output must explain that there was no takeoff"
     finally:
         training.close()
-    assert len(folders(training)) == 1
+    (folder,) = folders(training)
+    assert was_site_check_acknowledged(json.loads((folder / "session.json").read_text(encoding="utf-8")))
 
 
 @pytest.mark.timeout(1200)
@@ -275,15 +289,17 @@ def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
     try:
         start = training.wait_for_screenshot("start", is_start_page)
         moved = training.wait_for_screenshot("focus-moves", lambda photograph: is_page(photograph) and focus(photograph)[1] > focus(start)[1] + 0.03, DOWN)
-        # Below the recommendation: job, purpose, controller check, expert.
-        for _ in range(4):
-            screen.tap(DOWN)
+        # Below the recommendation: job, aircraft, purpose, controller check, expert. Another aircraft is chosen on the way.
+        for key in (DOWN, DOWN, RIGHT, DOWN, DOWN, DOWN):
+            screen.tap(key)
         spandrel.wait_for("the focus on the expert", lambda: focus(screen.photograph())[1] > focus(moved)[1] + 0.2, LIMIT_S)
         training.wait_for_screenshot("expert-flies", in_flight, ENTER)
         training.wait_for_screenshot("expert-over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200)
         (session,) = folders(training)
         told = json.loads((session / "session.json").read_text(encoding="utf-8"))
         assert (told["trainee"], told["purpose"]) == ("synthetic-expert", "practice"), told
+        assert told["vehicle"] == "elios3", told
+        assert "site_check_unix_us" not in told, "nobody has acknowledged a site check"
         ended = json.loads((session / "assessment.json").read_text(encoding="utf-8"))
         assert ended["end"]["reason"] == "landed" and ended["tasks"][0]["attempted"], ended["end"]
         # The first row flies the job oneself.
@@ -311,7 +327,7 @@ def test_wire_practice_freezes_rewinds_and_shows_a_ghost(screen, tmp_path):
         return [event["count"] for event in map(json.loads, lines) if event["event"] == kind]
 
     try:
-        training.wait_for_screenshot("practice", in_flight)
+        acknowledge(training, "practice")
         screen.focus()
         press_until("rewind is refused on the ground", "z", lambda: "Rejected: not flown yet" in training.output())
         fly = asking.Repeater(lambda: (screen.tap("1"), screen.tap("t")))
@@ -369,6 +385,7 @@ def test_wire_flight_survives_its_window(screen, tmp_path):
     """A killed window is reported once; the simulator and the monitor continue."""
     training = Training(screen, tmp_path, "--scenario", "drill-hover", "--no-sound")
     try:
+        acknowledge(training, "flight-before-the-window-is-killed")
         spandrel.wait_for("the controller connection", lambda: "has connected" in training.output(), LIMIT_S)
         os.kill(spandrel.wait_for("a window", lambda: window_of(training), LIMIT_S), signal.SIGKILL)
         spandrel.wait_for("the message about the lost window", lambda: "the session continues without it" in training.output(), LIMIT_S)

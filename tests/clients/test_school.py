@@ -10,7 +10,7 @@ from test_flow import DOWN, ENTER, ESCAPE, FOCUS, LIMIT_S, NIGHT, Training, coun
 # Color of the verdict on a right and on a wrong answer (crates/view/src/hud/mod.rs).
 RIGHT, WRONG = (0, 190, 130), (240, 228, 66)
 # Row of the defect school on the start page of a trainee without sessions, from the row of the pseudonym.
-ROWS_DOWN = 7
+ROWS_DOWN = 8
 # Number of cards in a round.
 CARDS = 10
 

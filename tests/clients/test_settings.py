@@ -49,10 +49,10 @@ def test_wire_a_changed_key_is_stored_and_flies_the_drone(screen, tmp_path):  # 
         stored = settings_of(training)
         assert stored["format"] == 1 and stored["actions"]["arm"] == "1", stored
         assert stored["sound"]["on"], "--no-sound applies to this run only"
-        # Back to the start page; "Next" is four rows down: recommendation, job, purpose, next.
+        # Back to the start page; "Next" is five rows down: recommendation, job, aircraft, purpose, next.
         page = training.wait_for_screenshot("settings-again", other_page(screen.photograph()), ESCAPE)
         page = training.wait_for_screenshot("start-again", is_start_page, ESCAPE)
-        for _ in range(4):
+        for _ in range(5):
             screen.tap(DOWN)
         page = training.wait_for_screenshot("controls", other_page(page), ENTER)
         page = training.wait_for_screenshot("tutorial", other_page(page), ENTER)

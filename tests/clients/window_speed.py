@@ -17,6 +17,7 @@ import time
 
 import numpy
 
+import asking
 import display
 import spandrel
 
@@ -94,6 +95,9 @@ def delays(screen, folder):
     """Returns the times for a key that changes the layout, and for a key that turns the aircraft, s."""
     process, _ = start(screen, folder, "train", "--ports", "ephemeral", "--web", "none", "--no-sound", "--scenario", "drill-hover")
     try:
+        # The briefing comes first; Enter confirms its site check.
+        confirm = asking.Repeater(lambda: (screen.focus(), screen.tap("Return")))
+        spandrel.wait_for("the flight", lambda: confirm.if_due() or "Take off, fly the tasks" in output(folder), 300.0)
         spandrel.wait_for("the controller", lambda: "has connected" in output(folder), 300.0)
         time.sleep(10.0)
         screen.focus()

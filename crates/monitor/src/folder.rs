@@ -61,6 +61,10 @@ pub struct SessionInfo {
     /// Session purpose, `practice` or `assessment`; `None` if not specified.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purpose: Option<String>,
+    /// Wall-clock time at which the trainee acknowledged the site check of the briefing, µs since the Unix epoch; `None` if
+    /// no briefing was shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub site_check_unix_us: Option<u64>,
     /// Number of times that the monitor was started for this folder.
     pub monitor_starts: u32,
     /// Link statistics since the monitor was last started.

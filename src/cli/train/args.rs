@@ -8,6 +8,7 @@ use crate::io::addresses;
 use crate::io::files;
 use crate::io::pacing::SimulationSpeed;
 use crate::io::trainee_id::TraineeId;
+use spandrel_view::flow::pipe::FlightChoice;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -17,15 +18,16 @@ const DEFAULT_SCENARIO: &str = "two-bridges";
 /// Fly a session yourself
 ///
 /// Starts the simulator and the monitor, prints how to connect a ground station or a script, waits for the flight, and
-/// prints the scores and the session folder. With a display, it opens a window where you choose the trainee and job
-/// (unless you specify a scenario), check the controller, take a tutorial on your first flight, fly with the keyboard
-/// or a calibrated controller using the inspector's and the camera's views, and see the scores. You can pause or
-/// restart a practice flight. Without a display, fly with your ground station or a script.
+/// prints the scores and the session folder. With a display, it opens a window where you choose the trainee and job,
+/// check the controller, take a tutorial on your first flight, read the briefing and confirm its site check, fly with the
+/// keyboard or a calibrated controller using the inspector's and the camera's views, and see the scores. If you specify
+/// a scenario, the window begins with its briefing. You can pause or restart a practice flight. Without a display, the
+/// flight starts at once: fly with your ground station or a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = AUTOPILOT_EXIT_CODES, after_long_help = format!("\
 Examples:
   spandrel train                                  choose in the window (without a display: two-bridges)
-  spandrel train --trainee anna --scenario drill-hover          start this flight; QGroundControl on this machine connects automatically
+  spandrel train --trainee anna --scenario drill-hover          brief and start this flight; QGroundControl on this machine connects automatically
   spandrel train --scenario my-job.toml --choose  choose in the window, with this scenario in the list
   spandrel train --autopilot px4 --px4 ~/PX4-Autopilot          fly a real PX4 at the same site
   spandrel train --no-view                        don't open the window
@@ -147,9 +149,10 @@ impl Args {
         files::with_variant(self.scenario.as_deref().unwrap_or(DEFAULT_SCENARIO), self.form.as_deref(), self.level)
     }
 
-    /// Returns a scenario's job with the requested aircraft and seed. The argument includes the form or the level.
-    pub fn job(&self, scenario: &str) -> JobArgs {
-        JobArgs { scenario: scenario.to_owned(), form: None, level: None, vehicle: self.vehicle.clone(), seed: self.seed }
+    /// Returns a chosen flight's job with the requested seed. Its scenario includes the form or the level.
+    pub fn job(&self, choice: &FlightChoice) -> JobArgs {
+        let (scenario, vehicle) = (choice.scenario.clone(), choice.vehicle.clone());
+        JobArgs { scenario, form: None, level: None, vehicle, seed: self.seed }
     }
 }
 

@@ -67,17 +67,22 @@ pub enum FlightOutcome {
 }
 
 impl FlightProcesses {
-    /// Starts the processes.
+    /// Starts the processes. The session records when the site check was acknowledged, in µs since the Unix epoch.
     ///
     /// # Errors
     /// Returns an error if files or ports are invalid.
-    pub fn start(args: &Args, choice: &FlightChoice, log: tracing::Level, language: Language) -> Result<Self, AppError> {
-        let job = args.job(&choice.scenario);
+    pub fn start(
+        args: &Args,
+        (choice, site_check_unix_us): (&FlightChoice, Option<u64>),
+        log: tracing::Level,
+        language: Language,
+    ) -> Result<Self, AppError> {
+        let job = args.job(choice);
         let title = files::scenario(&job.scenario)?.scenario.title;
         let ghost = available_ghost(args, choice, language);
         let common = common_args(&job, log);
         let expert_args = expert_args(&common);
-        let monitor_args = [common.clone(), monitor_args(args, choice)].concat();
+        let monitor_args = [common.clone(), monitor_args(args, choice, site_check_unix_us)].concat();
         let with_port = |port: String| [monitor_args.clone(), vec!["--port".to_owned(), port]].concat();
         let mut monitor = Child::start("monitor", &with_port(args.ports.monitor_port().to_string()))?;
         let announced = monitor.read_announcement()?;
@@ -131,7 +136,7 @@ impl FlightProcesses {
     pub fn open_second_window(&mut self, args: &Args, log: tracing::Level) {
         let Some(payload) = self.port("payload_port") else { return };
         let seed = self.ports["seed"].as_u64();
-        let mut words = common_args(&JobArgs { seed, ..args.job(&self.choice.scenario) }, log);
+        let mut words = common_args(&JobArgs { seed, ..args.job(&self.choice) }, log);
         words.extend(["--connect".to_owned(), payload.to_string()]);
         words.extend(["--layout", "inspector-only", "--second-screen", "--no-sound"].map(str::to_owned));
         words.extend(args.quality.iter().flat_map(|quality| ["--quality".to_owned(), quality.clone()]));
@@ -161,7 +166,6 @@ impl FlightProcesses {
     pub fn started_message(&self, args: &Args) -> Option<ToWindow> {
         Some(ToWindow::Flying(FlightStarted {
             choice: self.choice.clone(),
-            vehicle: args.vehicle.clone(),
             seed: self.ports["seed"].as_u64().unwrap_or_default(),
             connect: self.port("payload_port")?,
             // A trainee who watches does not move the sticks.
@@ -235,7 +239,11 @@ impl FlightProcesses {
         let practice = self.choice.purpose == Purpose::Practice;
         match wish {
             // An order is declined before the flight begins.
-            FromWindow::Ready | FromWindow::Language { .. } | FromWindow::Declined => {}
+            FromWindow::Ready
+            | FromWindow::Language { .. }
+            | FromWindow::Aircraft { .. }
+            | FromWindow::Declined
+            | FromWindow::Acknowledged(_) => {}
             FromWindow::Showing => {
                 self.start_expert();
                 self.background_expert.start();
@@ -331,7 +339,7 @@ struct AvailableGhost {
 
 fn available_ghost(args: &Args, choice: &FlightChoice, language: Language) -> AvailableGhost {
     let practices = choice.purpose == Purpose::Practice && choice.by == FlownBy::Trainee;
-    let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&args.vehicle).ok());
+    let job = files::scenario(&choice.scenario).ok().filter(|_| practices).zip(files::vehicle(&choice.vehicle).ok());
     let Some((scenario, vehicle)) = job else { return AvailableGhost::default() };
     let recorded = offers::recorded_ghost(&args.sessions, &choice.trainee, &scenario, language);
     let is_outdated = recorded.is_outdated;
@@ -356,8 +364,8 @@ fn expert_args(common: &[String]) -> Vec<String> {
     [common, &["--skill", "expert"].map(str::to_owned)].concat()
 }
 
-fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
-    [
+fn monitor_args(args: &Args, choice: &FlightChoice, site_check_unix_us: Option<u64>) -> Vec<String> {
+    let mut words = [
         "--sessions",
         &args.sessions.display().to_string(),
         "--trainee",
@@ -371,5 +379,7 @@ fn monitor_args(args: &Args, choice: &FlightChoice) -> Vec<String> {
         &args.ports.instance.to_string(),
     ]
     .map(str::to_owned)
-    .to_vec()
+    .to_vec();
+    words.extend(site_check_unix_us.into_iter().flat_map(|time| ["--site-check-unix-us".to_owned(), time.to_string()]));
+    words
 }

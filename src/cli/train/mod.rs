@@ -1,6 +1,7 @@
 //! `spandrel train`: starts a simulator and a monitor for a trainee, and a window for choosing, flying and reviewing
 //! flights.
 
+mod aircraft;
 mod args;
 mod assigned;
 mod connection_info;
@@ -8,6 +9,7 @@ mod expert_ghost;
 mod flight_processes;
 mod offers;
 mod picture_jobs;
+mod planned;
 mod prompt;
 mod questionnaire_state;
 mod school;
@@ -20,6 +22,7 @@ pub use args::Args;
 use crate::errors::AppError;
 use crate::io::stop::StopRequest;
 use crate::io::{controller, files};
+use aircraft::SelectedAircraft;
 use train_run::TrainRun;
 
 /// Runs the subcommand.
@@ -35,7 +38,7 @@ pub fn run(args: &Args, log: tracing::Level) -> Result<(), AppError> {
     }
     // Errors in the files are reported before any process starts.
     files::scenario(&args.scenario_argument())?;
-    let aircraft = files::vehicle(&args.vehicle)?.vehicle;
+    let aircraft = SelectedAircraft::read(&args.vehicle)?;
     controller::keys(args.keys.as_deref())?;
     args.quality.as_deref().map_or(Ok(()), check_quality)?;
     TrainRun::new(args, aircraft, log, StopRequest::install(false)?).run()

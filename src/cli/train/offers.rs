@@ -1,5 +1,6 @@
 //! Contents of the window's start page and end page.
 
+use super::aircraft::SelectedAircraft;
 use crate::io::files::{self, ScenarioFile};
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
@@ -32,9 +33,9 @@ use std::path::{Path, PathBuf};
 /// Trainee ID of the sessions that the synthetic expert flies.
 pub const EXPERT_ID: &str = "synthetic-expert";
 
-/// Returns the choices that the start page offers, for flights with an aircraft.
+/// Returns the choices that the start page offers, with briefings for an aircraft, but without the aircraft to choose from.
 pub fn flight_options(
-    (sessions, vehicle): (&Path, &Vehicle),
+    (sessions, aircraft): (&Path, &SelectedAircraft),
     choice: &FlightChoice,
     web: Option<&str>,
     language: Language,
@@ -47,16 +48,27 @@ pub fn flight_options(
     FlightOptions {
         trainees: trainee_summaries(sessions, language),
         lesson: job_named(FIRST_LESSON, language),
-        scenarios: names.into_iter().filter_map(|name| job_offer(name, vehicle, language)).collect(),
+        scenarios: names.into_iter().filter_map(|name| job_offer(name, aircraft, language)).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
+        vehicles: Vec::new(),
+    }
+}
+
+/// Adds the trainees' next jobs that are not offered yet, such as another level of a drill: without its offer, a job has neither a
+/// title nor a briefing.
+pub fn add_next_jobs(options: &mut FlightOptions, aircraft: &SelectedAircraft, language: Language) {
+    for next in options.trainees.iter().filter_map(|trainee| trainee.next.as_ref()) {
+        if options.scenarios.iter().all(|job| job.name != next.scenario) {
+            options.scenarios.extend(job_offer(next.scenario.clone(), aircraft, language));
+        }
     }
 }
 
 /// Returns the job with this name or path in a language, with its briefing for an aircraft; `None` if it cannot be read.
-pub fn job_offer(name: String, vehicle: &Vehicle, language: Language) -> Option<JobOffer> {
+pub fn job_offer(name: String, aircraft: &SelectedAircraft, language: Language) -> Option<JobOffer> {
     let file = files::scenario(&name).ok()?;
-    let (briefing, conditions) = job_briefing(&file, vehicle, language);
+    let (briefing, conditions) = job_briefing(&file, &aircraft.vehicle, language);
     Some(JobOffer {
         name,
         title: job_title(&file.scenario, language),
@@ -64,6 +76,7 @@ pub fn job_offer(name: String, vehicle: &Vehicle, language: Language) -> Option<
         conditions,
         is_lesson: !file.scenario.lesson.is_empty(),
         briefing,
+        vehicle: aircraft.name.clone(),
     })
 }
 
@@ -346,16 +359,31 @@ impl LessonSession {
     }
 }
 
-/// Returns a job with its title in a language, if it is installed.
+/// Returns a job with its title in a language, if it is installed. The title distinguishes forms and levels.
 pub fn job_named(scenario: &str, language: Language) -> Option<NextJob> {
-    let job = files::scenario(scenario).ok()?.scenario;
-    let title = scenario_title(&job.name, &job.title, language);
+    let title = job_title(&files::scenario(scenario).ok()?.scenario, language);
     Some(NextJob { scenario: scenario.to_owned(), title, due: None })
 }
 
 /// Returns the job that the advice recommends, if it is installed.
 fn next_job(advice: &SessionAdvice, language: Language) -> Option<NextJob> {
     job_named(&advice.next.as_ref()?.scenario, language)
+}
+
+/// Returns each trainee's session folders in the order of their starts.
+pub fn sessions_by_trainee(sessions: &Path) -> BTreeMap<String, Vec<PathBuf>> {
+    let mut stored = stored_sessions(sessions);
+    stored.sort_by_key(|session| session.started_unix_us);
+    let mut found: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
+    for StoredSessionFolder { trainee, folder, .. } in stored {
+        found.entry(trainee).or_default().push(folder);
+    }
+    found
+}
+
+/// Returns whether a session is one of a lesson of which not all steps were done.
+pub fn has_unfinished_lesson(session: &Path) -> bool {
+    LessonSession::unfinished(session).is_some()
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.
@@ -454,15 +482,15 @@ mod tests {
     use spandrel_view::flow::pipe::FlownBy;
     use spandrel_view::picture::Picture;
 
-    fn phantom() -> Vehicle {
-        files::vehicle("phantom2").unwrap().vehicle
+    fn phantom() -> SelectedAircraft {
+        SelectedAircraft::read("phantom2").unwrap()
     }
 
     #[test]
     fn exact_the_briefing_in_the_window_has_everything_that_the_printed_one_has() {
         let job = job_offer("two-bridges".into(), &phantom(), Language::English).unwrap();
         let scenario = files::scenario("two-bridges").unwrap().scenario;
-        let printed = Briefing::new(&scenario, &phantom(), &Site::without_defects(&scenario), Language::English);
+        let printed = Briefing::new(&scenario, &phantom().vehicle, &Site::without_defects(&scenario), Language::English);
         let JobBriefing { conditions, counts, hazards, tasks, site_check, .. } = job.briefing;
         assert_eq!((hazards, site_check, tasks.len()), (printed.hazards, printed.site_check, printed.tasks.len()));
         assert!(
@@ -484,7 +512,13 @@ mod tests {
     }
 
     fn choice() -> FlightChoice {
-        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee }
+        FlightChoice {
+            trainee: "anna".into(),
+            scenario: "drill-hover".into(),
+            purpose: Purpose::Practice,
+            by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
+        }
     }
 
     #[test]
@@ -498,6 +532,28 @@ mod tests {
         let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
         let offers = flight_options((&folder.path().join("none-yet"), &phantom()), &harder, None, Language::English);
         assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
+    }
+
+    #[test]
+    fn regress_another_level_of_a_drill_that_is_recommended_or_assigned_has_a_briefing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut offers = flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, Language::English);
+        let offered = offers.scenarios.len();
+        let trainee = |name: &str, scenario: &str| {
+            let next = job_named(scenario, Language::English);
+            TraineeSummary { name: name.into(), sessions: 1, practices: 1, last: None, next }
+        };
+        offers.trainees = vec![
+            trainee("anna", "drill-gap@6"),
+            trainee("bert", "drill-gap@6"),
+            trainee("cora", "drill-gap"),
+            trainee("dan", "none"),
+        ];
+        add_next_jobs(&mut offers, &phantom(), Language::English);
+        assert_eq!(offers.scenarios.len(), offered + 1);
+        let added = offers.scenarios.last().unwrap();
+        assert_eq!((added.name.as_str(), added.vehicle.as_str()), ("drill-gap@6", "phantom2"));
+        assert!(!added.briefing.site_check.is_empty());
     }
 
     #[test]

@@ -125,10 +125,10 @@ impl StationLink {
         }
     }
 
-    /// Returns the next flight that an instructor has ordered. The order is answered once the flight has started.
-    pub fn next_flight(&mut self) -> Option<FlightChoice> {
+    /// Returns the next flight that an instructor has ordered, with the station's aircraft. The order is answered once the flight has started.
+    pub fn next_flight(&mut self, vehicle: &str) -> Option<FlightChoice> {
         let ReceivedOrder { order, pictures } = self.orders.try_iter().last()?;
-        match choice(&order, &self.sessions) {
+        match choice(&order, (&self.sessions, vehicle)) {
             Ok(choice) => {
                 if let Err(error) = save_pictures(&order, &pictures, &server_folder(&self.sessions)) {
                     // The briefing is shown without them.
@@ -163,8 +163,8 @@ fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Converts an order to a choice, as if the trainee had made it. Saves the scenario unless it is shipped.
-fn choice(order: &FlightOrder, sessions: &Path) -> Result<FlightChoice, AppError> {
+/// Converts an order to a choice of a flight with an aircraft, as if the trainee had made it. Saves the scenario unless it is shipped.
+fn choice(order: &FlightOrder, (sessions, vehicle): (&Path, &str)) -> Result<FlightChoice, AppError> {
     let flight = &order.flight;
     flight.trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
     let purpose = [Purpose::Practice, Purpose::Assessment].into_iter().find(|purpose| purpose.word() == flight.purpose);
@@ -175,7 +175,7 @@ fn choice(order: &FlightOrder, sessions: &Path) -> Result<FlightChoice, AppError
         None => return Err(AppError::invalid(format!("'{}' is not a shipped scenario", flight.scenario))),
     };
     files::scenario(&scenario)?;
-    Ok(FlightChoice { trainee: flight.trainee.clone(), scenario, purpose, by: FlownBy::Trainee })
+    Ok(FlightChoice { trainee: flight.trainee.clone(), scenario, purpose, by: FlownBy::Trainee, vehicle: vehicle.to_owned() })
 }
 
 /// Returns the folder for scenarios from the server.
@@ -390,10 +390,10 @@ mod tests {
     #[test]
     fn exact_orders_become_choices_and_own_scenarios_are_saved() {
         let sessions = tempfile::tempdir().unwrap();
-        let shipped = choice(&order("drill-hover", "assessment", None), sessions.path()).unwrap();
+        let shipped = choice(&order("drill-hover", "assessment", None), (sessions.path(), "phantom2")).unwrap();
         assert_eq!((shipped.scenario.as_str(), shipped.purpose), ("drill-hover", Purpose::Assessment));
         let text = shipped::PRACTICE.replace("name = \"practice\"", "name = \"windy\"");
-        let own = choice(&order("windy", "practice", Some(&text)), sessions.path()).unwrap();
+        let own = choice(&order("windy", "practice", Some(&text)), (sessions.path(), "phantom2")).unwrap();
         let path = sessions.path().join(UPLOAD_FOLDER).join(SERVER_FOLDER).join("windy.toml");
         assert_eq!(own.scenario, path.display().to_string());
         assert_eq!(std::fs::read_to_string(path).unwrap(), text);
@@ -453,7 +453,7 @@ mod tests {
                 ..order("x", "x", None)
             },
         ] {
-            assert!(choice(&bad, sessions.path()).is_err(), "{bad:?}");
+            assert!(choice(&bad, (sessions.path(), "phantom2")).is_err(), "{bad:?}");
         }
         assert!(!sessions.path().join(UPLOAD_FOLDER).exists());
     }

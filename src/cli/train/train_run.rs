@@ -1,11 +1,13 @@
 //! The flights in one run of `train`: those chosen in the window, or the one specified on the command line.
 
+use super::aircraft::{self, SelectedAircraft};
 use super::args::{Args, camera_file};
 use super::assigned;
 use super::expert_ghost::BackgroundExpert;
 use super::flight_processes::{FlightOutcome, FlightProcesses};
 use super::offers;
 use super::picture_jobs::PictureJobs;
+use super::planned;
 use super::prompt::{PromptAnswer, TerminalPrompt};
 use super::questionnaire_state;
 use super::school::SchoolRoom;
@@ -15,12 +17,12 @@ use crate::cli::invocation::typed;
 use crate::cli::table::report_outcome;
 use crate::errors::AppError;
 use crate::io::addresses;
+use crate::io::clock;
 use crate::io::files;
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
-use spandrel_model::vehicle::Vehicle;
 use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow};
 use std::net::SocketAddr;
@@ -39,8 +41,8 @@ struct ServedPages {
 /// A run of `spandrel train`.
 pub struct TrainRun<'a> {
     args: &'a Args,
-    /// Aircraft of all flights.
-    aircraft: Vehicle,
+    /// Aircraft that is selected in the window, or flown.
+    aircraft: SelectedAircraft,
     log: tracing::Level,
     stop: StopRequest,
     /// The window, while it is open.
@@ -49,8 +51,9 @@ pub struct TrainRun<'a> {
     closed: bool,
     web: Option<ServedPages>,
     web_announced: bool,
-    /// Language of the offers in the window.
+    /// Language and aircraft of the offers in the window.
     offered_language: Option<Language>,
+    offered_aircraft: Option<String>,
     pictures: PictureJobs,
     /// Processes of the last flight. Its vehicle stays connected until the next flight or the end of the run, so ground
     /// stations can download its logs.
@@ -61,6 +64,14 @@ pub struct TrainRun<'a> {
     station: Option<StationLink>,
     /// Ordered flight whose briefing the window shows.
     briefed: Option<FlightChoice>,
+    /// The latest acknowledgement in the window.
+    site_check: Option<SiteCheck>,
+}
+
+/// The acknowledgement of the site check in a briefing. It holds for each attempt at this flight.
+struct SiteCheck {
+    choice: FlightChoice,
+    acknowledged_unix_us: u64,
 }
 
 /// What to do after a flight.
@@ -74,7 +85,7 @@ enum NextFlight {
 
 impl<'a> TrainRun<'a> {
     /// Creates a run without starting anything.
-    pub fn new(args: &'a Args, aircraft: Vehicle, log: tracing::Level, stop: StopRequest) -> Self {
+    pub fn new(args: &'a Args, aircraft: SelectedAircraft, log: tracing::Level, stop: StopRequest) -> Self {
         Self {
             args,
             aircraft,
@@ -85,12 +96,14 @@ impl<'a> TrainRun<'a> {
             web: None,
             web_announced: false,
             offered_language: None,
+            offered_aircraft: None,
             pictures: PictureJobs::default(),
             vehicle: None,
             prompt: TerminalPrompt::default(),
             school: SchoolRoom::new(&args.sessions),
             station: None,
             briefed: None,
+            site_check: None,
         }
     }
 
@@ -109,12 +122,9 @@ impl<'a> TrainRun<'a> {
             scenario: self.args.scenario_argument(),
             purpose: self.args.purpose.display_name(),
             by: FlownBy::Trainee,
+            vehicle: self.args.vehicle.clone(),
         };
-        let mut next = if self.args.choose || self.args.scenario.is_none() {
-            self.first_choice(&usual)
-        } else {
-            self.command_line_choice(&usual)
-        };
+        let mut next = self.first_choice(&usual);
         let mut result = Ok(());
         let mut last = None;
         while let NextFlight::Fly(choice) = next {
@@ -197,11 +207,9 @@ impl<'a> TrainRun<'a> {
         self.send_to_window(&message);
     }
 
-    /// Returns the command line's choice once the window is shown or has failed to open, so that no flight starts
-    /// without its views.
-    fn command_line_choice(&mut self, usual: &FlightChoice) -> NextFlight {
-        self.wait_for_window();
-        if self.stop.is_requested() { NextFlight::Leave } else { NextFlight::Fly(usual.clone()) }
+    /// Returns true if the command line fixes the first flight, of which the window then shows only the briefing.
+    fn is_fixed(&self) -> bool {
+        self.args.scenario.is_some() && !self.args.choose
     }
 
     /// Returns the first choice: from the window or, without a window, from the command line.
@@ -209,6 +217,10 @@ impl<'a> TrainRun<'a> {
         if self.wait_for_window() {
             self.serve(None);
             self.offer(usual);
+            if self.is_fixed() {
+                tracing::info!("read the briefing in the window and confirm the site check there to start the flight");
+                self.send_to_window(&ToWindow::Briefing);
+            }
             match self.next_choice(usual) {
                 NextFlight::NoChoice => {}
                 next @ (NextFlight::Fly(_) | NextFlight::Leave) => return next,
@@ -221,6 +233,9 @@ impl<'a> TrainRun<'a> {
         if self.stop.is_requested() {
             return NextFlight::Leave;
         }
+        if self.is_fixed() {
+            return NextFlight::Fly(usual.clone());
+        }
         if self.station.is_some() {
             return self.wait_for_order();
         }
@@ -232,13 +247,17 @@ impl<'a> TrainRun<'a> {
         NextFlight::Fly(usual.clone())
     }
 
+    /// Offers flights in the window, with the briefings for the selected aircraft.
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
         let mut offers = offers::flight_options((&self.args.sessions, &self.aircraft), choice, web.as_deref(), language);
+        offers.vehicles = aircraft::offered(&self.args.vehicle);
+        planned::recommend(&mut offers.trainees, &self.args.sessions, language);
         assigned::put_first(&mut offers.trainees, &self.args.sessions, language);
+        offers::add_next_jobs(&mut offers, &self.aircraft, language);
         self.web_announced = true;
-        self.offered_language = Some(language);
+        (self.offered_language, self.offered_aircraft) = (Some(language), Some(self.aircraft.name.clone()));
         self.send_to_window(&ToWindow::Offers(offers));
     }
 
@@ -257,12 +276,19 @@ impl<'a> TrainRun<'a> {
                         decline(&mut self.station, text!(Language::English, "stations-refusal-declined"));
                     }
                     FromWindow::Quit => return NextFlight::Leave,
+                    FromWindow::Acknowledged(choice) => {
+                        self.site_check = Some(SiteCheck { choice, acknowledged_unix_us: clock::unix_us() });
+                    }
                     FromWindow::School(request) => self.school.handle(request, language),
                     FromWindow::Chosen(choice) => match validate_choice(&choice) {
                         Ok(()) => {
                             self.settle_order(&choice);
                             return NextFlight::Fly(choice);
                         }
+                        Err(error) => window.send(&refusal(&error, language)),
+                    },
+                    FromWindow::Aircraft { name } => match SelectedAircraft::read(&name) {
+                        Ok(aircraft) => self.aircraft = aircraft,
                         Err(error) => window.send(&refusal(&error, language)),
                     },
                     // Ignore late messages about a flight that has just ended.
@@ -275,7 +301,7 @@ impl<'a> TrainRun<'a> {
                     | FromWindow::End => {}
                 }
             }
-            if self.offered_language.is_some_and(|offered| offered != self.language()) {
+            if self.are_offers_outdated() {
                 let shown = self.briefed.clone().unwrap_or_else(|| last.clone());
                 self.offer(&shown);
             }
@@ -300,15 +326,23 @@ impl<'a> TrainRun<'a> {
         self.prompt_at_terminal(last)
     }
 
+    /// Returns true if the window shows another language or aircraft than the offers.
+    fn are_offers_outdated(&self) -> bool {
+        self.offered_language.is_some_and(|offered| offered != self.language())
+            || self.offered_aircraft.as_ref().is_some_and(|offered| *offered != self.aircraft.name)
+    }
+
     /// Leads the trainee in the window to an ordered flight, which starts after the briefing, as a chosen one does.
     fn brief(&mut self, choice: FlightChoice) {
-        match offers::job_offer(choice.scenario.clone(), &self.aircraft, self.language()) {
+        let aircraft = SelectedAircraft::read(&choice.vehicle).ok();
+        let job = |aircraft| offers::job_offer(choice.scenario.clone(), aircraft, self.language());
+        match aircraft.as_ref().and_then(job) {
             Some(job) => {
                 self.briefed = Some(choice.clone());
                 self.station.iter_mut().for_each(StationLink::report_briefing);
                 self.send_to_window(&ToWindow::Ordered(OrderedFlight { choice, job }));
             }
-            // The file was readable a moment ago.
+            // The files were readable a moment ago.
             None => decline(&mut self.station, format!("cannot read {}", choice.scenario)),
         }
     }
@@ -322,7 +356,7 @@ impl<'a> TrainRun<'a> {
 
     /// Returns a flight that an instructor has ordered at this station.
     fn ordered_flight(&mut self) -> Option<FlightChoice> {
-        self.station.as_mut().and_then(StationLink::next_flight)
+        self.station.as_mut().and_then(|station| station.next_flight(&self.args.vehicle))
     }
 
     /// Waits for an instructor's order at a station without a window.
@@ -383,7 +417,9 @@ impl<'a> TrainRun<'a> {
     fn fly(&mut self, choice: &FlightChoice) -> Result<(Result<(), AppError>, std::path::PathBuf), AppError> {
         loop {
             let expert = self.end_vehicle();
-            let mut flight = FlightProcesses::start(self.args, choice, self.log, self.language())?;
+            let acknowledged = self.site_check.as_ref().filter(|check| check.choice == *choice);
+            let site_check_unix_us = acknowledged.map(|check| check.acknowledged_unix_us);
+            let mut flight = FlightProcesses::start(self.args, (choice, site_check_unix_us), self.log, self.language())?;
             expert.into_iter().for_each(|expert| flight.take_over_expert(expert));
             self.station.iter_mut().for_each(|station| station.report_start(choice));
             self.serve(flight.port("payload_port"));
@@ -434,6 +470,9 @@ impl<'a> TrainRun<'a> {
             self.pictures.draw_video(session, self.args.video);
         }
         if open {
+            if result.is_ok() {
+                planned::import(session, &self.args.sessions);
+            }
             self.offer(choice);
             let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());
@@ -508,6 +547,7 @@ fn refusal(error: &AppError, language: Language) -> ToWindow {
 /// Validates a choice made in the window in the same way as a choice on the command line.
 fn validate_choice(choice: &FlightChoice) -> Result<(), AppError> {
     choice.trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
+    files::vehicle(&choice.vehicle)?;
     files::scenario(&choice.scenario).map(|_| ())
 }
 
@@ -525,17 +565,18 @@ mod tests {
     fn exact_crashed_window_is_dropped_before_flight() {
         let args = parse_args(&["--scenario", "drill-hover"]);
         let mut course =
-            TrainRun::new(&args, files::vehicle("phantom2").unwrap().vehicle, tracing::Level::WARN, StopRequest::default());
+            TrainRun::new(&args, SelectedAircraft::read("phantom2").unwrap(), tracing::Level::WARN, StopRequest::default());
         course.window = Some(WindowProcess::failing_process());
         let choice = FlightChoice {
             trainee: "anna".into(),
             scenario: "drill-hover".into(),
             purpose: Purpose::Practice,
             by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
         };
-        assert!(matches!(course.command_line_choice(&choice), NextFlight::Fly(flown) if flown == choice));
+        assert!(matches!(course.first_choice(&choice), NextFlight::Fly(flown) if flown == choice));
         assert!(course.window.is_none() && !course.has_display() && !course.closed);
         course.stop.request();
-        assert!(matches!(course.command_line_choice(&choice), NextFlight::Leave), "no flight after a stop request");
+        assert!(matches!(course.first_choice(&choice), NextFlight::Leave), "no flight after a stop request");
     }
 }

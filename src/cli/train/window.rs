@@ -79,6 +79,7 @@ impl WindowProcess {
             ToWindow::Ended(_) => self.is_flying = false,
             ToWindow::Offers(_)
             | ToWindow::Ordered(_)
+            | ToWindow::Briefing
             | ToWindow::Paused { .. }
             | ToWindow::Refused { .. }
             | ToWindow::School(_)

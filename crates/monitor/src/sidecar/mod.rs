@@ -413,6 +413,8 @@ impl Monitor {
             vehicle_sha256: super::folder::sha256_hex(vehicle_toml),
             seed: self.seed,
             purpose: self.config.purpose.clone(),
+            // Known only to the caller: it happens before the flight, and the monitor does not use it.
+            site_check_unix_us: None,
             monitor_starts,
             link: self.link(),
             bad_bytes: self.decoder.bad_bytes(),

@@ -12,6 +12,7 @@ window-off = aus
 window-start-title = Spandrel: eine Brücke mit der Drohne prüfen
 window-start-trainee = Trainee
 window-start-job = Auftrag
+window-start-aircraft = Fluggerät
 window-start-purpose = Zweck
 window-start-check-controller = Weiter: Steuerung prüfen
 window-start-watch-expert = Experten bei diesem Auftrag zusehen
@@ -42,6 +43,7 @@ window-start-name-first = Geben Sie zuerst ein Pseudonym ein.
 window-waiting-simulator = Simulator startet ...
 window-waiting-scoring = Flug wird bewertet ...
 window-waiting-pictures = Bilder werden vorbereitet ...
+window-waiting-briefing = Briefing wird vorbereitet ...
 
 ## Briefing
 

@@ -13,6 +13,7 @@ window-off = off
 window-start-title = Spandrel: inspect a bridge with a drone
 window-start-trainee = Trainee
 window-start-job = Job
+window-start-aircraft = Aircraft
 window-start-purpose = Purpose
 window-start-check-controller = Next: check controller
 window-start-watch-expert = Watch an expert fly this job
@@ -43,6 +44,7 @@ window-start-name-first = Enter a pseudonym first.
 window-waiting-simulator = Starting simulator ...
 window-waiting-scoring = Scoring flight ...
 window-waiting-pictures = Preparing pictures ...
+window-waiting-briefing = Preparing briefing ...
 
 ## Briefing
 

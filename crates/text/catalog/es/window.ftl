@@ -12,6 +12,7 @@ window-off = no
 window-start-title = Spandrel: inspeccione un puente con un dron
 window-start-trainee = Alumno
 window-start-job = Trabajo
+window-start-aircraft = Aeronave
 window-start-purpose = Propósito
 window-start-check-controller = Siguiente: revisar el control
 window-start-watch-expert = Ver a un experto volar este trabajo
@@ -42,6 +43,7 @@ window-start-name-first = Escriba primero un seudónimo.
 window-waiting-simulator = Iniciando el simulador ...
 window-waiting-scoring = Puntuando el vuelo ...
 window-waiting-pictures = Preparando las fotos ...
+window-waiting-briefing = Preparando las instrucciones ...
 
 ## Briefing
 

@@ -5,8 +5,9 @@ use super::settings::Setting;
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, TEXT_SIZE, fitted, text_width, wrap_text};
 use crate::hud::{HudColor, TextAlign};
 
-/// Row height and row spacing.
+/// Usual and smallest row height, and usual row spacing.
 const ROW_HEIGHT: f64 = 0.06;
+const MIN_ROW_HEIGHT: f64 = 0.052;
 pub const ROW_SPACING: f64 = 0.07;
 /// Smallest gap between two rows.
 const MIN_ROW_GAP: f64 = 0.004;
@@ -18,6 +19,8 @@ pub enum MenuAction {
     Trainee,
     /// Select the job.
     Scenario,
+    /// Select the aircraft.
+    Aircraft,
     /// Select practice or assessment.
     Purpose,
     /// Continue to the controller check.
@@ -137,14 +140,16 @@ impl MenuRow {
 
 /// Draws the rows from top to bottom and returns the y position below the last one.
 pub fn draw(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: &[MenuRow], focus: usize) -> f64 {
-    draw_part(pen, (x, y), width, rows, (0, focus), ROW_SPACING - ROW_HEIGHT)
+    draw_part(pen, (x, y), width, rows, (0, focus), (ROW_HEIGHT, ROW_SPACING - ROW_HEIGHT))
 }
 
-/// Like [`draw`], with smaller gaps if the rows would otherwise not end above `bottom`.
+/// Like [`draw`], with smaller gaps and lower rows if the rows would otherwise not end above `bottom`.
 pub fn draw_above(pen: &mut PageWriter, (x, y): (f64, f64), (width, bottom): (f64, f64), rows: &[MenuRow], focus: usize) -> f64 {
     let count = rows.len().max(1) as f64;
-    let gap = ((bottom - y) / count - ROW_HEIGHT).clamp(MIN_ROW_GAP, ROW_SPACING - ROW_HEIGHT);
-    draw_part(pen, (x, y), width, rows, (0, focus), gap)
+    let spacing = (bottom - y) / count;
+    let height = (spacing - MIN_ROW_GAP).clamp(MIN_ROW_HEIGHT, ROW_HEIGHT);
+    let gap = (spacing - height).clamp(MIN_ROW_GAP, ROW_SPACING - ROW_HEIGHT);
+    draw_part(pen, (x, y), width, rows, (0, focus), (height, gap))
 }
 
 /// Draws the rows in columns, each from top to bottom, and returns the y position below the longest one.
@@ -155,23 +160,24 @@ pub fn draw_columns(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, rows: 
     let mut bottom = y;
     for (k, part) in rows.chunks(length).enumerate() {
         let left = x + (column + COLUMN_GAP) * k as f64;
-        bottom = draw_part(pen, (left, y), column, part, (k * length, focus), ROW_SPACING - ROW_HEIGHT).max(bottom);
+        let sizes = (ROW_HEIGHT, ROW_SPACING - ROW_HEIGHT);
+        bottom = draw_part(pen, (left, y), column, part, (k * length, focus), sizes).max(bottom);
     }
     bottom
 }
 
-/// Draws rows, of which the first has the number `first`.
+/// Draws rows of a height, of which the first has the number `first`.
 fn draw_part(
     pen: &mut PageWriter,
     (x, y): (f64, f64),
     width: f64,
     rows: &[MenuRow],
     (first, focus): (usize, usize),
-    gap: f64,
+    (line_height, gap): (f64, f64),
 ) -> f64 {
     let mut y = y;
     for (k, row) in (first..).zip(rows) {
-        let shape = RowShape::of(row, width, k == focus);
+        let shape = RowShape::of(row, (width, line_height), k == focus);
         draw_row(pen, (x, y), width, row, (k, &shape));
         y += shape.height + gap;
     }
@@ -181,6 +187,8 @@ fn draw_part(
 /// How a row is laid out in its width.
 struct RowShape {
     is_focused: bool,
+    /// Height of a row with one line.
+    line_height: f64,
     height: f64,
     label: Vec<String>,
     label_size: f64,
@@ -192,7 +200,7 @@ struct RowShape {
 }
 
 impl RowShape {
-    fn of(row: &MenuRow, width: f64, is_focused: bool) -> Self {
+    fn of(row: &MenuRow, (width, line_height): (f64, f64), is_focused: bool) -> Self {
         let value = if row.kind == RowKind::TextField && is_focused { format!("{}_", row.value) } else { row.value.clone() };
         let label_width = text_width(&row.label, TEXT_SIZE).max(1e-9);
         let whole = width - 2.0 * PADDING;
@@ -208,9 +216,9 @@ impl RowShape {
             if MIN_SHRINK * label_width <= room { vec![row.label.clone()] } else { wrap_text(&row.label, whole, TEXT_SIZE) };
         let label_size = if label.len() > 1 { TEXT_SIZE } else { TEXT_SIZE.min(TEXT_SIZE * room / label_width) };
         let lines = label.len() + usize::from(is_stacked);
-        let height = ROW_HEIGHT + LINE_SPACING * TEXT_SIZE * (lines - 1) as f64;
+        let height = line_height + LINE_SPACING * TEXT_SIZE * (lines - 1) as f64;
         let value_start = if is_stacked { 0.0 } else { value_start };
-        Self { is_focused, height, label, label_size, value, value_start, is_stacked }
+        Self { is_focused, line_height, height, label, label_size, value, value_start, is_stacked }
     }
 }
 
@@ -231,7 +239,7 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
         pen.panel((x - 0.014, y), (0.008, shape.height), HudColor::White);
     }
     let color = if row.kind == RowKind::Button { HudColor::White } else { HudColor::Gray };
-    let line = |k: usize| y + 0.5 * ROW_HEIGHT + LINE_SPACING * TEXT_SIZE * k as f64;
+    let line = |k: usize| y + 0.5 * shape.line_height + LINE_SPACING * TEXT_SIZE * k as f64;
     for (k, words) in shape.label.iter().enumerate() {
         pen.text((x + PADDING, line(k)), TextAlign::Left, shape.label_size, color, words.clone());
     }
@@ -243,19 +251,20 @@ fn draw_row(pen: &mut PageWriter, (x, y): (f64, f64), width: f64, row: &MenuRow,
             let height = fitted(&shape.value, TEXT_SIZE, width - 2.0 * PADDING);
             pen.text((x + width - PADDING, middle), TextAlign::Right, height, HudColor::White, shape.value.clone());
         }
-        RowKind::Choice | RowKind::TextField => draw_value(pen, (from, x + width), middle, &shape.value, k),
+        RowKind::Choice | RowKind::TextField => draw_value(pen, (from, x + width), middle, shape, k),
     }
 }
 
 /// Draws a value between its arrows.
-fn draw_value(pen: &mut PageWriter, (from, to): (f64, f64), middle: f64, words: &str, k: usize) {
+fn draw_value(pen: &mut PageWriter, (from, to): (f64, f64), middle: f64, shape: &RowShape, k: usize) {
+    let (words, line_height) = (shape.value.as_str(), shape.line_height);
     let height = fitted(words, TEXT_SIZE, to - from - 2.0 * ARROW_WIDTH).max(0.6 * SMALL_TEXT_SIZE);
     pen.text((0.5 * (from + to), middle), TextAlign::Center, height, HudColor::White, words);
     for (edge, way, on) in [(from, -1.0, false), (to - ARROW_WIDTH, 1.0, true)] {
         let tip = edge + 0.5 * ARROW_WIDTH + way * 0.011;
         let base = edge + 0.5 * ARROW_WIDTH - way * 0.011;
         pen.fill(&[(tip, middle), (base, middle - 0.014), (base, middle + 0.014)], HudColor::White);
-        pen.click_area((edge, middle - 0.5 * ROW_HEIGHT), (ARROW_WIDTH, ROW_HEIGHT), KeyPress::Step(k, on));
+        pen.click_area((edge, middle - 0.5 * line_height), (ARROW_WIDTH, line_height), KeyPress::Step(k, on));
     }
 }
 

@@ -84,6 +84,8 @@ pub struct WindowFlow {
     scrolled: f64,
     /// Whether the page is scrolled to the focused row: not before the user has moved the focus.
     follows_focus: bool,
+    /// Aircraft whose briefings were requested.
+    requested_vehicle: Option<String>,
     /// Drawings of the jobs' sites that are ready, by the jobs' names.
     job_drawings: BTreeMap<String, Arc<JobDrawing>>,
     out: VecDeque<WindowRequest>,
@@ -123,6 +125,7 @@ impl WindowFlow {
             awaited_key: None,
             scrolled: 0.0,
             follows_focus: false,
+            requested_vehicle: None,
             job_drawings: BTreeMap::new(),
             out: VecDeque::new(),
         }
@@ -282,17 +285,24 @@ impl WindowFlow {
 
     /// Handles a message from `spandrel train`.
     pub fn handle_message(&mut self, message: ToWindow) {
+        self.handle_message_on_page(message);
+        self.request_briefings();
+    }
+
+    fn handle_message_on_page(&mut self, message: ToWindow) {
         match message {
             ToWindow::Offers(offers) => {
                 if self.offers.is_none() {
                     self.choice = offers.choice.clone();
                 }
                 self.offers = Some(offers);
+                self.requested_vehicle = None;
                 if self.page == Page::Opening {
                     self.show_page(Page::Start);
                 }
             }
             ToWindow::Ordered(order) => self.begin_ordered(order),
+            ToWindow::Briefing => self.brief(),
             ToWindow::Flying(flying) => {
                 // After an expert's flight, the trainee's own choice is still selected.
                 if flying.choice.by == FlownBy::Trainee {

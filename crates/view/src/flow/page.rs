@@ -46,7 +46,7 @@ pub enum KeyPress {
 pub enum Page {
     /// Waiting for the first message.
     Opening,
-    /// Selection of trainee, job, and purpose.
+    /// Selection of trainee, job, aircraft, and purpose.
     Start,
     /// Controller check.
     Controls,

@@ -95,6 +95,18 @@ pub struct JobOffer {
     /// The job's briefing.
     #[serde(default)]
     pub briefing: JobBriefing,
+    /// Name or path of the aircraft that conditions and briefing are for.
+    #[serde(default)]
+    pub vehicle: String,
+}
+
+/// An available aircraft.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AircraftOffer {
+    /// Name, or path of the file.
+    pub name: String,
+    /// Title shown to the user.
+    pub title: String,
 }
 
 /// The briefing for a job, as text and pictures.
@@ -158,7 +170,7 @@ pub enum FlownBy {
     Expert,
 }
 
-/// Selection of trainee, job, and purpose.
+/// Selection of trainee, job, aircraft, and purpose.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct FlightChoice {
     /// The trainee's pseudonym.
@@ -170,6 +182,9 @@ pub struct FlightChoice {
     /// Pilot of the flight.
     #[serde(default)]
     pub by: FlownBy,
+    /// Name or path of the aircraft.
+    #[serde(default)]
+    pub vehicle: String,
 }
 
 /// Available choices and the current selection.
@@ -186,15 +201,16 @@ pub struct FlightOptions {
     /// Lesson for trainees without sessions.
     #[serde(default)]
     pub lesson: Option<NextJob>,
+    /// Available aircraft.
+    #[serde(default)]
+    pub vehicles: Vec<AircraftOffer>,
 }
 
 /// A flight that has started.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FlightStarted {
-    /// Trainee, job, and purpose.
+    /// Trainee, job, aircraft, and purpose.
     pub choice: FlightChoice,
-    /// Name or path of the aircraft.
-    pub vehicle: String,
     /// The session's seed.
     pub seed: u64,
     /// Address of the vehicle's payload port, which sends telemetry.
@@ -334,6 +350,8 @@ pub enum ToWindow {
     Offers(FlightOptions),
     /// An instructor has ordered a flight: lead the trainee to it.
     Ordered(OrderedFlight),
+    /// Show the briefing of the selected flight, which the command line fixes.
+    Briefing,
     /// A flight has started.
     Flying(FlightStarted),
     /// The simulation has been paused or resumed.
@@ -365,8 +383,15 @@ pub enum FromWindow {
         /// Language tag (BCP 47).
         tag: String,
     },
+    /// The trainee has selected another aircraft: [`ToWindow::Offers`] with its briefings must follow.
+    Aircraft {
+        /// Name or path of the aircraft.
+        name: String,
+    },
     /// The window shows the flight.
     Showing,
+    /// The trainee has read the briefing of this flight and acknowledged its site check; [`Self::Chosen`] follows.
+    Acknowledged(FlightChoice),
     /// Start this flight.
     Chosen(FlightChoice),
     /// The trainee has left the pages of the ordered flight without starting it.
@@ -417,6 +442,7 @@ mod tests {
             scenario: "drill-hover".into(),
             purpose: Purpose::Assessment,
             by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
         }
     }
 
@@ -457,14 +483,15 @@ mod tests {
                 conditions: "Wind: calm".into(),
                 is_lesson: true,
                 briefing: JobBriefing::default(),
+                vehicle: "phantom2".into(),
             }],
             choice: choice(),
             web: None,
             lesson: None,
+            vehicles: vec![AircraftOffer { name: "my drone.toml".into(), title: "Ours".into() }],
         };
         let flying = FlightStarted {
             choice: choice(),
-            vehicle: "phantom2".into(),
             seed: 7,
             connect: SocketAddr::from(([127, 0, 0, 1], 14280)),
             fly: None,
@@ -477,6 +504,7 @@ mod tests {
         for message in [
             ToWindow::Offers(offers),
             ToWindow::Ordered(ordered),
+            ToWindow::Briefing,
             ToWindow::Flying(flying),
             ToWindow::Paused { on: true },
             ToWindow::Refused { words: "no".into() },
@@ -490,7 +518,9 @@ mod tests {
         for message in [
             FromWindow::Ready,
             FromWindow::Language { tag: "de".into() },
+            FromWindow::Aircraft { name: "elios3".into() },
             FromWindow::Showing,
+            FromWindow::Acknowledged(choice()),
             FromWindow::Chosen(choice()),
             FromWindow::Declined,
             FromWindow::Restart,

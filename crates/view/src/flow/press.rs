@@ -18,6 +18,11 @@ const EXPO_STEP: f64 = 0.1;
 impl WindowFlow {
     /// Handles a key press or click.
     pub fn press(&mut self, press: KeyPress) {
+        self.press_on_page(press);
+        self.request_briefings();
+    }
+
+    fn press_on_page(&mut self, press: KeyPress) {
         self.notice = None;
         if self.is_awaiting_key() {
             // A click, because the host passes keys to `bind_key`.
@@ -75,6 +80,7 @@ impl WindowFlow {
         match row.action {
             MenuAction::Trainee => self.next_trainee(on),
             MenuAction::Scenario => self.next_scenario(on),
+            MenuAction::Aircraft => self.next_aircraft(on),
             MenuAction::Purpose => {
                 self.choice.purpose = match self.choice.purpose {
                     Purpose::Practice => Purpose::Assessment,
@@ -144,6 +150,24 @@ impl WindowFlow {
         }
     }
 
+    fn next_aircraft(&mut self, on: bool) {
+        let Some(offers) = &self.offers else { return };
+        let names: Vec<&str> = offers.vehicles.iter().map(|offer| offer.name.as_str()).collect();
+        if let Some(name) = adjacent_name(&names, &self.choice.vehicle, on) {
+            self.choice.vehicle = name.to_owned();
+        }
+    }
+
+    /// Requests the briefings for the selected aircraft, if the chosen job's briefing is for another one.
+    pub(super) fn request_briefings(&mut self) {
+        let is_missing = self.chosen_job().is_some() && !self.is_briefing_current();
+        if is_missing && self.requested_vehicle.as_ref() != Some(&self.choice.vehicle) {
+            let name = self.choice.vehicle.clone();
+            self.requested_vehicle = Some(name.clone());
+            self.send(FromWindow::Aircraft { name });
+        }
+    }
+
     /// Checks whether the trainee has neither flown a practice session here nor read the tutorial. A lesson is the tutorial itself.
     pub(super) fn needs_tutorial(&self) -> bool {
         if self.chosen_job().is_some_and(|job| job.is_lesson) {
@@ -166,6 +190,7 @@ impl WindowFlow {
             }
             MenuAction::Trainee
             | MenuAction::Scenario
+            | MenuAction::Aircraft
             | MenuAction::Purpose
             | MenuAction::Mode
             | MenuAction::DeadBand
@@ -195,7 +220,7 @@ impl WindowFlow {
                 self.show_page(Page::Tutorial(0, true))
             }
             MenuAction::Fly => self.brief(),
-            MenuAction::Acknowledge => self.choose(),
+            MenuAction::Acknowledge => self.acknowledge(),
             MenuAction::Back => self.back(),
             MenuAction::Next => self.turn_tutorial_page(),
             MenuAction::Skip => self.finish_tutorial(),
@@ -216,11 +241,7 @@ impl WindowFlow {
                 self.send(FromWindow::Again);
             }
             MenuAction::FlyNext => self.fly_next(),
-            MenuAction::WatchExpert => {
-                let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
-                self.send(FromWindow::Chosen(choice));
-                self.wait(PendingOperation::Simulator);
-            }
+            MenuAction::WatchExpert => self.watch_expert(),
             MenuAction::ChooseOther => self.show_page(Page::Start),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
             MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
@@ -235,12 +256,8 @@ impl WindowFlow {
     /// briefing.
     fn fly_next(&mut self) {
         let Some(next) = self.next_job().cloned() else { return };
-        self.choice = FlightChoice {
-            scenario: next.scenario,
-            purpose: Purpose::Practice,
-            by: FlownBy::Trainee,
-            trainee: self.choice.trainee.clone(),
-        };
+        self.choice =
+            FlightChoice { scenario: next.scenario, purpose: Purpose::Practice, by: FlownBy::Trainee, ..self.choice.clone() };
         if self.page == Page::Results {
             self.brief();
         } else {
@@ -281,12 +298,24 @@ impl WindowFlow {
     }
 
     /// Shows the briefing of the chosen job, or starts the flight if there is none.
-    fn brief(&mut self) {
+    pub(super) fn brief(&mut self) {
         if self.chosen_job().is_some_and(|job| !job.briefing.is_empty()) {
             self.show_page(Page::Briefing);
         } else {
             self.choose();
         }
+    }
+
+    /// Acknowledges the site check of the briefing, and starts the flight.
+    fn acknowledge(&mut self) {
+        self.send(FromWindow::Acknowledged(self.choice.clone()));
+        self.choose();
+    }
+
+    fn watch_expert(&mut self) {
+        let choice = FlightChoice { purpose: Purpose::Practice, by: FlownBy::Expert, ..self.choice.clone() };
+        self.send(FromWindow::Chosen(choice));
+        self.wait(PendingOperation::Simulator);
     }
 
     fn choose(&mut self) {

@@ -23,7 +23,8 @@ impl WindowFlow {
             Page::Tutorial(page, flight) => tutorial_rows(page, flight, language),
             Page::Settings { .. } => self.settings_rows(),
             Page::Keys { .. } => self.key_rows(),
-            Page::Briefing => briefing::rows(language),
+            Page::Briefing if self.is_briefing_current() => briefing::rows(language),
+            Page::Briefing => vec![MenuRow::button(MenuAction::Back, text!(language, "window-back"))],
             Page::Paused => vec![
                 MenuRow::button(MenuAction::Resume, text!(language, "window-paused-resume")),
                 MenuRow::button(MenuAction::Restart, self.restart_label()),
@@ -61,7 +62,7 @@ impl WindowFlow {
         let language = self.language();
         let title = self.chosen_job().map_or(self.choice.scenario.as_str(), |job| job.title.as_str());
         let next = self.next_job().map(|next| MenuRow::button(MenuAction::FlyNext, next.words(language)));
-        let rows = [
+        let mut rows = vec![
             MenuRow::text_field(MenuAction::Trainee, text!(language, "window-start-trainee"), self.choice.trainee.clone()),
             MenuRow::choice(MenuAction::Scenario, text!(language, "window-start-job"), title),
             MenuRow::choice(MenuAction::Purpose, text!(language, "window-start-purpose"), self.choice.purpose.title(language)),
@@ -78,9 +79,19 @@ impl WindowFlow {
             ),
             MenuRow::button(MenuAction::Quit, text!(language, "window-start-quit")),
         ];
-        // The trainee comes first, because the recommendation depends on it.
-        let (who, rest) = rows.split_at(1);
-        who.iter().cloned().chain(next).chain(rest.iter().cloned()).collect()
+        // Below the job; the recommendation follows the trainee, on whom it depends.
+        rows.splice(2..2, self.aircraft_row());
+        rows.splice(1..1, next);
+        rows
+    }
+
+    /// Returns the choice of the aircraft, if there are any to choose from.
+    fn aircraft_row(&self) -> Option<MenuRow> {
+        let vehicles = &self.offers.as_ref()?.vehicles;
+        let selected = vehicles.iter().find(|offer| offer.name == self.choice.vehicle);
+        let title = selected.map_or(self.choice.vehicle.as_str(), |offer| offer.title.as_str());
+        let label = text!(self.language(), "window-start-aircraft");
+        (!vehicles.is_empty()).then(|| MenuRow::choice(MenuAction::Aircraft, label, title))
     }
 
     fn controls_rows(&self) -> Vec<MenuRow> {

@@ -1,4 +1,4 @@
-//! Start page, where the user chooses trainee, job, and purpose, and the waiting page.
+//! Start page, where the user chooses trainee, job, aircraft, and purpose, and the waiting page.
 
 use super::pipe::{JobOffer, Purpose, TraineeSummary};
 use super::scroll::ScrollRange;
@@ -62,9 +62,9 @@ impl WindowFlow {
             Page::Tutorial(page, _) => tutorial::page(&mut pen, page, &rows, self.focus, &self.names),
             Page::Settings { .. } => self.draw_settings(&mut pen, &rows),
             Page::Keys { .. } => self.draw_keys(&mut pen, &rows),
-            Page::Briefing => match self.chosen_job() {
+            Page::Briefing => match self.chosen_job().filter(|_| self.is_briefing_current()) {
                 Some(job) => briefing::page(&mut pen, (job, self.job_drawings.get(&job.name)), &rows, self.focus),
-                None => waiting(&mut pen, &self.waiting_for.title(self.language())),
+                None => waiting(&mut pen, &text!(self.language(), "window-waiting-briefing")),
             },
             Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
             Page::School => {
@@ -121,6 +121,11 @@ impl WindowFlow {
         self.offers.as_ref()?.scenarios.iter().find(|job| job.name == self.choice.scenario)
     }
 
+    /// Checks whether the selected job's briefing is for the selected aircraft.
+    pub(super) fn is_briefing_current(&self) -> bool {
+        self.chosen_job().is_some_and(|job| job.vehicle == self.choice.vehicle)
+    }
+
     /// Returns the name of the job whose picture or drawings the current page shows.
     #[must_use]
     pub fn job_to_draw(&self) -> Option<&str> {
@@ -132,7 +137,11 @@ impl WindowFlow {
         let language = self.language();
         let job = self.chosen_job().map_or(String::new(), |job| {
             let contents = format!("{} ({})", job.kind, job.name);
-            if job.conditions.is_empty() { contents } else { format!("{contents} · {}", job.conditions) }
+            if job.conditions.is_empty() || !self.is_briefing_current() {
+                contents
+            } else {
+                format!("{contents} · {}", job.conditions)
+            }
         });
         let purpose = match self.choice.purpose {
             Purpose::Practice => text!(language, "window-start-about-practice"),

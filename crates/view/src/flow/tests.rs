@@ -1,9 +1,9 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow, GhostFlight,
-    JobBriefing, JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest, ToWindow,
-    TraineeSummary,
+    AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow,
+    GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest,
+    ToWindow, TraineeSummary,
 };
 use super::sheet::{PageLayout, PictureSource};
 use super::{
@@ -27,6 +27,7 @@ fn offers() -> FlightOptions {
         conditions: String::new(),
         is_lesson: false,
         briefing: JobBriefing::default(),
+        vehicle: "phantom2".into(),
     };
     FlightOptions {
         trainees: vec![
@@ -39,9 +40,11 @@ fn offers() -> FlightOptions {
             scenario: "two-bridges".into(),
             purpose: Purpose::Practice,
             by: FlownBy::Trainee,
+            vehicle: "phantom2".into(),
         },
         web: Some("http://127.0.0.1:8080".into()),
         lesson: None,
+        vehicles: Vec::new(),
     }
 }
 
@@ -52,7 +55,6 @@ fn flying(choice: &FlightChoice) -> ToWindow {
         ghost: None,
         is_ghost_outdated: false,
         choice: choice.clone(),
-        vehicle: "phantom2".into(),
         seed: 7,
         connect: here,
         fly: Some(here),
@@ -129,8 +131,13 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
     assert_eq!((flow.page(), flow.choice().scenario.as_str()), (Page::Controls, "drill-hover"));
     press(&mut flow, &[KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting, "a returning trainee must not see the tutorial");
-    let wanted =
-        FlightChoice { trainee: "anna".into(), scenario: "drill-hover".into(), purpose: Purpose::Practice, by: FlownBy::Trainee };
+    let wanted = FlightChoice {
+        trainee: "anna".into(),
+        scenario: "drill-hover".into(),
+        purpose: Purpose::Practice,
+        by: FlownBy::Trainee,
+        vehicle: "phantom2".into(),
+    };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted.clone()))]);
     flow.handle_message(flying(&wanted));
     assert_eq!(flow.page(), Page::Flight);
@@ -163,8 +170,13 @@ fn exact_the_recommended_job_is_one_key_away_before_and_after_a_flight() {
     flow.handle_message(ToWindow::Ended(FlightSummary { next: job("two-bridges", "Two bridges"), ..ended() }));
     pending_requests(&mut flow);
     press(&mut flow, &[KeyPress::Enter]);
-    let wanted =
-        FlightChoice { trainee: "bert".into(), scenario: "two-bridges".into(), purpose: Purpose::Practice, by: FlownBy::Trainee };
+    let wanted = FlightChoice {
+        trainee: "bert".into(),
+        scenario: "two-bridges".into(),
+        purpose: Purpose::Practice,
+        by: FlownBy::Trainee,
+        vehicle: "phantom2".into(),
+    };
     assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(wanted))]);
 }
 
@@ -440,9 +452,19 @@ fn regress_ending_a_flight_of_more_than_ten_seconds_needs_a_second_press() {
     );
 }
 
+/// Returns the start page with all rows: with a recommendation and a choice of aircraft.
+fn full_start() -> WindowFlow {
+    let mut offers = offers_for("phantom2");
+    offers.trainees[0].next = Some(NextJob { scenario: "drill-hover".into(), title: "Drill: hover".into(), due: None });
+    let mut flow = opened();
+    flow.handle_message(ToWindow::Offers(offers));
+    flow
+}
+
 /// Returns every page.
 fn every_page() -> Vec<(String, WindowFlow)> {
-    let mut all = vec![("opening".to_owned(), opened()), ("start".to_owned(), started())];
+    let mut all =
+        vec![("opening".to_owned(), opened()), ("start".to_owned(), started()), ("start-full".to_owned(), full_start())];
     let mut controls = started();
     controls.press(KeyPress::Row(3));
     controls.controls.keys =
@@ -913,13 +935,94 @@ fn exact_a_flight_starts_only_after_the_briefing_is_acknowledged() {
     assert_eq!(flow.page(), Page::Controls);
     press(&mut flow, &[KeyPress::Enter, KeyPress::Enter]);
     assert_eq!(flow.page(), Page::Waiting);
-    assert!(matches!(pending_requests(&mut flow)[..], [WindowRequest::Send(FromWindow::Chosen(_))]));
+    let choice = flow.choice().clone();
+    assert_eq!(pending_requests(&mut flow), acknowledged(choice));
+}
+
+/// Returns the messages with which the window starts a flight after its briefing.
+fn acknowledged(choice: FlightChoice) -> [WindowRequest; 2] {
+    [FromWindow::Acknowledged(choice.clone()), FromWindow::Chosen(choice)].map(WindowRequest::Send)
+}
+
+#[test]
+fn exact_a_flight_from_the_command_line_begins_with_its_briefing() {
+    let mut flow = opened();
+    flow.handle_message(ToWindow::Offers(briefed_offers()));
+    flow.handle_message(ToWindow::Briefing);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Briefing, vec![]), "nothing starts yet");
+    let choice = flow.choice().clone();
+    press(&mut flow, &[KeyPress::Enter]);
+    assert_eq!((flow.page(), pending_requests(&mut flow)), (Page::Waiting, acknowledged(choice).to_vec()));
+    // A job without a briefing has nothing to acknowledge.
+    let mut flow = started();
+    flow.handle_message(ToWindow::Briefing);
+    let choice = flow.choice().clone();
+    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(choice))]);
+}
+
+/// Returns offers with two aircraft, with the briefings for one of them.
+fn offers_for(vehicle: &str) -> FlightOptions {
+    let offer = |name: &str, title: &str| AircraftOffer { name: name.into(), title: title.into() };
+    let mut offers = briefed_offers();
+    offers.vehicles = vec![offer("phantom2", "Phantom 2 class"), offer("elios3", "Elios 3 class, caged")];
+    for job in &mut offers.scenarios {
+        (job.vehicle, job.conditions) = (vehicle.into(), format!("flown with {vehicle}"));
+        job.briefing.conditions = vec![job.conditions.clone()];
+    }
+    offers
+}
+
+#[test]
+fn exact_another_aircraft_needs_its_own_briefing_and_flies() {
+    let request = |name: &str| WindowRequest::Send(FromWindow::Aircraft { name: name.into() });
+    let mut flow = opened();
+    flow.handle_message(ToWindow::Offers(offers_for("phantom2")));
+    let row = flow.rows().iter().position(|row| row.action == MenuAction::Aircraft).unwrap();
+    assert_eq!(flow.rows()[row].value, "Phantom 2 class");
+    press(&mut flow, &[KeyPress::Row(row), KeyPress::Right]);
+    assert_eq!(flow.choice().vehicle, "elios3");
+    assert_eq!(pending_requests(&mut flow), [request("elios3")]);
+    assert_eq!(flow.rows()[row].value, "Elios 3 class, caged");
+    assert!(!words(&flow).contains("flown with"), "conditions of another aircraft: {}", words(&flow));
+    // The briefing cannot be acknowledged before it is there.
+    open(&mut flow, MenuAction::CheckController);
+    press(&mut flow, &[KeyPress::Enter]);
+    assert_eq!(flow.page(), Page::Briefing);
+    assert!(words(&flow).contains("Preparing briefing") && !words(&flow).contains("flown with"), "{}", words(&flow));
+    assert!(flow.rows().iter().all(|row| row.action != MenuAction::Acknowledge));
+    assert_eq!(pending_requests(&mut flow), [], "one request is enough");
+    flow.handle_message(ToWindow::Offers(offers_for("elios3")));
+    assert!(words(&flow).contains("flown with elios3"), "{}", words(&flow));
+    press(&mut flow, &[KeyPress::Enter]);
+    let choice = flow.choice().clone();
+    assert_eq!(choice.vehicle, "elios3");
+    assert_eq!(pending_requests(&mut flow), acknowledged(choice));
+}
+
+#[test]
+fn prop_the_latest_aircraft_gets_its_briefings_however_fast_it_is_chosen() {
+    let request = |name: &str| WindowRequest::Send(FromWindow::Aircraft { name: name.into() });
+    let mut flow = opened();
+    flow.handle_message(ToWindow::Offers(offers_for("phantom2")));
+    let row = flow.rows().iter().position(|row| row.action == MenuAction::Aircraft).unwrap();
+    press(&mut flow, &[KeyPress::Row(row), KeyPress::Right, KeyPress::Right]);
+    assert_eq!(pending_requests(&mut flow), [request("elios3")], "then back at the offered one");
+    flow.handle_message(ToWindow::Offers(offers_for("elios3")));
+    assert_eq!(pending_requests(&mut flow), [request("phantom2")], "the answer to the first request came late");
+    flow.handle_message(ToWindow::Refused { words: "cannot read the file".into() });
+    assert_eq!(pending_requests(&mut flow), [], "an aircraft that cannot be read is requested once");
 }
 
 /// Returns an assessment of a job that is not among the offers, as an instructor orders it.
 fn ordered_flight() -> OrderedFlight {
     let (trainee, scenario) = ("bert".to_owned(), "from-server/windy.toml".to_owned());
-    let choice = FlightChoice { trainee, scenario: scenario.clone(), purpose: Purpose::Assessment, by: FlownBy::Trainee };
+    let choice = FlightChoice {
+        trainee,
+        scenario: scenario.clone(),
+        purpose: Purpose::Assessment,
+        by: FlownBy::Trainee,
+        vehicle: "phantom2".into(),
+    };
     let job = JobOffer {
         name: scenario,
         title: "Windy".into(),
@@ -927,6 +1030,7 @@ fn ordered_flight() -> OrderedFlight {
         conditions: String::new(),
         is_lesson: false,
         briefing: long_briefing(),
+        vehicle: "phantom2".into(),
     };
     OrderedFlight { choice, job }
 }
@@ -943,7 +1047,7 @@ fn exact_an_ordered_flight_needs_the_controller_check_and_the_briefing() {
     assert!(words(&flow).contains("Briefing: Windy"));
     assert_eq!(pending_requests(&mut flow), [], "nothing starts before the briefing is acknowledged");
     press(&mut flow, &[KeyPress::Enter]);
-    assert_eq!(pending_requests(&mut flow), [WindowRequest::Send(FromWindow::Chosen(order.choice))]);
+    assert_eq!(pending_requests(&mut flow), acknowledged(order.choice));
     assert_eq!(flow.page(), Page::Waiting);
 }
 

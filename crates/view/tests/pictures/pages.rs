@@ -6,8 +6,8 @@ use spandrel_model::site::Site;
 use spandrel_model::{scenario, shipped};
 use spandrel_text::Language;
 use spandrel_view::flow::pipe::{
-    BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing, JobOffer,
-    NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
+    AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing,
+    JobOffer, NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
 };
 use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
 use spandrel_view::gpu::{Gpu, Overlay, PageImage, PageTextures, picture_texture, read};
@@ -66,6 +66,7 @@ fn job(name: &str, title: &str) -> JobOffer {
         conditions: CONDITIONS.into(),
         is_lesson: false,
         briefing,
+        vehicle: "phantom2".into(),
     }
 }
 
@@ -78,18 +79,29 @@ fn options() -> FlightOptions {
         choice: choice(Purpose::Practice),
         web: Some("http://127.0.0.1:8080".into()),
         lesson: None,
+        vehicles: aircraft(),
     }
 }
 
+fn aircraft() -> Vec<AircraftOffer> {
+    let offer = |name: &str, title: &str| AircraftOffer { name: name.into(), title: title.into() };
+    vec![offer("phantom2", "Phantom 2 class"), offer("elios3", "Elios 3 class, caged")]
+}
+
 fn choice(purpose: Purpose) -> FlightChoice {
-    FlightChoice { trainee: "anna".into(), scenario: "two-bridges".into(), purpose, by: FlownBy::Trainee }
+    FlightChoice {
+        trainee: "anna".into(),
+        scenario: "two-bridges".into(),
+        purpose,
+        by: FlownBy::Trainee,
+        vehicle: "phantom2".into(),
+    }
 }
 
 fn flying(purpose: Purpose) -> ToWindow {
     let here = SocketAddr::from(([127, 0, 0, 1], 14280));
     ToWindow::Flying(FlightStarted {
         choice: choice(purpose),
-        vehicle: "phantom2".into(),
         seed: 7,
         connect: here,
         fly: Some(here),
