@@ -91,7 +91,6 @@ pub fn shipped_task_title(task: &str, language: Language) -> String {
         "Arch ring of the first span" => text!(language, "job-task-arch-ring"),
         "First pier and its cutwaters" => text!(language, "job-task-cutwaters"),
         "Edge girder, stays and deck edge" => text!(language, "job-task-edge-girder"),
-        "Floor of the main span" => text!(language, "job-task-main-floor"),
         "Longest stay of the start tower" => text!(language, "job-task-longest-stay"),
         "Floor of the start side span" => text!(language, "job-task-side-floor"),
         "Bearings on the second pier" => text!(language, "job-task-pier-bearings"),

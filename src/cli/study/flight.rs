@@ -94,6 +94,20 @@ fn guarded<T>(flight: impl FnOnce() -> Result<T, FlightError>) -> Result<T, Flig
     })
 }
 
+/// Returns the simulator of a flight, without links.
+fn simulator(inputs: &FlightInputs) -> Sim {
+    let FlightInputs { scenario, vehicle, seed, .. } = inputs;
+    let config = SimConfig {
+        scenario: scenario.clone(),
+        vehicle: vehicle.clone(),
+        seed: *seed,
+        instance: 0,
+        flavor: Flavor::Px4.display_name(),
+        after_crash: None,
+    };
+    Sim::new(config, Arc::new(Site::build(scenario, *seed)))
+}
+
 struct LockstepFlight {
     sim: Sim,
     pilot: Pilot,
@@ -108,15 +122,7 @@ struct LockstepFlight {
 impl LockstepFlight {
     fn new(inputs: &FlightInputs) -> Self {
         let FlightInputs { scenario, vehicle, skill, seed } = inputs;
-        let config = SimConfig {
-            scenario: scenario.clone(),
-            vehicle: vehicle.clone(),
-            seed: *seed,
-            instance: 0,
-            flavor: Flavor::Px4.display_name(),
-            after_crash: None,
-        };
-        let mut sim = Sim::new(config, Arc::new(Site::build(scenario, *seed)));
+        let mut sim = simulator(inputs);
         sim.open_link(PILOT, LinkKind::GroundStation, true);
         sim.open_link(MONITOR, LinkKind::Payload, true);
         let monitor = Monitor::new(MonitorConfig {
@@ -240,6 +246,21 @@ mod tests {
         assert!(first.assessment.completion.complete, "{:?}", first.assessment.completion);
         assert_eq!(fly(&inputs("drill-hover", 7), &stop).unwrap(), first);
         assert_ne!(fly(&inputs("drill-hover", 8), &stop).unwrap().digest, first.digest, "the seed matters");
+    }
+
+    #[test]
+    fn regress_a_pilot_who_connects_late_flies() {
+        let inputs = inputs("drill-hover", 7);
+        let mut flight = LockstepFlight::new(&inputs);
+        flight.sim = simulator(&inputs);
+        while flight.sim.now() < SimTime::from_s(100.0) {
+            flight.sim.handle_timeout(flight.sim.now() + LOCKSTEP_STEP);
+            while flight.sim.poll_transmit().is_some() || flight.sim.poll_event().is_some() {}
+        }
+        flight.sim.open_link(PILOT, LinkKind::GroundStation, true);
+        flight.sim.open_link(MONITOR, LinkKind::Payload, true);
+        let flown = flight.run(&StopRequest::default()).unwrap();
+        assert!(flown.assessment.completion.complete, "{:?}", flown.assessment.completion);
     }
 
     #[test]

@@ -101,6 +101,8 @@ pub struct Pilot {
     guidance: Guidance,
     phase: PilotPhase,
     now: SimTime,
+    /// Time of the first data from the vehicle, which may have been running for long.
+    connected_at: Option<SimTime>,
     heartbeat: Schedule,
     last_attempt: SimTime,
     phase_since: SimTime,
@@ -131,6 +133,7 @@ impl Pilot {
             guidance: Guidance::new(),
             phase: PilotPhase::Prepare,
             now: SimTime::ZERO,
+            connected_at: None,
             heartbeat: Schedule::new(SimTime::ZERO, 1.0),
             last_attempt: SimTime::ZERO,
             phase_since: SimTime::ZERO,
@@ -211,6 +214,7 @@ impl Pilot {
         }
         let dt_s = (motion.time - self.now).s().min(0.1);
         self.now = motion.time;
+        self.connected_at.get_or_insert(self.now);
         self.send_heartbeat(motion.time);
         if put_back {
             self.respawns = self.link.status.respawns;
@@ -305,7 +309,7 @@ impl Pilot {
         } else if self.link.status.ready && self.site.is_some() && self.phase_time_s() > 1.0 {
             self.arm();
         }
-        if self.phase_time_s() > START_TIMEOUT_S {
+        if (self.now - self.connected_at.unwrap_or(self.now)).s() > START_TIMEOUT_S {
             self.finish("the vehicle never became ready");
         }
         [0.0; 4]

@@ -1,5 +1,5 @@
 job-box-girder = Hohlkastenbrücke: Außensteg, Untersicht des Mittelfelds, Pfeilerkopfbalken, Lager
-job-cable-stayed = Schrägseilbrücke: Randträger, Fahrbahnrost, Schrägseil, Seitenfeld
+job-cable-stayed = Schrägseilbrücke: Randträger, Schrägseil, Fahrbahnrost eines Seitenfelds
 job-certification = Zertifizierung: zwei Brücken, 26 Schäden
 job-drill-curve-under-arch = Übung: Kurve unter dem Bogen
 job-drill-framing = Übung: Bildausschnitt
@@ -49,7 +49,6 @@ job-task-barrel = Gewölbe des mittleren Bogens
 job-task-arch-ring = Gewölbering des ersten Bogens
 job-task-cutwaters = Erster Pfeiler mit Vorköpfen
 job-task-edge-girder = Randträger, Schrägseile und Fahrbahnrand
-job-task-main-floor = Fahrbahnrost des Hauptfelds
 job-task-longest-stay = Längstes Schrägseil des ersten Pylons
 job-task-side-floor = Fahrbahnrost des ersten Seitenfelds
 job-task-pier-bearings = Lager auf dem zweiten Pfeiler

@@ -2,7 +2,7 @@
 
 # Titles. The English ones are those in the scenario files.
 job-box-girder = Box girder bridge: outer web, soffit of the main span, pier cap, bearings
-job-cable-stayed = Cable-stayed bridge: edge girder, floor, stay, side span
+job-cable-stayed = Cable-stayed bridge: edge girder, stay, floor of a side span
 job-certification = Certification: two bridges, 26 defects
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
@@ -53,7 +53,6 @@ job-task-barrel = Barrel of the middle span
 job-task-arch-ring = Arch ring of the first span
 job-task-cutwaters = First pier and its cutwaters
 job-task-edge-girder = Edge girder, stays and deck edge
-job-task-main-floor = Floor of the main span
 job-task-longest-stay = Longest stay of the start tower
 job-task-side-floor = Floor of the start side span
 job-task-pier-bearings = Bearings on the second pier

@@ -1,5 +1,5 @@
 job-box-girder = Puente de viga cajón: alma exterior, intradós del vano central, cabezal, apoyos
-job-cable-stayed = Puente atirantado: viga de borde, piso, tirante, vano lateral
+job-cable-stayed = Puente atirantado: viga de borde, tirante, piso de un vano lateral
 job-certification = Certificación: dos puentes, 26 defectos
 job-drill-curve-under-arch = Ejercicio: curva bajo el arco
 job-drill-framing = Ejercicio: encuadre
@@ -49,7 +49,6 @@ job-task-barrel = Bóveda del vano central
 job-task-arch-ring = Anillo del arco del primer vano
 job-task-cutwaters = Primera pila y sus tajamares
 job-task-edge-girder = Viga de borde, tirantes y borde del tablero
-job-task-main-floor = Piso del vano principal
 job-task-longest-stay = Tirante más largo de la primera torre
 job-task-side-floor = Piso del primer vano lateral
 job-task-pier-bearings = Apoyos de la segunda pila

@@ -46,7 +46,7 @@ bridge_dimensions! {
         rise_m 0.8 to 18.0, 5.0, "Height of the intrados at the crown above the springings, m (estimate).";
         ring_m 0.3 to 2.0, 0.65, "Thickness of the arch barrel, m; at least Trautwine's rule for the keystone.";
         cover_m 0.3 to 3.0, 0.6, "Height of the road above the crown of the barrel, m (estimate).";
-        width_m 5.0 to 20.0, 8.0, "Width between the outer faces of the spandrel walls, m; Starrucca Viaduct 7.9 m (26 ft).";
+        width_m 5.0 to 20.0, 8.0, "Width between the outer faces of the spandrel walls, m (estimate; Starrucca Viaduct 9.1 m, 30 ft).";
         wall_m 0.4 to 1.5, 0.6, "Thickness of the spandrel walls, m (estimate).";
         parapet_m 0.8 to 1.5, 1.0, "Height of the parapets above the road, m (estimate).";
         pier_m 1.0 to 10.0, 2.8, "Thickness of the piers along the bridge, m; a quarter to a sixth of the span (estimate).";
