@@ -328,168 +328,179 @@ fn section_area_m2(section: f64) -> f64 {
     AREAS_IN2.iter().find(|(known, _)| *known == section).unwrap().1 * 0.0254 * 0.0254
 }
 
+fn sum_of_volumes(members: &[Member], part: &str) -> f64 {
+    members_named(members, part).map(|m| volume(&m.solid)).sum()
+}
+
+fn assert_volume(got: f64, want: f64) {
+    assert!((got - want).abs() < VOLUME_TOLERANCE * want, "{got} m3, expected {want} m3");
+}
+
+fn require_arch_volumes(a: &Arch, members: &[Member]) {
+    assert_volume(sum_of_volumes(members, "slab"), a.deck_length_m() * a.deck_width_m * a.slab_m);
+    // The depth is quadratic in u = 2x/L. The trapezoidal rule over N segments yields a mean of u^2 of 1/3 + 2/(3
+    // N^2).
+    let segments = 2.0 * a.panels.round();
+    let mean = 1.0 / 3.0 + 2.0 / (3.0 * segments * segments);
+    let area = a.span_m * (a.crown_depth_m + (a.springing_depth_m - a.crown_depth_m) * mean);
+    assert_volume(sum_of_volumes(members, "rib-"), 2.0 * a.rib_width_m * area);
+}
+
+fn require_suspension_volumes(s: &Suspension, members: &[Member]) {
+    assert_volume(sum_of_volumes(members, "slab"), s.deck_length_m() * s.deck_width_m * s.slab_m);
+    // The flanges are 400 mm by 40 mm, the webs 16 mm thick.
+    let section = 2.0 * 0.4 * 0.04 + (s.girder_depth_m - 2.0 * 0.04) * 0.016;
+    assert_volume(sum_of_volumes(members, "girder"), 2.0 * s.deck_length_m() * section);
+    let octagon = 2.0 * 2f64.sqrt() * s.cable_radius_m * s.cable_radius_m;
+    let hexagon = 1.5 * 3f64.sqrt() * s.hanger_radius_m * s.hanger_radius_m;
+    let z = |x: f64| s.cable_clearance_m + 4.0 * s.sag_m * x * x / (s.main_span_m * s.main_span_m);
+    let n = (s.main_span_m / s.hanger_spacing_m).round();
+    let x = |k: f64| s.main_span_m * (k / n - 0.5);
+    let straight =
+        |k: f64| ((x(k + 1.0) - x(k)) * (x(k + 1.0) - x(k)) + (z(x(k + 1.0)) - z(x(k))) * (z(x(k + 1.0)) - z(x(k)))).sqrt();
+    // The cables of the side spans continue straight for one meter into the anchorages.
+    let top = s.cable_clearance_m + s.sag_m;
+    let side = (s.side_span_m * s.side_span_m + top * top).sqrt() * (1.0 + 1.0 / s.side_span_m);
+    let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>() + 2.0 * side;
+    assert_volume(sum_of_volumes(members, "cable"), 2.0 * octagon * cable);
+    let hangers: f64 = (1..n as u32).map(|k| z(x(f64::from(k))) + s.slab_m).sum();
+    assert_volume(sum_of_volumes(members, "hanger"), 2.0 * hexagon * hangers);
+}
+
+fn require_girder_volumes(g: &Girder, members: &[Member]) {
+    let joints = if g.simple_spans > 0.0 { g.spans - 1.0 } else { 0.0 };
+    // The girders and the deck extend 0.4 m beyond the outer bearings.
+    let run_m = g.layout().length_m() + 0.8 - joints * g.joint_gap_m;
+    let width_m = (g.girders - 1.0) * g.girder_spacing_m + 2.0 * g.overhang_m;
+    assert_volume(sum_of_volumes(members, "slab"), run_m * width_m * g.slab_m);
+    assert_volume(sum_of_volumes(members, "haunch"), g.girders * run_m * g.flange_width_m * g.haunch_m);
+    assert_volume(
+        sum_of_volumes(members, "girder"),
+        g.girders * run_m * (2.0 * g.flange_width_m * g.flange_m + g.web_depth_m * g.web_m),
+    );
+    let barrier_m2 = 0.5 * (0.4 + 0.2) * g.barrier_m;
+    assert_volume(sum_of_volumes(members, "barrier"), 2.0 * barrier_m2 * (g.deck_length_m() - (2.0 + joints) * g.joint_gap_m));
+    // A prism of 16 sides around a circle of the column's diameter.
+    let share = if g.round_columns > 0.0 { 2.0 * math::sin(math::TAU / 16.0) } else { 1.0 };
+    let columns = (g.spans - 1.0) * g.columns * share * g.column_m * g.column_m * g.column_height_m;
+    assert_volume(sum_of_volumes(members, "column").max(1e-9), columns.max(1e-9));
+}
+
+fn require_prestressed_volumes(p: &Prestressed, members: &[Member]) {
+    let gap_m = if p.simple_spans > 0.0 { p.joint_gap_m } else { 0.3 };
+    let deck_m = p.layout().length_m() + 0.5 - if p.simple_spans > 0.0 { (p.spans - 1.0) * p.joint_gap_m } else { 0.0 };
+    let girders_m = p.girders * (p.layout().length_m() + 0.5 - (p.spans - 1.0) * gap_m);
+    let width_m = (p.girders - 1.0) * p.girder_spacing_m + 2.0 * p.overhang_m;
+    assert_volume(sum_of_volumes(members, "slab"), deck_m * width_m * p.slab_m);
+    assert_volume(sum_of_volumes(members, "girder"), girders_m * section_area_m2(p.section));
+}
+
+fn require_cable_stayed_volumes(c: &CableStayed, members: &[Member]) {
+    // The deck extends 0.8 m beyond the outer bearings.
+    let floor_m = c.main_span_m + 2.0 * c.side_span_m + 1.6;
+    assert_volume(sum_of_volumes(members, "slab"), floor_m * c.deck_width_m * c.slab_m);
+    // The flanges are 500 mm by 50 mm, the webs 20 mm thick.
+    let section = 2.0 * 0.5 * 0.05 + (c.girder_depth_m - 0.1) * 0.02;
+    assert_volume(sum_of_volumes(members, "girder"), 2.0 * floor_m * section);
+    // From the slab's underside to the towers: in the main span, the stays end main span / (2 n + 1) apart.
+    let n = c.stays;
+    let octagon = 2.0 * 2f64.sqrt() * c.stay_radius_m * c.stay_radius_m;
+    let length_m =
+        |spacing_m: f64, k: f64| math::hypot(spacing_m * k, c.tower_height_m - (n - k) * c.anchor_spacing_m + c.slab_m);
+    let spacings = [c.main_span_m / (2.0 * n + 1.0), c.side_span_m / n];
+    let stays_m: f64 = spacings.iter().flat_map(|spacing| (1..=n as u32).map(move |k| length_m(*spacing, f64::from(k)))).sum();
+    let stays: f64 =
+        members.iter().filter(|m| m.name.contains("/stay-") && !m.name.ends_with("/pipe")).map(|m| volume(&m.solid)).sum();
+    assert_volume(stays, 4.0 * octagon * stays_m);
+    // The guide pipes are 1.5 m long and half as thick again.
+    let pipes: f64 = members.iter().filter(|m| m.name.ends_with("/pipe")).map(|m| volume(&m.solid)).sum();
+    assert_volume(pipes, 8.0 * n * 1.5 * 2.25 * octagon);
+}
+
+fn require_masonry_arch_volumes(m: &MasonryArch, members: &[Member]) {
+    // A voussoir is a trapezoid between two chords of the same angle: (R + t)² - R² times half the sine of the angle.
+    let (radius_m, count) = (m.radius_m(), f64::from(m.voussoirs()));
+    let half = math::atan2(0.5 * m.clear_span_m, radius_m - m.rise_m);
+    let outer_m = radius_m + m.ring_m;
+    let voussoir_m2 = 0.5 * (outer_m * outer_m - radius_m * radius_m) * math::sin(2.0 * half / count);
+    assert_volume(sum_of_volumes(members, "arch-"), m.spans * count * voussoir_m2 * m.width_m);
+    assert_volume(sum_of_volumes(members, "parapet"), 2.0 * m.deck_length_m() * 0.4 * m.parapet_m);
+    let shafts: f64 = members.iter().filter(|m| m.name.contains("/shaft")).map(|m| volume(&m.solid)).sum();
+    assert_volume(shafts.max(1e-9), ((m.spans - 1.0) * m.pier_m * m.width_m * m.pier_height_m).max(1e-9));
+    // A cutwater is a triangular prism, and its cap a pyramid.
+    let cutwaters: f64 = members.iter().filter(|m| m.name.ends_with("/cutwater")).map(|m| volume(&m.solid)).sum();
+    let plan_m2 = (m.spans - 1.0) * m.pier_m * m.cutwater_m;
+    assert_volume(cutwaters.max(1e-9), (plan_m2 * m.pier_height_m).max(1e-9));
+    let caps: f64 = members.iter().filter(|m| m.name.ends_with("/cap")).map(|m| volume(&m.solid)).sum();
+    assert_volume(caps.max(1e-9), (plan_m2 * 0.6 * m.cutwater_m / 3.0).max(1e-9));
+    // Barrels, skewbacks, walls, fill and road fill the bridge between the abutments, except for the openings: segments of
+    // polygons of chords.
+    let inside_m = m.spans * m.clear_span_m + (m.spans - 1.0) * m.pier_m;
+    let height_m = m.cover_m + m.ring_m + m.rise_m;
+    let segment_m2 = 0.5 * radius_m * radius_m * (count * math::sin(2.0 * half / count) - math::sin(2.0 * half));
+    let back_m = m.ring_m * 0.5 * m.clear_span_m / radius_m;
+    let up_m = m.ring_m * (radius_m - m.rise_m) / radius_m;
+    let between: f64 = ["spandrel", "fill", "road", "arch-"].iter().map(|part| sum_of_volumes(members, part)).sum();
+    let piers: f64 =
+        members.iter().filter(|m| m.name.contains("pier-") && m.name.ends_with("/skewback")).map(|m| volume(&m.solid)).sum();
+    // The outer barrels lean over the abutments, where walls, fill and road are above the skewbacks.
+    let over_m = 2.0 * (m.abutment_m * (height_m - up_m) + 0.5 * back_m * up_m);
+    let approach_m2 = 2.0 * m.approach_m * 0.15;
+    let expected = (inside_m * height_m - m.spans * segment_m2 + over_m) * m.width_m + approach_m2 * (m.width_m - 2.0 * m.wall_m);
+    assert_volume(between + piers, expected);
+}
+
+fn require_box_girder_volumes(g: &BoxGirder, members: &[Member]) {
+    let layout = g.layout();
+    let width_m = g.cells * g.cell_width_m + 2.0 * g.overhang_m;
+    assert_volume(sum_of_volumes(members, "slab"), (layout.length_m() + 1.2) * width_m * g.slab_m);
+    let supports = layout.support_positions();
+    let depth_m = |x: f64| {
+        let piers = &supports[1..supports.len() - 1];
+        let shares = piers.iter().map(|pier| (1.0 - (x - pier).abs() / g.haunch_length_m).max(0.0));
+        let share = shares.fold(0.0, f64::max);
+        g.midspan_depth_m + (g.pier_depth_m - g.midspan_depth_m) * share * share
+    };
+    // The area is linear in the depth, so that the trapezoidal rule is exact for straight segments.
+    let area_m2 = |depth_m: f64| {
+        let below_m = depth_m - g.slab_m;
+        let outer_m = 0.5 * (g.cells * g.cell_width_m + g.web_m) - g.web_slope * (below_m - 0.5 * g.bottom_slab_m);
+        let webs_m2 = 2.0 * g.web_m * below_m + (g.cells - 1.0) * g.web_m * (below_m - g.bottom_slab_m);
+        webs_m2 + 2.0 * (outer_m - g.web_m) * g.bottom_slab_m
+    };
+    let panels = layout.beam_panels();
+    let box_m3 = panels.iter().map(|(a, b)| 0.5 * (b - a) * (area_m2(depth_m(*a)) + area_m2(depth_m(*b)))).sum();
+    let diaphragms_m3 = sum_of_volumes(members, "box/diaphragm");
+    assert_volume(sum_of_volumes(members, "box/") - diaphragms_m3, box_m3);
+}
+
+fn require_truss_volumes(t: &Truss, members: &[Member]) {
+    // The deck extends 0.8 m beyond the bearings of each span.
+    let deck_m = t.spans * t.span_m + 1.6 - (t.spans - 1.0) * t.joint_gap_m;
+    let truss_m = deck_m - 1.6 * t.spans;
+    assert_volume(sum_of_volumes(members, "slab"), deck_m * t.deck_width_m * t.slab_m);
+    let flanges_m2 = 2.0 * 0.19 * 0.018 + (t.stringer_depth_m - 2.0 * 0.018) * 0.011;
+    assert_volume(sum_of_volumes(members, "stringer"), t.stringers * deck_m * flanges_m2);
+    let chords = members.iter().filter(|m| m.name.contains("/bottom-chord/")).map(|m| volume(&m.solid)).sum::<f64>();
+    assert_volume(chords, 2.0 * truss_m * t.chord_m * t.chord_m);
+    let plates = 2.0 * 2.0 * t.spans * 2.0 * t.panels;
+    assert_volume(sum_of_volumes(members, "gusset"), plates * 2.6 * 2.2 * t.chord_m * t.chord_m * t.gusset_m);
+}
+
 #[test]
 fn exact_volumes_of_slab_ribs_cables_and_hangers_match_the_formulas() {
-    let sum = |members: &[Member], part: &str| members_named(members, part).map(|m| volume(&m.solid)).sum::<f64>();
-    let close = |got: f64, want: f64| assert!((got - want).abs() < VOLUME_TOLERANCE * want, "{got} m3, expected {want} m3");
     for bridge in random_bridges() {
         let members = bridge.members();
         match &bridge.kind {
-            BridgeKind::Arch(a) => {
-                close(sum(&members, "slab"), a.deck_length_m() * a.deck_width_m * a.slab_m);
-                // The depth is quadratic in u = 2x/L. The trapezoidal rule over N segments yields a mean of u^2 of 1/3 + 2/(3
-                // N^2).
-                let segments = 2.0 * a.panels.round();
-                let mean = 1.0 / 3.0 + 2.0 / (3.0 * segments * segments);
-                let area = a.span_m * (a.crown_depth_m + (a.springing_depth_m - a.crown_depth_m) * mean);
-                close(sum(&members, "rib-"), 2.0 * a.rib_width_m * area);
-            }
-            BridgeKind::Suspension(s) => {
-                close(sum(&members, "slab"), s.deck_length_m() * s.deck_width_m * s.slab_m);
-                // The flanges are 400 mm by 40 mm, the webs 16 mm thick.
-                let section = 2.0 * 0.4 * 0.04 + (s.girder_depth_m - 2.0 * 0.04) * 0.016;
-                close(sum(&members, "girder"), 2.0 * s.deck_length_m() * section);
-                let octagon = 2.0 * 2f64.sqrt() * s.cable_radius_m * s.cable_radius_m;
-                let hexagon = 1.5 * 3f64.sqrt() * s.hanger_radius_m * s.hanger_radius_m;
-                let z = |x: f64| s.cable_clearance_m + 4.0 * s.sag_m * x * x / (s.main_span_m * s.main_span_m);
-                let n = (s.main_span_m / s.hanger_spacing_m).round();
-                let x = |k: f64| s.main_span_m * (k / n - 0.5);
-                let straight = |k: f64| {
-                    ((x(k + 1.0) - x(k)) * (x(k + 1.0) - x(k)) + (z(x(k + 1.0)) - z(x(k))) * (z(x(k + 1.0)) - z(x(k)))).sqrt()
-                };
-                // The cables of the side spans continue straight for one meter into the anchorages.
-                let top = s.cable_clearance_m + s.sag_m;
-                let side = (s.side_span_m * s.side_span_m + top * top).sqrt() * (1.0 + 1.0 / s.side_span_m);
-                let cable = (0..n as u32).map(|k| straight(f64::from(k))).sum::<f64>() + 2.0 * side;
-                close(sum(&members, "cable"), 2.0 * octagon * cable);
-                let hangers: f64 = (1..n as u32).map(|k| z(x(f64::from(k))) + s.slab_m).sum();
-                close(sum(&members, "hanger"), 2.0 * hexagon * hangers);
-            }
             BridgeKind::Model(_) => panic!("an imported bridge"),
-            BridgeKind::Girder(g) => {
-                let joints = if g.simple_spans > 0.0 { g.spans - 1.0 } else { 0.0 };
-                // The girders and the deck extend 0.4 m beyond the outer bearings.
-                let run_m = g.layout().length_m() + 0.8 - joints * g.joint_gap_m;
-                let width_m = (g.girders - 1.0) * g.girder_spacing_m + 2.0 * g.overhang_m;
-                close(sum(&members, "slab"), run_m * width_m * g.slab_m);
-                close(sum(&members, "haunch"), g.girders * run_m * g.flange_width_m * g.haunch_m);
-                close(
-                    sum(&members, "girder"),
-                    g.girders * run_m * (2.0 * g.flange_width_m * g.flange_m + g.web_depth_m * g.web_m),
-                );
-                let barrier_m2 = 0.5 * (0.4 + 0.2) * g.barrier_m;
-                close(sum(&members, "barrier"), 2.0 * barrier_m2 * (g.deck_length_m() - (2.0 + joints) * g.joint_gap_m));
-                // A prism of 16 sides around a circle of the column's diameter.
-                let share = if g.round_columns > 0.0 { 2.0 * math::sin(math::TAU / 16.0) } else { 1.0 };
-                let columns = (g.spans - 1.0) * g.columns * share * g.column_m * g.column_m * g.column_height_m;
-                close(sum(&members, "column").max(1e-9), columns.max(1e-9));
-            }
-            BridgeKind::Prestressed(p) => {
-                let gap_m = if p.simple_spans > 0.0 { p.joint_gap_m } else { 0.3 };
-                let deck_m =
-                    p.layout().length_m() + 0.5 - if p.simple_spans > 0.0 { (p.spans - 1.0) * p.joint_gap_m } else { 0.0 };
-                let girders_m = p.girders * (p.layout().length_m() + 0.5 - (p.spans - 1.0) * gap_m);
-                let width_m = (p.girders - 1.0) * p.girder_spacing_m + 2.0 * p.overhang_m;
-                close(sum(&members, "slab"), deck_m * width_m * p.slab_m);
-                close(sum(&members, "girder"), girders_m * section_area_m2(p.section));
-            }
-            BridgeKind::CableStayed(c) => {
-                // The deck extends 0.8 m beyond the outer bearings.
-                let floor_m = c.main_span_m + 2.0 * c.side_span_m + 1.6;
-                close(sum(&members, "slab"), floor_m * c.deck_width_m * c.slab_m);
-                // The flanges are 500 mm by 50 mm, the webs 20 mm thick.
-                let section = 2.0 * 0.5 * 0.05 + (c.girder_depth_m - 0.1) * 0.02;
-                close(sum(&members, "girder"), 2.0 * floor_m * section);
-                // From the slab's underside to the towers: in the main span, the stays end main span / (2 n + 1) apart.
-                let n = c.stays;
-                let octagon = 2.0 * 2f64.sqrt() * c.stay_radius_m * c.stay_radius_m;
-                let length_m = |spacing_m: f64, k: f64| {
-                    math::hypot(spacing_m * k, c.tower_height_m - (n - k) * c.anchor_spacing_m + c.slab_m)
-                };
-                let spacings = [c.main_span_m / (2.0 * n + 1.0), c.side_span_m / n];
-                let stays_m: f64 =
-                    spacings.iter().flat_map(|spacing| (1..=n as u32).map(move |k| length_m(*spacing, f64::from(k)))).sum();
-                let stays: f64 = members
-                    .iter()
-                    .filter(|m| m.name.contains("/stay-") && !m.name.ends_with("/pipe"))
-                    .map(|m| volume(&m.solid))
-                    .sum();
-                close(stays, 4.0 * octagon * stays_m);
-                // The guide pipes are 1.5 m long and half as thick again.
-                let pipes: f64 = members.iter().filter(|m| m.name.ends_with("/pipe")).map(|m| volume(&m.solid)).sum();
-                close(pipes, 8.0 * n * 1.5 * 2.25 * octagon);
-            }
-            BridgeKind::MasonryArch(m) => {
-                // A voussoir is a trapezoid between two chords of the same angle: (R + t)² - R² times half the sine of the angle.
-                let (radius_m, count) = (m.radius_m(), f64::from(m.voussoirs()));
-                let half = math::atan2(0.5 * m.clear_span_m, radius_m - m.rise_m);
-                let outer_m = radius_m + m.ring_m;
-                let voussoir_m2 = 0.5 * (outer_m * outer_m - radius_m * radius_m) * math::sin(2.0 * half / count);
-                close(sum(&members, "arch-"), m.spans * count * voussoir_m2 * m.width_m);
-                close(sum(&members, "parapet"), 2.0 * m.deck_length_m() * 0.4 * m.parapet_m);
-                let shafts: f64 = members.iter().filter(|m| m.name.contains("/shaft")).map(|m| volume(&m.solid)).sum();
-                close(shafts.max(1e-9), ((m.spans - 1.0) * m.pier_m * m.width_m * m.pier_height_m).max(1e-9));
-                // A cutwater is a triangular prism, and its cap a pyramid.
-                let cutwaters: f64 = members.iter().filter(|m| m.name.ends_with("/cutwater")).map(|m| volume(&m.solid)).sum();
-                let plan_m2 = (m.spans - 1.0) * m.pier_m * m.cutwater_m;
-                close(cutwaters.max(1e-9), (plan_m2 * m.pier_height_m).max(1e-9));
-                let caps: f64 = members.iter().filter(|m| m.name.ends_with("/cap")).map(|m| volume(&m.solid)).sum();
-                close(caps.max(1e-9), (plan_m2 * 0.6 * m.cutwater_m / 3.0).max(1e-9));
-                // Barrels, skewbacks, walls, fill and road fill the bridge between the abutments, except for the openings: segments of
-                // polygons of chords.
-                let inside_m = m.spans * m.clear_span_m + (m.spans - 1.0) * m.pier_m;
-                let height_m = m.cover_m + m.ring_m + m.rise_m;
-                let segment_m2 = 0.5 * radius_m * radius_m * (count * math::sin(2.0 * half / count) - math::sin(2.0 * half));
-                let back_m = m.ring_m * 0.5 * m.clear_span_m / radius_m;
-                let up_m = m.ring_m * (radius_m - m.rise_m) / radius_m;
-                let between: f64 = ["spandrel", "fill", "road", "arch-"].iter().map(|part| sum(&members, part)).sum();
-                let piers: f64 = members
-                    .iter()
-                    .filter(|m| m.name.contains("pier-") && m.name.ends_with("/skewback"))
-                    .map(|m| volume(&m.solid))
-                    .sum();
-                // The outer barrels lean over the abutments, where walls, fill and road are above the skewbacks.
-                let over_m = 2.0 * (m.abutment_m * (height_m - up_m) + 0.5 * back_m * up_m);
-                let approach_m2 = 2.0 * m.approach_m * 0.15;
-                let expected = (inside_m * height_m - m.spans * segment_m2 + over_m) * m.width_m
-                    + approach_m2 * (m.width_m - 2.0 * m.wall_m);
-                close(between + piers, expected);
-            }
-            BridgeKind::BoxGirder(g) => {
-                let layout = g.layout();
-                let width_m = g.cells * g.cell_width_m + 2.0 * g.overhang_m;
-                close(sum(&members, "slab"), (layout.length_m() + 1.2) * width_m * g.slab_m);
-                let supports = layout.support_positions();
-                let depth_m = |x: f64| {
-                    let piers = &supports[1..supports.len() - 1];
-                    let shares = piers.iter().map(|pier| (1.0 - (x - pier).abs() / g.haunch_length_m).max(0.0));
-                    let share = shares.fold(0.0, f64::max);
-                    g.midspan_depth_m + (g.pier_depth_m - g.midspan_depth_m) * share * share
-                };
-                // The area is linear in the depth, so that the trapezoidal rule is exact for straight segments.
-                let area_m2 = |depth_m: f64| {
-                    let below_m = depth_m - g.slab_m;
-                    let outer_m = 0.5 * (g.cells * g.cell_width_m + g.web_m) - g.web_slope * (below_m - 0.5 * g.bottom_slab_m);
-                    let webs_m2 = 2.0 * g.web_m * below_m + (g.cells - 1.0) * g.web_m * (below_m - g.bottom_slab_m);
-                    webs_m2 + 2.0 * (outer_m - g.web_m) * g.bottom_slab_m
-                };
-                let panels = layout.beam_panels();
-                let box_m3 = panels.iter().map(|(a, b)| 0.5 * (b - a) * (area_m2(depth_m(*a)) + area_m2(depth_m(*b)))).sum();
-                let diaphragms_m3 = sum(&members, "box/diaphragm");
-                close(sum(&members, "box/") - diaphragms_m3, box_m3);
-            }
-            BridgeKind::Truss(t) => {
-                // The deck extends 0.8 m beyond the bearings of each span.
-                let deck_m = t.spans * t.span_m + 1.6 - (t.spans - 1.0) * t.joint_gap_m;
-                let truss_m = deck_m - 1.6 * t.spans;
-                close(sum(&members, "slab"), deck_m * t.deck_width_m * t.slab_m);
-                let flanges_m2 = 2.0 * 0.19 * 0.018 + (t.stringer_depth_m - 2.0 * 0.018) * 0.011;
-                close(sum(&members, "stringer"), t.stringers * deck_m * flanges_m2);
-                let chords = members.iter().filter(|m| m.name.contains("/bottom-chord/")).map(|m| volume(&m.solid)).sum::<f64>();
-                close(chords, 2.0 * truss_m * t.chord_m * t.chord_m);
-                let plates = 2.0 * 2.0 * t.spans * 2.0 * t.panels;
-                close(sum(&members, "gusset"), plates * 2.6 * 2.2 * t.chord_m * t.chord_m * t.gusset_m);
-            }
+            BridgeKind::Arch(a) => require_arch_volumes(a, &members),
+            BridgeKind::Suspension(s) => require_suspension_volumes(s, &members),
+            BridgeKind::Girder(g) => require_girder_volumes(g, &members),
+            BridgeKind::Prestressed(p) => require_prestressed_volumes(p, &members),
+            BridgeKind::CableStayed(c) => require_cable_stayed_volumes(c, &members),
+            BridgeKind::MasonryArch(m) => require_masonry_arch_volumes(m, &members),
+            BridgeKind::BoxGirder(g) => require_box_girder_volumes(g, &members),
+            BridgeKind::Truss(t) => require_truss_volumes(t, &members),
         }
     }
 }
