@@ -35,9 +35,14 @@ def sessions_of(path):
     return sessions
 
 
+def places(record):
+    """Returns one session's crashes in each task and outside, by what was hit."""
+    return [*(task["crashes"] for task in record["tasks"]), record["crashes_outside"]]
+
+
 def crashes_by_place(record):
     """Returns one session's number of crashes in each task and outside."""
-    return [sum(place.values()) for place in [*(task["crashes"] for task in record["tasks"]), record["crashes_outside"]]]
+    return [sum(place.values()) for place in places(record)]
 
 
 def row(record):

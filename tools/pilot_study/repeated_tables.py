@@ -5,7 +5,7 @@ import statistics
 
 from pilot_study import paper
 from pilot_study.first_tables import table
-from pilot_study.records import crashes_by_place
+from pilot_study.records import places
 from pilot_study.t_tests import paired, tail_p, two_tailed_p, without_one
 
 COUNTED = ("bridge", "terrain", "water")
@@ -99,10 +99,6 @@ def print_person(sessions):
     rows.append(["crashes into the bridge", text(paper.PERSON_BRIDGE_CRASHES), text([own[0] for own in counts])])
     rows.append(["crashes into ground or water", "fewer each time", text([own[1] + own[2] for own in counts])])
     table("One person", ["sessions 1 → 2 → 3", f"participant {paper.PERSON}", f"synthetic person {k + 1}"], rows)
-
-
-def places(record):
-    return [*(task["crashes"] for task in record["tasks"]), record["crashes_outside"]]
 
 
 def print_changes_of_spread(sessions):

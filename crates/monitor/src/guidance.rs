@@ -329,7 +329,7 @@ mod tests {
                 too_close_m: None,
                 id: self.scenario.tasks[task].id,
                 at_path_end: false,
-                half_flown: self.flown[task].coverage().share >= 0.5,
+                flown_share: self.flown[task].coverage().share,
                 done: self.flown[task].coverage().share >= done_share,
                 finished: self.finished[task],
             };

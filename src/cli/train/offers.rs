@@ -35,7 +35,7 @@ pub const EXPERT_ID: &str = "synthetic-expert";
 
 /// Returns the choices that the start page offers, with briefings for an aircraft, but without the aircraft to choose from.
 pub fn flight_options(
-    (sessions, aircraft): (&Path, &SelectedAircraft),
+    (sessions, folders, aircraft): (&Path, &SessionsByTrainee, &SelectedAircraft),
     choice: &FlightChoice,
     web: Option<&str>,
     language: Language,
@@ -46,7 +46,7 @@ pub fn flight_options(
         names.push(choice.scenario.clone());
     }
     FlightOptions {
-        trainees: trainee_summaries(sessions, language),
+        trainees: trainee_summaries(folders, language),
         lesson: job_named(FIRST_LESSON, language),
         scenarios: names.into_iter().filter_map(|name| job_offer(name, aircraft, language)).collect(),
         choice: choice.clone(),
@@ -298,35 +298,27 @@ fn conformity_pct(session: &Path) -> Option<f64> {
     assessment["scores"]["conformity"]["pct"].as_f64().filter(|_| counts)
 }
 
-/// A trainee's sessions.
-#[derive(Default)]
-struct KnownSessions {
-    sessions: u32,
-    practices: u32,
-    /// Start time and folder of the latest session.
-    latest: Option<(u64, PathBuf)>,
-}
-
-impl KnownSessions {
-    fn summary(self, name: String, language: Language) -> TraineeSummary {
-        let latest = self.latest.map(|(_, folder)| folder);
-        let advice = latest.as_deref().and_then(report::saved_advice).map(|advice| advice.in_language(language));
-        let lesson = latest.as_deref().and_then(LessonSession::unfinished);
-        TraineeSummary {
-            name,
-            sessions: self.sessions,
-            practices: self.practices,
-            last: match &lesson {
-                Some(LessonSession { progress, .. }) => {
-                    Some(text!(language, "window-train-lesson-progress", done = progress.done, steps = progress.steps))
-                }
-                None => advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
-            },
-            next: match lesson {
-                Some(lesson) => job_named(&lesson.scenario, language),
-                None => advice.as_ref().and_then(|advice| next_job(advice, language)),
-            },
-        }
+/// Returns what the start page shows of a trainee with these sessions, in the order of their starts.
+fn trainee_summary(name: &str, folders: &[PathBuf], language: Language) -> TraineeSummary {
+    let latest = folders.last();
+    let is_practice = |folder: &&PathBuf| purpose(folder).as_deref() == Some(Purpose::Practice.word());
+    let count = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
+    let advice = latest.and_then(|folder| report::saved_advice(folder)).map(|advice| advice.in_language(language));
+    let lesson = latest.and_then(|folder| LessonSession::unfinished(folder));
+    TraineeSummary {
+        name: name.to_owned(),
+        sessions: count(folders.len()),
+        practices: count(folders.iter().filter(is_practice).count()),
+        last: match &lesson {
+            Some(LessonSession { progress, .. }) => {
+                Some(text!(language, "window-train-lesson-progress", done = progress.done, steps = progress.steps))
+            }
+            None => advice.as_ref().and_then(|advice| advice.sentences().next()).map(str::to_owned),
+        },
+        next: match lesson {
+            Some(lesson) => job_named(&lesson.scenario, language),
+            None => advice.as_ref().and_then(|advice| next_job(advice, language)),
+        },
     }
 }
 
@@ -370,11 +362,14 @@ fn next_job(advice: &SessionAdvice, language: Language) -> Option<NextJob> {
     job_named(&advice.next.as_ref()?.scenario, language)
 }
 
-/// Returns each trainee's session folders in the order of their starts.
-pub fn sessions_by_trainee(sessions: &Path) -> BTreeMap<String, Vec<PathBuf>> {
+/// Each trainee's session folders in the order of their starts.
+pub type SessionsByTrainee = BTreeMap<String, Vec<PathBuf>>;
+
+/// Returns the sessions in a folder.
+pub fn sessions_by_trainee(sessions: &Path) -> SessionsByTrainee {
     let mut stored = stored_sessions(sessions);
     stored.sort_by_key(|session| session.started_unix_us);
-    let mut found: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
+    let mut found = SessionsByTrainee::new();
     for StoredSessionFolder { trainee, folder, .. } in stored {
         found.entry(trainee).or_default().push(folder);
     }
@@ -387,20 +382,9 @@ pub fn has_unfinished_lesson(session: &Path) -> bool {
 }
 
 /// Returns each trainee with the number of sessions and practice sessions.
-fn trainee_summaries(sessions: &Path, language: Language) -> Vec<TraineeSummary> {
-    let mut found: BTreeMap<String, KnownSessions> = BTreeMap::new();
-    for StoredSessionFolder { trainee, started_unix_us, folder } in stored_sessions(sessions) {
-        if trainee == EXPERT_ID {
-            continue;
-        }
-        let known = found.entry(trainee).or_default();
-        known.sessions += 1;
-        known.practices += u32::from(purpose(&folder).as_deref() == Some(Purpose::Practice.word()));
-        if known.latest.as_ref().is_none_or(|(other, _)| *other <= started_unix_us) {
-            known.latest = Some((started_unix_us, folder));
-        }
-    }
-    found.into_iter().map(|(name, known)| known.summary(name, language)).collect()
+fn trainee_summaries(folders: &SessionsByTrainee, language: Language) -> Vec<TraineeSummary> {
+    let people = folders.iter().filter(|(name, _)| *name != EXPERT_ID);
+    people.map(|(name, own)| trainee_summary(name, own, language)).collect()
 }
 
 fn contents_summary(scenario: &Scenario, language: Language) -> String {
@@ -524,20 +508,35 @@ mod tests {
     #[test]
     fn exact_every_shipped_scenario_is_offered_with_its_contents() {
         let folder = tempfile::tempdir().unwrap();
-        let offers = flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, Language::English);
+        let offers = flight_options(
+            (&folder.path().join("none-yet"), &SessionsByTrainee::new(), &phantom()),
+            &choice(),
+            None,
+            Language::English,
+        );
         assert_eq!(offers.trainees, []);
         let kind = |name: &str| offers.scenarios.iter().find(|job| job.name == name).map(|job| job.kind.clone());
         assert_eq!(kind("two-bridges").as_deref(), Some("4 tasks, 2 bridges, 10 defects"));
         assert_eq!(kind("drill-hover").as_deref(), Some("1 task"));
         let harder = FlightChoice { scenario: "drill-hover@7".into(), ..choice() };
-        let offers = flight_options((&folder.path().join("none-yet"), &phantom()), &harder, None, Language::English);
+        let offers = flight_options(
+            (&folder.path().join("none-yet"), &SessionsByTrainee::new(), &phantom()),
+            &harder,
+            None,
+            Language::English,
+        );
         assert_eq!(offers.scenarios.last().unwrap().title, "Drill: hover (level 7 of 9)");
     }
 
     #[test]
     fn regress_another_level_of_a_drill_that_is_recommended_or_assigned_has_a_briefing() {
         let folder = tempfile::tempdir().unwrap();
-        let mut offers = flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, Language::English);
+        let mut offers = flight_options(
+            (&folder.path().join("none-yet"), &SessionsByTrainee::new(), &phantom()),
+            &choice(),
+            None,
+            Language::English,
+        );
         let offered = offers.scenarios.len();
         let trainee = |name: &str, scenario: &str| {
             let next = job_named(scenario, Language::English);
@@ -568,7 +567,12 @@ mod tests {
         let job = folder.path().join("job.toml");
         std::fs::write(&job, text).unwrap();
         let scenario = job.display().to_string();
-        let offers = flight_options((folder.path(), &phantom()), &FlightChoice { scenario, ..choice() }, None, Language::English);
+        let offers = flight_options(
+            (folder.path(), &SessionsByTrainee::new(), &phantom()),
+            &FlightChoice { scenario, ..choice() },
+            None,
+            Language::English,
+        );
         let path = folder.path().join("gate.png").display().to_string();
         let expected = BriefingImage { path, caption: "GATE.PNG".into(), size_px: (3, 2) };
         assert_eq!(offers.scenarios.last().unwrap().briefing.pictures, [expected]);
@@ -605,7 +609,10 @@ mod tests {
         }
         let person =
             |name: &str, sessions, practices| TraineeSummary { name: name.into(), sessions, practices, last: None, next: None };
-        assert_eq!(trainee_summaries(sessions.path(), Language::English), [person("anna", 3, 1), person("bert", 1, 0)]);
+        assert_eq!(
+            trainee_summaries(&sessions_by_trainee(sessions.path()), Language::English),
+            [person("anna", 3, 1), person("bert", 1, 0)]
+        );
     }
 
     #[test]
@@ -618,7 +625,7 @@ mod tests {
         std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
         let step = |done: u32| serde_json::json!({ "t_s": 1.0, "event": "lesson_step", "done": done, "of": 11 }).to_string();
         std::fs::write(folder.join(EVENTS), format!("{}\n{}\n", step(1), step(2))).unwrap();
-        let summary = trainee_summaries(sessions.path(), Language::English).remove(0);
+        let summary = trainee_summaries(&sessions_by_trainee(sessions.path()), Language::English).remove(0);
         assert_eq!(summary.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
         assert_eq!(summary.last.as_deref(), Some("2 of 11 steps of the lesson."));
         let ended = flight_summary(&folder, None, None, Language::English);
@@ -750,7 +757,9 @@ mod tests {
     #[test]
     fn exact_offers_and_results_are_in_the_language_of_the_window() {
         let folder = tempfile::tempdir().unwrap();
-        let offers = |language| flight_options((&folder.path().join("none-yet"), &phantom()), &choice(), None, language);
+        let offers = |language| {
+            flight_options((&folder.path().join("none-yet"), &SessionsByTrainee::new(), &phantom()), &choice(), None, language)
+        };
         let kind = |language| {
             let offers = offers(language);
             offers.scenarios.into_iter().find(|job| job.name == "drill-hover").map(|job| job.kind).unwrap_or_default()

@@ -1,6 +1,6 @@
 //! Each trainee's next job by the training plan over all sessions, as `spandrel plan` and the web pages recommend it.
 
-use super::offers::{has_unfinished_lesson, job_named, sessions_by_trainee};
+use super::offers::{SessionsByTrainee, has_unfinished_lesson, job_named};
 use crate::errors::AppError;
 use crate::io::clock;
 use crate::io::files;
@@ -28,13 +28,13 @@ pub fn import(session: &Path, sessions: &Path) {
 
 /// Offers each trainee the first job of the plan, instead of the one that follows from the latest session alone. Titles are in the
 /// given language.
-pub fn recommend(trainees: &mut [TraineeSummary], sessions: &Path, language: Language) {
+pub fn recommend(trainees: &mut [TraineeSummary], (sessions, folders): (&Path, &SessionsByTrainee), language: Language) {
     let location = RecordsLocation::beside(sessions);
     // Without a database, there are no records to plan from, and the start page does not create one.
     if !location.exists() {
         return;
     }
-    let recommended = location.open().and_then(|database| recommend_from(&database, trainees, sessions, language));
+    let recommended = location.open().and_then(|database| recommend_from(&database, trainees, (sessions, folders), language));
     if let Err(error) = recommended {
         tracing::warn!("cannot plan the next jobs: {error}");
     }
@@ -43,11 +43,11 @@ pub fn recommend(trainees: &mut [TraineeSummary], sessions: &Path, language: Lan
 fn recommend_from(
     database: &Database,
     trainees: &mut [TraineeSummary],
-    sessions: &Path,
+    (sessions, folders): (&Path, &SessionsByTrainee),
     language: Language,
 ) -> Result<(), AppError> {
     let (rules, _) = rules_beside(&sessions.join(UPLOAD_FOLDER), language)?;
-    let (known, folders) = (database.fingerprints()?, sessions_by_trainee(sessions));
+    let known = database.fingerprints()?;
     for trainee in trainees {
         let own = folders.get(&trainee.name).map_or(&[][..], Vec::as_slice);
         let is_recorded = |folder: &PathBuf| session_id(folder).is_ok_and(|id| known.contains_key(&id));
@@ -76,6 +76,7 @@ fn planned_job(step: &PlanStep, language: Language) -> Option<NextJob> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::offers::sessions_by_trainee;
     use super::*;
     use crate::cli::plan::plan_of;
     use crate::io::plan_rules::rules;
@@ -121,7 +122,7 @@ mod tests {
         location.open().unwrap().put(&records).unwrap();
 
         let mut trainees = [summary()];
-        recommend(&mut trainees, sessions, Language::English);
+        recommend(&mut trainees, (sessions, &sessions_by_trainee(sessions)), Language::English);
         let window = trainees[0].next.clone().unwrap();
 
         let everyone = location.open().unwrap().records(None).unwrap();
@@ -152,7 +153,7 @@ mod tests {
         records.iter().for_each(|record| save_folder(sessions, record));
         let recommended = || {
             let mut trainees = [summary()];
-            recommend(&mut trainees, sessions, Language::English);
+            recommend(&mut trainees, (sessions, &sessions_by_trainee(sessions)), Language::English);
             trainees[0].next.clone()
         };
         assert_eq!(recommended(), summary().next, "no database");

@@ -251,10 +251,12 @@ impl<'a> TrainRun<'a> {
     fn offer(&mut self, choice: &FlightChoice) {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
-        let mut offers = offers::flight_options((&self.args.sessions, &self.aircraft), choice, web.as_deref(), language);
+        let sessions = &self.args.sessions;
+        let folders = offers::sessions_by_trainee(sessions);
+        let mut offers = offers::flight_options((sessions, &folders, &self.aircraft), choice, web.as_deref(), language);
         offers.vehicles = aircraft::offered(&self.args.vehicle);
-        planned::recommend(&mut offers.trainees, &self.args.sessions, language);
-        assigned::put_first(&mut offers.trainees, &self.args.sessions, language);
+        planned::recommend(&mut offers.trainees, (sessions, &folders), language);
+        assigned::put_first(&mut offers.trainees, sessions, language);
         offers::add_next_jobs(&mut offers, &self.aircraft, language);
         self.web_announced = true;
         (self.offered_language, self.offered_aircraft) = (Some(language), Some(self.aircraft.name.clone()));

@@ -9,6 +9,8 @@ use spandrel_model::time::SimTime;
 /// A change no longer counts once it is older than `MAX_MOVEMENT_AGE`.
 const MIN_MOVEMENT_M: f64 = 0.15;
 const MAX_MOVEMENT_AGE: SimTime = SimTime::from_ms(600);
+/// Share of a path after which a pilot who moves away from its end is on the way to another task (estimate).
+const MIN_SHARE_TO_LEAVE_AT_ONCE: f64 = 0.5;
 
 /// Determines which task is being flown.
 ///
@@ -71,12 +73,18 @@ impl ActiveTask {
 struct DepartureDetector {
     /// Distance (m), time of the last change, and whether the distance increased.
     last_distance_change: Option<(f64, SimTime, bool)>,
-    /// Time when the drone started to leave the task; `None` if it is not leaving.
-    leaving_since: Option<SimTime>,
-    /// Whether the drone counts as leaving from the beginning of that time on.
-    leaves_at_once: bool,
+    /// The movement away from the task; `None` if there is none.
+    departure: Option<Departure>,
     /// Whether the drone has left the task.
     has_left: bool,
+}
+
+/// A movement away from a place where a task may be left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Departure {
+    since: SimTime,
+    /// Whether the pilot counts as leaving from the beginning.
+    at_once: bool,
 }
 
 impl DepartureDetector {
@@ -90,14 +98,10 @@ impl DepartureDetector {
             self.last_distance_change = Some((task.distance_m, now, by_m > 0.0));
         }
         let away = if moved { by_m > 0.0 } else { grows && now - since < MAX_MOVEMENT_AGE };
-        let may_leave = task.at_path_end || task.done || self.leaving_since.is_some();
-        if !(away && may_leave) {
-            self.leaving_since = None;
-        } else if self.leaving_since.is_none() {
-            self.leaving_since = Some(now);
-            self.leaves_at_once = task.at_path_end && task.half_flown;
-        }
-        self.has_left |= self.leaving_since.is_some_and(|since| now - since >= leave_delay);
-        self.has_left || (self.leaving_since.is_some() && self.leaves_at_once)
+        let may_leave = task.at_path_end || task.done || self.departure.is_some();
+        let at_once = task.at_path_end && task.flown_share >= MIN_SHARE_TO_LEAVE_AT_ONCE;
+        self.departure = (away && may_leave).then(|| self.departure.unwrap_or(Departure { since: now, at_once }));
+        self.has_left |= self.departure.is_some_and(|departure| now - departure.since >= leave_delay);
+        self.has_left || self.departure.is_some_and(|departure| departure.at_once)
     }
 }

@@ -73,8 +73,8 @@ pub struct TaskProximity {
     pub id: u32,
     /// Whether the drone is nearest to an end of the path.
     pub at_path_end: bool,
-    /// Whether the drone has flown at least half of the path.
-    pub half_flown: bool,
+    /// Share of the path that the drone has flown.
+    pub flown_share: f64,
     /// Whether the drone has flown enough of the path for the task to be done.
     pub done: bool,
     /// Whether nothing of the path remains to be flown.

@@ -154,8 +154,10 @@ impl<'a> FlownTasks<'a> {
             let flown = self.entered[i].filter(|_| self.on_path.task[i].is_none() && self.is_flown(i));
             if let Some(task) = flown {
                 let (_, near) = since.get_or_insert((i, SimTime::ZERO));
-                let next = self.frames.get(i + 1).unwrap_or(&self.frames[i]);
-                *near = if is_near(i, task) { *near + (next.time - self.frames[i].time) } else { *near };
+                if is_near(i, task) {
+                    let next = self.frames.get(i + 1).unwrap_or(&self.frames[i]);
+                    *near += next.time - self.frames[i].time;
+                }
             } else if let Some((from, _)) = since.take().filter(|(_, near)| near.s() > MIN_DEVIATION_S) {
                 out.push((self.frames[from].time, self.frames[i].time));
             }

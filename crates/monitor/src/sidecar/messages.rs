@@ -165,7 +165,7 @@ impl Monitor {
             too_close_m: task.too_close_m,
             id: task.id,
             at_path_end: !task.closed && nearest.is_some_and(|nearest| nearest.point == 0 || nearest.point >= last),
-            half_flown: self.live.half_flown[index],
+            flown_share: self.live.flown_shares[index],
             done: self.live.done[index],
             finished: self.live.finished[index],
         }

@@ -124,8 +124,8 @@ struct LiveState {
     last_task: Option<usize>,
     /// For each task, the part of its path that was flown.
     flown: Vec<FlownPath>,
-    /// For each task, whether at least half of its path was flown.
-    half_flown: Vec<bool>,
+    /// For each task, the share of its path that was flown.
+    flown_shares: Vec<f64>,
     /// For each task, whether enough of its path was flown for the task to be done.
     done: Vec<bool>,
     /// For each task, whether nothing of its path remains to be flown.
@@ -440,7 +440,7 @@ impl LiveState {
             current_task: None,
             last_task: None,
             flown: (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect(),
-            half_flown: vec![false; paths.len()],
+            flown_shares: vec![0.0; paths.len()],
             done: vec![false; paths.len()],
             finished: vec![false; paths.len()],
             end_rule: EndRule::new(&config.scenario, &config.vehicle),

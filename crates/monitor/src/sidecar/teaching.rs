@@ -12,8 +12,7 @@ impl Monitor {
     /// Updates the lesson and sends its current step and its texts.
     pub(super) fn send_lesson(&mut self, truth: &Truth) {
         let Some(mut lesson) = self.lesson.take() else { return };
-        let tasks: Vec<(f64, bool)> =
-            self.live.flown.iter().zip(&self.live.done).map(|(flown, done)| (flown.coverage().share, *done)).collect();
+        let tasks: Vec<(f64, bool)> = self.live.flown_shares.iter().copied().zip(self.live.done.iter().copied()).collect();
         let team = &self.config.scenario.ground_team;
         let input = LessonInput {
             time: truth.time,

@@ -218,7 +218,7 @@ impl Monitor {
             let done_share = self.config.scenario.scoring.task_completion_fraction;
             let flown = &self.live.flown[task];
             let share = flown.coverage().share;
-            self.live.half_flown[task] |= share >= 0.5;
+            self.live.flown_shares[task] = share;
             self.live.done[task] |= share >= done_share;
             let closed = self.config.scenario.tasks[task].closed;
             self.live.finished[task] = self.live.finished[task] || flown.is_finished(closed, done_share);

@@ -19,7 +19,7 @@ pub struct Unseen {
     action: Action,
 }
 
-/// What a fault changes, compared with the faultless flight with the same seed.
+/// The measure by which a fault shows: its change from a flight with the same seed but no fault.
 struct Action {
     measure: &'static str,
     of: fn(&SessionRecord) -> f64,
@@ -426,11 +426,7 @@ fn on_picture(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, Mav
         _ => {}
     }
     let mut sent = Vec::new();
-    while let Some((due, owed)) = hands.owed.pop_front() {
-        if due > hands.stick_messages {
-            hands.owed.push_front((due, owed));
-            break;
-        }
+    while let Some((_, owed)) = hands.owed.pop_front_if(|(due, _)| *due <= hands.stick_messages) {
         sent.push(owed);
     }
     sent.push(message);

@@ -27,7 +27,7 @@ const BACKWALL_M: f64 = 0.5;
 /// Minimum space between columns, and minimum length of the caps beyond them, m (estimate).
 const COLUMN_SPACE_M: f64 = 0.5;
 /// Minimum and maximum deck width, m: those of the other bridge types.
-const DECK_WIDTH_M: (f64, f64) = (5.0, 40.0);
+pub(super) const DECK_WIDTH_M: (f64, f64) = (5.0, 40.0);
 
 /// Spans, and what separates their beams. Lengths along the bridge.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,6 +125,25 @@ pub struct SupportLayout {
     /// Length of the approach slabs and wing walls, m.
     pub approach_m: f64,
 }
+
+/// Returns the piers and abutments of a beam bridge from its dimensions, which have the same keys in all types, and the width of its
+/// abutments.
+macro_rules! support_layout {
+    ($bridge:expr, $abutment_width_m:expr) => {
+        $crate::scenario::bridges::beam_layout::SupportLayout {
+            cap_depth_m: $bridge.cap_depth_m,
+            cap_width_m: $bridge.cap_width_m,
+            columns: $bridge.columns,
+            column_m: $bridge.column_m,
+            has_round_columns: $bridge.round_columns.round() > 0.0,
+            column_height_m: $bridge.column_height_m,
+            abutment_m: $bridge.abutment_m,
+            abutment_width_m: $abutment_width_m,
+            approach_m: $bridge.approach_m,
+        }
+    };
+}
+pub(super) use support_layout;
 
 /// Layout of a beam bridge. Bridge axes: x along the deck, y left, z up, origin on the deck in the middle between the abutments.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -492,6 +511,16 @@ impl BeamLayout {
         m.require_at_most("girder_spacing_m", spacing, spacing_m(high_m), "a deck of at most 40 m (girders, overhang_m)");
         m.require_at_least("overhang_m", overhang_m, beside_m, &format!("room for barrier and drains ({key})"));
         m.require_at_most("overhang_m", overhang_m, spacing, "no wider than girder_spacing_m");
+    }
+
+    /// Requires spans of at most this length. With one span, only `span_m` counts, and with two, only `end_span_m`.
+    pub(super) fn require_spans_at_most(&self, m: &mut InconsistencyList, longest_m: f64, why: &str) {
+        if self.piers().len() != 1 {
+            m.require_at_most("span_m", self.spans.span_m, longest_m, why);
+        }
+        if !self.piers().is_empty() {
+            m.require_at_most("end_span_m", self.spans.end_span_m, longest_m, why);
+        }
     }
 
     /// Requires room for the bearings on the caps, and for the columns below them. `gap_keys` are the keys that determine the distance

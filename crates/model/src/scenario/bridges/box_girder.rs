@@ -2,7 +2,9 @@
 //! two bearings at each support. The outer webs can be inclined.
 
 use super::beam_bridge::BeamBridge;
-use super::beam_layout::{BARRIER_WIDTH_M, BeamLayout, BearingLayout, DeckLayout, LineLayout, SpanLayout, SupportLayout};
+use super::beam_layout::{
+    BARRIER_WIDTH_M, BeamLayout, BearingLayout, DECK_WIDTH_M, DeckLayout, LineLayout, SpanLayout, support_layout,
+};
 use super::beam_path;
 use super::dimensions::{InconsistencyList, bridge_dimensions};
 use super::path::{LocalPath, PathPlace, SPACING_M, TaskKind};
@@ -33,8 +35,6 @@ const MIN_CELL_M: (f64, f64) = (0.9, 1.2);
 const MAX_SOFFIT_SLOPE: f64 = 0.3;
 /// Minimum length of the part of an end span without a haunch, m (estimate: access to the bearings).
 const LEVEL_END_M: f64 = 12.0;
-/// Minimum and maximum deck width, m: those of the other bridge types.
-const DECK_WIDTH_M: (f64, f64) = (5.0, 40.0);
 /// Room for a barrier and a drain beside the box, m.
 const DECK_EDGE_M: f64 = BARRIER_WIDTH_M.0 + 0.25;
 
@@ -120,17 +120,7 @@ impl BeamBridge for BoxGirder {
                 expansion: Element::PotBearing,
                 fixed: Element::PotBearing,
             },
-            supports: SupportLayout {
-                cap_depth_m: self.cap_depth_m,
-                cap_width_m: self.cap_width_m,
-                columns: self.columns,
-                column_m: self.column_m,
-                has_round_columns: self.round_columns.round() > 0.0,
-                column_height_m: self.column_height_m,
-                abutment_m: self.abutment_m,
-                abutment_width_m: width_m,
-                approach_m: self.approach_m,
-            },
+            supports: support_layout!(self, width_m),
         }
     }
 
@@ -220,13 +210,10 @@ impl BoxGirder {
         let share = if self.has_piers() { MIN_DEPTH_SHARE.1 } else { MIN_DEPTH_SHARE.0 };
         let longest_m = mean_m / share;
         let why = format!("1/{share} of the mean depth (midspan_depth_m, pier_depth_m; AASHTO LRFD table 2.5.2.6.3-1)");
-        if layout.piers().len() != 1 {
-            m.require_at_most("span_m", self.span_m, longest_m, &why);
-        }
+        layout.require_spans_at_most(m, longest_m, &why);
         if !self.has_piers() {
             return;
         }
-        m.require_at_most("end_span_m", self.end_span_m, longest_m, &why);
         m.require_at_least("pier_depth_m", self.pier_depth_m, self.midspan_depth_m, "no shallower than midspan_depth_m");
         let steep_m = 2.0 * (self.pier_depth_m - self.midspan_depth_m) / MAX_SOFFIT_SLOPE;
         m.require_at_least(

@@ -5,7 +5,7 @@
 //! Example 1 (FHWA-IF-12-052, volume 20, 2012): spans of 140, 175 and 140 ft, four girders.
 
 use super::beam_bridge::BeamBridge;
-use super::beam_layout::{BeamLayout, BearingLayout, DeckLayout, LineLayout, SpanLayout, Station, SupportLayout};
+use super::beam_layout::{BeamLayout, BearingLayout, DeckLayout, LineLayout, SpanLayout, Station, support_layout};
 use super::dimensions::{InconsistencyList, bridge_dimensions};
 use super::quantity::Amounts;
 use super::solid::{BeamDirection, MemberBuilder, PlateThickness};
@@ -110,17 +110,7 @@ impl BeamBridge for Girder {
                 expansion: Element::ElastomericBearing,
                 fixed: Element::FixedBearing,
             },
-            supports: SupportLayout {
-                cap_depth_m: self.cap_depth_m,
-                cap_width_m: self.cap_width_m,
-                columns: self.columns,
-                column_m: self.column_m,
-                has_round_columns: self.round_columns.round() > 0.0,
-                column_height_m: self.column_height_m,
-                abutment_m: self.abutment_m,
-                abutment_width_m: width_m,
-                approach_m: self.approach_m,
-            },
+            supports: support_layout!(self, width_m),
         }
     }
 

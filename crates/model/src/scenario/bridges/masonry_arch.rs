@@ -106,8 +106,7 @@ impl BridgeShape for MasonryArch {
             m.require_at_least("pier_m", self.pier_m, MIN_PIER_SHARE * self.clear_span_m, "clear_span_m / 10 (estimate)");
             m.require_at_most("pier_m", self.pier_m, 0.5 * self.clear_span_m, "half of clear_span_m, so that water can pass");
             m.require_at_most("cutwater_m", self.cutwater_m, self.pier_m, "no longer than the pier is thick (pier_m)");
-            let cap_m = CAP_SHARE * self.cutwater_m;
-            m.require_at_most("cutwater_m", cap_m.max(self.cutwater_m), self.rise_m / CAP_SHARE, "caps below the crown (rise_m)");
+            m.require_at_most("cutwater_m", self.cutwater_m, self.rise_m / CAP_SHARE, "caps below the crown (rise_m)");
         }
         let thrust_m = self.ring_m + 0.5;
         m.require_at_least("abutment_m", self.abutment_m, thrust_m, "ring_m plus 0.5 m");

@@ -5,7 +5,7 @@
 //! beams in chapter 9 of the PCI *Bridge Design Manual* (120 ft, beams 9 ft apart).
 
 use super::beam_bridge::BeamBridge;
-use super::beam_layout::{BeamLayout, BearingLayout, DeckLayout, LineLayout, SpanLayout, Station, SupportLayout};
+use super::beam_layout::{BeamLayout, BearingLayout, DeckLayout, LineLayout, SpanLayout, Station, support_layout};
 use super::dimensions::{InconsistencyList, bridge_dimensions};
 use super::quantity::Amounts;
 use super::solid::MemberBuilder;
@@ -216,17 +216,7 @@ impl BeamBridge for Prestressed {
                 expansion: Element::ElastomericBearing,
                 fixed: Element::ElastomericBearing,
             },
-            supports: SupportLayout {
-                cap_depth_m: self.cap_depth_m,
-                cap_width_m: self.cap_width_m,
-                columns: self.columns,
-                column_m: self.column_m,
-                has_round_columns: self.round_columns.round() > 0.0,
-                column_height_m: self.column_height_m,
-                abutment_m: self.abutment_m,
-                abutment_width_m: width_m,
-                approach_m: self.approach_m,
-            },
+            supports: support_layout!(self, width_m),
         }
     }
 
@@ -249,12 +239,7 @@ impl BeamBridge for Prestressed {
         m.require_at_least("girder_spacing_m", self.girder_spacing_m, widest_m + 0.3, "room between the girders (section)");
         let longest_m = MAX_SLENDERNESS * section.depth_m;
         let why = "28 times the depth of the girders (section; estimate)";
-        if layout.piers().len() != 1 {
-            m.require_at_most("span_m", self.span_m, longest_m, why);
-        }
-        if !layout.piers().is_empty() {
-            m.require_at_most("end_span_m", self.end_span_m, longest_m, why);
-        }
+        layout.require_spans_at_most(m, longest_m, why);
         layout.require_pier_room(m, "simple_spans, joint_gap_m", "girders, girder_spacing_m");
     }
 

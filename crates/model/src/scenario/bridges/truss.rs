@@ -2,7 +2,7 @@
 //! pins at the bearings; portal, sway and lateral bracing; floorbeams, stringers and a concrete deck between the trusses.
 
 use super::beam_bridge::BeamBridge;
-use super::beam_layout::{BeamLayout, BearingLayout, DeckLayout, LineLayout, Run, SpanLayout, SupportLayout};
+use super::beam_layout::{BeamLayout, BearingLayout, DeckLayout, LineLayout, Run, SpanLayout, support_layout};
 use super::beam_path;
 use super::dimensions::{InconsistencyList, bridge_dimensions};
 use super::path::{LocalPath, PathPlace, TaskKind};
@@ -138,17 +138,7 @@ impl BeamBridge for Truss {
                 expansion: Element::MovableBearing,
                 fixed: Element::FixedBearing,
             },
-            supports: SupportLayout {
-                cap_depth_m: self.cap_depth_m,
-                cap_width_m: self.cap_width_m,
-                columns: self.columns,
-                column_m: self.column_m,
-                has_round_columns: self.round_columns.round() > 0.0,
-                column_height_m: self.column_height_m,
-                abutment_m: self.abutment_m,
-                abutment_width_m: self.truss_spacing_m + 2.0 * BEARING_M,
-                approach_m: self.approach_m,
-            },
+            supports: support_layout!(self, self.truss_spacing_m + 2.0 * BEARING_M),
         }
     }
 
