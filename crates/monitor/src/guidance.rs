@@ -204,6 +204,7 @@ impl GuidanceInput<'_> {
 pub struct HoldTimer {
     /// Task whose path the drone is on, and the time since when.
     on_path: Option<(usize, SimTime)>,
+    longest: Vec<SimTime>,
     held: Vec<bool>,
 }
 
@@ -211,19 +212,24 @@ impl HoldTimer {
     /// Creates the timer for a number of tasks.
     #[must_use]
     pub fn new(tasks: usize) -> Self {
-        Self { on_path: None, held: vec![false; tasks] }
+        Self { on_path: None, longest: vec![SimTime::ZERO; tasks], held: vec![false; tasks] }
     }
 
     /// Updates the timer with the task whose path the drone is on.
     pub fn update(&mut self, now: SimTime, task: Option<usize>) {
         let before = self.on_path;
         self.on_path = task.map(|task| (task, before.filter(|(other, _)| *other == task).map_or(now, |(_, since)| since)));
-        if let Some((task, since)) = self.on_path
-            && now - since >= HOLD_DURATION
-            && let Some(held) = self.held.get_mut(task)
-        {
-            *held = true;
+        let Some((task, since)) = self.on_path else { return };
+        if let Some((longest, held)) = self.longest.get_mut(task).zip(self.held.get_mut(task)) {
+            *longest = (*longest).max(now - since);
+            *held |= *longest >= HOLD_DURATION;
         }
+    }
+
+    /// Returns the longest time on the path of a task without leaving it, as a fraction of [`HOLD_DURATION`], at most 1.
+    #[must_use]
+    pub fn share(&self, task: usize) -> f64 {
+        self.longest.get(task).map_or(0.0, |longest| (longest.s() / HOLD_DURATION.s()).min(1.0))
     }
 
     /// For each task, returns whether the drone has stayed on its path long enough.
@@ -300,7 +306,7 @@ mod tests {
         fn of(text: &str) -> Self {
             let scenario = scenario::read("job.toml", text, &|file| Err(file.to_owned())).unwrap();
             let paths = ReferencePaths::new(&scenario);
-            let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
+            let flown = (0..paths.len()).map(|task| FlownPath::of_task(&paths, task)).collect();
             let open = vec![false; paths.len()];
             Self { finished: open.clone(), held: open, scenario, paths, flown }
         }

@@ -11,19 +11,19 @@ const MAX_COVERED_STEP_M: f64 = 5.0;
 pub struct PathCoverage {
     /// Length of the path, m; 0 for a single point.
     pub length_m: f64,
-    /// Fraction of the length that was flown, 0 to 1. A path no longer than its threshold counts as flown once the
-    /// drone reaches it.
+    /// Fraction of the length that was flown, 0 to 1. For a hold position, the longest time on it without leaving it, as a fraction
+    /// of [`HOLD_DURATION`](spandrel_model::scenario::HOLD_DURATION), at most 1.
     pub share: f64,
 }
 
 /// Computes the coverage of all paths, in task order.
 #[must_use]
 pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
-    (0..paths.len()).map(|task| task_coverage(paths.path(task), paths.threshold_m(task), task, on_path)).collect()
+    (0..paths.len()).map(|task| task_coverage(paths, task, on_path)).collect()
 }
 
-fn task_coverage(path: &ReferencePath, threshold_m: f64, task: usize, on_path: &OnPath) -> PathCoverage {
-    let mut flown = FlownPath::new(path, threshold_m);
+fn task_coverage(paths: &ReferencePaths, task: usize, on_path: &OnPath) -> PathCoverage {
+    let mut flown = FlownPath::of_task(paths, task);
     for on in &on_path.task {
         flown.add_frame(on.and_then(|(t, point)| (t == task).then_some(point)));
     }
@@ -41,9 +41,37 @@ pub struct FlownPath {
     threshold_m: f64,
     covered: Vec<bool>,
     previous_point: Option<usize>,
+    hold: Option<HoldFrames>,
+}
+
+/// Time on a hold position, in frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct HoldFrames {
+    needed: usize,
+    /// Frames on it without leaving it: now, and at most.
+    current: usize,
+    longest: usize,
+}
+
+impl HoldFrames {
+    fn add(&mut self, on: bool) {
+        self.current = if on { self.current + 1 } else { 0 };
+        self.longest = self.longest.max(self.current);
+    }
+
+    fn share(self) -> f64 {
+        (self.longest as f64 / self.needed.max(1) as f64).min(1.0)
+    }
 }
 
 impl FlownPath {
+    /// Creates a tracker for the path of a task. Unlike a path, a hold position is not flown by reaching it.
+    #[must_use]
+    pub fn of_task(paths: &ReferencePaths, task: usize) -> Self {
+        let hold = paths.hold_frames(task).map(|needed| HoldFrames { needed, current: 0, longest: 0 });
+        Self { hold, ..Self::new(paths.path(task), paths.threshold_m(task)) }
+    }
+
     /// Creates a tracker for a path that has not been flown yet.
     #[must_use]
     pub fn new(path: &ReferencePath, threshold_m: f64) -> Self {
@@ -54,6 +82,7 @@ impl FlownPath {
             threshold_m,
             covered,
             previous_point: None,
+            hold: None,
         }
     }
 
@@ -68,6 +97,9 @@ impl FlownPath {
             self.covered[from.min(point)..=from.max(point)].fill(true);
         }
         self.previous_point = point;
+        if let Some(hold) = &mut self.hold {
+            hold.add(point.is_some());
+        }
     }
 
     /// Returns whether each path point was flown.
@@ -82,9 +114,12 @@ impl FlownPath {
         let length_m: f64 = self.point_lengths_m.iter().sum();
         let flown = self.point_lengths_m.iter().zip(&self.covered).filter(|(_, covered)| **covered);
         let covered_m = flown.fold(0.0, |sum, (weight, _)| sum + weight);
+        if let Some(hold) = self.hold {
+            return PathCoverage { length_m, share: hold.share() };
+        }
         let any = f64::from(u8::from(self.covered.iter().any(|covered| *covered)));
-        // A path no longer than its threshold is a hold position: reaching it covers all of it. If every point is
-        // covered, the share is exactly 1 despite rounding.
+        // Reaching a path no longer than the distance covers all of it. If every point is covered, the share is exactly 1 despite
+        // rounding.
         let whole = length_m <= self.threshold_m || self.covered.iter().all(|covered| *covered);
         let share = if whole { any } else { covered_m / length_m };
         PathCoverage { length_m, share }
@@ -96,11 +131,11 @@ const MIN_FINISHED_LOOP_SHARE: f64 = 0.9;
 
 impl FlownPath {
     /// Returns whether nothing remains to be flown: the task is done, and the drone has been at both ends of the path, within
-    /// the threshold. A path no longer than its threshold is a hold position, which is never finished.
+    /// the threshold. A hold position is never finished.
     #[must_use]
     pub fn is_finished(&self, closed: bool, done_share: f64) -> bool {
         let PathCoverage { length_m, share } = self.coverage();
-        if share < done_share || length_m <= self.threshold_m {
+        if share < done_share || self.hold.is_some() || length_m <= self.threshold_m {
             return false;
         }
         if closed {

@@ -169,7 +169,7 @@ impl<'a> FlownTasks<'a> {
 /// Returns the last frame of the last visit that covered new parts of the path. On-path intervals less than `gap` frames
 /// apart are one visit.
 fn last_useful_frame(paths: &ReferencePaths, on_path: &OnPath, task: usize, gap: usize) -> Option<usize> {
-    let mut flown = FlownPath::new(paths.path(task), paths.threshold_m(task));
+    let mut flown = FlownPath::of_task(paths, task);
     let (mut covered, mut last, mut useful) = (0, None, None);
     for (i, on) in on_path.task.iter().enumerate() {
         let point = on.and_then(|(t, point)| (t == task).then_some(point));

@@ -80,7 +80,6 @@ impl Monitor {
         if self.lesson.as_ref().is_some_and(|lesson| lesson.path_task().is_none()) {
             return;
         }
-        self.holds.update(truth.time, self.live.current_task);
         let guidance = self.guidance(truth);
         self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
         self.send(&navigation(guidance.first_way(), truth.motion.ned_from_frd.yaw_rad()));

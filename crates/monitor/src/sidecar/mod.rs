@@ -439,7 +439,7 @@ impl LiveState {
             lift_off: None,
             current_task: None,
             last_task: None,
-            flown: (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect(),
+            flown: (0..paths.len()).map(|task| FlownPath::of_task(paths, task)).collect(),
             flown_shares: vec![0.0; paths.len()],
             done: vec![false; paths.len()],
             finished: vec![false; paths.len()],

@@ -190,7 +190,7 @@ impl Monitor {
             self.live.lift_off = Some(truth.time);
             self.event("lift_off", json!({}));
         }
-        self.update_task(truth.motion.position_m);
+        self.update_task(truth.time, truth.motion.position_m);
         self.send_feedback();
         self.send_lesson(&truth);
         self.send_guidance(&truth);
@@ -206,18 +206,20 @@ impl Monitor {
         position_m.up() - self.config.scenario.ground_team.pad_m.up()
     }
 
-    fn update_task(&mut self, position_m: Vec3<Enu>) {
+    fn update_task(&mut self, now: SimTime, position_m: Vec3<Enu>) {
         if self.live.lift_off.is_none() {
             return;
         }
         let on = self.paths.task_on_path(position_m, self.live.last_task);
+        self.holds.update(now, on.map(|(task, _)| task));
         for (task, flown) in self.live.flown.iter_mut().enumerate() {
             flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
         }
         if let Some((task, _)) = on {
             let done_share = self.config.scenario.scoring.task_completion_fraction;
             let flown = &self.live.flown[task];
-            let share = flown.coverage().share;
+            let is_hold = self.config.scenario.tasks[task].is_hold_position();
+            let share = if is_hold { self.holds.share(task) } else { flown.coverage().share };
             self.live.flown_shares[task] = share;
             self.live.done[task] |= share >= done_share;
             let closed = self.config.scenario.tasks[task].closed;

@@ -103,16 +103,36 @@ fn regress_half_flown_path_is_not_certified() {
 }
 
 #[test]
-fn regress_reaching_hold_position_completes_task() {
+fn regress_hold_position_must_be_held() {
+    let job = scenario(vec![task(1, line((0.0, 15.0, 10.0), (0.0, 15.4, 10.0)), 2.0)]);
+    let completion = |held_s: f64| {
+        let mut tape = Tape::new();
+        tape.fly((0.0, 0.0, 10.0), 2.0);
+        tape.fly((0.0, 15.0, 10.0), 4.0);
+        tape.hold(held_s);
+        tape.fly((0.0, 0.0, 10.0), 4.0);
+        tape.land();
+        score_tape(&tape, &job).assessment.completion
+    };
+    assert!(completion(10.0).complete);
+    let brushed = completion(0.0);
+    assert!(!brushed.complete && brushed.path_share < 0.2, "{brushed:?}");
+}
+
+#[test]
+fn regress_held_position_completes_task() {
     let job = scenario(vec![task(1, line((0.0, 15.0, 10.0), (0.0, 15.4, 10.0)), 2.0)]);
     let mut tape = Tape::new();
     tape.fly((0.0, 0.0, 10.0), 2.0);
     tape.fly((0.0, 14.5, 10.0), 2.0);
-    tape.hold(5.0);
+    tape.hold(10.0);
     tape.land();
     let assessment = score_tape(&tape, &job).assessment;
     assert_eq!((assessment.tasks[0].state, assessment.completion.complete), (TaskState::Done, true));
 }
+
+/// Frames for which a hold position is held: 10 s at the highest frame rate of the shipped jobs, 30 Hz.
+const HELD_FRAMES: usize = 300;
 
 /// Flies every path of all shipped jobs from end to end.
 #[test]
@@ -129,7 +149,8 @@ fn prop_flying_all_shipped_paths_completes_all_tasks() {
             let wrap = task.closed.then(|| task.path_m[0]);
             let points: Vec<Vec3<Enu>> = task.path_m.iter().copied().chain(wrap).collect();
             let steps = points.windows(2).flat_map(|pair| (0..4).map(|k| pair[0].lerp(pair[1], f64::from(k) / 4.0)));
-            steps.chain(points.last().copied()).collect::<Vec<_>>()
+            // A hold position is held; the frames on other paths only repeat their end.
+            steps.chain(std::iter::repeat_n(points.last().copied(), HELD_FRAMES).flatten()).collect::<Vec<_>>()
         };
         let on_path = OnPath::measure(&paths, scenario.tasks.iter().flat_map(along));
         for (task, covered) in scenario.tasks.iter().zip(coverage(&paths, &on_path)) {

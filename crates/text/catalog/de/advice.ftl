@@ -44,6 +44,19 @@ advice-too-close = Sie sind { $mean } m zu nah { $surface ->
         [stay_cable] an den Schrägseilen
        *[structure] am Bauwerk
     } geflogen, { $when }: Vergrößern Sie den Abstand.
+advice-uneven-distance = Ihr Abstand { $surface ->
+        [slab_side] von der Fahrbahntafel
+        [arch_bottom] vom Bogen
+        [pier_circle] vom Pfeiler
+        [girder_soffit] von den Trägern
+        [pier_cap] vom Pfeilerkopfbalken
+        [truss_panel] vom Fachwerk
+        [floor_system] vom Fahrbahnrost
+        [barrel_soffit] vom Gewölbe
+        [arch_ring] vom Gewölbering
+        [stay_cable] von den Schrägseilen
+       *[structure] vom Bauwerk
+    } schwankte und wich bei { $at } um { $most } m ab: Folgen Sie der Form der Bahn.
 advice-too-high = Sie sind { $mean } m über der Bahn geflogen, { $when }: Sinken Sie auf die Bahn.
 advice-too-low = Sie sind { $mean } m unter der Bahn geflogen, { $when }: Steigen Sie auf die Bahn.
 advice-speeding = Sie sind{ $place ->
@@ -150,6 +163,12 @@ advice-picture-poor =
        *[other] Lesen Sie im Bericht, was bei jedem Bild fehlt
     }.
 advice-no-pictures = Sie haben keinen Schaden fotografiert (vorhanden: { $count }); die beste Gelegenheit war bei { $at }: Fotografieren Sie jeden Schaden.
+advice-none-found = Sie haben keinen der { $all } Schäden{ $place ->
+        [task] {" "}bei Aufgabe { $tasks }
+        [tasks] {" "}bei den Aufgaben { $tasks }
+       *[none] {""}
+    } fotografiert; bei { $at } waren Sie einem Blick auf Schaden { $defect } am nächsten: Suchen Sie jede Aufgabe bis zum Ende ab.
+advice-moving-pictures = { $count } Ihrer { $taken } Bilder haben Sie in der Bewegung aufgenommen, zuerst bei { $at }: Halten Sie vor jedem Bild an.
 advice-pictures-of-nothing = Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, zuerst bei { $at }: Schauen Sie erst, dann machen Sie das Bild.
 
 advice-not-attempted = Sie haben { $place ->

@@ -47,6 +47,19 @@ advice-too-close = You flew { $mean } m too close to { $surface ->
         [stay_cable] the stays
        *[structure] the structure
     } { $when }: back off.
+advice-uneven-distance = Your distance from { $surface ->
+        [slab_side] the deck
+        [arch_bottom] the arch
+        [pier_circle] the pier
+        [girder_soffit] the girders
+        [pier_cap] the pier cap
+        [truss_panel] the truss
+        [floor_system] the floor
+        [barrel_soffit] the barrel
+        [arch_ring] the arch ring
+        [stay_cable] the stays
+       *[structure] the structure
+    } varied, up to { $most } m off at { $at }: follow the shape of the path.
 advice-too-high = You flew { $mean } m above the path { $when }: descend to it.
 advice-too-low = You flew { $mean } m below the path { $when }: climb to it.
 advice-speeding = You flew up to { $most } m/s{ $place ->
@@ -154,6 +167,12 @@ advice-picture-poor = Your pictures of { $count } of the { $found } defects that
        *[other] check what the report says about each one
     }.
 advice-no-pictures = You took no picture of the { $count } defects; your best chance was at { $at }: photograph every defect.
+advice-none-found = You photographed none of the { $all } defects{ $place ->
+        [task] {" "}of task { $tasks }
+        [tasks] {" "}of tasks { $tasks }
+       *[none] {""}
+    }; at { $at } you were nearest to a view of defect { $defect }: search every task to its end.
+advice-moving-pictures = You took { $count } of { $taken } pictures in motion, first at { $at }: stop before every picture.
 advice-pictures-of-nothing = { $count } of your { $taken } pictures show no new defect, first at { $at }: look first, then take the picture.
 
 # What was left undone, and the end of the flight.

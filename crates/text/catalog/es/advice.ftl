@@ -44,6 +44,19 @@ advice-too-close = Voló { $mean } m demasiado cerca { $surface ->
         [stay_cable] de los tirantes
        *[structure] de la estructura
     } { $when }: aléjese.
+advice-uneven-distance = Su distancia { $surface ->
+        [slab_side] del tablero
+        [arch_bottom] del arco
+        [pier_circle] de la pila
+        [girder_soffit] de las vigas
+        [pier_cap] del cabezal de la pila
+        [truss_panel] de la celosía
+        [floor_system] del sistema de piso
+        [barrel_soffit] de la bóveda
+        [arch_ring] del anillo del arco
+        [stay_cable] de los tirantes
+       *[structure] de la estructura
+    } varió y se apartó { $most } m a los { $at }: siga la forma de la trayectoria.
 advice-too-high = Voló { $mean } m por encima de la trayectoria { $when }: descienda hasta ella.
 advice-too-low = Voló { $mean } m por debajo de la trayectoria { $when }: ascienda hasta ella.
 advice-speeding = Alcanzó { $most } m/s{ $place ->
@@ -148,6 +161,12 @@ advice-picture-poor = Sus fotos de { $count } de los { $found } defectos que enc
        *[other] consulte lo que el informe dice de cada una
     }.
 advice-no-pictures = No tomó ninguna foto de los { $count } defectos; su mejor oportunidad fue a los { $at }: fotografíe cada defecto.
+advice-none-found = No fotografió ninguno de los { $all } defectos{ $place ->
+        [task] {" "}de la tarea { $tasks }
+        [tasks] {" "}de las tareas { $tasks }
+       *[none] {""}
+    }; a los { $at } estuvo más cerca de ver el defecto { $defect }: busque en cada tarea hasta el final.
+advice-moving-pictures = Tomó { $count } de { $taken } fotos en movimiento, la primera a los { $at }: deténgase antes de cada foto.
 advice-pictures-of-nothing = { $count } de sus { $taken } fotos no muestran ningún defecto nuevo, la primera a los { $at }: mire primero y luego tome la foto.
 
 advice-not-attempted = No voló { $place ->

@@ -242,6 +242,7 @@ fn task_sentence(measure: TaskMeasure, rule: &PlanRule, tasks: &[u32], scan: &Fl
         TaskMeasure::BesidePath => technique::beside_path(scan, tasks),
         TaskMeasure::TooFar => technique::stand_off(scan, tasks, rule.limit, 1.0),
         TaskMeasure::TooClose => technique::stand_off(scan, tasks, rule.limit, -1.0),
+        TaskMeasure::UnevenStandOff => technique::uneven_stand_off(scan, tasks),
         TaskMeasure::TooLow => technique::height(scan, tasks, rule.limit, -1.0),
         TaskMeasure::TooHigh => technique::height(scan, tasks, rule.limit, 1.0),
         TaskMeasure::LowClearance => technique::low_clearance(scan, tasks),
@@ -249,6 +250,7 @@ fn task_sentence(measure: TaskMeasure, rule: &PlanRule, tasks: &[u32], scan: &Fl
         TaskMeasure::LampOff => camera::lamp_off(scan, tasks),
         TaskMeasure::StickReversals => technique::reversals(scan, tasks, &[0, 1, 2]),
         TaskMeasure::YawReversals => technique::reversals(scan, tasks, &[3]),
+        TaskMeasure::MissedAtTask => pictures::none_found(scan, tasks),
     }
 }
 
@@ -265,6 +267,7 @@ fn session_sentence(measure: SessionMeasure, rule: &PlanRule, scan: &FlightScan<
         SessionMeasure::PoorPictures => pictures::poor(scan, &rule.lacked),
         SessionMeasure::NoPictures => pictures::none_taken(scan),
         SessionMeasure::FalseSnapshots => pictures::without_defect(scan),
+        SessionMeasure::MovingPictures => pictures::in_motion(scan),
         SessionMeasure::Overtime => session_end::overtime(scan),
         SessionMeasure::NotLanded => session_end::not_landed(scan),
         SessionMeasure::BatteryLow => session_end::battery_low(scan),

@@ -1,9 +1,9 @@
 //! Sentences on defects and pictures.
 
 use super::flight_scan::{FlightScan, MissedDefect};
-use super::wording::Sentence;
+use super::wording::{Place, Sentence};
 use crate::plan::MIN_SEVERE_CONDITION_STATE;
-use crate::record::DefectRecord;
+use crate::record::{DefectRecord, is_in_motion};
 use crate::time_text::clock;
 use spandrel_monitor::measures::attention::Snapshot;
 use spandrel_text::text;
@@ -85,6 +85,26 @@ pub(super) fn none_taken(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (count, at) = (missed.len().to_string(), clock(chance.t_s));
     let words = text!(scan.language, "advice-no-pictures", count = count, at = at);
     Some((words, scan.frame_at(chance.t_s)))
+}
+
+/// Tasks of which no defect was found.
+pub(super) fn none_found(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let at_task = |defect: &&DefectRecord| defect.task.is_some_and(|task| ids.contains(&task));
+    let missed: Vec<u32> = scan.evidence.record.defects.iter().filter(at_task).map(|defect| defect.id).collect();
+    let chance = best_chance(scan, |id| missed.contains(&id))?;
+    let Place { kind, tasks } = Place::of(scan, ids);
+    let (all, defect, at) = (missed.len().to_string(), chance.id.to_string(), clock(chance.t_s));
+    let words = text!(scan.language, "advice-none-found", all = all, place = kind, tasks = tasks, defect = defect, at = at);
+    Some((words, scan.frame_at(chance.t_s)))
+}
+
+/// Pictures taken in motion.
+pub(super) fn in_motion(scan: &FlightScan<'_>) -> Option<Sentence> {
+    let taken: Vec<usize> = (0..scan.frames().len()).filter(|frame| scan.frames()[*frame].snapshot).collect();
+    let moving: Vec<usize> = taken.iter().copied().filter(|frame| is_in_motion(&scan.frames()[*frame])).collect();
+    let first = *moving.first()?;
+    let (count, taken, at) = (moving.len().to_string(), taken.len().to_string(), clock(scan.t_s(first)));
+    Some((text!(scan.language, "advice-moving-pictures", count = count, taken = taken, at = at), first))
 }
 
 /// Pictures without a new defect.

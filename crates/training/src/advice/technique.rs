@@ -73,6 +73,16 @@ pub(super) fn stand_off(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: 
     Some((words, stretches.longest))
 }
 
+/// Changing distance from the surface. The moment is that of the largest error.
+pub(super) fn uneven_stand_off(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence> {
+    let tasks = scan.task_indices(ids);
+    let error_m = |frame: usize| scan.near(frame, &tasks)?.stand_off_error_m(&scan.evidence.scenario.tasks).map(f64::abs);
+    let errors_m = (0..scan.frames().len()).filter_map(|frame| Some((frame, error_m(frame)?)));
+    let (frame, most_m) = errors_m.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
+    let (surface, most, at) = (surface(scan, &tasks), format!("{most_m:.1}"), clock(scan.t_s(frame)));
+    Some((text!(scan.language, "advice-uneven-distance", surface = surface, most = most, at = at), frame))
+}
+
 /// Too high (`sign` is 1) or too low (-1).
 pub(super) fn height(scan: &FlightScan<'_>, ids: &[u32], limit_m: f64, sign: f64) -> Option<Sentence> {
     let tasks = scan.task_indices(ids);

@@ -15,6 +15,9 @@ const EFFICIENCY_LOSS_PER_MIN: f64 = 10.0;
 /// Fraction of a path that the drone must fly, or pass within 8 m, for its task to count as attempted (estimate: less is a
 /// transit that happens to pass by).
 const MIN_PASSED_FRACTION: f64 = 0.4;
+/// Fraction of a task's time off its path from which the height there says something about holding it (estimate: a few frames are
+/// those in which the drone leaves).
+const MIN_OFF_PATH_FRACTION: f64 = 0.1;
 /// Minimum number of defects of a kind for a fraction of them to be meaningful (estimate: one missed defect is chance).
 const MIN_DEFECTS: usize = 2;
 
@@ -115,7 +118,7 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
     let surplus = |error_m: Option<f64>, sign: f64| error_m.map(|error_m| (sign * error_m).max(0.0));
     match measure {
         TaskMeasure::OffPath => flown.map(|()| 1.0 - task.on_path),
-        TaskMeasure::OffHeight => task.off_height_m,
+        TaskMeasure::OffHeight => task.off_height_m.filter(|_| 1.0 - task.on_path > MIN_OFF_PATH_FRACTION),
         TaskMeasure::Speeding => flown.filter(|()| task.seconds > 0.0).map(|()| task.speeding_s / task.seconds),
         TaskMeasure::Crashes => Some(count(rule, task.contacts())),
         TaskMeasure::NotAttempted => Some(f64::from(u8::from(!reached))),
@@ -126,6 +129,7 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::BesidePath => beside.filter(|_| reached),
         TaskMeasure::TooFar => surplus(near?.stand_off_error_m, 1.0),
         TaskMeasure::TooClose => surplus(near?.stand_off_error_m, -1.0),
+        TaskMeasure::UnevenStandOff => near?.stand_off_spread_m,
         TaskMeasure::TooLow => surplus(near?.height_error_m, -1.0),
         TaskMeasure::TooHigh => surplus(near?.height_error_m, 1.0),
         TaskMeasure::LowClearance => near.map(|near| near.low_clearance),
@@ -133,6 +137,10 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::LampOff => near?.lamp_off,
         TaskMeasure::StickReversals => near.map(|near| near.stick_reversals_per_min),
         TaskMeasure::YawReversals => near.map(|near| near.yaw_reversals_per_min),
+        TaskMeasure::MissedAtTask => {
+            let searched = task.state == Some(TaskState::Done) && task.defects_placed >= MIN_DEFECTS;
+            searched.then(|| 1.0 - task.defects_found as f64 / task.defects_placed as f64)
+        }
     }
 }
 
@@ -179,6 +187,7 @@ fn session_value(rule: &PlanRule, measure: SessionMeasure, record: &SessionRecor
         SessionMeasure::NotLanded => yes(record.end_reason != "landed"),
         SessionMeasure::BatteryLow => yes(record.battery_at_end_pct < BATTERY_RESERVE_PCT),
         SessionMeasure::BatteryFailed => yes(record.battery_failed),
+        SessionMeasure::MovingPictures => record.technique?.moving_pictures,
         SessionMeasure::Exposure => record.technique.map(|technique| technique.exposure_s),
     }
 }

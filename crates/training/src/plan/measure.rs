@@ -14,7 +14,7 @@ pub enum RuleMeasure {
 pub enum TaskMeasure {
     /// Fraction of the task's time off its path.
     OffPath,
-    /// Mean vertical distance from the path while off it, m.
+    /// Mean vertical distance from the path while off it, m; only if that is more than a tenth of the task's time.
     OffHeight,
     /// Fraction of the task's time above the speed limit.
     Speeding,
@@ -30,6 +30,8 @@ pub enum TaskMeasure {
     TooFar,
     /// Median distance from the surface below the path's stand-off, m.
     TooClose,
+    /// Change of the distance from the surface: half its range, without the outermost tenths, m.
+    UnevenStandOff,
     /// Median height below the path, m.
     TooLow,
     /// Median height above the path, m.
@@ -44,6 +46,8 @@ pub enum TaskMeasure {
     StickReversals,
     /// Reversals of the yaw stick per minute near the path.
     YawReversals,
+    /// Fraction of a done task's defects not shown in any picture, if it has at least two.
+    MissedAtTask,
 }
 
 /// Measure of a whole session.
@@ -69,6 +73,8 @@ pub enum SessionMeasure {
     NoPictures,
     /// Fraction of pictures that show no new defect.
     FalseSnapshots,
+    /// Fraction of pictures taken above 0.5 m/s.
+    MovingPictures,
     /// Flight time beyond the time for full efficiency, min.
     Overtime,
     /// 1 if the flight did not end with a landing at home.
@@ -111,6 +117,7 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("beside_path", RuleMeasure::Task(TaskMeasure::BesidePath)),
     ("too_far", RuleMeasure::Task(TaskMeasure::TooFar)),
     ("too_close", RuleMeasure::Task(TaskMeasure::TooClose)),
+    ("uneven_stand_off", RuleMeasure::Task(TaskMeasure::UnevenStandOff)),
     ("too_low", RuleMeasure::Task(TaskMeasure::TooLow)),
     ("too_high", RuleMeasure::Task(TaskMeasure::TooHigh)),
     ("low_clearance", RuleMeasure::Task(TaskMeasure::LowClearance)),
@@ -118,6 +125,7 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("lamp_off", RuleMeasure::Task(TaskMeasure::LampOff)),
     ("stick_reversals", RuleMeasure::Task(TaskMeasure::StickReversals)),
     ("yaw_reversals", RuleMeasure::Task(TaskMeasure::YawReversals)),
+    ("missed_at_task", RuleMeasure::Task(TaskMeasure::MissedAtTask)),
     ("crashes_outside", RuleMeasure::Session(SessionMeasure::CrashesOutside)),
     ("crashes_all", RuleMeasure::Session(SessionMeasure::CrashesAll)),
     ("missed", RuleMeasure::Session(SessionMeasure::Missed)),
@@ -128,6 +136,7 @@ pub const MEASURES: &[(&str, RuleMeasure)] = &[
     ("poor_pictures", RuleMeasure::Session(SessionMeasure::PoorPictures)),
     ("no_pictures", RuleMeasure::Session(SessionMeasure::NoPictures)),
     ("false_snapshots", RuleMeasure::Session(SessionMeasure::FalseSnapshots)),
+    ("moving_pictures", RuleMeasure::Session(SessionMeasure::MovingPictures)),
     ("overtime", RuleMeasure::Session(SessionMeasure::Overtime)),
     ("not_landed", RuleMeasure::Session(SessionMeasure::NotLanded)),
     ("battery_low", RuleMeasure::Session(SessionMeasure::BatteryLow)),
@@ -149,10 +158,16 @@ impl RuleMeasure {
 impl TaskMeasure {
     fn unit(self) -> MeasureUnit {
         match self {
-            Self::OffPath | Self::Speeding | Self::NotCovered | Self::BesidePath | Self::LowClearance | Self::LampOff => {
-                MeasureUnit::Fraction
+            Self::OffPath
+            | Self::Speeding
+            | Self::NotCovered
+            | Self::BesidePath
+            | Self::LowClearance
+            | Self::LampOff
+            | Self::MissedAtTask => MeasureUnit::Fraction,
+            Self::OffHeight | Self::TooFar | Self::TooClose | Self::TooLow | Self::TooHigh | Self::UnevenStandOff => {
+                MeasureUnit::Meters
             }
-            Self::OffHeight | Self::TooFar | Self::TooClose | Self::TooLow | Self::TooHigh => MeasureUnit::Meters,
             Self::Crashes | Self::NotAttempted => MeasureUnit::Count,
             Self::Framing => MeasureUnit::Degrees,
             Self::StickReversals | Self::YawReversals => MeasureUnit::PerMinute,
@@ -163,9 +178,12 @@ impl TaskMeasure {
 impl SessionMeasure {
     fn unit(self) -> MeasureUnit {
         match self {
-            Self::Missed | Self::MissedHidden | Self::MissedLines | Self::PoorPictures | Self::FalseSnapshots => {
-                MeasureUnit::Fraction
-            }
+            Self::Missed
+            | Self::MissedHidden
+            | Self::MissedLines
+            | Self::PoorPictures
+            | Self::FalseSnapshots
+            | Self::MovingPictures => MeasureUnit::Fraction,
             Self::MissedInView | Self::Exposure => MeasureUnit::Seconds,
             Self::Overtime => MeasureUnit::Minutes,
             Self::CrashesOutside

@@ -26,8 +26,11 @@ use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
 use causes::RankedFinding;
 use finding::Finding;
 use serde::Serialize;
+use spandrel_model::shipped::SCENARIOS;
 use spandrel_text::{Language, text};
 
+/// Machine-readable scenario name of the lesson.
+const LESSON: &str = "first-flight";
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
 
@@ -138,7 +141,7 @@ fn plan_from(
         let words = retention_words(rules, days, language);
         steps.insert(0, single_reason_step(&rules.retention_scenario, last, ("retention", words), (days, rules.retention_days)));
     } else if steps.is_empty() {
-        steps.push(single_reason_step(&rules.job, last, ("job", job_words(rules, language)), (0.0, 0.0)));
+        steps.push(single_reason_step(next_job(rules, last), last, ("job", job_words(rules, last, language)), (0.0, 0.0)));
     }
     drills.retain(|drill| drill.sessions > 0 || steps.iter().any(|step| step.scenario == drill.scenario));
     for step in &mut steps {
@@ -266,8 +269,21 @@ fn retention_words(rules: &PlanRules, days: f64, language: Language) -> String {
     if of(Language::English) == own { of(language) } else { own }
 }
 
+/// Returns the job to fly if no rule fires: the shipped job that was flown last, and the rules' job after a drill, a lesson or a
+/// job of the trainee's own.
+fn next_job<'a>(rules: &'a PlanRules, last: &'a SessionRecord) -> &'a str {
+    let name = last.scenario.as_str();
+    let is_exercise =
+        name == LESSON || name == rules.retention_scenario || rules.drills.iter().any(|drill| drill.scenario == name);
+    let is_shipped = SCENARIOS.iter().any(|(shipped, _)| *shipped == name);
+    if is_shipped && !is_exercise { name } else { &rules.job }
+}
+
 /// Returns the reason for flying the whole job. A reason other than the default one stays in its language.
-fn job_words(rules: &PlanRules, language: Language) -> String {
+fn job_words(rules: &PlanRules, last: &SessionRecord, language: Language) -> String {
+    if !last.is_complete() && last.completion.is_some() {
+        return text!(language, "plan-job-unfinished");
+    }
     let of = |language| text!(language, "plan-job");
     if of(Language::English) == rules.job_reason { of(language) } else { rules.job_reason.clone() }
 }

@@ -10,6 +10,8 @@ pub const DEFAULT_RULES: &str = include_str!("rules.toml");
 
 /// File format version.
 const FORMAT_VERSION: i64 = 1;
+/// Value of a rule's `scenario` that stands for the drill of the task's kind in `[task_drills]`.
+const DRILL_OF_TASK: &str = "drill of the task";
 /// Maximum value of `in_tasks`.
 const MAX_IN_TASKS: i64 = 20;
 /// Maximum value of `mastery_of`.
@@ -179,7 +181,12 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
         read.push((section, rule));
     }
     check_causes(reader, &read);
-    let rules = read.into_iter().map(|(_, rule)| rule).collect();
+    let task_drills = read_task_drills(reader, root);
+    for (section, _) in read.iter().filter(|(_, rule)| rule.scenario == DRILL_OF_TASK && !is_for_each_kind(rule)) {
+        let allowed = "a rule on a measure of one task, without `task` and `in_tasks`";
+        reader.add_problem(section, "scenario", DRILL_OF_TASK, allowed, "this rule has no task whose drill it could recommend");
+    }
+    let rules = read.into_iter().flat_map(|(_, rule)| for_each_kind(rule, &task_drills)).collect();
     let drills = read_drills(reader, root);
     let mastery_of = reader.integer(root, "mastery_of", (1, MAX_MASTERY_SESSIONS), Some(3));
     let mastery_needed = reader.integer(root, "mastery_needed", (1, mastery_of), Some(mastery_of.min(2)));
@@ -200,6 +207,29 @@ fn read(reader: &mut Reader<'_>, root: &mut Section<'_>) -> PlanRules {
     };
     reader.finish(root);
     rules
+}
+
+/// Reads the drill of each kind of task; kinds without one are left out.
+fn read_task_drills(reader: &mut Reader<'_>, root: &mut Section<'_>) -> Vec<(&'static str, String)> {
+    let mut section = reader.section(root, "task_drills");
+    let drills = TaskKind::ALL.iter().map(|kind| (kind.key(), reader.text(&mut section, kind.key(), Some(""))));
+    let drills = drills.filter(|(_, drill)| !drill.is_empty()).collect();
+    reader.finish(&section);
+    drills
+}
+
+/// Returns whether a rule can stand for one rule per kind of task.
+fn is_for_each_kind(rule: &PlanRule) -> bool {
+    matches!(rule.measure, RuleMeasure::Task(_)) && rule.task.is_none() && rule.in_tasks == 1
+}
+
+/// Returns one rule per kind of task if the rule recommends the drill of the task, and otherwise the rule.
+fn for_each_kind(rule: PlanRule, task_drills: &[(&'static str, String)]) -> Vec<PlanRule> {
+    if rule.scenario != DRILL_OF_TASK {
+        return vec![rule];
+    }
+    let of = |(kind, drill): &(&'static str, String)| PlanRule { task: Some(*kind), scenario: drill.clone(), ..rule.clone() };
+    task_drills.iter().map(of).collect()
 }
 
 /// Returns the kinds of tasks to which a rule can be restricted.

@@ -24,7 +24,7 @@ fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Cr
     let technique = task.technique.as_mut().unwrap();
     match measure {
         TaskMeasure::OffPath => task.on_path = 1.0 - value,
-        TaskMeasure::OffHeight => task.off_height_m = Some(value),
+        TaskMeasure::OffHeight => (task.off_height_m, task.on_path) = (Some(value), 0.85),
         TaskMeasure::Speeding => task.speeding_s = value * task.seconds,
         TaskMeasure::Crashes => technique.contacts = crashes,
         TaskMeasure::NotAttempted => {
@@ -36,6 +36,7 @@ fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Cr
         TaskMeasure::BesidePath => task.covered = Some(1.0 - value),
         TaskMeasure::TooFar => technique.stand_off_error_m = Some(value),
         TaskMeasure::TooClose => technique.stand_off_error_m = Some(-value),
+        TaskMeasure::UnevenStandOff => technique.stand_off_spread_m = Some(value),
         TaskMeasure::TooLow => technique.height_error_m = Some(-value),
         TaskMeasure::TooHigh => technique.height_error_m = Some(value),
         TaskMeasure::LowClearance => technique.low_clearance = value,
@@ -43,6 +44,10 @@ fn set_task(task: &mut TaskRecord, measure: TaskMeasure, value: f64, crashes: Cr
         TaskMeasure::LampOff => technique.lamp_off = Some(value),
         TaskMeasure::StickReversals => technique.stick_reversals_per_min = value,
         TaskMeasure::YawReversals => technique.yaw_reversals_per_min = value,
+        TaskMeasure::MissedAtTask => {
+            (task.state, task.defects_placed, task.defects_found) =
+                (Some(TaskState::Done), 100, (100.0 * (1.0 - value)).round() as usize);
+        }
     }
 }
 
@@ -77,6 +82,7 @@ fn set_session(record: &mut SessionRecord, rule: &PlanRule, measure: SessionMeas
         SessionMeasure::PoorPictures => mark_defects(record, value, |defect| defect.shortfalls = vec![reason.clone()]),
         SessionMeasure::NoPictures => record.snapshots = if over { 0 } else { 10 },
         SessionMeasure::FalseSnapshots => (record.snapshots, record.hits) = (1000, (1000.0 * (1.0 - value)).round() as usize),
+        SessionMeasure::MovingPictures => record.technique.as_mut().unwrap().moving_pictures = Some(value),
         SessionMeasure::Overtime => record.scores.efficiency = 100.0 - value * 5.0,
         SessionMeasure::NotLanded => record.end_reason = if over { "abort".into() } else { "landed".into() },
         SessionMeasure::BatteryLow => record.battery_at_end_pct = if over { 19.0 } else { 21.0 },

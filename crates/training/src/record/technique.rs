@@ -19,6 +19,10 @@ const REVERSAL_GAP: f64 = 0.2;
 /// Vertical component of the viewing direction above which the stand-off is mostly vertical, so that a height error is a
 /// stand-off error (45 degrees).
 const MAX_LEVEL_VIEW_UP: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Speed above which a picture counts as taken in motion, m/s (estimate: position hold in a breeze stays below it).
+const MOVING_M_S: f64 = 0.5;
+/// Lower and upper quantile between which a spread is measured: a short excursion doesn't count.
+const SPREAD_QUANTILES: (f64, f64) = (0.1, 0.9);
 /// Distance within which the nearest position on a path counts as its end, m.
 const END_TOLERANCE_M: f64 = 1e-6;
 
@@ -37,6 +41,10 @@ pub struct TaskTechnique {
     /// or the drone never came near.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stand_off_error_m: Option<f64>,
+    /// Half the range of the distance from the surface beyond the path's between its 10th and 90th percentile, m: how much the
+    /// distance changes, wherever its median is. `None` like the median, and in records before format 8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand_off_spread_m: Option<f64>,
     /// RMS framing error of the certification profile, degrees; `None` if the task inspects no surface or its path was
     /// not entered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -63,6 +71,10 @@ pub struct SessionTechnique {
     pub contacts_outside: Crashes,
     /// Time below the minimum clearance, s.
     pub exposure_s: f64,
+    /// Fraction of the pictures that were taken in motion (above 0.5 m/s), 0 to 1; `None` without pictures, and in records before
+    /// format 8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moving_pictures: Option<f64>,
 }
 
 /// Samples of one task, in frame order.
@@ -128,7 +140,23 @@ pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: 
 /// Returns the technique outside the tasks.
 pub(super) fn session(source: &RecordSource<'_>) -> SessionTechnique {
     let certification = &source.assessed_session.assessment.certification;
-    SessionTechnique { contacts_outside: contacts(source, None).0, exposure_s: certification.exposure_s }
+    SessionTechnique {
+        contacts_outside: contacts(source, None).0,
+        exposure_s: certification.exposure_s,
+        moving_pictures: moving_pictures(&source.assessed_session.frames),
+    }
+}
+
+/// Returns whether a picture in this frame is taken in motion.
+pub fn is_in_motion(frame: &Frame) -> bool {
+    !frame.missing && frame.speed_m_s() > MOVING_M_S
+}
+
+fn moving_pictures(frames: &[Frame]) -> Option<f64> {
+    let taken = frames.iter().filter(|frame| frame.snapshot);
+    let moving = taken.clone().filter(|frame| is_in_motion(frame)).count();
+    let taken = taken.count();
+    (taken > 0).then(|| moving as f64 / taken as f64)
 }
 
 /// Returns the merged contacts of a task, or outside all tasks, and the speed of the fastest.
@@ -233,7 +261,7 @@ impl NearSamples {
         }
     }
 
-    fn technique(self, task: &Task, passed: f64, frame_s: f64) -> TaskTechnique {
+    fn technique(mut self, task: &Task, passed: f64, frame_s: f64) -> TaskTechnique {
         let share = |frames: usize| if self.frames > 0 { frames as f64 / self.frames as f64 } else { 0.0 };
         let near_s = self.frames as f64 * frame_s;
         let per_min = |reversals: usize| if near_s > 0.0 { 60.0 * reversals as f64 / near_s } else { 0.0 };
@@ -241,6 +269,7 @@ impl NearSamples {
         TaskTechnique {
             near_s,
             passed,
+            stand_off_spread_m: spread(&mut self.stand_offs_m),
             height_error_m: median(self.heights_m),
             stand_off_error_m: median(self.stand_offs_m),
             rms_framing_deg: None,
@@ -252,6 +281,14 @@ impl NearSamples {
             fastest_contact_m_s: 0.0,
         }
     }
+}
+
+/// Returns half the range between the quantiles. Sorts the values.
+fn spread(values: &mut [f64]) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let last = values.len().checked_sub(1)?;
+    let at = |quantile: f64| values[(quantile * last as f64).round() as usize];
+    Some(0.5 * (at(SPREAD_QUANTILES.1) - at(SPREAD_QUANTILES.0)))
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {
@@ -278,6 +315,15 @@ mod tests {
         assert_eq!(reversals(&[0.0, 0.1, -0.05, 0.1, 0.0]), 0, "within the gap");
         assert_eq!(reversals(&[0.0, 1.0, 0.9, 1.0, 0.85, 0.5]), 1, "a dip within the gap is no reversal");
         assert_eq!(reversals(&[]), 0);
+    }
+
+    #[test]
+    fn exact_spread_is_that_of_all_but_the_outermost_tenths() {
+        let mut values: Vec<f64> = (0..=10).rev().map(f64::from).collect();
+        assert_eq!(spread(&mut values), Some(4.0), "from 1 to 9");
+        values[10] = 1000.0;
+        assert_eq!(spread(&mut values), Some(4.0), "one excursion");
+        assert_eq!(spread(&mut []), None);
     }
 
     #[test]
