@@ -1,8 +1,9 @@
 //! Writes annotations in COCO's object detection format (cocodataset.org, "Data format"). Segmentations are uncompressed run lengths, which
 //! are as exact as the label masks.
 
-use super::DatasetPicture;
 use super::annotations::Annotation;
+use super::origin::{DatasetOrigin, LICENSE};
+use super::picture::DatasetPicture;
 use super::viewpoints::Aim;
 use serde_json::{Value, json};
 use spandrel_model::calendar;
@@ -13,21 +14,6 @@ use spandrel_model::defect_codes;
 pub struct CocoFile {
     images: Vec<Value>,
     annotations: Vec<Value>,
-}
-
-/// Origin of a data set.
-#[derive(Debug, Clone, Copy)]
-pub struct DatasetOrigin<'a> {
-    /// Version of the program.
-    pub version: &'a str,
-    /// Name of the scenario.
-    pub scenario: &'a str,
-    /// Seed.
-    pub seed: u64,
-    /// Quality preset.
-    pub quality: &'a str,
-    /// Name of the graphics device.
-    pub renderer: &'a str,
 }
 
 impl CocoFile {
@@ -75,7 +61,7 @@ impl CocoFile {
                 "quality": origin.quality,
                 "renderer": origin.renderer,
             },
-            "licenses": [{ "id": 1, "name": super::readme::LICENSE, "url": "" }],
+            "licenses": [{ "id": 1, "name": LICENSE, "url": "" }],
             "categories": categories(),
             "images": self.images,
             "annotations": self.annotations,

@@ -1,6 +1,6 @@
 //! Writes the table of a data set's pictures: camera poses, ground sampling distances, weather and seeds.
 
-use super::DatasetPicture;
+use super::picture::DatasetPicture;
 use super::viewpoints::Aim;
 use crate::photo::direction_deg;
 use spandrel_model::calendar;

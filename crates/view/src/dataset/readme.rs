@@ -1,10 +1,7 @@
 //! Writes a data set's README.md: its files, how to create it again, and its license.
 
-use super::coco::DatasetOrigin;
+use super::origin::{DatasetOrigin, LICENSE};
 use super::poses::COLUMNS;
-
-/// License of the pictures and labels.
-pub const LICENSE: &str = "MIT OR Apache-2.0, as Spandrel; imported models and aerial photographs keep their own licenses";
 
 /// Returns the text. `counts` are the numbers of pictures and annotations for training and validation.
 #[must_use]

@@ -44,9 +44,11 @@ fn soffit_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(30.0, 0.4, 27.0), at(30.0, 0.4, 40.0))
 }
 
-/// Returns a line of sight to the right spandrel wall of the masonry arch bridge, above the first pier.
-fn masonry_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
-    (at(-9.0, -12.0, 7.0), at(-9.0, 0.0, 7.0))
+/// Returns a line of sight to the right spandrel wall of the masonry arch bridge, above the first pier: to a corner of three stones, or to
+/// the middle of a stone.
+fn masonry_sight_line(kind: u32) -> (Vec3<Enu>, Vec3<Enu>) {
+    let (east_m, up_m) = if kind == MORTAR { (-9.2, 6.84) } else { (-9.0, 7.0) };
+    (at(east_m, -12.0, up_m), at(east_m, 0.0, up_m))
 }
 
 /// Returns the rows at the two bridges of steel and concrete.
@@ -88,13 +90,10 @@ fn masonry_series() -> Vec<Series> {
         cause,
         stain: None,
         down: false,
-        sight: masonry_sight_line(),
+        sight: masonry_sight_line(kind),
         width_m,
     };
-    vec![
-        Series { stain: Some(StainSubstance::Lime), ..row("mortar-breakdown", MORTAR, DefectCause::Seepage, 1.9) },
-        row("split-stone", SPLIT_STONE, DefectCause::Frost, 1.0),
-    ]
+    vec![row("mortar-breakdown", MORTAR, DefectCause::WaterLine, 1.9), row("split-stone", SPLIT_STONE, DefectCause::Frost, 1.0)]
 }
 
 fn ranges(series: &Series, state: u8) -> SizeRanges {
