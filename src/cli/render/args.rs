@@ -37,7 +37,7 @@ pub struct Args {
     /// Simulation time in s [default for a session: the middle of the flight]
     #[arg(long, value_name = "S")]
     pub at: Option<f64>,
-    /// Output file; '-' for standard output. With --dataset, the folder of the data set, which must be new or empty
+    /// Output file; '-' for standard output. With --dataset, the folder of the data set, which must be new or empty (by default, "dataset")
     #[arg(
         long,
         value_name = "FILE",
