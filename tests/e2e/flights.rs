@@ -93,11 +93,33 @@ fn flight_expert_completes_the_cable_stayed_bridge_without_contact() {
     assert_expert_completes("cable-stayed", "3", 5);
 }
 
-/// Checks that the expert lands after all tasks of a job without contact, and finds at least a number of its defects.
-fn assert_expert_completes(job: &str, seed: &str, min_found: u64) {
+/// Share of the time off the path and loss by speeding that the drills' criteria allow, as in crates/training/src/plan/rules.toml.
+const MAX_OFF_PATH: f64 = 0.1;
+const MAX_SPEEDING: f64 = 0.02;
+
+#[test]
+fn flight_expert_meets_the_criteria_of_the_drills_at_other_bridge_types() {
+    for drill in ["drill-girder-bays", "drill-truss-panels", "drill-haunches", "drill-barrel", "drill-stay-cable"] {
+        let assessment = flown(drill, "3");
+        assert_eq!(assessment["end"]["reason"], "landed", "{drill}");
+        assert_eq!(assessment["crashes"]["other"], 0, "{drill}: {}", assessment["crashes"]);
+        let [task] = &assessment["tasks"].as_array().unwrap()[..] else { panic!("{drill}: not one task") };
+        assert_eq!(task["state"], "done", "{drill}: {task}");
+        assert!(task["on_path"].as_f64().unwrap() >= 1.0 - MAX_OFF_PATH, "{drill}: {task}");
+        assert!(task["speeding"].as_f64().unwrap() <= MAX_SPEEDING, "{drill}: {task}");
+    }
+}
+
+/// Returns the assessment of an expert's flight.
+fn flown(job: &str, seed: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     successful_stdout(&demo_of(job, folder.path(), seed).output().unwrap());
-    let assessment = json(&only_session(folder.path()).join("assessment.json"));
+    json(&only_session(folder.path()).join("assessment.json"))
+}
+
+/// Checks that the expert lands after all tasks of a job without contact, and finds at least a number of its defects.
+fn assert_expert_completes(job: &str, seed: &str, min_found: u64) {
+    let assessment = flown(job, seed);
     assert_eq!(assessment["end"]["reason"], "landed");
     assert_eq!(assessment["crashes"]["other"], 0, "{}", assessment["crashes"]);
     let states: Vec<&str> = assessment["tasks"].as_array().unwrap().iter().filter_map(|task| task["state"].as_str()).collect();

@@ -18,6 +18,8 @@
 pub mod arrange;
 pub mod camera;
 pub mod cells;
+#[cfg(feature = "gpu")]
+pub mod dataset;
 pub mod exposure;
 pub mod feed;
 pub mod flow;

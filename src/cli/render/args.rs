@@ -4,13 +4,17 @@ use crate::cli::args::parse_seed;
 use crate::errors::EXIT_CODES;
 use std::path::PathBuf;
 
+/// Maximum number of pictures of a data set: COCO files of more would need several GB of memory (estimate).
+const MAX_DATASET_PICTURES: i64 = 100_000;
+
 /// Render any moment of a recorded session, or a scenario from any viewpoint, as a PNG picture
 ///
 /// For a session, renders the aircraft camera's view at a simulation time, the inspector's view from the landing pad,
 /// or both side by side, with head-up display. For a scenario, renders the view from any point toward another point. It
 /// needs no window or graphics card: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers).
 /// --snapshots renders all photographs of a session into its folder as JPEG files with EXIF and XMP; --video renders
-/// the camera's view, with the photographs as chapters in a separate file (WebVTT).
+/// the camera's view, with the photographs as chapters in a separate file (WebVTT). --dataset renders labeled pictures of
+/// a scenario for training defect detectors.
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
@@ -23,6 +27,7 @@ Examples:
   spandrel render sessions/20260801T... --video flight.mp4 --span 60,90 --size 960x540
   spandrel render two-bridges --from=-150,-60,12 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
   spandrel render two-bridges --from 20,-1,28 --look 0,0,31 --lamp --seed 7
+  spandrel render girder --dataset 500 --out girder-set --seed 7
 
 {EXIT_CODES}"))]
 pub struct Args {
@@ -32,14 +37,19 @@ pub struct Args {
     /// Simulation time in s [default for a session: the middle of the flight]
     #[arg(long, value_name = "S")]
     pub at: Option<f64>,
-    /// Output file; '-' for standard output
-    #[arg(long, value_name = "FILE", default_value = "picture.png")]
+    /// Output file; '-' for standard output. With --dataset, the folder of the data set, which must be new or empty (by default, "dataset")
+    #[arg(
+        long,
+        value_name = "FILE",
+        default_value = "picture.png",
+        default_value_if("dataset", clap::builder::ArgPredicate::IsPresent, "dataset")
+    )]
     pub out: String,
     /// View to render for a session
     #[arg(long, value_name = "VIEW", value_parser = ["camera", "inspector", "both"], default_value = "both")]
     pub view: String,
     /// Size of each view in px; the camera's view and photographs keep the sensor's aspect ratio within it [default:
-    /// 1280x720; for photographs the camera's size, or a smaller size without a graphics card]
+    /// 1280x720; 1280x960 for a data set; for photographs the camera's size, or a smaller size without a graphics card]
     #[arg(long, value_name = "WxH")]
     pub size: Option<String>,
     /// Rendering quality: low, medium, high or ultra
@@ -50,6 +60,11 @@ pub struct Args {
     /// each defect)
     #[arg(long, conflicts_with = "video")]
     pub masks: bool,
+    /// Render N labeled pictures of a scenario to a folder, for training defect detectors: COCO annotations with exact outlines, YOLO
+    /// boxes, camera poses and weather, split into training and validation by the seed
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_DATASET_PICTURES),
+        conflicts_with_all = ["at", "view", "no_hud", "snapshots", "video", "from", "look", "fov", "lamp", "utc", "cloud"])]
+    pub dataset: Option<u32>,
     /// Hide the head-up display
     #[arg(long)]
     pub no_hud: bool,
@@ -95,7 +110,7 @@ pub struct Args {
     /// Run at low CPU priority
     #[arg(long)]
     pub nice: bool,
-    /// Seed for a scenario's defects and traffic [default: the scenario's seed]
+    /// Seed for a scenario's defects and traffic, or for all of a data set [default: the scenario's seed]
     #[arg(long, value_name = "N", value_parser = parse_seed)]
     pub seed: Option<u64>,
 }

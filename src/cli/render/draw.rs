@@ -3,7 +3,7 @@
 use super::args::Args;
 use super::recorded::RecordedFlight;
 use super::scene_drawing::{SceneDrawing, aspect, sim_time_arg};
-use super::{masks, snapshots, video};
+use super::{dataset, masks, snapshots, video};
 use crate::cli::picture_args::{parse_quality, parse_size};
 use crate::errors::AppError;
 use crate::io::files;
@@ -21,6 +21,9 @@ use spandrel_view::stage::{self, camera_aimed_at, drone_on_pad};
 /// Renders the requested image, photographs or video.
 pub fn run(args: &Args) -> Result<(), AppError> {
     masks::check(args)?;
+    if let Some(count) = args.dataset {
+        return dataset::run(args, count);
+    }
     if std::path::Path::new(&args.what).is_dir() {
         reject_scenario_options(args)?;
     }

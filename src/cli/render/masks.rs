@@ -5,16 +5,17 @@ use super::scene_drawing::SceneRenderer;
 use crate::errors::AppError;
 use crate::io::replace::replace;
 use spandrel_model::scenario::PlacedDefect;
+use spandrel_view::masks::LabelMask;
 use spandrel_view::shot::Shot;
 use std::path::Path;
 
-/// Checks that label masks are requested only for a single image or for photographs.
+/// Checks that label masks are requested only for a single image, for photographs or for a data set.
 pub fn check(args: &Args) -> Result<(), AppError> {
-    let one = args.snapshots || args.from.is_some() || args.view != "both";
+    let one = args.snapshots || args.dataset.is_some() || args.from.is_some() || args.view != "both";
     if args.masks && !one {
         return Err(AppError::invalid("--masks needs a single view: use --view camera or --view inspector"));
     }
-    if args.masks && !args.snapshots && args.out == "-" {
+    if args.masks && !args.snapshots && args.dataset.is_none() && args.out == "-" {
         return Err(AppError::invalid("--masks writes files next to the picture: specify a file with --out"));
     }
     Ok(())
@@ -23,7 +24,11 @@ pub fn check(args: &Args) -> Result<(), AppError> {
 /// Writes a shot's label masks next to its image: NAME.elements.png, NAME.defects.png (16-bit grayscale) and
 /// NAME.masks.json.
 pub fn write(scene_renderer: &mut SceneRenderer, shot: &Shot, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
-    let masks = scene_renderer.labels(shot)?;
+    write_labels(&scene_renderer.labels(shot)?, placed, picture)
+}
+
+/// Writes label masks next to their image.
+pub fn write_labels(masks: &LabelMask, placed: &[PlacedDefect], picture: &Path) -> Result<(), AppError> {
     let size_px = (masks.width, masks.height);
     replace(&picture.with_extension("elements.png"), &grayscale(&masks.elements, size_px)?)?;
     replace(&picture.with_extension("defects.png"), &grayscale(&masks.defects, size_px)?)?;

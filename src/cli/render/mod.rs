@@ -4,6 +4,10 @@ mod args;
 
 use crate::errors::AppError;
 #[cfg(feature = "view")]
+mod dataset;
+#[cfg(feature = "view")]
+mod dataset_folder;
+#[cfg(feature = "view")]
 mod draw;
 #[cfg(feature = "view")]
 mod masks;

@@ -45,10 +45,21 @@ impl SceneDrawing {
         let gpu = Gpu::open()?;
         tracing::info!("rendering with {}", gpu.name);
         let progress = ProgressLog::start("loading scene");
+        let drawing = Self::on(gpu, scenario, vehicle, seed, (quality, at));
+        progress.finish();
+        Ok(drawing)
+    }
+
+    /// Builds the site for a device that is already open.
+    pub fn on(gpu: Gpu, scenario: &Scenario, vehicle: &Vehicle, seed: u64, (quality, at): (Quality, SimTime)) -> Self {
         let site = Site::build(scenario, seed);
         let scene = Scene::build(scenario, &site, vehicle, &quality, at);
-        progress.finish();
-        Ok(Self { gpu, site, scene, quality })
+        Self { gpu, site, scene, quality }
+    }
+
+    /// Returns the device for the next site.
+    pub fn into_gpu(self) -> Gpu {
+        self.gpu
     }
 
     /// Sets the bridge closures and the inspector's walks to those of a recorded flight.

@@ -46,6 +46,14 @@ pub fn girder_job() -> Scenario {
     scenario
 }
 
+/// Returns the masonry arch bridge's job on a sunny morning.
+pub fn masonry_job() -> Scenario {
+    let text = spandrel_model::shipped::MASONRY_ARCH;
+    let mut scenario = spandrel_model::scenario::read("masonry-arch.toml", text, &|_| Err("none".into())).unwrap();
+    scenario.light.cloud_cover = 0.2;
+    scenario
+}
+
 /// Returns the TASBID job at dusk: forty minutes after its start time, just after sunset.
 pub fn dusk_job() -> Scenario {
     let mut scenario = two_bridges();

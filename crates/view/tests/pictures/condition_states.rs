@@ -4,15 +4,15 @@
 use super::compare::{check_picture_at, difference, side_by_side};
 use super::gallery::{girder_sight_line, wall_sight_line};
 use spandrel_model::defect_codes::{
-    ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, REBAR, SPALL, SizeRanges, is_line, map_crack_size_ranges,
-    open_fatigue_size_ranges, size_ranges,
+    ABRASION, CONNECTION, CORROSION, CRACK, EFFLORESCENCE, FATIGUE, MORTAR, REBAR, SPALL, SPLIT_STONE, SizeRanges, is_line,
+    map_crack_size_ranges, open_fatigue_size_ranges, size_ranges,
 };
 use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
-use spandrel_model::scenario::{DefectCause, PlacedDefect, Stain, StainSubstance};
+use spandrel_model::scenario::{DefectCause, PlacedDefect, Scenario, Stain, StainSubstance};
 use spandrel_model::time::SimTime;
-use spandrel_testkit::studio::{Studio, at, sunny_job};
+use spandrel_testkit::studio::{Studio, at, masonry_job, sunny_job};
 use spandrel_view::picture::Picture;
 use spandrel_view::scene::defects::{patch, stain_patch};
 use std::path::Path;
@@ -44,6 +44,14 @@ fn soffit_sight_line() -> (Vec3<Enu>, Vec3<Enu>) {
     (at(30.0, 0.4, 27.0), at(30.0, 0.4, 40.0))
 }
 
+/// Returns a line of sight to the right spandrel wall of the masonry arch bridge, above the first pier: to a corner of three stones, or to
+/// the middle of a stone.
+fn masonry_sight_line(kind: u32) -> (Vec3<Enu>, Vec3<Enu>) {
+    let (east_m, up_m) = if kind == MORTAR { (-9.2, 6.84) } else { (-9.0, 7.0) };
+    (at(east_m, -12.0, up_m), at(east_m, 0.0, up_m))
+}
+
+/// Returns the rows at the two bridges of steel and concrete.
 fn all_series() -> Vec<Series> {
     let row = |name, kind, cause, width_m| Series {
         name,
@@ -73,6 +81,21 @@ fn all_series() -> Vec<Series> {
     ]
 }
 
+/// Returns the rows at the masonry arch bridge.
+fn masonry_series() -> Vec<Series> {
+    let row = |name, kind, cause, width_m| Series {
+        name,
+        kind,
+        is_map: false,
+        cause,
+        stain: None,
+        down: false,
+        sight: masonry_sight_line(kind),
+        width_m,
+    };
+    vec![row("mortar-breakdown", MORTAR, DefectCause::WaterLine, 1.9), row("split-stone", SPLIT_STONE, DefectCause::Frost, 1.0)]
+}
+
 fn ranges(series: &Series, state: u8) -> SizeRanges {
     match (series.kind, series.is_map) {
         (_, true) => map_crack_size_ranges(state),
@@ -98,7 +121,11 @@ fn defect(studio: &Studio, series: &Series, condition_state: u8) -> PlacedDefect
     });
     PlacedDefect {
         id: 3,
-        element: if series.kind < SPALL { Element::SteelGirder } else { Element::RcArch },
+        element: match series.kind {
+            ..SPALL => Element::SteelGirder,
+            MORTAR | SPLIT_STONE => Element::MasonryArch,
+            _ => Element::RcArch,
+        },
         member: member.name.clone(),
         kind: series.kind,
         condition_state,
@@ -134,10 +161,19 @@ fn draw(studio: &mut Studio, series: &Series, defect: &PlacedDefect) -> Picture 
 /// Every kind in three condition states, which differ from each other more than pictures of the same state may.
 #[test]
 fn regress_condition_states_of_every_kind() {
+    assert_states_differ_and_match(sunny_job(), all_series());
+}
+
+#[test]
+fn regress_condition_states_of_masonry() {
+    assert_states_differ_and_match(masonry_job(), masonry_series());
+}
+
+fn assert_states_differ_and_match(job: Scenario, rows: Vec<Series>) {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("docs/src/images/defects");
-    let mut studio = Studio::new(sunny_job(), 7, "medium", SimTime::from_ms(95_000));
+    let mut studio = Studio::new(job, 7, "medium", SimTime::from_ms(95_000));
     let mut errors = Vec::new();
-    for series in all_series() {
+    for series in rows {
         let row = STATES.map(|state| {
             let defect = defect(&studio, &series, state);
             draw(&mut studio, &series, &defect)
