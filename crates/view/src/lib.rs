@@ -21,6 +21,7 @@ pub mod cells;
 pub mod exposure;
 pub mod feed;
 pub mod flow;
+pub mod flown_path;
 pub mod ghost;
 #[cfg(feature = "gpu")]
 pub mod gpu;
