@@ -13,14 +13,15 @@ from test_flow import AGAIN_S, ENTER, ESCAPE, LIMIT_S, UP, Training, acknowledge
 from test_flow import screen  # noqa: F401 (fixture)
 from test_lesson import RING, lesson_texts
 
-# Outside the ring, m east, north, up.
-BEYOND_RING = (0.0, 14.0, 5.0)
-# Time that a pilot looks ahead, s: about the time in which the drone stops.
-LOOKAHEAD_S = 0.9
-# Distances at which a key is pressed, m: well inside the ring, which has a radius of 2 m.
-HORIZONTAL_M, VERTICAL_M = 0.7, 0.5
-# Time in the ring before it is left, vehicle milliseconds. From 2 s, leaving is a mistake.
-INSIDE_MS = 4000
+# Distance that a held key moves the drone per second, m: along the ground and up, with the time in which the drone gains speed and stops. Too
+# large a value only takes more steps.
+GROUND_M_S, CLIMB_M_S = 5.0, 2.0
+# Shortest and longest time for which a key is held in one step, vehicle milliseconds.
+HOLD_MS = (80, 2000)
+# Distance from the middle of the ring that is good enough on each axis, m (the radius is 2 m), and speed of a drone that stands, m/s.
+NEAR_M, STANDING_M_S = 0.8, 0.15
+# Time in the ring before it is left, vehicle milliseconds, besides the time of the last steps to its middle. From 2 s, leaving is a mistake.
+INSIDE_MS = 2500
 # Color of the ground in the side profile (crates/view/src/hud/mod.rs), and a number of pixels that only the large map has at the right.
 EARTH, EARTH_PX = (112, 84, 56), 2000
 
@@ -39,29 +40,44 @@ class KeyPilot:
             self.screen.key(key, True)
         self.held = set(keys)
 
-    def keys_towards(self, target):
-        """Returns the keys that lead to a place."""
+    def now_ms(self):
+        """Returns the vehicle's time."""
+        return self.client.state["ATTITUDE"].time_boot_ms
+
+    def wait_ms(self, duration_ms):
+        """Lets vehicle time pass."""
+        until = self.now_ms() + duration_ms
+        self.client.wait(f"{duration_ms} ms", lambda: self.now_ms() >= until)
+
+    def stand(self):
+        """Releases all keys and waits until the drone stands."""
+        self.hold(set())
+        self.wait_ms(500)
+        moving = lambda: self.client.state["LOCAL_POSITION_NED"]  # noqa: E731
+        self.client.wait("a standstill", lambda: math.hypot(moving().vx, moving().vy, moving().vz) < STANDING_M_S)
+
+    def step_towards(self, target):
+        """Holds the key of the axis that is farthest off for a moment. Returns false if the drone is near the target."""
         here, yaw = self.client.here()
-        moving = self.client.state["LOCAL_POSITION_NED"]
-        velocity = (moving.vy, moving.vx, -moving.vz)
-        east, north, up = (t - h - LOOKAHEAD_S * v for t, h, v in zip(target, here, velocity))
+        east, north, up = (t - h for t, h in zip(target, here))
         cos, sin = math.cos(yaw), math.sin(yaw)
         ways = [
-            (north * cos + east * sin, HORIZONTAL_M, "Up", "Down"),
-            (east * cos - north * sin, HORIZONTAL_M, "Right", "Left"),
-            (up, VERTICAL_M, "w", "s"),
+            (north * cos + east * sin, GROUND_M_S, "Up", "Down"),
+            (east * cos - north * sin, GROUND_M_S, "Right", "Left"),
+            (up, CLIMB_M_S, "w", "s"),
         ]
-        return {plus if way > 0 else minus for way, least, plus, minus in ways if abs(way) > least}
+        way, speed, plus, minus = max(ways, key=lambda axis: abs(axis[0]))
+        if abs(way) <= NEAR_M:
+            return False
+        self.hold({plus if way > 0 else minus})
+        self.wait_ms(min(max(1000 * abs(way) / speed, HOLD_MS[0]), HOLD_MS[1]))
+        return True
 
-    def fly(self, what, target, done):
-        """Flies toward a place, and stays there, until `done` returns true."""
-
-        def step():
-            self.hold(self.keys_towards(target))
-            return done()
-
-        self.client.wait(what, step)
-        self.hold(set())
+    def fly(self, target):
+        """Flies to a place in steps, each to a standstill."""
+        self.stand()
+        while self.step_towards(target):
+            self.stand()
 
     def tap_until(self, what, key, done):
         """Presses a key, and again if nothing happens."""
@@ -78,10 +94,8 @@ def test_wire_the_lesson_is_done_with_the_keyboard(screen, tmp_path):  # noqa: F
         acknowledge(training, "lesson")
         client = Client(gcs_port, scenario="first-flight")
         said = lambda words: any(words in text for text in lesson_texts(client))  # noqa: E731
-        now_ms = lambda: client.state["ATTITUDE"].time_boot_ms  # noqa: E731
         is_armed = lambda: client.state["HEARTBEAT"].base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED  # noqa: E731
         client.wait("position", lambda: {"LOCAL_POSITION_NED", "ATTITUDE", "GPS_GLOBAL_ORIGIN"} <= client.state.keys() or client.ask_origin())
-        client.wait("the first step", lambda: said("1/11 arm the motors"))
         pilot = KeyPilot(screen, client)
         screen.focus()
 
@@ -92,14 +106,16 @@ def test_wire_the_lesson_is_done_with_the_keyboard(screen, tmp_path):  # noqa: F
         client.wait("the third step", lambda: again.if_due() or said("3/11 hover in the ring for 10 s"))
         assert is_armed()
 
-        pilot.fly("the ring", RING, lambda: math.dist(client.here()[0], RING) < 1.0)
-        since = now_ms()
-        pilot.fly("a moment in the ring", RING, lambda: now_ms() > since + INSIDE_MS)
+        pilot.fly(RING)
+        pilot.wait_ms(INSIDE_MS)
         assert not said("4/11"), "10 s are not over"
-        pilot.fly("a remark on the ring", BEYOND_RING, lambda: said("you left the ring: stay 10 s"))
+        pilot.hold({"Up"})
+        client.wait("a remark on the ring", lambda: said("you left the ring: stay 10 s"))
+        pilot.stand()
         training.wait_for_screenshot("lesson-remark", lambda photograph: True)
         assert not said("4/11")
-        pilot.fly("the fourth step", RING, lambda: said("4/11 turn by 90 deg"))
+        pilot.fly(RING)
+        client.wait("the fourth step", lambda: said("4/11 turn by 90 deg"))
         pilot.hold({"d"})
         client.wait("the fifth step", lambda: said("5/11 fly along the path"))
         pilot.hold(set())
