@@ -217,7 +217,7 @@ impl ViewLayout {
             left_edge: inspector.left,
             edge: inspector.top + inspector.height,
             width: inspector.width,
-            height: LARGE_TEXT_HEIGHT * inspector.height,
+            height: (LARGE_TEXT_HEIGHT * inspector.height).min(inspector.height - 2.0 * BUTTON_DOWN),
             extends_down: false,
         };
         match self {
@@ -352,6 +352,27 @@ mod tests {
         let places = ViewLayout::InspectorOnly.view_rects(shape);
         assert!(matches!(places[..], [ViewRect { which: ViewKind::Inspector, width: 1.0, height: 1.0, .. }]), "{places:?}");
         assert_eq!(ViewLayout::InspectorOnly.next(), ViewLayout::Camera);
+    }
+
+    #[test]
+    fn prop_words_and_button_beside_the_large_map_are_in_the_inspectors_view() {
+        for window in [0.7, 1.0, 1.24, 1.25, 16.0 / 9.0, 21.0 / 9.0] {
+            for camera in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+                let shape = WindowShape { window, camera };
+                let places = ViewLayout::Map.view_rects(shape);
+                let inspector = places.iter().find(|place| place.which == ViewKind::Inspector).unwrap();
+                let (right, bottom) = (inspector.left + inspector.width, inspector.top + inspector.height);
+                let words = ViewLayout::Map.words(shape, TextScale::Normal);
+                assert_eq!(
+                    (words.left_edge, words.width, words.edge, words.extends_down),
+                    (inspector.left, inspector.width, bottom, false)
+                );
+                assert!(words.height < inspector.height, "{shape:?}: {words:?}");
+                let (x, y) = ViewLayout::Map.button(shape);
+                assert!(x > inspector.left && x < right && y > inspector.top, "{shape:?}: {x}, {y}");
+                assert!(y + BUTTON_DOWN <= bottom - words.height + ROUNDING_ERROR, "{shape:?}: the button is above the words");
+            }
+        }
     }
 
     #[test]
