@@ -26,8 +26,8 @@ const MAX_SCREENSHOT_DELAY_S: f64 = 3_600.0;
 /// computer. Defects and traffic match the seed that the simulator reports, even after it restarts; --seed applies
 /// until the first report, or if the vehicle reports no seed. With --fly, the keyboard in the window (and a calibrated
 /// controller, if one is connected) flies the vehicle. Tab changes the layout, the mouse turns the inspector's view, the
-/// wheel zooms, F follows the aircraft again, M hides the map, and V hides the path. It needs no graphics card: a software Vulkan
-/// driver is enough (Debian and Ubuntu: mesa-vulkan-drivers).
+/// wheel zooms, F follows the aircraft again, M hides the map, C shows it large, and V hides the path. It needs no graphics
+/// card: a software Vulkan driver is enough (Debian and Ubuntu: mesa-vulkan-drivers).
 #[cfg_attr(not(feature = "view"), allow(dead_code, reason = "help and errors are the same with and without the view"))]
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\

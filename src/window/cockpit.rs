@@ -19,7 +19,7 @@ use crate::io::clock::Stopwatch;
 use crate::io::stop::StopRequest;
 use spandrel_clients::rc::keyboard::{KeyBindings, WindowAction};
 use spandrel_text::text;
-use spandrel_view::arrange::{ViewKind, WindowShape};
+use spandrel_view::arrange::{ViewKind, ViewLayout, WindowShape};
 use spandrel_view::flow::pipe::FromWindow;
 use spandrel_view::flow::{Page, WindowFlow};
 use spandrel_view::gpu::PageTextures;
@@ -256,7 +256,8 @@ impl Cockpit {
     fn handle_action(&mut self, key: &str) {
         match self.keys().window_action(key) {
             Some(WindowAction::Swap) => self.flow.arrangement = self.flow.arrangement.next(),
-            Some(WindowAction::Map) => self.map = !self.map,
+            Some(WindowAction::Map) => self.toggle_map(),
+            Some(WindowAction::LargeMap) => self.flow.toggle_large_map(self.plan.map),
             Some(WindowAction::Path) => self.path = !self.path,
             Some(WindowAction::Ghost) => self.toggle_ghost(),
             Some(WindowAction::Walk) => self.walk_to_next_place(),
@@ -274,6 +275,12 @@ impl Cockpit {
             )
             | None => {}
         }
+    }
+
+    /// Shows or hides the map. Hiding also leaves the large map.
+    fn toggle_map(&mut self) {
+        self.map = !self.map && self.flow.arrangement != ViewLayout::Map;
+        self.flow.leave_large_map();
     }
 
     /// Shows or hides the ghost of an earlier flight.

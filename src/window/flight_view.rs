@@ -10,7 +10,8 @@ use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::inspector_path::{InspectorPath, InspectorPosition};
 use spandrel_model::vehicle::Vehicle;
-use spandrel_view::arrange::ViewRect;
+use spandrel_view::arrange::{ViewKind, ViewRect};
+use spandrel_view::flown_path::FlownPath;
 use spandrel_view::ghost::{Ghost, GhostPath};
 use spandrel_view::live::LiveMoment;
 use spandrel_view::quality::Quality;
@@ -237,8 +238,12 @@ impl FlightView {
         options: &ViewOptions,
     ) -> Result<Vec<PaneContent>, AppError> {
         let (SceneLoading::Ready(panes), Some(now)) = (&mut self.scene, now) else { return Ok(Vec::new()) };
-        let feed = self.listener.live().feed().clone();
-        panes.draw(screen, places, now, &feed, options)
+        let is_map_large = places.iter().any(|place| place.which == ViewKind::Map);
+        let (feed, flown) = {
+            let live = self.listener.live();
+            (live.feed().clone(), if is_map_large { live.flown_path().clone() } else { FlownPath::default() })
+        };
+        panes.draw(screen, places, now, (&feed, flown), options)
     }
 
     /// Returns both views, once the scene is ready.

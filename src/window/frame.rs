@@ -227,11 +227,15 @@ impl Cockpit {
         self.sound(now.as_ref());
         self.listen(started);
         let text = self.text(now.as_ref(), started);
-        let map = self.map && self.plan.map && self.flow.shows_map();
+        let is_map_allowed = self.plan.map && self.flow.shows_map();
+        if !is_map_allowed {
+            self.flow.leave_large_map();
+        }
+        let map = is_map_allowed && (self.map || self.flow.arrangement == ViewLayout::Map);
         if let Some(flight) = &self.threads.flight {
             self.flow.camera_aspect = flight.job.1.camera.aspect();
             self.flow.flown_s = now.as_ref().map_or(self.flow.flown_s, LiveMoment::flown_s);
-            if self.flow.arrangement == ViewLayout::Camera {
+            if matches!(self.flow.arrangement, ViewLayout::Camera | ViewLayout::Map) {
                 flight.listener.live().request_obstacles();
             }
         }

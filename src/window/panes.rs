@@ -14,6 +14,7 @@ use spandrel_view::arrange::{ViewKind, ViewRect, render_size_px};
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
 use spandrel_view::flow::KeyNames;
+use spandrel_view::flown_path::FlownPath;
 use spandrel_view::gpu::{PanePicture, Renderer, fill, picture_texture, read};
 use spandrel_view::hud::lesson_words::how_to;
 use spandrel_view::hud::{self, DisplayStyle, DrawItem, Hud};
@@ -108,7 +109,7 @@ pub struct ViewOptions<'a> {
 pub struct PaneContent {
     /// Position in the window.
     pub view_rect: ViewRect,
-    /// Rendered image; `None` for instruments.
+    /// Rendered image; `None` for instruments and the map.
     pub picture: Option<PanePicture>,
     /// The view's overlay.
     pub items: Vec<DrawItem>,
@@ -153,7 +154,7 @@ impl ViewPanes {
         screen: &WindowSurface,
         places: &[ViewRect],
         now: &LiveMoment,
-        feed: &Feed,
+        (feed, flown): (&Feed, FlownPath),
         options: &ViewOptions,
     ) -> Result<Vec<PaneContent>, AppError> {
         if !self.job.site.has_changes(&now.site_changes) {
@@ -162,11 +163,18 @@ impl ViewPanes {
         let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
         display.style = options.style;
         display.ghost = options.ghost;
+        display.flown = flown;
         if let Some(lesson) = &mut display.lesson {
             lesson.how = how_to(lesson.status.task, options.style.language, &|binding| options.key_names.name(binding));
         }
         let video = self.video.receive(&now.moment, feed.video_margin_db(now.moment.at));
         let mut shown = Vec::new();
+        if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Map) {
+            let items = hud::large_map(&display, &self.job.scene.outline, logical_size_px(screen, view_rect));
+            shown.push(PaneContent { view_rect: *view_rect, picture: None, items });
+            // The other views need no map of their own.
+            display.tracks = Vec::new();
+        }
         if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Instruments) {
             let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(screen, view_rect));
             shown.push(PaneContent { view_rect: *view_rect, picture: None, items });
@@ -174,7 +182,8 @@ impl ViewPanes {
             display.tracks = Vec::new();
         }
         // Start the camera's view first, because the second device renders it while this device renders the other view.
-        let mut order: Vec<&ViewRect> = places.iter().filter(|view_rect| view_rect.which != ViewKind::Instruments).collect();
+        let mut order: Vec<&ViewRect> =
+            places.iter().filter(|view_rect| !matches!(view_rect.which, ViewKind::Instruments | ViewKind::Map)).collect();
         order.sort_by_key(|view_rect| view_rect.which != ViewKind::Camera);
         let mut begun = false;
         for view_rect in order {
@@ -220,7 +229,7 @@ impl ViewPanes {
     fn fit_view(&self, screen: &WindowSurface, view_rect: ViewRect) -> ViewRect {
         let window = screen.window.inner_size();
         match view_rect.which {
-            ViewKind::Inspector | ViewKind::Instruments => view_rect,
+            ViewKind::Inspector | ViewKind::Instruments | ViewKind::Map => view_rect,
             ViewKind::Camera => {
                 let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
                 view_rect.fit_aspect(self.job.vehicle.camera.aspect(), shape)
@@ -245,7 +254,7 @@ impl ViewPanes {
         let aids =
             if display.lesson.is_some() && options.path_aids != PathAids::None { PathAids::Full } else { options.path_aids };
         match view_rect.which {
-            ViewKind::Inspector | ViewKind::Instruments => {
+            ViewKind::Inspector | ViewKind::Instruments | ViewKind::Map => {
                 let shot = stage.inspector_view(&options.inspector_camera, moment, size_px, eyes);
                 let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
                 items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));

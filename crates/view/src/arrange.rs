@@ -11,6 +11,8 @@ pub enum ViewKind {
     Camera,
     /// The instruments.
     Instruments,
+    /// The map with the side profile.
+    Map,
 }
 
 /// How the views share the window.
@@ -25,6 +27,8 @@ pub enum ViewLayout {
     SideBySide,
     /// Only the inspector's view, for a second screen.
     InspectorOnly,
+    /// Map large, with the camera's view, the inspector's view and the navigation display beside it or below it.
+    Map,
 }
 
 /// Aspect ratios (width over height) of the window and of the camera's picture.
@@ -66,6 +70,15 @@ pub struct TextAnchor {
     pub extends_down: bool,
 }
 
+/// Width of the column beside the large map relative to the window's width, and its smallest and largest values relative to the
+/// window's height.
+const MAP_COLUMN_SHARE: f64 = 0.25;
+const MAP_COLUMN_WIDTH: (f64, f64) = (0.42, 0.5);
+/// Smallest aspect ratio of a window with this column; in others, there is a strip below the map.
+const MIN_MAP_COLUMN_ASPECT: f64 = 1.25;
+/// Largest share of the camera's view of the strip's width, and bounds of the strip's height, relative to the window's height.
+const MAP_STRIP_CAMERA_SHARE: f64 = 0.4;
+const MAP_STRIP_HEIGHT: (f64, f64) = (0.2, 0.3);
 /// Side of the inset view as a fraction of the window's width or height.
 const INSET_SIZE: f64 = 0.3;
 /// Smallest width of the column beside the camera view, and smallest height of the strip below it, relative to the window's
@@ -139,6 +152,36 @@ impl WindowShape {
         ]
     }
 
+    /// Returns the map with the other views in a column at its left, or in a strip below it in a narrow window.
+    fn with_map(self) -> [ViewRect; 4] {
+        if self.window < MIN_MAP_COLUMN_ASPECT {
+            return self.with_map_above_strip();
+        }
+        let column = (MAP_COLUMN_SHARE * self.window).clamp(MAP_COLUMN_WIDTH.0, MAP_COLUMN_WIDTH.1);
+        let camera = column / self.camera;
+        let inspector = (column / INSPECTOR_ASPECT).min(0.5 * (1.0 - camera));
+        let below = camera + inspector;
+        [
+            self.rect(ViewKind::Map, (column, 0.0), (self.window - column, 1.0)),
+            self.rect(ViewKind::Camera, (0.0, 0.0), (column, camera)),
+            self.rect(ViewKind::Inspector, (0.0, camera), (column, inspector)),
+            self.rect(ViewKind::Instruments, (0.0, below), (column, 1.0 - below)),
+        ]
+    }
+
+    fn with_map_above_strip(self) -> [ViewRect; 4] {
+        let most = MAP_STRIP_CAMERA_SHARE * self.window;
+        let strip = (most / self.camera).clamp(MAP_STRIP_HEIGHT.0, MAP_STRIP_HEIGHT.1);
+        let camera = (strip * self.camera).min(most);
+        let (top, other) = (1.0 - strip, 0.5 * (self.window - camera));
+        [
+            self.rect(ViewKind::Map, (0.0, 0.0), (self.window, top)),
+            self.rect(ViewKind::Camera, (0.0, top), (camera, strip)),
+            self.rect(ViewKind::Inspector, (camera, top), (other, strip)),
+            self.rect(ViewKind::Instruments, (camera + other, top), (other, strip)),
+        ]
+    }
+
     /// Returns the arrangement with the larger camera view.
     fn with_instruments(self) -> [ViewRect; 3] {
         let (column, strip) = (self.with_column(), self.with_strip());
@@ -148,11 +191,12 @@ impl WindowShape {
 
 impl ViewLayout {
     /// All layouts with their names on the command line.
-    pub const ALL: [(&'static str, Self); 4] = [
+    pub const ALL: [(&'static str, Self); 5] = [
         ("camera", Self::Camera),
         ("inspector", Self::Inspector),
         ("side-by-side", Self::SideBySide),
         ("inspector-only", Self::InspectorOnly),
+        ("map", Self::Map),
     ];
 
     /// Returns the layout to which the Tab key switches next.
@@ -161,24 +205,29 @@ impl ViewLayout {
         match self {
             Self::Camera => Self::Inspector,
             Self::Inspector => Self::SideBySide,
-            Self::SideBySide | Self::InspectorOnly => Self::Camera,
+            Self::SideBySide | Self::InspectorOnly | Self::Map => Self::Camera,
         }
     }
 
     /// Returns the position of the status text in the window, which never overlaps the HUD warnings. With larger text, it is in
-    /// the inspector's view, because the HUD then fills the camera view.
+    /// the inspector's view, because the HUD then fills the camera view. Beside the large map, it always is.
     #[must_use]
     pub fn words(self, shape: WindowShape, text_scale: TextScale) -> TextAnchor {
+        let in_inspector = |inspector: ViewRect| TextAnchor {
+            left_edge: inspector.left,
+            edge: inspector.top + inspector.height,
+            width: inspector.width,
+            height: (LARGE_TEXT_HEIGHT * inspector.height).min(inspector.height - 2.0 * BUTTON_DOWN),
+            extends_down: false,
+        };
         match self {
             Self::Camera if text_scale != TextScale::Normal => {
                 let [_, inspector, _] = shape.with_instruments();
-                TextAnchor {
-                    left_edge: inspector.left,
-                    edge: inspector.top + inspector.height,
-                    width: inspector.width,
-                    height: LARGE_TEXT_HEIGHT * inspector.height,
-                    extends_down: false,
-                }
+                in_inspector(inspector)
+            }
+            Self::Map => {
+                let [_, _, inspector, _] = shape.with_map();
+                in_inspector(inspector)
             }
             Self::Camera => {
                 let [camera, ..] = shape.with_instruments();
@@ -206,6 +255,10 @@ impl ViewLayout {
                 let [_, inspector, _] = shape.with_instruments();
                 (inspector.left + 0.5 * inspector.width, inspector.top + BUTTON_DOWN)
             }
+            Self::Map => {
+                let [_, _, inspector, _] = shape.with_map();
+                (inspector.left + 0.5 * inspector.width, inspector.top + BUTTON_DOWN)
+            }
             Self::Inspector | Self::InspectorOnly => (0.5, 0.04),
             Self::SideBySide => (0.25, 0.04),
         }
@@ -224,6 +277,7 @@ impl ViewLayout {
                 vec![whole(ViewKind::Inspector), inset]
             }
             Self::InspectorOnly => vec![whole(ViewKind::Inspector)],
+            Self::Map => shape.with_map().to_vec(),
             Self::SideBySide => vec![half(ViewKind::Inspector, 0.0), half(ViewKind::Camera, 0.5)],
         }
     }
@@ -252,6 +306,7 @@ mod tests {
             for camera in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
                 let shape = WindowShape { window, camera };
                 let [large, inspector, instruments] = shape.with_instruments();
+                let [map, small_camera, small_inspector, navigation] = shape.with_map();
                 let is_apart = |a: &ViewRect, b: &ViewRect| {
                     a.left + a.width <= b.left + ROUNDING_ERROR
                         || b.left + b.width <= a.left + ROUNDING_ERROR
@@ -259,7 +314,10 @@ mod tests {
                         || b.top + b.height <= a.top + ROUNDING_ERROR
                 };
                 let all = [large, inspector, instruments];
-                for (k, place) in all.iter().enumerate() {
+                let with_map = [map, small_camera, small_inspector, navigation];
+                for (all, (k, place)) in
+                    [&all[..], &with_map[..]].into_iter().flat_map(|all| all.iter().enumerate().map(move |one| (all, one)))
+                {
                     let (right, bottom) = (place.left + place.width, place.top + place.height);
                     assert!(place.left >= 0.0 && place.top >= -ROUNDING_ERROR, "{shape:?}: {place:?}");
                     assert!(right <= 1.0 + ROUNDING_ERROR && bottom <= 1.0 + ROUNDING_ERROR, "{shape:?}: {place:?}");
@@ -267,6 +325,8 @@ mod tests {
                 }
                 assert!((large.width * window / large.height - camera).abs() < 1e-9, "{shape:?}: {large:?}");
                 let area = |place: &ViewRect| place.width * place.height;
+                let has_space = area(&map) > 0.5 && with_map[1..].iter().all(|place| area(place) > 0.04);
+                assert!(has_space, "{shape:?}: {with_map:?}");
                 assert!(area(&large) > 0.3 && area(&large) > area(&inspector), "{shape:?}: {all:?}");
             }
         }
@@ -292,6 +352,27 @@ mod tests {
         let places = ViewLayout::InspectorOnly.view_rects(shape);
         assert!(matches!(places[..], [ViewRect { which: ViewKind::Inspector, width: 1.0, height: 1.0, .. }]), "{places:?}");
         assert_eq!(ViewLayout::InspectorOnly.next(), ViewLayout::Camera);
+    }
+
+    #[test]
+    fn prop_words_and_button_beside_the_large_map_are_in_the_inspectors_view() {
+        for window in [0.7, 1.0, 1.24, 1.25, 16.0 / 9.0, 21.0 / 9.0] {
+            for camera in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
+                let shape = WindowShape { window, camera };
+                let places = ViewLayout::Map.view_rects(shape);
+                let inspector = places.iter().find(|place| place.which == ViewKind::Inspector).unwrap();
+                let (right, bottom) = (inspector.left + inspector.width, inspector.top + inspector.height);
+                let words = ViewLayout::Map.words(shape, TextScale::Normal);
+                assert_eq!(
+                    (words.left_edge, words.width, words.edge, words.extends_down),
+                    (inspector.left, inspector.width, bottom, false)
+                );
+                assert!(words.height < inspector.height, "{shape:?}: {words:?}");
+                let (x, y) = ViewLayout::Map.button(shape);
+                assert!(x > inspector.left && x < right && y > inspector.top, "{shape:?}: {x}, {y}");
+                assert!(y + BUTTON_DOWN <= bottom - words.height + ROUNDING_ERROR, "{shape:?}: the button is above the words");
+            }
+        }
     }
 
     #[test]

@@ -23,6 +23,7 @@ pub mod dataset;
 pub mod exposure;
 pub mod feed;
 pub mod flow;
+pub mod flown_path;
 pub mod ghost;
 #[cfg(feature = "gpu")]
 pub mod gpu;

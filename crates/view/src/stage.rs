@@ -3,6 +3,7 @@
 use super::camera::PinholeCamera;
 use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
+use super::flown_path::FlownPath;
 use super::ghost::GhostView;
 use super::hud::lesson_words::how_to;
 use super::hud::{DisplayStyle, DrawItem, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, TaskNames, WayBack, marker};
@@ -337,6 +338,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
             status,
         }),
         ghost: None,
+        flown: FlownPath::default(),
         tracks: if map { MapPath::all(scenario) } else { Vec::new() },
         site: stage.scene.outline.clone(),
         style: DisplayStyle::default(),

@@ -440,6 +440,12 @@ pub fn questionnaire(session: &Path, web: &str) -> String {
     format!("{web}/sessions/{id}/questions")
 }
 
+/// Puts the job that the start page offers the trainee on the end page, instead of the one that follows from this session alone.
+pub fn offer_planned_job(ended: &mut FlightSummary, trainee: &str, trainees: &[TraineeSummary]) {
+    let planned = trainees.iter().find(|summary| summary.name == trainee).and_then(|summary| summary.next.clone());
+    ended.next = planned.or_else(|| ended.next.take());
+}
+
 /// Returns the end page of a flight that the trainee only watched: the next flight is the trainee's own.
 pub fn watched(ended: FlightSummary, scenario: &str, language: Language) -> FlightSummary {
     let next = job_named(scenario, language);

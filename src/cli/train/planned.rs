@@ -76,7 +76,7 @@ fn planned_job(step: &PlanStep, language: Language) -> Option<NextJob> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::offers::sessions_by_trainee;
+    use super::super::offers::{flight_summary, offer_planned_job, sessions_by_trainee};
     use super::*;
     use crate::cli::plan::plan_of;
     use crate::io::plan_rules::rules;
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_window_command_line_and_web_page_recommend_the_same_job() {
+    fn exact_start_page_end_page_command_line_and_web_page_recommend_the_same_job() {
         let folder = tempfile::tempdir().unwrap();
         let (sessions, records) = (folder.path(), flown());
         records.iter().for_each(|record| save_folder(sessions, record));
@@ -129,6 +129,13 @@ mod tests {
         let plan = plan_of("anna", &everyone, IncompletePolicy::Exclude, &rules(None).unwrap()).unwrap();
         let step = &plan.steps[0];
         assert_eq!(window.scenario, files::with_variant(&step.scenario, None, step.level.as_ref().map(|level| level.level)));
+        let latest = sessions.join(&records[2].id);
+        let mut ended = flight_summary(&latest, None, None, Language::English);
+        ended.next = job_named("drill-hover", Language::English);
+        offer_planned_job(&mut ended, "anna", &trainees);
+        assert_eq!(ended.next.as_ref(), Some(&window), "the end page");
+        offer_planned_job(&mut ended, "bert", &trainees);
+        assert_eq!(ended.next.as_ref(), Some(&window), "a trainee without a plan keeps the job that the session suggests");
         let alone = plan_of("anna", &records[2..], IncompletePolicy::Exclude, &rules(None).unwrap()).unwrap();
         assert_ne!(alone.steps[0].scenario, step.scenario, "the latest session alone must recommend something else");
 

@@ -24,7 +24,7 @@ use crate::io::trainee_id::TraineeId;
 use crate::records::RecordsLocation;
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
 use spandrel_text::{Language, text};
-use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow};
+use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow, TraineeSummary};
 use std::net::SocketAddr;
 use std::path::Path;
 use std::time::Duration;
@@ -247,8 +247,8 @@ impl<'a> TrainRun<'a> {
         NextFlight::Fly(usual.clone())
     }
 
-    /// Offers flights in the window, with the briefings for the selected aircraft.
-    fn offer(&mut self, choice: &FlightChoice) {
+    /// Offers flights in the window, with the briefings for the selected aircraft. Returns what it offers the trainees.
+    fn offer(&mut self, choice: &FlightChoice) -> Vec<TraineeSummary> {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
         let sessions = &self.args.sessions;
@@ -260,7 +260,9 @@ impl<'a> TrainRun<'a> {
         offers::add_next_jobs(&mut offers, &self.aircraft, language);
         self.web_announced = true;
         (self.offered_language, self.offered_aircraft) = (Some(language), Some(self.aircraft.name.clone()));
+        let trainees = offers.trainees.clone();
         self.send_to_window(&ToWindow::Offers(offers));
+        trainees
     }
 
     /// Waits for the window's next choice.
@@ -475,13 +477,14 @@ impl<'a> TrainRun<'a> {
             if result.is_ok() {
                 planned::import(session, &self.args.sessions);
             }
-            self.offer(choice);
+            let trainees = self.offer(choice);
             let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());
             let trouble = result.as_ref().err().filter(|_| is_lost).map(ToString::to_string);
             let mut ended = offers::flight_summary(session, web, trouble, language);
-            if choice.by == FlownBy::Expert {
-                ended = offers::watched(ended, &choice.scenario, language);
+            match choice.by {
+                FlownBy::Expert => ended = offers::watched(ended, &choice.scenario, language),
+                FlownBy::Trainee => offers::offer_planned_job(&mut ended, &choice.trainee, &trainees),
             }
             self.send_to_window(&ToWindow::Ended(ended));
         }

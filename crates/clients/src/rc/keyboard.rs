@@ -104,6 +104,8 @@ pub enum WindowAction {
     Swap,
     /// Toggles the map.
     Map,
+    /// Shows the map large, or the layout before it.
+    LargeMap,
     /// Toggles the path in the pictures.
     Path,
     /// Toggles the ghost of an earlier flight.
@@ -138,6 +140,7 @@ impl WindowAction {
         match self {
             Self::Swap => text!(language, "keys-swap"),
             Self::Map => text!(language, "keys-map"),
+            Self::LargeMap => text!(language, "keys-large-map"),
             Self::Path => text!(language, "keys-path"),
             Self::Ghost => text!(language, "keys-ghost"),
             Self::Walk => text!(language, "keys-walk"),
@@ -155,9 +158,10 @@ impl WindowAction {
     }
 }
 
-const WINDOW_BINDINGS: [(&str, WindowAction, &str); 15] = [
+const WINDOW_BINDINGS: [(&str, WindowAction, &str); 16] = [
     ("swap", WindowAction::Swap, "tab"),
     ("map", WindowAction::Map, "m"),
+    ("large_map", WindowAction::LargeMap, "c"),
     ("path", WindowAction::Path, "v"),
     ("ghost", WindowAction::Ghost, "g"),
     ("walk", WindowAction::Walk, "e"),
@@ -433,7 +437,7 @@ fn sounds(r: &mut Reader, root: &mut Section) -> SoundPreferences {
 
 /// Functions that key files of earlier versions do not contain. Where such a file uses their default for something else, they give
 /// way.
-const LATER_FUNCTIONS: [&str; 5] = ["freeze", "rewind", "ghost", "walk", "stick_response"];
+const LATER_FUNCTIONS: [&str; 6] = ["freeze", "rewind", "large_map", "ghost", "walk", "stick_response"];
 
 /// Returns the usual key, or the first free character if it is taken, and marks it as taken.
 fn free_key(usual: &str, name: &'static str, taken: &mut BTreeMap<String, &'static str>) -> String {
@@ -610,8 +614,9 @@ mod tests {
         assert!(told.contains("keys.toml:3") && told.contains("0 to 1") && told.contains("bells"), "{told}");
         assert_eq!((board.keys().window_action("Tab"), board.keys().window_action("w")), (Some(WindowAction::Swap), None));
         assert_eq!(board.keys().window_action("E"), Some(WindowAction::Walk));
+        assert_eq!(board.keys().window_action("C"), Some(WindowAction::LargeMap));
         let taken = KeyBindings::read("keys.toml", "format = 1\n[window]\nmap = \"e\"\n").unwrap();
-        assert_eq!((taken.window_action("e"), taken.of("walk")), (Some(WindowAction::Map), Some("c")), "it gives way");
+        assert_eq!((taken.window_action("e"), taken.of("walk")), (Some(WindowAction::Map), Some("m")), "it gives way");
         let told =
             KeyBindings::read("keys.toml", "format = 1\n[sticks]\nup = \"b\"\n[actions]\nfly = \"f\"\n").unwrap_err().to_string();
         assert!(told.contains("already bound to up") && told.contains("fly"), "{told}");

@@ -26,6 +26,7 @@ keys-rewind = 10 s zurückspulen
 keys-stick-response = nächste Knüppelreaktion
 keys-swap = Ansichten wechseln
 keys-map = Karte ein oder aus
+keys-large-map = große Karte ein oder aus
 keys-path = Bahn ein oder aus
 keys-ghost = Geist ein oder aus
 keys-walk = zum nächsten Standort gehen

@@ -220,6 +220,8 @@ window-settings-not-saved = Nicht gespeichert: { $error }.
 ## Messages over the flight
 
 window-flight-ghost-assessment = Kein Geist im Bewertungsflug.
+window-flight-map-assessment = Keine Karte im Bewertungsflug.
+window-flight-map-off = Keine Karte: Dieses Fenster wurde mit --no-map gestartet.
 window-flight-ghost-expert = Kein Geist, während Sie dem Experten zusehen.
 window-flight-ghost-not-ready = Der Geist ist noch nicht bereit: Ein Experte fliegt diesen Auftrag im Hintergrund. Versuchen Sie es in einer Minute wieder.
 window-flight-ghost-changed = Kein Geist Ihrer eigenen Flüge: Dieser Auftrag hat sich seitdem geändert. Ein Experte fliegt ihn im Hintergrund. Versuchen Sie es in einer Minute wieder.
@@ -246,7 +248,7 @@ window-flight-loading-water = Wasser
 window-flight-loading-graphics = Grafik
 window-flight-waiting-seed = Mit dem Fluggerät verbunden. Warten auf den Startwert der Sitzung ...
 window-flight-waiting-vehicle = Warten auf das Fluggerät unter { $address } ...
-window-flight-keys-view = { $swap } Ansichten    { $map } Karte    { $path } Bahn    Ziehen oder { $look_left } { $look_right } umsehen    Mausrad Zoom    { $follow } Drohne folgen
+window-flight-keys-view = { $swap } Ansichten    { $map } Karte    { $large_map } große Karte    { $path } Bahn    Ziehen oder { $look_left } { $look_right } umsehen    Mausrad Zoom    { $follow } Drohne folgen
 window-flight-keys-flight =
     { $arm } Motoren    { $take_off } starten    { $up } { $down } hoch, runter    { $turn_left } { $turn_right } drehen    { $forward } { $back } { $left } { $right } fliegen    { $lamp } Licht    { $snapshot } Foto    { $land } landen
     { $freeze } einfrieren    { $rewind } 10 s zurückspulen    { $walk } gehen

@@ -26,6 +26,7 @@ keys-rewind = rewind 10 s
 keys-stick-response = next stick response
 keys-swap = change the layout
 keys-map = map on or off
+keys-large-map = large map on or off
 keys-path = path on or off
 keys-ghost = ghost on or off
 keys-walk = walk to the next place

@@ -224,6 +224,8 @@ window-settings-not-saved = Not saved: { $error }.
 ## Messages over the flight
 
 window-flight-ghost-assessment = No ghost in an assessment.
+window-flight-map-assessment = No map in an assessment.
+window-flight-map-off = No map: this window was started with --no-map.
 window-flight-ghost-expert = No ghost while you watch the expert.
 window-flight-ghost-not-ready = The ghost is not ready yet: an expert flies this job in the background. Try again in a minute.
 window-flight-ghost-changed = No ghost of your own flights: this job has changed since. An expert flies it in the background. Try again in a minute.
@@ -251,7 +253,7 @@ window-flight-loading-graphics = graphics
 window-flight-waiting-seed = Connected to the vehicle. Waiting for the session's seed ...
 window-flight-waiting-vehicle = Waiting for the vehicle at { $address } ...
 # Keys, at the beginning of a flight.
-window-flight-keys-view = { $swap } views    { $map } map    { $path } path    drag or { $look_left } { $look_right } look around    wheel zoom    { $follow } follow the drone
+window-flight-keys-view = { $swap } views    { $map } map    { $large_map } large map    { $path } path    drag or { $look_left } { $look_right } look around    wheel zoom    { $follow } follow the drone
 window-flight-keys-flight =
     { $arm } arm    { $take_off } take off    { $up } { $down } up and down    { $turn_left } { $turn_right } turn    { $forward } { $back } { $left } { $right } fly    { $lamp } lamp    { $snapshot } picture    { $land } land
     { $freeze } freeze    { $rewind } rewind 10 s    { $walk } walk

@@ -26,6 +26,7 @@ keys-rewind = rebobinar 10 s
 keys-stick-response = siguiente respuesta a las palancas
 keys-swap = cambiar las vistas
 keys-map = mapa sí/no
+keys-large-map = mapa grande sí/no
 keys-path = trayectoria sí/no
 keys-ghost = fantasma sí/no
 keys-walk = caminar al siguiente punto

@@ -220,6 +220,8 @@ window-settings-not-saved = No se guardó: { $error }.
 ## Messages over the flight
 
 window-flight-ghost-assessment = No hay fantasma en una evaluación.
+window-flight-map-assessment = No hay mapa en una evaluación.
+window-flight-map-off = No hay mapa: esta ventana se inició con --no-map.
 window-flight-ghost-expert = No hay fantasma mientras observa al experto.
 window-flight-ghost-not-ready = El fantasma aún no está listo: un experto vuela este trabajo en segundo plano. Inténtelo en un minuto.
 window-flight-ghost-changed = No hay fantasma de sus propios vuelos: este trabajo ha cambiado desde entonces. Un experto lo vuela en segundo plano. Inténtelo en un minuto.
@@ -246,7 +248,7 @@ window-flight-loading-water = agua
 window-flight-loading-graphics = gráficos
 window-flight-waiting-seed = Conectado al vehículo. Esperando la semilla de la sesión ...
 window-flight-waiting-vehicle = Esperando al vehículo en { $address } ...
-window-flight-keys-view = { $swap } vistas    { $map } mapa    { $path } trayectoria    arrastrar o { $look_left } { $look_right } mirar    rueda zoom    { $follow } seguir al dron
+window-flight-keys-view = { $swap } vistas    { $map } mapa    { $large_map } mapa grande    { $path } trayectoria    arrastrar o { $look_left } { $look_right } mirar    rueda zoom    { $follow } seguir al dron
 window-flight-keys-flight =
     { $arm } armar    { $take_off } despegar    { $up } { $down } subir, bajar    { $turn_left } { $turn_right } girar    { $forward } { $back } { $left } { $right } volar    { $lamp } foco    { $snapshot } foto    { $land } aterrizar
     { $freeze } congelar    { $rewind } rebobinar 10 s    { $walk } caminar

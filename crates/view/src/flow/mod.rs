@@ -68,6 +68,8 @@ pub struct WindowFlow {
     ordered: bool,
     /// Layout of the views.
     pub arrangement: ViewLayout,
+    /// Layout before the large map.
+    before_map: ViewLayout,
     /// Aspect ratio (width over height) of the flight's camera.
     pub camera_aspect: f64,
     /// Time since lift-off, s.
@@ -116,6 +118,7 @@ impl WindowFlow {
             waiting_for: PendingOperation::Simulator,
             ordered: false,
             arrangement: ViewLayout::default(),
+            before_map: ViewLayout::default(),
             camera_aspect: 4.0 / 3.0,
             flown_s: 0.0,
             restart_requested: false,
@@ -183,6 +186,26 @@ impl WindowFlow {
     #[must_use]
     pub fn shows_map(&self) -> bool {
         self.flying.as_ref().is_none_or(|flying| flying.choice.purpose == Purpose::Practice)
+    }
+
+    /// Shows the map large, or the layout before it. `is_enabled` is false if this window shows no map at all.
+    pub fn toggle_large_map(&mut self, is_enabled: bool) {
+        if self.arrangement == ViewLayout::Map {
+            self.leave_large_map();
+        } else if !self.shows_map() {
+            self.show_notice(text!(self.language(), "window-flight-map-assessment"));
+        } else if !is_enabled {
+            self.show_notice(text!(self.language(), "window-flight-map-off"));
+        } else {
+            self.before_map = std::mem::replace(&mut self.arrangement, ViewLayout::Map);
+        }
+    }
+
+    /// Shows the layout before the large map.
+    pub fn leave_large_map(&mut self) {
+        if self.arrangement == ViewLayout::Map {
+            self.arrangement = self.before_map;
+        }
     }
 
     /// Returns how much of the path is drawn into the pictures: nothing in an assessment, and less for better pilots.

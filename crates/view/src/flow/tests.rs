@@ -10,6 +10,7 @@ use super::{
     ControllerStatus, KeyFunction, KeyPress, MenuAction, PICTURES, Page, ProfileChange, Setting, SettingChange, SettingsStatus,
     WindowFlow, WindowRequest,
 };
+use crate::arrange::ViewLayout;
 use crate::hud::contrast;
 use crate::hud::text_metrics::text_width;
 use crate::hud::{DisplayStyle, DisplayUnits, DrawItem, HudColor, JobDrawing, ScreenPoint, TextAlign, TextScale};
@@ -1194,6 +1195,28 @@ fn prop_pages_with_pictures_can_be_scrolled_to_their_end() {
         flow.scroll(100.0, aspect);
         assert!(flow.sheet(aspect).bottom() <= 1.0 + 1e-9, "aspect {aspect}");
     }
+}
+
+#[test]
+fn exact_large_map_is_for_practice_only_and_its_key_returns_to_the_layout_before() {
+    let mut flow = started();
+    let practice = offers().choice;
+    flow.handle_message(flying(&practice));
+    flow.arrangement = ViewLayout::SideBySide;
+    flow.toggle_large_map(true);
+    assert_eq!((flow.arrangement, flow.take_notice()), (ViewLayout::Map, None));
+    flow.toggle_large_map(true);
+    assert_eq!(flow.arrangement, ViewLayout::SideBySide);
+    flow.toggle_large_map(false);
+    assert_eq!(flow.arrangement, ViewLayout::SideBySide);
+    assert!(flow.take_notice().is_some_and(|words| words.contains("--no-map")));
+    flow.toggle_large_map(true);
+    assert_eq!(flow.arrangement.next(), ViewLayout::Camera, "the key for the layouts leaves the map, too");
+    flow.handle_message(flying(&FlightChoice { purpose: Purpose::Assessment, ..practice }));
+    flow.leave_large_map();
+    flow.toggle_large_map(true);
+    assert_eq!(flow.arrangement, ViewLayout::SideBySide);
+    assert!(flow.take_notice().is_some_and(|words| words.contains("assessment")));
 }
 
 #[test]

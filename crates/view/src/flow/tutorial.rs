@@ -4,6 +4,7 @@
 use super::KeyNames;
 use super::menu::{self, MenuRow, ROW_SPACING};
 use super::sheet::{LINE_SPACING, PageWriter, SMALL_TEXT_SIZE, text_width, wrap_text};
+use crate::flown_path::FlownPath;
 use crate::hud::{
     DisplayStyle, DrawItem, GnssStatus, Hud, HudColor, ScreenPoint, SiteOutline, TaskNames, TextAlign, TextScale, instruments,
     layout,
@@ -258,6 +259,7 @@ fn example(cues: i32, style: DisplayStyle) -> Hud {
         guidance: None,
         lesson: None,
         tasks: TaskNames::default(),
+        flown: FlownPath::default(),
         tracks: Vec::new(),
         site: Arc::new(SiteOutline::empty()),
         style: DisplayStyle { text_scale: TextScale::Normal, ..style },

@@ -4,7 +4,8 @@ use super::lesson_words::{instruction, title};
 use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::{Hud, LessonDisplay};
-use super::task_panel::{LINE_HEIGHT, PADDING, PanelDetail, WIDTH, height_words, way_items};
+use super::style::DisplayStyle;
+use super::task_panel::{LINE_HEIGHT, PADDING, PanelDetail, SEPARATOR, WIDTH, height_words, way_items, way_words};
 use super::text_metrics::{text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_text::monitor_texts::remark_words;
@@ -58,6 +59,20 @@ pub(super) fn lesson_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f
         items.push(pane.fill(&rectangle((from, bar), (width, BAR_HEIGHT)), HudColor::Green));
     }
     items
+}
+
+/// Returns the current step, what to do with the way, how, and what went wrong, as lines.
+pub(super) fn lesson_lines(lesson: &LessonDisplay, style: DisplayStyle) -> [(String, HudColor); 4] {
+    let (status, language) = (&lesson.status, style.language);
+    let way = status.way.as_ref().map(|way| [way_words(way, style), height_words(way.up_m, style)]);
+    let to_do = [instruction(status, style.units, language)].into_iter().chain(way.into_iter().flatten());
+    let remark = lesson.remark.as_deref().map(|remark| style.units.words(&remark_words(remark, language)));
+    [
+        (format!("{}{SEPARATOR}{:.0}%", title(status, language), (100.0 * status.progress).floor()), HudColor::Gray),
+        (to_do.collect::<Vec<_>>().join(SEPARATOR), HudColor::White),
+        (lesson.how.clone(), HudColor::Gray),
+        (remark.unwrap_or_default(), HudColor::Yellow),
+    ]
 }
 
 fn rectangle((x, y): (f64, f64), (width, height): (f64, f64)) -> [(f64, f64); 4] {

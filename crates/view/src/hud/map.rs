@@ -1,7 +1,7 @@
 //! Inset map of the site, in the lower right corner of the camera view.
 
 use super::DrawItem;
-use super::instruments::{Area, site_map};
+use super::instruments::{Area, MapDetail, site_map};
 use super::pane::Pane;
 use super::state::Hud;
 
@@ -28,5 +28,5 @@ pub fn map(hud: &Hud, pane: Pane) -> Vec<DrawItem> {
         return Vec::new();
     }
     let (x, y) = (pane.width - CENTER_OFFSET - HALF_SIZE, pane.height - CENTER_OFFSET - HALF_SIZE);
-    site_map(hud, &hud.site, pane, Area { x, y, width: 2.0 * HALF_SIZE, height: 2.0 * HALF_SIZE }, FONT_SIZE)
+    site_map(hud, &hud.site, pane, Area { x, y, width: 2.0 * HALF_SIZE, height: 2.0 * HALF_SIZE }, (FONT_SIZE, MapDetail::Small))
 }

@@ -29,7 +29,7 @@ pub(crate) mod tests;
 pub(crate) mod text_metrics;
 
 pub(crate) use instruments::Area;
-pub use instruments::{JobDrawing, SiteOutline, instruments};
+pub use instruments::{JobDrawing, SiteOutline, instruments, large_map};
 pub use layout::{layout, layout_px};
 pub use marker::marker;
 pub(crate) use pane::Pane;

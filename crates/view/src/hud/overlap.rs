@@ -305,7 +305,7 @@ fn prop_items_do_not_overlap_at_any_text_size_and_in_any_units() {
         // The camera view in windows of 1280x720, 1920x1080, 3840x2160 and 1000x1000 px.
         for window_px in [(1280.0, 720.0), (1920.0, 1080.0), (3840.0, 2160.0), (1000.0, 1000.0)] {
             for camera in [4.0 / 3.0, 3.0 / 2.0, 16.0 / 9.0] {
-                for layout in [ViewLayout::Camera, ViewLayout::Inspector, ViewLayout::SideBySide] {
+                for layout in [ViewLayout::Camera, ViewLayout::Inspector, ViewLayout::SideBySide, ViewLayout::Map] {
                     let places = layout.view_rects(WindowShape { window: window_px.0 / window_px.1, camera });
                     let place = places.into_iter().find(|place| place.which == ViewKind::Camera).unwrap();
                     let place = place.fit_aspect(camera, window_px.0 / window_px.1);

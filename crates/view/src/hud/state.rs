@@ -2,6 +2,7 @@
 
 use super::instruments::SiteOutline;
 use super::style::DisplayStyle;
+use crate::flown_path::FlownPath;
 use spandrel_mavlink::contract::cue::CueTexts;
 use spandrel_mavlink::contract::guidance::Guidance;
 use spandrel_mavlink::contract::hazards::RadioMargins;
@@ -200,6 +201,8 @@ pub struct Hud {
     pub lesson: Option<LessonDisplay>,
     /// Ghost of an earlier flight, on the maps.
     pub ghost: Option<Pose<Enu>>,
+    /// Path flown so far, on the large map.
+    pub flown: FlownPath,
     /// Paths on the map; if empty, the map is hidden.
     pub tracks: Vec<MapPath>,
     /// Bridges and shore on the map.

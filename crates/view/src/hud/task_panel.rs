@@ -24,6 +24,9 @@ const MAX_ROWS: usize = 6;
 const ARROW_COLUMN: f64 = 0.045;
 const ARROW_SIZE: f64 = 0.015;
 
+/// Between two items of a line.
+pub(super) const SEPARATOR: &str = "  ·  ";
+
 /// How much of the panel is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PanelDetail {
@@ -115,6 +118,21 @@ fn title(guidance: &Guidance, language: Language) -> String {
     }
 }
 
+/// Returns the next step, and below it the way or the position on the path, as two lines; `None` without guidance.
+pub(super) fn step_lines(hud: &Hud) -> Option<[(String, HudColor); 2]> {
+    let (guidance, style) = (hud.guidance.as_ref()?, hud.style);
+    let progress = guidance.progress.map(|progress| format!("{:.0}%", (100.0 * progress).floor()));
+    let name = guidance.task.and_then(|task| hud.tasks.title(task, style.language));
+    let step: Vec<String> = [title(guidance, style.language)].into_iter().chain(name).chain(progress).collect();
+    let first = guidance.detour.map(|detour| first_words(detour.kind, style.language));
+    let color = if first.is_some() { HudColor::Yellow } else { HudColor::White };
+    let way = guidance.first_way().map(|way| way_words(&way, style));
+    let rest = details(guidance, style).into_iter().map(|PanelLine { name, value, .. }| format!("{name}: {value}"));
+    let details: Vec<String> = first.into_iter().chain(way).chain(rest).collect();
+    let step_color = if guidance.is_return() { HudColor::Yellow } else { HudColor::White };
+    Some([(step.join(SEPARATOR), step_color), (details.join(SEPARATOR), color)])
+}
+
 /// Returns the first maneuver if the straight way is blocked.
 fn first_words(kind: DetourKind, language: Language) -> String {
     capitalized(&match kind {
@@ -136,7 +154,7 @@ pub(super) fn way_items(way: &WayTo, style: DisplayStyle, pane: Pane, (left, rig
 }
 
 /// Returns the horizontal way in words.
-fn way_words(way: &WayTo, style: DisplayStyle) -> String {
+pub(super) fn way_words(way: &WayTo, style: DisplayStyle) -> String {
     let (language, distance) = (style.language, style.units.length(way.distance_m.round(), 0));
     let angle = |turn_deg: f64| format!("{turn_deg:.0}°");
     match way.turn() {

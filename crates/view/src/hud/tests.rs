@@ -1,6 +1,7 @@
 //! Tests of the HUD's texts, colors, and positions.
 
 use super::*;
+use crate::flown_path::FlownPath;
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_mavlink::contract::hazards::RadioMargins;
@@ -57,6 +58,7 @@ pub(crate) fn hud() -> Hud {
         guidance: None,
         tasks: TaskNames::default(),
         lesson: None,
+        flown: FlownPath::default(),
         tracks: vec![MapPath { id: 1, path_m: PATH_M.to_vec(), closed: false }],
         site: Arc::new(SiteOutline::around(PATH_M.into_iter().chain([PAD_M]))),
         style: DisplayStyle::default(),

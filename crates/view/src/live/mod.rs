@@ -12,6 +12,7 @@ pub use trace::MotionHistory;
 pub use video::VideoStatus;
 
 use super::feed::Feed;
+use super::flown_path::FlownPath;
 use super::scene::DronePose;
 use super::stage::{HudInputs, LIFTOFF_HEIGHT_M, SceneMoment};
 use clock::Playhead;
@@ -91,6 +92,7 @@ pub struct LiveFlight {
 struct SimulatorRun {
     feed: Feed,
     trace: MotionHistory,
+    flown: FlownPath,
     lamp: bool,
     armed: bool,
     is_frozen: bool,
@@ -182,6 +184,12 @@ impl LiveFlight {
     #[must_use]
     pub fn has_no_truth(&self, wall: SimTime) -> bool {
         !self.truth_requested && self.first_message_at.is_some_and(|met| wall >= met + TRUTH_TIMEOUT + TRUTH_TIMEOUT)
+    }
+
+    /// Returns the path flown so far.
+    #[must_use]
+    pub fn flown_path(&self) -> &FlownPath {
+        &self.state.flown
     }
 
     /// Returns the flight mode, satellites, cues, and texts.
@@ -306,6 +314,7 @@ impl LiveFlight {
             self.state.lift_off = Some(truth.time);
             self.state.next_takeoff_request = self.state.trace.newest().is_none().then_some(wall);
         }
+        self.state.flown.push(truth.motion.position_m);
         self.state.trace.push(truth);
     }
 

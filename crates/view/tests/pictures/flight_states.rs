@@ -13,8 +13,10 @@ use spandrel_model::radio::RadioWay;
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, sunny_job};
 use spandrel_text::Language;
+use spandrel_view::arrange::{ViewKind, ViewLayout, WindowShape};
+use spandrel_view::gpu::{Overlay, picture_texture, read};
 use spandrel_view::hud::lesson_words::how_to;
-use spandrel_view::hud::{self, DisplayStyle, Hud, LessonDisplay, Obstacles};
+use spandrel_view::hud::{self, DisplayStyle, Hud, LessonDisplay, MapPath, Obstacles};
 use std::path::Path;
 
 /// Size of one language's view in a committed picture, px.
@@ -130,4 +132,45 @@ fn regress_flight_states_look_as_committed_in_every_language() {
         }
     }
     assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+/// Returns the flight on the way to task 2, with the path flown from the pad around the west end of the arch bridge.
+fn on_the_map(studio: &Studio, language: Language) -> Hud {
+    let mut hud = display(studio, language, |hud| hud.guidance = Some(guidance(GuidanceStep::FlyToTask, (140.0, -30.0, 12.0))));
+    let (pad_m, here_m) = (studio.scenario.ground_team.pad_m, hud.position_m);
+    let corners_m = [pad_m, pad_m + Vec3::new(0.0, 0.0, 20.0), pad_m + Vec3::new(-60.0, 30.0, 28.0), here_m];
+    for ends in corners_m.windows(2) {
+        (0..=50).for_each(|k| hud.flown.push(ends[0] + (ends[1] - ends[0]) * (f64::from(k) / 50.0)));
+    }
+    hud.tracks = MapPath::all(&studio.scenario);
+    hud
+}
+
+#[test]
+fn regress_the_large_map_looks_as_committed_in_every_language() {
+    let studio = Studio::new(sunny_job(), 7, "low", SimTime::from_ms(95_000));
+    let mut overlay = Overlay::new(&studio.gpu);
+    let mut view = |hud: &Hud, size_px: (u32, u32)| {
+        let texture = picture_texture(&studio.gpu, size_px);
+        let target = texture.create_view(&Default::default());
+        let items = hud::large_map(hud, &studio.scene.outline, (f64::from(size_px.0), f64::from(size_px.1)));
+        overlay.draw(&studio.gpu, &items, &target, size_px);
+        read(&studio.gpu, &texture).unwrap()
+    };
+    let displays = Language::ALL.map(|language| on_the_map(&studio, language));
+    let views = displays.each_ref().map(|hud| view(hud, VIEW_PX));
+    let found = check_picture("large-map", &side_by_side(&views));
+    let square = check_picture("large-map-square", &view(&displays[0], (300, 300)));
+    for (album, hud) in std::env::var_os("SPANDREL_ALBUM").iter().flat_map(|album| displays.each_ref().map(|hud| (album, hud))) {
+        for (width, height) in ALBUM_PX {
+            // The map's view in a window of this size.
+            let places =
+                ViewLayout::Map.view_rects(WindowShape { window: f64::from(width) / f64::from(height), camera: 4.0 / 3.0 });
+            let place = places.iter().find(|place| place.which == ViewKind::Map).unwrap();
+            let px = |share: f64, of: u32| (share * f64::from(of)).round() as u32;
+            let file = format!("large-map-{}-{width}x{height}.png", hud.style.language.tag());
+            save_in(Path::new(album), &file, &view(hud, (px(place.width, width), px(place.height, height))));
+        }
+    }
+    assert!(found.is_ok() && square.is_ok(), "{found:?}, {square:?}");
 }

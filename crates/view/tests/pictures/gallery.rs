@@ -12,6 +12,7 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, dusk_job, girder_job, sunny_job};
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
+use spandrel_view::flown_path::FlownPath;
 use spandrel_view::hud::{self, DisplayStyle, GnssStatus, Hud, InspectorMarks, MapPath, Obstacles, TaskNames, WayBack};
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
@@ -289,6 +290,7 @@ pub(super) fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         pitch_rad: 0.0,
         obstacles: None,
         way_back: None,
+        flown: FlownPath::default(),
         inspector: InspectorMarks::new(&studio.scenario.ground_team, studio.scenario.ground_team.inspector_m),
         pad_m: studio.scenario.ground_team.pad_m,
         guidance: None,

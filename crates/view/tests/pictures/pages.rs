@@ -17,8 +17,11 @@ use spandrel_view::picture::Picture;
 use std::net::SocketAddr;
 use std::path::Path;
 
-/// Size of the committed pictures: small, because there are many.
+/// Sizes of the committed pictures, small, because there are many: the shape of most displays in every language, a square window in
+/// every language, and a very wide window in one language for each page, in turn.
 const COMMITTED_PX: (u32, u32) = (400, 226);
+const SQUARE_PX: (u32, u32) = (240, 240);
+const WIDE_PX: (u32, u32) = (420, 180);
 /// Sizes of the album's pictures.
 pub(super) const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
 /// Functions whose keys the pages mention.
@@ -259,16 +262,21 @@ fn drawn(gpu: &Gpu, overlay: &mut Overlay, flow: &WindowFlow, size_px: (u32, u32
 }
 
 #[test]
-fn regress_pages_look_as_committed_in_every_language() {
+fn regress_pages_look_as_committed_in_every_language_and_shape() {
     let gpu = Gpu::open_software().unwrap();
     let mut overlay = Overlay::new(&gpu);
     let album = std::env::var_os("SPANDREL_ALBUM");
     let mut problems = Vec::new();
-    for language in Language::ALL {
-        for (name, flow) in pages(language) {
+    for (turn, language) in Language::ALL.into_iter().enumerate() {
+        for (number, (name, flow)) in pages(language).into_iter().enumerate() {
             let name = format!("page-{name}-{}", language.tag());
-            let found = check_picture(&name, &drawn(&gpu, &mut overlay, &flow, COMMITTED_PX));
-            problems.extend(found.err());
+            let is_wide_due = number % Language::ALL.len() == turn;
+            let shapes =
+                [(COMMITTED_PX, ""), (SQUARE_PX, "-square")].into_iter().chain(is_wide_due.then_some((WIDE_PX, "-wide")));
+            for (size_px, shape) in shapes {
+                let picture = drawn(&gpu, &mut overlay, &flow, size_px);
+                problems.extend(check_picture(&format!("{name}{shape}"), &picture).err());
+            }
             for size_px in album.iter().flat_map(|_| ALBUM_PX) {
                 let picture = drawn(&gpu, &mut overlay, &flow, size_px);
                 let file = format!("{name}-{}x{}.png", size_px.0, size_px.1);

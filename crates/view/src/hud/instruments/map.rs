@@ -14,6 +14,8 @@ use spandrel_model::math;
 use spandrel_model::site::outline::GROUND_SAMPLE_SPACING_M;
 use spandrel_text::text;
 
+/// Size of the aircraft with its outline, in font sizes.
+const ARROW_SIZE: f64 = 1.15;
 /// Largest share of the map's width for the scale.
 const MAX_SCALE_SHARE: f64 = 0.35;
 /// Lengths of the scale, in units of length.
@@ -24,7 +26,23 @@ pub(super) fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
     scale.place((point_m.east(), point_m.north()))
 }
 
-pub(in super::super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+/// How much a map shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in super::super) enum MapDetail {
+    /// What a small map has room for.
+    Small,
+    /// Also the flown path, the directions of the tasks' paths and the sign of the landing pad.
+    Large,
+}
+
+pub(in super::super) fn map(
+    hud: &Hud,
+    site: &SiteOutline,
+    pane: Pane,
+    area: Area,
+    (font, detail): (f64, MapDetail),
+) -> Vec<DrawItem> {
+    let is_large = detail == MapDetail::Large;
     let scale = DrawingScale::fit(site.bounds, area.inside(0.5 * font));
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
     items.extend(ground(site, pane, area, &scale));
@@ -32,17 +50,27 @@ pub(in super::super) fn map(hud: &Hud, site: &SiteOutline, pane: Pane, area: Are
     let paths = Paths { tracks: &hud.tracks, current, place: &|point_m| place(&scale, point_m) };
     let mut labels = legend_texts(hud.style, area, (&scale, font));
     items.extend(paths.lines(pane, font));
+    let drone = clamp_point(place(&scale, hud.position_m), area.inside(ARROW_SIZE * font));
+    let home = clamp_point(place(&scale, hud.pad_m), area.inside(0.8 * font));
+    if is_large {
+        items.extend(paths.directions(pane, area, font));
+        items.extend(flown(hud, &|point_m| place(&scale, point_m), pane, area, font));
+        labels.extend([home, drone]);
+    }
     items.extend(paths.numbers(pane, area, font, &mut labels));
     if let Some(marks) = &hud.inspector {
         items.extend(inspector(marks, pane, area, (&scale, font), &mut labels));
     }
-    items.push(pad(pane, place(&scale, hud.pad_m), area, font));
+    if is_large {
+        items.extend(pad_sign(pane, home, font));
+    } else {
+        items.push(pad(pane, place(&scale, hud.pad_m), area, font));
+    }
     if let Some(ghost) = hud.ghost {
-        let here = clamp_point(place(&scale, ghost.position_m), area.inside(font));
+        let here = clamp_point(place(&scale, ghost.position_m), area.inside(ARROW_SIZE * font));
         items.push(pane.fill(&arrow(here, ghost.ned_from_frd.yaw_rad(), font), HudColor::Ghost));
     }
-    let drone = clamp_point(place(&scale, hud.position_m), area.inside(font));
-    items.push(pane.fill(&arrow(drone, hud.heading_rad, 1.15 * font), HudColor::Black));
+    items.push(pane.fill(&arrow(drone, hud.heading_rad, ARROW_SIZE * font), HudColor::Black));
     items.push(pane.fill(&arrow(drone, hud.heading_rad, 0.85 * font), HudColor::Yellow));
     items.extend(legend(hud.style, pane, area, (&scale, font)));
     items
@@ -64,6 +92,22 @@ pub(super) fn ground(site: &SiteOutline, pane: Pane, area: Area, scale: &Drawing
         (cut.len() >= 3).then(|| pane.fill(&cut, color))
     });
     drawn.collect()
+}
+
+/// Returns the sign of a landing pad: a square with the letter H.
+fn pad_sign(pane: Pane, at: Point, font: f64) -> [DrawItem; 2] {
+    let sign = pane.text(at, TextAlign::Center, 0.9 * font, HudColor::Black, "H");
+    [square(pane, at, 0.62 * font, HudColor::White), sign]
+}
+
+/// Returns the flown path in a drawing, as far as it is inside.
+pub(super) fn flown(hud: &Hud, place: &dyn Fn(Vec3<Enu>) -> Point, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
+    let parts = hud.flown.parts().map(|part| part.into_iter().map(place).collect::<Vec<Point>>());
+    let lines = parts.flat_map(|part| {
+        let inside = part.split(|point| clamp_point(*point, area) != *point).filter(|run| run.len() >= 2);
+        inside.map(|run| pane.line(run, 0.1 * font, HudColor::White)).collect::<Vec<_>>()
+    });
+    lines.collect()
 }
 
 /// Returns the landing pad, at the edge of the area if it is outside.
@@ -93,7 +137,9 @@ impl Paths<'_> {
             let (color, width) = if is_current { (HudColor::Yellow, 0.28) } else { (HudColor::Blue, 0.16) };
             pane.line(&self.points(track), width * font, color)
         };
-        self.tracks.iter().map(line).collect()
+        // The current path is above the others, which may be in the same place.
+        let (current, others): (Vec<_>, Vec<_>) = self.tracks.iter().partition(|track| Some(track.id) == self.current);
+        others.into_iter().chain(current).map(line).collect()
     }
 
     /// Returns the tasks' numbers beside the starts of their paths. Adds their places to those that labels take.
@@ -104,8 +150,11 @@ impl Paths<'_> {
             let start = (self.place)(*start_m);
             let (wanted, inside) = ((start.0, start.1 - 0.9 * font), area.inside(0.7 * font));
             let label = free_place(wanted, taken, inside, font).unwrap_or_else(|| clamp_point(wanted, inside));
-            items.push(disc(pane, label, 0.62 * font, HudColor::Black));
-            items.push(pane.text(label, TextAlign::Center, 0.9 * font, HudColor::White, track.id.to_string()));
+            let is_current = Some(track.id) == self.current;
+            let (ground, color) =
+                if is_current { (HudColor::Yellow, HudColor::Black) } else { (HudColor::Black, HudColor::White) };
+            items.push(disc(pane, label, 0.62 * font, ground));
+            items.push(pane.text(label, TextAlign::Center, 0.9 * font, color, track.id.to_string()));
             taken.push(label);
         }
         items

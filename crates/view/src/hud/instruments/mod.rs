@@ -3,6 +3,7 @@
 mod area;
 mod clip;
 mod job_drawing;
+mod large_map;
 mod map;
 mod navigation;
 mod profile;
@@ -13,7 +14,8 @@ mod tests;
 
 pub(crate) use area::Area;
 pub use job_drawing::JobDrawing;
-pub(super) use map::map as site_map;
+pub use large_map::large_map;
+pub(super) use map::{MapDetail, map as site_map};
 pub use site_outline::SiteOutline;
 
 use super::DrawItem;
@@ -45,7 +47,7 @@ pub fn instruments(hud: &Hud, site: &SiteOutline, (width, height): (f64, f64)) -
     }
     let [first, second, third] = areas(whole);
     let mut items = navigation::navigation(hud, pane, first, font);
-    items.extend(map::map(hud, site, pane, second, font));
+    items.extend(map::map(hud, site, pane, second, (font, MapDetail::Small)));
     items.extend(profile::profile(hud, site, pane, third, font));
     items
 }

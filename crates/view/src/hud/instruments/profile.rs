@@ -6,7 +6,7 @@ use super::super::text_metrics::text_width;
 use super::super::{DrawItem, HudColor, TextAlign};
 use super::area::Area;
 use super::clip::{clamp_point, clip_polygon};
-use super::map::text_ground;
+use super::map::{self, text_ground};
 use super::scale::DrawingScale;
 use super::site_outline::{Point, SideView, SiteOutline};
 
@@ -15,6 +15,8 @@ use super::site_outline::{Point, SideView, SiteOutline};
 const HEIGHT_STEPS: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
 const MIN_STEP: f64 = 1.6;
 const SCALE_FONT: f64 = 0.8;
+/// Size of the aircraft's outline relative to the aircraft.
+const OUTLINE: f64 = 1.35;
 
 pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, font: f64) -> Vec<DrawItem> {
     let mut items = vec![pane.panel((area.x, area.y), area.corner())];
@@ -26,20 +28,21 @@ pub(super) fn profile(hud: &Hud, site: &SiteOutline, pane: Pane, area: Area, fon
         let color = if Some(track.id) == current { HudColor::Yellow } else { HudColor::Blue };
         items.extend(path(&track.path_m, track.closed, (side, &scale), pane, area, (0.14 * font, color)));
     }
-    let drone = clamp_point(scale.place(side.view.at(hud.position_m)), area.inside(0.6 * font));
+    items.extend(map::flown(hud, &|point_m| scale.place(side.view.at(point_m)), pane, area, font));
+    let size = 0.55 * font;
+    let drone = clamp_point(scale.place(side.view.at(hud.position_m)), area.inside(OUTLINE * size));
     // The height of the aircraft stands at the side with more space, the scale at the other one.
     let left = drone.0 > area.x + 0.5 * area.width;
     items.extend(height_scale(hud, (side, &scale), pane, area, (font, !left)));
     let level = [(area.x, drone.1), (area.x + area.width, drone.1)];
     items.push(pane.line(&level, 0.07 * font, HudColor::Gray));
-    let size = 0.55 * font;
     let diamond =
         |at: Point, size: f64| [(0.0, -size), (size, 0.0), (0.0, size), (-size, 0.0)].map(|(x, y)| (at.0 + x, at.1 + y));
     if let Some(ghost) = hud.ghost {
-        let here = clamp_point(scale.place(side.view.at(ghost.position_m)), area.inside(0.6 * font));
+        let here = clamp_point(scale.place(side.view.at(ghost.position_m)), area.inside(size));
         items.push(pane.fill(&diamond(here, size), HudColor::Ghost));
     }
-    items.push(pane.fill(&diamond(drone, 1.35 * size), HudColor::Black));
+    items.push(pane.fill(&diamond(drone, OUTLINE * size), HudColor::Black));
     items.push(pane.fill(&diamond(drone, size), HudColor::Yellow));
     // Above the line.
     let (x, side) =

@@ -3,10 +3,12 @@
 use super::super::contrast;
 use super::super::tests::hud;
 use super::super::text_metrics::text_width;
-use super::super::{DisplayStyle, DisplayUnits, HudColor, InspectorMarks, Obstacles, TextAlign, TextScale};
+use super::super::{DisplayStyle, DisplayUnits, HudColor, InspectorMarks, LessonDisplay, Obstacles, TextAlign, TextScale};
 use super::*;
-use crate::arrange::{ViewKind, ViewLayout, WindowShape};
+use crate::arrange::{ViewKind, ViewLayout, ViewRect, WindowShape};
+use crate::flown_path::FlownPath;
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep, WayTo};
+use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::shipped;
@@ -39,6 +41,9 @@ fn flying(job: &Scenario) -> Hud {
     };
     let mut sectors_m = vec![f64::INFINITY; 8];
     (sectors_m[0], sectors_m[1]) = (1.2, 7.5);
+    let (pad_m, here_m) = (job.ground_team.pad_m, Vec3::new(20.0, -10.0, 30.0));
+    let mut flown = FlownPath::default();
+    (0..=200).for_each(|k| flown.push(pad_m + (here_m - pad_m) * (f64::from(k) / 200.0)));
     Hud {
         guidance: Some(guidance),
         obstacles: Some(Obstacles { sectors_m, nearest_m: None, range_m: 12.0, too_close_m: 1.5 }),
@@ -50,6 +55,7 @@ fn flying(job: &Scenario) -> Hud {
         position_m: Vec3::new(20.0, -10.0, 30.0),
         roll_rad: 0.3,
         pitch_rad: -0.2,
+        flown,
         tracks: super::super::MapPath::all(job),
         ..hud()
     }
@@ -89,20 +95,113 @@ fn prop_texts_do_not_overlap_and_everything_is_inside_in_any_window() {
         let place = places.into_iter().find(|place| place.which == ViewKind::Instruments).unwrap();
         let size_px = (place.width * window_px.0, place.height * window_px.1);
         let items = instruments(&Hud { style, ..hud.clone() }, &site, size_px);
-        let found = texts(&items, size_px);
-        for (k, (words, a)) in found.iter().enumerate() {
-            for (other, b) in &found[..k] {
-                let apart = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
-                assert!(apart, "{window_px:?}, {style:?}: '{words}' overlaps '{other}'");
-            }
-            let inside = a[0] >= -TOLERANCE_PX && a[1] >= 0.0 && a[2] <= size_px.0 + TOLERANCE_PX && a[3] <= size_px.1;
-            assert!(inside, "{window_px:?}, {style:?}: '{words}' at {a:?} is outside {size_px:?}");
+        check_layout(&items, size_px, &format!("{window_px:?}, {style:?}"));
+        let places = ViewLayout::Map.view_rects(shape);
+        for (name, hud) in large_map_states(&hud) {
+            let hud = Hud { style, ..hud };
+            let what = format!("large map, {name}, {window_px:?}, {style:?}");
+            let size_px = place_px(&places, ViewKind::Map, window_px);
+            check_layout(&large_map(&hud, &site, size_px), size_px, &what);
+            // The other instruments show no map then.
+            let size_px = place_px(&places, ViewKind::Instruments, window_px);
+            check_layout(&instruments(&Hud { tracks: Vec::new(), ..hud }, &site, size_px), size_px, &what);
         }
-        for item in &items {
-            let (DrawItem::Fill { points, .. } | DrawItem::Line { points, .. }) = item else { continue };
-            let inside =
-                |p: &super::super::ScreenPoint| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
-            assert!(points.iter().all(inside), "{window_px:?}, {style:?}: {item:?}");
+    }
+}
+
+/// Returns the size of a view in a window, px.
+fn place_px(places: &[ViewRect], which: ViewKind, window_px: (f64, f64)) -> (f64, f64) {
+    let place = places.iter().find(|place| place.which == which).unwrap();
+    (place.width * window_px.0, place.height * window_px.1)
+}
+
+/// Returns flights with the different texts above the large map, one of them at the landing pad and one far outside the map.
+fn large_map_states(hud: &Hud) -> [(&'static str, Hud); 4] {
+    let status = LessonStatus {
+        task: LessonTask::StopAt,
+        step: 60,
+        steps: 60,
+        progress: 0.6,
+        way: Some(WayTo { distance_m: 4_321.0, bearing_rad: 3.1, up_m: -120.0 }),
+        radius_m: Some(2.0),
+        target: Some(120.0),
+    };
+    let remark = Some("too oblique: 88.8 deg, limit 60 deg, and more".to_owned());
+    let lesson = LessonDisplay { status, how: "Release the keys early: the drone needs room to stop. ".repeat(3), remark };
+    let mut flown = hud.flown.clone();
+    (0..2_000).for_each(|k| flown.push(Vec3::new(-3_000.0 + 3.0 * f64::from(k), 20.0, 30.0)));
+    let far_m = Vec3::new(3_000.0, 20.0, 30.0);
+    [
+        ("on the way", hud.clone()),
+        ("at home", Hud { position_m: hud.pad_m, guidance: None, ..hud.clone() }),
+        ("far away", Hud { position_m: far_m, flown, ..hud.clone() }),
+        ("lesson", Hud { lesson: Some(lesson), ..hud.clone() }),
+    ]
+}
+
+/// Checks that no text covers another one, and that everything is inside.
+fn check_layout(items: &[DrawItem], size_px: (f64, f64), what: &str) {
+    let found = texts(items, size_px);
+    for (k, (words, a)) in found.iter().enumerate() {
+        for (other, b) in &found[..k] {
+            let apart = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+            assert!(apart, "{what}: '{words}' overlaps '{other}'");
+        }
+        let inside = a[0] >= -TOLERANCE_PX && a[1] >= 0.0 && a[2] <= size_px.0 + TOLERANCE_PX && a[3] <= size_px.1;
+        assert!(inside, "{what}: '{words}' at {a:?} is outside {size_px:?}");
+    }
+    for item in items {
+        let (DrawItem::Fill { points, .. } | DrawItem::Line { points, .. }) = item else { continue };
+        let inside = |p: &super::super::ScreenPoint| (-1e-9..=1.0 + 1e-9).contains(&p.x) && (-1e-9..=1.0 + 1e-9).contains(&p.y);
+        assert!(points.iter().all(inside), "{what}: {item:?}");
+    }
+}
+
+#[test]
+fn exact_the_large_map_has_everything_that_a_pilot_needs_to_find_the_way() {
+    let (job, site) = job();
+    let hud = flying(&job);
+    let size_px = (960.0, 720.0);
+    let items = large_map(&hud, &site, size_px);
+    let words: Vec<String> = texts(&items, size_px).into_iter().map(|(words, _)| words).collect();
+    let shows = |part: &str| words.iter().any(|words| words.contains(part));
+    for part in ["1", "2", "3", "4", "H", "N"] {
+        assert!(words.iter().any(|words| words == part), "'{part}' is missing: {words:?}");
+    }
+    assert!(shows("Fly to task 1 of 4") && shows("40 m, 40° right") && shows("3 m up"), "the next step: {words:?}");
+    assert!(shows("height 21.4 m") && shows("home 118 m"), "{words:?}");
+    assert!(words.iter().any(|words| *words == "200 m") && words.iter().any(|words| *words == "20 m"), "both scales: {words:?}");
+    for color in [HudColor::Structure, HudColor::Water, HudColor::Earth] {
+        assert!(has_color(&items, color), "{color:?}");
+    }
+    let lines = |hud: &Hud, wanted: HudColor| {
+        let of = |item: &DrawItem| match item {
+            DrawItem::Line { points, color, .. } if *color == wanted => Some(points.len()),
+            DrawItem::Line { .. } | DrawItem::Fill { .. } | DrawItem::Panel { .. } | DrawItem::Text { .. } => None,
+        };
+        large_map(hud, &site, size_px).iter().filter_map(of).collect::<Vec<usize>>()
+    };
+    let is_yellow = |item: &DrawItem| matches!(item, DrawItem::Text { words, color: HudColor::Black, .. } if words == "1");
+    assert!(items.iter().any(is_yellow), "the present task's number stands on yellow");
+    let current = lines(&hud, HudColor::Yellow).len();
+    assert!(current > lines(&Hud { guidance: None, ..hud.clone() }, HudColor::Yellow).len(), "the present task is yellow");
+    // On the map and in the profile.
+    let long = |hud: &Hud| lines(hud, HudColor::White).into_iter().filter(|count| *count > 20).count();
+    assert_eq!((long(&hud), long(&Hud { flown: FlownPath::default(), ..hud.clone() })), (2, 0), "the flown path");
+    let small = instruments(&Hud { flown: FlownPath::default(), ..hud.clone() }, &site, (320.0, 480.0));
+    assert!(!texts(&small, (320.0, 480.0)).iter().any(|(words, _)| words == "H"), "a small map has no room for the sign");
+}
+
+#[test]
+fn prop_texts_of_the_large_map_have_enough_contrast() {
+    let (job, site) = job();
+    for (name, hud) in large_map_states(&flying(&job)) {
+        for text_scale in TextScale::ALL {
+            for (width, height) in [(960.0, 720.0), (2_880.0, 2_160.0), (1_000.0, 700.0)] {
+                let style = DisplayStyle { text_scale, ..DisplayStyle::default() };
+                let items = large_map(&Hud { style, ..hud.clone() }, &site, (width, height));
+                contrast::check(&items, width / height, &format!("{name}, {text_scale:?}, {width} x {height} px"));
+            }
         }
     }
 }

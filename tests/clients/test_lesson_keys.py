@@ -1,0 +1,136 @@
+"""The lesson `first-flight` in the window, with nothing but the keyboard: each step is done by key presses, and a wrong action is
+answered by what went wrong."""
+
+import json
+import math
+
+import pytest
+
+import asking
+import spandrel
+from stick_client import Client, M
+from test_flow import AGAIN_S, ENTER, ESCAPE, LIMIT_S, UP, Training, acknowledge, count, folders, is_page, paused
+from test_flow import screen  # noqa: F401 (fixture)
+from test_lesson import RING, lesson_texts
+
+# Distance that a held key moves the drone per second, m: along the ground and up, with the time in which the drone gains speed and stops. Too
+# large a value only takes more steps.
+GROUND_M_S, CLIMB_M_S = 5.0, 2.0
+# Shortest and longest time for which a key is held in one step, vehicle milliseconds.
+HOLD_MS = (80, 2000)
+# Distance from the middle of the ring that is good enough on each axis, m (the radius is 2 m), and speed of a drone that stands, m/s.
+NEAR_M, STANDING_M_S = 0.8, 0.15
+# Time in the ring before it is left, vehicle milliseconds, besides the time of the last steps to its middle. From 2 s, leaving is a mistake.
+INSIDE_MS = 2500
+# Color of the ground in the side profile (crates/view/src/hud/mod.rs), and a number of pixels that only the large map has at the right.
+EARTH, EARTH_PX = (112, 84, 56), 2000
+
+
+class KeyPilot:
+    """Flies with the keys of the window, and reads position and texts over a link of its own, on which it sends nothing else."""
+
+    def __init__(self, screen, client):
+        self.screen, self.client, self.held = screen, client, set()
+
+    def hold(self, keys):
+        """Holds these keys and releases the others."""
+        for key in self.held - keys:
+            self.screen.key(key, False)
+        for key in keys - self.held:
+            self.screen.key(key, True)
+        self.held = set(keys)
+
+    def now_ms(self):
+        """Returns the vehicle's time."""
+        return self.client.state["ATTITUDE"].time_boot_ms
+
+    def wait_ms(self, duration_ms):
+        """Lets vehicle time pass."""
+        until = self.now_ms() + duration_ms
+        self.client.wait(f"{duration_ms} ms", lambda: self.now_ms() >= until)
+
+    def stand(self):
+        """Releases all keys and waits until the drone stands."""
+        self.hold(set())
+        self.wait_ms(500)
+        moving = lambda: self.client.state["LOCAL_POSITION_NED"]  # noqa: E731
+        self.client.wait("a standstill", lambda: math.hypot(moving().vx, moving().vy, moving().vz) < STANDING_M_S)
+
+    def step_towards(self, target):
+        """Holds the key of the axis that is farthest off for a moment. Returns false if the drone is near the target."""
+        here, yaw = self.client.here()
+        east, north, up = (t - h for t, h in zip(target, here))
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        ways = [
+            (north * cos + east * sin, GROUND_M_S, "Up", "Down"),
+            (east * cos - north * sin, GROUND_M_S, "Right", "Left"),
+            (up, CLIMB_M_S, "w", "s"),
+        ]
+        way, speed, plus, minus = max(ways, key=lambda axis: abs(axis[0]))
+        if abs(way) <= NEAR_M:
+            return False
+        self.hold({plus if way > 0 else minus})
+        self.wait_ms(min(max(1000 * abs(way) / speed, HOLD_MS[0]), HOLD_MS[1]))
+        return True
+
+    def fly(self, target):
+        """Flies to a place in steps, each to a standstill."""
+        self.stand()
+        while self.step_towards(target):
+            self.stand()
+
+    def tap_until(self, what, key, done):
+        """Presses a key, and again if nothing happens."""
+        again = asking.Repeater(lambda: self.screen.tap(key), again_s=AGAIN_S)
+        self.client.wait(what, lambda: again.if_due() or done())
+
+
+@pytest.mark.timeout(1200)
+def test_wire_the_lesson_is_done_with_the_keyboard(screen, tmp_path):  # noqa: F811
+    """Arm, take off, hover and turn; motors stopped too early and a ring left too early are remarked. The large map opens and closes."""
+    gcs_port = spandrel.free_udp_port()
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "first-flight", "--seed", "7", "--no-sound", "--gcs", f"127.0.0.1:{gcs_port}")
+    try:
+        acknowledge(training, "lesson")
+        client = Client(gcs_port, scenario="first-flight")
+        said = lambda words: any(words in text for text in lesson_texts(client))  # noqa: E731
+        is_armed = lambda: client.state["HEARTBEAT"].base_mode & M.MAV_MODE_FLAG_SAFETY_ARMED  # noqa: E731
+        client.wait("position", lambda: {"LOCAL_POSITION_NED", "ATTITUDE", "GPS_GLOBAL_ORIGIN"} <= client.state.keys() or client.ask_origin())
+        pilot = KeyPilot(screen, client)
+        screen.focus()
+
+        pilot.tap_until("the second step", "1", lambda: said("2/11 take off to 2 m"))
+        pilot.tap_until("a remark on the motors", "0", lambda: said("the motors are off: arm them again"))
+        assert not said("3/11"), "without a takeoff, the lesson waits"
+        again = asking.Repeater(lambda: (screen.tap("1"), screen.tap("t")))
+        client.wait("the third step", lambda: again.if_due() or said("3/11 hover in the ring for 10 s"))
+        assert is_armed()
+
+        pilot.fly(RING)
+        pilot.wait_ms(INSIDE_MS)
+        assert not said("4/11"), "10 s are not over"
+        pilot.hold({"Up"})
+        client.wait("a remark on the ring", lambda: said("you left the ring: stay 10 s"))
+        pilot.stand()
+        training.wait_for_screenshot("lesson-remark", lambda photograph: True)
+        assert not said("4/11")
+        pilot.fly(RING)
+        client.wait("the fourth step", lambda: said("4/11 turn by 90 deg"))
+        pilot.hold({"d"})
+        client.wait("the fifth step", lambda: said("5/11 fly along the path"))
+        pilot.hold(set())
+
+        right = lambda photograph: photograph[:, photograph.shape[1] // 2 :]  # noqa: E731
+        assert count(right(screen.photograph()), EARTH) < EARTH_PX
+        training.wait_for_screenshot("lesson-large-map", lambda photograph: count(right(photograph), EARTH) > EARTH_PX, "c")
+        training.wait_for_screenshot("lesson-map-closed", lambda photograph: count(right(photograph), EARTH) < EARTH_PX, "c")
+
+        training.wait_for_screenshot("lesson-paused", paused, ESCAPE)
+        screen.tap(UP)
+        training.wait_for_screenshot("lesson-over", is_page, ENTER)
+        spandrel.wait_for("the assessment", lambda: (folders(training)[0] / "assessment.json").exists(), LIMIT_S)
+    finally:
+        training.close()
+    lines = (folders(training)[0] / "events.jsonl").read_text(encoding="utf-8").splitlines()
+    steps = [event["done"] for event in map(json.loads, lines) if event.get("event") == "lesson_step"]
+    assert steps == [1, 2, 3, 4], steps
