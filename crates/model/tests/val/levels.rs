@@ -9,7 +9,7 @@ use spandrel_model::time::SimTime;
 use std::path::Path;
 
 /// Number of shipped drills with levels: all of them.
-const DRILLS: usize = 12;
+const DRILLS: usize = 15;
 /// Clearance that `check` requires in addition to half the aircraft's width, m.
 const MIN_CLEARANCE_M: f64 = 0.5;
 /// Largest difference between the requested and the predicted mean detection: 3 percentage points (sizes are rounded to
