@@ -194,6 +194,28 @@ mod tests {
         assert_eq!(headlines["completion"], "Complete: 4 of 4 tasks, 100% of the path");
         let (text, json) = of(&[]);
         assert!(text.contains("   safety: 50.0 -> 52.0, better\n") && change(&json).get("within_error").is_none(), "{text}");
+        assert!(text.contains("\nThe changes are not labeled, because the error of the measures is unknown"), "{text}");
+    }
+
+    #[test]
+    fn regress_equal_sessions_print_no_heading_of_changes() {
+        let records = vec![perfect_record("anna", 1), perfect_record("anna", 2)];
+        let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(None).unwrap(), 0, Language::English).unwrap();
+        assert!(plan.changes.is_some());
+        let text = plan_text(&plan);
+        assert!(!text.contains("Since ") && !text.contains("not labeled"), "{text}");
+    }
+
+    #[test]
+    fn exact_plan_names_the_forms_of_both_sessions() {
+        let mut records = vec![perfect_record("anna", 1), perfect_record("anna", 2)];
+        for (record, form) in records.iter_mut().zip(["A", "B"]) {
+            (record.form, record.form_detection_pct) = (Some(form.into()), Some(95.0));
+        }
+        records[1].scores.safety -= 10.0;
+        let since = format!("Since {} (form A, now form B, which is equally difficult):\n", records[0].id);
+        let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(None).unwrap(), 0, Language::English).unwrap();
+        assert!(plan_text(&plan).contains(&since), "{}", plan_text(&plan));
     }
 
     #[test]
