@@ -8,7 +8,7 @@ use crate::io::progress::ProgressLog;
 use crate::io::report;
 use crate::io::scoring;
 use crate::io::session_folder::StoredSession;
-use crate::records::read_session;
+use crate::records::{read_session, reliability_beside};
 use spandrel_clients::pilot::flight_plan;
 use spandrel_clients::pilot::goals::PlanningContext;
 use spandrel_mavlink::telemetry::Timeline;
@@ -172,7 +172,12 @@ fn export_for_learning_systems(args: &Args, stored: Option<&StoredSession>) -> R
     }
     if let Some(target) = &args.scorm {
         needed("--scorm")?;
-        files::write(target, &zip_files(&report::package(Path::new(&args.from), args.page.language())?)?)?;
+        files::write(
+            target,
+            &zip_files(&report::package(Path::new(&args.from), args.page.language(), &|job| {
+                reliability_beside(Path::new(&args.from), job)
+            })?)?,
+        )?;
     }
     Ok(())
 }

@@ -16,6 +16,7 @@ use crate::io::session_folder::{SessionFolder, StoredSession};
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
 use crate::io::user_language::user_language;
+use crate::records::reliability_beside;
 use serde_json::json;
 use spandrel_mavlink::dialect::MavSeverity;
 use spandrel_model::time::SimTime;
@@ -352,7 +353,7 @@ impl MonitorProcess {
         self.monitor.free_flight_data();
         // The scores are saved; the report can be written again later.
         let advice = json.as_ref().and_then(|_| {
-            let written = report::write(self.folder.path(), user_language());
+            let written = report::write(self.folder.path(), user_language(), &|job| reliability_beside(self.folder.path(), job));
             written.inspect_err(|error| tracing::warn!("cannot write the report: {error}")).ok()
         });
         if let Err(refused) = self.folder.sync() {

@@ -9,11 +9,10 @@ use crate::io::plan_rules::rules;
 use crate::io::trainee_id::TraineeId;
 use crate::records::read_json_lines;
 use spandrel_monitor::export::json_text;
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 use spandrel_training::cohort::job_reliability;
-use spandrel_training::plan::{MeasureChange, PlanHeadlines, PlanRules, TrainingPlan, plan_for_policy};
+use spandrel_training::plan::{PlanHeadlines, PlanRules, SessionChanges, TrainingPlan, plan_for_policy};
 use spandrel_training::record::{IncompletePolicy, SessionRecord, excluded_sessions_note};
-use spandrel_training::terms::error_label;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -120,15 +119,26 @@ fn plan_text(plan: &TrainingPlan) -> String {
     if let Some(note) = excluded_sessions_note(plan.left_out, Language::English) {
         let _ = writeln!(out, "{note} (use --include-incomplete to count them)");
     }
-    if let Some(changes) = &plan.changes {
-        let _ = writeln!(out, "Since {}:", changes.since);
-        let told = |change: &&MeasureChange| change.better.is_some();
-        for change in changes.changes.iter().filter(told) {
-            let better = if change.better == Some(true) { "better" } else { "worse" };
-            let error =
-                change.within_error.map_or(String::new(), |within| format!(" ({})", error_label(within, Language::English)));
-            let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}{error}", change.what, change.before, change.now);
-        }
+    if let Some(changes) = plan.changes.as_ref().filter(|changes| changes.shown().next().is_some()) {
+        out += &changes_text(changes);
+    }
+    out
+}
+
+fn changes_text(changes: &SessionChanges) -> String {
+    let forms = match &changes.forms {
+        Some([before, now]) => format!(" (form {before}, now form {now}, which is equally difficult)"),
+        None => String::new(),
+    };
+    let mut out = format!("Since {}{forms}:\n", changes.since);
+    for change in changes.shown() {
+        let better = if change.better == Some(true) { "better" } else { "worse" };
+        let error = if changes.is_labeled() { format!(" ({})", change.error_label(Language::English)) } else { String::new() };
+        let _ = writeln!(out, "   {}: {:.1} -> {:.1}, {better}{error}", change.what, change.before, change.now);
+    }
+    if !changes.is_labeled() {
+        out += &text!(Language::English, "compare-error-unknown");
+        out.push('\n');
     }
     out
 }
@@ -184,6 +194,28 @@ mod tests {
         assert_eq!(headlines["completion"], "Complete: 4 of 4 tasks, 100% of the path");
         let (text, json) = of(&[]);
         assert!(text.contains("   safety: 50.0 -> 52.0, better\n") && change(&json).get("within_error").is_none(), "{text}");
+        assert!(text.contains("\nThe changes are not labeled, because the error of the measures is unknown"), "{text}");
+    }
+
+    #[test]
+    fn regress_equal_sessions_print_no_heading_of_changes() {
+        let records = vec![perfect_record("anna", 1), perfect_record("anna", 2)];
+        let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(None).unwrap(), 0, Language::English).unwrap();
+        assert!(plan.changes.is_some());
+        let text = plan_text(&plan);
+        assert!(!text.contains("Since ") && !text.contains("not labeled"), "{text}");
+    }
+
+    #[test]
+    fn exact_plan_names_the_forms_of_both_sessions() {
+        let mut records = vec![perfect_record("anna", 1), perfect_record("anna", 2)];
+        for (record, form) in records.iter_mut().zip(["A", "B"]) {
+            (record.form, record.form_detection_pct) = (Some(form.into()), Some(95.0));
+        }
+        records[1].scores.safety -= 10.0;
+        let since = format!("Since {} (form A, now form B, which is equally difficult):\n", records[0].id);
+        let plan = plan_for_policy(records, IncompletePolicy::Exclude, &rules(None).unwrap(), 0, Language::English).unwrap();
+        assert!(plan_text(&plan).contains(&since), "{}", plan_text(&plan));
     }
 
     #[test]

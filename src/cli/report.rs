@@ -5,9 +5,9 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
 use crate::io::report::{self, address, comparison_page, review};
-use crate::records::read_json_lines;
+use crate::records::{read_json_lines, reliability_beside};
 use spandrel_monitor::folder::REPORT;
-use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
+use spandrel_training::cohort::{MeasureReliability, job_reliability};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::page;
 use std::path::PathBuf;
@@ -16,8 +16,8 @@ use std::path::PathBuf;
 ///
 /// The report is one printable page that opens offline in any browser: scores, tasks, the flight on the site, pictures
 /// and missed defects, feedback and reactions, and surface coverage. It uses the telemetry and the two TOML files in
-/// the session folder. Live sessions write it automatically at the end. For two sessions, the page compares them and, with
-/// --records, labels the changes that are within the error of the measures.
+/// the session folder. Live sessions write it automatically at the end. For two sessions, the page compares them and labels the
+/// changes that are within the error of the measures, if the database beside the first session or --records contains enough sessions.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -38,7 +38,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     out: Option<String>,
     /// For two sessions: records of all trainees on the job, as written by `spandrel records export`, to estimate the error
-    /// of the measures
+    /// of the measures [default: the database in the first session's parent folder, if there is one]
     #[arg(long, value_name = "FILE", requires = "other")]
     records: Option<PathBuf>,
     #[command(flatten)]
@@ -52,11 +52,12 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), AppError> {
     let progress = ProgressLog::start("writing the report");
     let language = args.page.language();
+    let known = |job: &str| reliability_beside(&args.session, job);
     let text = match (&args.other, &args.out) {
         (Some(other), _) => comparison_page(&args.session, other, language, |scenario| reliability(args, scenario))?,
-        (None, Some(_)) => page::session(&review(&args.session, language)?),
+        (None, Some(_)) => page::session(&review(&args.session, language, &known)?),
         (None, None) => {
-            report::write(&args.session, language)?;
+            report::write(&args.session, language, &known)?;
             progress.finish();
             println!("report        {}", address(&args.session.join(REPORT)));
             return Ok(());
@@ -66,9 +67,11 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     files::write(args.out.as_deref().unwrap_or("-"), text.as_bytes())
 }
 
-/// Returns the reliability of the measures on a job over the first two sessions of each trainee; empty without records.
+/// Returns the reliability of the measures on a job over the first two sessions of each trainee, from the given records or the
+/// database beside the first session; empty without either.
 fn reliability(args: &Args, scenario: &str) -> Result<Vec<MeasureReliability>, AppError> {
-    let Some(file) = &args.records else { return Ok(Vec::new()) };
-    let selection = Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete: IncompletePolicy::Exclude };
-    Ok(cohort(&read_json_lines(file)?, &selection).reliability)
+    match &args.records {
+        Some(file) => Ok(job_reliability(&read_json_lines(file)?, scenario, IncompletePolicy::Exclude)),
+        None => Ok(reliability_beside(&args.session, scenario)),
+    }
 }

@@ -4,7 +4,7 @@ use super::clock;
 use super::marks::valid_marks;
 use super::replace::replace;
 use super::session_folder::StoredSession;
-use super::standing::standing_when_flown;
+use super::standing::{ReliabilityLookup, standing_when_flown};
 use crate::errors::AppError;
 use spandrel_monitor::AssessError;
 use spandrel_monitor::export::json_text;
@@ -12,6 +12,7 @@ use spandrel_monitor::folder::{ADVICE, REPORT, SMALL_SNAPSHOTS, SNAPSHOTS, VIDEO
 use spandrel_text::Language;
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::cohort::MeasureReliability;
+use spandrel_training::record::SessionLevel;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page, scorm};
 use std::path::{Path, PathBuf};
 
@@ -25,8 +26,8 @@ const MAX_PICTURES_BYTES: u64 = 4_000_000;
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or a file cannot be written.
-pub fn write(session: &Path, language: Language) -> Result<SessionAdvice, AppError> {
-    let review = review(session, language)?;
+pub fn write(session: &Path, language: Language, reliability: ReliabilityLookup<'_>) -> Result<SessionAdvice, AppError> {
+    let review = review(session, language, reliability)?;
     // The report comes last: a session with a report is complete.
     replace(&session.join(ADVICE), json_text(&review.advice).as_bytes())?;
     replace(&session.join(REPORT), page::session(&review).as_bytes())?;
@@ -46,8 +47,8 @@ fn remove_translations(session: &Path) {
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the file cannot be written.
-pub fn write_translation(session: &Path, language: Language) -> Result<Vec<u8>, AppError> {
-    let page = page::session(&review(session, language)?).into_bytes();
+pub fn write_translation(session: &Path, language: Language, reliability: ReliabilityLookup<'_>) -> Result<Vec<u8>, AppError> {
+    let page = page::session(&review(session, language, reliability)?).into_bytes();
     replace(&translation_path(session, language), &page)?;
     Ok(page)
 }
@@ -66,15 +67,19 @@ pub fn saved_advice(session: &Path) -> Option<SessionAdvice> {
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
-pub fn package(session: &Path, language: Language) -> Result<Vec<(&'static str, String)>, AppError> {
-    let mut review = review(session, language)?;
+pub fn package(
+    session: &Path,
+    language: Language,
+    reliability: ReliabilityLookup<'_>,
+) -> Result<Vec<(&'static str, String)>, AppError> {
+    let mut review = review(session, language, reliability)?;
     // The package contains no video.
     review.metadata.video = None;
     Ok(scorm::files(&review, &page::session(&review)))
 }
 
 /// Returns the page that compares two sessions. `reliability` returns the reliability of the measures on the job with the
-/// given scenario name; empty if unknown.
+/// given scenario name and level; empty if unknown.
 ///
 /// # Errors
 /// Returns an error if files are invalid, the session has no data to report, or the page cannot be written.
@@ -84,8 +89,10 @@ pub fn comparison_page(
     language: Language,
     reliability: impl FnOnce(&str) -> Result<Vec<MeasureReliability>, AppError>,
 ) -> Result<String, AppError> {
-    let (first, second) = (review(first, language)?, review(second, language)?);
-    let reliability = reliability(&first.scenario.name)?;
+    // This page does not show how the sessions stood among earlier ones.
+    let (first, second) = (review(first, language, &|_| Vec::new())?, review(second, language, &|_| Vec::new())?);
+    let level = first.scenario.difficulty.as_ref().map(SessionLevel::of);
+    let reliability = reliability(&SessionLevel::named(&first.scenario.name, level))?;
     Ok(page::comparison(&first, &second, &reliability))
 }
 
@@ -96,7 +103,7 @@ pub fn comparison_page(
 #[cfg(feature = "view")]
 pub fn pictures(session: &Path) -> Result<Vec<spandrel_training::report::pictures::ReviewedPicture>, AppError> {
     // No photographs are included, because the caller is about to render them. The pictures have no texts.
-    Ok(review_with_pictures(session, Language::default(), Vec::new())?.pictures)
+    Ok(review_with_pictures(session, Language::default(), Vec::new(), &|_| Vec::new())?.pictures)
 }
 
 /// Returns the maximum size of each photograph in bytes for a page with `count` photographs.
@@ -120,17 +127,22 @@ pub fn address(path: &Path) -> String {
     address
 }
 
-/// Returns everything to show on a session's page.
+/// Returns everything to show on a session's page. The change since the last session is labeled if the reliability on the job is known.
 ///
 /// # Errors
 /// Returns an error if files are invalid, or the session has no data to report.
-pub fn review(session: &Path, language: Language) -> Result<Review, AppError> {
-    review_with_pictures(session, language, photographs(&session.join(SNAPSHOTS)))
+pub fn review(session: &Path, language: Language, reliability: ReliabilityLookup<'_>) -> Result<Review, AppError> {
+    review_with_pictures(session, language, photographs(&session.join(SNAPSHOTS)), reliability)
 }
 
-fn review_with_pictures(session: &Path, language: Language, pictures: Vec<(u32, Jpeg)>) -> Result<Review, AppError> {
+fn review_with_pictures(
+    session: &Path,
+    language: Language,
+    pictures: Vec<(u32, Jpeg)>,
+    reliability: ReliabilityLookup<'_>,
+) -> Result<Review, AppError> {
     let stored = StoredSession::read(session)?;
-    let about = SessionMetadata { language, pictures, ..session_facts(session, &stored)? };
+    let about = SessionMetadata { language, pictures, ..session_facts(session, &stored, reliability)? };
     let review = Review::of(&stored.log, &stored.scenario.scenario, &stored.vehicle.vehicle, about);
     review.map_err(|error| review_error(&error))
 }
@@ -146,7 +158,11 @@ fn review_error(error: &AssessError) -> AppError {
     }
 }
 
-fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetadata, AppError> {
+fn session_facts(
+    session: &Path,
+    stored: &StoredSession,
+    reliability: ReliabilityLookup<'_>,
+) -> Result<SessionMetadata, AppError> {
     let name =
         std::path::absolute(session).ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
     Ok(SessionMetadata {
@@ -162,7 +178,7 @@ fn session_facts(session: &Path, stored: &StoredSession) -> Result<SessionMetada
         pictures: Vec::new(),
         marks: valid_marks(session),
         video: Some(VIDEO).filter(|video| session.join(video).is_file()),
-        standing: standing_when_flown(session),
+        standing: standing_when_flown(session, reliability),
     })
 }
 

@@ -52,7 +52,15 @@ impl FigureCache {
     /// Returns an error if the database fails or contains an invalid record.
     pub fn reliability(&self, scenario: &str, incomplete: IncompletePolicy) -> Result<Vec<MeasureReliability>, AppError> {
         let selection = Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete };
-        Ok(self.get(&selection)?.cohort.reliability.clone())
+        Ok(self.get(&selection)?.cohort.all_reliabilities())
+    }
+
+    /// Returns the reliability for a report, which does without it if the database cannot be read: that is logged.
+    pub fn reliability_if_known(&self, scenario: &str) -> Vec<MeasureReliability> {
+        self.reliability(scenario, IncompletePolicy::Exclude).unwrap_or_else(|error| {
+            tracing::warn!("the error of the measures is unknown: {error}");
+            Vec::new()
+        })
     }
 
     /// Returns the figures for a selection.

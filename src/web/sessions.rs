@@ -84,7 +84,7 @@ pub fn session_page(state: &ServerState, request: &WebRequest) -> HandlerResult 
         folder: has_folder,
         others: &others,
         advice: advice.as_ref(),
-        standing,
+        standing: standing.as_ref(),
         marks: &marks,
         pictures: &pictures,
         video,
@@ -106,22 +106,27 @@ pub fn report(state: &ServerState, request: &WebRequest) -> HandlerResult {
     let page = match written.filter(|page| is_current(page)) {
         Some(page) => page,
         None => {
-            report::write(&folder, written_language)?;
+            report::write(&folder, written_language, &|job| state.figures.reliability_if_known(job))?;
             bytes(&path)?
         }
     };
-    let page = if written_language == language { page } else { translated_report(&folder, language, is_current)? };
+    let page = if written_language == language { page } else { translated_report(state, &folder, language, is_current)? };
     let served = with_back_links(page, &[ParentPage::Session(id), ParentPage::Sessions], language);
     Ok(WebResponse::sandboxed_page(served, &policy))
 }
 
 /// Returns a session's report in another language than `report.html`.
-fn translated_report(folder: &Path, language: Language, is_current: impl Fn(&[u8]) -> bool) -> Result<Vec<u8>, WebError> {
+fn translated_report(
+    state: &ServerState,
+    folder: &Path,
+    language: Language,
+    is_current: impl Fn(&[u8]) -> bool,
+) -> Result<Vec<u8>, WebError> {
     let path = report::translation_path(folder, language);
     if let Some(page) = std::fs::read(&path).ok().filter(|page| is_current(page)) {
         return Ok(page);
     }
-    Ok(report::write_translation(folder, language)?)
+    Ok(report::write_translation(folder, language, &|job| state.figures.reliability_if_known(job))?)
 }
 
 /// Returns the first part of a page, which contains its `head` element.

@@ -113,7 +113,7 @@ fn import_recording(state: &ServerState, request: &WebRequest) -> Result<UploadO
         folder.resolve(assessed_session.seed, survey.defects())?;
     }
     folder.write_session_json(|scenario, vehicle, utc, starts| monitor.session_info(scenario, vehicle, utc, starts))?;
-    if let Err(error) = report::write(folder.path(), request.visitor.language) {
+    if let Err(error) = report::write(folder.path(), request.visitor.language, &|job| state.figures.reliability_if_known(job)) {
         tracing::warn!("cannot write the report: {error}");
     }
     folder.write_assessment(&json_text(&assessed_session.assessment))?;

@@ -138,16 +138,18 @@ fn certification_notes(source: &ScenarioText<'_>, scenario: &Scenario, aircraft:
     let mut notes = requirements::describe(scenario, Language::English);
     let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
     let needed_min = job_time::job_needed_s(scenario) / 60.0;
-    notes.push(format!(
-        "time that the job needs: {needed_min:.1} min for {path_m:.0} m of path and {}",
-        count(scenario.defects.count, "defect")
-    ));
-    let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
-    let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
-    notes.push(format!(
-        "the camera of {} reaches {finest_mm:.2} mm/px at the clearance limit; cracks narrower than {crack_mm:.1} mm do not count",
-        aircraft.name
-    ));
+    let path = format!("{needed_min:.1} min for {path_m:.0} m of path");
+    if scenario.defects.count == 0 {
+        notes.push(format!("time that the job needs: {path}"));
+    } else {
+        notes.push(format!("time that the job needs: {path} and {}", count(scenario.defects.count, "defect")));
+        let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
+        let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
+        notes.push(format!(
+            "the camera of {} reaches {finest_mm:.2} mm/px at the clearance limit; cracks narrower than {crack_mm:.1} mm do not count",
+            aircraft.name
+        ));
+    }
     notes.into_iter().map(|note| format!("{}: to be certified: {note}", source.file)).collect()
 }
 
@@ -345,6 +347,36 @@ mod tests {
         for (name, text) in shipped::SCENARIOS {
             assert_eq!(scenario_findings(name, text, &aircraft).problems, [], "{name}");
         }
+    }
+
+    #[test]
+    fn regress_a_job_without_defects_requires_no_accuracy_and_no_pictures() {
+        let notes = |name: &str| scenario_findings(name, &shipped_text(name), &aircraft()).notes.join("\n");
+        let about_defects = ["accuracy", "mm/px", "crack", "defect"];
+        let (without, with) = (notes("drill-straight-line"), notes("two-bridges"));
+        for word in about_defects {
+            assert!(!without.contains(word) && with.contains(word), "{word}: {without}");
+        }
+        assert!(without.contains("conformity at least") && without.contains("min for "), "{without}");
+    }
+
+    /// The page states what the command prints for both jobs.
+    #[test]
+    fn exact_the_page_of_the_forms_agrees_with_the_check() {
+        const PAGE: &str = include_str!("../../../docs/src/explanation/forms.md");
+        let row = |label: &str| {
+            let line = PAGE.lines().find(|line| line.starts_with(&format!("| {label}"))).unwrap();
+            line.split('|').map(str::trim).skip(2).take(2).map(str::to_owned).collect::<Vec<_>>()
+        };
+        let (paths, times) = (row("path, m"), row("time that the job needs"));
+        for (k, name) in ["two-bridges", "pilot-study"].into_iter().enumerate() {
+            let notes = scenario_findings(name, &shipped_text(name), &aircraft()).notes;
+            let time = notes.iter().find(|note| note.contains("time that the job needs: ")).unwrap();
+            let expected = format!("{} min for {} m of path and 10 defects", times[k], paths[k]);
+            assert!(time.ends_with(&expected), "{time}; the page: {expected}");
+        }
+        let words = format!("allows {} minutes: {} m at 1 m/s", times[1], paths[1]);
+        assert!(PAGE.contains(&words), "{words}");
     }
 
     #[test]

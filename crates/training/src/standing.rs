@@ -1,12 +1,12 @@
 //! A session compared with the trainee's other sessions on the same job.
 
 use crate::cohort::{MeasureReliability, reliability_of};
-use crate::record::{SessionOutcome, SessionRecord, excluded_sessions_note};
+use crate::record::{SessionOutcome, SessionRecord, differing_forms, excluded_sessions_note};
 use crate::terms::error_label;
 use spandrel_text::{Language, text};
 
-/// A complete session compared with the trainee's other complete sessions on the same job and level.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A complete session compared with the trainee's other complete sessions on the same job and level, and on equated forms.
+#[derive(Debug, Clone, PartialEq)]
 pub struct SessionStanding {
     /// Highest overall score, including this session's.
     pub best: f64,
@@ -20,6 +20,8 @@ pub struct SessionStanding {
     pub left_out: usize,
     /// Highest possible score.
     pub most: f64,
+    /// Names of the equated forms that these sessions flew; empty if it is the same one.
+    pub forms: Vec<String>,
 }
 
 impl SessionStanding {
@@ -33,7 +35,7 @@ impl SessionStanding {
         let earlier = others.iter().filter(|(start_us, _)| *start_us < own_start_us);
         let last = earlier.max_by_key(|(start_us, _)| *start_us);
         let change = last.map(|(_, score)| own - score);
-        Some(Self { best, is_best: own >= best, change, within_error: None, left_out: 0, most })
+        Some(Self { best, is_best: own >= best, change, within_error: None, left_out: 0, most, forms: Vec::new() })
     }
 
     /// Labels the change with the reliability of the measures on the job.
@@ -47,7 +49,8 @@ impl SessionStanding {
     #[must_use]
     pub fn words(&self, language: Language) -> String {
         let left_out = excluded_sessions_note(self.left_out, language).map(|note| note + ".");
-        [Some(self.best_words(language)), self.change_words(language), left_out]
+        let forms = (!self.forms.is_empty()).then(|| text!(language, "sessions-standing-forms", forms = self.forms.join(", ")));
+        [Some(self.best_words(language)), self.change_words(language), forms, left_out]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()
@@ -78,20 +81,19 @@ impl SessionStanding {
 #[must_use]
 pub fn standing(record: &SessionRecord, records: &[SessionRecord]) -> Option<SessionStanding> {
     let is_on_job = |other: &&SessionRecord| {
-        other.is_unaided()
-            && (&other.trainee, other.scenario_with_level()) == (&record.trainee, record.scenario_with_level())
-            && other.id != record.id
+        other.is_unaided() && other.trainee == record.trainee && other.is_same_job(record) && other.id != record.id
     };
     let (complete, left_out): (Vec<&SessionRecord>, Vec<&SessionRecord>) =
         records.iter().filter(is_on_job).partition(|other| other.is_complete());
     let is_comparable = |other: &&SessionRecord| other.scores.overall_max == record.scores.overall_max;
-    let others: Vec<(u64, f64)> =
-        complete.into_iter().filter(is_comparable).map(|other| (other.started_unix_us, other.scores.overall)).collect();
+    let compared: Vec<&SessionRecord> = complete.into_iter().filter(is_comparable).collect();
+    let others: Vec<(u64, f64)> = compared.iter().map(|other| (other.started_unix_us, other.scores.overall)).collect();
     if !record.is_complete() || !record.is_unaided() {
         return None;
     }
     let standing = SessionStanding::new((record.started_unix_us, record.scores.overall, record.scores.overall_max), &others)?;
-    Some(SessionStanding { left_out: left_out.len(), ..standing })
+    let forms = differing_forms(compared.iter().map(|other| &other.form).chain([&record.form]));
+    Some(SessionStanding { left_out: left_out.len(), forms, ..standing })
 }
 
 /// Returns a score without decimals.
@@ -135,11 +137,31 @@ mod tests {
     }
 
     #[test]
+    fn exact_only_sessions_on_equated_forms_are_compared() {
+        let mut all = records(&[390.0, 350.0, 360.0]);
+        for (record, (form, detection_pct)) in all.iter_mut().zip([("H", 25.0), ("A", 95.0), ("B", 95.0)]) {
+            (record.form, record.form_detection_pct) = (Some(form.into()), Some(detection_pct));
+        }
+        let found = standing(&all[2], &all).unwrap();
+        assert_eq!((found.best, found.is_best, found.change), (360.0, true, Some(10.0)), "form H is harder");
+        assert!(
+            found.words(Language::English).contains("on the equally difficult forms A, B."),
+            "{}",
+            found.words(Language::English)
+        );
+        assert_eq!(standing(&all[0], &all), None, "no session on a form as hard as H");
+        all[1].form = Some("B".into());
+        let words = standing(&all[2], &all).unwrap().words(Language::English);
+        assert!(!words.contains("form"), "{words}");
+    }
+
+    #[test]
     fn exact_best_and_change_come_from_complete_sessions_on_the_same_job() {
         let mut all = records(&[300.0, 350.0, 320.0]);
         let most = all[0].scores.overall_max;
-        let unlabeled =
-            |best, is_best, change, left_out| Some(SessionStanding { best, is_best, change, within_error: None, left_out, most });
+        let unlabeled = |best, is_best, change, left_out| {
+            Some(SessionStanding { best, is_best, change, within_error: None, left_out, most, forms: Vec::new() })
+        };
         assert_eq!(standing(&all[2], &all), unlabeled(350.0, false, Some(-30.0), 0));
         assert_eq!(standing(&all[1], &all), unlabeled(350.0, true, Some(50.0), 0));
         assert_eq!(standing(&all[0], &all).and_then(|standing| standing.change), None, "the first has no session before it");

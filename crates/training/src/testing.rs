@@ -29,6 +29,7 @@ pub fn perfect_record(trainee: &str, number: usize) -> SessionRecord {
         scenario: "two-bridges".into(),
         level: None,
         form: None,
+        form_detection_pct: None,
         scenario_sha256: "s".into(),
         vehicle: "phantom2".into(),
         vehicle_sha256: "v".into(),

@@ -8,7 +8,7 @@ use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, GPS_RAW_INT_DATA, GpsF
 use spandrel_mavlink::instructor_note;
 use spandrel_mavlink::telemetry::Frame;
 use spandrel_model::radio::RadioWay;
-use spandrel_model::scenario::Scenario;
+use spandrel_model::scenario::{Scenario, SelectedForm};
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
@@ -355,6 +355,35 @@ fn exact_compared_changes_are_labeled_with_the_measurement_error() {
     assert_eq!((page.matches(">beyond error<").count(), page.matches(">within error<").count()), (0, 1));
     let page = page::comparison(first, &second, &[]);
     assert!(!page.contains("beyond error") && page.contains("The changes are not labeled"));
+}
+
+#[test]
+fn exact_comparison_names_different_forms_and_labels_only_equated_ones() {
+    let mut records = Vec::new();
+    for (trainee, offset) in [("anna", 0.0), ("ben", 12.0), ("cleo", 25.0)] {
+        for number in 1..=2 {
+            let mut record = perfect_record(trainee, number);
+            record.scores.safety = 50.0 + offset + number as f64 * (1.0 + 0.1 * offset);
+            records.push(record);
+        }
+    }
+    let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
+    let reliability = cohort(&records, &selection).reliability;
+    let on_form = |name: &str, detection: f64| {
+        let mut review = review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges());
+        let available = ["A", "B", "H"].map(str::to_owned).to_vec();
+        review.scenario.form = Some(SelectedForm { name: name.into(), available });
+        review.scenario.defects.mean_detection = Some(detection);
+        // Each form has a checksum of its own.
+        review.scenario.crc ^= u32::from(name.as_bytes()[0]);
+        review
+    };
+    let (a, b, h) = (on_form("A", 0.95), on_form("B", 0.95), on_form("H", 0.25));
+    let page = page::comparison(&a, &b, &reliability);
+    assert!(page.contains("different forms: A and B, which are equally difficult") && page.contains(">within error<"));
+    let page = page::comparison(&b, &h, &reliability);
+    assert!(page.contains("different forms: B and H, which are not equally difficult"));
+    assert!(!page.contains(">within error<") && !page.contains(">beyond error<"));
 }
 
 #[test]

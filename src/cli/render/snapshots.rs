@@ -11,6 +11,7 @@ use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
 use crate::io::user_language::user_language;
+use crate::records::reliability_beside;
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_monitor::folder::{SMALL_SNAPSHOTS, SNAPSHOTS};
 use spandrel_training::report::pictures::ReviewedPicture;
@@ -69,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
         }
     }
     progress.finish();
-    report::write(&recorded.folder, user_language())?;
+    report::write(&recorded.folder, user_language(), &|job| reliability_beside(&recorded.folder, job))?;
     println!("pictures      {} in {}", taken.len(), folder.display());
     Ok(())
 }

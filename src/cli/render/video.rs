@@ -9,6 +9,7 @@ use crate::io::progress::ProgressLog;
 use crate::io::replace::replace;
 use crate::io::report;
 use crate::io::user_language::user_language;
+use crate::records::reliability_beside;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::folder::VIDEO;
 use spandrel_text::Language;
@@ -60,7 +61,7 @@ fn render_for_report(args: &Args) -> Result<(), AppError> {
     }
     // The report's times count from lift-off.
     render(args, &session.join(VIDEO), |recorded| Ok(recorded.scored_span()))?;
-    report::write(session, user_language())?;
+    report::write(session, user_language(), &|job| reliability_beside(session, job))?;
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use crate::io::files::{self, ScenarioFile};
 use crate::io::report;
 use crate::io::session_folder::{purpose, trainee_and_start};
 use crate::io::standing::standing_when_flown;
-use crate::records::session_folders;
+use crate::records::{reliability_beside, session_folders};
 use crate::web::scenario_library::{UPLOAD_FOLDER, uploaded};
 use serde::Deserialize;
 use serde_json::Value;
@@ -425,7 +425,9 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
             Some(lesson) => job_named(&lesson.scenario, language),
             None => advice.as_ref().and_then(|advice| next_job(advice, language)),
         },
-        standing: standing_when_flown(session).filter(|_| lesson.is_none()).map(|standing| standing.words(language)),
+        standing: standing_when_flown(session, &|job| reliability_beside(session, job))
+            .filter(|_| lesson.is_none())
+            .map(|standing| standing.words(language)),
         watched: false,
         // The sentence after a lesson is about its scores, which the page does not show.
         advice: advice.iter().filter(|_| lesson.is_none()).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),

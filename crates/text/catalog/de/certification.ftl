@@ -53,4 +53,5 @@ certification-job-landing = am Landeplatz mit mindestens { $battery }% Akku gela
 certification-job-aids = kein Einfrieren und kein Zurückspulen, denn das sind Übungshilfen
 certification-job-contacts = Berührungen: höchstens { $contacts }, keine schneller als { $speed } m/s
 certification-job-scores = abdeckungsgewichtete Bahntreue mindestens { $conformity }, Flugpräzision { $precision }, aufprallgewichtete Sicherheit { $safety }, Erkennungsgenauigkeit { $accuracy }
+certification-job-scores-without-defects = abdeckungsgewichtete Bahntreue mindestens { $conformity }, Flugpräzision { $precision }, aufprallgewichtete Sicherheit { $safety }
 certification-job-pictures = Bilder mit höchstens { $resolution } mm/px (bei einem Riss das { $width }-Fache der Breite), { $blur } px Bewegungsunschärfe und { $incidence }° Aufnahmewinkel

@@ -202,6 +202,7 @@ cohort-limit-aided =
         [one] 1 Sitzung wurde eingefroren oder zurückgespult und wird nicht verglichen
        *[other] { $count } Sitzungen wurden eingefroren oder zurückgespult und werden nicht verglichen
     }
+cohort-limit-pooled-forms = die Varianten { $forms } sind wie im TASBID-Artikel zusammengefasst: Eine Änderung zwischen Wiederholungen kann an der Schwierigkeit ihrer Schäden liegen
 cohort-limit-few-answers =
     Anforderung, Belastung, Leistung: Nur { $count ->
         [one] 1 Trainee hat

@@ -2,6 +2,8 @@
 
 compare-title = Vergleich zweier Sitzungen
 compare-other-jobs = Diese Sitzungen gehören zu verschiedenen Aufträgen; ihre Wertungen sind nur grob vergleichbar.
+compare-forms = Die Sitzungen hatten verschiedene Varianten: { $first } und { $second }; beide sind gleich schwierig.
+compare-forms-other = Die Sitzungen hatten verschiedene Varianten: { $first } und { $second }, die nicht gleich schwierig sind. Ihre Wertungen sind nicht vergleichbar; deshalb sind die Änderungen nicht gekennzeichnet.
 compare-scores = Wertung
 compare-scores-figure = Die vier Wertungen, erste und zweite Sitzung
 compare-scores-radar = Netzdiagramm beider Sitzungen

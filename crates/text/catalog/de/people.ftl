@@ -39,6 +39,7 @@ people-plan-drill-next = { $drill }: { $progress }; nächste Stufe: { $level }.
 people-changes = Änderungen
 people-changes-compared = Verglichen mit { $session }.
 people-changes-session = der vorherigen Sitzung beim selben Auftrag
+people-changes-forms = Damals war es die Variante { $before }, jetzt die Variante { $now }; beide sind gleich schwierig.
 people-change-better = { $what }: { $before } → { $now }, besser
 people-change-worse = { $what }: { $before } → { $now }, schlechter
 people-include-incomplete = Unvollständige Sitzungen einbeziehen

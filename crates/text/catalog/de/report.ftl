@@ -35,6 +35,7 @@ report-task = Aufgabe { $task }
 report-not-attempted = nicht begonnen
 report-within-error = innerhalb des Messfehlers
 report-beyond-error = außerhalb des Messfehlers
+report-error-unknown = Messfehler unbekannt
 report-measure-certification-sum = Summe der Zertifizierung
 report-measure-flight-time = Flugzeit
 report-measure-crashes = Kollisionen

@@ -47,6 +47,7 @@ sessions-standing-other = Persönliche Bestleistung bei diesem Auftrag: { $best 
 sessions-standing-same = Änderung seit dem letzten Mal: keine.
 sessions-standing-up = Änderung seit dem letzten Mal: { $points } Punkte mehr.
 sessions-standing-down = Änderung seit dem letzten Mal: { $points } Punkte weniger.
+sessions-standing-forms = Verglichen werden die Sitzungen mit den gleich schwierigen Varianten { $forms }.
 sessions-report = Bericht öffnen
 sessions-questions-answer = Fragebogen beantworten
 sessions-questions-continue = Fragebogen fortsetzen ({ $answered } von { $all })

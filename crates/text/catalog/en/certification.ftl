@@ -61,4 +61,5 @@ certification-job-landing = landed at home with at least { $battery }% battery, 
 certification-job-aids = no freezes and no rewinds, which are aids of practice
 certification-job-contacts = at most { $contacts } contacts, none faster than { $speed } m/s
 certification-job-scores = coverage-weighted conformity at least { $conformity }, flight precision { $precision }, impact-weighted safety { $safety }, detection accuracy { $accuracy }
+certification-job-scores-without-defects = coverage-weighted conformity at least { $conformity }, flight precision { $precision }, impact-weighted safety { $safety }
 certification-job-pictures = pictures with at most { $resolution } mm/px ({ $width } of the width for a crack), { $blur } px of motion blur and { $incidence } deg of incidence

@@ -206,6 +206,7 @@ cohort-limit-aided =
         [one] 1 session was frozen or rewound, and is not compared
        *[other] { $count } sessions were frozen or rewound, and are not compared
     }
+cohort-limit-pooled-forms = the forms { $forms } are pooled, as in the TASBID paper: a change between repetitions may be due to the difficulty of their defects
 cohort-limit-few-answers =
     demand, strain, performance: only { $count ->
         [one] 1 trainee

@@ -2,6 +2,8 @@
 
 compare-title = Session comparison
 compare-other-jobs = These sessions are from different jobs, so their scores are only roughly comparable.
+compare-forms = The sessions flew different forms: { $first } and { $second }, which are equally difficult.
+compare-forms-other = The sessions flew different forms: { $first } and { $second }, which are not equally difficult. Their scores are not comparable, so the changes are not labeled.
 compare-scores = Scores
 compare-scores-figure = The four scores, first vs. second session
 compare-scores-radar = Radar chart of both sessions

@@ -45,6 +45,7 @@ people-plan-drill-next = { $drill }: { $progress }; next level: { $level }.
 people-changes = Changes
 people-changes-compared = Compared with { $session }.
 people-changes-session = the previous session on the same job
+people-changes-forms = That session flew form { $before }, this one form { $now }, which is equally difficult.
 people-change-better = { $what }: { $before } → { $now }, better
 people-change-worse = { $what }: { $before } → { $now }, worse
 people-include-incomplete = Include incomplete sessions

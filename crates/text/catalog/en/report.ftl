@@ -35,6 +35,7 @@ report-task = task { $task }
 report-not-attempted = not attempted
 report-within-error = within error
 report-beyond-error = beyond error
+report-error-unknown = error unknown
 report-measure-certification-sum = certification sum
 report-measure-flight-time = flight time
 report-measure-crashes = crashes

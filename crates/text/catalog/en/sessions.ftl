@@ -53,6 +53,7 @@ sessions-standing-other = Personal best on this job: { $best } of { $most }.
 sessions-standing-same = Change since last time: none.
 sessions-standing-up = Change since last time: { $points } points up.
 sessions-standing-down = Change since last time: { $points } points down.
+sessions-standing-forms = Compared are the sessions on the equally difficult forms { $forms }.
 sessions-report = Open the report
 sessions-questions-answer = Answer the questionnaire
 sessions-questions-continue = Continue the questionnaire ({ $answered } of { $all })

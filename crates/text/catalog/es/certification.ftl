@@ -53,4 +53,5 @@ certification-job-landing = aterrizaje en la base con al menos { $battery }% de 
 certification-job-aids = sin congelar ni rebobinar, que son ayudas de práctica
 certification-job-contacts = como máximo { $contacts } contactos, ninguno a más de { $speed } m/s
 certification-job-scores = conformidad ponderada por cobertura de al menos { $conformity }, precisión de vuelo { $precision }, seguridad ponderada por impacto { $safety }, exactitud de detección { $accuracy }
+certification-job-scores-without-defects = conformidad ponderada por cobertura de al menos { $conformity }, precisión de vuelo { $precision }, seguridad ponderada por impacto { $safety }
 certification-job-pictures = fotos con un máximo de { $resolution } mm/px ({ $width } del ancho en una fisura), { $blur } px de desenfoque por movimiento y { $incidence }° de incidencia

@@ -206,6 +206,7 @@ cohort-limit-aided =
         [one] 1 sesión se congeló o se rebobinó y no se compara
        *[other] { $count } sesiones se congelaron o se rebobinaron y no se comparan
     }
+cohort-limit-pooled-forms = se agrupan las variantes { $forms }, como en el artículo de TASBID: un cambio entre repeticiones puede deberse a la dificultad de sus daños
 cohort-limit-few-answers =
     demanda, tensión, rendimiento: solo { $count ->
         [one] 1 alumno respondió

@@ -2,6 +2,8 @@
 
 compare-title = Comparación de sesiones
 compare-other-jobs = Estas sesiones son de trabajos distintos, por lo que sus puntuaciones solo son comparables a grandes rasgos.
+compare-forms = Las sesiones usaron variantes distintas: { $first } y { $second }, de igual dificultad.
+compare-forms-other = Las sesiones usaron variantes distintas: { $first } y { $second }, de distinta dificultad. Sus puntuaciones no son comparables, por lo que los cambios no están rotulados.
 compare-scores = Puntuaciones
 compare-scores-figure = Las cuatro puntuaciones, primera y segunda sesión
 compare-scores-radar = Gráfico radial de ambas sesiones

@@ -39,6 +39,7 @@ people-plan-drill-next = { $drill }: { $progress }; siguiente nivel: { $level }.
 people-changes = Cambios
 people-changes-compared = En comparación con { $session }.
 people-changes-session = la sesión anterior del mismo trabajo
+people-changes-forms = Aquella sesión usó la variante { $before } y esta la variante { $now }, de igual dificultad.
 people-change-better = { $what }: { $before } → { $now }, mejor
 people-change-worse = { $what }: { $before } → { $now }, peor
 people-include-incomplete = Incluir sesiones incompletas

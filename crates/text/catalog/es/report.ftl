@@ -35,6 +35,7 @@ report-task = tarea { $task }
 report-not-attempted = no iniciada
 report-within-error = dentro del error
 report-beyond-error = fuera del error
+report-error-unknown = error desconocido
 report-measure-certification-sum = suma de certificación
 report-measure-flight-time = tiempo de vuelo
 report-measure-crashes = colisiones

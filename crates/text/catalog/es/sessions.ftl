@@ -47,6 +47,7 @@ sessions-standing-other = Mejor puntuación personal en este trabajo: { $best } 
 sessions-standing-same = Cambio desde la última vez: ninguno.
 sessions-standing-up = Cambio desde la última vez: { $points } puntos más.
 sessions-standing-down = Cambio desde la última vez: { $points } puntos menos.
+sessions-standing-forms = Se comparan las sesiones con las variantes { $forms }, de igual dificultad.
 sessions-report = Abrir el informe
 sessions-questions-answer = Responder el cuestionario
 sessions-questions-continue = Continuar el cuestionario ({ $answered } de { $all })

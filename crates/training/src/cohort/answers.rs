@@ -6,6 +6,7 @@ use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, Questionna
 use crate::record::SessionRecord;
 use crate::statistics::{Correlation, quantile, spearman};
 use serde::Serialize;
+use spandrel_monitor::session::EndReason;
 
 /// Highest answer that counts as agreement.
 const MAX_AGREEING_ANSWER: u8 = 2;
@@ -134,7 +135,7 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
 
 /// Returns contradictions as defined in the TASBID paper: a high self-rating with a score in the bottom quarter, a low
 /// self-rating with a score in the top quarter, no time pressure despite one of the slowest flights, or time pressure
-/// despite one of the fastest. A value counts as low or high only if it also differs from the median by more than the
+/// despite one of the fastest; only flights that ended by a landing are compared in time. A value counts as low or high only if it also differs from the median by more than the
 /// measure's error and by at least one unit of its last printed digit: in a cohort whose values are practically equal,
 /// nobody is slow.
 fn contradictions(
@@ -166,8 +167,11 @@ fn contradictions(
         }
     }
     let time_margin = error(FLIGHT_TIME).unwrap_or_default().max(PRINTED_TIME_S);
-    if let Some((quick, slow)) = ends(first_sessions.iter().map(|record| record.seconds).collect(), time_margin) {
-        for record in first_sessions {
+    // A flight that ended in a crash or by an abort is short, but not fast.
+    let landed: Vec<&SessionRecord> =
+        first_sessions.iter().copied().filter(|record| record.end_reason == EndReason::Landed.label()).collect();
+    if let Some((quick, slow)) = ends(landed.iter().map(|record| record.seconds).collect(), time_margin) {
+        for record in landed {
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
             let minutes = record.seconds / 60.0;
             let words = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {

@@ -11,6 +11,8 @@ use spandrel_text::{Language, text};
 pub enum Limitation {
     /// This many sessions were frozen or rewound and are excluded.
     AidedSessions(usize),
+    /// The sessions flew these forms, which may differ in difficulty.
+    PooledForms(Vec<String>),
     /// Only this many trainees gave complete answers, too few for the causal model.
     FewAnswers(usize),
     /// The causal model could not be estimated.
@@ -57,6 +59,7 @@ impl Limitation {
     pub fn words(&self, language: Language) -> String {
         match self {
             Self::AidedSessions(count) => text!(language, "cohort-limit-aided", count = *count),
+            Self::PooledForms(forms) => text!(language, "cohort-limit-pooled-forms", forms = forms.join(", ")),
             Self::FewAnswers(count) => {
                 text!(language, "cohort-limit-few-answers", count = *count, recommended = RECOMMENDED_RESPONDENTS)
             }

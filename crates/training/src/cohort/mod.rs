@@ -5,6 +5,7 @@
 mod answers;
 mod causal;
 pub mod columns;
+mod details;
 mod learning;
 mod limitation;
 mod progress;
@@ -16,6 +17,7 @@ mod tables;
 
 pub use answers::{AnswerDistribution, Contradiction, SelfRating, SelfRatingPair};
 pub use causal::{IndirectEffect, MediationModel};
+pub use details::{TaskDetail, crash_key};
 pub use learning::GroupCurve;
 pub use limitation::Limitation;
 pub use progress::{JobProgress, JobReliability, Repetition, ScoreCurve, TraineeProgress, by_job};
@@ -24,7 +26,7 @@ pub use sample_sizes::RECOMMENDED_RESPONDENTS;
 pub use scores::{Comparison, CrashRow, CrashTable, Distribution, FirstSession, GroupHomogeneityTest, RepetitionBox, TaskShare};
 pub use tables::{TABLES, table, tables};
 
-use super::record::{IncompletePolicy, SessionOutcome, SessionRecord};
+use super::record::{IncompletePolicy, SessionOutcome, SessionRecord, differing_forms};
 use sample_sizes::RECOMMENDED_PAIRS;
 use samples::SessionsByTrainee;
 use serde::Serialize;
@@ -70,6 +72,9 @@ pub struct Cohort {
     pub boxes: Vec<RepetitionBox>,
     /// Reliability of each measure over the group's repetitions.
     pub reliability: Vec<MeasureReliability>,
+    /// Reliability of the details that two sessions are compared by. The cohort's own tables don't show them.
+    #[serde(skip)]
+    pub details: Vec<MeasureReliability>,
     /// Paired comparisons of the group's repetitions.
     pub tests: Vec<Comparison>,
     /// Tests of whether the group's scores are distributed like the other trainees' scores.
@@ -92,7 +97,15 @@ pub struct Cohort {
 /// Returns the reliability of the measures on a job, by scenario name and level, from the first two sessions of each trainee.
 #[must_use]
 pub fn job_reliability(records: &[SessionRecord], scenario: &str, incomplete: IncompletePolicy) -> Vec<MeasureReliability> {
-    cohort(records, &Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete }).reliability
+    cohort(records, &Selection { scenarios: vec![scenario.to_owned()], repetitions: 2, incomplete }).all_reliabilities()
+}
+
+impl Cohort {
+    /// Returns the reliability of all measures, including the details.
+    #[must_use]
+    pub fn all_reliabilities(&self) -> Vec<MeasureReliability> {
+        [self.reliability.as_slice(), &self.details].concat()
+    }
 }
 
 /// Analyzes the selected sessions of a cohort.
@@ -117,6 +130,10 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
     let mut limitations = Vec::new();
     if !aided.is_empty() {
         limitations.push(Limitation::AidedSessions(aided.len()));
+    }
+    let forms = differing_forms(runs.values().flatten().map(|record| &record.form));
+    if !forms.is_empty() {
+        limitations.push(Limitation::PooledForms(forms));
     }
     let causal = causal::causal(&first_sessions, &mut limitations);
     if repetitions > 1 && group.len() < RECOMMENDED_PAIRS {
@@ -145,6 +162,7 @@ pub fn cohort(records: &[SessionRecord], selection: &Selection) -> Cohort {
         causal,
         learning: learning::learning(&progress, &reliability),
         reliability,
+        details: details::details(&group, repetitions),
         progress,
         limitations,
         scenarios,

@@ -68,6 +68,8 @@ pub type JobReliability = BTreeMap<String, Vec<MeasureReliability>>;
 pub struct JobProgress {
     /// Machine-readable scenario name, such as `two-bridges`.
     pub scenario: String,
+    /// Names of the equated forms that were flown; empty if the job has no forms.
+    pub forms: Vec<String>,
     /// Task numbers and names, as of the latest session.
     pub tasks: Vec<(u32, String)>,
     /// Sessions that the policy allows; may be empty.
@@ -93,17 +95,24 @@ impl Repetition {
     }
 }
 
-/// Groups one trainee's sessions by scenario and level, sorted by descending number of tasks, then by name. Changes are labeled
+/// Groups one trainee's sessions by scenario, level and equated forms, sorted by descending number of tasks, then by name. Changes are labeled
 /// with the reliability of the measures on that job, as far as it is known.
 #[must_use]
 pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliability: &JobReliability) -> Vec<JobProgress> {
-    let mut jobs: BTreeMap<String, Vec<&SessionRecord>> = BTreeMap::new();
+    let mut jobs: Vec<Vec<&SessionRecord>> = Vec::new();
     for record in records.iter().filter(|record| record.is_unaided()) {
-        jobs.entry(record.scenario_with_level()).or_default().push(record);
+        match jobs.iter_mut().find(|sessions| sessions[0].is_same_job(record)) {
+            Some(sessions) => sessions.push(record),
+            None => jobs.push(vec![record]),
+        }
     }
-    let on_job = |(scenario, mut sessions): (String, Vec<&SessionRecord>)| {
+    let on_job = |mut sessions: Vec<&SessionRecord>| {
         sessions.sort_by(|a, b| (a.started_unix_us, &a.id).cmp(&(b.started_unix_us, &b.id)));
         let last = sessions.last()?;
+        let scenario = last.scenario_with_level();
+        let mut forms: Vec<String> = sessions.iter().filter_map(|record| record.form.clone()).collect();
+        forms.sort();
+        forms.dedup();
         let tasks = last.tasks.iter().map(|task| (task.id, task.name.clone())).collect();
         let trainee = last.trainee.clone();
         let all = sessions.len();
@@ -111,10 +120,10 @@ pub fn by_job(records: &[SessionRecord], incomplete: IncompletePolicy, reliabili
         let left_out = all - sessions.len();
         let reliability = reliability.get(&scenario).cloned().unwrap_or_default();
         let progress = progress(&trainee, &sessions, &reliability);
-        Some(JobProgress { scenario, tasks, progress, left_out, reliability })
+        Some(JobProgress { scenario, forms, tasks, progress, left_out, reliability })
     };
     let mut found: Vec<JobProgress> = jobs.into_iter().filter_map(on_job).collect();
-    found.sort_by_key(|job| std::cmp::Reverse(job.tasks.len()));
+    found.sort_by(|a, b| (b.tasks.len(), &a.scenario, &a.forms).cmp(&(a.tasks.len(), &b.scenario, &b.forms)));
     found
 }
 

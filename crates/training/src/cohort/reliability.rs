@@ -55,10 +55,7 @@ pub fn reliabilities(
     }
     let all: Vec<&SessionRecord> = runs.values().flatten().copied().collect();
     let mut one = |measure: &Measure| {
-        let values =
-            |sessions: &Vec<&SessionRecord>| sessions.iter().take(repetitions).map(|record| (measure.pick)(record)).collect();
-        let complete: Vec<Vec<f64>> = group.values().filter_map(values).collect();
-        let reliability = match reliability(&complete) {
+        let reliability = match of_values(group, repetitions, &measure.pick) {
             Ok(found) => Some(found),
             Err(StatisticsError::Constant(_)) => {
                 limitations.push(Limitation::NoReliability(measure.name));
@@ -76,6 +73,17 @@ pub fn reliabilities(
         }
     };
     MEASURES.iter().map(&mut one).collect()
+}
+
+/// Computes the reliability of a value from the first `repetitions` sessions of each trainee to whom it always applies.
+pub fn of_values(
+    group: &SessionsByTrainee<'_>,
+    repetitions: usize,
+    pick: &dyn Fn(&SessionRecord) -> Option<f64>,
+) -> Result<Reliability, StatisticsError> {
+    let values = |sessions: &Vec<&SessionRecord>| sessions.iter().take(repetitions).map(|record| pick(record)).collect();
+    let complete: Vec<Vec<f64>> = group.values().filter_map(values).collect();
+    reliability(&complete)
 }
 
 fn ceiling_share(measure: &Measure, records: &[&&SessionRecord]) -> Option<f64> {

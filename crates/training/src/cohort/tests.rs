@@ -124,6 +124,74 @@ fn exact_contradictions_are_found() {
 }
 
 #[test]
+fn regress_a_flight_that_did_not_land_is_not_fast() {
+    let mut records: Vec<SessionRecord> = (0..8).map(|k| perfect_record(&format!("p{k}"), 1)).collect();
+    for (k, record) in records.iter_mut().enumerate() {
+        record.seconds = 800.0 + 50.0 * k as f64;
+        record.answers.as_mut().unwrap().given.insert(QuestionnaireItem::Overall(OverallItem::TimePressure), 4);
+    }
+    // The shortest flight ended in a vehicle.
+    (records[0].end_reason, records[0].seconds) = ("vehicle".into(), 288.0);
+    let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Include };
+    let found = cohort(&records, &selection).self_rating.contradictions;
+    let fast: Vec<&str> =
+        found.iter().filter(|one| one.words.contains("fastest quarter")).map(|one| one.trainee.as_str()).collect();
+    assert_eq!(fast, ["p1", "p2"], "{found:?}");
+}
+
+/// Gives a record a form with a predicted detection.
+fn on_form(mut record: SessionRecord, form: &str, detection_pct: f64) -> SessionRecord {
+    (record.form, record.form_detection_pct) = (Some(form.into()), Some(detection_pct));
+    record
+}
+
+#[test]
+fn exact_pooled_forms_are_named() {
+    let limitations = |records: &[SessionRecord]| analyzed(records).limitations;
+    let same = [on_form(perfect_record("anna", 1), "A", 95.0), on_form(perfect_record("ben", 1), "A", 95.0)];
+    assert!(!limitations(&same).iter().any(|one| matches!(one, Limitation::PooledForms(_))));
+    let mixed = [same.as_slice(), &[on_form(perfect_record("anna", 2), "H", 25.0)]].concat();
+    let found = limitations(&mixed);
+    assert!(found.contains(&Limitation::PooledForms(vec!["A".into(), "H".into()])), "{found:?}");
+}
+
+#[test]
+fn exact_progress_compares_only_equated_forms() {
+    let forms = [("A", 95.0), ("H", 25.0), ("B", 95.0)];
+    let records: Vec<SessionRecord> =
+        (1..).zip(forms).map(|(k, (form, pct))| on_form(perfect_record("anna", k), form, pct)).collect();
+    let jobs = by_job(&records, IncompletePolicy::Exclude, &JobReliability::new());
+    let shown: Vec<(String, usize)> = jobs.iter().map(|job| (job.forms.join(""), job.progress.repetitions.len())).collect();
+    assert_eq!(shown, [("AB".to_owned(), 2), ("H".to_owned(), 1)]);
+}
+
+#[test]
+fn exact_details_have_the_reliability_of_the_same_values() {
+    let crashes = [[5.0, 0.0], [2.0, 3.0], [7.0, 6.0]];
+    let mut records = Vec::new();
+    for (who, counts) in ["anna", "ben", "cleo"].into_iter().zip(crashes) {
+        for (k, count) in (1..).zip(counts) {
+            let mut record = perfect_record(who, k);
+            (record.tasks[0].crashes.bridge, record.tasks[0].on_path) = (count as usize, 0.9 - 0.02 * count);
+            records.push(record);
+        }
+    }
+    let known = job_reliability(&records, "two-bridges", IncompletePolicy::Exclude);
+    let of = |key: &str| reliability_of(&known, key).unwrap().reliability;
+    let expected = crate::statistics::reliability(&crashes.map(|counts| counts.to_vec())).unwrap();
+    assert_eq!(of(&crash_key("bridge")), Some(expected));
+    let task = records[0].tasks[0].name.clone();
+    assert_eq!(of(&TaskDetail::Crashes.key(&task)), Some(expected));
+    let (on_path, change) = (of(&TaskDetail::OnPath.key(&task)).unwrap(), expected.minimal_detectable_change);
+    assert!((on_path.minimal_detectable_change - 2.0 * change).abs() < 1e-9, "2 points for each crash");
+    assert_eq!(
+        (of(&crash_key("water")), of(&TaskDetail::Speeding.key(&task))),
+        (None, None),
+        "without variance, the error is unknown"
+    );
+}
+
+#[test]
 fn exact_learning_curve_requires_four_repetitions() {
     let mut records: Vec<SessionRecord> = (1..=5).map(|k| perfect_record("anna", k)).collect();
     for (k, record) in records.iter_mut().enumerate() {

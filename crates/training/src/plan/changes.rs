@@ -1,8 +1,8 @@
 //! Changes since the previous session.
 
-use crate::cohort::{MeasureReliability, reliability_of};
-use crate::record::SessionRecord;
-use crate::terms::{contact_title, score_title, task_title};
+use crate::cohort::{MeasureReliability, TaskDetail, crash_key, reliability_of};
+use crate::record::{SessionRecord, differing_forms};
+use crate::terms::{contact_title, error_label, score_title, task_title};
 use serde::Serialize;
 use spandrel_text::{Language, text};
 
@@ -14,8 +14,24 @@ const MIN_REPORTED_CHANGE: f64 = 0.05;
 pub struct SessionChanges {
     /// ID of the previous session.
     pub since: String,
+    /// Names of the forms of both sessions, earlier one first; absent if they flew the same one, or the job has no forms.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub forms: Option<[String; 2]>,
     /// Changed measures, scores first.
     pub changes: Vec<MeasureChange>,
+}
+
+impl SessionChanges {
+    /// Returns the changes of measures whose values differ.
+    pub fn shown(&self) -> impl Iterator<Item = &MeasureChange> {
+        self.changes.iter().filter(|change| change.better.is_some())
+    }
+
+    /// Returns whether the error is known for at least one measure. Otherwise, one sentence says so instead of a label for each.
+    #[must_use]
+    pub fn is_labeled(&self) -> bool {
+        self.changes.iter().any(|change| change.within_error.is_some())
+    }
 }
 
 /// Change in one measure between two sessions.
@@ -41,8 +57,7 @@ impl SessionChanges {
     /// Labels each change with the reliability of the measures on the job.
     pub fn label(&mut self, known: &[MeasureReliability]) {
         for change in &mut self.changes {
-            let ChangedMeasure::Score(key) = change.measure else { continue };
-            let reliability = reliability_of(known, key);
+            let reliability = reliability_of(known, &change.measure.reliability_key());
             change.within_error = reliability.and_then(|one| one.is_within_error(change.now - change.before));
         }
     }
@@ -64,6 +79,17 @@ pub enum ChangedMeasure {
 }
 
 impl ChangedMeasure {
+    /// Returns the name under which a group's reliability lists the measure.
+    fn reliability_key(&self) -> String {
+        match self {
+            Self::Score(key) => (*key).to_owned(),
+            Self::OnPath(name) => TaskDetail::OnPath.key(name),
+            Self::Speeding(name) => TaskDetail::Speeding.key(name),
+            Self::TaskCrashes(name) => TaskDetail::Crashes.key(name),
+            Self::Crashes(object) => crash_key(object),
+        }
+    }
+
     /// Returns the name, including the unit. `scenario` is the name of the job.
     fn title(&self, scenario: &str, language: Language) -> String {
         let task = |name: &str| task_title(scenario, name, language);
@@ -78,6 +104,15 @@ impl ChangedMeasure {
 }
 
 impl MeasureChange {
+    /// Returns whether the change is within the error of the measure or beyond it, or that the error is unknown.
+    #[must_use]
+    pub fn error_label(&self, language: Language) -> String {
+        match self.within_error {
+            Some(within) => error_label(within, language),
+            None => text!(language, "report-error-unknown"),
+        }
+    }
+
     /// Returns the measure's name, including the unit. `scenario` is the name of the job.
     #[must_use]
     pub fn title(&self, scenario: &str, language: Language) -> String {
@@ -85,12 +120,12 @@ impl MeasureChange {
     }
 }
 
-/// Compares the latest record with the previous one for the same scenario and level; `None` if there is none. A session that was
+/// Compares the latest record with the previous one for the same scenario, level and equated forms; `None` if there is none. A session that was
 /// frozen or rewound is not compared.
 pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
     let (last, earlier) = records.split_last().filter(|(last, _)| last.is_unaided())?;
     let mut comparable = earlier.iter().rev().filter(|record| record.is_unaided());
-    let before = comparable.find(|record| record.scenario_with_level() == last.scenario_with_level())?;
+    let before = comparable.find(|record| record.is_same_job(last))?;
     let mut changes = Vec::new();
     let mut add = |measure: ChangedMeasure, before: Option<f64>, now: Option<f64>, more_is_better: bool| {
         if let (Some(before), Some(now)) = (before, now) {
@@ -119,5 +154,55 @@ pub fn changes(records: &[SessionRecord]) -> Option<SessionChanges> {
             add(ChangedMeasure::Crashes(kind), Some(then as f64), Some(now as f64), false);
         }
     }
-    Some(SessionChanges { since: before.id.clone(), changes })
+    let differ = !differing_forms([&before.form, &last.form]).is_empty();
+    let forms = before.form.clone().zip(last.form.clone()).filter(|_| differ).map(|(before, now)| [before, now]);
+    Some(SessionChanges { since: before.id.clone(), forms, changes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cohort::job_reliability;
+    use crate::record::IncompletePolicy;
+    use crate::testing::perfect_record;
+
+    #[test]
+    fn exact_details_are_labeled_with_their_own_error() {
+        let mut everyone = Vec::new();
+        for (trainee, bridge, on_path) in
+            [("anna", [5, 0], [0.5, 0.9]), ("ben", [2, 9], [0.90, 0.91]), ("cleo", [7, 6], [0.7, 0.71])]
+        {
+            for (number, (crashes, on_path)) in (1..).zip(bridge.into_iter().zip(on_path)) {
+                let mut record = perfect_record(trainee, number);
+                (record.tasks[0].crashes.bridge, record.tasks[0].on_path) = (crashes, on_path);
+                record.tasks[0].speeding_s = if trainee == "anna" { 10.0 * number as f64 } else { 3.0 };
+                everyone.push(record);
+            }
+        }
+        // The known errors leave out anna, whose changes are large.
+        let known = job_reliability(&everyone[2..], "two-bridges", IncompletePolicy::Exclude);
+        let mut changes = changes(&everyone[..2]).unwrap();
+        assert!(!changes.is_labeled());
+        changes.label(&known);
+        let task = everyone[0].tasks[0].name.clone();
+        let of = |measure: ChangedMeasure| changes.shown().find(|change| change.measure == measure).unwrap();
+        let labels =
+            [of(ChangedMeasure::Crashes("bridge")), of(ChangedMeasure::OnPath(task.clone())), of(ChangedMeasure::Speeding(task))];
+        assert_eq!(labels.map(|change| change.error_label(Language::English)), ["within error", "beyond error", "error unknown"]);
+        assert!(changes.is_labeled());
+    }
+
+    #[test]
+    fn exact_changes_are_those_since_the_last_session_on_an_equated_form() {
+        let forms = [("A", 95.0), ("H", 25.0), ("B", 95.0)];
+        let mut records: Vec<SessionRecord> = (1..=3).map(|number| perfect_record("anna", number)).collect();
+        for (record, (form, detection_pct)) in records.iter_mut().zip(forms) {
+            (record.form, record.form_detection_pct) = (Some(form.into()), Some(detection_pct));
+        }
+        let found = changes(&records).unwrap();
+        assert_eq!((found.since, found.forms), (records[0].id.clone(), Some(["A".into(), "B".into()])));
+        assert_eq!(changes(&records[..2]), None, "form H is harder than form A");
+        records[2].form = Some("A".into());
+        assert_eq!(changes(&records).unwrap().forms, None, "the same form is not named");
+    }
 }

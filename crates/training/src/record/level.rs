@@ -21,6 +21,13 @@ impl SessionLevel {
         Self { level: difficulty.level, levels: difficulty.levels(), standard: difficulty.standard }
     }
 
+    /// Returns a scenario's name, followed by `@` and a level other than the standard one.
+    #[must_use]
+    pub fn named(scenario: &str, level: Option<Self>) -> String {
+        let other = level.filter(|level| level.level != level.standard);
+        other.map_or_else(|| scenario.to_owned(), |level| format!("{scenario}@{}", level.level))
+    }
+
     /// Validates the numbers in a record read from storage.
     pub(super) fn check(self) -> Result<(), String> {
         let inside = |number: u8| (1..=self.levels).contains(&number);

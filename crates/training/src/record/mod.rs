@@ -3,6 +3,7 @@
 
 mod causes;
 mod crashes;
+mod form;
 mod level;
 mod outcome;
 mod source;
@@ -10,6 +11,7 @@ mod task_record;
 mod technique;
 
 pub use crashes::Crashes;
+pub use form::{FlownForm, differing_forms};
 pub use level::SessionLevel;
 pub use outcome::SessionOutcome;
 pub use source::{FORMAT_VERSION, RecordSource, SourceHashes};
@@ -55,6 +57,10 @@ pub struct SessionRecord {
     /// Selected form of the scenario; absent if it has no forms, and in records before format 5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub form: Option<String>,
+    /// Predicted detection for which the form's defects were placed, %; absent if the scenario has no forms, and in records before
+    /// format 8.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub form_detection_pct: Option<f64>,
     /// SHA-256 of the flown `scenario.toml`, hexadecimal.
     pub scenario_sha256: String,
     /// Vehicle ID, such as `phantom2`.
@@ -228,6 +234,7 @@ pub fn record(source: &RecordSource<'_>) -> SessionRecord {
         scenario: source.scenario.name.clone(),
         level: source.scenario.difficulty.as_ref().map(SessionLevel::of),
         form: source.scenario.form.as_ref().map(|form| form.name.clone()),
+        form_detection_pct: form::detection_pct(source.scenario),
         scenario_sha256: source.hashes.scenario.clone(),
         vehicle: source.vehicle.to_owned(),
         vehicle_sha256: source.hashes.vehicle.clone(),
@@ -276,11 +283,22 @@ impl SessionOutcome for SessionRecord {
 
 impl SessionRecord {
     /// Returns the scenario name, followed by `@` and a level other than the standard one. Only sessions with the same name
-    /// are comparable.
+    /// and equated forms are comparable ([`Self::is_same_job`]).
     #[must_use]
     pub fn scenario_with_level(&self) -> String {
-        let other = self.level.filter(|level| level.level != level.standard);
-        other.map_or_else(|| self.scenario.clone(), |level| format!("{}@{}", self.scenario, level.level))
+        SessionLevel::named(&self.scenario, self.level)
+    }
+
+    /// Returns the form that was flown.
+    #[must_use]
+    pub fn flown_form(&self) -> FlownForm {
+        FlownForm { name: self.form.clone(), detection_pct: self.form_detection_pct }
+    }
+
+    /// Returns whether both sessions flew the same scenario at the same level, on forms that are equally difficult.
+    #[must_use]
+    pub fn is_same_job(&self, other: &Self) -> bool {
+        self.scenario_with_level() == other.scenario_with_level() && self.flown_form().is_equated_with(&other.flown_form())
     }
 
     /// Returns whether the session can be compared with others and counts toward mastery: it was neither frozen nor rewound.
@@ -332,6 +350,7 @@ impl SessionRecord {
             ("scores.safety", Some(scores.safety)),
             ("scores.accuracy", scores.accuracy),
             ("battery_at_end_pct", Some(self.battery_at_end_pct)),
+            ("form_detection_pct", self.form_detection_pct),
         ];
         let shares = self.tasks.iter().map(|task| ("tasks.on_path", Some(task.on_path), 1.0));
         let covered = self.tasks.iter().map(|task| ("tasks.covered", task.covered, 1.0));

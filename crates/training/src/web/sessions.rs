@@ -114,7 +114,7 @@ pub struct SessionPageData<'a> {
     /// Things to do better, from the session folder. The page shows them in the visitor's language.
     pub advice: Option<&'a SessionAdvice>,
     /// Comparison with the trainee's other sessions on this job.
-    pub standing: Option<SessionStanding>,
+    pub standing: Option<&'a SessionStanding>,
     /// The instructor's marks, by moment.
     pub marks: &'a [TimelineMark],
     /// File numbers of the photographs, ascending. The report numbers its pictures from 1.
@@ -158,7 +158,7 @@ pub fn session(visitor: &Visitor, record: &SessionRecord, page_data: &SessionPag
 fn to_do_better(language: Language, record: &SessionRecord, page_data: &SessionPageData<'_>) -> Markup {
     html! {
         p { b { (record.completion_summary(language)) ". " (record.verdict(language)) "." } }
-        @if let Some(standing) = &page_data.standing { p { (standing.words(language)) } }
+        @if let Some(standing) = page_data.standing { p { (standing.words(language)) } }
         @if let Some(advice) = page_data.advice {
             @if let Some(note) = &advice.note { p { (note) } }
             ol.advice {
@@ -439,9 +439,16 @@ mod tests {
         };
         let next = Some(NextFlight { scenario: HOSTILE_NAME.into(), command: HOSTILE_NAME.into() });
         let advice = SessionAdvice { points: vec![point], note: Some(HOSTILE_NAME.into()), next, ..SessionAdvice::default() };
-        let standing =
-            SessionStanding { best: 350.0, is_best: false, change: Some(-30.0), within_error: None, left_out: 0, most: 400.0 };
-        let standing = Some(standing);
+        let standing = SessionStanding {
+            best: 350.0,
+            is_best: false,
+            change: Some(-30.0),
+            within_error: None,
+            left_out: 0,
+            most: 400.0,
+            forms: Vec::new(),
+        };
+        let standing = Some(&standing);
         let record = perfect_record("anna", 1);
         let data = SessionPageData { advice: Some(&advice), standing, ..page_data(true, &[]) };
         let text = session(&administrator(), &record, &data).into_string();
@@ -575,14 +582,21 @@ mod tests {
         let german = administrator_with(Language::German);
         let text = session(&german, &perfect_record("anna", 1), &page_data(true, &[])).into_string();
         assert!(text.contains("Bericht öffnen") && text.contains("Bahntreue") && text.contains("Anteil auf der Bahn"), "{text}");
-        let standing =
-            SessionStanding { best: 350.0, is_best: false, change: Some(30.0), within_error: None, left_out: 0, most: 400.0 };
+        let standing = SessionStanding {
+            best: 350.0,
+            is_best: false,
+            change: Some(30.0),
+            within_error: None,
+            left_out: 0,
+            most: 400.0,
+            forms: Vec::new(),
+        };
         let told = |standing: &SessionStanding| standing.words(Language::German);
         assert_eq!(
             told(&standing),
             "Persönliche Bestleistung bei diesem Auftrag: 350 von 400. Änderung seit dem letzten Mal: 30 Punkte mehr."
         );
-        let labeled = SessionStanding { is_best: true, within_error: Some(true), left_out: 2, ..standing };
+        let labeled = SessionStanding { is_best: true, within_error: Some(true), left_out: 2, ..standing.clone() };
         assert_eq!(
             labeled.words(Language::English),
             "This is the personal best on this job. Change since last time: 30 points up (within error). 2 incomplete sessions excluded."

@@ -10,7 +10,6 @@ use crate::plan::{DrillProgress, MeasureChange, SessionChanges, TrainingPlan};
 use crate::record::{IncompletePolicy, SessionListEntry, SessionOutcome, SessionRecord, excluded_sessions_note};
 use crate::report::formatting;
 use crate::report::page::progress::job_progress;
-use crate::terms::error_label;
 use crate::trainee::{AGE_BANDS, EXPERIENCE_LEVELS, Trainee};
 use maud::{Markup, html};
 use spandrel_model::calendar::minute;
@@ -119,7 +118,6 @@ fn class_names(visitor: &Visitor, classes: &[String]) -> Markup {
 }
 
 fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -> Markup {
-    let told = |change: &&MeasureChange| change.better.is_some();
     let (from, until) = (minute(plan.from_unix_us), minute(plan.until_unix_us));
     html! {
         p { (text!(language, "people-plan-between", from = from, until = until)) @if plan.overdue { " " b { (text!(language, "people-plan-overdue")) } } }
@@ -135,16 +133,20 @@ fn next(language: Language, plan: &TrainingPlan, profile: &TraineeProfile<'_>) -
         }
         @if let Some(words) = excluded_sessions_note(plan.left_out, language) { p.note { (words) "." } }
         @if let Some(changes) = &plan.changes {
+            @let changes = labeled(changes, reliability_of_session(profile, &changes.since));
             h3 { (text!(language, "people-changes")) }
             @let previous = html! { a href={ "/sessions/" (changes.since) } { (text!(language, "people-changes-session")) } };
             p.note { (with_element(&text!(language, "people-changes-compared", session = ELEMENT), &previous)) }
-            @let changes = labeled(changes, reliability_of_session(profile, &changes.since));
+            @if let Some([before, now]) = &changes.forms {
+                p.note { (text!(language, "people-changes-forms", before = before.as_str(), now = now.as_str())) }
+            }
             ul {
                 @let scenario = profile.records.last().map_or("", |record| record.scenario.as_str());
-                @for change in changes.changes.iter().filter(told) {
-                    li { (change_line(language, scenario, change)) @if change.within_error == Some(true) { " (" (error_label(true, language)) ")" } }
+                @for change in changes.shown() {
+                    li { (change_line(language, scenario, change)) @if changes.is_labeled() && change.within_error != Some(false) { " (" (change.error_label(language)) ")" } }
                 }
             }
+            @if !changes.is_labeled() { p.note { (text!(language, "compare-error-unknown")) } }
         }
     }
 }
@@ -193,7 +195,11 @@ fn progress(language: Language, name: &str, profile: &TraineeProfile<'_>) -> Mar
         } }
         @for job in by_job(records, incomplete, profile.reliability) {
             @let sessions = text!(language, "people-job-sessions", count = job.progress.repetitions.len());
-            h3.job { a href={ "/scenarios/" (job.scenario) } { (job.scenario) } ", " (sessions) }
+            @let title = match job.forms.join(", ") {
+                forms if forms.is_empty() => job.scenario.clone(),
+                forms => text!(language, "people-choice-forms", job = job.scenario.as_str(), forms = forms),
+            };
+            h3.job { a href={ "/scenarios/" (job.scenario) } { (title) } ", " (sessions) }
             (job_progress(&job, language))
         }
     }

@@ -237,35 +237,48 @@ pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> 
     unmet
 }
 
-/// Returns the requirements of a scenario as text, one per line, for people who prepare jobs.
+/// Returns the requirements of a scenario as text, one per line, for people who prepare jobs. Without defects, those for accuracy and
+/// pictures don't apply.
 #[must_use]
 pub fn describe(scenario: &Scenario, language: Language) -> Vec<String> {
     let params = &scenario.certification;
     let limit = format_limit;
     let share = limit(100.0 * scenario.scoring.task_completion_fraction);
     let speed = limit(params.max_contact_speed_m_s);
-    vec![
+    let mut lines = vec![
         text!(language, "certification-job-tasks", share = share),
         text!(language, "certification-job-landing", battery = limit(params.min_battery_pct)),
         text!(language, "certification-job-aids"),
         text!(language, "certification-job-contacts", contacts = params.max_contacts.to_string(), speed = speed),
-        text!(
+    ];
+    let [conformity, precision, safety] = [params.min_conformity, params.min_precision, params.min_safety].map(limit);
+    if scenario.defects.count == 0 {
+        lines.push(text!(
             language,
-            "certification-job-scores",
-            conformity = limit(params.min_conformity),
-            precision = limit(params.min_precision),
-            safety = limit(params.min_safety),
-            accuracy = limit(params.min_accuracy)
-        ),
-        text!(
-            language,
-            "certification-job-pictures",
-            resolution = limit(params.max_gsd_mm),
-            width = limit(params.gsd_per_line_width),
-            blur = limit(params.max_smear_px),
-            incidence = limit(params.max_incidence_deg)
-        ),
-    ]
+            "certification-job-scores-without-defects",
+            conformity = conformity,
+            precision = precision,
+            safety = safety
+        ));
+        return lines;
+    }
+    lines.push(text!(
+        language,
+        "certification-job-scores",
+        conformity = conformity,
+        precision = precision,
+        safety = safety,
+        accuracy = limit(params.min_accuracy)
+    ));
+    lines.push(text!(
+        language,
+        "certification-job-pictures",
+        resolution = limit(params.max_gsd_mm),
+        width = limit(params.gsd_per_line_width),
+        blur = limit(params.max_smear_px),
+        incidence = limit(params.max_incidence_deg)
+    ));
+    lines
 }
 
 #[cfg(test)]

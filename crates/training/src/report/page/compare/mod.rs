@@ -5,6 +5,7 @@ mod charts;
 use super::figure::{figure, legend};
 use super::{PageScripts, document, series, summary, within_error};
 use crate::cohort::{MeasureReliability, reliability_of};
+use crate::record::FlownForm;
 use crate::report::Review;
 use crate::report::coverage::SurfaceOutcome;
 use crate::report::feedback::KINDS;
@@ -36,7 +37,10 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
     let alignment_events = series::alignment_events(both, same);
     let key = [("dot-1", format!("1: {}", session_label(first))), ("dot-2", format!("2: {}", session_label(second)))];
     let chart = radar(&spokes, &text!(language, "compare-scores-radar"), language);
-    let labeled = if same { reliability } else { &[] };
+    let forms = both.map(|review| FlownForm::of(&review.scenario));
+    let same_job = same || is_same_job(both);
+    let comparable = same_job && forms[0].is_equated_with(&forms[1]);
+    let labeled = if comparable { reliability } else { &[] };
     let title = text!(language, "compare-title");
     document(
         language,
@@ -51,14 +55,15 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
                 }
             }
             main {
-                @if !same { p.note { (text!(language, "compare-other-jobs")) } }
+                @if !same_job { p.note { (text!(language, "compare-other-jobs")) } }
+                @else if let Some(words) = form_words(&forms, language) { p.note { (words) } }
                 section aria-labelledby="scores-head" {
                     h2 id="scores-head" { (text!(language, "compare-scores")) }
                     div.split {
                         (figure(&text!(language, "compare-scores-figure"), &html! { (legend(&key)) (chart) }))
                         (shown(language, |language| table(both, labeled, language)))
                     }
-                    (error_note(same, reliability, language))
+                    (error_note(comparable, reliability, language))
                 }
                 section aria-labelledby="flight-head" {
                     h2 id="flight-head" { (text!(language, "compare-flights")) }
@@ -73,6 +78,25 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
             }
         },
     )
+}
+
+/// Returns whether both sessions flew the same job at the same level, in any of its forms.
+fn is_same_job([first, second]: [&Review; 2]) -> bool {
+    let job = |review: &Review| (review.scenario.name.clone(), review.scenario.difficulty.as_ref().map(|one| one.level));
+    let has_forms = first.scenario.form.is_some() && second.scenario.form.is_some();
+    has_forms && first.scenario.tasks.len() == second.scenario.tasks.len() && job(first) == job(second)
+}
+
+/// Names the forms of both sessions, and says whether they are equally difficult; `None` if they are the same.
+fn form_words(forms: &[FlownForm; 2], language: Language) -> Option<String> {
+    let [first, second] = forms;
+    let (first_name, second_name) =
+        first.name.as_deref().zip(second.name.as_deref()).filter(|(first, second)| first != second)?;
+    Some(if first.is_equated_with(second) {
+        text!(language, "compare-forms", first = first_name, second = second_name)
+    } else {
+        text!(language, "compare-forms-other", first = first_name, second = second_name)
+    })
 }
 
 /// Explains the labels, or why there are none.
