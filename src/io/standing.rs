@@ -95,7 +95,7 @@ mod tests {
     use super::*;
     use crate::io::files;
     use serde_json::json;
-    use spandrel_monitor::folder::SCENARIO;
+    use spandrel_monitor::folder::{SCENARIO, TELEMETRY};
     use spandrel_training::cohort::job_reliability;
     use spandrel_training::record::{IncompletePolicy, SessionRecord};
     use spandrel_training::testing::perfect_record;
@@ -141,6 +141,7 @@ mod tests {
             std::fs::create_dir(&folder).unwrap();
             let job = files::scenario(&format!("pilot-study@{form}")).unwrap();
             std::fs::write(folder.join(SCENARIO), job.text).unwrap();
+            std::fs::write(folder.join(TELEMETRY), "").unwrap();
             let info = json!({ "trainee": "anna", "started_unix_us": k, "scenario": "pilot-study", "form": form });
             std::fs::write(folder.join(SESSION), info.to_string()).unwrap();
             let scores = json!({ "overall": overall, "overall_max": 400.0 });

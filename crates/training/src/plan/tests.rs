@@ -15,6 +15,7 @@ fn sets(crashes: &mut Crashes, with: Option<&str>, count: usize) {
         Some("water") => crashes.water = count,
         Some("vehicle") => crashes.vehicle = count,
         Some("person") => crashes.person = count,
+        Some("other") => crashes.other = count,
         _ => crashes.bridge = count,
     }
 }
@@ -105,8 +106,8 @@ fn record_with_measure(rule: &PlanRule, factor: f64) -> SessionRecord {
     sets(&mut crashes, rule.with, value as usize);
     match rule.measure {
         RuleMeasure::Task(measure) => {
-            if rule.task == Some("free") {
-                record.tasks[0].kind = "free".into();
+            if let Some(kind) = rule.task.filter(|kind| record.tasks.iter().all(|task| task.kind != *kind)) {
+                record.tasks[0].kind = kind.into();
             }
             let fits = |task: &&mut TaskRecord| rule.task.is_none_or(|kind| task.kind == kind);
             record.tasks.iter_mut().filter(fits).take(rule.in_tasks).for_each(|task| set_task(task, measure, value, crashes));
@@ -527,4 +528,39 @@ fn exact_plan_is_in_the_language_of_the_page() {
     let changes = plan(&[perfect_record("anna", 1), perfect_record("anna", 2)], &rules, NOW, Language::German).unwrap().changes;
     let title = changes.unwrap().changes[5].title("two-bridges", Language::German);
     assert!(title.contains("Anteil auf der Bahn") || title.contains("Zeit über"), "{title}");
+}
+
+#[test]
+fn exact_every_kind_of_task_has_rules_for_what_was_not_flown_and_off_its_path() {
+    use spandrel_model::scenario::TaskKind;
+    let rules = rules();
+    for kind in TaskKind::ALL.iter().map(|kind| kind.key()).filter(|kind| *kind != "free") {
+        for measure in [TaskMeasure::NotAttempted, TaskMeasure::NotCovered, TaskMeasure::OffPath] {
+            let fits = |rule: &&PlanRule| rule.task == Some(kind) && rule.measure == RuleMeasure::Task(measure);
+            let rule = rules.rules.iter().find(fits).unwrap_or_else(|| panic!("{kind}: no rule on {measure:?}"));
+            assert!(SCENARIOS.iter().any(|(name, _)| *name == rule.scenario), "{kind}: {}", rule.scenario);
+        }
+    }
+}
+
+#[test]
+fn exact_without_findings_the_flown_job_is_next_and_drills_lead_to_the_whole_job() {
+    let rules = rules();
+    let next = |scenario: &str| {
+        let mut record = perfect_record("anna", 1);
+        record.scenario = scenario.into();
+        next_job(&rules, &record).to_owned()
+    };
+    assert_eq!([next("truss"), next("certification")], ["truss", "certification"]);
+    for exercise in ["drill-gap", "practice", "first-flight", "our-own-job"] {
+        assert_eq!(next(exercise), "two-bridges", "after {exercise}");
+    }
+}
+
+#[test]
+fn exact_rule_for_the_drill_of_the_task_needs_a_task() {
+    let name = "name = \"member not inspected\"\n";
+    assert!(DEFAULT_RULES.contains(name));
+    let wrong = DEFAULT_RULES.replace(name, &format!("{name}in_tasks = 2\n"));
+    assert!(read_rules("rules.toml", &wrong).unwrap_err().to_string().contains("this rule has no task"));
 }
