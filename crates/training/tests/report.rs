@@ -15,7 +15,7 @@ use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
 use spandrel_testkit::job::*;
 use spandrel_text::Language;
-use spandrel_training::cohort::{Selection, cohort};
+use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
 use spandrel_training::marks::{TimelineMark, marks_key};
 use spandrel_training::record::IncompletePolicy;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
@@ -333,8 +333,8 @@ fn exact_defects_are_ringed_on_photographs() {
     assert_eq!(ringed, seen);
 }
 
-#[test]
-fn exact_compared_changes_are_labeled_with_the_measurement_error() {
+/// Returns the reliability from three people with two sessions each, of which only the safety varies.
+fn reliability_of_safety() -> Vec<MeasureReliability> {
     let mut records = Vec::new();
     for (trainee, offset) in [("anna", 0.0), ("ben", 12.0), ("cleo", 25.0)] {
         for number in 1..=2 {
@@ -344,7 +344,12 @@ fn exact_compared_changes_are_labeled_with_the_measurement_error() {
         }
     }
     let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
-    let reliability = cohort(&records, &selection).reliability;
+    cohort(&records, &selection).reliability
+}
+
+#[test]
+fn exact_compared_changes_are_labeled_with_the_measurement_error() {
+    let reliability = reliability_of_safety();
     let first = short_review();
     let mut second = review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges());
     second.assessment.scores.safety.pct -= 60.0;
@@ -359,16 +364,7 @@ fn exact_compared_changes_are_labeled_with_the_measurement_error() {
 
 #[test]
 fn exact_comparison_names_different_forms_and_labels_only_equated_ones() {
-    let mut records = Vec::new();
-    for (trainee, offset) in [("anna", 0.0), ("ben", 12.0), ("cleo", 25.0)] {
-        for number in 1..=2 {
-            let mut record = perfect_record(trainee, number);
-            record.scores.safety = 50.0 + offset + number as f64 * (1.0 + 0.1 * offset);
-            records.push(record);
-        }
-    }
-    let selection = Selection { scenarios: Vec::new(), repetitions: 2, incomplete: IncompletePolicy::Exclude };
-    let reliability = cohort(&records, &selection).reliability;
+    let reliability = reliability_of_safety();
     let on_form = |name: &str, detection: f64| {
         let mut review = review(&record_inspection(&two_bridges(), 240.0, 6), &two_bridges());
         let available = ["A", "B", "H"].map(str::to_owned).to_vec();
