@@ -49,7 +49,7 @@ build_program() {
     if [ "$1" = window ]; then
         features=(--features view,gamepad)
     fi
-    cargo build --release --bin spandrel "${features[@]}"
+    cargo build --release --target-dir target --bin spandrel "${features[@]}"
     split_symbols target/release/spandrel "target/run/$1"
 }
 
