@@ -59,7 +59,7 @@ impl GuidanceInput<'_> {
             step,
             task: task.map(|task| self.scenario.tasks[task].id),
             way: target_m.map(|target_m| self.way_to(target_m)),
-            progress: task.map(|task| self.flown[task].coverage().share),
+            progress: task.map(|task| self.tasks[task].flown_share),
             tasks_done: self.tasks.iter().filter(|task| task.done).count() as u32,
             tasks: self.tasks.len() as u32,
             deviation: near.map(|task| PathDeviation { distance_m: task.distance_m, above_m: -task.way_back.up_m }),
@@ -205,14 +205,13 @@ pub struct HoldTimer {
     /// Task whose path the drone is on, and the time since when.
     on_path: Option<(usize, SimTime)>,
     longest: Vec<SimTime>,
-    held: Vec<bool>,
 }
 
 impl HoldTimer {
     /// Creates the timer for a number of tasks.
     #[must_use]
     pub fn new(tasks: usize) -> Self {
-        Self { on_path: None, longest: vec![SimTime::ZERO; tasks], held: vec![false; tasks] }
+        Self { on_path: None, longest: vec![SimTime::ZERO; tasks] }
     }
 
     /// Updates the timer with the task whose path the drone is on.
@@ -220,9 +219,8 @@ impl HoldTimer {
         let before = self.on_path;
         self.on_path = task.map(|task| (task, before.filter(|(other, _)| *other == task).map_or(now, |(_, since)| since)));
         let Some((task, since)) = self.on_path else { return };
-        if let Some((longest, held)) = self.longest.get_mut(task).zip(self.held.get_mut(task)) {
+        if let Some(longest) = self.longest.get_mut(task) {
             *longest = (*longest).max(now - since);
-            *held |= *longest >= HOLD_DURATION;
         }
     }
 
@@ -234,8 +232,8 @@ impl HoldTimer {
 
     /// For each task, returns whether the drone has stayed on its path long enough.
     #[must_use]
-    pub fn held(&self) -> &[bool] {
-        &self.held
+    pub fn held(&self) -> Vec<bool> {
+        self.longest.iter().map(|longest| *longest >= HOLD_DURATION).collect()
     }
 }
 
@@ -422,7 +420,7 @@ mod tests {
             timer.update(SimTime::from_ms(ms), task);
             assert_eq!(timer.held(), [held], "{ms} ms");
         }
-        flight.held = timer.held().to_vec();
+        flight.held = timer.held();
         assert_eq!(flight.guidance(place_m, Some(0)).step, GuidanceStep::FlyHome);
     }
 

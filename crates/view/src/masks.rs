@@ -80,9 +80,28 @@ fn defect(placed: &[PlacedDefect], id: u16, extent: LabelBounds) -> Option<Value
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use spandrel_model::frames::Vec3;
+
+    /// Returns a placed defect with a number and a kind.
+    pub fn placed(id: u32, kind: u32) -> PlacedDefect {
+        PlacedDefect {
+            id,
+            element: spandrel_model::elements::Element::RcArch,
+            member: "arch/rib-left/07".into(),
+            kind,
+            condition_state: 3,
+            position_m: Vec3::zero(),
+            normal: Vec3::new(0.0, 0.0, 1.0),
+            along: Vec3::new(1.0, 0.0, 0.0),
+            length_m: 1.0,
+            width_m: 0.002,
+            line: true,
+            cause: None,
+            stain: None,
+        }
+    }
 
     #[test]
     fn exact_half_floats_convert_to_integers() {
@@ -96,21 +115,7 @@ mod tests {
 
     #[test]
     fn exact_legend_lists_labels_and_bounding_boxes() {
-        let placed = PlacedDefect {
-            id: 7,
-            element: spandrel_model::elements::Element::RcArch,
-            member: "arch/rib-left/07".into(),
-            kind: defect_codes::CRACK,
-            condition_state: 3,
-            position_m: Vec3::zero(),
-            normal: Vec3::new(0.0, 0.0, 1.0),
-            along: Vec3::new(1.0, 0.0, 0.0),
-            length_m: 1.0,
-            width_m: 0.002,
-            line: true,
-            cause: None,
-            stain: None,
-        };
+        let placed = placed(7, defect_codes::CRACK);
         let masks = LabelMask {
             width: 4,
             height: 3,

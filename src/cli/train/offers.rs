@@ -21,6 +21,7 @@ use spandrel_text::terms::{capitalized, end_reason_title};
 use spandrel_text::{Language, text};
 use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{Briefing, TaskBriefing, flight_conditions, text as briefing_text};
+use spandrel_training::plan::LESSON;
 use spandrel_training::terms::scenario_title;
 use spandrel_view::flow::pipe::{
     BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress,
@@ -47,7 +48,7 @@ pub fn flight_options(
     }
     FlightOptions {
         trainees: trainee_summaries(folders, language),
-        lesson: job_named(FIRST_LESSON, language),
+        lesson: job_named(LESSON, language),
         scenarios: names.into_iter().filter_map(|name| job_offer(name, aircraft, language)).collect(),
         choice: choice.clone(),
         web: web.map(str::to_owned),
@@ -79,9 +80,6 @@ pub fn job_offer(name: String, aircraft: &SelectedAircraft, language: Language) 
         vehicle: aircraft.name.clone(),
     })
 }
-
-/// Lesson for trainees without sessions.
-const FIRST_LESSON: &str = "first-flight";
 
 /// Returns what the window's briefing page shows, and aircraft, wind and light in short.
 fn job_briefing(file: &ScenarioFile, vehicle: &Vehicle, language: Language) -> (JobBriefing, String) {
@@ -629,16 +627,16 @@ mod tests {
         let folder = sessions.path().join("one");
         std::fs::create_dir(&folder).unwrap();
         std::fs::write(folder.join(TELEMETRY), "").unwrap();
-        let session = serde_json::json!({ "trainee": "anna", "started_unix_us": 1, "scenario": FIRST_LESSON });
+        let session = serde_json::json!({ "trainee": "anna", "started_unix_us": 1, "scenario": LESSON });
         std::fs::write(folder.join(SESSION), session.to_string()).unwrap();
         let step = |done: u32| serde_json::json!({ "t_s": 1.0, "event": "lesson_step", "done": done, "of": 11 }).to_string();
         std::fs::write(folder.join(EVENTS), format!("{}\n{}\n", step(1), step(2))).unwrap();
         let summary = trainee_summaries(&sessions_by_trainee(sessions.path()), Language::English).remove(0);
-        assert_eq!(summary.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
+        assert_eq!(summary.next.map(|next| next.scenario).as_deref(), Some(LESSON));
         assert_eq!(summary.last.as_deref(), Some("2 of 11 steps of the lesson."));
         let ended = flight_summary(&folder, None, None, Language::English);
         assert_eq!(ended.lesson, Some(LessonProgress { done: 2, steps: 11 }));
-        assert_eq!(ended.next.map(|next| next.scenario).as_deref(), Some(FIRST_LESSON));
+        assert_eq!(ended.next.map(|next| next.scenario).as_deref(), Some(LESSON));
         std::fs::write(folder.join(EVENTS), step(11)).unwrap();
         assert!(LessonSession::unfinished(&folder).is_none());
     }

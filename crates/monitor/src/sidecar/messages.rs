@@ -101,7 +101,7 @@ impl Monitor {
             flown: &self.live.flown,
             tasks: &tasks,
             active_task: self.feedback.current_task(),
-            held: self.holds.held(),
+            held: &self.holds.held(),
             position_m: truth.motion.position_m,
             heading_rad: truth.motion.ned_from_frd.yaw_rad(),
             taken_off: self.live.lift_off.is_some(),

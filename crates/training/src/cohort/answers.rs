@@ -135,9 +135,9 @@ fn answer_value(record: &SessionRecord, item: QuestionnaireItem) -> Option<u8> {
 
 /// Returns contradictions as defined in the TASBID paper: a high self-rating with a score in the bottom quarter, a low
 /// self-rating with a score in the top quarter, no time pressure despite one of the slowest flights, or time pressure
-/// despite one of the fastest; only flights that ended by a landing are compared in time. A value counts as low or high only if it also differs from the median by more than the
-/// measure's error and by at least one unit of its last printed digit: in a cohort whose values are practically equal,
-/// nobody is slow.
+/// despite one of the fastest; only flights that ended by a landing are compared in time. A value counts as low or high only
+/// if it also differs from the median by more than the measure's error and by at least one unit of its last printed digit:
+/// in a cohort whose values are practically equal, nobody is slow.
 fn contradictions(
     first_sessions: &[&SessionRecord],
     people: &[SelfRatingPair],

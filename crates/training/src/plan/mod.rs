@@ -30,7 +30,7 @@ use spandrel_model::shipped::SCENARIOS;
 use spandrel_text::{Language, text};
 
 /// Machine-readable scenario name of the lesson.
-const LESSON: &str = "first-flight";
+pub const LESSON: &str = "first-flight";
 /// Length of a day, µs.
 const DAY_US: f64 = 86_400e6;
 

@@ -88,27 +88,9 @@ fn annotation(placed: &[PlacedDefect], label: u16, mut outline: Outline, pixels:
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::masks::tests::placed;
     use spandrel_model::defect_codes;
-    use spandrel_model::frames::Vec3;
     use spandrel_model::random::RandomStream;
-
-    pub fn placed(id: u32, kind: u32) -> PlacedDefect {
-        PlacedDefect {
-            id,
-            element: spandrel_model::elements::Element::RcArch,
-            member: "arch/rib-left/07".into(),
-            kind,
-            condition_state: 3,
-            position_m: Vec3::zero(),
-            normal: Vec3::new(0.0, 0.0, 1.0),
-            along: Vec3::new(1.0, 0.0, 0.0),
-            length_m: 1.0,
-            width_m: 0.002,
-            line: true,
-            cause: None,
-            stain: None,
-        }
-    }
 
     /// Returns a picture with random patches of several defects.
     pub fn random_mask(stream: &mut RandomStream, (width, height): (u32, u32)) -> LabelMask {

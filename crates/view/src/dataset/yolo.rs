@@ -38,8 +38,9 @@ pub fn data_yaml() -> String {
 #[cfg(test)]
 mod tests {
     use super::super::annotations::annotations;
-    use super::super::annotations::tests::{placed, random_mask};
+    use super::super::annotations::tests::random_mask;
     use super::*;
+    use crate::masks::tests::placed;
     use spandrel_model::random::RandomStream;
 
     /// Rounding error of a coordinate, px.

@@ -51,17 +51,16 @@ fn masonry_sight_line(kind: u32) -> (Vec3<Enu>, Vec3<Enu>) {
     (at(east_m, -12.0, up_m), at(east_m, 0.0, up_m))
 }
 
+/// Returns a row of level defects without stains.
+fn series((name, kind, cause): (&'static str, u32, DefectCause), sight: (Vec3<Enu>, Vec3<Enu>), width_m: f64) -> Series {
+    Series { name, kind, is_map: false, cause, stain: None, down: false, sight, width_m }
+}
+
 /// Returns the rows at the two bridges of steel and concrete.
 fn all_series() -> Vec<Series> {
-    let row = |name, kind, cause, width_m| Series {
-        name,
-        kind,
-        is_map: false,
-        cause,
-        stain: None,
-        down: false,
-        sight: if kind < SPALL { girder_sight_line() } else { wall_sight_line() },
-        width_m,
+    let row = |name, kind, cause, width_m| {
+        let sight = if kind < SPALL { girder_sight_line() } else { wall_sight_line() };
+        series((name, kind, cause), sight, width_m)
     };
     vec![
         Series { down: true, ..row("bending-crack", CRACK, DefectCause::Bending, 0.24) },
@@ -83,16 +82,7 @@ fn all_series() -> Vec<Series> {
 
 /// Returns the rows at the masonry arch bridge.
 fn masonry_series() -> Vec<Series> {
-    let row = |name, kind, cause, width_m| Series {
-        name,
-        kind,
-        is_map: false,
-        cause,
-        stain: None,
-        down: false,
-        sight: masonry_sight_line(kind),
-        width_m,
-    };
+    let row = |name, kind, cause, width_m| series((name, kind, cause), masonry_sight_line(kind), width_m);
     vec![row("mortar-breakdown", MORTAR, DefectCause::WaterLine, 1.9), row("split-stone", SPLIT_STONE, DefectCause::Frost, 1.0)]
 }
 

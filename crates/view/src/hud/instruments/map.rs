@@ -29,7 +29,7 @@ pub(super) fn place(scale: &DrawingScale, point_m: Vec3<Enu>) -> Point {
 /// How much a map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in super::super) enum MapDetail {
-    /// What a small map has room for.
+    /// The site, the tasks, the landing pad, the inspector and the aircraft.
     Small,
     /// Also the flown path, the directions of the tasks' paths and the sign of the landing pad.
     Large,
