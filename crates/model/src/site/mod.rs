@@ -238,7 +238,19 @@ impl Site {
     /// Returns the visibility of each defect in a photo from `pose`; only defects within 60 m in front of the camera are listed.
     #[must_use]
     pub fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime) -> Vec<DefectView> {
-        self.dynamics.view_defects(pose, camera, lamp, at, &self.cast())
+        self.defects().iter().filter_map(|defect| self.view_defect(defect, pose, (camera, lamp), at)).collect()
+    }
+
+    /// Returns the visibility of one defect in a photo from `pose`; `None` if it isn't within 60 m in front of the camera.
+    #[must_use]
+    pub fn view_defect(
+        &self,
+        defect: &PlacedDefect,
+        pose: &CameraPose,
+        optics: (&Camera, &Lamp),
+        at: QueryTime,
+    ) -> Option<DefectView> {
+        self.dynamics.view_defect(defect, pose, optics, at, &self.cast())
     }
 
     /// Returns the name of an object for messages, such as `arch/rib-left/07 (144)`, `car 12` or `inspector`.
