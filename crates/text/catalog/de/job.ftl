@@ -1,6 +1,6 @@
 job-box-girder = Hohlkastenbrücke: Außensteg, Untersicht des Mittelfelds, Pfeilerkopfbalken, Lager
 job-cable-stayed = Schrägseilbrücke: Randträger, Schrägseil, Fahrbahnrost eines Seitenfelds
-job-certification = Zertifizierung: zwei Brücken, 26 Schäden
+job-certification = Zertifizierung: zwei Brücken, 64 Schäden
 job-drill-barrel = Übung: Gewölbe
 job-drill-curve-under-arch = Übung: Kurve unter dem Bogen
 job-drill-framing = Übung: Bildausschnitt

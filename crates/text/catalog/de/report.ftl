@@ -160,7 +160,7 @@ report-certification-exposure =
     Näher als { $limit } m an einer Oberfläche für { $exposure } s; { $contacts ->
         [one] { $contacts } Berührung
        *[other] { $contacts } Berührungen
-    } ({ $merged } nach Zusammenfassen der Berührungen innerhalb von weniger als einer Sekunde); am Ende { $battery }% Akku; Flugzeit { $time } (dieser Auftrag braucht { $needed }).
+    } ({ $merged } nach Zusammenfassen der Berührungen innerhalb von weniger als einer Sekunde); am Ende { $battery }% Akku; Flugzeit { $time } (dieser Auftrag braucht mit den gefundenen Schäden { $needed }).
 report-certification-too-fine =
     { $count ->
         [one] 1 Schaden ist zu fein für diese Kamera und zählt nicht für die Erkennungsgenauigkeit.

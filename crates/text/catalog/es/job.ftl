@@ -1,6 +1,6 @@
 job-box-girder = Puente de viga cajón: alma exterior, intradós del vano central, cabezal, apoyos
 job-cable-stayed = Puente atirantado: viga de borde, tirante, piso de un vano lateral
-job-certification = Certificación: dos puentes, 26 defectos
+job-certification = Certificación: dos puentes, 64 defectos
 job-drill-barrel = Ejercicio: bóveda
 job-drill-curve-under-arch = Ejercicio: curva bajo el arco
 job-drill-framing = Ejercicio: encuadre

@@ -160,7 +160,7 @@ report-certification-exposure =
     A menos de { $limit } m de una superficie durante { $exposure } s; { $contacts ->
         [one] { $contacts } contacto
        *[other] { $contacts } contactos
-    } ({ $merged } tras unir los separados por menos de un segundo); { $battery }% de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed }).
+    } ({ $merged } tras unir los separados por menos de un segundo); { $battery }% de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed } con los defectos encontrados).
 report-certification-too-fine =
     { $count ->
         [one] 1 defecto es demasiado fino para esta cámara y no cuenta para la exactitud de detección.
