@@ -81,12 +81,14 @@ fn flight_progress_in_the_panel_agrees_with_the_assessment() {
         tape.hold(stay_s);
         tape.fly((60.0, 20.0, 10.0), 4.0);
     }
+    tape.fly((40.0, 0.0, 10.0), 4.0);
     tape.fly((60.0, 0.0, 10.0), 4.0);
     tape.hold(1.0);
     let mut shown = BTreeMap::new();
     let (mut compared, mut assessed) = (0, vec![0.0; 2]);
-    for datagrams in std::mem::take(&mut tape.datagrams).chunks(COMPARISON_INTERVAL) {
-        let (steps, _) = run(&mut monitor, &mut Tape { datagrams: datagrams.to_vec(), ..tape.clone() });
+    for part in std::mem::take(&mut tape.datagrams).chunks(COMPARISON_INTERVAL) {
+        tape.datagrams = part.to_vec();
+        let (steps, _) = run(&mut monitor, &mut tape);
         shown.extend(steps.iter().filter_map(|guidance| Some((guidance.task?, guidance.progress?))));
         let mut ended = monitor.clone();
         ended.close();
