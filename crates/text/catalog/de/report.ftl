@@ -3,6 +3,7 @@
 report-title = Sitzungsbericht: { $trainee }, { $started }
 report-kicker = Sitzungsbericht
 report-sections = Abschnitte
+report-print = Drucken
 report-section-better = Besser machen
 report-section-scores = Wertung
 report-section-tasks = Aufgaben

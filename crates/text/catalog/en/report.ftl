@@ -3,6 +3,7 @@
 report-title = Session report: { $trainee }, { $started }
 report-kicker = Session report
 report-sections = Sections
+report-print = Print
 report-section-better = Do better
 report-section-scores = Scores
 report-section-tasks = Tasks

@@ -3,6 +3,7 @@
 report-title = Informe de la sesión: { $trainee }, { $started }
 report-kicker = Informe de la sesión
 report-sections = Secciones
+report-print = Imprimir
 report-section-better = Qué mejorar
 report-section-scores = Puntuaciones
 report-section-tasks = Tareas
