@@ -1,5 +1,5 @@
 job-box-girder = Hohlkastenbrücke: Außensteg, Untersicht des letzten Felds, Pfeilerkopfbalken, Lager
-job-cable-stayed = Schrägseilbrücke: Randträger, Schrägseil, Fahrbahnrost eines Seitenfelds
+job-cable-stayed = Schrägseilbrücke: Fahrbahnrost eines Seitenfelds, Randträger, Schrägseil
 job-certification = Zertifizierung: zwei Brücken, 26 Schäden
 job-drill-barrel = Übung: Gewölbe
 job-drill-curve-under-arch = Übung: Kurve unter dem Bogen

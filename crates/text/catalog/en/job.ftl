@@ -2,7 +2,7 @@
 
 # Titles. The English ones are those in the scenario files.
 job-box-girder = Box girder bridge: outer web, soffit of the last span, pier cap, bearings
-job-cable-stayed = Cable-stayed bridge: edge girder, stay, floor of a side span
+job-cable-stayed = Cable-stayed bridge: floor of a side span, edge girder, stay
 job-certification = Certification: two bridges, 26 defects
 job-drill-barrel = Drill: barrel
 job-drill-curve-under-arch = Drill: curve under the arch

@@ -1,5 +1,5 @@
 job-box-girder = Puente de viga cajón: alma exterior, intradós del último vano, cabezal, apoyos
-job-cable-stayed = Puente atirantado: viga de borde, tirante, piso de un vano lateral
+job-cable-stayed = Puente atirantado: piso de un vano lateral, viga de borde, tirante
 job-certification = Certificación: dos puentes, 26 defectos
 job-drill-barrel = Ejercicio: bóveda
 job-drill-curve-under-arch = Ejercicio: curva bajo el arco
