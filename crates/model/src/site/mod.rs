@@ -202,6 +202,13 @@ impl Site {
         self.geometry.ground_up_m(east_m, north_m)
     }
 
+    /// Returns the member that contains a point; `None` if no bridge does.
+    #[must_use]
+    pub fn member_around(&self, position_m: Vec3<Enu>) -> Option<&Member> {
+        let near = self.geometry.nearest_member(position_m, 0.0)?;
+        self.members().get(near.object.0 as usize)
+    }
+
     /// Returns the height of the water's surface in meters above the origin; `None` on land.
     #[must_use]
     pub fn water_up_m(&self, east_m: f64, north_m: f64) -> Option<f64> {
