@@ -168,7 +168,6 @@ impl PlantedFlight {
 fn drone_state(sim: &Sim) -> DroneState {
     let state = sim.truth();
     DroneState {
-        now: sim.now(),
         position_m: state.rigid.position_m.enu(),
         heading_rad: state.rigid.attitude.yaw_rad(),
         touching: state.contact.touching(),

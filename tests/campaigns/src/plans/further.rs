@@ -6,10 +6,10 @@
 
 use crate::bumps::{BumpPlan, bump};
 use crate::unseen::{
-    ARCH, GAP, PIER, SLAB, STICK_RATE_HZ, Unseen, action, certification_accuracy, idle_pictures, on_command, on_picture, owe,
-    precision, reshape, task, tasks_of, up, wave,
+    ARCH, GAP, LOWEST_THROTTLE, NEUTRAL_THROTTLE, PIER, SLAB, STICK_RATE_HZ, Unseen, action, certification_accuracy,
+    idle_pictures, on_command, on_picture, owe, precision, reshape, task, tasks_of, up, wave,
 };
-use crate::weaknesses::{Hands, Weakness, as_intended, command, picture, untouched, with_sticks};
+use crate::weaknesses::{FULL_STICK, Hands, STICK_DEADBAND, Weakness, as_intended, command, picture, untouched, with_sticks};
 use spandrel_clients::pilot::Skill;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
@@ -21,18 +21,21 @@ use spandrel_training::record::{SessionRecord, TaskTechnique};
 const CIRCLE_SHARE: f64 = 0.5;
 /// The pilot flies 3.5 m too low under the arch: at 8 m instead of 4.5 m.
 const BELOW_ARCH_M: f64 = 3.5;
-/// The pilot wants to fly 1.2 m too high in the gap, where the path has 1.2 m of air above it.
-const ABOVE_GAP_M: f64 = 1.2;
+/// The pilot wants to fly 0.8 m too high in the gap, where the path has 1.2 m of air above it.
+const ABOVE_GAP_M: f64 = 0.8;
 /// The racing pilot moves the stick along the slab this many times as far. The drone then flies 5.7 m/s instead of 2.1 m/s; the limit is
 /// 4.5 m/s.
 const RACING_FACTOR: f64 = 7.0;
 /// The nose wanders by 80 degrees to either side of the slab, every 24 m.
 const WANDER_RAD: f64 = 80.0 * math::PI / 180.0;
 const WANDER_WAVELENGTH_M: f64 = 24.0;
-/// The lamp is switched on late by this many stick messages: 45 s.
-const LATE_LAMP: u64 = 45 * STICK_RATE_HZ;
+/// The lamp is switched on late by this many stick messages: 60 s.
+const LATE_LAMP: u64 = 60 * STICK_RATE_HZ;
 /// The shutter is pressed late by this many stick messages: 2 s.
 const LATE_SHUTTER: u64 = 2 * STICK_RATE_HZ;
+/// Before each picture, the pilot already flies on sideways for 0.7 s with this deflection, 1.3 m/s.
+const MOVING_ON: u64 = 35;
+const MOVING_ON_STICK: f64 = 0.13;
 /// Stick messages between two pictures of a camera that runs: 6 s.
 const RUNNING_CAMERA_PERIOD: u64 = 6 * STICK_RATE_HZ;
 /// The pilot photographs as if every surface faced 65 degrees to the side, and within 15 degrees of that.
@@ -42,20 +45,21 @@ const ASKEW_INCIDENCE_DEG: f64 = 15.0;
 /// of the pilot.
 const CONFUSION: u64 = 3 * STICK_RATE_HZ;
 const CONFUSION_PERIOD: u64 = 8 * STICK_RATE_HZ;
+/// Largest deflection meanwhile: 1.2 m/s. The drone leaves the path by 3 or 4 m each time.
+const CONFUSED_STICK: f64 = 0.12;
 const FACING_RAD: f64 = math::PI / 3.0;
 /// Speed at which the drone drifts with the wind when the pilot lets go of the sticks, m/s: the wind blows with 1 m/s.
-const DRIFT_M_S: f64 = 0.6;
+const DRIFT_M_S: f64 = 0.5;
 /// Direction toward which the wind of the job blows, rad.
 const DOWNWIND_RAD: f64 = 60.0 * math::PI / 180.0;
-/// Deflection below which a stick counts as released: more than the tremor of the hands.
-const RELEASED_STICK: f64 = 0.02;
-/// While landing, the pilot pushes the drone from side to side with this deflection, 2.7 m/s, for 1 s each.
-const SWAYING_STICK: f64 = 0.2;
-const SWAYING: u64 = STICK_RATE_HZ;
+/// While landing, the pilot sinks as fast as possible for 0.8 s, 2 m/s, and stops that for 0.5 s with some thrust, in turn.
+const PUMPING: u64 = 40;
+const PUMPING_PERIOD: u64 = 65;
+const PUMPING_THROTTLE: i16 = 550;
 /// Stick messages after which the pilot comes home: 21 min, when 15% of the battery are left.
 const LATE_RETURN: u64 = 21 * 60 * STICK_RATE_HZ;
 /// The pilot bumps into the slab every 25 s.
-const BUMPS: BumpPlan = BumpPlan { tasks: &[SLAB], period: 25 * STICK_RATE_HZ, touches: 1 };
+const BUMPS: BumpPlan = BumpPlan { tasks: &[SLAB], period: 25 * STICK_RATE_HZ, touches: 1, total: u32::MAX };
 /// The jerky pilot moves the sticks once in this many stick messages: 1 s.
 const JERK: usize = 50;
 
@@ -238,9 +242,17 @@ pub const FURTHER: &[Unseen] = &[
             name: "photographs without stopping",
             drills: &["drill-hover", "drill-framing"],
             also: &["drill-search"],
-            skill: Skill { photo_speed_m_s: 3.0, photo_turn_deg_s: 90.0, steady_s: 0.0, ..Skill::EXPERT },
+            skill: Skill::EXPERT,
             belief: as_intended,
-            tamper: untouched,
+            tamper: |hands, message| {
+                on_picture(hands, message, |hands, picture| {
+                    owe(hands, MOVING_ON, picture);
+                    Vec::new()
+                })
+                .into_iter()
+                .map(|message| move_on_before_picture(hands, message))
+                .collect()
+            },
         },
         action: action("share of the pictures in motion", moving_pictures, 0.4),
     },
@@ -273,7 +285,8 @@ pub const FURTHER: &[Unseen] = &[
             tamper: |hands, message| {
                 with_sticks(hands, message, |hands, [x, y, z, r]| {
                     let is_confused = hands.flies_task(PIER) && hands.stick_messages % CONFUSION_PERIOD < CONFUSION;
-                    if is_confused && faces_pilot(hands) { [-x, -y, z, r] } else { [x, y, z, r] }
+                    let wrong = |axis: f64| -axis.clamp(-CONFUSED_STICK, CONFUSED_STICK);
+                    if is_confused && faces_pilot(hands) { [wrong(x), wrong(y), z, r] } else { [x, y, z, r] }
                 })
             },
         },
@@ -284,7 +297,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "lets the wind carry the drone away at every stop",
             drills: &["drill-hover"],
             also: &["drill-straight-line", "drill-stand-off", "drill-framing", "drill-search", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
+            // The pilot photographs in spite of the drift.
+            skill: Skill { photo_speed_m_s: 1.0, ..Skill::EXPERT },
             belief: as_intended,
             tamper: |hands, message| with_sticks(hands, message, drift_when_released),
         },
@@ -292,17 +306,17 @@ pub const FURTHER: &[Unseen] = &[
     },
     Unseen {
         weakness: Weakness {
-            name: "touches down while swaying",
+            name: "pumps the throttle on touchdown",
             drills: &["drill-landing"],
             also: &["drill-hover"],
             skill: Skill::EXPERT,
             belief: as_intended,
             tamper: |hands, message| match message {
-                MavMessage::MANUAL_CONTROL(sticks) if hands.lands() => {
+                MavMessage::MANUAL_CONTROL(sticks) if hands.lands() && sticks.z < NEUTRAL_THROTTLE => {
                     hands.stick_messages += 1;
-                    let to_right = (hands.stick_messages / SWAYING).is_multiple_of(2);
-                    let sway = (1000.0 * if to_right { SWAYING_STICK } else { -SWAYING_STICK }) as i16;
-                    vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y: sticks.y + sway, ..sticks })]
+                    let sinks = hands.stick_messages % PUMPING_PERIOD < PUMPING;
+                    let z = if sinks { LOWEST_THROTTLE } else { PUMPING_THROTTLE };
+                    vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { z, ..sticks })]
                 }
                 other => vec![other],
             },
@@ -386,6 +400,16 @@ fn see_surfaces_askew(job: &mut Scenario) {
     }
 }
 
+/// Moves the drone sideways while a picture is owed.
+fn move_on_before_picture(hands: &Hands, message: MavMessage) -> MavMessage {
+    match message {
+        MavMessage::MANUAL_CONTROL(sticks) if !hands.owed.is_empty() => {
+            MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y: (FULL_STICK * MOVING_ON_STICK) as i16, ..sticks })
+        }
+        other => other,
+    }
+}
+
 fn switches_on(message: &MavMessage) -> bool {
     matches!(message, MavMessage::COMMAND_LONG(COMMAND_LONG_DATA { param1, .. }) if *param1 > 0.0)
 }
@@ -397,7 +421,7 @@ fn faces_pilot(hands: &Hands) -> bool {
 }
 
 fn drift_when_released(hands: &mut Hands, [x, y, z, r]: [f64; 4]) -> [f64; 4] {
-    if [x, y, z].iter().any(|axis| axis.abs() > RELEASED_STICK) {
+    if [x, y, z].iter().any(|axis| axis.abs() > STICK_DEADBAND) {
         return [x, y, z, r];
     }
     let (sin, cos) = math::sin_cos(DOWNWIND_RAD);

@@ -123,3 +123,42 @@ fn flight_planted_faults_are_not_certified_for_the_right_reason() {
     println!("{table}");
     assert_eq!(table.problems(), Vec::<String>::new());
 }
+
+#[test]
+#[ignore = "tuning"]
+fn flight_tune() {
+    let names = std::env::var("TUNE").unwrap();
+    let faults: &'static [certification::CertificationFault] = Box::leak(
+        CERTIFICATION_FAULTS
+            .iter()
+            .filter(|f| names.split(',').any(|n| f.weakness.contains(n)))
+            .map(|f| certification::CertificationFault {
+                weakness: f.weakness,
+                violated: f.violated,
+                met: f.met,
+                most_conformity: f.most_conformity,
+            })
+            .collect::<Vec<_>>()
+            .into_boxed_slice(),
+    );
+    let weak: Vec<_> = weaknesses::GRAVE_FAULTS.iter().filter(|f| names.split(',').any(|n| f.name.contains(n))).collect();
+    let _ = faults;
+    let seeds = seeds(601);
+    let flights: Vec<_> = weak.iter().flat_map(|w| seeds.iter().map(move |s| (*w, *s))).collect();
+    for record in flights::fly_all("certification", &flights) {
+        println!("{} {:?} {:?}", record.id, record.contacts(), record.end_reason);
+        println!("   {} s; unmet: {}", record.seconds, record.unmet.join("; "));
+        for t in &record.tasks {
+            println!(
+                "   {} covered {:?} on {:.2} contacts {:?} fastest {:.2} framing {:?}",
+                t.id,
+                t.covered,
+                t.on_path,
+                t.contacts().total(),
+                t.technique.unwrap().fastest_contact_m_s,
+                t.technique.unwrap().rms_framing_deg
+            );
+        }
+        println!("   {:?}", record.certification.as_ref().unwrap().scores);
+    }
+}

@@ -36,7 +36,7 @@ pub const fn action(measure: &'static str, of: fn(&SessionRecord) -> f64, least_
 /// Messages of the sticks per second.
 pub const STICK_RATE_HZ: u64 = 50;
 /// Lowest throttle in MANUAL_CONTROL, and the one that holds the height.
-const LOWEST_THROTTLE: i16 = 0;
+pub const LOWEST_THROTTLE: i16 = 0;
 pub const NEUTRAL_THROTTLE: i16 = 500;
 
 /// Numbers of the tasks in the job.

@@ -9,7 +9,6 @@ use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, Task, TaskKind};
 use spandrel_model::site::Site;
-use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::FlightLimits;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -30,9 +29,11 @@ pub struct Weakness {
 }
 
 /// Full stick deflection in MANUAL_CONTROL.
-const FULL_STICK: f64 = 1000.0;
+pub const FULL_STICK: f64 = 1000.0;
 /// Stick messages between two changes of the planted stick noise: 0.3 s at 50 Hz.
 const NOISE_PERIOD: u64 = 15;
+/// Deadband of the sticks in position mode, as a fraction of full deflection.
+pub const STICK_DEADBAND: f64 = 0.03;
 /// Standard deviation of the planted noise, as a fraction of full deflection.
 const NOISE: f64 = 0.25;
 /// Stick messages between two pictures of a pilot who photographs at random: 2 s at 50 Hz.
@@ -42,13 +43,13 @@ const OVERLOOKED: u64 = 4;
 
 /// A pilot whose nose never rests adds this multiple of the planted noise to the yaw stick: a standard deviation of 30 degrees/s.
 const MODERATE_YAW_NOISE: f64 = 1.2;
-/// A pilot who bumps into the bridge does so twice every 20 s at 50 Hz, in the tasks beside and below it.
-const BUMPS: BumpPlan = BumpPlan { tasks: &[1, 2, 4], period: 1000, touches: 2 };
+/// A pilot who bumps into the bridge touches it three times every 18 s at 50 Hz in the interlayer, and 22 times in all. There, a contact
+/// takes the drone less than the threshold away from the path, so that the precision suffers little.
+const BUMPS: BumpPlan = BumpPlan { tasks: &[3], period: 900, touches: 3, total: 22 };
 
 /// Motion of the drone, which some hands react to.
 #[derive(Debug, Clone, Copy)]
 pub struct DroneState {
-    pub now: SimTime,
     pub position_m: Vec3<Enu>,
     pub heading_rad: f64,
     pub touching: bool,
@@ -88,7 +89,7 @@ impl Hands {
             pictures: 0,
             owed: VecDeque::new(),
             late_sticks: VecDeque::new(),
-            drone: DroneState { now: SimTime::ZERO, position_m: Vec3::zero(), heading_rad: 0.0, touching: false },
+            drone: DroneState { position_m: Vec3::zero(), heading_rad: 0.0, touching: false },
             site,
             pilot_m,
             limits,
@@ -111,13 +112,15 @@ impl Hands {
         self.latest_task >= id
     }
 
-    /// Returns the stick positions for a velocity over the ground; the drone responds in proportion to the sticks.
+    /// Returns the stick positions for a velocity over the ground: the drone responds in proportion to the sticks beyond the deadband.
     pub fn sticks_for(&self, velocity_m_s: Vec3<Enu>) -> [f64; 3] {
         let (sin, cos) = math::sin_cos(self.drone.heading_rad);
         let forward_m_s = velocity_m_s.east() * sin + velocity_m_s.north() * cos;
         let right_m_s = velocity_m_s.east() * cos - velocity_m_s.north() * sin;
         let vertical_m_s = if velocity_m_s.up() > 0.0 { self.limits.climb_m_s } else { self.limits.descend_m_s };
-        [forward_m_s / self.limits.forward_m_s, right_m_s / self.limits.sideways_speed_m_s, velocity_m_s.up() / vertical_m_s]
+        let fractions =
+            [forward_m_s / self.limits.forward_m_s, right_m_s / self.limits.sideways_speed_m_s, velocity_m_s.up() / vertical_m_s];
+        fractions.map(|fraction| (STICK_DEADBAND + (1.0 - STICK_DEADBAND) * fraction.abs()).copysign(fraction))
     }
 
     /// Returns whether the pilot flies the task with this number.
@@ -444,7 +447,8 @@ pub const GRAVE_FAULTS: &[Weakness] = &[
         name: "nose never rests",
         drills: &[],
         also: &[],
-        skill: Skill::EXPERT,
+        // The pilot photographs nevertheless. Otherwise, waiting for a steady picture would take the time for the last task.
+        skill: Skill { photo_turn_deg_s: 90.0, steady_s: 0.2, framing_deg: 15.0, ..Skill::EXPERT },
         belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + MODERATE_YAW_NOISE * hands.noise()[3]])
