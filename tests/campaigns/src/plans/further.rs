@@ -45,8 +45,8 @@ const ASKEW_INCIDENCE_DEG: f64 = 15.0;
 /// of the pilot.
 const CONFUSION: u64 = 3 * STICK_RATE_HZ;
 const CONFUSION_PERIOD: u64 = 8 * STICK_RATE_HZ;
-/// Largest deflection meanwhile: 1.2 m/s. The drone leaves the path by 3 or 4 m each time.
-const CONFUSED_STICK: f64 = 0.12;
+/// Largest deflection meanwhile: 3 m/s.
+const CONFUSED_STICK: f64 = 0.25;
 const FACING_RAD: f64 = math::PI / 3.0;
 /// Speed at which the drone drifts with the wind when the pilot lets go of the sticks, m/s: the wind blows with 1 m/s.
 const DRIFT_M_S: f64 = 0.5;
@@ -290,7 +290,7 @@ pub const FURTHER: &[Unseen] = &[
                 })
             },
         },
-        action: action("RMS distance to the path, thresholds", |r| precision(r).rms_distance_ratio, 0.05),
+        action: action("share of the pier's window on its path", |r| task(r, PIER).on_path, -0.05),
     },
     Unseen {
         weakness: Weakness {
