@@ -137,9 +137,7 @@ fn problems(fault: &CertificationFault, record: &SessionRecord) -> Vec<String> {
 /// Counts the flights that don't meet each requirement, for the requirements that a condition selects.
 fn unmet_counts(records: &[SessionRecord], is_selected: impl Fn(&str) -> bool) -> BTreeMap<&str, usize> {
     let mut counts = BTreeMap::new();
-    for one in
-        records.iter().flat_map(requirements).filter(|one| one.applies && !one.met && is_selected(&one.id))
-    {
+    for one in records.iter().flat_map(requirements).filter(|one| one.applies && !one.met && is_selected(&one.id)) {
         *counts.entry(one.id.as_str()).or_default() += 1;
     }
     counts

@@ -45,8 +45,6 @@ const ASKEW_INCIDENCE_DEG: f64 = 15.0;
 /// of the pilot.
 const CONFUSION: u64 = 3 * STICK_RATE_HZ;
 const CONFUSION_PERIOD: u64 = 8 * STICK_RATE_HZ;
-/// Largest deflection meanwhile: 3 m/s.
-const CONFUSED_STICK: f64 = 0.25;
 const FACING_RAD: f64 = math::PI / 3.0;
 /// Speed at which the drone drifts with the wind when the pilot lets go of the sticks, m/s: the wind blows with 1 m/s.
 const DRIFT_M_S: f64 = 0.5;
@@ -285,8 +283,7 @@ pub const FURTHER: &[Unseen] = &[
             tamper: |hands, message| {
                 with_sticks(hands, message, |hands, [x, y, z, r]| {
                     let is_confused = hands.flies_task(PIER) && hands.stick_messages % CONFUSION_PERIOD < CONFUSION;
-                    let wrong = |axis: f64| -axis.clamp(-CONFUSED_STICK, CONFUSED_STICK);
-                    if is_confused && faces_pilot(hands) { [wrong(x), wrong(y), z, r] } else { [x, y, z, r] }
+                    if is_confused && faces_pilot(hands) { [-x, -y, z, r] } else { [x, y, z, r] }
                 })
             },
         },
