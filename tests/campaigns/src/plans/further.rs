@@ -263,7 +263,7 @@ pub const FURTHER: &[Unseen] = &[
             belief: see_surfaces_askew,
             tamper: untouched,
         },
-        action: action("defects whose pictures are too oblique", oblique, 2.0),
+        action: action("defects whose pictures are too oblique", oblique, 1.0),
     },
     Unseen {
         weakness: Weakness {
