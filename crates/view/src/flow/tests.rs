@@ -70,7 +70,7 @@ fn ended() -> FlightSummary {
         completion: Some("Complete: 4 of 4 tasks, 98% of the path".into()),
         complete: true,
         verdict: Some("Not certified".into()),
-        unmet: vec!["12% battery at landing, 20% needed".into(), "task 2 flown over 70% of its path, 80% needed".into()],
+        unmet: vec!["12% battery at landing, 20% needed".into()],
         why: "landed after 12 min 30 s".into(),
         standing: Some("Personal best on this job: 350 of 400. Change since last time: 12 points up.".into()),
         advice: [
