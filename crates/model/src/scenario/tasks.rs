@@ -103,7 +103,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
 }
 
 /// Returns whether a bridge has an invalid type or file, so that its paths are unknown.
-fn is_unread(bridge: &Bridge) -> bool {
+pub(super) fn is_unread(bridge: &Bridge) -> bool {
     matches!(&bridge.kind, BridgeKind::Model(model) if model.parts().is_empty())
 }
 
