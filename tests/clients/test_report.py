@@ -229,7 +229,7 @@ def test_report_works_without_scripts_and_prints(browser, session, tmp_path):
     assert page.locator("#flight svg.map").count() >= 4
     assert not page.is_visible("#moment") and not page.is_visible("#print"), "controls without a function must be hidden"
     page, wrong = open_page(browser, session / "report.html", scheme="dark")
-    page.evaluate("window.print = () => { window.prints = (window.prints || 0) + 1; }")
+    page.evaluate("() => { window.print = () => { window.prints = (window.prints || 0) + 1; }; }")
     page.click("#print")
     assert page.evaluate("window.prints") == 1
     printed = page.pdf(format="A4")
