@@ -7,9 +7,9 @@
 use crate::bumps::{BumpPlan, bump};
 use crate::unseen::{
     ARCH, GAP, LOWEST_THROTTLE, NEUTRAL_THROTTLE, PIER, SLAB, STICK_RATE_HZ, Unseen, action, certification_accuracy,
-    idle_pictures, on_command, on_picture, owe, precision, reshape, task, tasks_of, up, wave,
+    delay_picture, idle_pictures, on_command, owe, precision, reshape, task, tasks_of, up, wave,
 };
-use crate::weaknesses::{FULL_STICK, Hands, STICK_DEADBAND, Weakness, as_intended, command, picture, untouched, with_sticks};
+use crate::weaknesses::{FULL_STICK, Hands, NO_WEAKNESS, STICK_DEADBAND, Weakness, command, picture, with_sticks};
 use spandrel_clients::pilot::Skill;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
@@ -68,7 +68,6 @@ pub const FURTHER: &[Unseen] = &[
             name: "circles only half of the pier",
             drills: &["drill-orbit"],
             also: &["drill-search", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
             belief: |job| {
                 for task in tasks_of(job, TaskKind::PierCircle) {
                     let kept = (CIRCLE_SHARE * task.path_m.len() as f64) as usize;
@@ -77,7 +76,7 @@ pub const FURTHER: &[Unseen] = &[
                     task.closed = false;
                 }
             },
-            tamper: untouched,
+            ..NO_WEAKNESS
         },
         action: action("covered share of the circle", |r| task(r, PIER).covered.unwrap(), -0.3),
     },
@@ -86,9 +85,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "leaves the gap out",
             drills: &["drill-gap"],
             also: &["drill-lamp", "drill-search", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
             belief: |job| job.tasks.retain(|task| task.kind != TaskKind::Interlayer),
-            tamper: untouched,
+            ..NO_WEAKNESS
         },
         action: action("tasks done", |r| r.completion.unwrap().tasks_done as f64, -1.0),
     },
@@ -97,9 +95,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "stays too far below the arch",
             drills: &["drill-stand-off", "drill-curve-under-arch"],
             also: &["drill-search", "drill-framing", "drill-lamp", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
             belief: |job| reshape(job, TaskKind::ArchBottom, |_| up(-BELOW_ARCH_M)),
-            tamper: untouched,
+            ..NO_WEAKNESS
         },
         action: action("distance from the arch beyond the path's, m", |r| technique(r, ARCH).stand_off_error_m.unwrap(), 1.5),
     },
@@ -108,9 +105,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "flies just below the ceiling of the gap",
             drills: &["drill-gap"],
             also: &["drill-stand-off", "drill-lamp", "drill-search"],
-            skill: Skill::EXPERT,
             belief: |job| reshape(job, TaskKind::Interlayer, |_| up(ABOVE_GAP_M)),
-            tamper: untouched,
+            ..NO_WEAKNESS
         },
         action: action("share of the time in the gap too close to something", |r| technique(r, GAP).low_clearance, 0.3),
     },
@@ -119,13 +115,12 @@ pub const FURTHER: &[Unseen] = &[
             name: "races along the slab",
             drills: &["drill-straight-line"],
             also: &["drill-framing", "drill-search", "drill-stand-off", "drill-hover"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 with_sticks(hands, message, |hands, [x, y, z, r]| {
                     [x, if hands.flies_task(SLAB) { RACING_FACTOR * y } else { y }, z, r]
                 })
             },
+            ..NO_WEAKNESS
         },
         action: action("time above the speed limit at the slab, s", |r| task(r, SLAB).speeding_s, 4.0),
     },
@@ -134,11 +129,10 @@ pub const FURTHER: &[Unseen] = &[
             name: "circles the pier without turning",
             drills: &["drill-orbit"],
             also: &["drill-framing", "drill-search", "drill-stand-off", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, if hands.flies_task(PIER) { 0.0 } else { r }])
             },
+            ..NO_WEAKNESS
         },
         action: action("RMS framing error at the pier, degrees", |r| framing_deg(r, PIER), 15.0),
     },
@@ -147,9 +141,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "lets the nose wander along the slab",
             drills: &["drill-framing"],
             also: &["drill-straight-line", "drill-hover", "drill-search"],
-            skill: Skill::EXPERT,
             belief: |job| wander(job, TaskKind::SlabSide),
-            tamper: untouched,
+            ..NO_WEAKNESS
         },
         action: action("RMS framing error at the slab, degrees", |r| framing_deg(r, SLAB), 8.0),
     },
@@ -158,13 +151,12 @@ pub const FURTHER: &[Unseen] = &[
             name: "leaves the camera tilted up after the arch",
             drills: &["drill-framing"],
             also: &["drill-search", "drill-orbit", "drill-gap", "drill-lamp"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 let tilts = command(&message) == Some(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW);
                 let leaves_it = hands.has_begun_task(ARCH) && !hands.flies_task(ARCH);
                 if tilts && leaves_it { Vec::new() } else { vec![message] }
             },
+            ..NO_WEAKNESS
         },
         action: action("RMS framing error at the pier, degrees", |r| framing_deg(r, PIER), 5.0),
     },
@@ -173,8 +165,6 @@ pub const FURTHER: &[Unseen] = &[
             name: "switches the lamp on late",
             drills: &["drill-lamp"],
             also: &["drill-search", "drill-gap", "drill-curve-under-arch"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 on_command(hands, message, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF, |hands, switch| {
                     hands.owed.clear();
@@ -185,6 +175,7 @@ pub const FURTHER: &[Unseen] = &[
                     Vec::new()
                 })
             },
+            ..NO_WEAKNESS
         },
         action: action("share of the time in the dark with the lamp off", lamp_off_in_the_dark, 0.25),
     },
@@ -193,14 +184,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "presses the shutter two seconds late",
             drills: &["drill-framing", "drill-hover"],
             also: &["drill-search"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
-            tamper: |hands, message| {
-                on_picture(hands, message, |hands, picture| {
-                    owe(hands, LATE_SHUTTER, picture);
-                    Vec::new()
-                })
-            },
+            tamper: |hands, message| delay_picture(hands, message, LATE_SHUTTER),
+            ..NO_WEAKNESS
         },
         action: action("accuracy of the certification", certification_accuracy, -15.0),
     },
@@ -209,8 +194,6 @@ pub const FURTHER: &[Unseen] = &[
             name: "lets the camera run",
             drills: &["drill-search", "drill-framing"],
             also: &["practice", "two-bridges"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 let is_stick = matches!(message, MavMessage::MANUAL_CONTROL(_));
                 hands.stick_messages += u64::from(is_stick);
@@ -218,6 +201,7 @@ pub const FURTHER: &[Unseen] = &[
                 let runs = is_due && hands.stick_messages.is_multiple_of(RUNNING_CAMERA_PERIOD);
                 if runs { vec![message, picture()] } else { vec![message] }
             },
+            ..NO_WEAKNESS
         },
         action: action("pictures without a new defect", idle_pictures, 25.0),
     },
@@ -226,12 +210,11 @@ pub const FURTHER: &[Unseen] = &[
             name: "takes no pictures under the arch",
             drills: &["drill-search"],
             also: &["drill-curve-under-arch", "drill-framing", "drill-lamp", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 let is_picture = command(&message) == Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE);
                 if is_picture && hands.flies_task(ARCH) { Vec::new() } else { vec![message] }
             },
+            ..NO_WEAKNESS
         },
         action: action("defects found at the arch", |r| task(r, ARCH).defects_found as f64, -1.0),
     },
@@ -240,17 +223,13 @@ pub const FURTHER: &[Unseen] = &[
             name: "photographs without stopping",
             drills: &["drill-hover", "drill-framing"],
             also: &["drill-search"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
-                on_picture(hands, message, |hands, picture| {
-                    owe(hands, MOVING_ON, picture);
-                    Vec::new()
-                })
-                .into_iter()
-                .map(|message| move_on_before_picture(hands, message))
-                .collect()
+                delay_picture(hands, message, MOVING_ON)
+                    .into_iter()
+                    .map(|message| move_on_before_picture(hands, message))
+                    .collect()
             },
+            ..NO_WEAKNESS
         },
         action: action("share of the pictures in motion", moving_pictures, 0.4),
     },
@@ -261,7 +240,7 @@ pub const FURTHER: &[Unseen] = &[
             also: &["drill-hover", "drill-stand-off"],
             skill: Skill { photo_incidence_deg: ASKEW_INCIDENCE_DEG, ..Skill::EXPERT },
             belief: see_surfaces_askew,
-            tamper: untouched,
+            ..NO_WEAKNESS
         },
         action: action("defects whose pictures are too oblique", oblique, 1.0),
     },
@@ -278,14 +257,13 @@ pub const FURTHER: &[Unseen] = &[
                 "practice",
                 "two-bridges",
             ],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| {
                 with_sticks(hands, message, |hands, [x, y, z, r]| {
                     let is_confused = hands.flies_task(PIER) && hands.stick_messages % CONFUSION_PERIOD < CONFUSION;
                     if is_confused && faces_pilot(hands) { [-x, -y, z, r] } else { [x, y, z, r] }
                 })
             },
+            ..NO_WEAKNESS
         },
         action: action("share of the pier's window on its path", |r| task(r, PIER).on_path, -0.05),
     },
@@ -296,8 +274,8 @@ pub const FURTHER: &[Unseen] = &[
             also: &["drill-straight-line", "drill-stand-off", "drill-framing", "drill-search", "practice", "two-bridges"],
             // The pilot photographs in spite of the drift.
             skill: Skill { photo_speed_m_s: 1.0, ..Skill::EXPERT },
-            belief: as_intended,
             tamper: |hands, message| with_sticks(hands, message, drift_when_released),
+            ..NO_WEAKNESS
         },
         action: action("RMS distance to the path, thresholds", |r| precision(r).rms_distance_ratio, 0.1),
     },
@@ -306,8 +284,6 @@ pub const FURTHER: &[Unseen] = &[
             name: "pumps the throttle on touchdown",
             drills: &["drill-landing"],
             also: &["drill-hover"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| match message {
                 MavMessage::MANUAL_CONTROL(sticks) if hands.lands() && sticks.z < NEUTRAL_THROTTLE => {
                     hands.stick_messages += 1;
@@ -317,6 +293,7 @@ pub const FURTHER: &[Unseen] = &[
                 }
                 other => vec![other],
             },
+            ..NO_WEAKNESS
         },
         action: action("contacts outside the tasks", |r| r.contacts_outside().total() as f64, 1.0),
     },
@@ -325,8 +302,6 @@ pub const FURTHER: &[Unseen] = &[
             name: "comes home on the last of the battery",
             drills: &["drill-landing", "practice", "two-bridges"],
             also: &[],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| match message {
                 MavMessage::MANUAL_CONTROL(sticks) => {
                     hands.stick_messages += 1;
@@ -336,6 +311,7 @@ pub const FURTHER: &[Unseen] = &[
                 }
                 other => vec![other],
             },
+            ..NO_WEAKNESS
         },
         action: action("charge at the end, %", |r| r.battery_at_end_pct, -25.0),
     },
@@ -344,9 +320,8 @@ pub const FURTHER: &[Unseen] = &[
             name: "bumps into the slab for a closer look",
             drills: &["drill-stand-off"],
             also: &["drill-straight-line", "drill-hover", "drill-framing", "drill-search", "practice", "two-bridges"],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| with_sticks(hands, message, |hands, axes| bump(hands, axes, &BUMPS)),
+            ..NO_WEAKNESS
         },
         action: action("contacts at the slab", |r| task(r, SLAB).contacts().total() as f64, 2.0),
     },
@@ -364,9 +339,8 @@ pub const FURTHER: &[Unseen] = &[
                 "practice",
                 "two-bridges",
             ],
-            skill: Skill::EXPERT,
-            belief: as_intended,
             tamper: |hands, message| with_sticks(hands, message, move_in_jerks),
+            ..NO_WEAKNESS
         },
         action: action("RMS distance to the path, thresholds", |r| precision(r).rms_distance_ratio, 0.1),
     },

@@ -5,8 +5,7 @@
 //! Don't change a fault or its expected drills because of a plan.
 
 use crate::table::Flown;
-use crate::weaknesses::{Hands, Weakness, as_intended, command, untouched, with_sticks};
-use spandrel_clients::pilot::Skill;
+use crate::weaknesses::{Hands, NO_WEAKNESS, Weakness, command, with_sticks};
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -91,9 +90,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "porpoises along the slab",
                 drills: &["drill-straight-line"],
                 also: &["drill-stand-off", "drill-framing", "drill-hover", "drill-search", "practice", "two-bridges"],
-                skill: Skill::EXPERT,
                 belief: |job| reshape(job, TaskKind::SlabSide, |at| up(PORPOISE_M * wave(at.along_m, PORPOISE_WAVELENGTH_M))),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the slab's window on its path", |r| task(r, SLAB).on_path, -0.25),
         },
@@ -102,13 +100,12 @@ pub const UNSEEN: &[Unseen] =
                 name: "swings toward and away from the slab",
                 drills: &["drill-stand-off", "drill-straight-line"],
                 also: &["drill-framing", "drill-hover", "drill-search", "practice", "two-bridges"],
-                skill: Skill::EXPERT,
                 belief: |job| {
                     reshape(job, TaskKind::SlabSide, |at| {
                         at.view * -(SWING_CENTER_M + SWING_M * wave(at.along_m, SWING_WAVELENGTH_M))
                     });
                 },
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the slab's window on its path", |r| task(r, SLAB).on_path, -0.1),
         },
@@ -117,9 +114,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "turns back in the gap",
                 drills: &["drill-gap"],
                 also: &["practice", "two-bridges", "drill-search", "drill-lamp"],
-                skill: Skill::EXPERT,
                 belief: turn_back_in_gap,
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("covered share of the gap", covered_gap, -0.5),
         },
@@ -128,9 +124,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "flattens the curve under the arch",
                 drills: &["drill-curve-under-arch"],
                 also: &["drill-stand-off", "drill-search", "drill-framing", "drill-lamp", "practice", "two-bridges"],
-                skill: Skill::EXPERT,
                 belief: flatten_arch,
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the arch's window on its path", |r| task(r, ARCH).on_path, -0.25),
         },
@@ -139,9 +134,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "hugs the slab",
                 drills: &["drill-stand-off"],
                 also: &["drill-straight-line", "drill-framing"],
-                skill: Skill::EXPERT,
                 belief: |job| reshape(job, TaskKind::SlabSide, |at| at.view * HUG_M),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of frames too close to something", |r| precision(r).low_clearance_share, 0.1),
         },
@@ -150,9 +144,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "circles the pier nose first",
                 drills: &["drill-orbit"],
                 also: &["drill-framing", "drill-search", "drill-stand-off"],
-                skill: Skill::EXPERT,
                 belief: |job| nose_first(job, TaskKind::PierCircle),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("RMS framing error, degrees", framing_deg, 5.0),
         },
@@ -161,9 +154,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "lets the circle around the pier drift downwind",
                 drills: &["drill-orbit", "drill-stand-off"],
                 also: &["drill-hover", "drill-search", "drill-framing", "practice", "two-bridges"],
-                skill: Skill::EXPERT,
                 belief: |job| reshape(job, TaskKind::PierCircle, |_| Vec3::new(DOWNWIND_M.0, DOWNWIND_M.1, 0.0)),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the pier's window on its path", |r| task(r, PIER).on_path, -0.2),
         },
@@ -172,9 +164,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "forgets the pier",
                 drills: &["two-bridges", "practice", "drill-orbit"],
                 also: &["drill-search"],
-                skill: Skill::EXPERT,
                 belief: |job| job.tasks.retain(|task| task.kind != TaskKind::PierCircle),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("tasks done", |r| r.completion.as_ref().map_or(0.0, |done| done.tasks_done as f64), -1.0),
         },
@@ -183,9 +174,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "flies the slab nose first",
                 drills: &["drill-framing"],
                 also: &["drill-straight-line", "drill-search"],
-                skill: Skill::EXPERT,
                 belief: |job| nose_first(job, TaskKind::SlabSide),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("RMS framing error, degrees", framing_deg, 5.0),
         },
@@ -194,12 +184,11 @@ pub const UNSEEN: &[Unseen] =
                 name: "never tilts the camera",
                 drills: &["drill-framing"],
                 also: &["drill-search", "drill-curve-under-arch", "drill-gap", "drill-lamp", "drill-stand-off"],
-                skill: Skill::EXPERT,
-                belief: as_intended,
                 tamper: |_, message| {
                     let tilts = command(&message) == Some(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW);
                     if tilts { Vec::new() } else { vec![message] }
                 },
+                ..NO_WEAKNESS
             },
             action: action("defects found", found, -3.0),
         },
@@ -208,14 +197,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "presses the shutter when already flying on",
                 drills: &["drill-framing"],
                 also: &["drill-hover", "drill-search"],
-                skill: Skill::EXPERT,
-                belief: as_intended,
-                tamper: |hands, message| {
-                    on_picture(hands, message, |hands, picture| {
-                        owe(hands, LATE_SHUTTER, picture);
-                        Vec::new()
-                    })
-                },
+                tamper: |hands, message| delay_picture(hands, message, LATE_SHUTTER),
+                ..NO_WEAKNESS
             },
             action: action("accuracy of the certification", certification_accuracy, -20.0),
         },
@@ -224,14 +207,13 @@ pub const UNSEEN: &[Unseen] =
                 name: "photographs everything five times",
                 drills: &["drill-search", "drill-framing"],
                 also: &["practice", "two-bridges"],
-                skill: Skill::EXPERT,
-                belief: as_intended,
                 tamper: |hands, message| {
                     on_picture(hands, message, |hands, picture| {
                         (1..=FURTHER_PICTURES).for_each(|k| owe(hands, k * FURTHER_PICTURE_PERIOD, picture.clone()));
                         vec![picture]
                     })
                 },
+                ..NO_WEAKNESS
             },
             action: action("pictures without a new defect", idle_pictures, 12.0),
         },
@@ -240,9 +222,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "takes stains for defects",
                 drills: &["drill-search"],
                 also: &["drill-framing"],
-                skill: Skill::EXPERT,
                 belief: see_stains,
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("pictures without a new defect", idle_pictures, 4.0),
         },
@@ -251,9 +232,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "does not photograph at the second bridge",
                 drills: &["drill-search"],
                 also: &["drill-orbit", "drill-framing", "practice", "two-bridges"],
-                skill: Skill::EXPERT,
                 belief: |job| keep_defects(job, |defect| defect.position_m.north() < BETWEEN_BRIDGES_M),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("defects found at the pier", |r| task(r, PIER).defects_found as f64, -1.0),
         },
@@ -262,9 +242,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "leaves the lamp off in the gap",
                 drills: &["drill-lamp"],
                 also: &["drill-gap", "drill-search"],
-                skill: Skill::EXPERT,
                 belief: |job| tasks_of(job, TaskKind::Interlayer).for_each(|task| task.dark = false),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the time in the gap with the lamp off", lamp_off_in_gap, 0.8),
         },
@@ -273,13 +252,12 @@ pub const UNSEEN: &[Unseen] =
                 name: "hesitates on the sticks",
                 drills: &["drill-straight-line", "practice", "two-bridges"],
                 also: &["drill-hover", "drill-landing", "drill-search", "drill-framing"],
-                skill: Skill::EXPERT,
-                belief: as_intended,
                 tamper: |hands, message| {
                     with_sticks(hands, message, |hands, axes| {
                         if hands.stick_messages % HESITATION_PERIOD < HESITATION { [0.0; 4] } else { axes }
                     })
                 },
+                ..NO_WEAKNESS
             },
             action: action("flight time, s", |r| r.seconds, 240.0),
         },
@@ -297,9 +275,8 @@ pub const UNSEEN: &[Unseen] =
                     "practice",
                     "two-bridges",
                 ],
-                skill: Skill::EXPERT,
-                belief: as_intended,
                 tamper: |hands, message| with_sticks(hands, message, follow_late),
+                ..NO_WEAKNESS
             },
             action: action("RMS distance to the path, thresholds", |r| precision(r).rms_distance_ratio, 0.1),
         },
@@ -308,8 +285,6 @@ pub const UNSEEN: &[Unseen] =
                 name: "sinks with the eyes on the screen",
                 drills: &["drill-straight-line", "drill-hover"],
                 also: &["drill-curve-under-arch", "drill-stand-off", "drill-framing", "drill-search", "practice", "two-bridges"],
-                skill: Skill::EXPERT,
-                belief: as_intended,
                 tamper: |hands, message| {
                     with_sticks(hands, message, |hands, [x, y, z, r]| {
                         let sinks = hands.flies_task(SLAB) || hands.flies_task(ARCH);
@@ -317,6 +292,7 @@ pub const UNSEEN: &[Unseen] =
                         [x, y, if sinks && looks { SINKING_STICK } else { z }, r]
                     })
                 },
+                ..NO_WEAKNESS
             },
             action: action("share of the slab's window on its path", |r| task(r, SLAB).on_path, -0.1),
         },
@@ -325,9 +301,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "lands beside the pad",
                 drills: &["drill-landing"],
                 also: &["practice", "two-bridges"],
-                skill: Skill::EXPERT,
                 belief: |job| job.ground_team.pad_m += Vec3::new(BESIDE_PAD_M.0, BESIDE_PAD_M.1, 0.0),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("landed at home", landed_at_home, -1.0),
         },
@@ -336,14 +311,13 @@ pub const UNSEEN: &[Unseen] =
                 name: "drops onto the pad",
                 drills: &["drill-landing"],
                 also: &[],
-                skill: Skill::EXPERT,
-                belief: as_intended,
                 tamper: |hands, message| match message {
                     MavMessage::MANUAL_CONTROL(sticks) if hands.lands() && sticks.z < NEUTRAL_THROTTLE => {
                         vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { z: LOWEST_THROTTLE, ..sticks })]
                     }
                     other => vec![other],
                 },
+                ..NO_WEAKNESS
             },
             action: action("crashes outside the tasks", |r| r.crashes_outside.total() as f64, 1.0),
         },
@@ -440,11 +414,19 @@ pub fn owe(hands: &mut Hands, after: u64, message: MavMessage) {
     hands.owed.push_back((hands.stick_messages + after, message));
 }
 
+/// Holds back each picture for a number of stick messages.
+pub fn delay_picture(hands: &mut Hands, message: MavMessage, by: u64) -> Vec<MavMessage> {
+    on_picture(hands, message, |hands, picture| {
+        owe(hands, by, picture);
+        Vec::new()
+    })
+}
+
 /// Changes the command to take a picture, and sends what the hands still owe.
 pub fn on_picture(
     hands: &mut Hands,
     message: MavMessage,
-    change: fn(&mut Hands, MavMessage) -> Vec<MavMessage>,
+    change: impl FnOnce(&mut Hands, MavMessage) -> Vec<MavMessage>,
 ) -> Vec<MavMessage> {
     on_command(hands, message, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, change)
 }
@@ -454,7 +436,7 @@ pub fn on_command(
     hands: &mut Hands,
     message: MavMessage,
     changed: MavCmd,
-    change: fn(&mut Hands, MavMessage) -> Vec<MavMessage>,
+    change: impl FnOnce(&mut Hands, MavMessage) -> Vec<MavMessage>,
 ) -> Vec<MavMessage> {
     if command(&message) == Some(changed) {
         return change(hands, message);

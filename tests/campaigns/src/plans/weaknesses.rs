@@ -239,145 +239,109 @@ pub const WEAKNESSES: &[Weakness] = &[
         name: "half of every path",
         drills: &["practice"],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| shorten_paths(job, |path_m| path_m.len().div_ceil(2)),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "only the first task",
         drills: &["practice"],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| job.tasks.truncate(1),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "skips the arch",
         drills: &["drill-curve-under-arch"],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| job.tasks.retain(|task| task.kind != TaskKind::ArchBottom),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "skips the pier",
         drills: &["drill-orbit"],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| job.tasks.retain(|task| task.kind != TaskKind::PierCircle),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "4 m off throughout",
         drills: &["drill-stand-off"],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| move_away(job, 4.0),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
-    Weakness {
-        name: "too close",
-        drills: &["drill-stand-off"],
-        also: &[],
-        skill: Skill::EXPERT,
-        belief: |job| move_away(job, -1.5),
-        tamper: untouched,
-    },
-    Weakness {
-        name: "climbs too little",
-        drills: &["drill-hover"],
-        also: &[],
-        skill: Skill::EXPERT,
-        belief: lower_paths,
-        tamper: untouched,
-    },
+    Weakness { name: "too close", drills: &["drill-stand-off"], also: &[], belief: |job| move_away(job, -1.5), ..NO_WEAKNESS },
+    Weakness { name: "climbs too little", drills: &["drill-hover"], also: &[], belief: lower_paths, ..NO_WEAKNESS },
     Weakness {
         name: "too fast everywhere",
         drills: &["drill-straight-line"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 8.0)),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "too fast around the pier",
         drills: &["drill-orbit"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, axes| if hands.status == "task 4" { faster(axes, 6.0) } else { axes })
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "too fast in the interlayer",
         drills: &["drill-gap"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, axes| if hands.status == "task 3" { faster(axes, 4.5) } else { axes })
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "unsteady sticks",
         drills: &["drill-hover"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, [x, y, z, r]| {
                 let noise = hands.noise();
                 [x + noise[0], y + noise[1], z + noise[2], r]
             })
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "yaw noise",
         drills: &["drill-framing"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + 2.8 * hands.noise()[3]]),
+        ..NO_WEAKNESS
     },
-    Weakness {
-        name: "looks aside",
-        drills: &["drill-framing"],
-        also: &["drill-search"],
-        skill: Skill::EXPERT,
-        belief: look_aside,
-        tamper: untouched,
-    },
+    Weakness { name: "looks aside", drills: &["drill-framing"], also: &["drill-search"], belief: look_aside, ..NO_WEAKNESS },
     Weakness {
         name: "gimbal never tilted",
         drills: &["drill-framing"],
         also: &["drill-search"],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |_, message| without(message, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "lamp never on",
         drills: &["drill-lamp"],
         also: &["drill-search"],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |_, message| without(message, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "no pictures",
         drills: &["drill-search"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |_, message| without(message, MavCmd::MAV_CMD_IMAGE_START_CAPTURE),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "overlooks defects",
         drills: &["drill-search"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| {
             if command(&message) != Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE) {
                 return vec![message];
@@ -385,13 +349,12 @@ pub const WEAKNESSES: &[Weakness] = &[
             hands.pictures += 1;
             if hands.pictures.is_multiple_of(OVERLOOKED) { vec![message] } else { Vec::new() }
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "pictures at random",
         drills: &["drill-search"],
         also: &["drill-framing"],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| {
             if command(&message) == Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE) {
                 return Vec::new();
@@ -401,27 +364,26 @@ pub const WEAKNESSES: &[Weakness] = &[
             hands.stick_messages += u64::from(is_stick);
             if due && is_stick { vec![message, picture()] } else { vec![message] }
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "ignores the battery",
         drills: &["drill-landing"],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| match message {
             MavMessage::MANUAL_CONTROL(sticks) if hands.last_task_flown => {
                 vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { x: 0, y: 0, z: 500, r: 0, ..sticks })]
             }
             other => vec![other],
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "lands outside the home circle",
         drills: &["drill-landing"],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| job.ground_team.pad_m += Vec3::new(0.0, -9.0, 0.0),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
 ];
 
@@ -431,17 +393,15 @@ pub const GRAVE_FAULTS: &[Weakness] = &[
         name: "49% of every path",
         drills: &[],
         also: &[],
-        skill: Skill::EXPERT,
         belief: |job| shorten_paths(job, points_to_49_percent),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "bumps into the bridge 22 times",
         drills: &[],
         also: &[],
-        skill: Skill::EXPERT,
-        belief: as_intended,
         tamper: |hands, message| with_sticks(hands, message, |hands, axes| bump(hands, axes, &BUMPS)),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "nose never rests",
@@ -449,10 +409,10 @@ pub const GRAVE_FAULTS: &[Weakness] = &[
         also: &[],
         // The pilot photographs nevertheless. Otherwise, waiting for a steady picture would take the time for the last task.
         skill: Skill { photo_turn_deg_s: 90.0, steady_s: 0.2, framing_deg: 15.0, ..Skill::EXPERT },
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + MODERATE_YAW_NOISE * hands.noise()[3]])
         },
+        ..NO_WEAKNESS
     },
 ];
 
