@@ -214,7 +214,7 @@ fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site) -
     let places: Vec<Vec3<Enu>> = team.inspector_places_m().collect();
     let problem = |key: &str, value: String, allowed: String, message: String| Problem {
         file: source.file.to_owned(),
-        line: key_line_number(source.text, key),
+        line: key_line_number(source.text, key).unwrap_or(1),
         key: format!("ground_team.{key}"),
         location: format!("ground_team.{key}"),
         value,
@@ -255,10 +255,10 @@ fn place_problem(site: &Site, place_m: Vec3<Enu>) -> Option<(String, String)> {
     })
 }
 
-/// Returns the number of the first line that sets a key; 1 if there is none.
-fn key_line_number(text: &str, key: &str) -> usize {
-    let sets = |line: &str| line.split_once('=').is_some_and(|(name, _)| is_key(name, key));
-    text.lines().position(sets).map_or(1, |k| k + 1)
+/// Returns the number of the first line that sets a key, alone or after the names of its tables; `None` if there is none.
+fn key_line_number(text: &str, key: &str) -> Option<usize> {
+    let sets = |line: &str| line.split_once('=').is_some_and(|(name, _)| name.trim().rsplit('.').next() == Some(key));
+    text.lines().position(sets).map(|k| k + 1)
 }
 
 /// Returns a warning for each task whose path an earlier task has, too, such as a copied task that was not changed.
@@ -273,16 +273,10 @@ fn repeated_paths(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String>
 /// Returns a warning if the battery's temperature is set, but has no effect.
 fn unused_temperature(source: &ScenarioText<'_>, scenario: &Scenario) -> Option<String> {
     const KEY: &str = "battery_temperature_c";
-    let is_set = source.text.lines().any(|line| line.split_once('=').is_some_and(|(name, _)| is_key(name, KEY)));
-    (is_set && scenario.rules.battery == BatteryModel::Paper).then(|| {
-        let line = key_line_number(source.text, KEY);
+    let line = key_line_number(source.text, KEY)?;
+    (scenario.rules.battery == BatteryModel::Paper).then(|| {
         format!("{}:{line}: rules.{KEY} has no effect with battery = \"paper\": set battery = \"physical\"", source.file)
     })
-}
-
-/// Returns whether the part of a line before the equal sign is a key, alone or after the names of its tables.
-fn is_key(name: &str, key: &str) -> bool {
-    name.trim().rsplit('.').next() == Some(key)
 }
 
 /// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.

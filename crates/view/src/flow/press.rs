@@ -68,18 +68,17 @@ impl WindowFlow {
     fn type_character(&mut self, sign: char, is_name_edited: bool) {
         let is_first = self.choice.trainee.is_empty() || !is_name_edited;
         let fits = sign.is_ascii_alphanumeric() || (!is_first && (sign == '-' || sign == '_'));
+        // A character that is refused changes nothing.
+        self.is_name_edited = is_name_edited || fits;
         if !fits {
             self.notice = Some(text!(self.language(), "window-start-name-characters"));
-            self.is_name_edited = is_name_edited;
         } else if !is_first && self.choice.trainee.len() >= MAX_NAME_LENGTH {
-            self.is_name_edited = is_name_edited;
             self.notice = Some(text!(self.language(), "window-start-name-length", count = MAX_NAME_LENGTH));
         } else {
             if is_first {
                 self.choice.trainee.clear();
             }
             self.choice.trainee.push(sign);
-            self.is_name_edited = true;
         }
     }
 
