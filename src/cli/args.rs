@@ -54,10 +54,10 @@ impl JobArgs {
     }
 }
 
-/// The language of a page that a command writes.
+/// The language of a page or text that a command writes.
 #[derive(Debug, Clone, clap::Args)]
 pub struct LanguageArgs {
-    /// Language of the page: en, de or es [default: the window's setting, else the operating system's language]
+    /// Language of the page or text: en, de or es [default: the window's setting, else the operating system's language]
     #[arg(long, value_name = "LANGUAGE", value_parser = parse_language)]
     language: Option<Language>,
 }

@@ -45,14 +45,14 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let vehicle = files::vehicle(&args.job.vehicle)?.vehicle;
     let site = Site::without_defects(scenario);
     let briefing = |language| Briefing::new(scenario, &vehicle, &site, language);
+    let language = args.page.language();
     match (&args.html, args.json) {
         (Some(file), _) => {
-            let language = args.page.language();
             let pictures: Vec<Option<String>> = source.load_pictures()?.iter().map(|picture| Some(picture.data_uri())).collect();
             files::write(file, page::briefing(&briefing(language), (scenario, &site), &pictures, language).as_bytes())
         }
-        // Text and JSON are in English.
+        // Programs read the JSON, so it is always in English.
         (None, true) => files::write("-", json_text(&briefing(Language::English)).as_bytes()),
-        (None, false) => files::write("-", text::render(&briefing(Language::English)).as_bytes()),
+        (None, false) => files::write("-", text::render(&briefing(language), language).as_bytes()),
     }
 }

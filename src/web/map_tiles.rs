@@ -8,6 +8,8 @@ use super::state::ServerState;
 use crate::io::files;
 use crate::io::map_tiles::{LatestMap, MapTiles, address};
 use spandrel_model::scenario::Scenario;
+use spandrel_training::web::map_capabilities::{self, JobMap};
+use spandrel_view::site_map::{MAX_ZOOM, TILE_PX};
 use std::sync::{Arc, TryLockError};
 
 /// Time after which a client may ask again for a tile that could not be drawn at once, s.
@@ -41,6 +43,14 @@ pub fn tile(state: &ServerState, request: &WebRequest) -> HandlerResult {
         tiles
     });
     Ok(WebResponse::map_tile(tiles.draw(place)?))
+}
+
+/// Responds with the description of a job's tiles for map programs.
+pub fn capabilities(state: &ServerState, request: &WebRequest) -> HandlerResult {
+    let name = request.path_param("name");
+    let title = job(state, name).ok_or(WebError::NotFound)?.title;
+    let map = JobMap { server: &request.server, name, title: &title, tile_px: TILE_PX, max_zoom: MAX_ZOOM };
+    Ok(WebResponse::xml(map_capabilities::capabilities(&map)))
 }
 
 #[cfg(test)]
@@ -79,6 +89,10 @@ mod tests {
             let (status, body) = ask(&format!("{name}/14/8573/5793.png"));
             assert!(status == 200 && body.starts_with(PNG), "{name}: {status}");
         }
+        let (status, body) = ask("own-job/WMTSCapabilities.xml");
+        let template = format!("{}/tiles/own-job/{{TileMatrix}}/{{TileCol}}/{{TileRow}}.png", server.address());
+        assert!(status == 200 && String::from_utf8_lossy(&body).contains(&template), "{status}: {template}");
+        assert_eq!(ask("other-job/WMTSCapabilities.xml").0, 404);
         for path in ["other-job/14/8573/5793.png", "job/14/8573/5793.png", "own-job/14/99999/5793.png", "own-job/14/8573/x.png"] {
             let (status, body) = ask(path);
             assert_eq!(status, 404, "{path}");

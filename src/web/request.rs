@@ -58,6 +58,8 @@ pub struct WebRequest {
     pub body: Vec<u8>,
     /// The requested part of a file (Range).
     pub range: Option<String>,
+    /// Address of the server as the client entered it, such as `http://127.0.0.1:8080`.
+    pub server: String,
     /// True for requests from the pages' scripts, which expect JSON.
     pub expects_json: bool,
 }

@@ -134,6 +134,8 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
         let expects_json = accepts_json(&headers);
         let (languages, range) = (preferred_languages(&headers), header_text(&headers, header::RANGE));
         let authorization = header_text(&headers, header::AUTHORIZATION);
+        let scheme = if state.auth.is_secure() { "https" } else { "http" };
+        let server = format!("{scheme}://{}", header_text(&headers, header::HOST).unwrap_or_default());
         let (form, upload, body) = (Vec::new(), None, Vec::new());
         let web_request = WebRequest {
             visitor,
@@ -148,6 +150,7 @@ async fn parse_head(shared: &PipelineState, route: &'static Route, request: &mut
             authorization,
             body,
             range,
+            server,
             expects_json,
         };
         Ok(RequestHead { request: web_request, identity: recognized })

@@ -130,6 +130,11 @@ impl WebResponse {
         Self::new("text/vtt; charset=utf-8", text)
     }
 
+    /// Responds with an XML document.
+    pub fn xml(document: maud::Markup) -> Self {
+        Self::new("application/xml", document.into_string().into_bytes())
+    }
+
     /// Responds with a map tile.
     pub fn map_tile(png: Vec<u8>) -> Self {
         Self::new("image/png", png)

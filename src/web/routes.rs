@@ -134,6 +134,7 @@ pub const ROUTES: &[Route] = &[
     text("/scenario-editor/save", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenario_editor::save),
     text("/scenario-editor/download", MAX_SCENARIO_BYTES, AccessLevel::Instructor, scenario_editor::download),
     show("/tiles/{name}/{z}/{x}/{y}", AccessLevel::Public, map_tiles::tile),
+    show("/tiles/{name}/WMTSCapabilities.xml", AccessLevel::Public, map_tiles::capabilities),
     show("/scenarios/{name}/briefing", AccessLevel::Login, scenarios::briefing_page),
     show("/scenarios/{name}/pictures/{file}", AccessLevel::Login, scenario_pictures::show),
     upload("/scenarios/{name}/pictures", MAX_PICTURE_BYTES, AccessLevel::Instructor, scenario_pictures::add),
@@ -192,6 +193,7 @@ mod tests {
                 "/logout",
                 "/language",
                 "/tiles/{name}/{z}/{x}/{y}",
+                "/tiles/{name}/WMTSCapabilities.xml",
                 "/stations/check-in",
                 "/stations/pictures/{name}/{file}"
             ]

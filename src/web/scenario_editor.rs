@@ -35,7 +35,7 @@ pub fn new(state: &ServerState, request: &WebRequest) -> HandlerResult {
         return Ok(WebResponse::page(pages::new_page(&request.visitor, &named, (base, name))));
     };
     let base = find(&state.scenarios, from).ok_or(WebError::NotFound)?;
-    let text = edit::with_name(&base.text, name);
+    let text = edit::copy(&base.text, name);
     let about = EditorPage { text: &text, opened: "", version: "", unsaved: true, notice: None, conflict: false, checked: None };
     Ok(WebResponse::page(pages::editor_page(&request.visitor, &about)))
 }

@@ -2,6 +2,7 @@
 
 use crate::errors::AppError;
 use crate::io::controller::{CalibratedController, DeviceError, DeviceWatcher, EventSource, ProfileFolder};
+use spandrel_clients::rc::action::ControllerAction;
 use spandrel_clients::rc::controller_link::ControllerLink;
 use spandrel_clients::rc::wizard::CalibrationWizard;
 use spandrel_clients::rc::{ControllerProfile, RawInput, StickMode, Sticks};
@@ -290,6 +291,11 @@ impl ControllerSlot {
         self.note = ControllerNote::Disabled(why.to_string());
     }
 
+    /// Returns the name of the button with this action. Its number would mean nothing to a person.
+    fn button_name(&self, action: ControllerAction) -> String {
+        text!(self.language, "flight-how-button", function = action.short_title(self.language))
+    }
+
     /// Returns the status for the controller page; `keyboard` contains the stick positions from the keyboard, `keys` the names of
     /// its keys with what they do.
     pub fn controls(&self, keyboard: Sticks, keys: Vec<(String, String)>) -> ControllerStatus {
@@ -319,6 +325,7 @@ impl ControllerSlot {
                 let axis = profile.axes.values().next();
                 ControllerStatus {
                     calibrated: true,
+                    buttons: profile.buttons.values().map(|action| (action.name(), self.button_name(*action))).collect(),
                     dead_band: axis.map_or(0.0, |axis| axis.dead_band),
                     expo: axis.map_or(0.0, |axis| axis.expo),
                     sticks: profile.mode.physical_sticks(profile.sticks(hand.raw())),

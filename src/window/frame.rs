@@ -246,7 +246,7 @@ impl Cockpit {
             map,
             path_aids: self.path_aids(),
             ghost,
-            key_names: self.flow.key_names(),
+            control_names: self.flow.control_names(),
             style: self.flow.style(),
         };
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };

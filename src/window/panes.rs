@@ -13,7 +13,7 @@ use spandrel_model::vehicle::Vehicle;
 use spandrel_view::arrange::{ViewKind, ViewRect, render_size_px};
 use spandrel_view::exposure::ExposureMeter;
 use spandrel_view::feed::Feed;
-use spandrel_view::flow::KeyNames;
+use spandrel_view::flow::ControlNames;
 use spandrel_view::flown_path::FlownPath;
 use spandrel_view::gpu::{PanePicture, Renderer, fill, picture_texture, read};
 use spandrel_view::hud::lesson_words::{how_to, step_how_to};
@@ -100,7 +100,7 @@ pub struct ViewOptions<'a> {
     /// Ghost of an earlier flight.
     pub ghost: Option<Pose<Enu>>,
     /// Names of the keys.
-    pub key_names: &'a KeyNames,
+    pub control_names: ControlNames<'a>,
     /// Language, units and text size.
     pub style: DisplayStyle,
 }
@@ -164,12 +164,12 @@ impl ViewPanes {
         display.style = options.style;
         display.ghost = options.ghost;
         display.flown = flown;
-        let (language, key) = (options.style.language, |binding: &str| options.key_names.name(binding));
+        let language = options.style.language;
         if let Some(lesson) = &mut display.lesson {
-            lesson.how = how_to(lesson.status.task, language, &key);
+            lesson.how = how_to(lesson.status.task, language, &options.control_names);
         }
         if let Some(guidance) = &display.guidance {
-            display.guidance_how = step_how_to(guidance.step, language, &key);
+            display.guidance_how = step_how_to(guidance.step, language, &options.control_names);
         }
         let video = self.video.receive(&now.moment, feed.video_margin_db(now.moment.at));
         let mut shown = Vec::new();

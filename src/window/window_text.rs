@@ -126,6 +126,7 @@ mod tests {
     use spandrel_clients::rc::keyboard::KeyBindings;
     use spandrel_mavlink::contract::lesson::LessonTask;
     use spandrel_model::frames::Vec3;
+    use spandrel_view::flow::{ControlNames, ControllerStatus};
     use spandrel_view::hud::lesson_words::how_to;
 
     #[test]
@@ -134,8 +135,13 @@ mod tests {
         for language in Language::ALL {
             let label = |(binding, _): (&'static str, String)| (binding, keys.label(binding, language));
             let names = KeyNames::new(KeyBindings::functions(language).map(label).collect());
-            let mut texts: Vec<String> =
-                LessonTask::ALL.into_iter().map(|task| how_to(task, language, &|binding| names.name(binding))).collect();
+            let pad = ControllerStatus { calibrated: true, ..ControllerStatus::default() };
+            let mut texts: Vec<String> = [ControllerStatus::default(), pad]
+                .iter()
+                .flat_map(|controller| {
+                    LessonTask::ALL.map(|task| how_to(task, language, &ControlNames::new(&names, controller, language)))
+                })
+                .collect();
             for (text_scale, flies) in TextScale::ALL.into_iter().flat_map(|scale| [(scale, false), (scale, true)]) {
                 texts.push(help(&names, flies, DisplayStyle { language, text_scale, ..DisplayStyle::default() }));
                 texts.push(frozen(&names, flies, language));

@@ -13,6 +13,7 @@ from spandrel import wait_for
 
 M = mavutil.mavlink
 CAMERA = 100
+MONITOR = 191
 # Main mode number of PX4's POSCTL, and number of ArduCopter's POSHOLD.
 POSITION_MODE = {M.MAV_AUTOPILOT_PX4: 3, M.MAV_AUTOPILOT_ARDUPILOTMEGA: 16}
 # Telemetry rate for a stick control loop, Hz in vehicle time.
@@ -36,6 +37,8 @@ class Client:
                 self.link.mav.request_data_stream_send(self.link.target_system, 1, group, rate_hz, 1)
         self.state = {}
         self.texts = []
+        # The monitor's way to the next place.
+        self.way = None
         self.beat_at = 0.0
 
     def pump(self):
@@ -49,6 +52,8 @@ class Client:
                 return
             if message.get_type() == "STATUSTEXT":
                 self.texts.append((message.get_srcComponent(), message.text))
+            if message.get_srcComponent() == MONITOR and message.get_type() == "NAV_CONTROLLER_OUTPUT":
+                self.way = message
             if message.get_srcComponent() in (1, CAMERA):
                 self.state[message.get_type()] = message
 

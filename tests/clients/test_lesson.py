@@ -16,11 +16,22 @@ PIER = (0.0, 34.0, 5.0)
 DEFECT = (1.6, 38.5, 4.2)
 ABOVE_PAD = (0.0, 0.0, 5.0)
 NAN = float("nan")
+# Largest error of a place that follows from the way to it, m: whole meters and degrees, and the flight between two messages.
+ROUNDING_M = 1.5
 
 
 def lesson_texts(client):
     """Returns the monitor's texts about the lesson."""
     return [text for component, text in client.texts if component == 191 and text.startswith("Lesson: ")]
+
+
+def place_of_step(client):
+    """Returns the place of the lesson's step, as NAV_CONTROLLER_OUTPUT shows the way to it."""
+    client.way = None
+    way = client.wait("the way to the next place", lambda: client.way)
+    (east, north, up), _ = client.here()
+    bearing = math.radians(way.target_bearing)
+    return (east + way.wp_dist * math.sin(bearing), north + way.wp_dist * math.cos(bearing), up + way.alt_error)
 
 
 @pytest.mark.timeout(300)
@@ -48,17 +59,22 @@ def test_wire_a_ground_station_does_the_lesson(tmp_path):
         assert client.command(M.MAV_CMD_COMPONENT_ARM_DISARM, 1) == M.MAV_RESULT_ACCEPTED
         said("2/11 take off to 2 m")
         hold((0.0, 0.0, 5.0), north, "3/11 hover in the ring for 10 s")
-        client.fly_to(RING, north)
+        ring = place_of_step(client)
+        assert handpilot.distance(ring, RING) < ROUNDING_M, ring
+        said(" m, ahead")
+        client.fly_to(ring, north)
         # Leaves the ring too early.
-        client.fly_to(RING, north, done=lambda _, since=client.state["ATTITUDE"].time_boot_ms: client.state["ATTITUDE"].time_boot_ms > since + 3000)
+        client.fly_to(ring, north, done=lambda _, since=client.state["ATTITUDE"].time_boot_ms: client.state["ATTITUDE"].time_boot_ms > since + 3000)
         client.fly_to((0.0, 13.0, 5.0), north)
         said("you left the ring: stay 10 s")
-        hold(RING, north, "4/11 turn by 90 deg")
+        hold(ring, north, "4/11 turn by 90 deg")
         hold(RING, lambda _: math.pi, "5/11 fly along the path")
         for corner in SQUARE:
             client.fly_to(corner, north, cruise=2.0)
         said("6/11 stop in the ring for 3 s")
-        hold(PIER, at_defect, "7/11 tilt the camera up 20 deg")
+        stop = place_of_step(client)
+        assert handpilot.distance(stop, PIER) < ROUNDING_M, stop
+        hold(stop, at_defect, "7/11 tilt the camera up 20 deg")
         tilt(30.0)
         hold(PIER, at_defect, "8/11 turn the lamp on")
         assert client.command(M.MAV_CMD_DO_SET_RELAY, 0, 1) == M.MAV_RESULT_ACCEPTED
@@ -72,6 +88,7 @@ def test_wire_a_ground_station_does_the_lesson(tmp_path):
         client.fly_to(PIER, at_defect, done=lambda _, since=client.state["ATTITUDE"].time_boot_ms: client.state["ATTITUDE"].time_boot_ms > since + 5000)
         photograph()
         hold(PIER, at_defect, "10/11 fly back to the pad")
+        assert handpilot.distance(place_of_step(client)[:2] + (0.0,), (0.0, 0.0, 0.0)) < ROUNDING_M
         client.fly_to(ABOVE_PAD, north)
         said("11/11 land on the pad")
         assert client.command(M.MAV_CMD_NAV_LAND, 0, 0, 0, NAN, NAN, NAN, 0) == M.MAV_RESULT_ACCEPTED

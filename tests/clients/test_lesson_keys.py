@@ -14,6 +14,8 @@ from test_flow import AGAIN_S, BLUE, LIMIT_S, Training, acknowledge, count, fold
 from test_flow import screen  # noqa: F401 (fixture)
 from test_lesson import ABOVE_PAD, DEFECT, PIER, RING, SQUARE, lesson_texts
 
+# Simulated seconds per second. The test waits for the vehicle's time, so a faster flight only has coarser steps.
+SPEED = "2"
 # Distance that a held key moves the drone per second, m: along the ground and up, with the time in which the drone gains speed and stops. Too
 # large a value only takes more steps.
 GROUND_M_S, CLIMB_M_S = 5.0, 2.0
@@ -119,7 +121,7 @@ def test_wire_the_lesson_is_done_with_the_keyboard(screen, tmp_path):  # noqa: F
     """All eleven steps; motors stopped too early, a ring left too early and a picture without a defect are remarked. The large map opens and
     closes, and the end page says that the lesson is done."""
     gcs_port = spandrel.free_udp_port()
-    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "first-flight", "--seed", "7", "--no-sound", "--gcs", f"127.0.0.1:{gcs_port}")
+    training = Training(screen, tmp_path, "--trainee", "nina", "--scenario", "first-flight", "--seed", "7", "--speed", SPEED, "--no-sound", "--gcs", f"127.0.0.1:{gcs_port}")
     try:
         acknowledge(training, "lesson")
         client = Client(gcs_port, scenario="first-flight")

@@ -17,6 +17,12 @@ const STOPPED_M_S: f64 = 0.4;
 const TILT_TOLERANCE_RAD: f64 = 1.0 / 180.0 * math::PI;
 /// Time in a ring after which leaving it is worth a remark.
 const REMARK_HOLD: SimTime = SimTime::from_ms(1_000);
+/// Interval at which the way to a step's place is repeated, as for the tasks of a job.
+const WAY_INTERVAL: SimTime = SimTime::from_ms(10_000);
+/// Time without progress after which the instruction is repeated (estimate: longer than reading it and flying to a ring takes).
+const REPETITION_INTERVAL: SimTime = SimTime::from_ms(30_000);
+/// Angle by which the camera may turn away from the wanted pitch without a remark, rad (estimate: one key press tilts it by less).
+const WRONG_WAY_RAD: f64 = 8.0 / 180.0 * math::PI;
 
 /// State of the flight that a lesson depends on.
 #[derive(Debug, Clone, Copy)]
@@ -69,9 +75,16 @@ pub struct LessonCoach {
     turned_rad: f64,
     /// Time since which the aircraft has been in the step's ring.
     held_since: Option<SimTime>,
+    /// Whether the aircraft has crossed the step's ring without stopping.
+    passed: bool,
     /// Whether a picture of the step shows a defect.
     pictured: bool,
+    /// Pitch of the camera when the step began.
+    start_pitch_rad: Option<f64>,
+    /// Highest progress in this step, and since when.
+    best: (f64, SimTime),
     announced: Option<usize>,
+    way_said: Option<SimTime>,
     remarked: Option<SimTime>,
 }
 
@@ -86,8 +99,12 @@ impl LessonCoach {
             last_heading_rad: 0.0,
             turned_rad: 0.0,
             held_since: None,
+            passed: false,
             pictured: false,
+            start_pitch_rad: None,
+            best: (0.0, SimTime::ZERO),
             announced: None,
+            way_said: None,
             remarked: None,
         })
     }
@@ -117,14 +134,31 @@ impl LessonCoach {
         self.last_heading_rad = input.heading_rad;
         let mut texts = Vec::new();
         if let Some(step) = self.steps.get(self.current).copied() {
-            texts.extend(self.hold(&step, input));
+            texts.extend(self.mistake(&step, input));
             if self.progress(&step, input) >= 1.0 && input.time - begun >= MIN_STEP_DURATION {
                 self.begin_next(input);
             }
         }
-        if self.announced != Some(self.current) {
-            self.announced = Some(self.current);
-            texts.push(self.status(input).words());
+        texts.extend(self.instructions(input));
+        texts
+    }
+
+    /// Returns the instruction of a new step or of one without progress, and the way to the step's place.
+    fn instructions(&mut self, input: &LessonInput) -> Vec<String> {
+        let status = self.status(input);
+        if status.progress > self.best.0 || self.announced != Some(self.current) {
+            self.best = (status.progress, input.time);
+        }
+        let is_stuck = !status.is_done() && input.time - self.best.1 >= REPETITION_INTERVAL;
+        let mut texts = Vec::new();
+        if self.announced != Some(self.current) || is_stuck {
+            (self.announced, self.best.1) = (Some(self.current), input.time);
+            texts.push(status.words());
+        }
+        let is_due = self.way_said.is_none_or(|said| input.time - said >= WAY_INTERVAL);
+        if let Some(words) = status.way_words().filter(|_| is_due) {
+            self.way_said = Some(input.time);
+            texts.push(words);
         }
         texts
     }
@@ -148,26 +182,62 @@ impl LessonCoach {
         self.current += 1;
         self.begun = Some(input.time);
         self.turned_rad = 0.0;
-        (self.held_since, self.pictured, self.remarked) = (None, false, None);
+        (self.held_since, self.passed, self.pictured) = (None, false, false);
+        (self.start_pitch_rad, self.way_said, self.remarked) = (None, None, None);
+    }
+
+    /// Returns a remark about a mistake in this step, and measures how long the aircraft has been in the step's ring.
+    fn mistake(&mut self, step: &LessonStep, input: &LessonInput) -> Option<String> {
+        match step {
+            LessonStep::Land => self.landed_elsewhere(input),
+            LessonStep::Arm => None,
+            _ if !input.armed => self.remark(input.time, "the motors are off: arm them again"),
+            LessonStep::TiltCamera { pitch_rad } => self.tilted_wrong(*pitch_rad, input),
+            LessonStep::Hover(place) | LessonStep::StopAt(place) => self.hold(step, place, input),
+            LessonStep::TakeOff { .. }
+            | LessonStep::Turn { .. }
+            | LessonStep::FlyPath { .. }
+            | LessonStep::Lamp
+            | LessonStep::Photograph
+            | LessonStep::FlyHome => None,
+        }
+    }
+
+    fn landed_elsewhere(&mut self, input: &LessonInput) -> Option<String> {
+        let distance_m = (input.position_m - input.pad_m).horizontal_norm();
+        if !input.on_ground || distance_m <= input.home_radius_m {
+            return None;
+        }
+        self.remark(input.time, &format!("you landed {distance_m:.0} m from the pad"))
+    }
+
+    fn tilted_wrong(&mut self, pitch_rad: f64, input: &LessonInput) -> Option<String> {
+        let start_rad = *self.start_pitch_rad.get_or_insert(input.camera_pitch_rad);
+        let turned_rad = (input.camera_pitch_rad - start_rad) * pitch_rad.signum();
+        let is_reached = self.progress(&LessonStep::TiltCamera { pitch_rad }, input) >= 1.0;
+        if is_reached || turned_rad > -WRONG_WAY_RAD {
+            return None;
+        }
+        let (wanted, done) = if pitch_rad < 0.0 { ("down", "up") } else { ("up", "down") };
+        self.remark(input.time, &format!("tilt the camera {wanted}, not {done}"))
     }
 
     /// Measures how long the aircraft has been in the ring, and returns a remark when it leaves it too early.
-    fn hold(&mut self, step: &LessonStep, input: &LessonInput) -> Option<String> {
-        if !input.armed && !matches!(step, LessonStep::Arm | LessonStep::Land) {
-            return self.remark(input.time, "the motors are off: arm them again");
-        }
-        let place = step.place()?;
+    fn hold(&mut self, step: &LessonStep, place: &LessonPlace, input: &LessonInput) -> Option<String> {
         let stop = matches!(step, LessonStep::StopAt(_));
         let inside = (input.position_m - place.position_m).norm() <= place.radius_m;
         if inside && stop && input.speed_m_s > STOPPED_M_S {
-            self.held_since = None;
+            (self.held_since, self.passed) = (None, true);
             return None;
         }
         if inside {
-            self.held_since.get_or_insert(input.time);
+            (self.held_since, self.passed) = (self.held_since.or(Some(input.time)), false);
             return None;
         }
         let held = self.held_since.take().map_or(SimTime::ZERO, |since| input.time - since);
+        if std::mem::take(&mut self.passed) {
+            return self.remark(input.time, "you flew through the ring: stop in it");
+        }
         if held < REMARK_HOLD || self.progress(step, input) >= 1.0 {
             return None;
         }
@@ -304,7 +374,8 @@ mod tests {
         let mut coach = coach(&[LessonStep::Arm, LessonStep::TakeOff { height_m: 2.0 }, LessonStep::Land]);
         let off = |ms| LessonInput { armed: false, ..input(ms) };
         assert_eq!(coach.update(&off(0)), ["Lesson: 1/3 arm the motors"]);
-        assert!(coach.update(&off(60_000)).is_empty() && coach.done() == 0, "it waits");
+        assert!(coach.update(&off(29_000)).is_empty() && coach.done() == 0, "it waits");
+        assert_eq!(coach.update(&off(30_000)), ["Lesson: 1/3 arm the motors"], "nothing has happened");
         assert_eq!(coach.update(&input(60_100)), ["Lesson: 2/3 take off to 2 m"]);
         let up = |ms| LessonInput { position_m: Vec3::new(0.0, 0.0, 2.1), ..input(ms) };
         assert!(coach.update(&up(60_200)).is_empty(), "the step is shown for a moment");
@@ -322,7 +393,8 @@ mod tests {
         coach.update(&at(0, 9.0));
         assert!(coach.update(&at(9_000, 11.0)).is_empty());
         assert!((coach.status(&at(9_000, 11.0)).progress - 0.9).abs() < 1e-9);
-        assert_eq!(coach.update(&at(9_100, 13.0)), ["Lesson: you left the ring: stay 10 s"]);
+        let said = coach.update(&at(9_100, 13.0));
+        assert_eq!(said, ["Lesson: you left the ring: stay 10 s", "Lesson: 1/1 3 m, behind you"]);
         assert_eq!(coach.status(&at(9_200, 13.0)).progress, 0.0);
         let way = coach.status(&at(9_200, 13.0)).way.unwrap();
         assert!((way.distance_m - 3.0).abs() < 1e-9 && (way.bearing_rad.abs() - math::PI).abs() < 1e-9, "{way:?}");
@@ -338,8 +410,11 @@ mod tests {
         coach.update(&at(0, 2.0));
         coach.update(&at(20_000, 2.0));
         assert_eq!(coach.done(), 0);
-        coach.update(&at(20_100, 0.1));
-        assert_eq!(coach.update(&at(30_100, 0.1)), ["Lesson: all steps done"]);
+        let beyond = LessonInput { position_m: Vec3::new(0.0, 15.0, 5.0), ..at(20_100, 2.0) };
+        let said = coach.update(&beyond);
+        assert_eq!(said, ["Lesson: you flew through the ring: stop in it", "Lesson: 1/1 5 m, behind you"]);
+        coach.update(&at(21_000, 0.1));
+        assert_eq!(coach.update(&at(31_000, 0.1)), ["Lesson: all steps done"]);
     }
 
     #[test]
@@ -381,6 +456,29 @@ mod tests {
         assert!(!done(path, input(0)) && done(path, LessonInput { tasks: &[(0.85, true)], ..input(0) }));
         let home = LessonStep::FlyHome;
         assert!(!done(home, LessonInput { position_m: Vec3::new(9.0, 0.0, 5.0), ..input(0) }) && done(home, input(0)));
+    }
+
+    #[test]
+    fn exact_the_way_to_a_ring_is_said_and_repeated_outside_it() {
+        let mut coach = coach(&[LessonStep::Hover(PLACE)]);
+        let at = |ms, north| LessonInput { position_m: Vec3::new(0.0, north, 5.0), ..input(ms) };
+        assert_eq!(coach.update(&at(0, 0.0)), ["Lesson: 1/1 hover in the ring for 10 s", "Lesson: 1/1 10 m, ahead"]);
+        assert!(coach.update(&at(9_900, 0.0)).is_empty());
+        assert_eq!(coach.update(&at(10_000, 2.0)), ["Lesson: 1/1 8 m, ahead"]);
+        assert!(coach.update(&at(20_000, 9.0)).is_empty(), "it is there");
+    }
+
+    #[test]
+    fn exact_a_camera_tilted_the_wrong_way_and_a_landing_elsewhere_are_remarked() {
+        let mut tilting = coach(&[LessonStep::TiltCamera { pitch_rad: 0.3 }]);
+        let pitch = |ms, camera_pitch_rad| LessonInput { camera_pitch_rad, ..input(ms) };
+        tilting.update(&pitch(0, -0.1));
+        assert!(tilting.update(&pitch(1_000, -0.2)).is_empty());
+        assert_eq!(tilting.update(&pitch(2_000, -0.4)), ["Lesson: tilt the camera up, not down"]);
+        let mut landing = coach(&[LessonStep::Land]);
+        let down = |ms, east| LessonInput { position_m: Vec3::new(east, 0.0, 0.0), on_ground: true, armed: false, ..input(ms) };
+        assert_eq!(landing.update(&down(0, 12.0)), ["Lesson: you landed 12 m from the pad", "Lesson: 1/1 land on the pad"]);
+        assert_eq!(landing.update(&down(2_000, 1.0)), ["Lesson: all steps done"]);
     }
 
     #[test]

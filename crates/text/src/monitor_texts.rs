@@ -145,6 +145,10 @@ static REMARKS: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(0, |l, _| text!(l, "flight-remark-motors-off")),
         Sentence::new(0, |l, _| text!(l, "flight-remark-no-defect")),
         Sentence::new(1, |l, v| text!(l, "flight-remark-left-ring", time = v[0])),
+        Sentence::new(0, |l, _| text!(l, "flight-remark-passed-ring")),
+        Sentence::new(0, |l, _| text!(l, "flight-remark-tilt-up")),
+        Sentence::new(0, |l, _| text!(l, "flight-remark-tilt-down")),
+        Sentence::new(1, |l, v| text!(l, "flight-remark-landed-elsewhere", distance = v[0])),
     ];
     SentenceTable::new(own.into_iter().chain(PICTURE_REASONS))
 });
@@ -270,7 +274,7 @@ fn lesson_message(message: &str, language: Language) -> Option<String> {
     let numbered = || {
         let (number, words) = rest.split_once(' ')?;
         let (step, steps) = number.split_once('/')?;
-        let words = INSTRUCTIONS.translate(words, language)?;
+        let words = INSTRUCTIONS.translate(words, language).or_else(|| way_words(words, language))?;
         Some(text!(language, "flight-message-lesson-step", step = step, steps = steps, words = words))
     };
     let plain = || {
@@ -289,7 +293,7 @@ mod tests {
     }
 
     /// Texts of every kind, as the monitor sends them.
-    const SENT: [&str; 26] = [
+    const SENT: [&str; 30] = [
         "Return to task 2: 140 m, 30 deg left",
         "Task 2: fly out from under the bridge first",
         "First: 12 m, 90 deg right, 3 m up",
@@ -313,6 +317,10 @@ mod tests {
         "The session is over",
         "Lesson: 2/11 take off to 2 m",
         "Lesson: 8/11 tilt the camera down 30 deg",
+        "Lesson: 3/11 12 m, 30 deg left, 3 m up",
+        "Lesson: you flew through the ring: stop in it",
+        "Lesson: tilt the camera up, not down",
+        "Lesson: you landed 12 m from the pad",
         "Lesson: all steps done",
         "Lesson: too dark: lamp off, 3 lx of 50 lx needed",
         "Session over: 300 points, not certified",

@@ -30,7 +30,7 @@ pub mod standing;
 pub mod stations;
 pub mod statistics;
 pub mod terms;
-mod time_text;
+pub mod time_text;
 pub mod trainee;
 pub mod training_class;
 pub mod web;

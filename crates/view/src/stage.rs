@@ -5,7 +5,6 @@ use super::exposure::{Exposure, ExposureMeter, Lighting, meter};
 use super::feed::{Feed, shutter};
 use super::flown_path::FlownPath;
 use super::ghost::GhostView;
-use super::hud::lesson_words::how_to;
 use super::hud::{DisplayStyle, DrawItem, Hud, InspectorMarks, LessonDisplay, MapPath, Obstacles, TaskNames, WayBack, marker};
 use super::inspector_camera::InspectorCamera;
 use super::path_guide::{GuidedView, PathAids, ring_items};
@@ -23,7 +22,6 @@ use spandrel_model::scenario::{LessonStep, Scenario};
 use spandrel_model::site::{CameraPose, Site};
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::{Camera, Vehicle};
-use spandrel_text::Language;
 
 /// Objects within this distance in front of the aircraft do not count as hiding it, m (about the aircraft's size).
 const DRONE_CLEARANCE_M: f64 = 0.5;
@@ -334,7 +332,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         guidance_how: String::new(),
         tasks: TaskNames::of(scenario),
         lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
-            how: how_to(status.task, Language::default(), &|binding| format!("{{{binding}}}")),
+            how: String::new(),
             remark: remark.map(str::to_owned),
             status,
         }),

@@ -21,8 +21,9 @@ const DEFAULT_SCENARIO: &str = "two-bridges";
 /// prints the scores and the session folder. With a display, it opens a window where you choose the trainee and job,
 /// check the controller, take a tutorial on your first flight, read the briefing and confirm its site check, fly with the
 /// keyboard or a calibrated controller using the inspector's and the camera's views, and see the scores. If you specify
-/// a scenario, the window begins with its briefing. You can pause or restart a practice flight. Without a display, the
-/// flight starts at once: fly with your ground station or a script.
+/// a scenario, the window begins with its briefing. You can pause or restart a practice flight. Without a display, it
+/// prints the briefing; at a terminal, the flight starts when you confirm the site check, otherwise at once. Fly with your
+/// ground station or a script.
 #[derive(Debug, clap::Args)]
 #[command(after_help = AUTOPILOT_EXIT_CODES, after_long_help = format!("\
 Examples:

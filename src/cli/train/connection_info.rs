@@ -9,7 +9,12 @@ fn map_tiles(scenario: &str, web: Option<&str>) -> String {
     let shipped = scenario.split(files::FORM_SEPARATOR).next().filter(|name| files::scenario_names().contains(name));
     let named = shipped.map(str::to_owned).or_else(|| own_job_name(scenario));
     match web.zip(named) {
-        Some((web, name)) => format!("{}/tiles/{name}/{{z}}/{{x}}/{{y}}.png", web.trim_end_matches('/')),
+        Some((web, name)) => {
+            let tiles = format!("{}/tiles/{name}", web.trim_end_matches('/'));
+            format!(
+                "{tiles}/{{z}}/{{x}}/{{y}}.png\n                   {tiles}/WMTSCapabilities.xml (Mission Planner: WMTS Custom)"
+            )
+        }
         None => "none".to_owned(),
     }
 }
@@ -75,10 +80,14 @@ mod tests {
         };
         assert!(told(true).contains("A window shows") && !told(true).contains("No window"), "{}", told(true));
         assert!(told(true).contains("map tiles        none"));
-        let served = map_tiles("drill-hover", Some("http://127.0.0.1:8080/"));
-        assert_eq!(served, "http://127.0.0.1:8080/tiles/drill-hover/{z}/{x}/{y}.png");
-        let form = map_tiles("pilot-study@B", Some("http://127.0.0.1:8080"));
-        assert_eq!(form, "http://127.0.0.1:8080/tiles/pilot-study/{z}/{x}/{y}.png");
+        let of = |name: &str| {
+            let tiles = format!("http://127.0.0.1:8080/tiles/{name}");
+            format!(
+                "{tiles}/{{z}}/{{x}}/{{y}}.png\n                   {tiles}/WMTSCapabilities.xml (Mission Planner: WMTS Custom)"
+            )
+        };
+        assert_eq!(map_tiles("drill-hover", Some("http://127.0.0.1:8080/")), of("drill-hover"));
+        assert_eq!(map_tiles("pilot-study@B", Some("http://127.0.0.1:8080")), of("pilot-study"));
         let folder = tempfile::tempdir().unwrap();
         let own = folder.path().join("job.toml");
         let path = own.to_str().unwrap();
@@ -87,7 +96,7 @@ mod tests {
         std::fs::write(&own, text).unwrap();
         assert_eq!(map_tiles(path, Some("http://127.0.0.1:8080")), "none", "another job with the name of a shipped one");
         std::fs::write(&own, text.replace("name = \"drill-hover\"", "name = \"my-job\"")).unwrap();
-        assert_eq!(map_tiles(path, Some("http://127.0.0.1:8080")), "http://127.0.0.1:8080/tiles/my-job/{z}/{x}/{y}.png");
+        assert_eq!(map_tiles(path, Some("http://127.0.0.1:8080")), of("my-job"));
         assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }
 }

@@ -24,9 +24,10 @@ use spandrel_training::advice::SessionAdvice;
 use spandrel_training::briefing::{Briefing, TaskBriefing, flight_conditions, text as briefing_text};
 use spandrel_training::plan::LESSON;
 use spandrel_training::terms::scenario_title;
+use spandrel_training::time_text::clock;
 use spandrel_view::flow::pipe::{
-    BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer, LessonProgress,
-    NextJob, Purpose, SCORE_NAMES, TraineeSummary,
+    BriefingImage, FinalScore, FlightChoice, FlightMoment, FlightOptions, FlightSummary, GhostFlight, JobBriefing, JobOffer,
+    LessonProgress, NextJob, Purpose, SCORE_NAMES, TraineeSummary,
 };
 use spandrel_view::path_guide::PathAids;
 use std::collections::BTreeMap;
@@ -432,15 +433,27 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         watched: false,
         // The sentence after a lesson is about its scores, which the page does not show.
         advice: advice.iter().filter(|_| lesson.is_none()).flat_map(SessionAdvice::sentences).map(str::to_owned).collect(),
+        moments: web.iter().flat_map(|web| moments(session, web, &advice)).collect(),
         report: page.is_file().then(|| report::address(&page)),
         questionnaire: web.map(|web| questionnaire(session, web)).unwrap_or_default(),
     }
 }
 
+/// Returns the moments of the advice in the report on the server with this address.
+fn moments(session: &Path, web: &str, advice: &Option<SessionAdvice>) -> Vec<FlightMoment> {
+    let report = session_page(session, web, "report");
+    let moment = |t_s: f64| FlightMoment { time: clock(t_s), address: format!("{report}#t={t_s:.2}") };
+    advice.iter().flat_map(|advice| &advice.points).map(|point| moment(point.t_s)).collect()
+}
+
 /// Returns the address of a session's questionnaire on the server with this address.
 pub fn questionnaire(session: &Path, web: &str) -> String {
+    session_page(session, web, "questions")
+}
+
+fn session_page(session: &Path, web: &str, page: &str) -> String {
     let id = session.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    format!("{web}/sessions/{id}/questions")
+    format!("{web}/sessions/{id}/{page}")
 }
 
 /// Puts the job that the start page offers the trainee on the end page, instead of the one that follows from this session alone.
@@ -452,7 +465,8 @@ pub fn offer_planned_job(ended: &mut FlightSummary, trainee: &str, trainees: &[T
 /// Returns the end page of a flight that the trainee only watched: the next flight is the trainee's own.
 pub fn watched(ended: FlightSummary, scenario: &str, language: Language) -> FlightSummary {
     let next = job_named(scenario, language);
-    FlightSummary { watched: true, standing: None, advice: Vec::new(), questionnaire: String::new(), next, ..ended }
+    let (advice, moments) = (Vec::new(), Vec::new());
+    FlightSummary { watched: true, standing: None, advice, moments, questionnaire: String::new(), next, ..ended }
 }
 
 fn end_reason_text(end: &Value, session: &Path, language: Language) -> String {
@@ -756,7 +770,13 @@ mod tests {
             "end": {"reason": "landed", "seconds": 750.9}}"#;
         std::fs::write(folder.path().join(ASSESSMENT), text).unwrap();
         std::fs::write(folder.path().join(REPORT), "page").unwrap();
+        let advice =
+            r#"{"points": [{"words": "Slow down.", "rule": "speeding", "frame": 9, "t_s": 340.24, "drill": "drill-speed"}]}"#;
+        std::fs::write(folder.path().join(spandrel_monitor::folder::ADVICE), advice).unwrap();
         let ended = flight_summary(folder.path(), Some("http://127.0.0.1:9"), None, Language::English);
+        let id = folder.path().file_name().unwrap().to_string_lossy().into_owned();
+        let address = format!("http://127.0.0.1:9/sessions/{id}/report#t=340.24");
+        assert_eq!(ended.moments, [FlightMoment { time: "5:40".into(), address }]);
         assert_eq!(ended.why, "Landed after 12 min 30 s of flight");
         assert_eq!((ended.scores[2].map(|s| s.raw), ended.scores[3], ended.overall), (Some(-9.0), None, Some((272.0, 300.0))));
         assert!(ended.report.is_some_and(|address| address.starts_with("file:///")));

@@ -51,6 +51,15 @@ impl TerminalPrompt {
         self.has_quit |= answer == PromptAnswer::Quit;
         Some(answer)
     }
+
+    /// Returns whether the user has pressed Enter; `None` until then, and false at the end of the input.
+    pub fn confirmation(&mut self) -> Option<bool> {
+        match self.lines.get_or_insert_with(read_lines).try_recv() {
+            Ok(_) => Some(true),
+            Err(TryRecvError::Disconnected) => Some(false),
+            Err(TryRecvError::Empty) => None,
+        }
+    }
 }
 
 fn read(line: &str) -> PromptAnswer {

@@ -21,9 +21,12 @@ use crate::io::clock;
 use crate::io::files;
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
+use crate::io::user_language::user_language;
 use crate::records::{Database, RecordsLocation};
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
+use spandrel_model::site::Site;
 use spandrel_text::{Language, text};
+use spandrel_training::briefing::{self, Briefing};
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow, TraineeSummary};
 use std::net::SocketAddr;
 use std::path::Path;
@@ -233,18 +236,42 @@ impl<'a> TrainRun<'a> {
         if self.stop.is_requested() {
             return NextFlight::Leave;
         }
-        if self.is_fixed() {
-            return NextFlight::Fly(usual.clone());
+        if !self.is_fixed() {
+            if self.station.is_some() {
+                return self.wait_for_order();
+            }
+            tracing::info!(
+                "using the command line: {} flies {}; to change this, use --trainee, --scenario and --purpose",
+                usual.trainee,
+                usual.scenario
+            );
         }
-        if self.station.is_some() {
-            return self.wait_for_order();
+        match self.brief_at_terminal(usual) {
+            Ok(()) if self.stop.is_requested() => NextFlight::Leave,
+            // Starting the flight reports an unreadable file.
+            Ok(()) | Err(_) => NextFlight::Fly(usual.clone()),
         }
-        tracing::info!(
-            "using the command line: {} flies {}; to change this, use --trainee, --scenario and --purpose",
-            usual.trainee,
-            usual.scenario
-        );
-        NextFlight::Fly(usual.clone())
+    }
+
+    /// Prints the briefing, and waits until a user at a terminal has confirmed the site check.
+    fn brief_at_terminal(&mut self, choice: &FlightChoice) -> Result<(), AppError> {
+        let scenario = files::scenario(&choice.scenario)?.scenario;
+        let (vehicle, language) = (files::vehicle(&choice.vehicle)?.vehicle, user_language());
+        let briefing = Briefing::new(&scenario, &vehicle, &Site::without_defects(&scenario), language);
+        println!("{}", briefing::text::render(&briefing, language));
+        if !self.prompt.is_open() {
+            return Ok(());
+        }
+        println!("{}", text!(language, "briefing-confirm"));
+        while !self.stop.is_requested() {
+            if let Some(is_confirmed) = self.prompt.confirmation() {
+                let acknowledged_unix_us = clock::unix_us();
+                self.site_check = is_confirmed.then(|| SiteCheck { choice: choice.clone(), acknowledged_unix_us });
+                break;
+            }
+            std::thread::sleep(CHECK_INTERVAL);
+        }
+        Ok(())
     }
 
     /// Offers flights in the window, with the briefings for the selected aircraft. Returns what it offers the trainees.

@@ -6,6 +6,7 @@
 use super::float_array::{self, FloatArray, optional};
 use super::guidance::WayTo;
 use crate::dialect::MavMessage;
+use spandrel_model::math;
 use spandrel_model::time::SimTime;
 
 /// Name in the message.
@@ -166,8 +167,20 @@ impl LessonStatus {
     /// "Lesson: 2/11 take off to 2 m".
     #[must_use]
     pub fn words(&self) -> String {
+        self.numbered(&self.instruction())
+    }
+
+    /// Returns the way to the place of the step in words for a STATUSTEXT message (at most 50 characters), such as
+    /// "Lesson: 3/11 12 m, 30 deg left, 3 m up"; `None` without such a place, or within its radius.
+    #[must_use]
+    pub fn way_words(&self) -> Option<String> {
+        let is_there = |way: &WayTo| math::hypot(way.distance_m, way.up_m) <= self.radius_m.unwrap_or_default();
+        self.way.filter(|way| !is_there(way)).map(|way| self.numbered(&way.words()))
+    }
+
+    fn numbered(&self, words: &str) -> String {
         let number = if self.is_done() { String::new() } else { format!("{}/{} ", self.step, self.steps) };
-        format!("{TEXT_PREFIX}{number}{}", self.instruction())
+        format!("{TEXT_PREFIX}{number}{words}")
     }
 }
 
@@ -212,5 +225,10 @@ mod tests {
         assert_eq!(words(LessonTask::Turn, std::f64::consts::FRAC_PI_2), "Lesson: 3/11 turn by 90 deg");
         assert_eq!(words(LessonTask::TiltCamera, -0.5), "Lesson: 3/11 tilt the camera down 29 deg");
         assert_eq!(words(LessonTask::Done, 0.0), "Lesson: all steps done");
+        assert_eq!(status(LessonTask::Hover).way_words().as_deref(), Some("Lesson: 3/11 12 m, 14 deg left, 3 m up"));
+        assert_eq!(LessonStatus { radius_m: Some(13.0), ..status(LessonTask::Hover) }.way_words(), None, "it is there");
+        let far = WayTo { distance_m: 9_999.0, bearing_rad: 3.0, up_m: -999.0 };
+        let longest = LessonStatus { way: Some(far), step: 99, steps: 99, ..status(LessonTask::StopAt) }.way_words().unwrap();
+        assert!(longest.len() <= 50, "{longest}");
     }
 }

@@ -320,6 +320,16 @@ pub fn with_name(text: &str, name: &str) -> String {
     document.to_string()
 }
 
+/// Returns the text of a copy with another name, which its title shows, too. Invalid TOML is returned unchanged.
+#[must_use]
+pub fn copy(text: &str, name: &str) -> String {
+    let Ok(mut document) = with_name(text, name).parse::<DocumentMut>() else { return text.to_owned() };
+    if let Some(title) = document.get("title").and_then(|title| title.as_str()).map(|title| format!("{title} ({name})")) {
+        document["title"] = value(title);
+    }
+    document.to_string()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -441,5 +451,8 @@ mod tests {
         }
         assert_eq!(apply("name = ", &[set("name", "a")]), Err("the text is not valid TOML".into()));
         assert!(with_name(PRACTICE, "my-job").contains("\nname = \"my-job\"\n"));
+        let copied = copy(PRACTICE, "my-job");
+        assert!(copied.contains("\nname = \"my-job\"\ntitle = \"Practice at two bridges (my-job)\"\n"), "{copied}");
+        assert_eq!(copy("name = ", "my-job"), "name = ");
     }
 }

@@ -37,7 +37,7 @@ fn surface_distance(task: &Task, nearest: NearestOnPath, way_back_m: Vec3<Enu>) 
 
 /// Returns bearing, distance and height of the next place for ground stations, which show them beside the map. Without a place, the
 /// distance is zero.
-fn navigation(way: Option<WayTo>, heading_rad: f64) -> MavMessage {
+pub(super) fn navigation(way: Option<WayTo>, heading_rad: f64) -> MavMessage {
     let WayTo { distance_m, bearing_rad, up_m } = way.unwrap_or(WayTo { distance_m: 0.0, bearing_rad: 0.0, up_m: 0.0 });
     let bearing_deg = (heading_rad + bearing_rad).to_degrees().rem_euclid(360.0).round() as i16 % 360;
     MavMessage::NAV_CONTROLLER_OUTPUT(NAV_CONTROLLER_OUTPUT_DATA {
@@ -82,9 +82,6 @@ impl Monitor {
         let guidance = self.guidance(truth);
         self.send(&guidance.message(u64::try_from(truth.time.us()).unwrap_or(0)));
         self.send(&navigation(guidance.first_way(), truth.motion.ned_from_frd.yaw_rad()));
-        if self.lesson.is_some() {
-            return;
-        }
         for words in self.announcer.update(truth.time, &guidance) {
             self.event("guidance", json!({ "words": words }));
             self.send_text(&words, MavSeverity::MAV_SEVERITY_INFO);

@@ -1,5 +1,6 @@
 //! The lesson of a job: its input from the telemetry, and its messages.
 
+use super::messages::navigation;
 use super::{GUIDANCE_INTERVAL, Monitor};
 use crate::lesson::{LessonInput, PictureVerdict};
 use serde_json::json;
@@ -39,7 +40,12 @@ impl Monitor {
         let is_due = self.lesson_sent.is_none_or(|sent| truth.time - sent >= GUIDANCE_INTERVAL);
         if is_due || is_news {
             self.lesson_sent = Some(truth.time);
-            self.send(&lesson.status(&input).message(u64::try_from(truth.time.us()).unwrap_or(0)));
+            let status = lesson.status(&input);
+            self.send(&status.message(u64::try_from(truth.time.us()).unwrap_or(0)));
+            // Along the path of a task, ground stations get the way from the guidance.
+            if lesson.path_task().is_none() {
+                self.send(&navigation(status.way, input.heading_rad));
+            }
         }
         self.lesson = Some(lesson);
     }

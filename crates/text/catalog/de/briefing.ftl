@@ -116,3 +116,6 @@ briefing-check-places = Sichtverbindung: Ich behalte die Drohne im Blick. Dafür
         [one] einem weiteren Standort
        *[other] { $count } weiteren Standorten
     } auf dem Plan gehen.
+
+# At a terminal, below the briefing.
+briefing-confirm = Drücken Sie die Eingabetaste, um die Kontrolle des Einsatzorts zu bestätigen. Danach startet die Drohne.

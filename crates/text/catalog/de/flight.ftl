@@ -87,9 +87,21 @@ flight-how-fly-home = Das weiße Quadrat im Kompass zeigt den Weg.
 flight-how-land = Drücken Sie { $land } über dem Landeplatz, oder halten Sie { $down }, bis die Motoren stehen.
 flight-how-start = Drücken Sie { $arm }, um die Motoren zu starten, dann { $take_off }.
 flight-how-done = Sie sind bereit für die erste Übung.
+# The same with a controller. Buttons are named by their function.
+flight-how-button = Ihren Knopf „{ $function }“
+flight-how-sticks-take-off = Drücken Sie { $take_off }. Oder: { $throttle } nach oben.
+flight-how-sticks-hover = Vor und zurück: { $pitch }; seitwärts: { $roll }; auf und ab: { $throttle }. Im Ring loslassen.
+flight-how-sticks-turn = Drehen: { $yaw } nach links oder rechts.
+flight-how-sticks-fly-path = Durch die Tore. Vor und zurück: { $pitch }; seitwärts: { $roll }; auf und ab: { $throttle }.
+flight-how-sticks-stop-at = Lassen Sie die Knüppel früh los: Die Drohne hat einen Bremsweg.
+flight-how-sticks-land = Drücken Sie { $land } über dem Landeplatz. Oder: { $throttle } nach unten, bis die Motoren stehen.
 flight-remark-motors-off = Die Motoren sind aus: erneut starten
 flight-remark-left-ring = Ring verlassen: { $time } bleiben
 flight-remark-no-defect = Kein Schaden im Bild
+flight-remark-passed-ring = Durch den Ring geflogen: darin anhalten
+flight-remark-tilt-up = Kamera nach oben neigen, nicht nach unten
+flight-remark-tilt-down = Kamera nach unten neigen, nicht nach oben
+flight-remark-landed-elsewhere = { $distance } neben dem Landeplatz gelandet
 
 ## Warnings
 

@@ -124,3 +124,6 @@ briefing-check-places = Line of sight: I keep the drone in sight. If necessary, 
         [one] the other place
        *[other] one of the { $count } other places
     } on the plan.
+
+# At a terminal, below the briefing.
+briefing-confirm = Press Enter to confirm the site check. Then the drone starts.

@@ -93,10 +93,22 @@ flight-how-fly-home = The white square on the compass shows the way.
 flight-how-land = Press { $land } above the pad, or hold { $down } until the motors stop.
 flight-how-start = Press { $arm } to arm the motors, then { $take_off }.
 flight-how-done = You are ready for the first drill.
+# The same with a controller. Buttons are named by their function.
+flight-how-button = your button “{ $function }”
+flight-how-sticks-take-off = Press { $take_off }, or push up the { $throttle } to climb.
+flight-how-sticks-hover = Forward and back: { $pitch }; sideways: { $roll }; up and down: { $throttle }. Let go in the ring.
+flight-how-sticks-turn = Move the { $yaw } to the left or right.
+flight-how-sticks-fly-path = Fly through the gates. Forward and back: { $pitch }; sideways: { $roll }; up and down: { $throttle }.
+flight-how-sticks-stop-at = Let go of the sticks early: the drone needs room to stop.
+flight-how-sticks-land = Press { $land } above the pad, or pull down the { $throttle } until the motors stop.
 # What went wrong in a step of a lesson. The monitor sends the English texts.
 flight-remark-motors-off = the motors are off: arm them again
 flight-remark-left-ring = you left the ring: stay { $time }
 flight-remark-no-defect = no defect in the picture
+flight-remark-passed-ring = you flew through the ring: stop in it
+flight-remark-tilt-up = tilt the camera up, not down
+flight-remark-tilt-down = tilt the camera down, not up
+flight-remark-landed-elsewhere = you landed { $distance } from the pad
 
 ## Warnings
 

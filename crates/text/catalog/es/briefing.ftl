@@ -116,3 +116,6 @@ briefing-check-places = Línea de vista: mantengo el dron a la vista. Para ello 
         [one] otro punto
        *[other] otros { $count } puntos
     } del plano.
+
+# At a terminal, below the briefing.
+briefing-confirm = Pulse Intro para confirmar la revisión del sitio. Después se pone en marcha el dron.

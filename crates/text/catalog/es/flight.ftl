@@ -87,9 +87,21 @@ flight-how-fly-home = El cuadrado blanco de la brújula indica el camino.
 flight-how-land = Pulse { $land } sobre la plataforma o mantenga { $down } hasta que paren los motores.
 flight-how-start = Pulse { $arm } para armar los motores y luego { $take_off }.
 flight-how-done = Ya puede volar el primer ejercicio.
+# The same with a controller. Buttons are named by their function.
+flight-how-button = su botón «{ $function }»
+flight-how-sticks-take-off = Pulse { $take_off }. O bien: { $throttle } hacia arriba.
+flight-how-sticks-hover = Adelante y atrás: { $pitch }; a los lados: { $roll }; arriba y abajo: { $throttle }. Suelte en el anillo.
+flight-how-sticks-turn = Gire: { $yaw } a la izquierda o a la derecha.
+flight-how-sticks-fly-path = Por las puertas. Adelante y atrás: { $pitch }; a los lados: { $roll }; arriba y abajo: { $throttle }.
+flight-how-sticks-stop-at = Suelte las palancas a tiempo: el dron necesita espacio para frenar.
+flight-how-sticks-land = Pulse { $land } sobre la plataforma. O bien: { $throttle } hacia abajo hasta que paren los motores.
 flight-remark-motors-off = los motores están apagados: ármelos de nuevo
 flight-remark-left-ring = salió del anillo: permanezca { $time }
 flight-remark-no-defect = no hay ningún defecto en la foto
+flight-remark-passed-ring = atravesó el anillo: deténgase dentro
+flight-remark-tilt-up = incline la cámara hacia arriba, no hacia abajo
+flight-remark-tilt-down = incline la cámara hacia abajo, no hacia arriba
+flight-remark-landed-elsewhere = aterrizó a { $distance } de la plataforma
 
 ## Warnings
 

@@ -36,7 +36,7 @@ fn exact_every_shipped_job_has_a_briefing_that_fits_a_terminal() {
     for (name, text) in shipped::SCENARIOS {
         let briefing = briefing(text);
         assert!(!briefing.counts.is_empty() && !briefing.site_check.is_empty(), "{name}");
-        let shown = text::render(&briefing);
+        let shown = text::render(&briefing, Language::English);
         assert!(shown.lines().all(|line| line.chars().count() <= 96), "{name}:\n{shown}");
         assert!(shown.contains(&briefing.title) && !shown.contains("inf") && !shown.contains("NaN"), "{name}:\n{shown}");
         for line in briefing.hazards.iter().chain(&briefing.site_check) {
@@ -50,7 +50,7 @@ fn exact_the_instructors_words_come_first() {
     let text = format!("briefing = [\"Meet at the gate.\", \"Bring a vest.\"]\n{}", shipped::TWO_BRIDGES);
     let briefing = briefing(&text);
     assert_eq!(briefing.notes, ["Meet at the gate.", "Bring a vest."]);
-    let shown = text::render(&briefing);
+    let shown = text::render(&briefing, Language::English);
     assert!(shown.find("Meet at the gate.") < shown.find("Tasks, in this order"), "{shown}");
 }
 
@@ -58,23 +58,22 @@ fn exact_the_instructors_words_come_first() {
 fn exact_pictures_follow_the_words_with_file_and_caption() {
     let picture = BriefingPicture { file: "site/gate.jpg".into(), caption: "The gate, seen from the road".into() };
     let briefing = briefing(&with_briefing_picture(shipped::TWO_BRIDGES, &picture).unwrap());
-    let shown = text::render(&briefing);
-    assert!(shown.contains("\nPictures\n  site/gate.jpg: The gate, seen from the road\n"), "{shown}");
-    assert!(!text::render(&self::briefing(shipped::TWO_BRIDGES)).contains("Pictures"));
+    let shown = text::render(&briefing, Language::English);
+    assert!(shown.contains("\nPictures from your instructor\n  site/gate.jpg: The gate, seen from the road\n"), "{shown}");
+    assert!(!text::render(&self::briefing(shipped::TWO_BRIDGES), Language::English).contains("Pictures"));
     assert_eq!(briefing.pictures, [picture]);
 }
 
 #[test]
 fn exact_briefing_is_in_the_language_of_the_page() {
-    let shown = |briefing: &Briefing| {
-        let numbers = |task: &TaskBriefing, language| format!("{} {}", task.place, text::task_numbers(task, language));
-        let tasks = briefing.tasks.iter().map(|task| numbers(task, Language::Pseudo));
-        let lines = briefing.hazards.iter().chain(&briefing.counts).chain(&briefing.site_check).cloned();
-        let names = briefing.conditions.iter().map(|(name, _)| name.clone()).chain([briefing.title.clone()]);
-        tasks.chain(lines).chain(names).collect::<Vec<_>>().join("\n")
-    };
-    let german = shown(&briefing_in(shipped::TWO_BRIDGES, Language::German));
-    assert!(german.contains("einmal herum, in beliebiger Richtung") && german.contains("Für die Zertifizierung: "), "{german}");
-    let words = shown(&briefing_in(shipped::TWO_BRIDGES, Language::Pseudo));
-    assert_eq!(untranslated_word(&words, &["arch", "suspension"]), None, "{words}");
+    let shown = |language| text::render(&briefing_in(shipped::TWO_BRIDGES, language), language);
+    let german = shown(Language::German);
+    assert!(
+        german.contains("\nGefahren\n")
+            && german.contains("in beliebiger Richtung")
+            && german.contains("Für die Zertifizierung: "),
+        "{german}"
+    );
+    let words = shown(Language::Pseudo);
+    assert_eq!(untranslated_word(&words, &["arch", "suspension", "Phantom", "class"]), None, "{words}");
 }

@@ -1,4 +1,4 @@
-//! The briefing as plain English text, for a terminal.
+//! The briefing as plain text, for a terminal.
 
 use super::{Briefing, TaskBriefing};
 use spandrel_text::{Language, text};
@@ -11,7 +11,7 @@ const HANGING_INDENT: usize = 3;
 
 /// Renders the briefing.
 #[must_use]
-pub fn render(briefing: &Briefing) -> String {
+pub fn render(briefing: &Briefing, language: Language) -> String {
     let mut out = format!("{}\n{}\n", briefing.title, "=".repeat(briefing.title.chars().count()));
     let mut put = |words: &str, indent: &str| {
         let hanging = if indent.is_empty() { 0 } else { HANGING_INDENT };
@@ -25,27 +25,32 @@ pub fn render(briefing: &Briefing) -> String {
     }
     if !briefing.pictures.is_empty() {
         put("", "");
-        put("Pictures", "");
+        put(&text!(language, "report-briefing-pictures"), "");
     }
     for picture in &briefing.pictures {
         put(&format!("{}: {}", picture.file, picture.caption), "  ");
     }
     put("", "");
+    let name_width = briefing.conditions.iter().map(|(name, _)| name.chars().count()).max().unwrap_or_default() + 2;
     for (name, value) in &briefing.conditions {
-        put(&format!("{name:<10}{value}"), "  ");
+        put(&format!("{name:<name_width$}{value}"), "  ");
     }
     if !briefing.tasks.is_empty() {
         put("", "");
-        put("Tasks, in this order", "");
+        put(&text!(language, "report-briefing-tasks"), "");
     }
     for task in &briefing.tasks {
         put(&format!("{}  {}: {}", task.id, task.name, task.place), "  ");
-        put(&task_numbers(task, Language::English), "     ");
+        put(&task_numbers(task, language), "     ");
     }
-    let lists = [("Hazards", &briefing.hazards), ("What counts", &briefing.counts), ("Site check", &briefing.site_check)];
+    let lists = [
+        (text!(language, "report-briefing-hazards"), &briefing.hazards),
+        (text!(language, "report-briefing-counts"), &briefing.counts),
+        (text!(language, "report-briefing-check"), &briefing.site_check),
+    ];
     for (heading, lines) in lists.into_iter().filter(|(_, lines)| !lines.is_empty()) {
         put("", "");
-        put(heading, "");
+        put(&heading, "");
         for line in lines {
             put(line, "  ");
         }

@@ -17,6 +17,7 @@ mod live_hazards;
 pub mod live_state;
 pub mod login;
 pub mod login_throttle;
+pub mod map_capabilities;
 pub mod plan_rules;
 pub mod questionnaire_form;
 pub mod rejected_form;

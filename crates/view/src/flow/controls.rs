@@ -31,6 +31,8 @@ pub struct ControllerStatus {
     pub note: String,
     /// Name of each key, with what it does in a few words.
     pub keys: Vec<(String, String)>,
+    /// Bindings that the device's buttons have, each with the name of its button.
+    pub buttons: Vec<(&'static str, String)>,
 }
 
 impl Default for ControllerStatus {
@@ -47,6 +49,7 @@ impl Default for ControllerStatus {
             wizard: None,
             note: String::new(),
             keys: Vec::new(),
+            buttons: Vec::new(),
         }
     }
 }

@@ -29,6 +29,8 @@ pub enum MenuAction {
     OpenTutorial,
     /// Start a round of the defect school.
     School,
+    /// Select a moment of the flight and open the report there.
+    Moment,
     /// Give the answer with this number in the defect school.
     Answer(usize),
     /// Continue in the defect school.

@@ -25,7 +25,7 @@ mod tutorial;
 
 pub use controls::ControllerStatus;
 pub use menu::{MenuAction, MenuRow, RowKind};
-pub use names::KeyNames;
+pub use names::{ControlNames, KeyNames};
 pub use page::{KeyPress, Page, ProfileChange, WindowRequest};
 pub use settings::{KeyFunction, Setting, SettingChange, SettingsStatus};
 pub use sheet::{PageLayout, PictureSource};
@@ -56,6 +56,8 @@ pub struct WindowFlow {
     pub controls: ControllerStatus,
     flying: Option<FlightStarted>,
     ended: Option<FlightSummary>,
+    /// Index of the moment that the end page offers to show.
+    moment: usize,
     /// Page of the defect school, while it is open.
     school: Option<SchoolPage>,
     notice: Option<String>,
@@ -113,6 +115,7 @@ impl WindowFlow {
             controls: ControllerStatus::default(),
             flying: None,
             ended: None,
+            moment: 0,
             school: None,
             notice: None,
             tutorial_done: BTreeSet::new(),
@@ -252,6 +255,12 @@ impl WindowFlow {
         &self.names
     }
 
+    /// Returns the names of what the trainee flies with.
+    #[must_use]
+    pub fn control_names(&self) -> ControlNames<'_> {
+        ControlNames::new(&self.names, &self.controls, self.language())
+    }
+
     /// Returns the current notice for the user; the next key or click clears it.
     #[must_use]
     pub fn notice(&self) -> Option<&str> {
@@ -362,7 +371,7 @@ impl WindowFlow {
                 }
             }
             ToWindow::Ended(ended) => {
-                self.ended = Some(ended);
+                (self.ended, self.moment) = (Some(ended), 0);
                 if let Some(flown) = self
                     .flying
                     .take()

@@ -266,6 +266,15 @@ impl LessonProgress {
     }
 }
 
+/// A moment of a flight that the report shows.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FlightMoment {
+    /// Time since lift-off, such as "5:40".
+    pub time: String,
+    /// Address of the report at this moment.
+    pub address: String,
+}
+
 /// Result of a flight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlightSummary {
@@ -290,6 +299,9 @@ pub struct FlightSummary {
     /// Sentences on what to do better, at most three.
     #[serde(default)]
     pub advice: Vec<String>,
+    /// Moments of the first sentences, in their order; empty without a server that shows the report.
+    #[serde(default)]
+    pub moments: Vec<FlightMoment>,
     /// Recommended next job.
     #[serde(default)]
     pub next: Option<NextJob>,
@@ -464,6 +476,7 @@ mod tests {
             why: "landed".into(),
             standing: Some("This is the personal best on this job.".into()),
             advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
+            moments: vec![FlightMoment { time: "5:40".into(), address: "http://127.0.0.1:9/sessions/x/report#t=340".into() }],
             next: Some(next),
             watched: false,
             lesson: None,

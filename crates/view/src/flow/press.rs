@@ -52,7 +52,8 @@ impl WindowFlow {
             KeyPress::Backspace | KeyPress::Char(_) => {}
             KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
-                if matches!(rows[row].kind, RowKind::Button | RowKind::KeyBinding) {
+                let is_button = matches!(rows[row].kind, RowKind::Button | RowKind::KeyBinding);
+                if is_button || rows[row].action == MenuAction::Moment {
                     self.activate(&rows, confirmed);
                 }
             }
@@ -109,6 +110,10 @@ impl WindowFlow {
                 self.out.push_back(WindowRequest::ChangeProfile(ProfileChange::Expo(expo)));
             }
             MenuAction::Setting(setting) => self.step_setting(setting, on),
+            MenuAction::Moment => {
+                let count = self.ended.as_ref().map_or(1, |ended| ended.moments.len().max(1));
+                self.moment = (self.moment + if on { 1 } else { count - 1 }) % count;
+            }
             MenuAction::CheckController
             | MenuAction::OpenTutorial
             | MenuAction::School
@@ -252,6 +257,10 @@ impl WindowFlow {
             MenuAction::FlyNext => self.fly_next(),
             MenuAction::WatchExpert => self.watch_expert(),
             MenuAction::ChooseOther => self.show_page(Page::Start),
+            MenuAction::Moment => {
+                let moment = self.moment;
+                self.open(|ended| ended.moments.get(moment).map(|moment| moment.address.clone()));
+            }
             MenuAction::Report => self.open(|ended| ended.report.clone()),
             MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
             MenuAction::Quit => {

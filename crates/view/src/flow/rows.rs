@@ -37,7 +37,7 @@ impl WindowFlow {
                     MenuRow::button(MenuAction::End, text!(language, "window-paused-score")),
                 ]
             }
-            Page::Results => summary::rows(self.ended.as_ref(), language),
+            Page::Results => summary::rows(self.ended.as_ref(), self.moment, language),
             Page::School => self.school.as_ref().map(|shown| school::rows(shown, language)).unwrap_or_default(),
         }
     }

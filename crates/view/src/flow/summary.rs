@@ -22,8 +22,8 @@ fn is_openable(address: &str) -> bool {
     ["http://", "https://", "file://"].iter().any(|start| address.starts_with(start))
 }
 
-/// Returns the menu rows for a result.
-pub fn rows(ended: Option<&FlightSummary>, language: Language) -> Vec<MenuRow> {
+/// Returns the menu rows for a result. `moment` is the index of the selected moment.
+pub fn rows(ended: Option<&FlightSummary>, moment: usize, language: Language) -> Vec<MenuRow> {
     let watched = ended.is_some_and(|ended| ended.watched);
     let mut rows = Vec::new();
     // First, so that Enter flies it.
@@ -38,6 +38,10 @@ pub fn rows(ended: Option<&FlightSummary>, language: Language) -> Vec<MenuRow> {
     }
     if ended.is_some_and(|ended| ended.report.is_some()) {
         rows.push(MenuRow::button(MenuAction::Report, text!(language, "window-result-open-report")));
+    }
+    if let Some(shown) = ended.and_then(|ended| ended.moments.get(moment)) {
+        let value = format!("{}: {}", moment + 1, shown.time);
+        rows.push(MenuRow::choice(MenuAction::Moment, text!(language, "window-result-moment"), value));
     }
     if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {
         rows.push(MenuRow::button(MenuAction::OpenQuestionnaire, text!(language, "window-result-open-questionnaire")));

@@ -1,9 +1,9 @@
 //! Tests of keyboard navigation, rejected actions, and page contents.
 
 use super::pipe::{
-    AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, FromWindow,
-    GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage, SchoolRequest,
-    ToWindow, TraineeSummary,
+    AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightMoment, FlightOptions, FlightStarted, FlightSummary, FlownBy,
+    FromWindow, GhostFlight, JobBriefing, JobOffer, LessonProgress, NextJob, OrderedFlight, Purpose, SCORE_NAMES, SchoolPage,
+    SchoolRequest, ToWindow, TraineeSummary,
 };
 use super::sheet::{PageLayout, PictureSource};
 use super::{
@@ -72,7 +72,7 @@ fn ended() -> FlightSummary {
         verdict: Some("Not certified".into()),
         unmet: vec!["12% battery at landing, 20% needed".into()],
         why: "landed after 12 min 30 s".into(),
-        standing: Some("Personal best on this job: 350 of 400. Change since last time: 12 points up.".into()),
+        standing: Some("Personal best on this job: 281 of 300. Change since last time: 12 points up.".into()),
         advice: [
             "You flew up to 6.2 m/s in tasks 1, 2 and 4, over the 4.5 m/s limit for 2 min 34 s, longest from 12:10: slow down.",
             "You hit the bridge 14 times in task 3, first at 5:40, hardest at 16:02 (2.1 m/s): slow down near it and keep your distance.",
@@ -80,6 +80,7 @@ fn ended() -> FlightSummary {
         ]
         .map(str::to_owned)
         .to_vec(),
+        moments: Vec::new(),
         next: None,
         watched: false,
         lesson: None,
@@ -256,6 +257,22 @@ fn exact_tutorial_precedes_each_trainees_first_practice() {
     assert_eq!(flow.page(), Page::Waiting, "a trainee who has practiced must not see the tutorial");
     flow.handle_message(ToWindow::Refused { words: String::new() });
     assert_eq!(named(&mut flow, "dan"), Page::Tutorial(0, true), "a new trainee must see the tutorial");
+}
+
+#[test]
+fn exact_the_end_page_opens_the_report_at_the_chosen_moment() {
+    let mut flow = in_flight(Purpose::Practice);
+    let moments =
+        ["5:40", "9:00"].map(|time| FlightMoment { time: time.into(), address: format!("http://a/report#{time}") }).to_vec();
+    flow.handle_message(ToWindow::Ended(FlightSummary { moments, ..ended() }));
+    pending_requests(&mut flow);
+    let opened = |address: &str| vec![WindowRequest::Open(format!("http://a/report#{address}"))];
+    press(&mut flow, &[KeyPress::Row(1)]);
+    assert_eq!(pending_requests(&mut flow), opened("5:40"));
+    press(&mut flow, &[KeyPress::Right, KeyPress::Enter]);
+    assert_eq!(pending_requests(&mut flow), opened("9:00"));
+    press(&mut flow, &[KeyPress::Right, KeyPress::Enter]);
+    assert_eq!(pending_requests(&mut flow), opened("5:40"), "from the last to the first");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use spandrel_text::monitor_texts::remark_words;
 use spandrel_text::text;
 
 /// Largest number of lines for what to do, how, and what went wrong; in the full and in the brief panel.
-const MAX_LINES: [usize; 3] = [2, 3, 2];
+const MAX_LINES: [usize; 3] = [2, 5, 2];
 const BRIEF_MAX_LINES: [usize; 3] = [2, 0, 1];
 /// Height of the progress bar.
 const BAR_HEIGHT: f64 = 0.012;

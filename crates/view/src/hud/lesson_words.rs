@@ -1,14 +1,21 @@
 //! The steps of a lesson, and of a job, in words.
 
 use super::style::DisplayUnits;
+use crate::flow::ControlNames;
 use spandrel_mavlink::contract::guidance::GuidanceStep;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_text::{Language, message_id, text};
 
-/// Returns how a step is done. `key` returns the name of a binding's key.
+/// Returns how a step is done with the trainee's keys or controller.
 #[must_use]
-pub fn how_to(task: LessonTask, language: Language, key: &dyn Fn(&str) -> String) -> String {
+pub fn how_to(task: LessonTask, language: Language, names: &ControlNames<'_>) -> String {
     let id = match task {
+        LessonTask::TakeOff if names.has_sticks() => message_id!("flight-how-sticks-take-off"),
+        LessonTask::Hover if names.has_sticks() => message_id!("flight-how-sticks-hover"),
+        LessonTask::Turn if names.has_sticks() => message_id!("flight-how-sticks-turn"),
+        LessonTask::FlyPath if names.has_sticks() => message_id!("flight-how-sticks-fly-path"),
+        LessonTask::StopAt if names.has_sticks() => message_id!("flight-how-sticks-stop-at"),
+        LessonTask::Land if names.has_sticks() => message_id!("flight-how-sticks-land"),
         LessonTask::Arm => message_id!("flight-how-arm"),
         LessonTask::TakeOff => message_id!("flight-how-take-off"),
         LessonTask::Hover => message_id!("flight-how-hover"),
@@ -22,15 +29,15 @@ pub fn how_to(task: LessonTask, language: Language, key: &dyn Fn(&str) -> String
         LessonTask::Land => message_id!("flight-how-land"),
         LessonTask::Done => message_id!("flight-how-done"),
     };
-    id.fill(language, key)
+    id.fill(language, &|binding| names.name(binding))
 }
 
-/// Returns how a step of a job is done, where it isn't flying; otherwise empty. `key` returns the name of a binding's key.
+/// Returns how a step of a job is done, where it isn't flying; otherwise empty.
 #[must_use]
-pub fn step_how_to(step: GuidanceStep, language: Language, key: &dyn Fn(&str) -> String) -> String {
+pub fn step_how_to(step: GuidanceStep, language: Language, names: &ControlNames<'_>) -> String {
     match step {
-        GuidanceStep::TakeOff => message_id!("flight-how-start").fill(language, key),
-        GuidanceStep::Land => message_id!("flight-how-land").fill(language, key),
+        GuidanceStep::TakeOff => message_id!("flight-how-start").fill(language, &|binding| names.name(binding)),
+        GuidanceStep::Land => how_to(LessonTask::Land, language, names),
         GuidanceStep::FlyToTask
         | GuidanceStep::FollowPath
         | GuidanceStep::HoldPosition

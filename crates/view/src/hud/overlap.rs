@@ -5,6 +5,7 @@ use super::tests::{ALL_CUES, crash, hud};
 use super::text_metrics::text_width;
 use super::*;
 use crate::arrange::{ViewKind, ViewLayout, WindowShape};
+use crate::flow::{ControlNames, ControllerStatus, KeyNames};
 use spandrel_mavlink::contract::guidance::{Detour, DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_mavlink::contract::hazards::RadioMargins;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
@@ -184,12 +185,46 @@ fn key_name(binding: &str, language: Language) -> String {
     }
 }
 
+/// Bindings that the steps of a lesson name.
+const BINDINGS: [&str; 15] = [
+    "forward",
+    "back",
+    "left",
+    "right",
+    "up",
+    "down",
+    "turn_left",
+    "turn_right",
+    "arm",
+    "take_off",
+    "land",
+    "lamp",
+    "snapshot",
+    "gimbal_up",
+    "gimbal_down",
+];
+
+fn key_names(language: Language) -> KeyNames {
+    KeyNames::new(BINDINGS.map(|binding| (binding, key_name(binding, language))).into())
+}
+
+/// Returns no controller, and one with a button for everything.
+fn controllers() -> [ControllerStatus; 2] {
+    let buttons = BINDINGS.map(|binding| (binding, "your button “photograph”".to_owned())).to_vec();
+    [ControllerStatus::default(), ControllerStatus { calibrated: true, buttons, ..ControllerStatus::default() }]
+}
+
 #[test]
 fn exact_steps_of_a_lesson_are_not_cut_in_any_language() {
-    for (task, language) in LessonTask::ALL.into_iter().flat_map(|task| LANGUAGES[..3].iter().map(move |one| (task, *one))) {
+    for ((task, language), controller) in LessonTask::ALL
+        .into_iter()
+        .flat_map(|task| LANGUAGES[..3].iter().map(move |one| (task, *one)))
+        .flat_map(|one| controllers().map(|controller| (one, controller)))
+    {
         let lesson = longest_lesson();
         let status = LessonStatus { task, target: Some(if task == LessonTask::Turn { 6.2 } else { 30.0 }), ..lesson.status };
-        let how = lesson_words::how_to(task, language, &|binding| key_name(binding, language));
+        let how = lesson_words::how_to(task, language, &ControlNames::new(&key_names(language), &controller, language));
+        assert!(!how.contains('{'), "{language:?}: {how}");
         let style = DisplayStyle { language, ..DisplayStyle::default() };
         let items = layout(&Hud { lesson: Some(LessonDisplay { status, how, remark: None }), style, ..hud() }, 4.0 / 3.0);
         for item in items {
@@ -203,7 +238,9 @@ fn exact_steps_of_a_lesson_are_not_cut_in_any_language() {
 fn exact_the_panel_says_how_to_take_off_and_land_in_all_languages() {
     let steps = [GuidanceStep::TakeOff, GuidanceStep::Land];
     for (step, language) in steps.into_iter().flat_map(|step| LANGUAGES[..3].iter().map(move |one| (step, *one))) {
-        let guidance_how = lesson_words::step_how_to(step, language, &|binding| key_name(binding, language));
+        let keys = key_names(language);
+        let guidance_how =
+            lesson_words::step_how_to(step, language, &ControlNames::new(&keys, &ControllerStatus::default(), language));
         let style = DisplayStyle { language, ..DisplayStyle::default() };
         let hud = Hud { guidance: Some(Guidance { step, ..take_off() }), guidance_how: guidance_how.clone(), style, ..hud() };
         let shown = |items: Vec<DrawItem>| {
@@ -214,7 +251,9 @@ fn exact_the_panel_says_how_to_take_off_and_land_in_all_languages() {
         let items = shown(layout(&hud, 4.0 / 3.0));
         assert!(!guidance_how.is_empty() && items.contains(&guidance_how), "{language:?}: {items}, not {guidance_how}");
     }
-    assert!(lesson_words::step_how_to(GuidanceStep::FollowPath, LANGUAGES[0], &|_| String::new()).is_empty());
+    let (keys, controller) = (KeyNames::default(), ControllerStatus::default());
+    let names = ControlNames::new(&keys, &controller, Language::English);
+    assert!(lesson_words::step_how_to(GuidanceStep::FollowPath, Language::English, &names).is_empty());
 }
 
 #[test]

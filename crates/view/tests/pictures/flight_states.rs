@@ -14,6 +14,7 @@ use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, sunny_job};
 use spandrel_text::Language;
 use spandrel_view::arrange::{ViewKind, ViewLayout, WindowShape};
+use spandrel_view::flow::{ControlNames, ControllerStatus, KeyNames};
 use spandrel_view::gpu::{Overlay, picture_texture, read};
 use spandrel_view::hud::lesson_words::how_to;
 use spandrel_view::hud::{self, DisplayStyle, Hud, LessonDisplay, MapPath, Obstacles};
@@ -107,7 +108,10 @@ fn display(studio: &Studio, language: Language, change: fn(&mut Hud)) -> Hud {
     hud.style = DisplayStyle { language, ..DisplayStyle::default() };
     change(&mut hud);
     if let Some(lesson) = &mut hud.lesson {
-        lesson.how = how_to(lesson.status.task, language, &|_| "K".to_owned());
+        let keys = KeyNames::new(
+            ["take_off", "up", "turn_left", "turn_right", "snapshot"].map(|binding| (binding, "K".to_owned())).into(),
+        );
+        lesson.how = how_to(lesson.status.task, language, &ControlNames::new(&keys, &ControllerStatus::default(), language));
     }
     hud
 }

@@ -6,8 +6,8 @@ use spandrel_model::site::Site;
 use spandrel_model::{scenario, shipped};
 use spandrel_text::Language;
 use spandrel_view::flow::pipe::{
-    AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightOptions, FlightStarted, FlightSummary, FlownBy, JobBriefing,
-    JobOffer, NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
+    AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightMoment, FlightOptions, FlightStarted, FlightSummary, FlownBy,
+    JobBriefing, JobOffer, NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
 };
 use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
 use spandrel_view::gpu::{Gpu, Overlay, PageImage, PageTextures, picture_texture, read};
@@ -129,8 +129,9 @@ fn ended() -> FlightSummary {
         verdict: Some("Not certified".into()),
         unmet: vec!["12% battery at landing, 20% needed".into()],
         why: "landed after 12 min 30 s".into(),
-        standing: Some("Personal best on this job: 350 of 400. Change since last time: 12 points up.".into()),
+        standing: Some("Personal best on this job: 281 of 300. Change since last time: 12 points up.".into()),
         advice: vec!["You flew up to 6.2 m/s in tasks 1, 2 and 4, over the 4.5 m/s limit for 2 min 34 s: slow down.".into()],
+        moments: vec![FlightMoment { time: "12:10".into(), address: "http://127.0.0.1:8080/sessions/a/report#t=730".into() }],
         next: None,
         watched: false,
         lesson: None,
