@@ -76,6 +76,12 @@ impl ContactKind {
         }
     }
 
+    /// Returns the more severe of two contacts.
+    #[must_use]
+    pub fn more_severe(self, other: Self) -> Self {
+        if other.severity() > self.severity() { other } else { self }
+    }
+
     /// Returns whether the contact counts toward X_o in TASBID, which covers contacts with anything except people and
     /// vehicles.
     #[must_use]

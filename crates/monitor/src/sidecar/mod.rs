@@ -109,6 +109,8 @@ struct LiveState {
     truth: Option<Truth>,
     battery_pct: Option<f64>,
     contact: ContactKind,
+    /// The gravest contact since the last check for the session's end: one may be over before the next position arrives.
+    touched: ContactKind,
     /// Whether the current contact is a soft touchdown on the pad.
     on_pad: bool,
     clearance_m: Option<f64>,
@@ -426,6 +428,7 @@ impl LiveState {
             truth: None,
             battery_pct: None,
             contact: ContactKind::None,
+            touched: ContactKind::None,
             on_pad: false,
             clearance_m: None,
             armed: None,

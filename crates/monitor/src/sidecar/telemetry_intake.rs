@@ -239,6 +239,7 @@ impl Monitor {
         }
         let changed = self.live.contact != contact;
         self.live.contact = contact;
+        self.live.touched = self.live.touched.more_severe(self.counted_contact());
         if changed && contact != ContactKind::None && !self.live.on_pad && self.live.lift_off.is_some() {
             let what = self.contact_name();
             self.event("crash", json!({ "with": contact.label(), "what": what }));
@@ -271,6 +272,7 @@ impl Monitor {
     }
 
     fn check_end(&mut self, truth: &Truth) {
+        let touched = std::mem::take(&mut self.live.touched);
         let Some(start) = self.live.lift_off else { return };
         if self.live.end.is_none() && truth.time >= self.live.next_end_check {
             let rate = self.config.scenario.scoring.frame_rate_hz;
@@ -279,7 +281,7 @@ impl Monitor {
                 flight_time_s: (truth.time - start).s() + 1.0 / rate,
                 position_m: truth.motion.position_m,
                 speed_m_s: truth.motion.velocity_m_s.norm(),
-                contact: self.counted_contact(),
+                contact: touched.more_severe(self.counted_contact()),
                 battery_pct: self.live.battery_pct.unwrap_or(100.0),
                 armed: self.live.armed,
                 on_ground: self.live.on_ground,

@@ -1,10 +1,12 @@
 //! Tests of the live monitor: replies, output files, and a replay with identical results.
 
 use spandrel_mavlink::codec::{Decoder, Encoder};
+use spandrel_mavlink::contract::contact::ContactKind;
 use spandrel_mavlink::dialect::*;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 use spandrel_monitor::assessment::{AssessError, assess_log};
+use spandrel_monitor::session::EndReason;
 use spandrel_monitor::{Monitor, MonitorConfig, SessionOutput, export};
 use spandrel_testkit::job::*;
 
@@ -72,6 +74,22 @@ fn exact_replay_matches_live_session() {
     for wanted in ["seed", "lift_off", "task_entered", "end"] {
         assert!(kinds.iter().any(|kind| kind == wanted), "{wanted} in {kinds:?}");
     }
+}
+
+/// A car that hits the drone touches it for less than the time between two positions.
+#[test]
+fn regress_a_brief_contact_with_a_vehicle_ends_the_session() {
+    let mut monitor = new_monitor(one_task());
+    let mut tape = Tape::new();
+    tape.hold(1.0);
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    for kind in [ContactKind::Vehicle, ContactKind::Terrain, ContactKind::None] {
+        tape.contact(kind.code());
+    }
+    tape.hold(2.0);
+    tape.datagrams.iter().for_each(|datagram| monitor.handle_datagram(datagram));
+    let assessed = monitor.finished().expect("the session is over").clone().expect("scored");
+    assert_eq!(assessed.assessment.end.reason, EndReason::Vehicle);
 }
 
 /// Simulation time stops during a freeze and continues after a rewind, so the session remains one flight. Its events list both.

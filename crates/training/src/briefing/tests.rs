@@ -75,5 +75,5 @@ fn exact_briefing_is_in_the_language_of_the_page() {
         "{german}"
     );
     let words = shown(Language::Pseudo);
-    assert_eq!(untranslated_word(&words, &["arch", "suspension", "Phantom", "class"]), None, "{words}");
+    assert_eq!(untranslated_word(&words, &["arch", "suspension", "Phantom", "class", "mph", "s", "x", "dB"]), None, "{words}");
 }

@@ -771,6 +771,35 @@ fn exact_all_texts_of_the_pages_are_in_the_catalog() {
     }
 }
 
+/// Texts that are the same in every language: the product's name, the row of the language itself, and the name of a flight mode.
+const SAME_IN_EVERY_LANGUAGE: [&str; 3] = ["Spandrel", "Language / Sprache / Idioma", "Position"];
+/// Number of letters from which a text is a word.
+const WORD_LETTERS: usize = 4;
+
+#[test]
+fn exact_a_text_that_no_language_changes_is_one_of_the_user_or_of_the_training_program() {
+    let shown = |flow: &WindowFlow, language| -> Vec<String> {
+        let page = styled(flow, DisplayStyle { language, ..DisplayStyle::default() }).sheet(16.0 / 9.0);
+        let words = |item: DrawItem| if let DrawItem::Text { words, .. } = item { Some(words) } else { None };
+        page.items.into_iter().filter_map(words).collect()
+    };
+    let mut unknown = Vec::new();
+    for (name, flow) in every_page() {
+        // The state of the window holds only texts that it was sent.
+        let sent = format!("{flow:?}");
+        let english = shown(&flow, Language::English);
+        for words in shown(&flow, Language::Pseudo).into_iter().filter(|words| english.contains(words)) {
+            let is_word = words.chars().filter(char::is_ascii_alphabetic).count() >= WORD_LETTERS;
+            let is_known =
+                sent.contains(words.trim_end_matches('…')) || SAME_IN_EVERY_LANGUAGE.iter().any(|same| words.contains(same));
+            if is_word && !is_known {
+                unknown.push(format!("{name}: '{words}' is not in the catalog"));
+            }
+        }
+    }
+    assert!(unknown.is_empty(), "{}", unknown.join("\n"));
+}
+
 #[test]
 fn exact_a_notice_does_not_cover_the_focused_row() {
     for text_scale in TextScale::ALL {
