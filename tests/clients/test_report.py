@@ -1,5 +1,5 @@
-"""Tests a session's report in a real browser: no errors, no requests, all elements that follow the slider, wide and
-narrow windows, light and dark themes."""
+"""Tests a session's report and the other pages that open offline in a real browser: no errors, no requests, all elements
+that follow the slider, wide and narrow windows, light and dark themes, all languages."""
 
 import json
 import os
@@ -12,11 +12,11 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 
 import spandrel
+from committed_pictures import SCHEMES, SIZES, compare_sizes
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 # Chromium's sandbox does not work as root in a container. SwiftShader renders the model without a GPU.
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 # Folder for screenshots, if set.
 PICTURES = os.environ.get("SPANDREL_PICTURES")
 # Size limit from the issue, bytes.
@@ -36,6 +36,14 @@ def session(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
+def other(tmp_path_factory):
+    """A trained pilot's session of the same job."""
+    sessions = tmp_path_factory.mktemp("others")
+    spandrel.run("demo", "--seed", "5", "--skill", "trained", "--speed", "max", "--trainee", "other", "--sessions", str(sessions))
+    return next(path for path in sessions.iterdir() if (path / "telemetry.tlog").is_file())
+
+
+@pytest.fixture(scope="module")
 def browser():
     """Debian's Chromium."""
     assert CHROMIUM, "no chromium: apt-get install chromium"
@@ -45,16 +53,19 @@ def browser():
         chromium.close()
 
 
-def open_page(browser, path, size="desktop", scheme="light"):
+def open_page(browser, path, size="desktop", scheme="light", locale="en-GB"):
     """Opens a page and collects all problems on it."""
     width, height = SIZES[size]
-    page = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, accept_downloads=True).new_page()
+    page = browser.new_context(
+        viewport={"width": width, "height": height}, color_scheme=scheme, locale=locale, accept_downloads=True
+    ).new_page()
     wrong = []
     page.on("console", lambda message: wrong.append(f"{message.type}: {message.text}") if message.type in ("error", "warning") else None)
     page.on("pageerror", lambda error: wrong.append(str(error)))
     page.on("request", lambda request: wrong.append(request.url) if not request.url.startswith(("file:", "data:", "blob:")) else None)
     page.goto(pathlib.Path(path).as_uri())
-    page.wait_for_selector("body.live")
+    # Pages without a slider have no scripts.
+    page.wait_for_function("!document.getElementById('moment') || document.body.classList.contains('live')")
     return page, wrong
 
 
@@ -205,13 +216,45 @@ def test_data_behind_a_figure_can_be_downloaded(browser, session, tmp_path):
     assert wrong == []
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_no_violations(browser, session, scheme):
+def offline_pages(folder, session, other, language):
+    """Writes each page that opens offline, in a language. Returns the paths by name."""
+    records = spandrel.ROOT / "examples" / "cohort" / "records.jsonl"
+    commands = {
+        "report": ("report", str(session), "--out"),
+        "comparison": ("report", str(session), str(other), "--out"),
+        "cohort-report": ("cohort", "--records", str(records), "--report"),
+        "briefing-page": ("brief", "--scenario", "two-bridges", "--seed", "4", "--html"),
+    }
+    paths = {name: folder / f"{name}.html" for name in commands}
+    for name, command in commands.items():
+        spandrel.run(*command, str(paths[name]), "--language", language)
+    return paths
+
+
+def started(session):
+    """Returns the session's start as pages show it."""
+    return json.loads((session / "session.json").read_text(encoding="utf-8"))["started_utc"].replace("T", " ").replace("Z", " UTC")
+
+
+@pytest.mark.parametrize(("size", "locale"), [("desktop", "en-GB"), ("tablet", "de-DE"), ("phone", "es-ES")])
+def test_regress_offline_pages_pass_axe_and_look_as_committed(browser, session, other, tmp_path, size, locale):
     """Contrast, names, landmarks, keyboard: everything that axe can check, with all tables expanded."""
-    page, _ = open_page(browser, session / "report.html", scheme=scheme)
-    page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
-    found = Axe().run(page)
-    assert found.violations_count == 0, found.generate_report()
+    texts = {started(session): "2026-05-04 09:00:04 UTC", started(other): "2026-05-04 09:00:05 UTC"}
+    differ = []
+    for name, path in offline_pages(tmp_path, session, other, locale[:2]).items():
+        page, wrong = open_page(browser, path, size, SCHEMES[locale], locale)
+        assert page.get_attribute("html", "lang") == locale[:2], name
+        differ += compare_sizes(page, name, locale, tmp_path, texts)
+        width, height = SIZES[size]
+        page.set_viewport_size({"width": width, "height": height})
+        page.evaluate("document.querySelectorAll('details').forEach(details => { details.open = true; })")
+        # The charts follow the size of the window with the next frame.
+        page.wait_for_function("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+        found = Axe().run(page)
+        assert found.violations_count == 0, name + "\n" + found.generate_report()
+        assert wrong == [], name
+        page.context.close()
+    assert not differ, "\n".join(differ)
 
 
 def test_every_figure_has_its_data_table(browser, session):
@@ -244,10 +287,8 @@ def test_report_is_reproducible_and_small(session, tmp_path):
     assert (tmp_path / "again.html").read_bytes() == page
 
 
-def test_comparison_report_shows_two_different_flights(browser, session, tmp_path):
+def test_comparison_report_shows_two_different_flights(browser, session, other, tmp_path):
     """Two different flights: each must have its own shape, track and drone."""
-    spandrel.run("demo", "--seed", "5", "--skill", "trained", "--speed", "max", "--trainee", "other", "--sessions", str(tmp_path / "sessions"))
-    other = next(path for path in (tmp_path / "sessions").iterdir() if (path / "telemetry.tlog").is_file())
     spandrel.run("report", str(session), str(other), "--out", str(tmp_path / "both.html"))
     page = browser.new_context(viewport={"width": 1280, "height": 900}).new_page()
     wrong = []

@@ -8,7 +8,7 @@ from playwright.sync_api import expect
 
 import spandrel
 import webserver
-from test_web import SIZES, BrowserUser, browser  # noqa: F401 (`browser` is a fixture)
+from test_web import LOOKS, BrowserUser, browser  # noqa: F401 (`browser` is a fixture)
 
 PRACTICE = (spandrel.ROOT / "scenarios" / "practice.toml").read_text(encoding="utf-8")
 
@@ -134,12 +134,11 @@ def test_wire_instructor_makes_a_job_from_practice(browser, server, sessions):
 
 
 def check_in_every_size_and_theme(person, name):
-    for size, (width, height) in SIZES.items():
-        for scheme in ("light", "dark"):
-            person.page.set_viewport_size({"width": width, "height": height})
-            person.page.emulate_media(color_scheme=scheme)
-            person.check()
-            person.save_screenshot(f"{name}-{size}-{scheme}")
+    for size, scheme, _ in LOOKS:
+        # The page is not loaded again, because it would lose its state: it keeps its language.
+        person.show_in(size, scheme, "en-GB")
+        person.check()
+        person.save_screenshot(f"{name}-{size}-{scheme}")
 
 
 def test_wire_editor_passes_axe_in_every_size_and_theme(browser, server):

@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 
 import spandrel
 import webserver
-from test_web import SIZES, BrowserUser, browser, session_ids  # noqa: F401 (`browser` is a fixture)
+from test_web import LIVE_LOOKS, LOOKS, BrowserUser, browser, session_ids  # noqa: F401 (`browser` is a fixture)
 
 # Days after which the tests' assignments are due.
 DUE_DAYS = 7
@@ -34,15 +34,12 @@ def due_date():
 
 
 def check_everywhere(person, name, path):
-    """Checks a page and photographs it in both sizes and themes."""
-    person.go(path)
-    for size, (width, height) in SIZES.items():
-        for scheme in ("light", "dark"):
-            person.page.set_viewport_size({"width": width, "height": height})
-            person.page.emulate_media(color_scheme=scheme)
-            person.save_screenshot(f"{name}-{size}-{scheme}")
-            person.check()
-    person.page.set_viewport_size({"width": SIZES["desktop"][0], "height": SIZES["desktop"][1]})
+    """Checks a page and photographs it in all sizes, languages and themes."""
+    for size, scheme, locale in [*LOOKS[1:], LOOKS[0]]:
+        person.show_in(size, scheme, locale)
+        person.go(path)
+        person.save_screenshot(f"{name}-{size}-{scheme}-{locale[:2]}")
+        person.check()
 
 
 def tab_to(page, label, presses=40):
@@ -359,12 +356,12 @@ def test_two_live_flights_have_a_tile_each(browser, tmp_path):
         expect(tiles.nth(1).locator("[data-now=battery]")).to_contain_text("%")
         expect(tiles.nth(1).locator("[data-now=task]")).to_contain_text("Task")
         expect(tiles.nth(1).locator("[data-hazards]")).to_have_text("none")
-        for size, (width, height) in SIZES.items():
-            for scheme in ("light", "dark"):
-                page.set_viewport_size({"width": width, "height": height})
-                page.emulate_media(color_scheme=scheme)
-                person.save_screenshot(f"tiles-{size}-{scheme}")
-                person.check()
+        for size, scheme, locale in LIVE_LOOKS[::-1]:
+            person.show_in(size, scheme, locale)
+            page.reload()
+            page.wait_for_function("() => document.querySelectorAll('.tile.live').length === 2")
+            person.save_screenshot(f"tiles-{size}-{scheme}-{locale[:2]}")
+            person.check()
         tiles.nth(1).locator("h2 a").focus()
         page.keyboard.press("Enter")
         page.wait_for_url("**/live?vehicle=2")

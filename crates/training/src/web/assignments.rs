@@ -43,10 +43,10 @@ fn job_table(visitor: &Visitor, trainee: &str, caption: &str, jobs: &[&AssignedJ
             @let assignment = &job.assignment;
             tr {
                 th scope="row" { (job_name(language, assignment)) }
-                td { (day(assignment.due_unix_us)) }
+                td.when { (day(assignment.due_unix_us)) }
                 td { (state(language, &job.state)) }
                 td { (target(visitor, assignment)) }
-                td { @if !job.state.is_pending() { "–" } @else if instructor { code { (assignment.command(trainee)) } } @else { (how_to_fly(language, assignment)) } }
+                td.how { @if !job.state.is_pending() { "–" } @else if instructor { code { (assignment.command(trainee)) } } @else { (how_to_fly(language, assignment)) } }
                 @if instructor { td { (remove(visitor, assignment)) } }
             }
         }
@@ -139,7 +139,7 @@ pub(super) fn class_assignments(visitor: &Visitor, assignments: &[(Assignment, A
         @for (assignment, counts) in assignments {
             tr {
                 th scope="row" { (job_name(language, assignment)) }
-                td { (day(assignment.due_unix_us)) }
+                td.when { (day(assignment.due_unix_us)) }
                 td.number { (counts.done) }
                 td.number { (counts.open) }
                 td.number { (counts.overdue) }

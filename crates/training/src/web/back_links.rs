@@ -5,6 +5,9 @@ use spandrel_text::{Language, text};
 
 /// End of the tag after which a page's content begins.
 const BODY: &[u8] = b"<body>";
+/// Beginning and end of the link past the navigation. It must stay the first link of the page.
+const SKIP_LINK: &[u8] = b"<a class=\"skip\"";
+const LINK_END: &[u8] = b"</a>";
 
 /// Page from which people open reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,12 +30,19 @@ impl ParentPage<'_> {
     }
 }
 
-/// Returns a report page with links to these pages at its beginning, and unchanged if it has no body.
+/// Returns a report page with links to these pages at its beginning, after its link past the navigation, and unchanged if it has no body.
 #[must_use]
 pub fn with_back_links(page: Vec<u8>, parents: &[ParentPage<'_>], language: Language) -> Vec<u8> {
-    let Some(start) = page.windows(BODY.len()).position(|bytes| bytes == BODY) else { return page };
-    let (head, content) = page.split_at(start + BODY.len());
+    let Some(start) = end_of(&page, BODY) else { return page };
+    let content = &page[start..];
+    let skip_link = if content.starts_with(SKIP_LINK) { end_of(content, LINK_END).unwrap_or(0) } else { 0 };
+    let (head, content) = page.split_at(start + skip_link);
     [head, links(parents, language).as_bytes(), content].concat()
+}
+
+/// Returns the position after the first occurrence of a tag.
+fn end_of(text: &[u8], tag: &[u8]) -> Option<usize> {
+    Some(text.windows(tag.len()).position(|bytes| bytes == tag)? + tag.len())
 }
 
 fn links(parents: &[ParentPage<'_>], language: Language) -> String {
@@ -56,6 +66,9 @@ mod tests {
         let expected = "<html><head></head><body><nav class=\"back\" aria-label=\"Back\"><a href=\"/sessions/2026-a\">‹ Back to the session</a>\
                         <a href=\"/sessions\">‹ All sessions</a></nav><main>...</main></body></html>";
         assert_eq!(served, expected);
+        let page = b"<body><a class=\"skip\" href=\"#better\">Skip</a><main></main>".to_vec();
+        let served = String::from_utf8(with_back_links(page, &parents, Language::English)).unwrap_or_default();
+        assert!(served.starts_with("<body><a class=\"skip\" href=\"#better\">Skip</a><nav class=\"back\""), "{served}");
         assert_eq!(with_back_links(b"no page".to_vec(), &parents, Language::English), b"no page");
     }
 }

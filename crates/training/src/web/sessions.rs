@@ -90,7 +90,7 @@ pub fn lines(visitor: &Visitor, caption: &str, lines: &[SessionListEntry]) -> Ma
         &html! {
             @for one in lines {
                 tr {
-                    th scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
+                    th.when scope="row" { a href={ "/sessions/" (one.id) } { (minute(one.started_unix_us)) } }
                     @if all { td { a href={ "/trainees/" (one.trainee) } { (one.trainee) } } }
                     @if one.is_complete() { td.number { (text!(language, "sessions-overall-of", score = formatting::number(one.overall, 1), most = formatting::number(one.overall_max, 0))) } }
                     @else { td { (one.completion_summary(language)) } }

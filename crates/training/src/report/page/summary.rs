@@ -57,7 +57,7 @@ pub fn header(review: &Review) -> Markup {
 }
 
 /// Formats an RFC 3339 timestamp for display.
-fn utc(text: &str) -> String {
+pub(super) fn utc(text: &str) -> String {
     text.replace('T', " ").trim_end_matches('Z').to_owned() + " UTC"
 }
 

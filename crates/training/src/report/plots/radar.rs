@@ -6,8 +6,8 @@ use maud::{Markup, html};
 use spandrel_model::math;
 use spandrel_text::{Language, text};
 
-const SIZE: (f64, f64) = (420.0, 360.0);
-const CENTER: (f64, f64) = (210.0, 186.0);
+const SIZE: (f64, f64) = (520.0, 360.0);
+const CENTER: (f64, f64) = (260.0, 186.0);
 const RADIUS: f64 = 118.0;
 
 /// One axis of the chart.
@@ -61,7 +61,8 @@ pub fn radar(spokes: &[RadarAxis], title: &str, language: Language) -> Markup {
                 @let (lx, ly) = label(at(k, 114.0));
                 text.label x=(coord(lx)) y=(coord(ly + 4.0)) text-anchor=(anchor(lx)) { (spoke.name) }
                 text.value x=(coord(lx)) y=(coord(ly + 22.0)) text-anchor=(anchor(lx)) {
-                    (spoke.values.iter().map(value).collect::<Vec<_>>().join(" / "))
+                    @if spoke.values.iter().all(Option::is_none) { (value(&None)) }
+                    @else { (spoke.values.iter().map(value).collect::<Vec<_>>().join(" / ")) }
                 }
             }
             @for session in 0..sessions {
@@ -112,7 +113,7 @@ mod tests {
         let spoke = |name: &str, value| RadarAxis { name: name.into(), values: vec![value] };
         let spokes = [spoke("a", Some(100.0)), spoke("b", Some(50.0)), spoke("c", Some(0.0)), spoke("d", None)];
         let figure = radar(&spokes, "t", Language::English).into_string();
-        assert!(figure.contains("d=\"M210 68L269 186L210 186Z\""), "{figure}");
+        assert!(figure.contains("d=\"M260 68L319 186L260 186Z\""), "{figure}");
         assert!(figure.contains("n/a"));
         assert_eq!(figure.matches("<circle").count(), 3);
     }

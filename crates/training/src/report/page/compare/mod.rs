@@ -51,7 +51,7 @@ pub fn comparison(first: &Review, second: &Review, reliability: &[MeasureReliabi
                 div {
                     p.kicker { (title) }
                     h1 { (first.title(language)) }
-                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (review.metadata.started_utc) " · " (review.vehicle.name) " · " (review.assessment.completion.headline(language)) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet, language)) } }
+                    @for (k, review) in both.iter().enumerate() { p { (k + 1) ": " b { (review.metadata.trainee) } " · " (summary::utc(&review.metadata.started_utc)) " · " (review.vehicle.name) " · " (review.assessment.completion.headline(language)) ". " (verdict(review.assessment.certification.passed, &review.assessment.certification.unmet, language)) } }
                 }
             }
             main {
@@ -112,7 +112,7 @@ fn error_note(same_job: bool, reliability: &[MeasureReliability], language: Lang
 }
 
 fn session_label(review: &Review) -> String {
-    format!("{}, {}", review.metadata.trainee, review.metadata.started_utc)
+    format!("{}, {}", review.metadata.trainee, summary::utc(&review.metadata.started_utc))
 }
 
 fn rows(first: &Review, second: &Review) -> Vec<ShareRow> {
