@@ -176,23 +176,69 @@ def test_val_obj_and_ply_files_of_trimesh_are_imported(tmp_path):
         scan.write_bytes(i_girder().export(file_type="ply", encoding=encoding))
         done = spandrel_import(scan, "--out", tmp_path / name, "--up", "z", "--element", 107)
         assert done.returncode == 0, done.stderr
-        assert "1 parts with 44 triangles became 3 convex parts" in done.stdout, done.stdout
+        assert "1 parts with 44 triangles became 3 shapes" in done.stdout, done.stdout
 
 
-def test_val_a_rough_surface_becomes_hulls_near_it(tmp_path, measured):
-    """A curved, rough block, as a scan of a rib, cannot be cut exactly."""
+def rough_block():
+    """A curved, rough block, as a scan of a rib, which cannot be cut exactly."""
     block = trimesh.creation.box((12.0, 1.5, 2.0)).subdivide_to_size(0.25)
     vertices = block.vertices.copy()
     vertices[:, 2] -= 0.02 * vertices[:, 0] ** 2
     block.vertices = vertices + 0.01 * numpy.sin(7.0 * vertices[:, [1, 2, 0]])
-    scan = tmp_path / "scan.ply"
-    scan.write_bytes(block.export(file_type="ply"))
-    done = spandrel_import(scan, "--out", tmp_path / "scan", "--up", "z", "--element", 144)
+    return block
+
+
+def import_scan(folder, mesh, *options):
+    """Imports a mesh as a PLY file; returns the row of the table and the parts."""
+    folder.mkdir()
+    (folder / "scan.ply").write_bytes(mesh.export(file_type="ply"))
+    done = spandrel_import(folder / "scan.ply", "--out", folder / "scan", "--up", "z", "--element", 144, *options)
     assert done.returncode == 0, done.stderr
-    row = done.stdout.splitlines()[1].split()
-    assert row[8] == "voxels" and int(row[7]) > 1, done.stdout
-    parts = trimesh.load(tmp_path / "scan" / "bridge.glb", force="scene")
-    volume = sum(parts.geometry[parts.graph[name][1]].volume for name in parts.graph.nodes_geometry)
+    parts = trimesh.load(folder / "scan" / "bridge.glb", force="scene")
+    return done.stdout.splitlines()[1].split(), [parts.geometry[parts.graph[name][1]] for name in parts.graph.nodes_geometry]
+
+
+def test_val_a_rough_surface_keeps_its_triangles_or_becomes_hulls_near_it(tmp_path, measured):
+    block = rough_block()
+    row, [part] = import_scan(tmp_path / "mesh", block)
+    assert row[7:10] == ["1", "mesh", "0.0"], row
+    part.merge_vertices()
+    assert part.is_watertight and len(part.faces) == len(block.faces)
+    assert math.isclose(part.volume, block.volume, rel_tol=VOLUME_TOLERANCE)
+    row, parts = import_scan(tmp_path / "hulls", block, "--voxels", 128)
+    assert row[8] == "voxels" and int(row[7]) > 1, row
+    volume = sum(part.volume for part in parts)
     measured(f"scan of {block.volume:.1f} m3: {row[7]} convex parts with {volume:.1f} m3, deviation {row[9]} mm")
     # The hulls of the groups overlap at their borders, and fill hollows.
     assert 0.95 < volume / block.volume < MAX_HULL_VOLUME, volume / block.volume
+
+
+def test_val_an_open_scan_keeps_its_opening_and_passes_the_check(tmp_path):
+    """A curved vault, open below and at both ends: no hull may close it."""
+    vault = trimesh.creation.annulus(r_min=5.0, r_max=6.0, height=20.0, sections=600)
+    vault.apply_transform(trimesh.transformations.rotation_matrix(math.pi / 2, (0, 1, 0)))
+    vault = trimesh.intersections.slice_mesh_plane(vault, (0, 0, 1), (0, 0, 0))
+    row, [part] = import_scan(tmp_path / "vault", vault)
+    assert row[8] == "mesh" and int(row[5]) > 0, row
+    # Without its feet, the vault is open; a point in the opening is outside of every triangle's hull.
+    part.merge_vertices()
+    assert not part.is_watertight and math.isclose(part.area, vault.area, rel_tol=VOLUME_TOLERANCE)
+    checked = spandrel.run("check", str(tmp_path / "vault" / "scan" / "scenario.toml"))
+    assert "1 file valid" in checked, checked
+
+
+def test_val_a_scan_keeps_the_colors_of_its_vertices(tmp_path):
+    """PLY files have colors for screens, which become shares of the light; glTF files have shares of the light."""
+    block = rough_block()
+    gray, red = (188, 188, 188, 255), (255, 0, 0, 255)
+    block.visual.vertex_colors = [gray if x < 0.0 else red for x in block.vertices[:, 0]]
+    _, [part] = import_scan(tmp_path / "ply", block)
+    left = part.vertices[:, 0] < 0.0
+    assert left.any() and not left.all()
+    assert (part.visual.vertex_colors[left][:, :3] == 128).all() and (part.visual.vertex_colors[~left][:, :3] == (255, 0, 0)).all()
+    model = tmp_path / "scan.glb"
+    model.write_bytes(trimesh.Scene(block).export(file_type="glb"))
+    done = spandrel_import(model, "--out", tmp_path / "glb", "--up", "z", "--element", 144)
+    assert done.returncode == 0, done.stderr
+    [part] = trimesh.load(tmp_path / "glb" / "bridge.glb", force="scene").geometry.values()
+    assert (part.visual.vertex_colors[part.vertices[:, 0] < 0.0][:, :3] == 188).all()

@@ -40,7 +40,9 @@ impl SteelField {
     /// Collects the steel members. `factor` scales the distortion.
     #[must_use]
     pub fn new(members: &[Member], factor: f64) -> Self {
-        let steel = members.iter().filter(|member| member.element.material() == ElementMaterial::Steel);
+        // A member of any shape may fill only a small part of its bounding box, such as a whole truss in one mesh.
+        let is_steel_prism = |member: &&Member| member.solid.is_convex() && member.element.material() == ElementMaterial::Steel;
+        let steel = members.iter().filter(is_steel_prism);
         let cylinders: Vec<EllipticCylinder> = steel.filter_map(|member| EllipticCylinder::of(&member.solid)).collect();
         let mut cells = BTreeMap::<_, Vec<u32>>::new();
         for (index, cylinder) in (0..).zip(&cylinders) {

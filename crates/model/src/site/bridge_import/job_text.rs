@@ -1,10 +1,15 @@
 //! Writes a job at an imported bridge: level ground, a path along each side of the deck and, if there is room, one below it.
 
 use crate::elements::Element;
+use crate::frames::Vec3;
+use crate::mesh::part_shapes::PartShape;
 use crate::mesh::plane_solid::PlaneSolid;
+use crate::mesh::surface_mesh::SurfaceMesh;
 use crate::mesh::vectors::Point;
 use crate::scenario::MAX_TERRAIN_M;
 use crate::scenario::bridges::model::{ModelExtent, ModelPart};
+use crate::scenario::bridges::{Solid, SolidSurface};
+use crate::site::member_shape::MemberShape;
 use std::fmt::Write;
 
 /// Name of the file with the parts in the folder of an imported bridge.
@@ -138,8 +143,8 @@ fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Opt
     if z + center_up_m < MIN_HEIGHT_BELOW_DECK_M {
         return None;
     }
-    let solids: Vec<PlaneSolid> = parts.iter().map(|part| PlaneSolid::new(&part.solid)).collect();
-    let is_clear = |x: f64| solids.iter().all(|solid| solid.distance_m([x, y, z]) >= MIN_CLEARANCE_M);
+    let clearances: Vec<Clearance> = parts.iter().map(Clearance::of).collect();
+    let is_clear = |x: f64| clearances.iter().all(|part| part.distance_m([x, y, z]) >= MIN_CLEARANCE_M);
     let steps = ((deck_high[0] - deck_low[0]) / STEP_M) as usize;
     let (mut best, mut first) = ((0, 0), None);
     for k in 0..=steps {
@@ -150,6 +155,36 @@ fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Opt
     }
     let ends = [best.0, best.1].map(|k| deck_low[0] + STEP_M * k as f64);
     (ends[1] - ends[0] >= MIN_LENGTH_M).then(|| [ends.map(|x| [x, y, z]), ends.map(|x| [x + AHEAD_M, y, bottom_z])])
+}
+
+/// A part to which distances are measured.
+enum Clearance {
+    Convex(PlaneSolid),
+    Any(MemberShape),
+}
+
+impl Clearance {
+    fn of(part: &ModelPart) -> Self {
+        match &part.shape {
+            PartShape::Convex(solid) => Self::Convex(PlaneSolid::new(solid)),
+            PartShape::Mesh(surface) => Self::Any(MemberShape::new(&surface_solid(surface))),
+        }
+    }
+
+    fn distance_m(&self, p: Point) -> f64 {
+        match self {
+            Self::Convex(solid) => solid.distance_m(p),
+            Self::Any(shape) => shape.nearest(Vec3::new(p[0], p[1], p[2])).distance_m,
+        }
+    }
+}
+
+/// Returns a surface whose bridge axes are those of the site.
+fn surface_solid(surface: &SurfaceMesh) -> Solid {
+    let mesh = surface.mesh();
+    let triangles = SolidSurface { triangles: mesh.triangles.clone(), is_closed: surface.is_closed(), colors: Vec::new() };
+    let vertices_m = mesh.vertices_m.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+    Solid { vertices_m, faces: Vec::new(), surface: Some(triangles) }
 }
 
 fn shown([x, y, z]: Point) -> String {
