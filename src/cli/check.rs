@@ -15,8 +15,8 @@ use spandrel_training::scenario_check::{self, CheckOptions, Findings, ScenarioTe
 /// site and reports every task with a reference path that is too close to an obstacle, with the location. The minimum
 /// clearance is half the aircraft's tip-to-tip width plus 0.5 m. It also reports places of the inspector, and straight
 /// paths from each to the next, that are in water, in a bridge, on the landing pad or at the truck. It loads the pictures of the
-/// briefing. It warns if it cannot place as many defects as the scenario requests. It prints the total quantity of
-/// each element of each bridge. For each form of a scenario, it prints
+/// briefing. It warns if it cannot place as many defects as the scenario requests, and if more than 10% of a path is within the
+/// threshold of another task. It prints the total quantity of each element of each bridge. For each form of a scenario, it prints
 /// the predicted detection of the defects; for each difficulty level, it prints what the level changes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\

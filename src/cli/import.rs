@@ -57,7 +57,7 @@ pub struct Args {
     #[arg(long, value_name = "X,Y,Z|center", default_value = "center", value_parser = parse_origin, allow_hyphen_values = true)]
     origin: ModelOrigin,
     /// Counterclockwise turn of the model, seen from above, that makes the deck run along x, degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true, value_parser = parse_turn)]
     turn: f64,
     /// Elements by the names of parts (TOML)
     #[arg(long, value_name = "FILE")]
@@ -255,6 +255,11 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     if (0.001..=1.0).contains(&tolerance) { Ok(tolerance) } else { Err("allowed: 0.001 to 1".to_owned()) }
 }
 
+fn parse_turn(text: &str) -> Result<f64, String> {
+    let turn_deg: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (-360.0..=360.0).contains(&turn_deg) { Ok(turn_deg) } else { Err("allowed: -360 to 360".to_owned()) }
+}
+
 fn parse_up(text: &str) -> Result<UpAxis, String> {
     match text {
         "y" => Ok(UpAxis::Y),
@@ -278,6 +283,14 @@ fn parse_origin(text: &str) -> Result<ModelOrigin, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_turn_is_at_most_a_circle() {
+        assert_eq!((parse_turn("-90"), parse_turn("360")), (Ok(-90.0), Ok(360.0)));
+        for bad in ["inf", "nan", "-inf", "1e308", "360.1", "", "north"] {
+            assert!(parse_turn(bad).is_err(), "{bad}");
+        }
+    }
 
     #[test]
     fn exact_origin_is_the_center_or_three_numbers() {

@@ -139,7 +139,7 @@ pub fn run(args: &Args) -> Result<(), AppError> {
     let scenarios = args.scenarios.clone();
     let (records_location, wordings) = (args.records_location.location(), args.wording.clone());
     let station_key = args.station_key.as_deref().map(StationKey::read).transpose()?;
-    let setup = ServerSetup { records_location, scenarios, watched, wordings, station_key };
+    let setup = ServerSetup { records_location, scenarios, own_job: None, watched, wordings, station_key };
     let server = WebServer::start(&args.listen.config(), setup)?;
     if args.announce {
         files::write("-", format!("{}\n", serde_json::json!({ "address": server.address() })).as_bytes())?;

@@ -8,8 +8,11 @@ use std::time::Duration;
 /// Maximum simulation time between two socket polls, which is the lockstep interval (docs/src/reference/wire.md, "One
 /// simulation step").
 pub const LOCKSTEP_STEP: SimTime = SimTime::from_ms(20);
-/// Wall time without a response from a lockstep peer after which the run ends.
-pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(10);
+/// Wall time without a response from a lockstep peer after which the run ends. On a computer that is busy with other programs, a peer
+/// that is well can take more than ten seconds for a response.
+pub const LOCKSTEP_PEER_TIMEOUT: Duration = Duration::from_secs(30);
+/// Wall time for which the simulation waits for the first message of a peer.
+const FIRST_MESSAGE_TIMEOUT: Duration = Duration::from_secs(10);
 /// Wall time without a response after which a lockstep request is sent again. Datagrams are lost if a peer's buffer is full, for
 /// example because an external autopilot starts and simulation time does not wait for the peer meanwhile. Shorter intervals would
 /// send repeated requests to peers that think for a while.
@@ -144,7 +147,7 @@ impl WallPacer {
 }
 
 /// Time without a TIMESYNC response after which a peer that sends data is served in real time. MAVSDK responds after one of
-/// its own time requests was answered, and sends these only every 5 s. Shorter than [`LOCKSTEP_PEER_TIMEOUT`].
+/// its own time requests was answered, and sends these only every 5 s. Shorter than [`FIRST_MESSAGE_TIMEOUT`].
 const FIRST_RESPONSE_TIMEOUT: Duration = Duration::from_secs(7);
 
 /// Pauses the simulation until a peer's first response. No simulation time passes until then, so a peer that responds
@@ -176,7 +179,7 @@ impl FirstResponseWait {
         if data_received {
             self.first_received.get_or_insert(wall);
         }
-        if over(since, LOCKSTEP_PEER_TIMEOUT)
+        if over(since, FIRST_MESSAGE_TIMEOUT)
             || self.first_received.is_some_and(|data_received| over(data_received, FIRST_RESPONSE_TIMEOUT))
         {
             *self = Self::default();

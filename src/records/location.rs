@@ -27,6 +27,14 @@ impl RecordsLocation {
         self.database.is_some() || self.default_database().is_file()
     }
 
+    /// Opens the database if it has been created, and finishes interrupted erasures.
+    ///
+    /// # Errors
+    /// Returns an error if it cannot be opened.
+    pub fn open_existing(&self) -> Result<Option<Database>, AppError> {
+        if self.exists() { self.open().map(Some) } else { Ok(None) }
+    }
+
     fn default_database(&self) -> PathBuf {
         self.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions")).join("records.sqlite")
     }

@@ -12,6 +12,7 @@ use spandrel_monitor::folder::sha256_hex;
 use spandrel_text::{Language, text};
 use spandrel_training::assignment::{AssignedJob, Assignment, AssignmentTarget, assigned_jobs};
 use spandrel_training::record::SessionRecord;
+use spandrel_training::terms::scenario_title;
 use spandrel_training::web::assignments::{self as pages, AssignPage, JobChoice};
 use spandrel_training::web::rejected_form::RejectedForm;
 
@@ -57,7 +58,11 @@ fn render(
     if !exists(state, target)? {
         return Err(WebError::NotFound);
     }
-    let choice = |job: StoredScenario| JobChoice { variants: variant_names(&job.text), name: job.named.name };
+    let choice = |job: StoredScenario| JobChoice {
+        variants: variant_names(&job.text),
+        title: scenario_title(&job.named.name, &job.named.title, request.visitor.language),
+        name: job.named.name,
+    };
     // A session record does not contain which steps of a lesson were done.
     let jobs = scenario_library::all(&state.scenarios).into_iter().filter(|job| job.scenario.lesson.is_empty());
     let jobs: Vec<JobChoice> = jobs.map(choice).collect();

@@ -82,7 +82,7 @@ impl WebResponse {
     /// Responds with a page that has its own policy and scripts (a report). The page is sandboxed and cannot access the
     /// cookies.
     pub fn sandboxed_page(page: Vec<u8>, policy: &str) -> Self {
-        let policy = format!("{policy}; frame-ancestors 'none'; sandbox allow-scripts allow-downloads");
+        let policy = format!("{policy}; frame-ancestors 'none'; sandbox allow-scripts allow-downloads allow-modals");
         Self { policy, ..Self::new("text/html; charset=utf-8", page) }
     }
 

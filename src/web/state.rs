@@ -25,6 +25,8 @@ pub struct ServerSetup {
     pub records_location: RecordsLocation,
     /// Folder for uploaded scenarios; `None` for the default.
     pub scenarios: Option<PathBuf>,
+    /// File of a job that is neither shipped nor uploaded; its site has map tiles, too.
+    pub own_job: Option<PathBuf>,
     /// Vehicles on the live page.
     pub watched: Vec<WatchedVehicle>,
     /// Files with custom questionnaire wordings.
@@ -44,6 +46,8 @@ pub struct ServerState {
     pub records_location: RecordsLocation,
     /// Folder for uploaded scenarios.
     pub scenarios: PathBuf,
+    /// File of a job that is neither shipped nor uploaded.
+    pub own_job: Option<PathBuf>,
     /// Training stations that have checked in.
     pub stations: Mutex<StationBoard>,
     /// Jobs that can be ordered at the stations.
@@ -78,7 +82,7 @@ impl ServerState {
     /// # Errors
     /// Returns an error if a wording is invalid, or the database or a link to a vehicle cannot be opened.
     pub fn open(setup: ServerSetup, secure: bool, reach: AllowedOrigins) -> Result<Self, AppError> {
-        let ServerSetup { records_location, scenarios, watched, wordings, station_key } = setup;
+        let ServerSetup { records_location, scenarios, own_job, watched, wordings, station_key } = setup;
         let languages = answers::languages(&wordings)?;
         let first = records_location.sessions.first().cloned().unwrap_or_else(|| PathBuf::from("sessions"));
         std::fs::create_dir_all(&first)
@@ -97,6 +101,7 @@ impl ServerState {
             figures,
             records_location,
             scenarios,
+            own_job,
             stations: Mutex::default(),
             station_jobs: StationJobs::default(),
             station_key,

@@ -16,7 +16,7 @@ use spandrel_view::feed::Feed;
 use spandrel_view::flow::KeyNames;
 use spandrel_view::flown_path::FlownPath;
 use spandrel_view::gpu::{PanePicture, Renderer, fill, picture_texture, read};
-use spandrel_view::hud::lesson_words::how_to;
+use spandrel_view::hud::lesson_words::{how_to, step_how_to};
 use spandrel_view::hud::{self, DisplayStyle, DrawItem, Hud};
 use spandrel_view::inspector_camera::InspectorCamera;
 use spandrel_view::live::LiveMoment;
@@ -164,8 +164,12 @@ impl ViewPanes {
         display.style = options.style;
         display.ghost = options.ghost;
         display.flown = flown;
+        let (language, key) = (options.style.language, |binding: &str| options.key_names.name(binding));
         if let Some(lesson) = &mut display.lesson {
-            lesson.how = how_to(lesson.status.task, options.style.language, &|binding| options.key_names.name(binding));
+            lesson.how = how_to(lesson.status.task, language, &key);
+        }
+        if let Some(guidance) = &display.guidance {
+            display.guidance_how = step_how_to(guidance.step, language, &key);
         }
         let video = self.video.receive(&now.moment, feed.video_margin_db(now.moment.at));
         let mut shown = Vec::new();

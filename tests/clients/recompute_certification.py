@@ -272,7 +272,8 @@ def certify(rows, scenario, camera, assessment):
     lost = sum(min(CONTACT_MOST, CONTACT_POINTS * (1 + (v / CONTACT_SPEED_M_S) ** 2)) for _, v in merged)
     traffic = any(with_ in ("person", "vehicle") for with_, _ in merged)
     safety = 0.0 if traffic else min(100.0, max(0.0, 100.0 - lost - min(EXPOSURE_MOST, EXPOSURE_PER_S * exposure)))
-    needed = path_m / limits["inspection_speed_m_s"] + limits["transit_time_s"] + limits["time_per_defect_s"] * len(scenario["defects"])
+    shown = {view["defect"] for picture in assessment["snapshots"]["each"] for view in picture["views"] if view["shown"]}
+    needed = path_m / limits["inspection_speed_m_s"] + limits["transit_time_s"] + limits["time_per_defect_s"] * len(shown)
     landed = assessment["end"]["reason"] == "landed"
     complete = landed and done == count
     most = limits["max_time_ratio"]

@@ -227,8 +227,11 @@ def test_report_works_without_scripts_and_prints(browser, session, tmp_path):
     page = browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
     page.goto((session / "report.html").as_uri())
     assert page.locator("#flight svg.map").count() >= 4
-    assert not page.is_visible("#moment"), "controls without a function must be hidden"
+    assert not page.is_visible("#moment") and not page.is_visible("#print"), "controls without a function must be hidden"
     page, wrong = open_page(browser, session / "report.html", scheme="dark")
+    page.evaluate("() => { window.print = () => { window.prints = (window.prints || 0) + 1; }; }")
+    page.click("#print")
+    assert page.evaluate("window.prints") == 1
     printed = page.pdf(format="A4")
     assert printed.startswith(b"%PDF") and len(printed) > 100_000
     assert wrong == []

@@ -117,13 +117,19 @@ fn flown(job: &str, seed: &str) -> Value {
     json(&only_session(folder.path()).join("assessment.json"))
 }
 
-/// Checks that the expert lands after all tasks of a job without contact, and finds at least a number of its defects.
+/// Least conformity (P_C of the TASBID paper) of an expert's flight, raw, of 100: it strays from the path for a tenth of the time at most
+/// (estimate). Paths that lead along each other cost much more, because each task's window then contains the flight along others.
+const MIN_CONFORMITY: f64 = 90.0;
+
+/// Checks that the expert lands after all tasks of a job without contact, stays on their paths, and finds at least a number of the defects.
 fn assert_expert_completes(job: &str, seed: &str, min_found: u64) {
     let assessment = flown(job, seed);
     assert_eq!(assessment["end"]["reason"], "landed");
     assert_eq!(assessment["crashes"]["other"], 0, "{}", assessment["crashes"]);
     let states: Vec<&str> = assessment["tasks"].as_array().unwrap().iter().filter_map(|task| task["state"].as_str()).collect();
     assert!(states.len() > 2 && states.iter().all(|state| *state == "done"), "{states:?}");
+    let conformity = assessment["scores"]["conformity"]["raw"].as_f64().unwrap();
+    assert!(conformity >= MIN_CONFORMITY, "{job}: {conformity}: {}", assessment["tasks"]);
     let found = assessment["snapshots"]["defects_found"].as_u64().unwrap_or(0);
     assert!(found >= min_found, "{found} defects found");
 }

@@ -100,7 +100,9 @@ macro_rules! elements {
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name,)+
-                    Self::Unlisted(_) => "element",
+                    Self::DECK_DRAIN => "deck drain",
+                    Self::FILL => "fill of an arch",
+                    Self::Unlisted(_) => "agency-defined element",
                 }
             }
 

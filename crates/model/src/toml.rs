@@ -431,15 +431,32 @@ impl<'a> Reader<'a> {
 
     /// Reads a list of integers; empty if the key is missing.
     pub fn integers(&mut self, section: &mut Section, key: &'static str, (min, max): (i64, i64)) -> Vec<i64> {
-        let path = section.full_key(key);
         let allowed = format!("list of whole numbers, each {min} to {max}");
-        self.record_key(&path, &allowed, "none".into());
+        self.integer_list(section, key, &allowed, &|i| (min..=max).contains(&i))
+    }
+
+    /// Reads a list of integers, each one of `values`; empty if the key is missing.
+    pub fn integers_among(&mut self, section: &mut Section, key: &'static str, values: &[i64]) -> Vec<i64> {
+        let words: Vec<String> = values.iter().map(ToString::to_string).collect();
+        let allowed = format!("list of whole numbers among {}", words.join(", "));
+        self.integer_list(section, key, &allowed, &|i| values.contains(&i))
+    }
+
+    fn integer_list(
+        &mut self,
+        section: &mut Section,
+        key: &'static str,
+        allowed: &str,
+        is_allowed: &dyn Fn(i64) -> bool,
+    ) -> Vec<i64> {
+        let path = section.full_key(key);
+        self.record_key(&path, allowed, "none".into());
         let (item, line) = self.item(section, key);
         let Some(item) = item else { return Vec::new() };
-        let one = |v: &Value| v.as_integer().filter(|i| (min..=max).contains(i));
+        let one = |v: &Value| v.as_integer().filter(|i| is_allowed(*i));
         let values = item.as_array().map(|array| array.iter().map(one).collect::<Option<Vec<_>>>());
         values.flatten().unwrap_or_else(|| {
-            self.add_problem_on_line(section, key, line, &display_value(item), (&allowed, "not a valid list"));
+            self.add_problem_on_line(section, key, line, &display_value(item), (allowed, "not a valid list"));
             Vec::new()
         })
     }

@@ -21,7 +21,6 @@ use spandrel_mavlink::telemetry::{Flight, Frame, Timeline};
 use spandrel_model::geodesy::LocalPlane;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::vehicle::Vehicle;
-use std::collections::BTreeSet;
 
 /// The scenario, vehicle and site that a flight is scored against.
 #[derive(Debug, Clone, Copy)]
@@ -247,11 +246,10 @@ pub fn assess(flight: &Flight, job: &ScoringJob<'_>) -> Result<(Assessment, Vec<
     let on_path = OnPath::measure(&paths, session.frames.iter().map(|frame| frame.position_m));
     let crashes = crash::crashes(&session.frames, &on_path);
     let pictures = attention::snapshots(flight, &session.frames, job.vehicle, job.survey);
-    let found: BTreeSet<u32> = pictures.iter().flat_map(|picture| picture.found.iter().copied()).collect();
     let counts = DetectionTally {
         taken: pictures.len(),
         hits: pictures.iter().filter(|picture| picture.hit).count(),
-        found: found.len(),
+        found: attention::found_defects(&pictures).len(),
         placed: job.survey.defects().len(),
     };
     let shares = shares(scenario, &session, &on_path);

@@ -6,7 +6,7 @@ use crate::measures::coverage::FlownPath;
 use crate::measures::on_path::ReferencePaths;
 use spandrel_mavlink::contract::guidance::{DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, WayTo};
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::{HOLD_DURATION, Scenario};
+use spandrel_model::scenario::Scenario;
 use spandrel_model::time::SimTime;
 
 /// Distance along the path to the place that the pilot is guided to while following it, m (estimate: far enough that the
@@ -35,8 +35,6 @@ pub struct GuidanceInput<'a> {
     pub position_m: Vec3<Enu>,
     /// Heading, rad clockwise from north.
     pub heading_rad: f64,
-    /// For each task, whether the drone has held position long enough; only for hold positions.
-    pub held: &'a [bool],
     /// Whether the drone has taken off.
     pub taken_off: bool,
     /// Whether the session is over.
@@ -126,7 +124,7 @@ impl GuidanceInput<'_> {
     /// Returns the task to fly: the active one until nothing of it remains, then the first one that is not done.
     fn task(&self) -> Option<usize> {
         let is_open = |task: &usize| match self.is_hold_position(*task) {
-            true => !self.held[*task],
+            true => !self.flown[*task].is_held(),
             false => !self.tasks[*task].done,
         };
         let is_unfinished = |task: &usize| if self.is_hold_position(*task) { is_open(task) } else { !self.tasks[*task].finished };
@@ -199,44 +197,6 @@ impl GuidanceInput<'_> {
     }
 }
 
-/// Measures for how long the drone stays on the path of a task, and remembers which hold positions were held.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HoldTimer {
-    /// Task whose path the drone is on, and the time since when.
-    on_path: Option<(usize, SimTime)>,
-    longest: Vec<SimTime>,
-}
-
-impl HoldTimer {
-    /// Creates the timer for a number of tasks.
-    #[must_use]
-    pub fn new(tasks: usize) -> Self {
-        Self { on_path: None, longest: vec![SimTime::ZERO; tasks] }
-    }
-
-    /// Updates the timer with the task whose path the drone is on.
-    pub fn update(&mut self, now: SimTime, task: Option<usize>) {
-        let before = self.on_path;
-        self.on_path = task.map(|task| (task, before.filter(|(other, _)| *other == task).map_or(now, |(_, since)| since)));
-        let Some((task, since)) = self.on_path else { return };
-        if let Some(longest) = self.longest.get_mut(task) {
-            *longest = (*longest).max(now - since);
-        }
-    }
-
-    /// Returns the longest time on the path of a task without leaving it, as a fraction of [`HOLD_DURATION`], at most 1.
-    #[must_use]
-    pub fn share(&self, task: usize) -> f64 {
-        self.longest.get(task).map_or(0.0, |longest| (longest.s() / HOLD_DURATION.s()).min(1.0))
-    }
-
-    /// For each task, returns whether the drone has stayed on its path long enough.
-    #[must_use]
-    pub fn held(&self) -> Vec<bool> {
-        self.longest.iter().map(|longest| *longest >= HOLD_DURATION).collect()
-    }
-}
-
 /// Interval at which the way to a task or home is repeated, for ground stations that show only texts (estimate).
 const REPETITION_INTERVAL: SimTime = SimTime::from_ms(10_000);
 
@@ -283,6 +243,7 @@ mod tests {
     use super::*;
     use spandrel_mavlink::contract::guidance::Detour;
     use spandrel_model::math;
+    use spandrel_model::scenario::HOLD_DURATION;
     use spandrel_model::{scenario, shipped};
 
     /// Largest difference that rounding explains, m and rad.
@@ -293,7 +254,6 @@ mod tests {
         paths: ReferencePaths,
         flown: Vec<FlownPath>,
         finished: Vec<bool>,
-        held: Vec<bool>,
     }
 
     impl Flight {
@@ -305,13 +265,12 @@ mod tests {
             let scenario = scenario::read("job.toml", text, &|file| Err(file.to_owned())).unwrap();
             let paths = ReferencePaths::new(&scenario);
             let flown = (0..paths.len()).map(|task| FlownPath::of_task(&paths, task)).collect();
-            let open = vec![false; paths.len()];
-            Self { finished: open.clone(), held: open, scenario, paths, flown }
+            Self { finished: vec![false; paths.len()], scenario, paths, flown }
         }
 
         /// Marks the points of a task's path as flown.
         fn fly(&mut self, task: usize, points: std::ops::Range<usize>) {
-            points.for_each(|point| self.flown[task].add_frame(Some(point)));
+            points.for_each(|point| self.flown[task].add_frame(Some(point), SimTime::ZERO));
             self.finished[task] = !self.flown[task].points().contains(&false);
         }
 
@@ -344,7 +303,6 @@ mod tests {
                 flown: &self.flown,
                 tasks: &tasks,
                 active_task,
-                held: &self.held,
                 position_m,
                 heading_rad: 0.0,
                 taken_off: true,
@@ -415,12 +373,9 @@ mod tests {
         flight.fly_all(0);
         let guidance = flight.guidance(place_m, Some(0));
         assert_eq!((guidance.step, guidance.words()), (GuidanceStep::HoldPosition, "Task 1: hold position".to_owned()));
-        let mut timer = HoldTimer::new(1);
-        for (ms, task, held) in [(0, Some(0), false), (9_000, None, false), (9_500, Some(0), false), (19_500, Some(0), true)] {
-            timer.update(SimTime::from_ms(ms), task);
-            assert_eq!(timer.held(), [held], "{ms} ms");
-        }
-        flight.held = timer.held();
+        flight.flown[0].add_frame(Some(0), HOLD_DURATION - SimTime::from_ms(1));
+        assert_eq!(flight.guidance(place_m, Some(0)).step, GuidanceStep::HoldPosition);
+        flight.flown[0].add_frame(Some(0), SimTime::from_ms(1));
         assert_eq!(flight.guidance(place_m, Some(0)).step, GuidanceStep::FlyHome);
     }
 

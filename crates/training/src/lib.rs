@@ -18,6 +18,7 @@ pub mod assignment;
 pub mod briefing;
 pub mod cohort;
 pub mod marks;
+pub mod path_overlap;
 pub mod plan;
 pub mod questionnaire;
 pub mod record;

@@ -2,9 +2,10 @@
 //! places, whether the defects can be placed, and what its forms, levels and certification require. `spandrel check` and the
 //! scenario editor show the results.
 
+use crate::path_overlap;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::ElementQuantity;
-use spandrel_model::scenario::{self, Bridge, Scenario, SiblingLoader, Task, places};
+use spandrel_model::scenario::{self, BatteryModel, Bridge, Scenario, SiblingLoader, Task, places};
 use spandrel_model::site::walkable::MAX_HEIGHT_ERROR_M;
 use spandrel_model::site::{Site, defects};
 use spandrel_model::toml::Problem;
@@ -64,6 +65,8 @@ pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &
     findings.problems.extend(site_problems(source, scenario, options));
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
     findings.warnings.extend(repeated_paths(source, scenario));
+    findings.warnings.extend(path_overlap::warnings(source.file, scenario));
+    findings.warnings.extend(unused_temperature(source, scenario));
     findings.notes.extend(quantity_notes(source, scenario));
     findings.notes.extend(certification_notes(source, scenario, options.aircraft));
 }
@@ -211,7 +214,7 @@ fn place_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site) -
     let places: Vec<Vec3<Enu>> = team.inspector_places_m().collect();
     let problem = |key: &str, value: String, allowed: String, message: String| Problem {
         file: source.file.to_owned(),
-        line: key_line_number(source.text, key),
+        line: key_line_number(source.text, key).unwrap_or(1),
         key: format!("ground_team.{key}"),
         location: format!("ground_team.{key}"),
         value,
@@ -252,10 +255,10 @@ fn place_problem(site: &Site, place_m: Vec3<Enu>) -> Option<(String, String)> {
     })
 }
 
-/// Returns the number of the first line that sets a key; 1 if there is none.
-fn key_line_number(text: &str, key: &str) -> usize {
+/// Returns the number of the first line that sets a key, alone or after the names of its tables; `None` if there is none.
+fn key_line_number(text: &str, key: &str) -> Option<usize> {
     let sets = |line: &str| line.split_once('=').is_some_and(|(name, _)| name.trim().rsplit('.').next() == Some(key));
-    text.lines().position(sets).map_or(1, |k| k + 1)
+    text.lines().position(sets).map(|k| k + 1)
 }
 
 /// Returns a warning for each task whose path an earlier task has, too, such as a copied task that was not changed.
@@ -265,6 +268,15 @@ fn repeated_paths(source: &ScenarioText<'_>, scenario: &Scenario) -> Vec<String>
     let words =
         |task: &Task, earlier: &Task| format!("{}: task {} has the same path as task {}", source.file, task.id, earlier.id);
     tasks.iter().enumerate().filter_map(|(k, task)| Some(words(task, earlier(k)?))).collect()
+}
+
+/// Returns a warning if the battery's temperature is set, but has no effect.
+fn unused_temperature(source: &ScenarioText<'_>, scenario: &Scenario) -> Option<String> {
+    const KEY: &str = "battery_temperature_c";
+    let line = key_line_number(source.text, KEY)?;
+    (scenario.rules.battery == BatteryModel::Paper).then(|| {
+        format!("{}:{line}: rules.{KEY} has no effect with battery = \"paper\": set battery = \"physical\"", source.file)
+    })
 }
 
 /// Returns a warning if some requested defects cannot be placed. Tries the scenario's own seed, or the first few seeds.
@@ -417,6 +429,27 @@ mod tests {
         let twice = text.replace(&task[..end], &task[..end].repeat(2));
         let warnings = scenario_findings("drill-straight-line", &twice, &aircraft()).warnings;
         assert_eq!(warnings, ["drill-straight-line.toml: task 2 has the same path as task 1"]);
+    }
+
+    #[test]
+    fn exact_temperature_without_effect_is_a_warning() {
+        let warnings = |keys: &str| {
+            let text = shipped_text("masonry-arch").replace("battery = \"paper\"\n", keys);
+            let warn = |source: &ScenarioText, _: &CheckOptions, findings: &mut Findings| {
+                findings.warnings.extend(unused_temperature(source, &source.read(&text).unwrap()));
+            };
+            found("masonry-arch", &text, &aircraft(), warn).warnings
+        };
+        let line = shipped_text("masonry-arch").lines().position(|line| line == "battery = \"paper\"").unwrap() + 2;
+        assert_eq!(
+            warnings("battery = \"paper\"\nbattery_temperature_c = -10.0\n"),
+            [format!(
+                "masonry-arch.toml:{line}: rules.battery_temperature_c has no effect with battery = \"paper\": set battery = \"physical\""
+            )]
+        );
+        for keys in ["battery = \"physical\"\nbattery_temperature_c = -10.0\n", "battery = \"paper\"\n"] {
+            assert_eq!(warnings(keys), Vec::<String>::new(), "{keys}");
+        }
     }
 
     #[test]

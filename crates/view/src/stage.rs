@@ -331,6 +331,7 @@ pub fn display(stage: &Stage, moment: &SceneMoment, inputs: &HudInputs, (feed, h
         pad_m,
         inspector: InspectorMarks::new(&scenario.ground_team, stage.site.inspector().at(at).feet_m),
         guidance: feed.guidance(at),
+        guidance_how: String::new(),
         tasks: TaskNames::of(scenario),
         lesson: feed.lesson(at).map(|(status, remark)| LessonDisplay {
             how: how_to(status.task, Language::default(), &|binding| format!("{{{binding}}}")),

@@ -25,7 +25,7 @@ Examples:
   spandrel render sessions/20260801T... --snapshots --masks
   spandrel render sessions/20260801T... --video
   spandrel render sessions/20260801T... --video flight.mp4 --span 60,90 --size 960x540
-  spandrel render two-bridges --from=-150,-60,12 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
+  spandrel render two-bridges --from=-60,-110,30 --look 0,0,25 --utc 2026-06-20T08:00:00Z --cloud 0.2
   spandrel render two-bridges --from 20,-1,28 --look 0,0,31 --lamp --seed 7
   spandrel render girder --dataset 500 --out girder-set --seed 7
 

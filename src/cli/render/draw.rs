@@ -9,6 +9,7 @@ use crate::errors::AppError;
 use crate::io::files;
 use crate::io::png::png;
 use spandrel_model::frames::{Enu, Vec3};
+use spandrel_model::site::Site;
 use spandrel_model::vehicle::Camera;
 use spandrel_view::arrange::largest_even_size_px;
 use spandrel_view::camera::PinholeCamera;
@@ -68,6 +69,25 @@ fn point(name: &str, text: &str) -> Result<Vec3<Enu>, AppError> {
     }
 }
 
+/// Rejects a viewpoint in the ground or in a bridge, from which a picture would show the inside of a solid.
+fn check_viewpoint(site: &Site, from: Vec3<Enu>) -> Result<(), AppError> {
+    let [east, north, up] = from.array();
+    let ground_m = site.ground_up_m(east, north);
+    let given = format!("--from {east},{north},{up}");
+    if up <= ground_m {
+        return Err(AppError::invalid(format!(
+            "{given}: in the ground (allowed: above {ground_m:.1} m up, the height of the ground there)"
+        )));
+    }
+    match site.member_around(from) {
+        Some(member) => Err(AppError::invalid(format!(
+            "{given}: in a bridge, in {} (allowed: outside of all bridges and above {ground_m:.1} m up, the height of the ground there)",
+            member.name
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// Renders a scenario from any viewpoint.
 fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Picture, AppError> {
     let mut scenario = files::scenario(&args.what)?.scenario;
@@ -94,6 +114,7 @@ fn render_scenario(args: &Args, quality: Quality, size: (u32, u32)) -> Result<Pi
         None => vehicle.camera,
     };
     let drawing = SceneDrawing::new(&scenario, &vehicle, args.seed.or(scenario.seed).unwrap_or_default(), quality, at)?;
+    check_viewpoint(drawing.site(), from)?;
     let stage = drawing.stage(&scenario, &vehicle);
     let pose = camera_aimed_at(from, look, args.lamp);
     let standing = drone_on_pad(&scenario, &vehicle);
@@ -147,4 +168,27 @@ fn side_by_side(pictures: &[Picture]) -> Picture {
     };
     let rgba = (0..height).flat_map(|y| pictures.iter().flat_map(move |p| row(p, y))).collect();
     Picture { width, height, rgba }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::{scenario, shipped};
+
+    #[test]
+    fn exact_viewpoints_in_the_ground_and_in_bridges_are_rejected() {
+        let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|_| Err("none".into())).unwrap();
+        let site = Site::without_defects(&job);
+        let error =
+            |east: f64, north: f64, up: f64| check_viewpoint(&site, Vec3::new(east, north, up)).map_err(|e| e.to_string());
+        let ground_m = site.ground_up_m(-150.0, -60.0);
+        assert_eq!(
+            error(-150.0, -60.0, 12.0),
+            Err(format!("--from -150,-60,12: in the ground (allowed: above {ground_m:.1} m up, the height of the ground there)"))
+        );
+        // The slab of the arch bridge is 0.23 m thick; its upper side is 34 m up.
+        let words = error(0.0, 0.0, 33.9).unwrap_err();
+        assert!(words.starts_with("--from 0,0,33.9: in a bridge, in arch/") && words.contains("height of the ground"), "{words}");
+        assert_eq!((error(-150.0, -60.0, 40.0), error(0.0, 0.0, 36.0)), (Ok(()), Ok(())));
+    }
 }

@@ -3,7 +3,7 @@
 use super::offers::job_named;
 use crate::errors::AppError;
 use crate::io::clock;
-use crate::records::RecordsLocation;
+use crate::records::Database;
 use crate::web::scenario_library::{UPLOAD_FOLDER, upload_path};
 use spandrel_model::calendar::day;
 use spandrel_text::Language;
@@ -13,29 +13,30 @@ use std::path::Path;
 
 /// Offers each trainee the pending assignment that is due first, instead of the recommended job. Titles are in the given
 /// language.
-pub fn put_first(trainees: &mut [TraineeSummary], sessions: &Path, language: Language) {
-    let location = RecordsLocation::beside(sessions);
-    // Without a database, nothing was assigned, and the start page does not create one.
-    if !location.exists() {
-        return;
-    }
-    if let Err(error) = location.open().and_then(|database| {
-        trainees.iter_mut().try_for_each(|trainee| {
-            let assignments = database.assignments_of_trainee(&trainee.name)?;
-            if assignments.is_empty() {
-                return Ok(());
-            }
-            let jobs = assigned_jobs(assignments, &database.records(Some(&trainee.name))?, clock::unix_us());
-            let pending = jobs
-                .iter()
-                .filter(|job| job.state.is_pending())
-                .find_map(|job| assigned_job(&job.assignment, sessions, language));
-            trainee.next = pending.or_else(|| trainee.next.take());
-            Ok::<(), AppError>(())
-        })
-    }) {
+pub fn put_first(trainees: &mut [TraineeSummary], database: Option<&Database>, sessions: &Path, language: Language) {
+    // Without a database, nothing was assigned.
+    let Some(database) = database else { return };
+    let result = trainees.iter_mut().try_for_each(|trainee| put_pending_first(trainee, database, sessions, language));
+    if let Err(error) = result {
         tracing::warn!("cannot read the assignments: {error}");
     }
+}
+
+fn put_pending_first(
+    trainee: &mut TraineeSummary,
+    database: &Database,
+    sessions: &Path,
+    language: Language,
+) -> Result<(), AppError> {
+    let assignments = database.assignments_of_trainee(&trainee.name)?;
+    if assignments.is_empty() {
+        return Ok(());
+    }
+    let jobs = assigned_jobs(assignments, &database.records(Some(&trainee.name))?, clock::unix_us());
+    let pending = jobs.iter().filter(|job| job.state.is_pending());
+    let first = pending.map(|job| &job.assignment).find_map(|assignment| assigned_job(assignment, sessions, language));
+    trainee.next = first.or_else(|| trainee.next.take());
+    Ok(())
 }
 
 /// Returns an assigned job, if its scenario is still there.
@@ -53,6 +54,7 @@ fn assigned_job(assignment: &Assignment, sessions: &Path, language: Language) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::records::RecordsLocation;
     use spandrel_training::assignment::AssignmentTarget;
 
     fn assigned(id: &str, scenario: &str, due_unix_us: u64) -> Assignment {
@@ -74,7 +76,7 @@ mod tests {
         let trainee =
             |name: &str| TraineeSummary { name: name.into(), sessions: 1, practices: 1, last: None, next: recommended.clone() };
         let mut trainees = [trainee("anna"), trainee("bert")];
-        put_first(&mut trainees, sessions.path(), Language::English);
+        put_first(&mut trainees, None, sessions.path(), Language::English);
         assert_eq!(trainees[0].next, recommended, "no database");
         let database = RecordsLocation::beside(sessions.path()).open().unwrap();
         database.update_details("anna", None, [None; 3]).unwrap();
@@ -85,7 +87,7 @@ mod tests {
         for (id, scenario, due) in [("a", "drill-gap", 2_000_000), ("b", "windy", 1_000_000), ("c", "removed", 500_000)] {
             assert!(database.assign(&assigned(id, scenario, due)).unwrap());
         }
-        put_first(&mut trainees, sessions.path(), Language::English);
+        put_first(&mut trainees, Some(&database), sessions.path(), Language::English);
         let next = trainees[0].next.clone().unwrap();
         assert_eq!((next.scenario, next.due.as_deref()), (own.join("windy.toml").display().to_string(), Some("1970-01-01")));
         assert_eq!(trainees[1].next, recommended);

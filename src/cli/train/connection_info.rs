@@ -4,13 +4,20 @@ use crate::cli::ports::PortArgs;
 use crate::io::files;
 use std::path::Path;
 
-/// Returns the address of the site's map tiles for a ground station. The web pages know only shipped scenarios.
+/// Returns the address of the site's map tiles for a ground station. `scenario` is the name or path of the job.
 fn map_tiles(scenario: &str, web: Option<&str>) -> String {
-    let scenario = scenario.split(files::FORM_SEPARATOR).next().unwrap_or(scenario);
-    match web.filter(|_| files::scenario_names().contains(&scenario)) {
-        Some(web) => format!("{}/tiles/{scenario}/{{z}}/{{x}}/{{y}}.png", web.trim_end_matches('/')),
+    let shipped = scenario.split(files::FORM_SEPARATOR).next().filter(|name| files::scenario_names().contains(name));
+    let named = shipped.map(str::to_owned).or_else(|| own_job_name(scenario));
+    match web.zip(named) {
+        Some((web, name)) => format!("{}/tiles/{name}/{{z}}/{{x}}/{{y}}.png", web.trim_end_matches('/')),
         None => "none".to_owned(),
     }
+}
+
+/// Returns the name of a job from a file. The tiles of one with the name of a shipped job would be those of the shipped one.
+fn own_job_name(scenario: &str) -> Option<String> {
+    let name = files::scenario(scenario).ok()?.scenario.name;
+    (!files::scenario_names().contains(&name.as_str())).then_some(name)
 }
 
 /// Returns the instructions for one flight of a scenario. `web` is the web pages' address, and `window` is true if a window
@@ -72,7 +79,15 @@ mod tests {
         assert_eq!(served, "http://127.0.0.1:8080/tiles/drill-hover/{z}/{x}/{y}.png");
         let form = map_tiles("pilot-study@B", Some("http://127.0.0.1:8080"));
         assert_eq!(form, "http://127.0.0.1:8080/tiles/pilot-study/{z}/{x}/{y}.png");
-        assert_eq!(map_tiles("my-job.toml", Some("http://127.0.0.1:8080")), "none");
+        let folder = tempfile::tempdir().unwrap();
+        let own = folder.path().join("job.toml");
+        let path = own.to_str().unwrap();
+        assert_eq!(map_tiles(path, Some("http://127.0.0.1:8080")), "none", "no such file");
+        let text = spandrel_model::shipped::DRILL_HOVER;
+        std::fs::write(&own, text).unwrap();
+        assert_eq!(map_tiles(path, Some("http://127.0.0.1:8080")), "none", "another job with the name of a shipped one");
+        std::fs::write(&own, text.replace("name = \"drill-hover\"", "name = \"my-job\"")).unwrap();
+        assert_eq!(map_tiles(path, Some("http://127.0.0.1:8080")), "http://127.0.0.1:8080/tiles/my-job/{z}/{x}/{y}.png");
         assert!(told(false).contains("No window: fly with") && !told(false).contains("A window shows"), "{}", told(false));
     }
 }

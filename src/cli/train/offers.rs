@@ -17,6 +17,7 @@ use spandrel_monitor::folder::{ASSESSMENT, EVENTS, REPORT, SESSION, TELEMETRY};
 use spandrel_monitor::measures::practice_aids::PracticeAids;
 use spandrel_monitor::score::certification::requirements;
 use spandrel_monitor::score::completion::{Completion, verdict};
+use spandrel_monitor::stored_text::translated;
 use spandrel_text::terms::{capitalized, end_reason_title};
 use spandrel_text::{Language, text};
 use spandrel_training::advice::SessionAdvice;
@@ -352,7 +353,7 @@ impl LessonSession {
 /// Returns a job with its title in a language, if it is installed. The title distinguishes forms and levels.
 pub fn job_named(scenario: &str, language: Language) -> Option<NextJob> {
     let title = job_title(&files::scenario(scenario).ok()?.scenario, language);
-    Some(NextJob { scenario: scenario.to_owned(), title, due: None })
+    Some(NextJob { scenario: scenario.to_owned(), title, due: None, from_last_session: false })
 }
 
 /// Returns the job that the advice recommends, if it is installed.
@@ -413,7 +414,9 @@ pub fn flight_summary(session: &Path, web: Option<&str>, trouble: Option<String>
         overall: scores["overall"].as_f64().zip(scores["overall_max"].as_f64()).filter(|_| complete),
         completion: completion.map(|completion| completion.headline(language)),
         complete,
-        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &unmet, language)),
+        // The reasons follow as a list.
+        verdict: certification["passed"].as_bool().map(|passed| verdict(passed, &[], language)),
+        unmet: unmet.iter().map(|requirement| translated(requirement, language)).collect(),
         why: match trouble {
             Some(error) => text!(language, "window-result-not-scored-because", error = error),
             None => end_reason_text(&assessment["end"], session, language),
@@ -790,6 +793,9 @@ mod tests {
         let ended = flight_summary(folder.path(), None, None, Language::English);
         assert_eq!((ended.overall, ended.complete), (None, false));
         assert_eq!(ended.completion.as_deref(), Some("Incomplete: 0 of 4 tasks, 0% of the path"));
-        assert_eq!(ended.verdict.as_deref(), Some("Not certified: task 1 not attempted (and 1 more)"));
+        assert_eq!(ended.verdict.as_deref(), Some("Not certified"));
+        assert_eq!(ended.unmet, ["task 1 not attempted", "not landed at home"]);
+        let german = flight_summary(folder.path(), None, None, Language::German);
+        assert_eq!(german.unmet, ["Aufgabe 1 nicht begonnen", "nicht am Landeplatz gelandet"]);
     }
 }

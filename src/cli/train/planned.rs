@@ -14,29 +14,49 @@ use spandrel_training::record::{IncompletePolicy, SessionRecord};
 use spandrel_view::flow::pipe::{NextJob, TraineeSummary};
 use std::path::{Path, PathBuf};
 
+/// Opens the records beside the sessions, which one page needs several times. `None` without a database, which is not created for this
+/// purpose, or with one that cannot be opened, which is logged.
+pub fn open_records(sessions: &Path) -> Option<Database> {
+    RecordsLocation::beside(sessions).open_existing().unwrap_or_else(|error| {
+        tracing::warn!("cannot open the records: {error}");
+        None
+    })
+}
+
 /// Adds a session that has just ended to the records, so that the plan takes it into account. The web server's importer would do it
 /// a few seconds later.
-pub fn import(session: &Path, sessions: &Path) {
-    let location = RecordsLocation::beside(sessions);
-    if !location.exists() {
-        return;
-    }
-    if let Err(error) = location.open().and_then(|database| import_into(&database, &[session.to_path_buf()])) {
+pub fn import(session: &Path, database: Option<&Database>) {
+    let Some(database) = database else { return };
+    if let Err(error) = import_into(database, &[session.to_path_buf()]) {
         tracing::warn!("{}: not in the records yet: {error}", session.display());
     }
 }
 
 /// Offers each trainee the first job of the plan, instead of the one that follows from the latest session alone. Titles are in the
 /// given language.
-pub fn recommend(trainees: &mut [TraineeSummary], (sessions, folders): (&Path, &SessionsByTrainee), language: Language) {
-    let location = RecordsLocation::beside(sessions);
-    // Without a database, there are no records to plan from, and the start page does not create one.
-    if !location.exists() {
+pub fn recommend(
+    trainees: &mut [TraineeSummary],
+    database: Option<&Database>,
+    (sessions, folders): (&Path, &SessionsByTrainee),
+    language: Language,
+) {
+    let Some(database) = database else {
+        mark_unplanned(trainees, folders);
         return;
-    }
-    let recommended = location.open().and_then(|database| recommend_from(&database, trainees, (sessions, folders), language));
-    if let Err(error) = recommended {
+    };
+    if let Err(error) = recommend_from(database, trainees, (sessions, folders), language) {
         tracing::warn!("cannot plan the next jobs: {error}");
+    }
+}
+
+/// Marks the recommendations that follow from the latest of several sessions. An unfinished lesson is recommended in any case.
+fn mark_unplanned(trainees: &mut [TraineeSummary], folders: &SessionsByTrainee) {
+    for trainee in trainees {
+        let own = folders.get(&trainee.name).map_or(&[][..], Vec::as_slice);
+        let continues_lesson = own.last().is_some_and(|folder| has_unfinished_lesson(folder));
+        if let Some(next) = trainee.next.as_mut() {
+            next.from_last_session = own.len() > 1 && !continues_lesson;
+        }
     }
 }
 
@@ -122,7 +142,8 @@ mod tests {
         location.open().unwrap().put(&records).unwrap();
 
         let mut trainees = [summary()];
-        recommend(&mut trainees, (sessions, &sessions_by_trainee(sessions)), Language::English);
+        let database = open_records(sessions);
+        recommend(&mut trainees, database.as_ref(), (sessions, &sessions_by_trainee(sessions)), Language::English);
         let window = trainees[0].next.clone().unwrap();
 
         let everyone = location.open().unwrap().records(None).unwrap();
@@ -142,6 +163,7 @@ mod tests {
         let setup = ServerSetup {
             records_location: location,
             scenarios: None,
+            own_job: None,
             watched: Vec::new(),
             wordings: Vec::new(),
             station_key: None,
@@ -160,10 +182,13 @@ mod tests {
         records.iter().for_each(|record| save_folder(sessions, record));
         let recommended = || {
             let mut trainees = [summary()];
-            recommend(&mut trainees, (sessions, &sessions_by_trainee(sessions)), Language::English);
+            let database = open_records(sessions);
+            recommend(&mut trainees, database.as_ref(), (sessions, &sessions_by_trainee(sessions)), Language::English);
             trainees[0].next.clone()
         };
-        assert_eq!(recommended(), summary().next, "no database");
+        let alone = recommended().unwrap();
+        assert_eq!(Some(&alone.scenario), summary().next.map(|next| next.scenario).as_ref(), "no database");
+        assert!(alone.from_last_session, "the pages must say that the recommendation follows from one of three sessions");
         let database = RecordsLocation::beside(sessions).open().unwrap();
         database.put(&records[..2]).unwrap();
         assert_eq!(recommended(), summary().next, "the latest flight is not imported yet");

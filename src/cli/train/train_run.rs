@@ -21,7 +21,7 @@ use crate::io::clock;
 use crate::io::files;
 use crate::io::stop::StopRequest;
 use crate::io::trainee_id::TraineeId;
-use crate::records::RecordsLocation;
+use crate::records::{Database, RecordsLocation};
 use crate::web::{ListenConfig, ServerSetup, WatchedVehicle, WebServer};
 use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{FlightChoice, FlownBy, FromWindow, OrderedFlight, ToWindow, TraineeSummary};
@@ -249,14 +249,20 @@ impl<'a> TrainRun<'a> {
 
     /// Offers flights in the window, with the briefings for the selected aircraft. Returns what it offers the trainees.
     fn offer(&mut self, choice: &FlightChoice) -> Vec<TraineeSummary> {
+        let database = planned::open_records(&self.args.sessions);
+        self.offer_from(choice, database.as_ref())
+    }
+
+    /// Offers flights as [`Self::offer`] does, with the plans and assignments of a database.
+    fn offer_from(&mut self, choice: &FlightChoice, database: Option<&Database>) -> Vec<TraineeSummary> {
         let web = self.web.as_ref().map(|web| web.server.address().to_owned());
         let language = self.language();
         let sessions = &self.args.sessions;
         let folders = offers::sessions_by_trainee(sessions);
         let mut offers = offers::flight_options((sessions, &folders, &self.aircraft), choice, web.as_deref(), language);
         offers.vehicles = aircraft::offered(&self.args.vehicle);
-        planned::recommend(&mut offers.trainees, (sessions, &folders), language);
-        assigned::put_first(&mut offers.trainees, sessions, language);
+        planned::recommend(&mut offers.trainees, database, (sessions, &folders), language);
+        assigned::put_first(&mut offers.trainees, database, sessions, language);
         offers::add_next_jobs(&mut offers, &self.aircraft, language);
         self.web_announced = true;
         (self.offered_language, self.offered_aircraft) = (Some(language), Some(self.aircraft.name.clone()));
@@ -474,10 +480,11 @@ impl<'a> TrainRun<'a> {
             self.pictures.draw_video(session, self.args.video);
         }
         if open {
+            let database = planned::open_records(&self.args.sessions);
             if result.is_ok() {
-                planned::import(session, &self.args.sessions);
+                planned::import(session, database.as_ref());
             }
-            let trainees = self.offer(choice);
+            let trainees = self.offer_from(choice, database.as_ref());
             let language = self.language();
             let web = self.web.as_ref().map(|web| web.server.address());
             let trouble = result.as_ref().err().filter(|_| is_lost).map(ToString::to_string);
@@ -510,6 +517,7 @@ impl<'a> TrainRun<'a> {
         let setup = ServerSetup {
             records_location,
             scenarios: None,
+            own_job: self.args.scenario.as_ref().map(std::path::PathBuf::from).filter(|file| file.is_file()),
             watched: watched.into_iter().collect(),
             wordings: Vec::new(),
             station_key: None,

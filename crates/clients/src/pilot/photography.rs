@@ -12,7 +12,9 @@ use super::visual_search::{Glimpse, MAX_SEARCH_DISTANCE_M, camera_pose};
 use spandrel_mavlink::dialect::MavCmd;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
+use spandrel_model::scenario::PlacedDefect;
 use spandrel_model::site::DefectView;
+use spandrel_model::site::visibility::is_framed;
 use spandrel_model::time::SimTime;
 
 /// Standard deviation of a trained pilot's visual estimate of the incidence angle, rad (4 degrees; estimate).
@@ -72,11 +74,16 @@ impl Pilot {
         let (Some(picture), Some(site)) = (self.perception.delayed_view(skill.delay_s), &self.site) else { return };
         let vehicle = &self.config.vehicle;
         let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
-        let open = site.defects().iter().any(|defect| {
-            (defect.position_m - pose.position_m).norm() <= MAX_SEARCH_DISTANCE_M
-                && self.visual_search.is_open(defect.id, self.now)
-        });
-        let views = || if open { site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time) } else { Vec::new() };
+        let is_near = |defect: &PlacedDefect| (defect.position_m - pose.position_m).norm() <= MAX_SEARCH_DISTANCE_M;
+        // The light on a defect takes many rays, so it is computed only where the pilot could recognize something.
+        let candidates: Vec<_> = site
+            .defects()
+            .iter()
+            .filter(|defect| is_near(defect) && self.visual_search.is_open(defect.id, self.now))
+            .filter(|defect| is_framed(defect, &pose, &vehicle.camera))
+            .collect();
+        let optics = (&vehicle.camera, &vehicle.lamp);
+        let views = candidates.into_iter().filter_map(|defect| site.view_defect(defect, &pose, optics, picture.time));
         match self.visual_search.fixate(views, site, &skill, self.now) {
             Glimpse::Defect { id, judgment_error } => self.take_up(task, id, judgment_error, belief),
             Glimpse::Distractor => self.guidance.distractor_trigger = Some(self.now + SimTime::from_s(skill.delay_s)),
@@ -240,8 +247,8 @@ impl Pilot {
         let vehicle = &self.config.vehicle;
         let (site, picture) = (self.site.as_ref()?, self.perception.delayed_view(0.0)?);
         let pose = camera_pose(&picture, self.link.status.gimbal_pitch_rad, self.lamp, vehicle);
-        let views = site.view_defects(&pose, &vehicle.camera, &vehicle.lamp, picture.time);
-        views.into_iter().find(|view| view.defect_id == defect)
+        let defect = site.defects().iter().find(|one| one.id == defect)?;
+        site.view_defect(defect, &pose, (&vehicle.camera, &vehicle.lamp), picture.time)
     }
 
     /// Checks whether this pilot considers a picture good.

@@ -1,10 +1,11 @@
 //! Obstacle-free routes: an A* search on a grid, with the result straightened. Models a person who plans by sight.
 
+use rustc_hash::{FxHashMap, FxHashSet};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap, VecDeque};
+use std::collections::{BinaryHeap, VecDeque};
 
 /// Grid spacing, m: finer than the height of the interlayer.
 const GRID_SPACING_M: f64 = 2.0;
@@ -153,10 +154,10 @@ impl SearchSpace<'_> {
 /// blocked or outside the search box. It is called at most once per cell, because a distance query costs far more than
 /// the rest of the search.
 fn search_grid(goal: GridCell, mut clearance: impl FnMut(GridCell) -> Option<f64>) -> Option<Vec<GridCell>> {
-    let mut known: BTreeMap<GridCell, Option<f64>> = BTreeMap::new();
+    let mut known: FxHashMap<GridCell, Option<f64>> = FxHashMap::default();
     let mut clearance = |cell: GridCell| *known.entry(cell).or_insert_with(|| clearance(cell));
     let mut open = BinaryHeap::new();
-    let mut best: BTreeMap<GridCell, (f64, GridCell)> = BTreeMap::new();
+    let mut best: FxHashMap<GridCell, (f64, GridCell)> = FxHashMap::default();
     let mut pocket = PocketProbe::new(goal);
     best.insert([0, 0, 0], (0.0, [0, 0, 0]));
     open.push(Reverse((0u64, [0, 0, 0])));
@@ -187,13 +188,13 @@ fn search_grid(goal: GridCell, mut clearance: impl FnMut(GridCell) -> Option<f64
 /// first visit every cell outside of the pocket.
 struct PocketProbe {
     queue: VecDeque<GridCell>,
-    seen: BTreeSet<GridCell>,
+    seen: FxHashSet<GridCell>,
     connected: bool,
 }
 
 impl PocketProbe {
     fn new(goal: GridCell) -> Self {
-        Self { queue: [goal].into(), seen: [goal].into(), connected: false }
+        Self { queue: [goal].into(), seen: FxHashSet::from_iter([goal]), connected: false }
     }
 
     /// Visits the next cell. Returns true if every cell that can be reached from the goal has been visited without meeting
@@ -230,7 +231,7 @@ fn distance(a: GridCell, b: GridCell) -> f64 {
     GRID_SPACING_M * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
 }
 
-fn reconstruct_path(best: &BTreeMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<GridCell> {
+fn reconstruct_path(best: &FxHashMap<GridCell, (f64, GridCell)>, goal: GridCell) -> Vec<GridCell> {
     let mut cells = vec![goal];
     let mut at = goal;
     while let Some((_, from)) = best.get(&at) {
@@ -260,6 +261,7 @@ fn straighten(space: &SearchSpace, points: &[Vec3<Enu>]) -> Vec<Vec3<Enu>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeMap;
 
     /// Half the edge of the cube-shaped search box, in cells.
     const HALF_EDGE: i32 = 20;

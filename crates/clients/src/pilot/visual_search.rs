@@ -68,13 +68,13 @@ impl VisualSearch {
     }
 
     /// Examines the picture with one fixation, if it is due.
-    pub fn fixate(&mut self, views: impl FnOnce() -> Vec<DefectView>, site: &Site, skill: &Skill, now: SimTime) -> Glimpse {
+    pub fn fixate(&mut self, views: impl Iterator<Item = DefectView>, site: &Site, skill: &Skill, now: SimTime) -> Glimpse {
         if !self.is_due(now) {
             return Glimpse::Nothing;
         }
         self.next_fixation = now + SimTime::from_s(skill.fixation_s);
         let deceived = self.random.uniform() < skill.false_alarms_per_min / 60.0 * skill.fixation_s;
-        for view in views() {
+        for view in views {
             if !self.is_open(view.defect_id, now) || !is_recognizable(&view) || self.random.uniform() >= skill.fixation_area {
                 continue;
             }

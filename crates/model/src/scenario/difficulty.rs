@@ -2,6 +2,7 @@
 //! at the easiest and at the hardest level. At the standard level, the file's own values apply.
 
 use super::job::{Difficulty, HazardSpec, Scenario, WindModel};
+use super::tasks::is_unread;
 use crate::math;
 use crate::numbers::format_limit;
 use crate::toml::{Adjustment, Problem, Problems, Reader, Section};
@@ -261,7 +262,7 @@ fn unmet_condition(quantity: Quantity, own: &[f64], scenario: &Scenario) -> Opti
     let defects = &scenario.defects;
     let (met, condition) = match quantity {
         Quantity::WindSpeed | Quantity::Turbulence => (is_physical, "only with the physical wind model"),
-        Quantity::CrownGap => (!own.is_empty(), "only with an arch bridge"),
+        Quantity::CrownGap => (!own.is_empty() || scenario.bridges.iter().any(is_unread), "only with an arch bridge"),
         Quantity::Detection => (!own.is_empty() && defects.count > 0, "only with defects and defects.detection_pct"),
         Quantity::DefectSize => {
             (defects.mean_detection.is_none() && defects.count > 0, "only with defects and without defects.detection_pct")

@@ -10,6 +10,7 @@ use super::job::{
 };
 use super::point::point;
 use super::siblings::{SiblingLoader, sibling_text};
+use crate::defect_codes;
 use crate::elements::Element;
 use crate::geodesy::{Geo, LocalPlane};
 use crate::math::M_S_PER_MPH;
@@ -194,7 +195,18 @@ fn read_bridges(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) -> 
         let heading_deg = r.number(&mut s, "heading_deg", (0.0, 360.0), Some(90.0));
         let with_dimensions = BridgeKind::TYPES.iter().map(|bridge| (bridge.name, Some(bridge)));
         let types: Vec<_> = with_dimensions.chain([(Model::TYPE, None)]).collect();
-        let kind = match r.keyword(&mut s, "type", &types, None) {
+        let before = r.problems.len();
+        let bridge_type = r.keyword(&mut s, "type", &types, None);
+        if r.problems.len() > before {
+            // It is unknown which of the types' tables belongs to a bridge without a valid type, and which tasks it has.
+            for (name, _) in &types {
+                r.section(&mut s, name);
+            }
+            r.finish(&s);
+            out.push(Bridge { name: bridge_name, center_m, heading_deg, kind: BridgeKind::Model(Model::default()) });
+            continue;
+        }
+        let kind = match bridge_type {
             Some(bridge) => read_dimensions(r, &mut s, bridge),
             None => BridgeKind::Model(read_model(r, &mut s, siblings)),
         };
@@ -251,12 +263,15 @@ fn read_elements(r: &mut Reader, s: &Section, file: &str, siblings: SiblingLoade
 
 fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
     let mut s = r.section(root, "defects");
+    let with_defects = Element::ALL.iter().filter(|element| !element.permitted_defects().is_empty());
+    let elements: Vec<i64> = with_defects.map(|element| i64::from(element.number())).collect();
+    let kinds: Vec<i64> = defect_codes::ALL.iter().copied().map(i64::from).collect();
     let defects = DefectSpec {
         count: r.integer(&mut s, "count", (0, 200), Some(10)) as usize,
         placement: r.keyword(&mut s, "placement", &DefectPlacement::WORDS, Some(0)),
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
-        elements: r.integers(&mut s, "elements", (1, 999)).into_iter().map(|i| Element::from_number(i as u16)).collect(),
-        kinds: r.integers(&mut s, "kinds", (1000, 9999)).into_iter().map(|i| i as u32).collect(),
+        elements: r.integers_among(&mut s, "elements", &elements).into_iter().map(|i| Element::from_number(i as u16)).collect(),
+        kinds: r.integers_among(&mut s, "kinds", &kinds).into_iter().map(|i| i as u32).collect(),
         seed: r.optional_integer(&mut s, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64),
         mean_detection: r.optional_number(&mut s, "detection_pct", super::forms::DETECTION_RANGE_PCT).map(|pct| pct / 100.0),
         line_count: r.optional_integer(&mut s, "lines", (0, 200)).map(|lines| lines as usize),

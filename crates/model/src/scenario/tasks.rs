@@ -1,9 +1,9 @@
 //! Reads a job's tasks. Their reference paths are derived from a bridge or listed point by point.
 
-use super::bridges::Bridge;
 use super::bridges::path::{PathPlace, SPACING_M, TaskKind, TaskPath};
 use super::bridges::solid::{LocalPoint, Placement};
 use super::bridges::task_kind::{PlaceKey, SurfaceSide};
+use super::bridges::{Bridge, BridgeKind};
 use super::job::{StandOff, Task};
 use super::point::MAX_COORDINATE_M;
 use crate::frames::{Enu, Vec3};
@@ -65,7 +65,7 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
     let closed = r.boolean(s, "closed", false);
     let points = r.points(s, "points_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
     let look_at = r.points(s, "look_at_m", (-MAX_COORDINATE_M, MAX_COORDINATE_M));
-    let path = match bridge.filter(|_| kind != TaskKind::Free) {
+    let path = match bridge.filter(|index| kind != TaskKind::Free && !is_unread(&bridges[*index])) {
         Some(index) => bridges[index].task_path_at(kind, stand_off_m, &place).unwrap_or_else(|problem| {
             r.add_problem(s, "kind", "", &problem, "not available for this bridge");
             TaskPath { path_m: Vec::new(), viewing_directions: Vec::new(), closed }
@@ -100,6 +100,11 @@ fn read_task(r: &mut Reader, s: &mut Section, id: u32, bridges: &[Bridge]) -> Ta
         too_close_m,
         dark,
     }
+}
+
+/// Returns whether a bridge has an invalid type or file, so that its paths are unknown.
+pub(super) fn is_unread(bridge: &Bridge) -> bool {
+    matches!(&bridge.kind, BridgeKind::Model(model) if model.parts().is_empty())
 }
 
 /// Reads the span or the support of a task. Kinds of tasks without a place have no such keys.

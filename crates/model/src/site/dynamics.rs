@@ -73,20 +73,20 @@ impl Dynamics {
         self.traffic.ray(origin_m, direction, reach, at).or(still)
     }
 
-    /// Returns the visibility of each defect within [`visibility::MAX_RANGE_M`] in front of the camera. Traffic can block the view,
-    /// but casts no shadows.
+    /// Returns the visibility of a defect; `None` if it is not within [`visibility::MAX_RANGE_M`] in front of the camera. Traffic can
+    /// block the view, but casts no shadows.
     #[must_use]
-    pub fn view_defects(
+    pub fn view_defect(
         &self,
+        defect: &PlacedDefect,
         pose: &CameraPose,
-        camera: &Camera,
-        lamp: &Lamp,
+        optics: (&Camera, &Lamp),
         at: QueryTime,
         still: RayCast,
-    ) -> Vec<DefectView> {
+    ) -> Option<DefectView> {
         let cast = |o, d, max| self.ray(still(o, d, max), o, d, max, at);
         let ambient = |p, n| self.light.ambient_lux(p, Some(n), at, still);
-        self.defects.iter().filter_map(|d| visibility::evaluate_defect(d, pose, (camera, lamp), &cast, &ambient)).collect()
+        visibility::evaluate_defect(defect, pose, optics, &cast, &ambient)
     }
 }
 

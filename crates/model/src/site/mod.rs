@@ -205,6 +205,13 @@ impl Site {
         self.geometry.ground_up_m(east_m, north_m)
     }
 
+    /// Returns the member that contains a point; `None` if no bridge does.
+    #[must_use]
+    pub fn member_around(&self, position_m: Vec3<Enu>) -> Option<&Member> {
+        let near = self.geometry.nearest_member(position_m, 0.0)?;
+        self.members().get(near.object.0 as usize)
+    }
+
     /// Returns the height of the water's surface in meters above the origin; `None` on land.
     #[must_use]
     pub fn water_up_m(&self, east_m: f64, north_m: f64) -> Option<f64> {
@@ -241,7 +248,19 @@ impl Site {
     /// Returns the visibility of each defect in a photo from `pose`; only defects within 60 m in front of the camera are listed.
     #[must_use]
     pub fn view_defects(&self, pose: &CameraPose, camera: &Camera, lamp: &Lamp, at: QueryTime) -> Vec<DefectView> {
-        self.dynamics.view_defects(pose, camera, lamp, at, &self.cast())
+        self.defects().iter().filter_map(|defect| self.view_defect(defect, pose, (camera, lamp), at)).collect()
+    }
+
+    /// Returns the visibility of one defect in a photo from `pose`; `None` if it isn't within 60 m in front of the camera.
+    #[must_use]
+    pub fn view_defect(
+        &self,
+        defect: &PlacedDefect,
+        pose: &CameraPose,
+        optics: (&Camera, &Lamp),
+        at: QueryTime,
+    ) -> Option<DefectView> {
+        self.dynamics.view_defect(defect, pose, optics, at, &self.cast())
     }
 
     /// Returns the name of an object for messages, such as `arch/rib-left/07 (144)`, `car 12` or `inspector`.

@@ -87,6 +87,12 @@ pub fn lamp_lux(lamp: &Lamp, pose: &CameraPose, point_m: Vec3<Enu>, normal: Vec3
     candela * (-ray.dot(normal)).max(0.0) / (distance * distance)
 }
 
+/// Returns whether the center of a defect is inside the central 80% of the image.
+#[must_use]
+pub fn is_framed(defect: &PlacedDefect, pose: &CameraPose, camera: &Camera) -> bool {
+    project(pose, camera, defect.position_m).is_some_and(|px| is_in_frame(px, camera, CENTRAL_FRACTION))
+}
+
 /// Evaluates the visibility of one defect; `None` if it is too far away or behind the camera. Calls `cast` for the lines of sight
 /// and `ambient` once, and only if it returns a result.
 #[must_use]
@@ -109,7 +115,7 @@ pub fn evaluate_defect(
     let unoccluded = 2 * seen.iter().filter(|s| **s).count() > SAMPLE_OFFSETS.len();
     // A hidden defect fails only the occlusion condition, not the size condition as well.
     let counted = if unoccluded { seen } else { [true; SAMPLE_OFFSETS.len()] };
-    let in_frame = project(pose, camera, defect.position_m).is_some_and(|px| is_in_frame(px, camera, CENTRAL_FRACTION));
+    let in_frame = is_framed(defect, pose, camera);
     let width_px = length_px(pose, camera, defect, defect.normal.cross(defect.along), defect.width_m);
     let along_px = visible_px(pose, camera, defect, samples.iter().zip(counted));
     let mut view = DefectView {

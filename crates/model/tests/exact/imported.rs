@@ -1,5 +1,6 @@
 //! Tests that the geometry that Spandrel exports is the same after it was imported.
 
+use spandrel_model::elements::ElementUnit;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
@@ -8,7 +9,7 @@ use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::bridges::model::Model;
 use spandrel_model::scenario::{Bridge, BridgeKind, Scenario, read};
 use spandrel_model::site::Site;
-use spandrel_model::site::bridge_import::{ImportOptions, ImportSource, ModelOrigin, UpAxis, import};
+use spandrel_model::site::bridge_import::{ImportOptions, ImportSource, ImportedBridge, ModelOrigin, UpAxis, import};
 use spandrel_model::site::gltf::glb;
 
 /// Tolerance for positions, m: the export rounds them to 32-bit floats, which are 3e-5 m apart at 500 m.
@@ -16,7 +17,11 @@ const POSITION_TOLERANCE_M: f64 = 1e-4;
 /// Tolerance for the distance at which a ray enters a member, m: rounded corners tilt narrow faces, and rays meet them at small angles.
 const RAY_TOLERANCE_M: f64 = 2e-3;
 
-fn reimported(scenario: &Scenario, site: &Site) -> Site {
+/// Largest deviation of an estimated quantity from that of the bridge, as a share: parts overlap by the thickness of plates.
+const QUANTITY_TOLERANCE: f64 = 0.03;
+
+/// Exports a site, and imports the file again.
+fn imported_again(site: &Site) -> ImportedBridge {
     let file = glb(site).unwrap();
     let options = ImportOptions {
         name: "copy".into(),
@@ -30,12 +35,41 @@ fn reimported(scenario: &Scenario, site: &Site) -> Site {
     let none = |_: &str| Err("no file".to_owned());
     let source =
         ImportSource { file: "site.glb", format: ModelFormat::Gltf, bytes: &file, load: &none, elements: ElementMap::default() };
-    let imported = import(&source, &options).unwrap();
+    import(&source, &options).unwrap()
+}
+
+fn reimported(scenario: &Scenario, site: &Site) -> Site {
+    let imported = imported_again(site);
     assert_eq!(imported.report.skipped, ["ground", "water", "pad"]);
     assert!(imported.report.parts.iter().all(|part| part.open_edges == 0 && part.shapes == 1 && part.dropped_triangles == 0));
     let model = Model::read("bridge.glb", &imported.model, &ElementMap::default()).unwrap();
     let bridge = Bridge { name: "copy".into(), center_m: Vec3::zero(), heading_deg: 90.0, kind: BridgeKind::Model(model) };
     Site::without_defects(&Scenario { bridges: vec![bridge], ..scenario.clone() })
+}
+
+#[test]
+fn regress_quantities_of_a_reimported_export_are_those_of_the_bridge() {
+    for name in ["girder", "box-girder", "truss"] {
+        let path = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let scenario = read(name, &std::fs::read_to_string(path).unwrap(), &|_| Err("no file".into())).unwrap();
+        let estimated = imported_again(&Site::without_defects(&scenario)).elements;
+        let estimated = ElementMap::read("elements.toml", &estimated).unwrap().quantities();
+        let expected = scenario.bridges[0].quantities();
+        let mut compared = 0;
+        for quantity in expected.iter().filter(|quantity| quantity.element.unit() != Some(ElementUnit::Each)) {
+            let found = estimated.iter().find(|other| other.element == quantity.element).unwrap();
+            let deviation = found.amount / quantity.amount - 1.0;
+            assert!(
+                deviation.abs() < QUANTITY_TOLERANCE,
+                "{name}: {}: {} of {}",
+                quantity.element.name(),
+                found.amount,
+                quantity.amount
+            );
+            compared += 1;
+        }
+        assert!(compared >= 8, "{name}: {compared} lengths and areas");
+    }
 }
 
 #[test]

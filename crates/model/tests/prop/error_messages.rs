@@ -138,6 +138,46 @@ fn regress_unknown_bridge_is_reported() {
 }
 
 #[test]
+fn regress_elements_and_kinds_without_defects_are_reported() {
+    let problems = |keys: &str| {
+        let text = shipped_scenario();
+        assert!(text.contains("[defects]\ncount = 10\n"));
+        let text = text.replace("[defects]\ncount = 10\n", &format!("[defects]\ncount = 10\n{keys}\n"));
+        read_problems(&text).0.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(problems("elements = [12, 334]\nkinds = [1000, 1620]"), Vec::<String>::new());
+    let found = problems("elements = [12, 999]\nkinds = [1130, 6000]");
+    assert_eq!(found.len(), 2, "{found:?}");
+    let elements =
+        "job.toml:70: defects.elements = [12, 999]: not a valid list (allowed: list of whole numbers among 12, 13, 15, ";
+    assert!(found[0].starts_with(elements) && found[0].ends_with(", 331, 334)"), "{}", found[0]);
+    assert_eq!(
+        found[1],
+        "job.toml:71: defects.kinds = [1130, 6000]: not a valid list (allowed: list of whole numbers among 1000, 1010, 1020, 1080, 1090, \
+         1110, 1120, 1130, 1190, 1610, 1620)"
+    );
+    // A timber deck and a joint are elements, but have no defects in the catalog.
+    assert_eq!(problems("elements = [31]").len(), 1);
+    assert_eq!(problems("elements = [300]").len(), 1);
+}
+
+/// The type determines which tables and tasks a bridge can have, so that an unknown one makes no other error.
+#[test]
+fn regress_unknown_type_of_bridge_is_a_single_problem() {
+    let mut types = 0;
+    for (name, text) in spandrel_model::shipped::SCENARIOS {
+        let Some(line) = text.lines().find(|line| line.starts_with("type = ")) else { continue };
+        let problems = read_problems(&text.replace(line, "type = \"swing\""));
+        assert!(!problems.0.is_empty(), "{name}");
+        for problem in &problems.0 {
+            assert_eq!((problem.key.as_str(), problem.value.as_str()), ("bridges[].type", "\"swing\""), "{name}: {problem}");
+        }
+        types += 1;
+    }
+    assert!(types > 8, "{types} jobs with bridges");
+}
+
+#[test]
 fn regress_inconsistent_numbers_are_reported() {
     assert_message("spacing_m = 4.0", "spacing_m = 1.0", "");
     assert_message(

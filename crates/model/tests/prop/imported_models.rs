@@ -167,6 +167,15 @@ fn exact_job_of_an_imported_bridge_is_valid_and_free_of_obstacles() {
     let site = spandrel_model::site::Site::without_defects(&scenario);
     assert_eq!((site.members().len(), scenario.tasks.len()), (3, 3));
     assert_eq!(site.members()[0].name, "model/slab");
+    // From the pad beyond the start of the slab, in this order, no way crosses a path.
+    let names: Vec<&str> = scenario.tasks.iter().map(|task| task.name.as_str()).collect();
+    assert_eq!(names, ["Right side of the deck", "Underside of the deck", "Left side of the deck"]);
+    assert_eq!(scenario.ground_team.pad_m, Vec3::new(-45.0, 0.0, 0.0));
+    let ends = |task: usize| {
+        let path = &scenario.tasks[task].path_m;
+        (path[0].east(), path[path.len() - 1].east())
+    };
+    assert!((0..3).map(ends).zip([true, false, true]).all(|((from, to), is_ahead)| (from < to) == is_ahead));
     for task in &scenario.tasks {
         assert_eq!(task.bridge, Some(0));
         // 1 m more than the warning; points of a path are rounded to 1 cm.

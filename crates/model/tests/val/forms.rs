@@ -14,7 +14,7 @@ const HARDER: f64 = 0.1;
 /// Smallest number of defects that count for certification with the default aircraft.
 const MIN_GRADABLE: usize = 8;
 /// Defects of the certification job that are no cracks. Fewer make a single session too uncertain (docs/src/measured/certification.md).
-const CERTIFICATION_AREAS: usize = 24;
+const CERTIFICATION_AREAS: usize = 62;
 /// Smallest distance between defects of different forms, m: a defect must not be remembered from another form.
 const MIN_DISTANCE_M: f64 = 0.5;
 

@@ -219,8 +219,8 @@ pub const FIELDS: &[JsonField] = &[
     field("certification.accuracy.pictures[].found[]", "", "Numbers of the defects first shown with sufficient quality."),
     field("certification.accuracy.pictures[].fails[]", "", "Unmet quality conditions, as text."),
     field("certification.time.path_length_m", "m", "Total length of the paths."),
-    field("certification.time.defects", "", "Number of defects for which time is allowed."),
-    field("certification.time.needed_s", "s", "Time that the job needs."),
+    field("certification.time.defects", "", "Number of defects for which time is allowed: those that the pictures show."),
+    field("certification.time.needed_s", "s", "Time that the job needs with these defects."),
     field("certification.time.flown_s", "s", "Flight time."),
-    field("certification.time.ratio", "", "Flight time divided by the time that the job needs."),
+    field("certification.time.ratio", "", "Flight time divided by the time needed."),
 ];

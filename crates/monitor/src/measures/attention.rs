@@ -87,6 +87,12 @@ pub struct Snapshot {
     pub views: Vec<DefectSighting>,
 }
 
+/// Returns the IDs of all defects that the pictures show.
+#[must_use]
+pub fn found_defects(pictures: &[Snapshot]) -> BTreeSet<u32> {
+    pictures.iter().flat_map(|picture| picture.found.iter().copied()).collect()
+}
+
 /// Visibility of one defect in one picture.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DefectSighting {

@@ -1,6 +1,8 @@
 //! Coverage: the fraction of each reference path's length that was flown.
 
 use super::on_path::{OnPath, ReferencePath, ReferencePaths};
+use spandrel_model::scenario::HOLD_DURATION;
+use spandrel_model::time::SimTime;
 
 /// Maximum path length between the nearest points of two consecutive frames that counts as flown, m (estimate: frames are at most
 /// 1.4 m apart at 13.4 m/s and 10 Hz, but the nearest point moves farther if the drone cuts a corner within the threshold).
@@ -12,7 +14,7 @@ pub struct PathCoverage {
     /// Length of the path, m; 0 for a single point.
     pub length_m: f64,
     /// Fraction of the length that was flown, 0 to 1. For a hold position, the longest time on it without leaving it, as a fraction
-    /// of [`HOLD_DURATION`](spandrel_model::scenario::HOLD_DURATION), at most 1.
+    /// of [`HOLD_DURATION`], at most 1.
     pub share: f64,
 }
 
@@ -24,8 +26,8 @@ pub fn coverage(paths: &ReferencePaths, on_path: &OnPath) -> Vec<PathCoverage> {
 
 fn task_coverage(paths: &ReferencePaths, task: usize, on_path: &OnPath) -> PathCoverage {
     let mut flown = FlownPath::of_task(paths, task);
-    for on in &on_path.task {
-        flown.add_frame(on.and_then(|(t, point)| (t == task).then_some(point)));
+    for (frame, on) in on_path.task.iter().enumerate() {
+        flown.add_frame(on.and_then(|(t, point)| (t == task).then_some(point)), paths.frame_duration(frame));
     }
     flown.coverage()
 }
@@ -33,7 +35,8 @@ fn task_coverage(paths: &ReferencePaths, task: usize, on_path: &OnPath) -> PathC
 /// The part of a path that was flown, updated frame by frame.
 ///
 /// A point represents half of each adjacent segment. It is covered if it was the nearest point in an on-path frame or
-/// lies between the nearest points of two consecutive on-path frames.
+/// lies between the nearest points of two consecutive on-path frames. The time on a hold position is the sum of the frames' durations, so
+/// that the monitor, which gets more frames per second in flight, measures the same as the assessment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlownPath {
     distances_along_path_m: Vec<f64>,
@@ -41,26 +44,24 @@ pub struct FlownPath {
     threshold_m: f64,
     covered: Vec<bool>,
     previous_point: Option<usize>,
-    hold: Option<HoldFrames>,
+    hold: Option<HoldTime>,
 }
 
-/// Time on a hold position, in frames.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct HoldFrames {
-    needed: usize,
-    /// Frames on it without leaving it: now, and at most.
-    current: usize,
-    longest: usize,
+/// Time on a hold position without leaving it: now, and at most.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct HoldTime {
+    current: SimTime,
+    longest: SimTime,
 }
 
-impl HoldFrames {
-    fn add(&mut self, on: bool) {
-        self.current = if on { self.current + 1 } else { 0 };
+impl HoldTime {
+    fn add(&mut self, on: bool, duration: SimTime) {
+        self.current = if on { self.current + duration } else { SimTime::ZERO };
         self.longest = self.longest.max(self.current);
     }
 
     fn share(self) -> f64 {
-        (self.longest as f64 / self.needed.max(1) as f64).min(1.0)
+        (self.longest.ns() as f64 / HOLD_DURATION.ns() as f64).min(1.0)
     }
 }
 
@@ -68,7 +69,7 @@ impl FlownPath {
     /// Creates a tracker for the path of a task. Unlike a path, a hold position is not flown by reaching it.
     #[must_use]
     pub fn of_task(paths: &ReferencePaths, task: usize) -> Self {
-        let hold = paths.hold_frames(task).map(|needed| HoldFrames { needed, current: 0, longest: 0 });
+        let hold = paths.is_hold_position(task).then(HoldTime::default);
         Self { hold, ..Self::new(paths.path(task), paths.threshold_m(task)) }
     }
 
@@ -86,9 +87,9 @@ impl FlownPath {
         }
     }
 
-    /// Adds a frame. `point` is the index of the nearest path point, or `None` while the drone is off the path. An
-    /// out-of-range index counts as `None`.
-    pub fn add_frame(&mut self, point: Option<usize>) {
+    /// Adds a frame and the time that it stands for. `point` is the index of the nearest path point, or `None` while the drone is off
+    /// the path. An out-of-range index counts as `None`.
+    pub fn add_frame(&mut self, point: Option<usize>, duration: SimTime) {
         let point = point.filter(|point| *point < self.covered.len());
         if let Some(point) = point {
             let near =
@@ -98,7 +99,7 @@ impl FlownPath {
         }
         self.previous_point = point;
         if let Some(hold) = &mut self.hold {
-            hold.add(point.is_some());
+            hold.add(point.is_some(), duration);
         }
     }
 
@@ -106,6 +107,12 @@ impl FlownPath {
     #[must_use]
     pub fn points(&self) -> &[bool] {
         &self.covered
+    }
+
+    /// Returns whether this is a hold position at which the drone has stayed long enough.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.hold.is_some_and(|hold| hold.longest >= HOLD_DURATION)
     }
 
     /// Returns the path's length and the fraction that was flown.
@@ -152,6 +159,34 @@ impl FlownPath {
 mod tests {
     use super::*;
     use spandrel_model::frames::Vec3;
+    use spandrel_model::{scenario, shipped};
+
+    /// Time of a frame at 10 Hz.
+    const FRAME: SimTime = SimTime::from_ms(100);
+
+    #[test]
+    fn exact_a_hold_counts_its_longest_stay_at_any_rate() {
+        let job = scenario::read("job.toml", shipped::DRILL_HOVER, &|file| Err(file.to_owned())).unwrap();
+        for rate_hz in [10.0, 29.97, 30.0, 50.0] {
+            let mut job = job.clone();
+            job.scoring.frame_rate_hz = rate_hz;
+            let paths = ReferencePaths::new(&job);
+            let mut flown = FlownPath::of_task(&paths, 0);
+            let needed = (HOLD_DURATION.s() * rate_hz).ceil() as usize;
+            let frames = |from: usize, count: usize| (from..from + count).map(|frame| paths.frame_duration(frame));
+            frames(0, needed / 2).for_each(|duration| flown.add_frame(Some(0), duration));
+            flown.add_frame(None, paths.frame_duration(needed / 2));
+            let half = flown.coverage().share;
+            assert!((half - 0.5).abs() <= 1.0 / needed as f64 && !flown.is_held(), "{rate_hz} Hz: {half}");
+            frames(needed, needed / 4).for_each(|duration| flown.add_frame(Some(0), duration));
+            assert_eq!(flown.coverage().share, half, "a shorter stay does not count");
+            flown.add_frame(None, FRAME);
+            frames(2 * needed, needed - 1).for_each(|duration| flown.add_frame(Some(0), duration));
+            assert!(!flown.is_held(), "{rate_hz} Hz: one frame is missing");
+            flown.add_frame(Some(0), paths.frame_duration(3 * needed - 1));
+            assert!(flown.is_held() && flown.coverage().share == 1.0, "{rate_hz} Hz: {flown:?}");
+        }
+    }
 
     #[test]
     fn exact_path_is_finished_once_both_ends_were_reached() {
@@ -159,7 +194,7 @@ mod tests {
         let path = ReferencePath::new(&points, false);
         let fly = |closed: bool, threshold_m: f64, flown: std::ops::RangeInclusive<usize>| {
             let mut one = FlownPath::new(&path, threshold_m);
-            flown.for_each(|point| one.add_frame(Some(point)));
+            flown.for_each(|point| one.add_frame(Some(point), FRAME));
             one.is_finished(closed, 0.8)
         };
         assert!(fly(false, 2.0, 0..=20) && fly(false, 2.0, 2..=18));
@@ -174,14 +209,14 @@ mod tests {
         let points: Vec<_> = (0..11).map(|k| Vec3::new(f64::from(k), 0.0, 0.0)).collect();
         let mut flown = FlownPath::new(&ReferencePath::new(&points, false), 1.0);
         assert_eq!(flown.coverage(), PathCoverage { length_m: 10.0, share: 0.0 });
-        flown.add_frame(Some(0));
-        flown.add_frame(Some(4));
+        flown.add_frame(Some(0), FRAME);
+        flown.add_frame(Some(4), FRAME);
         assert_eq!(flown.coverage().share, 0.45, "half a meter for the first point, one meter for each of four points");
-        flown.add_frame(Some(10));
+        flown.add_frame(Some(10), FRAME);
         assert_eq!(flown.coverage().share, 0.5, "a gap of 6 m is not covered");
-        flown.add_frame(None);
-        flown.add_frame(Some(8));
-        flown.add_frame(Some(11));
+        flown.add_frame(None, FRAME);
+        flown.add_frame(Some(8), FRAME);
+        flown.add_frame(Some(11), FRAME);
         assert_eq!(flown.coverage().share, 0.6, "an index out of range is ignored");
         assert_eq!(flown.points().iter().filter(|flown| **flown).count(), 7);
     }

@@ -173,7 +173,7 @@ fn last_useful_frame(paths: &ReferencePaths, on_path: &OnPath, task: usize, gap:
     let (mut covered, mut last, mut useful) = (0, None, None);
     for (i, on) in on_path.task.iter().enumerate() {
         let point = on.and_then(|(t, point)| (t == task).then_some(point));
-        flown.add_frame(point);
+        flown.add_frame(point, paths.frame_duration(i));
         if point.is_none() {
             continue;
         }

@@ -1,7 +1,8 @@
 //! On-path analysis (algorithm 1 of the TASBID paper) and task windows.
 
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::scenario::{HOLD_DURATION, Scenario};
+use spandrel_model::scenario::Scenario;
+use spandrel_model::time::SimTime;
 
 /// Number of points per search block. The search skips blocks whose bounding box is farther away than the best point so
 /// far; the result stays exact.
@@ -171,8 +172,8 @@ fn segment_fraction(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> f64 {
 pub struct ReferencePaths {
     paths: Vec<ReferencePath>,
     thresholds_m: Vec<f64>,
-    /// For each hold position, the number of frames for which it must be held.
-    hold_frames: Vec<Option<usize>>,
+    hold_positions: Vec<bool>,
+    frame_rate_hz: f64,
     exact: bool,
 }
 
@@ -180,11 +181,11 @@ impl ReferencePaths {
     /// Creates the paths of a scenario's tasks.
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
-        let hold_frames = (HOLD_DURATION.s() * scenario.scoring.frame_rate_hz).round() as usize;
         Self {
             paths: scenario.tasks.iter().map(|task| ReferencePath::new(&task.path_m, task.closed)).collect(),
             thresholds_m: scenario.tasks.iter().map(|task| task.threshold_m).collect(),
-            hold_frames: scenario.tasks.iter().map(|task| task.is_hold_position().then_some(hold_frames)).collect(),
+            hold_positions: scenario.tasks.iter().map(|task| task.is_hold_position()).collect(),
+            frame_rate_hz: scenario.scoring.frame_rate_hz,
             exact: scenario.scoring.exact_path,
         }
     }
@@ -213,11 +214,18 @@ impl ReferencePaths {
         self.thresholds_m[task]
     }
 
-    /// Returns the number of frames for which a task's position must be held without leaving it; `None` if the task has a path to
-    /// fly along.
+    /// Returns whether a task is a position to hold instead of a path to fly along.
     #[must_use]
-    pub fn hold_frames(&self, task: usize) -> Option<usize> {
-        self.hold_frames[task]
+    pub fn is_hold_position(&self, task: usize) -> bool {
+        self.hold_positions[task]
+    }
+
+    /// Returns the time from frame number `frame` of the assessment to the next one. The times of all frames of a second add up to
+    /// exactly 1 s, whatever the rate.
+    #[must_use]
+    pub fn frame_duration(&self, frame: usize) -> SimTime {
+        let starts_at = |frame: usize| SimTime::from_s(frame as f64 / self.frame_rate_hz);
+        starts_at(frame + 1) - starts_at(frame)
     }
 
     /// Returns the nearest point on a task's path and its distance (n* and l*).

@@ -76,8 +76,7 @@ impl Monitor {
             return;
         }
         self.guidance_sent = Some(truth.time);
-        // A lesson leads the trainee itself, except along the path of a task.
-        if self.lesson.as_ref().is_some_and(|lesson| lesson.path_task().is_none()) {
+        if !self.trainee_follows_paths() {
             return;
         }
         let guidance = self.guidance(truth);
@@ -92,6 +91,11 @@ impl Monitor {
         }
     }
 
+    /// Returns whether the trainee follows the paths of the tasks: a lesson leads itself, except along the path of a task.
+    fn trainee_follows_paths(&self) -> bool {
+        self.lesson.as_ref().is_none_or(|lesson| lesson.path_task().is_some())
+    }
+
     fn guidance(&mut self, truth: &Truth) -> Guidance {
         let scenario = &self.config.scenario;
         let tasks: Vec<TaskProximity> = (0..scenario.tasks.len()).map(|task| self.task_proximity(task, truth)).collect();
@@ -101,7 +105,6 @@ impl Monitor {
             flown: &self.live.flown,
             tasks: &tasks,
             active_task: self.feedback.current_task(),
-            held: &self.holds.held(),
             position_m: truth.motion.position_m,
             heading_rad: truth.motion.ned_from_frd.yaw_rad(),
             taken_off: self.live.lift_off.is_some(),
@@ -141,9 +144,18 @@ impl Monitor {
             clearance_m: self.live.clearance_m,
             contact,
             contact_name: if onset { self.contact_name() } else { None },
-            tasks: (0..scenario.tasks.len()).map(|task| self.task_proximity(task, truth)).collect(),
-            current_task: self.live.current_task,
+            tasks: (0..scenario.tasks.len()).map(|task| self.task_for_cues(task, truth)).collect(),
+            current_task: self.live.current_task.filter(|_| self.trainee_follows_paths()),
         }
+    }
+
+    /// Returns the task as the cues see it: while a lesson leads elsewhere, a path nearby is not the trainee's, so it is far away.
+    fn task_for_cues(&self, index: usize, truth: &Truth) -> TaskProximity {
+        let task = self.task_proximity(index, truth);
+        if self.trainee_follows_paths() {
+            return task;
+        }
+        TaskProximity { distance_m: f64::INFINITY, surface: None, too_close_m: None, ..task }
     }
 
     fn task_proximity(&self, index: usize, truth: &Truth) -> TaskProximity {

@@ -11,7 +11,7 @@ use crate::assessment::{AssessError, AssessedSession};
 use crate::detour::DetourFinder;
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SessionInfo;
-use crate::guidance::{HoldTimer, StepAnnouncer};
+use crate::guidance::StepAnnouncer;
 use crate::lesson::LessonCoach;
 use crate::measures::attention::SiteSurvey;
 use crate::measures::coverage::FlownPath;
@@ -169,7 +169,6 @@ pub struct Monitor {
     texts: TextQueue,
     guides: bool,
     announcer: StepAnnouncer,
-    holds: HoldTimer,
     guidance_sent: Option<SimTime>,
     detours: DetourFinder,
     /// The lesson, if the job is one.
@@ -207,7 +206,6 @@ impl Monitor {
             texts: TextQueue::default(),
             guides,
             announcer: StepAnnouncer::default(),
-            holds: HoldTimer::new(paths.len()),
             guidance_sent: None,
             detours: DetourFinder::default(),
             lesson: new_lesson(scenario, guides),

@@ -8,7 +8,7 @@ use crate::assessment::{self, AssessError, AssessedSession, ScoringJob};
 use crate::detour::DetourFinder;
 use crate::feedback::{FeedbackRules, texts::TextQueue};
 use crate::folder::SIMULATOR_RESTARTED;
-use crate::guidance::{HoldTimer, StepAnnouncer};
+use crate::guidance::StepAnnouncer;
 use crate::measures::attention;
 use crate::measures::crash::is_soft_pad_contact;
 use crate::session::{EndReason, EndRuleInput as EndInput, lift_off_height_m};
@@ -69,7 +69,6 @@ impl Monitor {
         self.feedback = FeedbackRules::new(&self.config.scenario);
         self.texts = TextQueue::default();
         self.announcer = StepAnnouncer::default();
-        self.holds = HoldTimer::new(self.paths.len());
         self.guidance_sent = None;
         self.detours = DetourFinder::default();
         self.lesson = new_lesson(&self.config.scenario, self.guides);
@@ -190,7 +189,8 @@ impl Monitor {
             self.live.lift_off = Some(truth.time);
             self.event("lift_off", json!({}));
         }
-        self.update_task(truth.time, truth.motion.position_m);
+        let elapsed = before.map_or(SimTime::ZERO, |before| truth.time - before);
+        self.update_task(elapsed, truth.motion.position_m);
         self.send_feedback();
         self.send_lesson(&truth);
         self.send_guidance(&truth);
@@ -206,20 +206,19 @@ impl Monitor {
         position_m.up() - self.config.scenario.ground_team.pad_m.up()
     }
 
-    fn update_task(&mut self, now: SimTime, position_m: Vec3<Enu>) {
+    /// Determines the task that is being flown, and adds the time since the last position to it.
+    fn update_task(&mut self, elapsed: SimTime, position_m: Vec3<Enu>) {
         if self.live.lift_off.is_none() {
             return;
         }
         let on = self.paths.task_on_path(position_m, self.live.last_task);
-        self.holds.update(now, on.map(|(task, _)| task));
         for (task, flown) in self.live.flown.iter_mut().enumerate() {
-            flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
+            flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)), elapsed);
         }
         if let Some((task, _)) = on {
             let done_share = self.config.scenario.scoring.task_completion_fraction;
             let flown = &self.live.flown[task];
-            let is_hold = self.config.scenario.tasks[task].is_hold_position();
-            let share = if is_hold { self.holds.share(task) } else { flown.coverage().share };
+            let share = flown.coverage().share;
             self.live.flown_shares[task] = share;
             self.live.done[task] |= share >= done_share;
             let closed = self.config.scenario.tasks[task].closed;

@@ -4,8 +4,9 @@ use crate::live::{new_monitor, sent_messages};
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::dialect::MavMessage;
 use spandrel_model::frames::Vec3;
-use spandrel_model::scenario::StandOff;
+use spandrel_model::scenario::{GuidancePolicy, LessonPlace, LessonStep, StandOff};
 use spandrel_model::speed_unit::SpeedUnit;
+use spandrel_model::time::SimTime;
 use spandrel_monitor::Monitor;
 use spandrel_testkit::job::*;
 
@@ -45,6 +46,23 @@ impl MonitoredFlight {
     fn has(&self, bit: i32) -> bool {
         self.monitor.cues() & bit != 0
     }
+}
+
+/// A lesson's hover near the path of a later step must not be disturbed by its warnings, and the step along the path must have them.
+#[test]
+fn exact_a_lesson_warns_off_the_path_only_in_its_step() {
+    let warns_at = |steps: &[LessonStep]| {
+        let mut job = one_task();
+        (job.feedback.guidance, job.lesson) = (GuidancePolicy::Practice, steps.to_vec());
+        let mut monitored = MonitoredFlight::of(job);
+        monitored.tape.fly((30.0, 0.0, 10.0), 20.0);
+        monitored.tape.fly((30.0, 5.0, 10.0), 10.0);
+        monitored.tape.hold(3.0);
+        monitored.run().iter().any(|(_, cues)| cues & cue::OFF_PATH != 0)
+    };
+    let place = LessonPlace { position_m: Vec3::new(0.0, 50.0, 10.0), radius_m: 2.0, duration: SimTime::from_ms(10_000) };
+    assert!(!warns_at(&[LessonStep::Hover(place), LessonStep::FlyPath { task: 1 }]));
+    assert!(warns_at(&[LessonStep::FlyPath { task: 1 }]));
 }
 
 #[test]

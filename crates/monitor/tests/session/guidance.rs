@@ -3,9 +3,11 @@
 use crate::live::{new_monitor_with_purpose, sent_messages};
 use spandrel_mavlink::contract::guidance::{Guidance, GuidanceStep};
 use spandrel_mavlink::dialect::MavMessage;
+use spandrel_model::frames::Vec3;
 use spandrel_model::scenario::{GuidancePolicy, Scenario};
 use spandrel_monitor::Monitor;
 use spandrel_testkit::job::*;
+use std::collections::BTreeMap;
 
 /// Largest difference between a distance and its value as a 32-bit float, m.
 const FLOAT_TOLERANCE_M: f64 = 1e-3;
@@ -54,6 +56,53 @@ fn wire_guidance_leads_through_the_job() {
     let (steps, texts) = run(&mut monitor, &mut tape);
     assert_eq!(steps.last().map(|guidance| (guidance.step, guidance.tasks_done)), Some((GuidanceStep::FlyHome, 1)));
     assert!(texts.last().unwrap().starts_with("Fly home: "), "{texts:?}");
+}
+
+/// Largest difference between the progress in the panel and the assessed one, as a fraction: a message is up to 200 ms old, which is 2% of
+/// a hold, and along a path of 50 m, 0.8 m at 4 m/s and the next point, 1 m apart.
+const PROGRESS_TOLERANCE: f64 = 0.04;
+/// Number of datagrams between two comparisons, about 2 s of flight.
+const COMPARISON_INTERVAL: usize = 100;
+
+/// The panel must promise neither more nor less than the assessment counts, along a path and at a hold position, whenever the flight
+/// ends.
+#[test]
+fn flight_progress_in_the_panel_agrees_with_the_assessment() {
+    let mut job =
+        scenario(vec![task(1, line((10.0, 0.0, 10.0), (60.0, 0.0, 10.0)), 3.0), task(2, vec![Vec3::new(60.0, 30.0, 10.0)], 2.0)]);
+    job.feedback.guidance = GuidancePolicy::Practice;
+    let mut monitor = new_monitor_with_purpose(job, None);
+    let mut tape = Tape::new();
+    tape.fly((0.0, 0.0, 10.0), 2.0);
+    tape.fly((40.0, 0.0, 10.0), 4.0);
+    // Two stays of 6 s and 4 s don't add up.
+    for stay_s in [6.0, 4.0, 11.0] {
+        tape.fly((60.0, 28.5, 10.0), 4.0);
+        tape.hold(stay_s);
+        tape.fly((60.0, 20.0, 10.0), 4.0);
+    }
+    tape.fly((40.0, 0.0, 10.0), 4.0);
+    tape.fly((60.0, 0.0, 10.0), 4.0);
+    tape.hold(1.0);
+    let mut shown = BTreeMap::new();
+    let (mut compared, mut assessed) = (0, vec![0.0; 2]);
+    for part in std::mem::take(&mut tape.datagrams).chunks(COMPARISON_INTERVAL) {
+        tape.datagrams = part.to_vec();
+        let (steps, _) = run(&mut monitor, &mut tape);
+        shown.extend(steps.iter().filter_map(|guidance| Some((guidance.task?, guidance.progress?))));
+        let mut ended = monitor.clone();
+        ended.close();
+        let Some(Ok(session)) = ended.finished() else { continue };
+        assessed = session.assessment.tasks.iter().map(|task| task.covered).collect();
+        let last = steps.last().and_then(|guidance| Some((guidance.task?, guidance.progress?)));
+        if let Some((task, progress)) = last {
+            let covered = assessed[task as usize - 1];
+            assert!((progress - covered).abs() <= PROGRESS_TOLERANCE, "task {task}: {progress} shown, {covered} assessed");
+            compared += 1;
+        }
+    }
+    assert!(compared > 10 && shown.len() == 2, "{compared} comparisons, {shown:?}");
+    assert_eq!(assessed, [1.0, 1.0]);
 }
 
 #[test]

@@ -169,7 +169,13 @@ advice-none-found = Sie haben keinen der { $all } Schäden{ $place ->
        *[none] {""}
     } fotografiert; bei { $at } waren Sie einem Blick auf Schaden { $defect } am nächsten: Suchen Sie jede Aufgabe bis zum Ende ab.
 advice-moving-pictures = { $count } Ihrer { $taken } Bilder haben Sie in der Bewegung aufgenommen, zuerst bei { $at }: Halten Sie vor jedem Bild an.
-advice-pictures-of-nothing = Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, zuerst bei { $at }: Schauen Sie erst, dann machen Sie das Bild.
+advice-pictures-of-nothing = { $taken ->
+        [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen
+       *[other] Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, { $count ->
+            [one] bei
+           *[other] zuerst bei
+        } { $at }
+    }: Schauen Sie erst, dann machen Sie das Bild.
 
 advice-not-attempted = Sie haben { $place ->
         [task] Aufgabe { $tasks }

@@ -21,7 +21,7 @@ certification-explain-conformity = Die Zeit auf der Bahn innerhalb des Tempolimi
 certification-explain-precision = Wie klein die Fehler bei Abstand zur Bahn, Geschwindigkeit, Kamerarichtung und Abstand zu Oberflächen während der Aufgaben waren.
 certification-explain-safety = 100 Punkte abzüglich der Verluste für jede Berührung, die mit deren Geschwindigkeit wachsen, und für die Zeit zu nah an einer Oberfläche; 0, wenn eine Person oder ein Fahrzeug getroffen wurde.
 certification-explain-accuracy = Der Anteil der gefundenen Schäden und der Anteil der Bilder, die einen zeigen, zusammengefasst. Anders als bei der TASBID-Wertung Genauigkeit zählen nur Bilder mit genug Details und wenig Unschärfe.
-certification-explain-efficiency = Die Flugzeit im Vergleich zu der Zeit, die dieser Auftrag braucht.
+certification-explain-efficiency = Die Flugzeit im Vergleich zu der Zeit, die dieser Auftrag mit den gefundenen Schäden braucht.
 certification-explain-practice-aids = Einfrieren und Zurückspulen sind Übungshilfen; ein zertifizierter Flug kommt ohne sie aus.
 
 certification-at-least = mindestens { $limit }

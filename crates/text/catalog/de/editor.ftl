@@ -190,6 +190,7 @@ editor-allowed-whole-number = ganze Zahl { $low } bis { $high }
 editor-allowed-numbers = { $count } Zahlen, je { $low } bis { $high }
 editor-allowed-positions = Liste von [Ost, Nord, Höhe], je { $low } bis { $high }
 editor-allowed-whole-numbers = Liste ganzer Zahlen, je { $low } bis { $high }
+editor-allowed-listed-numbers = Liste ganzer Zahlen aus { $numbers }
 editor-allowed-true-or-false = true oder false
 editor-default-first-form = die erste Form
 editor-default-standard-level = die Standardstufe

@@ -3,6 +3,7 @@
 report-title = Sitzungsbericht: { $trainee }, { $started }
 report-kicker = Sitzungsbericht
 report-sections = Abschnitte
+report-print = Drucken
 report-section-better = Besser machen
 report-section-scores = Wertung
 report-section-tasks = Aufgaben
@@ -160,7 +161,7 @@ report-certification-exposure =
     Näher als { $limit } m an einer Oberfläche für { $exposure } s; { $contacts ->
         [one] { $contacts } Berührung
        *[other] { $contacts } Berührungen
-    } ({ $merged } nach Zusammenfassen der Berührungen innerhalb von weniger als einer Sekunde); am Ende { $battery }% Akku; Flugzeit { $time } (dieser Auftrag braucht { $needed }).
+    } ({ $merged } nach Zusammenfassen der Berührungen innerhalb von weniger als einer Sekunde); am Ende { $battery }% Akku; Flugzeit { $time } (dieser Auftrag braucht mit den gefundenen Schäden { $needed }).
 report-certification-too-fine =
     { $count ->
         [one] 1 Schaden ist zu fein für diese Kamera und zählt nicht für die Erkennungsgenauigkeit.

@@ -19,7 +19,7 @@ sessions-purpose = Zweck
 sessions-end = Ende
 
 sessions-page = Sitzung: { $scenario }
-sessions-flight-time = Flugzeit { $time }, Ende: { $end }
+sessions-flight-time = Flugzeit { $time }, { $end }
 sessions-better = Besser machen
 sessions-marks = Markierungen
 sessions-video = Video

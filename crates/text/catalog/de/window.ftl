@@ -23,7 +23,8 @@ window-start-quit = Beenden
 window-start-recommended = Empfohlen: { $job }
 window-start-assigned = Zugewiesen, fällig am { $date }: { $job }
 window-start-enter-name = Geben Sie ein Pseudonym ein, keinen echten Namen.
-window-start-no-sessions = Noch keine Sitzungen.
+window-start-no-sessions = Noch keine Sitzungen. Um das Pseudonym zu ändern, tippen Sie ein anderes ein.
+window-start-from-last-session = Diese Empfehlung folgt nur aus Ihrer letzten Sitzung. Mit eingeschalteten Webseiten berücksichtigt sie alle.
 window-start-sessions =
     { $count ->
         [one] Bisher eine Sitzung.
@@ -134,6 +135,7 @@ window-result-advice = Das nächste Mal besser
 window-result-overall = gesamt  { $sum } von { $most }
 window-result-no-scores = keine Wertung
 window-result-not-applicable = entfällt
+window-result-more-unmet = { $count } weitere: siehe Bericht
 window-result-report = Bericht
 window-result-not-available = nicht vorhanden
 window-result-open-report = Bericht öffnen

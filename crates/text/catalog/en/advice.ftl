@@ -173,7 +173,13 @@ advice-none-found = You photographed none of the { $all } defects{ $place ->
        *[none] {""}
     }; at { $at } you were nearest to a view of defect { $defect }: search every task to its end.
 advice-moving-pictures = You took { $count } of { $taken } pictures in motion, first at { $at }: stop before every picture.
-advice-pictures-of-nothing = { $count } of your { $taken } pictures show no new defect, first at { $at }: look first, then take the picture.
+advice-pictures-of-nothing = { $taken ->
+        [one] Your only picture, at { $at }, shows no new defect
+       *[other] { $count } of your { $taken } pictures { $count ->
+            [one] shows no new defect, at { $at }
+           *[other] show no new defect, first at { $at }
+        }
+    }: look first, then take the picture.
 
 # What was left undone, and the end of the flight.
 advice-not-attempted = You did not fly { $place ->

@@ -25,7 +25,7 @@ certification-explain-conformity = The time on the path within the speed limit, 
 certification-explain-precision = How small the errors of distance to the path, speed, camera direction and clearance were during the tasks.
 certification-explain-safety = 100 points, less a loss for each contact, which grows with its speed, and for the time too close to a surface; 0 if a person or vehicle was hit.
 certification-explain-accuracy = The share of defects found and the share of pictures that show one, combined. Unlike in the TASBID score accuracy, only pictures with enough detail and little blur count.
-certification-explain-efficiency = The flight time compared with the time that this job needs.
+certification-explain-efficiency = The flight time compared with the time that this job needs with the defects found.
 certification-explain-practice-aids = Freezes and rewinds are aids of practice; a certified flight has none.
 
 # Limits and values.

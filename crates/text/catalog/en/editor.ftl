@@ -206,6 +206,7 @@ editor-allowed-whole-number = whole number { $low } to { $high }
 editor-allowed-numbers = { $count } numbers, each { $low } to { $high }
 editor-allowed-positions = list of [east, north, up], each { $low } to { $high }
 editor-allowed-whole-numbers = list of whole numbers, each { $low } to { $high }
+editor-allowed-listed-numbers = list of whole numbers among { $numbers }
 editor-allowed-true-or-false = true or false
 editor-default-first-form = the first form
 editor-default-standard-level = the standard level

@@ -82,15 +82,16 @@ flight-lesson-done = All steps done
 # How a step is done. The variables are names of keys.
 flight-how-arm = Press { $arm }. The propellers start to turn.
 flight-how-take-off = Press { $take_off }, or hold { $up } to climb.
-flight-how-hover = Fly to the ring, then release all keys: the drone stays.
+flight-how-hover = Fly there with { $forward } { $left } { $back } { $right }, { $up } and { $down }, then release all keys.
 flight-how-turn = Hold { $turn_left } or { $turn_right }.
 flight-how-fly-path = Follow the ribbon through the gates: { $forward } { $left } { $back } { $right }, { $up } and { $down }.
 flight-how-stop-at = Release the keys early: the drone needs room to stop.
-flight-how-tilt-camera = Press { $gimbal_up } or { $gimbal_down }.
+flight-how-tilt-camera = Press { $gimbal_up } (up) or { $gimbal_down } (down) several times.
 flight-how-lamp = Press { $lamp }.
 flight-how-photograph = Bring the defect between the corner marks and press { $snapshot }.
 flight-how-fly-home = The white square on the compass shows the way.
 flight-how-land = Press { $land } above the pad, or hold { $down } until the motors stop.
+flight-how-start = Press { $arm } to arm the motors, then { $take_off }.
 flight-how-done = You are ready for the first drill.
 # What went wrong in a step of a lesson. The monitor sends the English texts.
 flight-remark-motors-off = the motors are off: arm them again

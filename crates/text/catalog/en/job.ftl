@@ -1,9 +1,9 @@
 # Titles and task names of the shipped jobs, and states of assigned jobs.
 
 # Titles. The English ones are those in the scenario files.
-job-box-girder = Box girder bridge: outer web, soffit of the main span, pier cap, bearings
-job-cable-stayed = Cable-stayed bridge: edge girder, stay, floor of a side span
-job-certification = Certification: two bridges, 26 defects
+job-box-girder = Box girder bridge: outer web, soffit of the last span, pier cap, bearings
+job-cable-stayed = Cable-stayed bridge: floor of a side span, edge girder, stay
+job-certification = Certification: two bridges, 64 defects
 job-drill-barrel = Drill: barrel
 job-drill-curve-under-arch = Drill: curve under the arch
 job-drill-framing = Drill: framing
@@ -21,11 +21,11 @@ job-drill-straight-line = Drill: straight line
 job-drill-truss-panels = Drill: truss panels
 job-first-flight = Lesson: first flight
 job-girder = Girder bridge: outer girder, girder bays, pier cap, bearings
-job-masonry-arch = Masonry arch bridge: spandrel wall, arch ring, barrel, pier
+job-masonry-arch = Masonry arch bridge: arch ring, spandrel wall, barrel, pier
 job-pilot-study = Pilot study: slab side, arch bottom, interlayer, pier
 job-practice = Practice at two bridges
 job-prestressed = Prestressed girder bridge: outer girder, girder bays, pier cap, bearings
-job-truss = Truss bridge: truss panels, floor system, pier cap, pins and bearings
+job-truss = Truss bridge: truss panels, floor system, pins and bearings
 job-two-bridges = Two bridges: slab side, arch bottom, interlayer, pier
 
 # Names of tasks.
@@ -51,8 +51,10 @@ job-task-pier-cap = Cap of the first pier
 job-task-middle-bays = Girder bays of the middle span
 job-task-outer-web = Outer web and deck edge
 job-task-main-soffit = Soffit of the main span
+job-task-last-soffit = Soffit of the last span
 job-task-spandrel-wall = Right spandrel wall and parapet
 job-task-barrel = Barrel of the middle span
+job-task-last-barrel = Barrel of the last span
 job-task-arch-ring = Arch ring of the first span
 job-task-cutwaters = First pier and its cutwaters
 job-task-edge-girder = Edge girder, stays and deck edge

@@ -3,6 +3,7 @@
 report-title = Session report: { $trainee }, { $started }
 report-kicker = Session report
 report-sections = Sections
+report-print = Print
 report-section-better = Do better
 report-section-scores = Scores
 report-section-tasks = Tasks
@@ -160,7 +161,7 @@ report-certification-exposure =
     Closer than { $limit } m to a surface for { $exposure } s; { $contacts ->
         [one] { $contacts } contact
        *[other] { $contacts } contacts
-    } ({ $merged } after merging those less than a second apart); { $battery }% battery remaining at the end; flight time { $time } (this job needs { $needed }).
+    } ({ $merged } after merging those less than a second apart); { $battery }% battery remaining at the end; flight time { $time } (this job needs { $needed } with the defects found).
 report-certification-too-fine =
     { $count ->
         [one] 1 defect is too fine for this camera and does not count toward the detection accuracy.

@@ -25,7 +25,7 @@ sessions-end = End
 ## A session's page
 
 sessions-page = Session: { $scenario }
-sessions-flight-time = flight time { $time }, ended: { $end }
+sessions-flight-time = flight time { $time }, { $end }
 sessions-better = Do better
 sessions-marks = Marks
 sessions-video = Video

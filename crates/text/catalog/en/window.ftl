@@ -24,7 +24,8 @@ window-start-quit = Quit
 window-start-recommended = Recommended: { $job }
 window-start-assigned = Assigned, due { $date }: { $job }
 window-start-enter-name = Enter a pseudonym, not a real name.
-window-start-no-sessions = No sessions yet.
+window-start-no-sessions = No sessions yet. To change the pseudonym, type another one.
+window-start-from-last-session = This recommendation follows from your last session alone. With the web pages on, it considers all of them.
 window-start-sessions =
     { $count ->
         [one] One session so far.
@@ -137,6 +138,7 @@ window-result-advice = Do better next time
 window-result-overall = overall  { $sum } of { $most }
 window-result-no-scores = no scores
 window-result-not-applicable = not applicable
+window-result-more-unmet = { $count } more: see the report
 window-result-report = report
 window-result-not-available = not available
 window-result-open-report = Open report

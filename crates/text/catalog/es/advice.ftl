@@ -167,7 +167,13 @@ advice-none-found = No fotografió ninguno de los { $all } defectos{ $place ->
        *[none] {""}
     }; a los { $at } estuvo más cerca de ver el defecto { $defect }: busque en cada tarea hasta el final.
 advice-moving-pictures = Tomó { $count } de { $taken } fotos en movimiento, la primera a los { $at }: deténgase antes de cada foto.
-advice-pictures-of-nothing = { $count } de sus { $taken } fotos no muestran ningún defecto nuevo, la primera a los { $at }: mire primero y luego tome la foto.
+advice-pictures-of-nothing = { $taken ->
+        [one] Su única foto, a los { $at }, no muestra ningún defecto nuevo
+       *[other] { $count } de sus { $taken } fotos { $count ->
+            [one] no muestra ningún defecto nuevo, a los { $at }
+           *[other] no muestran ningún defecto nuevo, la primera a los { $at }
+        }
+    }: mire primero y luego tome la foto.
 
 advice-not-attempted = No voló { $place ->
         [task] la tarea { $tasks }

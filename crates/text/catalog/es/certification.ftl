@@ -21,7 +21,7 @@ certification-explain-conformity = El tiempo sobre la trayectoria dentro del lí
 certification-explain-precision = Lo pequeños que fueron durante las tareas los errores de distancia a la trayectoria, velocidad, dirección de la cámara y distancia a las superficies.
 certification-explain-safety = 100 puntos menos lo perdido por cada contacto, que aumenta con su velocidad, y por el tiempo demasiado cerca de una superficie; 0 si hubo una colisión con una persona o un vehículo.
 certification-explain-accuracy = La proporción de defectos hallados y la de fotos que muestran alguno, combinadas. A diferencia de la puntuación TASBID de exactitud, solo cuentan las fotos con suficiente detalle y poco desenfoque.
-certification-explain-efficiency = El tiempo de vuelo comparado con el tiempo que necesita este trabajo.
+certification-explain-efficiency = El tiempo de vuelo comparado con el tiempo que necesita este trabajo con los defectos encontrados.
 certification-explain-practice-aids = Congelar y rebobinar son ayudas de práctica; un vuelo certificado no las usa.
 
 certification-at-least = al menos { $limit }

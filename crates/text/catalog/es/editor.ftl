@@ -190,6 +190,7 @@ editor-allowed-whole-number = número entero de { $low } a { $high }
 editor-allowed-numbers = { $count } números, cada uno de { $low } a { $high }
 editor-allowed-positions = lista de [este, norte, altura], cada valor de { $low } a { $high }
 editor-allowed-whole-numbers = lista de números enteros, cada uno de { $low } a { $high }
+editor-allowed-listed-numbers = lista de números enteros entre { $numbers }
 editor-allowed-true-or-false = true o false
 editor-default-first-form = la primera forma
 editor-default-standard-level = el nivel estándar

@@ -3,6 +3,7 @@
 report-title = Informe de la sesión: { $trainee }, { $started }
 report-kicker = Informe de la sesión
 report-sections = Secciones
+report-print = Imprimir
 report-section-better = Qué mejorar
 report-section-scores = Puntuaciones
 report-section-tasks = Tareas
@@ -160,7 +161,7 @@ report-certification-exposure =
     A menos de { $limit } m de una superficie durante { $exposure } s; { $contacts ->
         [one] { $contacts } contacto
        *[other] { $contacts } contactos
-    } ({ $merged } tras unir los separados por menos de un segundo); { $battery }% de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed }).
+    } ({ $merged } tras unir los separados por menos de un segundo); { $battery }% de batería al final; tiempo de vuelo { $time } (este trabajo necesita { $needed } con los defectos encontrados).
 report-certification-too-fine =
     { $count ->
         [one] 1 defecto es demasiado fino para esta cámara y no cuenta para la exactitud de detección.

@@ -19,7 +19,7 @@ sessions-purpose = Propósito
 sessions-end = Fin
 
 sessions-page = Sesión: { $scenario }
-sessions-flight-time = tiempo de vuelo { $time }, fin: { $end }
+sessions-flight-time = tiempo de vuelo { $time }, { $end }
 sessions-better = Qué mejorar
 sessions-marks = Marcas
 sessions-video = Video

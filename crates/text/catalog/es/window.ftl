@@ -23,7 +23,8 @@ window-start-quit = Salir
 window-start-recommended = Recomendado: { $job }
 window-start-assigned = Asignado, vence el { $date }: { $job }
 window-start-enter-name = Escriba un seudónimo, no un nombre real.
-window-start-no-sessions = Aún no hay sesiones.
+window-start-no-sessions = Aún no hay sesiones. Para cambiar el seudónimo, escriba otro.
+window-start-from-last-session = Esta recomendación se basa solo en su última sesión. Con las páginas web activadas, considera todas.
 window-start-sessions =
     { $count ->
         [one] Una sesión hasta ahora.
@@ -134,6 +135,7 @@ window-result-advice = Qué mejorar la próxima vez
 window-result-overall = total  { $sum } de { $most }
 window-result-no-scores = sin puntuación
 window-result-not-applicable = no se aplica
+window-result-more-unmet = { $count } más: vea el informe
 window-result-report = informe
 window-result-not-available = no disponible
 window-result-open-report = Abrir el informe

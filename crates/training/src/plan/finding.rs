@@ -124,7 +124,9 @@ fn task_value(rule: &PlanRule, measure: TaskMeasure, task: &TaskRecord) -> Optio
         TaskMeasure::NotAttempted => Some(f64::from(u8::from(!reached))),
         TaskMeasure::NotCovered => {
             let covered = task.covered.filter(|_| reached)?;
-            Some((1.0 - covered - beside.unwrap_or(0.0)).max(0.0))
+            // Who hardly left the path passed the rest of it only on another side of it, such as that of the pier.
+            let left_path = !task.attempted || 1.0 - task.on_path > MIN_OFF_PATH_FRACTION;
+            Some((1.0 - covered - beside.filter(|_| left_path).unwrap_or(0.0)).max(0.0))
         }
         TaskMeasure::BesidePath => beside.filter(|_| reached),
         TaskMeasure::TooFar => surplus(near?.stand_off_error_m, 1.0),

@@ -121,9 +121,9 @@ pub(super) fn tasks(source: &RecordSource<'_>, paths: &ReferencePaths, on_path: 
     let count = scenario.tasks.len();
     let mut samples: Vec<NearSamples> = (0..count).map(|_| NearSamples::default()).collect();
     let mut passed: Vec<FlownPath> = (0..count).map(|task| FlownPath::new(paths.path(task), MAX_OFF_PATH_DISTANCE_M)).collect();
-    for (frame, near) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)) {
+    for (k, (frame, near)) in frames.iter().zip(near_frames(scenario, frames, paths, on_path)).enumerate() {
         for (task, path) in passed.iter_mut().enumerate() {
-            path.add_frame(near.and_then(|near| (near.task == task).then_some(near.point)));
+            path.add_frame(near.and_then(|near| (near.task == task).then_some(near.point)), paths.frame_duration(k));
         }
         if let Some(near) = near {
             samples[near.task].add(frame, &near, &scenario.tasks, clearance_limit_m(scenario, near.task));

@@ -166,21 +166,23 @@ pub(super) fn assign_link(language: Language, trainee: &str, scenario: &str, var
 pub struct JobChoice {
     /// Machine-readable scenario name.
     pub name: String,
+    /// Title in the language of the page.
+    pub title: String,
     /// Names of its forms or levels, in order; empty if it has neither.
     pub variants: Vec<String>,
 }
 
 impl JobChoice {
-    /// Returns the name with the forms or levels, such as `drill-gap (levels 1 to 9)`.
+    /// Returns name and title with the forms or levels, such as `drill-gap: Drill: gap (levels 1 to 9)`.
     fn label(&self, language: Language) -> String {
-        let name = self.name.as_str();
+        let job = format!("{}: {}", self.name, self.title);
         let is_level = |variant: &String| variant.bytes().all(|byte| byte.is_ascii_digit());
         match (self.variants.first(), self.variants.last()) {
             (Some(first), Some(last)) if self.variants.iter().all(is_level) => {
-                text!(language, "people-choice-levels", job = name, first = first.as_str(), last = last.as_str())
+                text!(language, "people-choice-levels", job = job, first = first.as_str(), last = last.as_str())
             }
-            (Some(_), Some(_)) => text!(language, "people-choice-forms", job = name, forms = self.variants.join(", ")),
-            (_, _) => self.name.clone(),
+            (Some(_), Some(_)) => text!(language, "people-choice-forms", job = job, forms = self.variants.join(", ")),
+            (_, _) => job,
         }
     }
 }
@@ -285,6 +287,7 @@ mod tests {
     fn exact_assign_page_lists_forms_and_levels() {
         let choice = |variants: &[&str]| JobChoice {
             name: HOSTILE_NAME.into(),
+            title: "A title".into(),
             variants: variants.iter().map(|name| (*name).to_owned()).collect(),
         };
         let jobs = [choice(&["1", "2", "3"]), choice(&["A", "B", "H"]), choice(&[])];
@@ -310,7 +313,8 @@ mod tests {
 
     #[test]
     fn regress_a_rejected_assignment_keeps_what_was_entered() {
-        let jobs = ["drill-gap", "two-bridges"].map(|name| JobChoice { name: name.into(), variants: Vec::new() });
+        let jobs =
+            ["drill-gap", "two-bridges"].map(|name| JobChoice { name: name.into(), title: name.into(), variants: Vec::new() });
         let target = AssignmentTarget::Trainee("anna".into());
         let entered = [("scenario", "two-bridges"), ("variant", "99"), ("due", "2026-12-24")];
         let entered = entered.map(|(name, value)| (name.to_owned(), value.to_owned()));
@@ -334,8 +338,10 @@ mod tests {
         let names = ["script", "alert", "train", "two", "spandrel"];
         let text = trainee_assignments(&visitor, "7", &jobs).into_string();
         check_translated(&text.replace(&maud::html! { (HOSTILE_NAME) }.into_string(), "7"), &names);
-        let (target, choice) =
-            (AssignmentTarget::Trainee("7".into()), JobChoice { name: "8".into(), variants: vec!["1".into()] });
+        let (target, choice) = (
+            AssignmentTarget::Trainee("7".into()),
+            JobChoice { name: "8".into(), title: "8".into(), variants: vec!["1".into()] },
+        );
         let due = ("2026-12-02", "2026-11-25");
         let about = AssignPage { target: &target, jobs: &[choice], scenario: None, variant: None, due, rejected: None };
         check_translated(&assign_page(&visitor, &about).into_string(), &[]);

@@ -43,6 +43,7 @@ static VALUES: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(2, |l, v| text!(l, "editor-allowed-whole-number", low = v[0], high = v[1])),
         Sentence::new(2, |l, v| text!(l, "editor-allowed-positions", low = v[0], high = v[1])),
         Sentence::new(2, |l, v| text!(l, "editor-allowed-whole-numbers", low = v[0], high = v[1])),
+        Sentence::new(1, |l, v| text!(l, "editor-allowed-listed-numbers", numbers = v[0])),
         Sentence::new(3, |l, v| text!(l, "editor-allowed-numbers", count = v[0], low = v[1], high = v[2])),
         Sentence::new(2, |l, v| text!(l, "editor-allowed-range", low = v[0], high = v[1])),
         Sentence::new(0, |l, _| text!(l, "editor-default-first-form")),
@@ -117,6 +118,7 @@ mod tests {
             ("3 numbers, each -5000 to 5000", "3 Zahlen, je -5000 bis 5000"),
             ("list of [east, north, up], each -5000 to 5000", "Liste von [Ost, Nord, Höhe], je -5000 bis 5000"),
             ("true or false", "true oder false"),
+            ("list of whole numbers among 107, 205", "Liste ganzer Zahlen aus 107, 205"),
             ("flat, valley, file", "flat, valley, file"),
         ] {
             assert_eq!(allowed_words(Language::German, english), german);

@@ -78,6 +78,8 @@ pub struct WindowFlow {
     restart_requested: bool,
     /// Action of the pause page that the next press confirms.
     confirming: Option<MenuAction>,
+    /// Whether the last key changed the trainee's name, so that the next one continues it.
+    is_name_edited: bool,
     sound: bool,
     settings: SettingsStatus,
     /// Index of the function whose key the user is about to press.
@@ -123,6 +125,7 @@ impl WindowFlow {
             flown_s: 0.0,
             restart_requested: false,
             confirming: None,
+            is_name_edited: false,
             sound: true,
             settings: SettingsStatus::default(),
             awaited_key: None,

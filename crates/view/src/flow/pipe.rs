@@ -63,6 +63,9 @@ pub struct NextJob {
     /// Due date (year-month-day) if an instructor assigned the job.
     #[serde(default)]
     pub due: Option<String>,
+    /// Whether the recommendation follows from the last session alone, although there are more.
+    #[serde(default)]
+    pub from_last_session: bool,
 }
 
 impl NextJob {
@@ -274,8 +277,11 @@ pub struct FlightSummary {
     pub completion: Option<String>,
     /// Whether the job was completed and the drone landed at home.
     pub complete: bool,
-    /// "Certified", or the first requirement not met.
+    /// Whether the session is certified, as text; `None` if it was not scored.
     pub verdict: Option<String>,
+    /// The requirements that were not met.
+    #[serde(default)]
+    pub unmet: Vec<String>,
     /// Reason why the flight ended or why it has no scores.
     pub why: String,
     /// Personal best on the job and change since the last time; `None` if there is nothing to compare with.
@@ -454,6 +460,7 @@ mod tests {
             completion: Some("Complete: 1 of 1 task, 92% of the path".into()),
             complete: true,
             verdict: Some("Certified".into()),
+            unmet: Vec::new(),
             why: "landed".into(),
             standing: Some("This is the personal best on this job.".into()),
             advice: vec!["You hit the bridge twice in task 3, at 5:40 and 6:02.".into()],
@@ -467,7 +474,7 @@ mod tests {
 
     #[test]
     fn exact_messages_survive_serialization() {
-        let next = NextJob { scenario: "drill-gap".into(), title: "Drill: gap".into(), due: None };
+        let next = NextJob { scenario: "drill-gap".into(), title: "Drill: gap".into(), due: None, from_last_session: false };
         let offers = FlightOptions {
             trainees: vec![TraineeSummary {
                 name: "anna".into(),

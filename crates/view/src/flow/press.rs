@@ -31,6 +31,7 @@ impl WindowFlow {
         }
         (self.follows_focus, self.scrolled) = (true, 0.0);
         let confirmed = self.confirming.take();
+        let is_name_edited = std::mem::take(&mut self.is_name_edited);
         let rows = self.rows();
         let last = rows.len().saturating_sub(1);
         let kind = rows.get(self.focus).map(|row| row.kind);
@@ -45,8 +46,9 @@ impl WindowFlow {
             KeyPress::Escape => self.back(),
             KeyPress::Backspace if kind == Some(RowKind::TextField) => {
                 self.choice.trainee.pop();
+                self.is_name_edited = true;
             }
-            KeyPress::Char(sign) if kind == Some(RowKind::TextField) => self.type_character(sign),
+            KeyPress::Char(sign) if kind == Some(RowKind::TextField) => self.type_character(sign, is_name_edited),
             KeyPress::Backspace | KeyPress::Char(_) => {}
             KeyPress::Row(row) if row < rows.len() => {
                 self.focus = row;
@@ -62,13 +64,20 @@ impl WindowFlow {
         }
     }
 
-    fn type_character(&mut self, sign: char) {
-        let fits = sign.is_ascii_alphanumeric() || (!self.choice.trainee.is_empty() && (sign == '-' || sign == '_'));
+    /// Adds a character to the trainee's name. The first one replaces a name that was not entered, such as the one in use before.
+    fn type_character(&mut self, sign: char, is_name_edited: bool) {
+        let is_first = self.choice.trainee.is_empty() || !is_name_edited;
+        let fits = sign.is_ascii_alphanumeric() || (!is_first && (sign == '-' || sign == '_'));
+        // A character that is refused changes nothing.
+        self.is_name_edited = is_name_edited || fits;
         if !fits {
             self.notice = Some(text!(self.language(), "window-start-name-characters"));
-        } else if self.choice.trainee.len() >= MAX_NAME_LENGTH {
+        } else if !is_first && self.choice.trainee.len() >= MAX_NAME_LENGTH {
             self.notice = Some(text!(self.language(), "window-start-name-length", count = MAX_NAME_LENGTH));
         } else {
+            if is_first {
+                self.choice.trainee.clear();
+            }
             self.choice.trainee.push(sign);
         }
     }

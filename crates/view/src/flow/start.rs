@@ -174,6 +174,9 @@ impl WindowFlow {
         if let Some(last) = person.and_then(|person| person.last.as_ref()) {
             sentences.push(text!(language, "window-start-last-flight", words = last.as_str()));
         }
+        if person.and_then(|person| person.next.as_ref()).is_some_and(|next| next.from_last_session) {
+            sentences.push(text!(language, "window-start-from-last-session"));
+        }
         sentences.join(" ")
     }
 }

@@ -7,6 +7,8 @@ use crate::hud::{HudColor, TextAlign};
 use spandrel_text::terms::score_title;
 use spandrel_text::{Language, text};
 
+/// Largest number of lines about requirements that were not met.
+const MAX_REQUIREMENTS: usize = 6;
 /// Left margin.
 const LEFT: f64 = 0.04;
 /// Vertical distance between the bars of two scores.
@@ -140,13 +142,29 @@ fn scores(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, ended: &Fli
         pen.text((left, y), TextAlign::Left, TEXT_SIZE, HudColor::White, words);
         y += LINE_SPACING * TEXT_SIZE;
     }
-    match &ended.verdict {
-        Some(verdict) => pen.lines((left, y), width, SMALL_TEXT_SIZE, HudColor::White, verdict),
-        None => y,
+    if let Some(words) = &ended.verdict {
+        y = pen.lines((left, y), width, SMALL_TEXT_SIZE, HudColor::White, words);
     }
+    requirements(pen, (left, y), width, &ended.unmet)
 }
 
-/// Draws what no button opens, and returns the y position below.
+/// Draws the requirements that were not met, and returns the y position below.
+fn requirements(pen: &mut PageWriter, (left, top): (f64, f64), width: f64, unmet: &[String]) -> f64 {
+    const INDENT: f64 = 0.03;
+    let language = pen.style().language;
+    // More would hide the rows below in a narrow window; the report lists all.
+    let listed = if unmet.len() > MAX_REQUIREMENTS { MAX_REQUIREMENTS - 1 } else { unmet.len() };
+    let rest = unmet.len() - listed;
+    let more = (rest > 0).then(|| text!(language, "window-result-more-unmet", count = rest));
+    let mut y = top;
+    for words in unmet.iter().take(listed).chain(more.as_ref()) {
+        pen.text((left, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Gray, "–");
+        y = pen.lines((left + INDENT, y), width - INDENT, SMALL_TEXT_SIZE, HudColor::White, words);
+    }
+    y
+}
+
+/// Draws what no button opens, and how far the recommendation reaches, and returns the y position below.
 fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) -> f64 {
     let mut y = y;
     let language = pen.style().language;
@@ -155,6 +173,9 @@ fn locations(pen: &mut PageWriter, y: f64, width: f64, ended: &FlightSummary) ->
         pen.text((LEFT, y), TextAlign::Left, SMALL_TEXT_SIZE, HudColor::Yellow, text!(language, "window-result-report"));
         let (indent, down) = if width < MIN_BAR_LINE_WIDTH { (0.0, LINE_SPACING * SMALL_TEXT_SIZE) } else { (0.24, 0.0) };
         y = pen.lines((LEFT + indent, y + down), width - indent, SMALL_TEXT_SIZE, HudColor::White, &words);
+    }
+    if ended.next.as_ref().is_some_and(|next| next.from_last_session) {
+        y = pen.lines((LEFT, y), width, SMALL_TEXT_SIZE, HudColor::Gray, &text!(language, "window-start-from-last-session"));
     }
     y
 }

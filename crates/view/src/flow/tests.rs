@@ -69,7 +69,8 @@ fn ended() -> FlightSummary {
         overall: Some((272.25, 300.0)),
         completion: Some("Complete: 4 of 4 tasks, 98% of the path".into()),
         complete: true,
-        verdict: Some("Not certified: 12% battery at landing, 20% needed".into()),
+        verdict: Some("Not certified".into()),
+        unmet: vec!["12% battery at landing, 20% needed".into()],
         why: "landed after 12 min 30 s".into(),
         standing: Some("Personal best on this job: 350 of 400. Change since last time: 12 points up.".into()),
         advice: [
@@ -154,7 +155,9 @@ fn exact_keys_navigate_from_selection_through_flight_to_scores() {
 
 #[test]
 fn exact_the_recommended_job_is_one_key_away_before_and_after_a_flight() {
-    let job = |scenario: &str, title: &str| Some(NextJob { scenario: scenario.into(), title: title.into(), due: None });
+    let job = |scenario: &str, title: &str| {
+        Some(NextJob { scenario: scenario.into(), title: title.into(), due: None, from_last_session: false })
+    };
     let mut offers = offers();
     offers.lesson = job("first-flight", "Lesson: first flight");
     offers.trainees[0].next = job("drill-hover", "Drill: hover");
@@ -325,6 +328,21 @@ fn exact_pages_show_bound_keys_and_the_pending_operation() {
 }
 
 #[test]
+fn exact_typing_replaces_the_name_in_use_and_continues_one_that_was_begun() {
+    let mut flow = started();
+    let before = flow.choice().trainee.clone();
+    assert!(!before.is_empty());
+    press(&mut flow, &[KeyPress::Char('-')]);
+    assert_eq!(flow.choice().trainee, before, "no name begins with a hyphen");
+    "ida-2".chars().for_each(|sign| flow.press(KeyPress::Char(sign)));
+    assert_eq!(flow.choice().trainee, "ida-2");
+    press(&mut flow, &[KeyPress::Backspace, KeyPress::Char('3')]);
+    assert_eq!(flow.choice().trainee, "ida-3");
+    press(&mut flow, &[KeyPress::Down, KeyPress::Up, KeyPress::Char('x')]);
+    assert_eq!(flow.choice().trainee, "x");
+}
+
+#[test]
 fn exact_names_accept_only_valid_characters() {
     let mut flow = started();
     press(&mut flow, &[KeyPress::Backspace; 9]);
@@ -456,7 +474,8 @@ fn regress_ending_a_flight_of_more_than_ten_seconds_needs_a_second_press() {
 /// Returns the start page with all rows: with a recommendation and a choice of aircraft.
 fn full_start() -> WindowFlow {
     let mut offers = offers_for("phantom2");
-    offers.trainees[0].next = Some(NextJob { scenario: "drill-hover".into(), title: "Drill: hover".into(), due: None });
+    offers.trainees[0].next =
+        Some(NextJob { scenario: "drill-hover".into(), title: "Drill: hover".into(), due: None, from_last_session: false });
     let mut flow = opened();
     flow.handle_message(ToWindow::Offers(offers));
     flow

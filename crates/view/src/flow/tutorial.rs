@@ -257,6 +257,7 @@ fn example(cues: i32, style: DisplayStyle) -> Hud {
         inspector: None,
         pad_m: Vec3::new(-120.0, 60.0, 5.0),
         guidance: None,
+        guidance_how: String::new(),
         lesson: None,
         tasks: TaskNames::default(),
         flown: FlownPath::default(),

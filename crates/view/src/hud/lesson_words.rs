@@ -1,6 +1,7 @@
-//! The steps of a lesson in words.
+//! The steps of a lesson, and of a job, in words.
 
 use super::style::DisplayUnits;
+use spandrel_mavlink::contract::guidance::GuidanceStep;
 use spandrel_mavlink::contract::lesson::{LessonStatus, LessonTask};
 use spandrel_text::{Language, message_id, text};
 
@@ -22,6 +23,20 @@ pub fn how_to(task: LessonTask, language: Language, key: &dyn Fn(&str) -> String
         LessonTask::Done => message_id!("flight-how-done"),
     };
     id.fill(language, key)
+}
+
+/// Returns how a step of a job is done, where it isn't flying; otherwise empty. `key` returns the name of a binding's key.
+#[must_use]
+pub fn step_how_to(step: GuidanceStep, language: Language, key: &dyn Fn(&str) -> String) -> String {
+    match step {
+        GuidanceStep::TakeOff => message_id!("flight-how-start").fill(language, key),
+        GuidanceStep::Land => message_id!("flight-how-land").fill(language, key),
+        GuidanceStep::FlyToTask
+        | GuidanceStep::FollowPath
+        | GuidanceStep::HoldPosition
+        | GuidanceStep::FlyHome
+        | GuidanceStep::Over => String::new(),
+    }
 }
 
 /// Returns what the trainee does in a step.

@@ -142,6 +142,12 @@ fn longest_guidance() -> Guidance {
     }
 }
 
+/// Returns guidance before the flight, which has neither a task nor a way.
+fn take_off() -> Guidance {
+    let before = Guidance { step: GuidanceStep::TakeOff, task: None, way: None, progress: None, ..longest_guidance() };
+    Guidance { deviation: None, stand_off: None, ..before }
+}
+
 /// Returns guidance around an obstacle with the longest possible texts.
 fn longest_detour() -> Guidance {
     let detour = Detour { kind: DetourKind::OutFromUnder, way: WayTo { distance_m: 4_321.0, bearing_rad: 3.1, up_m: -120.0 } };
@@ -191,6 +197,24 @@ fn exact_steps_of_a_lesson_are_not_cut_in_any_language() {
             assert!(!words.contains('…'), "{language:?}: {words}");
         }
     }
+}
+
+#[test]
+fn exact_the_panel_says_how_to_take_off_and_land_in_all_languages() {
+    let steps = [GuidanceStep::TakeOff, GuidanceStep::Land];
+    for (step, language) in steps.into_iter().flat_map(|step| LANGUAGES[..3].iter().map(move |one| (step, *one))) {
+        let guidance_how = lesson_words::step_how_to(step, language, &|binding| key_name(binding, language));
+        let style = DisplayStyle { language, ..DisplayStyle::default() };
+        let hud = Hud { guidance: Some(Guidance { step, ..take_off() }), guidance_how: guidance_how.clone(), style, ..hud() };
+        let shown = |items: Vec<DrawItem>| {
+            let words =
+                items.into_iter().filter_map(|item| if let DrawItem::Text { words, .. } = item { Some(words) } else { None });
+            words.collect::<Vec<_>>().join(" ")
+        };
+        let items = shown(layout(&hud, 4.0 / 3.0));
+        assert!(!guidance_how.is_empty() && items.contains(&guidance_how), "{language:?}: {items}, not {guidance_how}");
+    }
+    assert!(lesson_words::step_how_to(GuidanceStep::FollowPath, LANGUAGES[0], &|_| String::new()).is_empty());
 }
 
 #[test]
@@ -265,6 +289,7 @@ fn states() -> Vec<(&'static str, Hud)> {
         ("name longer than telemetry allows", hit(&"WWWW ".repeat(40))),
         ("guidance", Hud { guidance: Some(longest_guidance()), ..hud() }),
         ("detour", Hud { guidance: Some(longest_detour()), ..hud() }),
+        ("take off", Hud { guidance: Some(take_off()), guidance_how: "Press 1 to arm the motors, then T. ".repeat(3), ..hud() }),
         ("lesson", Hud { lesson: Some(longest_lesson()), ..hud() }),
         ("lesson and warnings", Hud { lesson: Some(longest_lesson()), ..hit("bridge") }),
         ("zoomed", Hud { zoom: 3.1, lamp: true, ..hud() }),

@@ -195,6 +195,8 @@ pub struct Hud {
     pub inspector: Option<InspectorMarks>,
     /// The next step of the job; `None` if the monitor does not guide the pilot.
     pub guidance: Option<Guidance>,
+    /// How the next step is done with keys; empty if that needs no words.
+    pub guidance_how: String,
     /// Names of the job's tasks.
     pub tasks: TaskNames,
     /// The current step of a lesson.

@@ -5,7 +5,7 @@ use super::metrics::{EDGE_MARGIN, SMALL_FONT_SIZE};
 use super::pane::Pane;
 use super::state::Hud;
 use super::style::{DisplayStyle, DisplayUnits};
-use super::text_metrics::{fitted, text_width};
+use super::text_metrics::{fitted, text_width, wrap_text};
 use super::{DrawItem, HudColor, TextAlign};
 use spandrel_mavlink::contract::guidance::{DetourKind, Guidance, GuidanceStep, PathDeviation, StandOffReading, TurnTo, WayTo};
 use spandrel_model::math;
@@ -20,6 +20,8 @@ pub(super) const LINE_HEIGHT: f64 = 0.037;
 pub(super) const PADDING: f64 = 0.012;
 /// Number of lines for which there is room above the map.
 const MAX_ROWS: usize = 6;
+/// Largest number of lines for how a step is done.
+const MAX_HOW_LINES: usize = 3;
 /// Width of the arrow's column, and the arrow's half length.
 const ARROW_COLUMN: f64 = 0.045;
 const ARROW_SIZE: f64 = 0.015;
@@ -61,7 +63,8 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
         PanelDetail::Brief => details(guidance, hud.style).into_iter().take(usize::from(way.is_some())).collect(),
         PanelDetail::None => return Vec::new(),
     };
-    let rows = 1 + usize::from(first.is_some()) + usize::from(way.is_some()) + lines.len();
+    let how = if detail == PanelDetail::Full { how_lines(&hud.guidance_how) } else { Vec::new() };
+    let rows = 1 + how.len() + usize::from(first.is_some()) + usize::from(way.is_some()) + lines.len();
     let name = guidance.task.and_then(|task| hud.tasks.title(task, hud.style.language));
     let name = name.filter(|_| detail == PanelDetail::Full && rows < MAX_ROWS);
     let rows = rows + usize::from(name.is_some());
@@ -79,6 +82,10 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
         items.push(pane.text((to, middle(0)), TextAlign::Right, SMALL_FONT_SIZE, HudColor::White, progress));
     }
     let mut row = 1;
+    for words in how {
+        items.push(pane.text((from, middle(row)), TextAlign::Left, SMALL_FONT_SIZE, HudColor::Gray, words));
+        row += 1;
+    }
     if let Some(name) = name {
         let size = fitted(&name, SMALL_FONT_SIZE, to - from);
         items.push(pane.text((from, middle(row)), TextAlign::Left, size, HudColor::Gray, name));
@@ -97,6 +104,12 @@ pub(super) fn task_panel(hud: &Hud, pane: Pane, (detail, top): (PanelDetail, f64
         items.extend(pane.name_and_value((from, to), middle(row + k), SMALL_FONT_SIZE, (name, value, color)));
     }
     items
+}
+
+/// Returns how the step is done, in lines that fit into the panel.
+fn how_lines(how: &str) -> Vec<String> {
+    let fits = |line: &str| text_width(line, SMALL_FONT_SIZE) <= WIDTH - 2.0 * PADDING;
+    if how.is_empty() { Vec::new() } else { wrap_text(how, MAX_HOW_LINES, fits) }
 }
 
 fn title(guidance: &Guidance, language: Language) -> String {
@@ -128,7 +141,8 @@ pub(super) fn step_lines(hud: &Hud) -> Option<[(String, HudColor); 2]> {
     let color = if first.is_some() { HudColor::Yellow } else { HudColor::White };
     let way = guidance.first_way().map(|way| way_words(&way, style));
     let rest = details(guidance, style).into_iter().map(|PanelLine { name, value, .. }| format!("{name}: {value}"));
-    let details: Vec<String> = first.into_iter().chain(way).chain(rest).collect();
+    let how = Some(hud.guidance_how.clone()).filter(|how| !how.is_empty());
+    let details: Vec<String> = how.into_iter().chain(first).chain(way).chain(rest).collect();
     let step_color = if guidance.is_return() { HudColor::Yellow } else { HudColor::White };
     Some([(step.join(SEPARATOR), step_color), (details.join(SEPARATOR), color)])
 }

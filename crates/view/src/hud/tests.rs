@@ -56,6 +56,7 @@ pub(crate) fn hud() -> Hud {
         inspector: None,
         pad_m: PAD_M,
         guidance: None,
+        guidance_how: String::new(),
         tasks: TaskNames::default(),
         lesson: None,
         flown: FlownPath::default(),

@@ -295,6 +295,7 @@ pub(super) fn calm(studio: &Studio, position_m: Vec3<Enu>) -> Hud {
         pad_m: studio.scenario.ground_team.pad_m,
         guidance: None,
         tasks: TaskNames::of(&studio.scenario),
+        guidance_how: String::new(),
         lesson: None,
         tracks: MapPath::all(&studio.scenario),
         site: studio.scene.outline.clone(),

@@ -74,7 +74,12 @@ fn job(name: &str, title: &str) -> JobOffer {
 }
 
 fn options() -> FlightOptions {
-    let next = NextJob { scenario: "drill-hover".into(), title: "Drill: hover".into(), due: Some("2026-12-04".into()) };
+    let next = NextJob {
+        scenario: "drill-hover".into(),
+        title: "Drill: hover".into(),
+        due: Some("2026-12-04".into()),
+        from_last_session: false,
+    };
     let last = "You flew 2 m too far from the arch for 80 s.".to_owned();
     FlightOptions {
         trainees: vec![TraineeSummary { name: "anna".into(), sessions: 3, practices: 2, last: Some(last), next: Some(next) }],
@@ -121,7 +126,8 @@ fn ended() -> FlightSummary {
         overall: Some((272.0, 300.0)),
         completion: Some("Complete: 4 of 4 tasks, 98% of the path".into()),
         complete: true,
-        verdict: Some("Not certified: 12% battery at landing, 20% needed".into()),
+        verdict: Some("Not certified".into()),
+        unmet: vec!["12% battery at landing, 20% needed".into()],
         why: "landed after 12 min 30 s".into(),
         standing: Some("Personal best on this job: 350 of 400. Change since last time: 12 points up.".into()),
         advice: vec!["You flew up to 6.2 m/s in tasks 1, 2 and 4, over the 4.5 m/s limit for 2 min 34 s: slow down.".into()],

@@ -1,7 +1,7 @@
 //! A flight of the synthetic pilot with a planted weakness, in lockstep, and its session record.
 
-use crate::weaknesses::{Hands, Weakness};
-use spandrel_clients::pilot::{Pilot, PilotConfig, Skill};
+use crate::weaknesses::{DroneState, Hands, Weakness};
+use spandrel_clients::pilot::{Pilot, PilotConfig};
 use spandrel_mavlink::codec::{Decoder, Encoder};
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
@@ -88,7 +88,8 @@ impl PlantedFlight {
             flavor: &spandrel_sitl::endpoint::flavor::px4::FLAVOR,
             after_crash: None,
         };
-        let mut sim = Sim::new(config, Arc::new(site));
+        let site = Arc::new(site);
+        let mut sim = Sim::new(config, site.clone());
         sim.open_link(PILOT, LinkKind::GroundStation, true);
         sim.open_link(MONITOR, LinkKind::Payload, true);
         let monitor = Monitor::new(MonitorConfig {
@@ -101,12 +102,13 @@ impl PlantedFlight {
             seed: Some(seed),
             survey_builder: build_site,
         });
-        let pilot = Pilot::new(PilotConfig { scenario: Arc::new(belief), vehicle: aircraft.clone(), skill: Skill::EXPERT, seed });
+        let pilot =
+            Pilot::new(PilotConfig { scenario: Arc::new(belief), vehicle: aircraft.clone(), skill: weakness.skill, seed });
         Self {
             sim,
             pilot,
             monitor,
-            hands: Hands::new(seed),
+            hands: Hands::new(seed, site, job.ground_team.inspector_m, aircraft.limits),
             decoder: Decoder::new(),
             encoder: Encoder::new(GROUND_STATION.0, GROUND_STATION.1),
             tamper: weakness.tamper,
@@ -145,7 +147,7 @@ impl PlantedFlight {
         }
         while let Some(bytes) = self.pilot.poll_transmit() {
             any = true;
-            self.hands.observe(&self.pilot.status_text());
+            self.hands.observe(&self.pilot.status_text(), drone_state(&self.sim));
             for frame in self.decoder.datagram(&bytes) {
                 for message in (self.tamper)(&mut self.hands, frame.message.unwrap()) {
                     let tampered = self.encoder.encode(&message);
@@ -160,5 +162,14 @@ impl PlantedFlight {
         while self.monitor.poll_record().is_some() {}
         while self.sim.poll_event().is_some() {}
         any
+    }
+}
+
+fn drone_state(sim: &Sim) -> DroneState {
+    let state = sim.truth();
+    DroneState {
+        position_m: state.rigid.position_m.enu(),
+        heading_rad: state.rigid.attitude.yaw_rad(),
+        touching: state.contact.touching(),
     }
 }

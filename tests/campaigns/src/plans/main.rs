@@ -2,17 +2,20 @@
 //! grave fault must prevent the certification.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+mod bumps;
 mod certification;
 mod flight;
 mod flights;
+mod further;
 mod table;
 mod unseen;
 mod weaknesses;
 
 use certification::{CERTIFICATION_FAULTS, CertificationTable};
+use further::FURTHER;
 use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
 use table::{Flown, PlanTable, fly_job};
-use unseen::{EffectTable, UNSEEN};
+use unseen::{EffectTable, UNSEEN, Unseen};
 use weaknesses::WEAKNESSES;
 
 /// First seed of the table in docs/src/measured/plans.md, which has three. One is enough to notice that a rule no longer fits,
@@ -20,6 +23,8 @@ use weaknesses::WEAKNESSES;
 const SEED: u64 = 301;
 /// First seed of the faults by another author: other sites than those of the planted weaknesses.
 const UNSEEN_SEED: u64 = 401;
+/// First seed of the third set of faults.
+const FURTHER_SEED: u64 = 501;
 
 /// Bounds on the plans of a set of flights.
 struct RequiredShares {
@@ -57,26 +62,47 @@ fn flight_plans_recommend_the_drill_for_the_planted_weakness() {
 /// Faults by another author, whose drills an instructor would prescribe.
 #[test]
 fn flight_plans_recommend_the_drill_for_faults_by_another_author() {
-    let (rules, seeds) = (rules(), seeds(UNSEEN_SEED));
-    let flown = fly_unseen(&seeds);
-    require_effects(&flown, &seeds);
-    require_shares(&PlanTable::of(flown, &rules), &REQUIRED_SHARES);
+    require_shares(&plans_for_faults_of_another_author(UNSEEN, UNSEEN_SEED), &REQUIRED_SHARES);
+}
+
+/// A third set, to which the rules were not adjusted. Every fault must show in its flight. The shares are measured, but not required: on the
+/// first flights, the right drill was first in only 12 of 19 plans.
+#[test]
+fn flight_plans_recommend_the_drill_for_further_faults() {
+    println!("{}", plans_for_faults_of_another_author(FURTHER, FURTHER_SEED));
+}
+
+fn plans_for_faults_of_another_author(faults: &'static [Unseen], first_seed: u64) -> PlanTable {
+    let (rules, seeds) = (rules(), seeds(first_seed));
+    let flown = fly_faults(faults, &seeds);
+    require_effects(faults, &flown, &seeds);
+    PlanTable::of(flown, &rules)
 }
 
 /// For the author of a fault, who must not know what the rules make of it.
 #[test]
 #[ignore = "the test of the plans flies the same flights and requires the same"]
 fn flight_unseen_faults_have_an_effect() {
-    let seeds = seeds(UNSEEN_SEED);
-    require_effects(&fly_unseen(&seeds), &seeds);
+    require_effects_of(UNSEEN, UNSEEN_SEED);
 }
 
-fn fly_unseen(seeds: &[u64]) -> Vec<Flown> {
-    fly_job(UNSEEN.iter().map(|fault| &fault.weakness), seeds)
+#[test]
+#[ignore = "the test of the plans flies the same flights and requires the same"]
+fn flight_further_faults_have_an_effect() {
+    require_effects_of(FURTHER, FURTHER_SEED);
 }
 
-fn require_effects(flown: &[Flown], seeds: &[u64]) {
-    let table = EffectTable::of(flown, seeds);
+fn require_effects_of(faults: &'static [Unseen], first_seed: u64) {
+    let seeds = seeds(first_seed);
+    require_effects(faults, &fly_faults(faults, &seeds), &seeds);
+}
+
+fn fly_faults(faults: &'static [Unseen], seeds: &[u64]) -> Vec<Flown> {
+    fly_job(faults.iter().map(|fault| &fault.weakness), seeds)
+}
+
+fn require_effects(faults: &'static [Unseen], flown: &[Flown], seeds: &[u64]) {
+    let table = EffectTable::of(faults, flown, seeds);
     println!("{table}");
     assert_eq!(table.without_effect(), Vec::<String>::new());
 }

@@ -5,7 +5,7 @@
 //! Don't change a fault or its expected drills because of a plan.
 
 use crate::table::Flown;
-use crate::weaknesses::{Hands, Weakness, as_intended, command, untouched, with_sticks};
+use crate::weaknesses::{Hands, NO_WEAKNESS, Weakness, command, with_sticks};
 use spandrel_mavlink::dialect::{MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -17,32 +17,32 @@ use std::fmt;
 /// A fault, and how it shows in the record of the flight.
 pub struct Unseen {
     pub weakness: Weakness,
-    action: Action,
+    pub action: Action,
 }
 
 /// The measure by which a fault shows: its change from a flight with the same seed but no fault.
-struct Action {
+pub struct Action {
     measure: &'static str,
     of: fn(&SessionRecord) -> f64,
     /// Smallest change that counts: an increase if positive, a decrease if negative.
     least_change: f64,
 }
 
-const fn action(measure: &'static str, of: fn(&SessionRecord) -> f64, least_change: f64) -> Action {
+pub const fn action(measure: &'static str, of: fn(&SessionRecord) -> f64, least_change: f64) -> Action {
     Action { measure, of, least_change }
 }
 
 /// Messages of the sticks per second.
-const STICK_RATE_HZ: u64 = 50;
+pub const STICK_RATE_HZ: u64 = 50;
 /// Lowest throttle in MANUAL_CONTROL, and the one that holds the height.
-const LOWEST_THROTTLE: i16 = 0;
-const NEUTRAL_THROTTLE: i16 = 500;
+pub const LOWEST_THROTTLE: i16 = 0;
+pub const NEUTRAL_THROTTLE: i16 = 500;
 
 /// Numbers of the tasks in the job.
-const SLAB: u32 = 1;
-const ARCH: u32 = 2;
-const GAP: u32 = 3;
-const PIER: u32 = 4;
+pub const SLAB: u32 = 1;
+pub const ARCH: u32 = 2;
+pub const GAP: u32 = 3;
+pub const PIER: u32 = 4;
 
 /// The porpoising pilot rises and falls by 4 m every 30 m.
 const PORPOISE_M: f64 = 4.0;
@@ -91,7 +91,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-straight-line"],
                 also: &["drill-stand-off", "drill-framing", "drill-hover", "drill-search", "practice", "two-bridges"],
                 belief: |job| reshape(job, TaskKind::SlabSide, |at| up(PORPOISE_M * wave(at.along_m, PORPOISE_WAVELENGTH_M))),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the slab's window on its path", |r| task(r, SLAB).on_path, -0.25),
         },
@@ -105,7 +105,7 @@ pub const UNSEEN: &[Unseen] =
                         at.view * -(SWING_CENTER_M + SWING_M * wave(at.along_m, SWING_WAVELENGTH_M))
                     });
                 },
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the slab's window on its path", |r| task(r, SLAB).on_path, -0.1),
         },
@@ -115,7 +115,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-gap"],
                 also: &["practice", "two-bridges", "drill-search", "drill-lamp"],
                 belief: turn_back_in_gap,
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("covered share of the gap", covered_gap, -0.5),
         },
@@ -125,7 +125,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-curve-under-arch"],
                 also: &["drill-stand-off", "drill-search", "drill-framing", "drill-lamp", "practice", "two-bridges"],
                 belief: flatten_arch,
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the arch's window on its path", |r| task(r, ARCH).on_path, -0.25),
         },
@@ -135,7 +135,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-stand-off"],
                 also: &["drill-straight-line", "drill-framing"],
                 belief: |job| reshape(job, TaskKind::SlabSide, |at| at.view * HUG_M),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of frames too close to something", |r| precision(r).low_clearance_share, 0.1),
         },
@@ -145,7 +145,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-orbit"],
                 also: &["drill-framing", "drill-search", "drill-stand-off"],
                 belief: |job| nose_first(job, TaskKind::PierCircle),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("RMS framing error, degrees", framing_deg, 5.0),
         },
@@ -155,7 +155,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-orbit", "drill-stand-off"],
                 also: &["drill-hover", "drill-search", "drill-framing", "practice", "two-bridges"],
                 belief: |job| reshape(job, TaskKind::PierCircle, |_| Vec3::new(DOWNWIND_M.0, DOWNWIND_M.1, 0.0)),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the pier's window on its path", |r| task(r, PIER).on_path, -0.2),
         },
@@ -165,7 +165,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["two-bridges", "practice", "drill-orbit"],
                 also: &["drill-search"],
                 belief: |job| job.tasks.retain(|task| task.kind != TaskKind::PierCircle),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("tasks done", |r| r.completion.as_ref().map_or(0.0, |done| done.tasks_done as f64), -1.0),
         },
@@ -175,7 +175,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-framing"],
                 also: &["drill-straight-line", "drill-search"],
                 belief: |job| nose_first(job, TaskKind::SlabSide),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("RMS framing error, degrees", framing_deg, 5.0),
         },
@@ -184,11 +184,11 @@ pub const UNSEEN: &[Unseen] =
                 name: "never tilts the camera",
                 drills: &["drill-framing"],
                 also: &["drill-search", "drill-curve-under-arch", "drill-gap", "drill-lamp", "drill-stand-off"],
-                belief: as_intended,
                 tamper: |_, message| {
                     let tilts = command(&message) == Some(MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW);
                     if tilts { Vec::new() } else { vec![message] }
                 },
+                ..NO_WEAKNESS
             },
             action: action("defects found", found, -3.0),
         },
@@ -197,13 +197,8 @@ pub const UNSEEN: &[Unseen] =
                 name: "presses the shutter when already flying on",
                 drills: &["drill-framing"],
                 also: &["drill-hover", "drill-search"],
-                belief: as_intended,
-                tamper: |hands, message| {
-                    on_picture(hands, message, |hands, picture| {
-                        owe(hands, LATE_SHUTTER, picture);
-                        Vec::new()
-                    })
-                },
+                tamper: |hands, message| delay_picture(hands, message, LATE_SHUTTER),
+                ..NO_WEAKNESS
             },
             action: action("accuracy of the certification", certification_accuracy, -20.0),
         },
@@ -212,13 +207,13 @@ pub const UNSEEN: &[Unseen] =
                 name: "photographs everything five times",
                 drills: &["drill-search", "drill-framing"],
                 also: &["practice", "two-bridges"],
-                belief: as_intended,
                 tamper: |hands, message| {
                     on_picture(hands, message, |hands, picture| {
                         (1..=FURTHER_PICTURES).for_each(|k| owe(hands, k * FURTHER_PICTURE_PERIOD, picture.clone()));
                         vec![picture]
                     })
                 },
+                ..NO_WEAKNESS
             },
             action: action("pictures without a new defect", idle_pictures, 12.0),
         },
@@ -228,7 +223,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-search"],
                 also: &["drill-framing"],
                 belief: see_stains,
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("pictures without a new defect", idle_pictures, 4.0),
         },
@@ -238,7 +233,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-search"],
                 also: &["drill-orbit", "drill-framing", "practice", "two-bridges"],
                 belief: |job| keep_defects(job, |defect| defect.position_m.north() < BETWEEN_BRIDGES_M),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("defects found at the pier", |r| task(r, PIER).defects_found as f64, -1.0),
         },
@@ -248,7 +243,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-lamp"],
                 also: &["drill-gap", "drill-search"],
                 belief: |job| tasks_of(job, TaskKind::Interlayer).for_each(|task| task.dark = false),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("share of the time in the gap with the lamp off", lamp_off_in_gap, 0.8),
         },
@@ -257,12 +252,12 @@ pub const UNSEEN: &[Unseen] =
                 name: "hesitates on the sticks",
                 drills: &["drill-straight-line", "practice", "two-bridges"],
                 also: &["drill-hover", "drill-landing", "drill-search", "drill-framing"],
-                belief: as_intended,
                 tamper: |hands, message| {
                     with_sticks(hands, message, |hands, axes| {
                         if hands.stick_messages % HESITATION_PERIOD < HESITATION { [0.0; 4] } else { axes }
                     })
                 },
+                ..NO_WEAKNESS
             },
             action: action("flight time, s", |r| r.seconds, 240.0),
         },
@@ -280,8 +275,8 @@ pub const UNSEEN: &[Unseen] =
                     "practice",
                     "two-bridges",
                 ],
-                belief: as_intended,
                 tamper: |hands, message| with_sticks(hands, message, follow_late),
+                ..NO_WEAKNESS
             },
             action: action("RMS distance to the path, thresholds", |r| precision(r).rms_distance_ratio, 0.1),
         },
@@ -290,7 +285,6 @@ pub const UNSEEN: &[Unseen] =
                 name: "sinks with the eyes on the screen",
                 drills: &["drill-straight-line", "drill-hover"],
                 also: &["drill-curve-under-arch", "drill-stand-off", "drill-framing", "drill-search", "practice", "two-bridges"],
-                belief: as_intended,
                 tamper: |hands, message| {
                     with_sticks(hands, message, |hands, [x, y, z, r]| {
                         let sinks = hands.flies_task(SLAB) || hands.flies_task(ARCH);
@@ -298,6 +292,7 @@ pub const UNSEEN: &[Unseen] =
                         [x, y, if sinks && looks { SINKING_STICK } else { z }, r]
                     })
                 },
+                ..NO_WEAKNESS
             },
             action: action("share of the slab's window on its path", |r| task(r, SLAB).on_path, -0.1),
         },
@@ -307,7 +302,7 @@ pub const UNSEEN: &[Unseen] =
                 drills: &["drill-landing"],
                 also: &["practice", "two-bridges"],
                 belief: |job| job.ground_team.pad_m += Vec3::new(BESIDE_PAD_M.0, BESIDE_PAD_M.1, 0.0),
-                tamper: untouched,
+                ..NO_WEAKNESS
             },
             action: action("landed at home", landed_at_home, -1.0),
         },
@@ -316,35 +311,35 @@ pub const UNSEEN: &[Unseen] =
                 name: "drops onto the pad",
                 drills: &["drill-landing"],
                 also: &[],
-                belief: as_intended,
                 tamper: |hands, message| match message {
                     MavMessage::MANUAL_CONTROL(sticks) if hands.lands() && sticks.z < NEUTRAL_THROTTLE => {
                         vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { z: LOWEST_THROTTLE, ..sticks })]
                     }
                     other => vec![other],
                 },
+                ..NO_WEAKNESS
             },
             action: action("crashes outside the tasks", |r| r.crashes_outside.total() as f64, 1.0),
         },
     ];
 
 /// A point of a path to be reshaped.
-struct PathPlace {
+pub struct PathPlace {
     /// Distance from the path's start, m.
-    along_m: f64,
+    pub along_m: f64,
     /// Direction to the surface.
-    view: Vec3<Enu>,
+    pub view: Vec3<Enu>,
 }
 
-fn up(by_m: f64) -> Vec3<Enu> {
+pub fn up(by_m: f64) -> Vec3<Enu> {
     Vec3::new(0.0, 0.0, by_m)
 }
 
-fn wave(along_m: f64, wavelength_m: f64) -> f64 {
+pub fn wave(along_m: f64, wavelength_m: f64) -> f64 {
     math::sin(math::TAU * along_m / wavelength_m)
 }
 
-fn tasks_of(job: &mut Scenario, kind: TaskKind) -> impl Iterator<Item = &mut Task> {
+pub fn tasks_of(job: &mut Scenario, kind: TaskKind) -> impl Iterator<Item = &mut Task> {
     job.tasks.iter_mut().filter(move |task| task.kind == kind)
 }
 
@@ -355,7 +350,7 @@ fn direction(path_m: &[Vec3<Enu>], at: usize) -> Vec3<Enu> {
 }
 
 /// Moves the points of the paths of a kind.
-fn reshape(job: &mut Scenario, kind: TaskKind, offset_m: impl Fn(&PathPlace) -> Vec3<Enu>) {
+pub fn reshape(job: &mut Scenario, kind: TaskKind, offset_m: impl Fn(&PathPlace) -> Vec3<Enu>) {
     for task in tasks_of(job, kind) {
         let path_m = task.path_m.clone();
         let mut along_m = 0.0;
@@ -395,7 +390,7 @@ fn nose_first(job: &mut Scenario, kind: TaskKind) {
 }
 
 /// Leaves only some of the defects for the pilot to see.
-fn keep_defects(job: &mut Scenario, keep: fn(&PlacedDefect) -> bool) {
+pub fn keep_defects(job: &mut Scenario, keep: fn(&PlacedDefect) -> bool) {
     job.defects.placed.as_mut().unwrap().retain(keep);
 }
 
@@ -415,17 +410,38 @@ fn see_stains(job: &mut Scenario) {
 }
 
 /// Promises a message after a number of stick messages.
-fn owe(hands: &mut Hands, after: u64, message: MavMessage) {
+pub fn owe(hands: &mut Hands, after: u64, message: MavMessage) {
     hands.owed.push_back((hands.stick_messages + after, message));
 }
 
+/// Holds back each picture for a number of stick messages.
+pub fn delay_picture(hands: &mut Hands, message: MavMessage, by: u64) -> Vec<MavMessage> {
+    on_picture(hands, message, |hands, picture| {
+        owe(hands, by, picture);
+        Vec::new()
+    })
+}
+
 /// Changes the command to take a picture, and sends what the hands still owe.
-fn on_picture(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, MavMessage) -> Vec<MavMessage>) -> Vec<MavMessage> {
-    match &message {
-        MavMessage::COMMAND_LONG(one) if one.command == MavCmd::MAV_CMD_IMAGE_START_CAPTURE => return change(hands, message),
-        MavMessage::MANUAL_CONTROL(_) => hands.stick_messages += 1,
-        _ => {}
+pub fn on_picture(
+    hands: &mut Hands,
+    message: MavMessage,
+    change: impl FnOnce(&mut Hands, MavMessage) -> Vec<MavMessage>,
+) -> Vec<MavMessage> {
+    on_command(hands, message, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, change)
+}
+
+/// Changes a command, and sends what the hands still owe.
+pub fn on_command(
+    hands: &mut Hands,
+    message: MavMessage,
+    changed: MavCmd,
+    change: impl FnOnce(&mut Hands, MavMessage) -> Vec<MavMessage>,
+) -> Vec<MavMessage> {
+    if command(&message) == Some(changed) {
+        return change(hands, message);
     }
+    hands.stick_messages += u64::from(matches!(message, MavMessage::MANUAL_CONTROL(_)));
     let mut sent = Vec::new();
     while let Some((_, owed)) = hands.owed.pop_front_if(|(due, _)| *due <= hands.stick_messages) {
         sent.push(owed);
@@ -440,7 +456,7 @@ fn follow_late(hands: &mut Hands, axes: [f64; 4]) -> [f64; 4] {
     if is_due { hands.late_sticks.pop_front().unwrap() } else { [0.0; 4] }
 }
 
-fn task(record: &SessionRecord, id: u32) -> &TaskRecord {
+pub fn task(record: &SessionRecord, id: u32) -> &TaskRecord {
     record.tasks.iter().find(|task| task.id == id).unwrap()
 }
 
@@ -448,19 +464,19 @@ fn covered_gap(record: &SessionRecord) -> f64 {
     task(record, GAP).covered.unwrap()
 }
 
-fn precision(record: &SessionRecord) -> PrecisionMeasures {
+pub fn precision(record: &SessionRecord) -> PrecisionMeasures {
     record.certification.as_ref().and_then(|certification| certification.precision).unwrap()
 }
 
-fn framing_deg(record: &SessionRecord) -> f64 {
+pub fn framing_deg(record: &SessionRecord) -> f64 {
     precision(record).rms_framing_deg.unwrap()
 }
 
-fn certification_accuracy(record: &SessionRecord) -> f64 {
+pub fn certification_accuracy(record: &SessionRecord) -> f64 {
     record.certification.as_ref().and_then(|certification| certification.scores.accuracy).unwrap()
 }
 
-fn idle_pictures(record: &SessionRecord) -> f64 {
+pub fn idle_pictures(record: &SessionRecord) -> f64 {
     (record.snapshots - record.hits) as f64
 }
 
@@ -468,7 +484,7 @@ fn lamp_off_in_gap(record: &SessionRecord) -> f64 {
     task(record, GAP).technique.and_then(|technique| technique.lamp_off).unwrap()
 }
 
-fn found(record: &SessionRecord) -> f64 {
+pub fn found(record: &SessionRecord) -> f64 {
     record.defects.iter().filter(|defect| defect.found).count() as f64
 }
 
@@ -500,10 +516,10 @@ pub struct EffectTable {
 
 impl EffectTable {
     /// Compares every flight with a fault with the faultless one with the same seed.
-    pub fn of(flown: &[Flown], seeds: &[u64]) -> Self {
+    pub fn of(faults: &'static [Unseen], flown: &[Flown], seeds: &[u64]) -> Self {
         let (faultless, faulty) = flown.split_at(seeds.len());
         let of = |(k, one): (usize, &Flown)| {
-            let (fault, base) = (&UNSEEN[k / seeds.len()], &faultless[k % seeds.len()]);
+            let (fault, base) = (&faults[k / seeds.len()], &faultless[k % seeds.len()]);
             let of = fault.action.of;
             let (faultless, faulty) = (of(&base.record), of(&one.record));
             Effect { fault, seed: one.seed, faultless, faulty, summary: summary(&one.record) }

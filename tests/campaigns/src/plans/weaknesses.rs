@@ -1,12 +1,17 @@
-//! The planted weaknesses. Each one changes either the pilot's idea of the job (where to fly, where to look) or what its
-//! hands do (sticks and commands), and nothing else.
+//! The planted weaknesses. Each one changes the pilot's idea of the job (where to fly, where to look), what its hands do
+//! (sticks and commands) or numbers of its skill, and nothing else.
 
+use crate::bumps::{BumpPlan, Bumps, bump};
+use spandrel_clients::pilot::Skill;
 use spandrel_mavlink::dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, MavCmd, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::{Scenario, Task, TaskKind};
+use spandrel_model::site::Site;
+use spandrel_model::vehicle::FlightLimits;
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 /// Changes a message from the pilot to the vehicle; an empty list drops it.
 pub type Tamper = fn(&mut Hands, MavMessage) -> Vec<MavMessage>;
@@ -18,14 +23,17 @@ pub struct Weakness {
     pub drills: &'static [&'static str],
     /// Other scenarios that are no mistake, because they train what the fault leads to.
     pub also: &'static [&'static str],
+    pub skill: Skill,
     pub belief: fn(&mut Scenario),
     pub tamper: Tamper,
 }
 
 /// Full stick deflection in MANUAL_CONTROL.
-const FULL_STICK: f64 = 1000.0;
+pub const FULL_STICK: f64 = 1000.0;
 /// Stick messages between two changes of the planted stick noise: 0.3 s at 50 Hz.
 const NOISE_PERIOD: u64 = 15;
+/// Deadband of the sticks in position mode, as a fraction of full deflection.
+pub const STICK_DEADBAND: f64 = 0.03;
 /// Standard deviation of the planted noise, as a fraction of full deflection.
 const NOISE: f64 = 0.25;
 /// Stick messages between two pictures of a pilot who photographs at random: 2 s at 50 Hz.
@@ -33,15 +41,26 @@ const RANDOM_PICTURE_PERIOD: u64 = 100;
 /// Only every fourth picture is taken by a pilot who overlooks defects.
 const OVERLOOKED: u64 = 4;
 
-/// A pilot who drives into the bridge pushes the stick forward for 2 s out of 30 s at 50 Hz, with this deflection.
-const RUN_UP: u64 = 100;
-const RUN_UP_PERIOD: u64 = 1500;
-const RUN_UP_STICK: f64 = 0.5;
+/// A pilot whose nose never rests adds this multiple of the planted noise to the yaw stick: a standard deviation of 30 degrees/s.
+const MODERATE_YAW_NOISE: f64 = 1.2;
+/// A pilot who bumps into the bridge touches it three times every 18 s at 50 Hz in the interlayer, and 22 times in all. There, a contact
+/// takes the drone less than the threshold away from the path, so that the precision suffers little.
+const BUMPS: BumpPlan = BumpPlan { tasks: &[3], period: 900, touches: 3, total: 22 };
+
+/// Motion of the drone, which some hands react to.
+#[derive(Debug, Clone, Copy)]
+pub struct DroneState {
+    pub position_m: Vec3<Enu>,
+    pub heading_rad: f64,
+    pub touching: bool,
+}
 
 /// State of the pilot's hands.
 pub struct Hands {
     status: String,
-    last_task_flown: bool,
+    /// Number of the task that the pilot flies or has flown last; 0 before the first.
+    latest_task: u32,
+    pub last_task_flown: bool,
     random: RandomStream,
     noise: [f64; 4],
     pub stick_messages: u64,
@@ -50,12 +69,19 @@ pub struct Hands {
     pub owed: VecDeque<(u64, MavMessage)>,
     /// Stick positions that the hands have not followed yet.
     pub late_sticks: VecDeque<[f64; 4]>,
+    pub drone: DroneState,
+    pub site: Arc<Site>,
+    /// Position of the pilot.
+    pub pilot_m: Vec3<Enu>,
+    limits: FlightLimits,
+    pub bumps: Bumps,
 }
 
 impl Hands {
-    pub fn new(seed: u64) -> Self {
+    pub fn new(seed: u64, site: Arc<Site>, pilot_m: Vec3<Enu>, limits: FlightLimits) -> Self {
         Self {
             status: String::new(),
+            latest_task: 0,
             last_task_flown: false,
             random: RandomStream::new(seed, "planted weakness"),
             noise: [0.0; 4],
@@ -63,13 +89,38 @@ impl Hands {
             pictures: 0,
             owed: VecDeque::new(),
             late_sticks: VecDeque::new(),
+            drone: DroneState { position_m: Vec3::zero(), heading_rad: 0.0, touching: false },
+            site,
+            pilot_m,
+            limits,
+            bumps: Bumps::default(),
         }
     }
 
-    /// Takes note of what the pilot does.
-    pub fn observe(&mut self, status: &str) {
+    /// Takes note of what the pilot does and how the drone moves.
+    pub fn observe(&mut self, status: &str, drone: DroneState) {
         self.last_task_flown |= self.status == "task 4" && status != "task 4";
+        if let Some(task) = status.strip_prefix("task ").and_then(|id| id.parse().ok()) {
+            self.latest_task = task;
+        }
         status.clone_into(&mut self.status);
+        self.drone = drone;
+    }
+
+    /// Returns whether the pilot has begun the task with this number or a later one.
+    pub fn has_begun_task(&self, id: u32) -> bool {
+        self.latest_task >= id
+    }
+
+    /// Returns the stick positions for a velocity over the ground: the drone responds in proportion to the sticks beyond the deadband.
+    pub fn sticks_for(&self, velocity_m_s: Vec3<Enu>) -> [f64; 3] {
+        let (sin, cos) = math::sin_cos(self.drone.heading_rad);
+        let forward_m_s = velocity_m_s.east() * sin + velocity_m_s.north() * cos;
+        let right_m_s = velocity_m_s.east() * cos - velocity_m_s.north() * sin;
+        let vertical_m_s = if velocity_m_s.up() > 0.0 { self.limits.climb_m_s } else { self.limits.descend_m_s };
+        let fractions =
+            [forward_m_s / self.limits.forward_m_s, right_m_s / self.limits.sideways_speed_m_s, velocity_m_s.up() / vertical_m_s];
+        fractions.map(|fraction| (STICK_DEADBAND + (1.0 - STICK_DEADBAND) * fraction.abs()).copysign(fraction))
     }
 
     /// Returns whether the pilot flies the task with this number.
@@ -82,7 +133,8 @@ impl Hands {
         self.status == "landing"
     }
 
-    fn in_task(&self) -> bool {
+    /// Returns whether the pilot flies any task.
+    pub fn in_task(&self) -> bool {
         self.status.starts_with("task ")
     }
 
@@ -121,11 +173,17 @@ pub fn command(message: &MavMessage) -> Option<MavCmd> {
     }
 }
 
+/// Returns the command to take a picture.
+pub fn picture() -> MavMessage {
+    let one = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    MavMessage::COMMAND_LONG(spandrel_mavlink::station::command(1, 100, MavCmd::MAV_CMD_IMAGE_START_CAPTURE, one))
+}
+
 fn without(message: MavMessage, unwanted: MavCmd) -> Vec<MavMessage> {
     if command(&message) == Some(unwanted) { Vec::new() } else { vec![message] }
 }
 
-fn faster([x, y, z, r]: [f64; 4], factor: f64) -> [f64; 4] {
+pub fn faster([x, y, z, r]: [f64; 4], factor: f64) -> [f64; 4] {
     [factor * x, factor * y, z, r]
 }
 
@@ -182,115 +240,108 @@ pub const WEAKNESSES: &[Weakness] = &[
         drills: &["practice"],
         also: &[],
         belief: |job| shorten_paths(job, |path_m| path_m.len().div_ceil(2)),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "only the first task",
         drills: &["practice"],
         also: &[],
         belief: |job| job.tasks.truncate(1),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "skips the arch",
         drills: &["drill-curve-under-arch"],
         also: &[],
         belief: |job| job.tasks.retain(|task| task.kind != TaskKind::ArchBottom),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "skips the pier",
         drills: &["drill-orbit"],
         also: &[],
         belief: |job| job.tasks.retain(|task| task.kind != TaskKind::PierCircle),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "4 m off throughout",
         drills: &["drill-stand-off"],
         also: &[],
         belief: |job| move_away(job, 4.0),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
-    Weakness {
-        name: "too close",
-        drills: &["drill-stand-off"],
-        also: &[],
-        belief: |job| move_away(job, -1.5),
-        tamper: untouched,
-    },
-    Weakness { name: "climbs too little", drills: &["drill-hover"], also: &[], belief: lower_paths, tamper: untouched },
+    Weakness { name: "too close", drills: &["drill-stand-off"], also: &[], belief: |job| move_away(job, -1.5), ..NO_WEAKNESS },
+    Weakness { name: "climbs too little", drills: &["drill-hover"], also: &[], belief: lower_paths, ..NO_WEAKNESS },
     Weakness {
         name: "too fast everywhere",
         drills: &["drill-straight-line"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| with_sticks(hands, message, |_, axes| faster(axes, 8.0)),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "too fast around the pier",
         drills: &["drill-orbit"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, axes| if hands.status == "task 4" { faster(axes, 6.0) } else { axes })
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "too fast in the interlayer",
         drills: &["drill-gap"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, axes| if hands.status == "task 3" { faster(axes, 4.5) } else { axes })
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "unsteady sticks",
         drills: &["drill-hover"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| {
             with_sticks(hands, message, |hands, [x, y, z, r]| {
                 let noise = hands.noise();
                 [x + noise[0], y + noise[1], z + noise[2], r]
             })
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "yaw noise",
         drills: &["drill-framing"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + 2.8 * hands.noise()[3]]),
+        ..NO_WEAKNESS
     },
-    Weakness { name: "looks aside", drills: &["drill-framing"], also: &["drill-search"], belief: look_aside, tamper: untouched },
+    Weakness { name: "looks aside", drills: &["drill-framing"], also: &["drill-search"], belief: look_aside, ..NO_WEAKNESS },
     Weakness {
         name: "gimbal never tilted",
         drills: &["drill-framing"],
         also: &["drill-search"],
-        belief: as_intended,
         tamper: |_, message| without(message, MavCmd::MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "lamp never on",
         drills: &["drill-lamp"],
         also: &["drill-search"],
-        belief: as_intended,
         tamper: |_, message| without(message, MavCmd::MAV_CMD_ILLUMINATOR_ON_OFF),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "no pictures",
         drills: &["drill-search"],
         also: &[],
-        belief: as_intended,
         tamper: |_, message| without(message, MavCmd::MAV_CMD_IMAGE_START_CAPTURE),
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "overlooks defects",
         drills: &["drill-search"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| {
             if command(&message) != Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE) {
                 return vec![message];
@@ -298,12 +349,12 @@ pub const WEAKNESSES: &[Weakness] = &[
             hands.pictures += 1;
             if hands.pictures.is_multiple_of(OVERLOOKED) { vec![message] } else { Vec::new() }
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "pictures at random",
         drills: &["drill-search"],
         also: &["drill-framing"],
-        belief: as_intended,
         tamper: |hands, message| {
             if command(&message) == Some(MavCmd::MAV_CMD_IMAGE_START_CAPTURE) {
                 return Vec::new();
@@ -311,33 +362,28 @@ pub const WEAKNESSES: &[Weakness] = &[
             let due = hands.in_task() && hands.stick_messages % RANDOM_PICTURE_PERIOD == 1;
             let is_stick = matches!(message, MavMessage::MANUAL_CONTROL(_));
             hands.stick_messages += u64::from(is_stick);
-            let picture = spandrel_mavlink::station::command(
-                1,
-                100,
-                MavCmd::MAV_CMD_IMAGE_START_CAPTURE,
-                [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-            );
-            if due && is_stick { vec![message, MavMessage::COMMAND_LONG(picture)] } else { vec![message] }
+            if due && is_stick { vec![message, picture()] } else { vec![message] }
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "ignores the battery",
         drills: &["drill-landing"],
         also: &[],
-        belief: as_intended,
         tamper: |hands, message| match message {
             MavMessage::MANUAL_CONTROL(sticks) if hands.last_task_flown => {
                 vec![MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { x: 0, y: 0, z: 500, r: 0, ..sticks })]
             }
             other => vec![other],
         },
+        ..NO_WEAKNESS
     },
     Weakness {
         name: "lands outside the home circle",
         drills: &["drill-landing"],
         also: &[],
         belief: |job| job.ground_team.pad_m += Vec3::new(0.0, -9.0, 0.0),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
 ];
 
@@ -348,22 +394,28 @@ pub const GRAVE_FAULTS: &[Weakness] = &[
         drills: &[],
         also: &[],
         belief: |job| shorten_paths(job, points_to_49_percent),
-        tamper: untouched,
+        ..NO_WEAKNESS
     },
     Weakness {
-        name: "drives into the bridge",
+        name: "bumps into the bridge 22 times",
         drills: &[],
         also: &[],
-        belief: as_intended,
+        tamper: |hands, message| with_sticks(hands, message, |hands, axes| bump(hands, axes, &BUMPS)),
+        ..NO_WEAKNESS
+    },
+    Weakness {
+        name: "nose never rests",
+        drills: &[],
+        also: &[],
+        // The pilot photographs nevertheless. Otherwise, waiting for a steady picture would take the time for the last task.
+        skill: Skill { photo_turn_deg_s: 90.0, steady_s: 0.2, framing_deg: 15.0, ..Skill::EXPERT },
         tamper: |hands, message| {
-            with_sticks(hands, message, |hands, [x, y, z, r]| {
-                let is_driving = hands.stick_messages % RUN_UP_PERIOD < RUN_UP;
-                [if is_driving { RUN_UP_STICK } else { x }, y, z, r]
-            })
+            with_sticks(hands, message, |hands, [x, y, z, r]| [x, y, z, r + MODERATE_YAW_NOISE * hands.noise()[3]])
         },
+        ..NO_WEAKNESS
     },
 ];
 
 /// The same pilot without a fault.
 pub const NO_WEAKNESS: Weakness =
-    Weakness { name: "none", drills: &["two-bridges"], also: &[], belief: as_intended, tamper: untouched };
+    Weakness { name: "none", drills: &["two-bridges"], also: &[], skill: Skill::EXPERT, belief: as_intended, tamper: untouched };

@@ -1,4 +1,7 @@
 //! Writes a job at an imported bridge: level ground, a path along each side of the deck and, if there is room, one below it.
+//!
+//! The landing pad is beyond the start of the bridge, and the paths are flown in an order in which no way from one to the next, or back to
+//! the pad, crosses another one. Otherwise, a task's window would also contain the flight along others.
 
 use crate::elements::Element;
 use crate::frames::Vec3;
@@ -20,7 +23,7 @@ pub const ELEMENTS_FILE: &str = "elements.toml";
 pub const SCENARIO_FILE: &str = "scenario.toml";
 /// Distance of the paths from the outermost parts, m (estimate: 1 m more than the usual stand-off, because parts stick out).
 const STAND_OFF_M: f64 = 5.0;
-/// Distance of the landing pad from the path on its side, m (estimate).
+/// Distance of the landing pad from the stand-off at the start of the bridge, m (estimate).
 const PAD_DISTANCE_M: f64 = 20.0;
 /// Distance of the inspector from the landing pad, away from the bridge, m (estimate).
 const INSPECTOR_DISTANCE_M: f64 = 4.0;
@@ -68,7 +71,7 @@ pub(super) fn check_reach(low: Point, high: Point) -> Result<(), String> {
 pub(super) fn scenario_toml(name: &str, parts: &[ModelPart], extent: &ModelExtent) -> String {
     let (low, high) = extent.whole;
     let center_up_m = -low[2] - EMBEDMENT_M;
-    let south_m = low[1] - STAND_OFF_M - PAD_DISTANCE_M;
+    let west_m = low[0] - STAND_OFF_M - PAD_DISTANCE_M;
     let size_m = ((2.0 * (reach_m(low, high) + SURROUNDINGS_M) / 100.0).ceil() * 100.0).min(MAX_TERRAIN_M);
     let has_defects = parts.iter().any(|part| !part.element.permitted_defects().is_empty());
     let mut text = format!(
@@ -77,14 +80,15 @@ pub(super) fn scenario_toml(name: &str, parts: &[ModelPart], extent: &ModelExten
          # Place of the bridge: latitude and longitude of its origin (here, Purdue University).\n\
          [origin]\nlatitude_deg = 40.4237\nlongitude_deg = -86.9212\naltitude_m = 187.0\n\n\
          [terrain]\nsize_m = {size_m:.1}\nspacing_m = {spacing_m:.1}\nwater_level_m = -50.0\nsource = \"flat\"\nheight_m = -0.05\n\n\
-         [ground_team]\npad_m = [0.0, {south_m:.2}, 0.0]\ninspector_m = [-6.0, {inspector_m:.2}, -0.05]\n\
-         truck_m = [-9.0, {truck_m:.2}, -0.05]\nhome_radius_m = 5.0\n\n\
+         # The landing pad is beyond the start of the bridge, so that no flight to or from it crosses a path.\n\
+         [ground_team]\npad_m = [{west_m:.2}, 0.0, 0.0]\ninspector_m = [{inspector_m:.2}, -6.0, -0.05]\n\
+         truck_m = [{truck_m:.2}, -9.0, -0.05]\nhome_radius_m = 5.0\n\n\
          # The origin of the bridge axes is the middle of the deck's upper surface; x points along the deck, y to its left, z up.\n\
          [[bridges]]\nname = \"{name}\"\ntype = \"model\"\ncentre_m = [0.0, 0.0, {center_up_m:.3}]\nheading_deg = 90.0\n\n\
          [bridges.model]\nfile = \"{model}\"\nelements = \"{elements}\"\n",
         spacing_m = (size_m / 200.0).max(4.0),
-        inspector_m = south_m - INSPECTOR_DISTANCE_M,
-        truck_m = south_m + 3.0,
+        inspector_m = west_m - INSPECTOR_DISTANCE_M,
+        truck_m = west_m + 3.0,
         model = MODEL_FILE,
         elements = ELEMENTS_FILE,
     );
@@ -97,11 +101,14 @@ pub(super) fn scenario_toml(name: &str, parts: &[ModelPart], extent: &ModelExten
              points_m = [{points}]\nlook_at_m = [{look_at}]\n\n"
         );
     };
-    add_task("Right side", side(extent, center_up_m, false), "threshold_m = 3.0\n");
-    add_task("Left side", side(extent, center_up_m, true), "threshold_m = 3.0\n");
-    if let Some(path) = underside(parts, extent, center_up_m) {
-        add_task("Underside", path, "threshold_m = 2.0\ndark = true\n");
+    let (right, mut left) = (side(extent, center_up_m, false), side(extent, center_up_m, true));
+    let underside = underside(parts, extent, center_up_m);
+    add_task("Right side", right, "threshold_m = 3.0\n");
+    match underside {
+        Some(path) => add_task("Underside", path, "threshold_m = 2.0\ndark = true\n"),
+        None => left.iter_mut().for_each(|points| points.reverse()),
     }
+    add_task("Left side", left, "threshold_m = 3.0\n");
     let defects = if has_defects { DEFECTS } else { 0 };
     let elements = defect_elements(parts);
     let _ = write!(
@@ -122,20 +129,19 @@ fn defect_elements(parts: &[ModelPart]) -> Vec<u16> {
     numbers
 }
 
-/// Returns a line along one side of the deck, and the points of the deck's edge beside it. The right side is flown in the direction of
-/// the x axis, the left side back.
+/// Returns a line along one side of the deck in the direction of the x axis, and the points of the deck's edge beside it.
 fn side(extent: &ModelExtent, center_up_m: f64, is_left: bool) -> [[Point; 2]; 2] {
     let (low, high) = extent.whole;
     let (deck_low, deck_high) = extent.deck;
     let middle_z = 0.5 * (extent.superstructure.0[2].min(deck_low[2]) + deck_high[2]);
     let z = middle_z.max(MIN_HEIGHT_M - center_up_m);
     let (y, edge_y) = if is_left { (high[1] + STAND_OFF_M, deck_high[1]) } else { (low[1] - STAND_OFF_M, deck_low[1]) };
-    let ends = if is_left { [deck_high[0], deck_low[0]] } else { [deck_low[0], deck_high[0]] };
+    let ends = [deck_low[0], deck_high[0]];
     [ends.map(|x| [x, y, z]), ends.map(|x| [x, edge_y, middle_z])]
 }
 
-/// Returns the longest line along the middle below the deck that is clear of all parts and of the ground, and the points above and
-/// ahead of its ends; `None` if it would be too short.
+/// Returns the longest line along the middle below the deck that is clear of all parts and of the ground, against the direction of the x
+/// axis, and the points above and ahead of its ends; `None` if it would be too short.
 fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Option<[[Point; 2]; 2]> {
     let (deck_low, deck_high) = extent.deck;
     let bottom_z = extent.superstructure.0[2].min(deck_low[2]);
@@ -153,8 +159,8 @@ fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Opt
             best = (first, k);
         }
     }
-    let ends = [best.0, best.1].map(|k| deck_low[0] + STEP_M * k as f64);
-    (ends[1] - ends[0] >= MIN_LENGTH_M).then(|| [ends.map(|x| [x, y, z]), ends.map(|x| [x + AHEAD_M, y, bottom_z])])
+    let ends = [best.1, best.0].map(|k| deck_low[0] + STEP_M * k as f64);
+    (ends[0] - ends[1] >= MIN_LENGTH_M).then(|| [ends.map(|x| [x, y, z]), ends.map(|x| [x - AHEAD_M, y, bottom_z])])
 }
 
 /// A part to which distances are measured.

@@ -3,6 +3,7 @@
 
 mod element_suggestions;
 mod job_text;
+mod part_amounts;
 mod part_report;
 
 use crate::elements::Element;

@@ -1,5 +1,6 @@
 //! What an import found in a model: one row per part.
 
+use super::part_amounts::{self, PartBox};
 use crate::elements::{Element, ElementUnit};
 use crate::mesh::mesh_file::MeshNode;
 use crate::mesh::part_shapes::{Method, PartShapes};
@@ -39,6 +40,8 @@ pub struct PartReport {
     pub deviation_m: f64,
     /// Length along x, y and z, m.
     pub size_m: [f64; 3],
+    /// Lowest corner of the bounding box before the move to the origin, m.
+    pub low_m: [f64; 3],
 }
 
 /// The result of an import.
@@ -71,6 +74,7 @@ impl PartReport {
             method: None,
             deviation_m: 0.0,
             size_m: [0, 1, 2].map(|k: usize| high[k] - low[k]),
+            low_m: low,
         }
     }
 
@@ -86,17 +90,19 @@ impl ImportReport {
     /// differ in numbers only. `shapes` are the shapes of all parts.
     pub(super) fn elements_toml(&self, shapes: &[ModelPart]) -> String {
         let mut patterns = Patterns { shapes, is_right: BTreeMap::new() };
-        let mut groups: BTreeMap<(u16, String), Vec<&PartReport>> = BTreeMap::new();
-        for part in &self.parts {
+        let boxes = self.parts.iter().map(|part| PartBox { element: part.element, low_m: part.low_m, size_m: part.size_m });
+        let amounts = part_amounts::amounts(&boxes.collect::<Vec<_>>());
+        let mut groups: BTreeMap<(u16, String), f64> = BTreeMap::new();
+        for (part, amount) in self.parts.iter().zip(amounts) {
             let pattern = patterns.pattern(part);
-            groups.entry((part.element.number(), pattern)).or_default().push(part);
+            *groups.entry((part.element.number(), pattern)).or_default() += amount;
         }
         let mut text = String::from(HEADER);
-        for ((number, pattern), parts) in groups {
+        for ((number, pattern), amount) in groups {
             let element = Element::from_number(number);
             let _ = write!(text, "\n[[elements]]\nparts = {}\nelement = {number} # {}\n", quoted(&pattern), element.name());
-            let (amount, rule) = total(element, &parts);
-            let _ = writeln!(text, "{} = {amount} # {rule}", total_key(element));
+            let rounded = (amount * 100.0).round() / 100.0;
+            let _ = writeln!(text, "{} = {rounded} # {}", total_key(element), rule(element));
         }
         text
     }
@@ -145,15 +151,11 @@ pub(super) fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
-/// Returns an estimate of the total quantity of parts, and its rule.
-fn total(element: Element, parts: &[&PartReport]) -> (f64, &'static str) {
-    let longest_m = |part: &&PartReport| part.size_m.iter().copied().fold(0.0, f64::max);
-    let (amount, rule) = match element.unit() {
-        Some(ElementUnit::SquareFeet) => {
-            (parts.iter().map(|part| part.size_m[0] * part.size_m[1]).sum(), "length times width of each part")
-        }
-        Some(ElementUnit::Feet) => (parts.iter().map(longest_m).sum(), "longest side of each part"),
-        Some(ElementUnit::Each) | None => (parts.len() as f64, "number of parts"),
-    };
-    ((amount * 100.0).round() / 100.0, rule)
+/// Returns the rule by which the total quantity of an element is estimated.
+fn rule(element: Element) -> &'static str {
+    match element.unit() {
+        Some(ElementUnit::SquareFeet) => "area in plan; parts above each other count once",
+        Some(ElementUnit::Feet) => "length; parts that lie along each other count once",
+        Some(ElementUnit::Each) | None => "number of parts",
+    }
 }

@@ -28,7 +28,8 @@ pub(super) fn places(structure: &Structure) -> Vec<Place> {
                 let point_m = axes.point(u_m, v_m);
                 let over_m = point_m.up() - structure.water_up_m;
                 let is_wet = element.group() == ElementGroup::Railing || over_m < SPLASH_M;
-                if over_m < 0.0 {
+                // The displacement from the grid does not lead below the water.
+                if over_m < 0.5 * SPACING_M {
                     continue;
                 }
                 out.push(Place {

@@ -5,15 +5,15 @@ use spandrel_model::scenario::{Scenario, Task};
 
 use crate::measures::coverage::PathCoverage;
 
-/// The job's own time and the flight time.
+/// The time that a flight needs and the time that it took.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct JobTime {
     /// Total length of the paths, m.
     pub path_length_m: f64,
-    /// Number of defects for which time is allowed.
+    /// Number of defects for which time is allowed: those that the pictures show.
     pub defects: usize,
-    /// Time that the job needs: path length over the inspection speed, plus the times for transit and for each
-    /// defect, s.
+    /// Time that the flight needs: path length over the inspection speed, plus the times for transit and for each
+    /// of these defects, s.
     pub needed_s: f64,
     /// Flight time, s.
     pub flown_s: f64,
@@ -22,7 +22,7 @@ pub struct JobTime {
 }
 
 impl JobTime {
-    /// Computes the time that the job needs.
+    /// Computes the time that a flight needs in which the pictures show `defects` defects.
     #[must_use]
     pub fn new(scenario: &Scenario, covered: &[PathCoverage], defects: usize, flown_s: f64) -> Self {
         let path_length_m = covered.iter().fold(0.0, |sum, path| sum + path.length_m);

@@ -11,6 +11,7 @@ pub mod precision;
 pub mod requirements;
 pub mod visits;
 
+use crate::measures::attention;
 use contacts::MergedCrash;
 use inputs::CertificationInputs;
 use job_time::JobTime;
@@ -114,7 +115,8 @@ pub fn grade(inputs: &CertificationInputs<'_>) -> Certification {
     let exposure_s = contacts::exposure_s(inputs);
     let battery_at_end_pct = frames.last().map_or(0.0, |frame| frame.battery_pct);
     let gates = requirements::gates(inputs, battery_at_end_pct);
-    let time = JobTime::new(inputs.scenario, inputs.covered, inputs.defects.len(), inputs.session.seconds(rate));
+    let found = attention::found_defects(inputs.pictures).len();
+    let time = JobTime::new(inputs.scenario, inputs.covered, found, inputs.session.seconds(rate));
     let scores = CertificationScores {
         conformity: visits::conformity(inputs, &shares),
         efficiency: time.score(inputs.scenario, inputs.completion.complete),

@@ -1,7 +1,7 @@
 //! Accuracy: a picture counts only if its quality is sufficient for the defect that it shows.
 
 use super::inputs::CertificationInputs;
-use crate::measures::attention::{DefectSighting, Snapshot};
+use crate::measures::attention::{DefectSighting, Snapshot, found_defects};
 use crate::measures::image_quality::{ImageQuality, best_gsd_mm};
 use crate::score::accuracy::DetectionTally;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use spandrel_model::numbers::{format_limit, format_with_limit};
 use spandrel_model::scenario::{CertificationParams, PlacedDefect, Scenario};
 use spandrel_model::vehicle::Camera;
 use spandrel_text::{Language, text};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Millimeters per meter.
 const MM_PER_M: f64 = 1_000.0;
@@ -193,7 +193,7 @@ fn view_fails(view: &DefectSighting, defect: &DefectGrade, params: &Certificatio
 /// Counts the defects found under the paper's conditions.
 #[must_use]
 pub fn detection(inputs: &CertificationInputs<'_>) -> Detection {
-    let ids: BTreeSet<u32> = inputs.pictures.iter().flat_map(|picture| picture.found.iter().copied()).collect();
+    let ids = found_defects(inputs.pictures);
     let mut detection = Detection {
         detection_only: true,
         by_element: BTreeMap::new(),

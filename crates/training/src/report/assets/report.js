@@ -3,6 +3,11 @@
 (function () {
   'use strict';
   const { byId, all, clock, number, color } = Flight;
+  const print = byId('print');
+  if (print) {
+    print.hidden = false;
+    print.addEventListener('click', () => window.print());
+  }
   const block = byId('flight-data');
   if (!block) return;
   const data = JSON.parse(block.textContent);

@@ -62,7 +62,11 @@ pub fn session(review: &Review) -> String {
         &PageScripts::Session { data, marks: marks_key(&review.metadata.marks) },
         &html! {
             (summary::header(review))
-            nav aria-label=(text!(language, "report-sections")) { @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } } }
+            nav aria-label=(text!(language, "report-sections")) {
+                @for (id, name, _) in &sections { a href={ "#" (id) } { (name) } }
+                // Works only with scripts, which show it.
+                button type="button" id="print" hidden { (text!(language, "report-print")) }
+            }
             main {
                 @for (id, name, body) in &sections {
                     section id=(id) aria-labelledby={ (id) "-head" } { h2 id={ (id) "-head" } { (name) } (body) }

@@ -50,7 +50,7 @@ pub fn header(review: &Review) -> Markup {
                 } @else {
                     p.headline { (review.assessment.completion.headline(language)) }
                 }
-                p { (verdict(certification.passed, &certification.unmet, language)) }
+                p { a href="#certification" { (verdict(certification.passed, &certification.unmet, language)) } }
             }
         }
     }
