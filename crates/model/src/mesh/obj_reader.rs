@@ -145,7 +145,7 @@ mod tests {
         assert_eq!(color_at(0, [1.0, 1.0, 0.0]), [0, 255, 0], "the picture repeats");
         assert_eq!(content.nodes[1].colors, [[0, 128, 255]; 3]);
         let without = read("a.obj", text.as_bytes(), &none).unwrap();
-        assert_eq!(without.nodes[0].colors, []);
+        assert!(without.nodes[0].colors.is_empty());
         assert_eq!(without.nodes[0].mesh.triangles.len(), 2);
     }
 

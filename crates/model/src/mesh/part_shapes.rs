@@ -12,6 +12,7 @@ use super::vectors::{Point, dot, middle};
 use super::vertex_colors::ColorsByPlace;
 use rapier3d::parry::math::Vector;
 use rapier3d::parry::transformation::vhacd::{VHACD, VHACDParameters};
+use std::borrow::Cow;
 
 /// Number of extreme points of a simplified hull: a hull of n points has at most 2 n triangles.
 const EXTREME_POINTS: usize = MAX_FACES / 2;
@@ -78,10 +79,10 @@ impl PartShape {
 
     /// Returns the triangles.
     #[must_use]
-    pub fn mesh(&self) -> Mesh {
+    pub fn mesh(&self) -> Cow<'_, Mesh> {
         match self {
-            Self::Convex(solid) => solid.mesh(),
-            Self::Mesh(surface) => surface.mesh().clone(),
+            Self::Convex(solid) => Cow::Owned(solid.mesh()),
+            Self::Mesh(surface) => Cow::Borrowed(surface.mesh()),
         }
     }
 

@@ -146,7 +146,7 @@ impl Geometry {
             if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
         };
         let to_member = |leaf: u32, best_m: f64| {
-            let near = self.shapes[leaf as usize].nearest(p);
+            let near = self.shapes[leaf as usize].nearest_within(p, best_m)?;
             (near.distance_m < best_m).then_some(LeafHit { distance_m: near.distance_m, result: near })
         };
         let (leaf, found) = self.tree.find_best(limit, to_box, to_member)?;

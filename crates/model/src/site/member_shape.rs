@@ -41,6 +41,15 @@ impl MemberShape {
         }
     }
 
+    /// Returns the nearest surface point if it is at most `max_m` away, or if the point is inside.
+    #[must_use]
+    pub fn nearest_within(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
+        match self {
+            Self::Convex(convex) => Some(convex.nearest(p)).filter(|near| near.distance_m <= max_m),
+            Self::Mesh(mesh) => mesh.nearest_within(p, max_m),
+        }
+    }
+
     /// Returns the distance along a ray to the surface and the normal there. A ray that starts inside hits at distance 0.
     #[must_use]
     pub fn ray(&self, origin: Vec3<Enu>, direction: Vec3<Enu>, max_m: f64) -> Option<(f64, Vec3<Enu>)> {

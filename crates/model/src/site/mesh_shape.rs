@@ -10,7 +10,7 @@ use crate::scenario::bridges::{Solid, SolidSurface};
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::math::Vector;
 use rapier3d::parry::partitioning::BvhNode;
-use rapier3d::parry::query::{PointQueryWithLocation, Ray, RayCast};
+use rapier3d::parry::query::{PointProjection, PointQueryWithLocation, Ray, RayCast};
 use rapier3d::parry::shape::{FeatureId, TriMesh, TriMeshFlags, TrianglePointLocation};
 use std::collections::BTreeMap;
 
@@ -96,8 +96,22 @@ impl MeshShape {
     /// the same normal as the direction to the point.
     #[must_use]
     pub fn nearest(&self, p: Vec3<Enu>) -> SurfacePoint {
-        let at = vector(p);
-        let (projection, (triangle, _)) = self.mesh.project_local_point_and_get_location(at, false);
+        let (projection, (triangle, _)) = self.mesh.project_local_point_and_get_location(vector(p), false);
+        self.projected(p, projection, triangle)
+    }
+
+    /// Returns the nearest surface point if it is at most `max_m` away; otherwise like [`Self::nearest`].
+    #[must_use]
+    pub fn nearest_within(&self, p: Vec3<Enu>, max_m: f64) -> Option<SurfacePoint> {
+        // However far its surface is, a point inside is within the limit.
+        let may_be_inside = self.is_closed && self.is_in_bounds(p);
+        let reach_m = if may_be_inside { f64::MAX } else { max_m.next_up() };
+        let found = self.mesh.project_local_point_and_get_location_with_max_dist(vector(p), false, reach_m);
+        let (projection, (triangle, _)) = found?;
+        Some(self.projected(p, projection, triangle)).filter(|near| near.distance_m <= max_m)
+    }
+
+    fn projected(&self, p: Vec3<Enu>, projection: PointProjection, triangle: u32) -> SurfacePoint {
         let point_m = enu(projection.point);
         let away = p - point_m;
         let distance_m = away.norm();

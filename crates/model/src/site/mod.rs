@@ -34,6 +34,7 @@ pub mod radio_path;
 mod reference_camera;
 pub mod reflectors;
 pub mod steel;
+mod steel_pieces;
 pub mod sun;
 pub mod terrain;
 pub mod traffic;

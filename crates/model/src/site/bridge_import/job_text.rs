@@ -150,7 +150,7 @@ fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Opt
         return None;
     }
     let clearances: Vec<Clearance> = parts.iter().map(Clearance::of).collect();
-    let is_clear = |x: f64| clearances.iter().all(|part| part.distance_m([x, y, z]) >= MIN_CLEARANCE_M);
+    let is_clear = |x: f64| !clearances.iter().any(|part| part.is_nearer([x, y, z], MIN_CLEARANCE_M));
     let steps = ((deck_high[0] - deck_low[0]) / STEP_M) as usize;
     let (mut best, mut first) = ((0, 0), None);
     for k in 0..=steps {
@@ -177,10 +177,10 @@ impl Clearance {
         }
     }
 
-    fn distance_m(&self, p: Point) -> f64 {
+    fn is_nearer(&self, p: Point, limit_m: f64) -> bool {
         match self {
-            Self::Convex(solid) => solid.distance_m(p),
-            Self::Any(shape) => shape.nearest(Vec3::new(p[0], p[1], p[2])).distance_m,
+            Self::Convex(solid) => solid.distance_m(p) < limit_m,
+            Self::Any(shape) => shape.nearest_within(Vec3::new(p[0], p[1], p[2]), limit_m).is_some(),
         }
     }
 }
