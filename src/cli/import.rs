@@ -20,12 +20,12 @@ const MAX_LISTED: usize = 20;
 
 /// Import a bridge from a 3D model
 ///
-/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file or a PLY file, cleans its meshes, converts
-/// them to parts that collide (convex solids where they fit, their own triangles elsewhere) and writes a folder with the parts
-/// (bridge.glb), their elements (elements.toml) and a job (scenario.toml) that you can check, fly and edit. A part's element comes from the elements file, or from `element` in the extras of its node. If parts have no
-/// element, it prints an elements file to start from. It prints a table of the parts: triangles (and those removed as
-/// degenerate or repeated), connected pieces, open edges and holes, parts that collide, how they were made, the largest
-/// deviation of their surfaces from the model, and the size.
+/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file or a PLY file, cleans its meshes, converts them to
+/// parts that collide (convex solids where they fit, their own triangles elsewhere) and writes a folder with the parts
+/// (bridge.glb), their elements (elements.toml) and a job (scenario.toml) that you can check, fly and edit. A part's element comes
+/// from the elements file, or from `element` in the extras of its node. If parts have no element, it prints an elements file to
+/// start from. It prints a table of the parts: triangles (and those removed as degenerate or repeated), connected pieces, open
+/// edges and holes, parts that collide, how they were made, the largest deviation of their surfaces from the model, and the size.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:

@@ -1,6 +1,6 @@
 //! Exports the collision geometry as binary glTF 2.0, and the parts of imported bridges in the same form: one named node per bridge
-//! member with its element number in `extras`, plus ground, water and landing pad. Meshes keep the colors of their vertices. Positions are 32-bit floats (3e-5 m at 500 m). The
-//! axes follow the glTF convention: x east, y up, z south.
+//! member with its element number in `extras`, plus ground, water and landing pad. Meshes keep the colors of their vertices.
+//! Positions are 32-bit floats (3e-5 m at 500 m). The axes follow the glTF convention: x east, y up, z south.
 
 use super::Site;
 use crate::elements::Element;

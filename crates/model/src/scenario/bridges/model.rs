@@ -190,7 +190,7 @@ fn model_part(node: &MeshNode, map: &ElementMap) -> Result<ModelPart, String> {
     let mut mesh = node.mesh.clone();
     for vertex in &mut mesh.vertices_m {
         *vertex = from_gltf_axes(*vertex);
-        if vertex.iter().any(|value| value.abs() > MAX_REACH_M) {
+        if !vertex.iter().all(|value| (-MAX_REACH_M..=MAX_REACH_M).contains(value)) {
             return Err(format!("corner {vertex:?} m (allowed: within {MAX_REACH_M} m of the origin)"));
         }
     }
