@@ -167,6 +167,13 @@ fn decoded(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
+/// Returns a color multiplied by the base color of a primitive's material.
+fn tinted(primitive: &Primitive, color: Color) -> Color {
+    let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor().map(f64::from);
+    let shares = color.map(|value| f64::from(value) / 255.0);
+    of_linear([red * shares[0], green * shares[1], blue * shares[2]])
+}
+
 impl NodeReader<'_> {
     fn visit(&mut self, node: &Node, above: &Inherited) -> Result<(), String> {
         if above.depth > MAX_DEPTH || std::mem::replace(&mut self.is_visited[node.index()], true) {
@@ -298,7 +305,7 @@ impl NodeReader<'_> {
                 return Err("colors that are not bytes, 16-bit numbers or floats".into());
             }
         };
-        Ok(self.elements(&accessor, "colors")?.map(read).collect())
+        Ok(self.elements(&accessor, "colors")?.map(|bytes| tinted(primitive, read(bytes))).collect())
     }
 
     /// Returns the colors of a primitive's vertices in its base color picture; empty if it has none that can be read.
@@ -322,12 +329,7 @@ impl NodeReader<'_> {
         };
         self.read_picture(&info.texture().source());
         let Some(Some(picture)) = self.pictures.get(&info.texture().source().index()) else { return Ok(Vec::new()) };
-        let [red, green, blue, _] = look.base_color_factor().map(f64::from);
-        let tinted = |color: Color| {
-            let shares = color.map(|value| f64::from(value) / 255.0);
-            of_linear([red * shares[0], green * shares[1], blue * shares[2]])
-        };
-        Ok(self.elements(&accessor, "texture coordinates")?.map(|bytes| tinted(picture.at(read(bytes)))).collect())
+        Ok(self.elements(&accessor, "texture coordinates")?.map(|bytes| tinted(primitive, picture.at(read(bytes)))).collect())
     }
 
     /// Reads a picture of the file, once. One that cannot be read leaves the vertices without colors.

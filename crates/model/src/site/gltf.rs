@@ -21,8 +21,13 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 
 /// Material names and colors (red, green, blue), in the order of [`Surface`].
-const MATERIALS: [(&str, f32, f32, f32); 4] =
-    [("structure", 0.62, 0.60, 0.57), ("ground", 0.33, 0.40, 0.25), ("water", 0.16, 0.30, 0.38), ("pad", 0.85, 0.55, 0.10)];
+const MATERIALS: [(&str, f32, f32, f32); 5] = [
+    ("structure", 0.62, 0.60, 0.57),
+    ("ground", 0.33, 0.40, 0.25),
+    ("water", 0.16, 0.30, 0.38),
+    ("pad", 0.85, 0.55, 0.10),
+    ("colored", 1.0, 1.0, 1.0),
+];
 
 /// Materials by their position in the file.
 #[derive(Clone, Copy)]
@@ -31,6 +36,8 @@ enum Surface {
     Ground = 1,
     Water = 2,
     Pad = 3,
+    /// White, because viewers multiply the colors of vertices by that of the material.
+    Colored = 4,
 }
 
 /// Most bytes of the file besides the JSON text and the buffer: the header, two chunk headers, and their padding.
@@ -157,6 +164,7 @@ impl GlbWriter {
         self.colors.extend(colors.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, u8::MAX]));
         if let Some(primitive) = self.root.meshes.last_mut().and_then(|mesh| mesh.primitives.last_mut()) {
             primitive.attributes.insert(Valid(Semantic::Colors(0)), accessor);
+            primitive.material = Some(Index::new(Surface::Colored as u32));
         }
     }
 

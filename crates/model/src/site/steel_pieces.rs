@@ -52,8 +52,7 @@ fn box_around<I: Iterator<Item = Vec3<Enu>>>(axes: [Vec3<Enu>; 3], points_m: imp
 pub(super) fn surface_pieces(solid: &Solid) -> Vec<OrientedBox> {
     let all = solid.triangles();
     let step = all.len().div_ceil(MAX_TRIANGLES).max(1);
-    let sample: Vec<Triangle> =
-        all.iter().step_by(step).map(|triangle| triangle.map(|k| solid.vertices_m[k as usize])).collect();
+    let sample: Vec<Triangle> = all.iter().step_by(step).map(|triangle| triangle.map(|k| solid.vertices_m[k as usize])).collect();
     let area_m2: f64 = sample.iter().map(area_m2).sum();
     let edge_m = MAX_EDGE_M.max((area_m2 / MAX_TRIANGLES as f64).sqrt());
     let mut triangles = Vec::new();
