@@ -4,7 +4,6 @@ Positions are east, north, up in meters from the scenario origin; sticks are for
 """
 
 import math
-import pathlib
 import tomllib
 
 import spandrel
@@ -113,10 +112,9 @@ WGS84_A_M, WGS84_E2 = 6_378_137.0, 6.694_379_990_14e-3  # semi-major axis, eccen
 
 
 def local_origin(scenario, latitude_deg, longitude_deg, altitude_m):
-    """Returns the origin of the vehicle's local frame (GPS_GLOBAL_ORIGIN) in meters east, north and up of the origin of a job: the name of
-    a shipped one, or a file."""
-    file = pathlib.Path(scenario) if str(scenario).endswith(".toml") else spandrel.ROOT / "scenarios" / f"{scenario}.toml"
-    site = tomllib.loads(file.read_text(encoding="utf-8"))["origin"]
+    """Returns the origin of the vehicle's local frame (GPS_GLOBAL_ORIGIN) in meters east, north and up of the job's
+    origin."""
+    site = tomllib.loads((spandrel.ROOT / "scenarios" / f"{scenario}.toml").read_text(encoding="utf-8"))["origin"]
     latitude = math.radians(site["latitude_deg"])
     flat = 1.0 - WGS84_E2 * math.sin(latitude) ** 2
     prime = WGS84_A_M / math.sqrt(flat)
