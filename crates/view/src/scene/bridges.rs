@@ -164,11 +164,12 @@ fn add(
         match quad.filter(|quad| solid.is_convex() || colors.is_none() && is_large(quad)) {
             Some(quad) => quad_face(wanted, member, &quad, &look, axes, bake, light_cell_m),
             None => {
-                let sample = || bake.on_member(middle(&corners), normal).unwrap_or([0.0, 0.0]);
+                let center_m = middle(&corners);
                 let light = if solid.is_convex() {
-                    sample()
+                    bake.on_member(center_m, normal).unwrap_or([0.0, 0.0])
                 } else {
-                    *samples.entry(light_cell(middle(&corners), normal, light_cell_m)).or_insert_with(sample)
+                    let cell = light_cell(center_m, normal, light_cell_m);
+                    *samples.entry(cell).or_insert_with(|| bake.near_surface(center_m, normal, light_cell_m))
                 };
                 let tints: Vec<[u8; 3]> = face.iter().map(|k| colors.map_or(tint, |colors| colors[*k as usize])).collect();
                 fan_face(wanted, &corners, &look, axes, (light, &tints));
