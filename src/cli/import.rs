@@ -4,8 +4,8 @@ use crate::errors::{AppError, EXIT_CODES};
 use crate::io::files;
 use crate::io::progress::ProgressLog;
 use spandrel_model::elements::Element;
-use spandrel_model::mesh::convex_parts::ConvexLimits;
 use spandrel_model::mesh::mesh_file::MAX_FILE_BYTES;
+use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
 use spandrel_model::scenario::{self, MAX_NAME_CHARS, is_name, is_name_char};
@@ -20,12 +20,12 @@ const MAX_LISTED: usize = 20;
 
 /// Import a bridge from a 3D model
 ///
-/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file or a PLY file, cleans its meshes, converts them to convex parts and writes a
-/// folder with the parts (bridge.glb), their elements (elements.toml) and a job (scenario.toml) that you can check, fly and
-/// edit. A part's element comes from the elements file, or from `element` in the extras of its node. If parts have no
-/// element, it prints an elements file to start from. It prints a table of the parts: triangles (and those removed as
-/// degenerate or repeated), connected pieces, open edges and holes, convex parts, how they were made, the largest deviation of
-/// their surfaces from the model, and the size.
+/// Reads a glTF 2.0 file (.glb, or .gltf with its buffers), a Wavefront OBJ file or a PLY file, cleans its meshes, converts them to
+/// parts that collide (convex solids where they fit, their own triangles elsewhere) and writes a folder with the parts
+/// (bridge.glb), their elements (elements.toml) and a job (scenario.toml) that you can check, fly and edit. A part's element comes
+/// from the elements file, or from `element` in the extras of its node. If parts have no element, it prints an elements file to
+/// start from. It prints a table of the parts: triangles (and those removed as degenerate or repeated), connected pieces, open
+/// edges and holes, parts that collide, how they were made, the largest deviation of their surfaces from the model, and the size.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXIT_CODES, after_long_help = format!("\
 Examples:
@@ -68,9 +68,10 @@ pub struct Args {
     /// Maximum deviation at which the convex hull replaces a piece, m
     #[arg(long, value_name = "M", default_value_t = 0.01, value_parser = parse_tolerance)]
     tolerance: f64,
-    /// Number of voxels along the longest side of a piece that cannot be cut exactly
-    #[arg(long, value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(16..=400))]
-    resolution: u32,
+    /// Replace pieces that cannot be cut exactly by hulls of groups of voxels instead of their own triangles; N is the number of voxels
+    /// along the longest side
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=400))]
+    voxels: Option<u32>,
     /// Replace the files of an earlier import
     #[arg(long)]
     overwrite: bool,
@@ -118,7 +119,10 @@ fn import(args: &Args) -> Result<ImportedBridge, AppError> {
         origin: args.origin,
         turn_deg: args.turn,
         default_element: args.element.map(Element::from_number),
-        limits: ConvexLimits { tolerance_m: args.tolerance, resolution: args.resolution },
+        limits: ShapeLimits {
+            tolerance_m: args.tolerance,
+            concave: args.voxels.map_or(ConcaveShape::Mesh, |resolution| ConcaveShape::Voxels { resolution }),
+        },
     };
     let source = ImportSource { file: &args.file, format, bytes: &bytes, load: &load, elements };
     let progress = ProgressLog::start("importing the bridge");
@@ -173,7 +177,7 @@ fn bridge_name(args: &Args, path: &Path) -> Result<String, AppError> {
 
 fn report_text(report: &ImportReport) -> String {
     let header =
-        ["part", "element", "triangles", "removed", "pieces", "open edges", "holes", "convex", "by", "deviation mm", "size m"];
+        ["part", "element", "triangles", "removed", "pieces", "open edges", "holes", "shapes", "by", "deviation mm", "size m"];
     let mut rows: Vec<[String; 11]> = vec![header.map(str::to_owned)];
     rows.extend(report.parts.iter().map(row));
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
@@ -190,7 +194,7 @@ fn report_text(report: &ImportReport) -> String {
 
 fn row(part: &PartReport) -> [String; 11] {
     let [x, y, z] = part.size_m;
-    let method = part.method.map_or("flat", spandrel_model::mesh::convex_parts::Method::word);
+    let method = part.method.map_or("flat", spandrel_model::mesh::part_shapes::Method::word);
     [
         part.name.clone(),
         part.element.number().to_string(),
@@ -199,7 +203,7 @@ fn row(part: &PartReport) -> [String; 11] {
         part.pieces.to_string(),
         part.open_edges.to_string(),
         part.holes.to_string(),
-        part.convex_parts.to_string(),
+        part.shapes.to_string(),
         method.to_owned(),
         format!("{:.1}", 1000.0 * part.deviation_m),
         format!("{x:.2} x {y:.2} x {z:.2}"),
@@ -213,10 +217,10 @@ fn summary(report: &ImportReport) -> String {
     let [x, y, z] = [0, 1, 2].map(|k: usize| high[k] - low[k]);
     let deviation_mm = 1000.0 * report.parts.iter().map(|part| part.deviation_m).fold(0.0, f64::max);
     let mut text = format!(
-        "\n{} parts with {} triangles became {} convex parts; {} holes; largest deviation {deviation_mm:.1} mm; {x:.1} x {y:.1} x {z:.1} m\n",
+        "\n{} parts with {} triangles became {} shapes; {} holes; largest deviation {deviation_mm:.1} mm; {x:.1} x {y:.1} x {z:.1} m\n",
         report.parts.len(),
         sum(|part| part.triangles),
-        sum(|part| part.convex_parts) - report.lost_parts,
+        sum(|part| part.shapes) - report.lost_parts,
         sum(|part| part.holes),
     );
     let mut note = |words: String| text.push_str(&format!("note: {words}\n"));
@@ -225,7 +229,7 @@ fn summary(report: &ImportReport) -> String {
         note(format!("{flat} pieces have no volume and were left out: give them a thickness in the modeling program"));
     }
     if report.lost_parts > 0 {
-        note(format!("{} convex parts are too small for the precision of the file and were left out", report.lost_parts));
+        note(format!("{} shapes are too small for the precision of the file and were left out", report.lost_parts));
     }
     if !report.skipped.is_empty() {
         note(format!("no part of a bridge: {}", report.skipped.join(", ")));

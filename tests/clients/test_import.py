@@ -5,13 +5,13 @@ trimesh is an independent writer and reader of glTF files: it builds the bridges
 import json
 import math
 import pathlib
-import subprocess
 
 import numpy
 import pytest
 import trimesh
 
 import spandrel
+from bridge_models import LENGTH_M, bridge_scene, i_girder, import_with_suggested_elements, rough_block, spandrel_import, write
 
 # Relative tolerance for volumes: positions are 32-bit floats, and the thinnest plate is 2 cm.
 VOLUME_TOLERANCE = 1e-3
@@ -19,55 +19,6 @@ VOLUME_TOLERANCE = 1e-3
 MIN_ON_PATH = 0.9
 # The largest volume of the hulls that replace a scan, as a multiple of its volume (estimate).
 MAX_HULL_VOLUME = 1.3
-LENGTH_M = 30.0
-
-
-def i_girder(depth_m=1.2, flange_m=0.4, plate_m=0.02):
-    """Returns a welded girder as one mesh, along x."""
-    half, top = flange_m / 2, depth_m / 2
-    outline = [
-        (-half, -top), (half, -top), (half, plate_m - top), (plate_m / 2, plate_m - top), (plate_m / 2, top - plate_m), (half, top - plate_m),
-        (half, top), (-half, top), (-half, top - plate_m), (-plate_m / 2, top - plate_m), (-plate_m / 2, plate_m - top), (-half, plate_m - top),
-    ]
-    # Caps of the concave outline: two flanges and the web.
-    faces = [(0, 1, 2), (0, 2, 3), (0, 3, 10), (0, 10, 11), (3, 4, 9), (3, 9, 10), (4, 5, 6), (4, 6, 7), (4, 7, 8), (4, 8, 9)]
-    count = len(outline)
-    vertices = [(LENGTH_M / 2, y, z) for y, z in outline] + [(-LENGTH_M / 2, y, z) for y, z in outline]
-    triangles = list(faces) + [(count + a, count + c, count + b) for a, b, c in faces]
-    for k in range(count):
-        after = (k + 1) % count
-        triangles += [(after, k, count + k), (after, count + k, count + after)]
-    mesh = trimesh.Trimesh(vertices, triangles, process=False)
-    assert mesh.is_watertight and mesh.volume > 0.0
-    return mesh
-
-
-def bridge_scene(tagged):
-    """Returns a slab bridge on two girders and four columns, with z up, and the volume of each part."""
-    scene, volumes = trimesh.Scene(), {}
-
-    def add(name, mesh, place, element):
-        volumes[name] = mesh.volume
-        metadata = {"element": element} if tagged else None
-        scene.add_geometry(mesh, node_name=name, geom_name=name, transform=trimesh.transformations.translation_matrix(place), metadata=metadata)
-
-    add("deck", trimesh.creation.box((LENGTH_M, 8.0, 0.25)), (0, 0, 9.0), 12)
-    for k, y in enumerate((-2.0, 2.0)):
-        add(f"girder-{k + 1}", i_girder(), (0, y, 8.2), 107)
-        for end, x in enumerate((-12.0, 12.0)):
-            column = trimesh.creation.cylinder(radius=0.5, height=7.6, sections=24)
-            add(f"column-{2 * k + end + 1}", column, (x, y, 3.8), 205)
-    return scene, volumes
-
-
-def write(scene, target):
-    """Writes a scene with z up, as trimesh does: it does not turn the axes."""
-    target.write_bytes(scene.export(file_type="glb"))
-    return target
-
-
-def spandrel_import(*args):
-    return subprocess.run([spandrel.PROGRAM, "import", *map(str, args)], capture_output=True, text=True, timeout=300, check=False)
 
 
 @pytest.fixture(scope="module")
@@ -76,13 +27,7 @@ def imported(tmp_path_factory):
     folder = tmp_path_factory.mktemp("import")
     scene, volumes = bridge_scene(tagged=False)
     model = write(scene, folder / "Slab Bridge.glb")
-    refused = spandrel_import(model, "--out", folder / "bridge", "--up", "z")
-    assert refused.returncode == 2 and "7 parts have no element: " in refused.stderr, refused.stderr
-    assert not (folder / "bridge").exists()
-    elements = folder / "elements.toml"
-    elements.write_text(refused.stdout, encoding="utf-8")
-    done = spandrel_import(model, "--out", folder / "bridge", "--up", "z", "--elements", elements)
-    assert done.returncode == 0, done.stderr
+    done = import_with_suggested_elements(model, folder / "bridge", len(volumes))
     return folder / "bridge", volumes, done.stdout
 
 
@@ -176,23 +121,62 @@ def test_val_obj_and_ply_files_of_trimesh_are_imported(tmp_path):
         scan.write_bytes(i_girder().export(file_type="ply", encoding=encoding))
         done = spandrel_import(scan, "--out", tmp_path / name, "--up", "z", "--element", 107)
         assert done.returncode == 0, done.stderr
-        assert "1 parts with 44 triangles became 3 convex parts" in done.stdout, done.stdout
+        assert "1 parts with 44 triangles became 3 shapes" in done.stdout, done.stdout
 
 
-def test_val_a_rough_surface_becomes_hulls_near_it(tmp_path, measured):
-    """A curved, rough block, as a scan of a rib, cannot be cut exactly."""
-    block = trimesh.creation.box((12.0, 1.5, 2.0)).subdivide_to_size(0.25)
-    vertices = block.vertices.copy()
-    vertices[:, 2] -= 0.02 * vertices[:, 0] ** 2
-    block.vertices = vertices + 0.01 * numpy.sin(7.0 * vertices[:, [1, 2, 0]])
-    scan = tmp_path / "scan.ply"
-    scan.write_bytes(block.export(file_type="ply"))
-    done = spandrel_import(scan, "--out", tmp_path / "scan", "--up", "z", "--element", 144)
+def import_scan(folder, mesh, *options):
+    """Imports a mesh as a PLY file; returns the row of the table and the parts."""
+    folder.mkdir()
+    (folder / "scan.ply").write_bytes(mesh.export(file_type="ply"))
+    done = spandrel_import(folder / "scan.ply", "--out", folder / "scan", "--up", "z", "--element", 144, *options)
     assert done.returncode == 0, done.stderr
-    row = done.stdout.splitlines()[1].split()
-    assert row[8] == "voxels" and int(row[7]) > 1, done.stdout
-    parts = trimesh.load(tmp_path / "scan" / "bridge.glb", force="scene")
-    volume = sum(parts.geometry[parts.graph[name][1]].volume for name in parts.graph.nodes_geometry)
+    parts = trimesh.load(folder / "scan" / "bridge.glb", force="scene")
+    return done.stdout.splitlines()[1].split(), [parts.geometry[parts.graph[name][1]] for name in parts.graph.nodes_geometry]
+
+
+def test_val_a_rough_surface_keeps_its_triangles_or_becomes_hulls_near_it(tmp_path, measured):
+    block = rough_block()
+    row, [part] = import_scan(tmp_path / "mesh", block)
+    assert row[7:10] == ["1", "mesh", "0.0"], row
+    part.merge_vertices()
+    assert part.is_watertight and len(part.faces) == len(block.faces)
+    assert math.isclose(part.volume, block.volume, rel_tol=VOLUME_TOLERANCE)
+    row, parts = import_scan(tmp_path / "hulls", block, "--voxels", 128)
+    assert row[8] == "voxels" and int(row[7]) > 1, row
+    volume = sum(part.volume for part in parts)
     measured(f"scan of {block.volume:.1f} m3: {row[7]} convex parts with {volume:.1f} m3, deviation {row[9]} mm")
     # The hulls of the groups overlap at their borders, and fill hollows.
     assert 0.95 < volume / block.volume < MAX_HULL_VOLUME, volume / block.volume
+
+
+def test_val_an_open_scan_keeps_its_opening_and_passes_the_check(tmp_path):
+    """A curved vault, open below and at both ends: no hull may close it."""
+    vault = trimesh.creation.annulus(r_min=5.0, r_max=6.0, height=20.0, sections=600)
+    vault.apply_transform(trimesh.transformations.rotation_matrix(math.pi / 2, (0, 1, 0)))
+    vault = trimesh.intersections.slice_mesh_plane(vault, (0, 0, 1), (0, 0, 0))
+    row, [part] = import_scan(tmp_path / "vault", vault)
+    assert row[8] == "mesh" and int(row[5]) > 0, row
+    # Without its feet, the vault is open; a point in the opening is outside of every triangle's hull.
+    part.merge_vertices()
+    assert not part.is_watertight and math.isclose(part.area, vault.area, rel_tol=VOLUME_TOLERANCE)
+    checked = spandrel.run("check", str(tmp_path / "vault" / "scan" / "scenario.toml"))
+    assert "1 file valid" in checked, checked
+
+
+def test_val_a_scan_keeps_the_colors_of_its_vertices(tmp_path):
+    """PLY files have colors for screens, which become shares of the light; glTF files have shares of the light."""
+    block = rough_block()
+    gray, red = (188, 188, 188, 255), (255, 0, 0, 255)
+    block.visual.vertex_colors = [gray if x < 0.0 else red for x in block.vertices[:, 0]]
+    _, [part] = import_scan(tmp_path / "ply", block)
+    left = part.vertices[:, 0] < 0.0
+    assert left.any() and not left.all()
+    colors = part.visual.vertex_attributes["color"][:, :3]
+    assert (colors[left] == 128).all() and (colors[~left] == (255, 0, 0)).all()
+    assert (part.visual.material.baseColorFactor == 255).all(), "viewers multiply the two"
+    model = tmp_path / "scan.glb"
+    model.write_bytes(trimesh.Scene(block).export(file_type="glb"))
+    done = spandrel_import(model, "--out", tmp_path / "glb", "--up", "z", "--element", 144)
+    assert done.returncode == 0, done.stderr
+    [part] = trimesh.load(tmp_path / "glb" / "bridge.glb", force="scene").geometry.values()
+    assert (part.visual.vertex_attributes["color"][part.vertices[:, 0] < 0.0][:, :3] == 188).all()

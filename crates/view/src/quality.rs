@@ -26,6 +26,8 @@ pub struct Quality {
     pub light_cell_m: f64,
     /// Rays per baked light sample.
     pub light_rays: usize,
+    /// Maximum number of vertices of a bridge member; a scan with more is drawn coarser.
+    pub surface_vertices: usize,
     /// Maximum number of trees.
     pub trees: usize,
     /// Branches per whorl of a tree; also sets the detail of boulders.
@@ -52,6 +54,7 @@ pub const PRESETS: &[Quality] = &[
         sparse: true,
         light_cell_m: 2.5,
         light_rays: 24,
+        surface_vertices: 20_000,
         trees: 1000,
         branches_per_whorl: 5,
         smooth_noise: false,
@@ -69,6 +72,7 @@ pub const PRESETS: &[Quality] = &[
         sparse: false,
         light_cell_m: 2.0,
         light_rays: 32,
+        surface_vertices: 100_000,
         trees: 1500,
         branches_per_whorl: 9,
         smooth_noise: true,
@@ -86,6 +90,7 @@ pub const PRESETS: &[Quality] = &[
         sparse: false,
         light_cell_m: 1.5,
         light_rays: 48,
+        surface_vertices: 300_000,
         trees: 3000,
         branches_per_whorl: 11,
         smooth_noise: true,
@@ -103,6 +108,7 @@ pub const PRESETS: &[Quality] = &[
         sparse: false,
         light_cell_m: 1.0,
         light_rays: 64,
+        surface_vertices: 1_000_000,
         trees: 6000,
         branches_per_whorl: 11,
         smooth_noise: true,
@@ -129,6 +135,7 @@ mod tests {
             let (a, b) = (&pair[0], &pair[1]);
             assert!(a.samples <= b.samples && a.cascades <= b.cascades && a.shadow_taps <= b.shadow_taps, "{}", b.name);
             assert!(a.light_cell_m >= b.light_cell_m && a.light_rays <= b.light_rays && a.trees < b.trees, "{}", b.name);
+            assert!(a.surface_vertices < b.surface_vertices, "{}", b.name);
             assert!(
                 a.reflection <= b.reflection && a.blur_taps <= b.blur_taps && a.branches_per_whorl <= b.branches_per_whorl,
                 "{}",

@@ -1,24 +1,33 @@
-//! Reads the triangles of glTF 2.0 files (text or binary), with all node transforms applied. It reads positions and indices only:
-//! materials, textures, skins and animations have no effect on the geometry.
+//! Reads the triangles of glTF 2.0 files (text or binary), with all node transforms applied. It reads positions, indices,
+//! and the colors of vertices (their own, or those in the base color picture of their material). Skins and animations have no effect.
 
 use super::Mesh;
 use super::mesh_file::{
     BufferLoader, MAX_FILE_BYTES, MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex, clean_name,
 };
+use super::texture::Texture;
 use super::vectors::Point;
+use super::vertex_colors::{Color, of_linear};
 use base64::Engine;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
 use serde_json::Value;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Maximum depth of the tree of nodes (estimate: far more than any modeling program writes).
 const MAX_DEPTH: usize = 200;
+/// Maximum number of pictures that are used (estimate: several gigabytes if all have the largest size).
+const MAX_PICTURES: usize = 64;
 /// Size of the header of a binary file, and of each of its chunks, bytes.
 const GLB_HEADER_BYTES: usize = 12;
 /// Key in `extras` with the number of the bridge element.
 const ELEMENT_KEY: &str = "element";
+/// Key in `extras` with the kind of shape, and its only value: triangles that collide as they are. Other nodes are convex.
+pub const SHAPE_KEY: &str = "shape";
+/// See [`SHAPE_KEY`].
+pub const MESH_SHAPE: &str = "mesh";
 /// Key in `extras` of nodes that are no part of a bridge, as in files written by `spandrel export --glb`: ground, water and pad.
 const SURFACE_KEY: &str = "surface";
 
@@ -37,6 +46,9 @@ struct Inherited {
 
 struct NodeReader<'a> {
     file: &'a str,
+    load: BufferLoader<'a>,
+    /// Pictures by their number in the file; `None` for one that cannot be read.
+    pictures: BTreeMap<usize, Option<Texture>>,
     buffers: Vec<Cow<'a, [u8]>>,
     is_visited: Vec<bool>,
     triangles: usize,
@@ -63,7 +75,8 @@ pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, St
         Gltf { document: gltf::Document::from_json(gltf.document.into_json()).map_err(|e| problem(&e.to_string()))?, ..gltf };
     let buffers = read_buffers(&gltf, load).map_err(|words| problem(&words))?;
     let is_visited = vec![false; gltf.nodes().len()];
-    let mut reader = NodeReader { file, buffers, is_visited, triangles: 0, vertices: 0, content: MeshFile::default() };
+    let (pictures, content) = (BTreeMap::new(), MeshFile::default());
+    let mut reader = NodeReader { file, load, pictures, buffers, is_visited, triangles: 0, vertices: 0, content };
     let root = Inherited { name: None, element: None, to_file: Affine::IDENTITY, depth: 0 };
     let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
     let Some(scene) = scene else { return Err(problem("no scene (allowed: at least one)")) };
@@ -154,6 +167,13 @@ fn decoded(uri: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
+/// Returns a color multiplied by the base color of a primitive's material.
+fn tinted(primitive: &Primitive, color: Color) -> Color {
+    let [red, green, blue, _] = primitive.material().pbr_metallic_roughness().base_color_factor().map(f64::from);
+    let shares = color.map(|value| f64::from(value) / 255.0);
+    of_linear([red * shares[0], green * shares[1], blue * shares[2]])
+}
+
 impl NodeReader<'_> {
     fn visit(&mut self, node: &Node, above: &Inherited) -> Result<(), String> {
         if above.depth > MAX_DEPTH || std::mem::replace(&mut self.is_visited[node.index()], true) {
@@ -170,7 +190,8 @@ impl NodeReader<'_> {
         let element = self.element(&extras, &shown)?.or(above.element);
         let to_file = above.to_file.then(node);
         if node.mesh().is_some() {
-            let mesh_node = self.read_node(node, &shown, element, to_file).map_err(|words| self.problem(&shown, &words))?;
+            let mut mesh_node = self.read_node(node, &shown, element, to_file).map_err(|words| self.problem(&shown, &words))?;
+            mesh_node.is_surface = extras.get(SHAPE_KEY).and_then(Value::as_str) == Some(MESH_SHAPE);
             if !mesh_node.mesh.triangles.is_empty() {
                 self.content.nodes.push(mesh_node);
             }
@@ -197,18 +218,24 @@ impl NodeReader<'_> {
 
     fn read_node(&mut self, node: &Node, name: &str, element: Option<u16>, to_file: Affine) -> Result<MeshNode, String> {
         let mut mesh = Mesh::default();
+        let mut colors = Vec::new();
         let mut ignored_primitives = 0;
         for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
             let is_surface = matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan);
             if is_surface {
                 self.read_primitive(&primitive, to_file, &mut mesh)?;
+                // A primitive without colors leaves the whole node without.
+                colors.extend(self.colors(&primitive)?);
             } else {
                 ignored_primitives += 1;
             }
         }
         self.triangles += mesh.triangles.len();
         self.vertices += mesh.vertices_m.len();
-        Ok(MeshNode { name: name.to_owned(), element, mesh, ignored_primitives })
+        if colors.len() != mesh.vertices_m.len() {
+            colors.clear();
+        }
+        Ok(MeshNode { name: name.to_owned(), element, is_surface: false, mesh, colors, ignored_primitives })
     }
 
     fn read_primitive(&self, primitive: &Primitive, to_file: Affine, mesh: &mut Mesh) -> Result<(), String> {
@@ -255,6 +282,75 @@ impl NodeReader<'_> {
             _ => mesh.triangles.extend(indices.chunks_exact(3).map(|c| triangle([c[0], c[1], c[2]]))),
         }
         Ok(())
+    }
+
+    /// Returns the colors of a primitive's vertices, its own or those of its material's picture; empty if it has none.
+    fn colors(&mut self, primitive: &Primitive) -> Result<Vec<Color>, String> {
+        let Some(accessor) = primitive.get(&Semantic::Colors(0)) else { return self.picture_colors(primitive) };
+        let vertices = primitive.get(&Semantic::Positions).map_or(0, |positions| positions.count());
+        if accessor.count() != vertices {
+            return Err(format!("{} colors (allowed: {vertices}, one per position)", accessor.count()));
+        }
+        if !matches!(accessor.dimensions(), Dimensions::Vec3 | Dimensions::Vec4) {
+            return Err("colors that are not three or four numbers".into());
+        }
+        let read: fn(&[u8]) -> Color = match accessor.data_type() {
+            DataType::U8 => |bytes| [bytes[0], bytes[1], bytes[2]],
+            DataType::U16 => |bytes| [bytes[1], bytes[3], bytes[5]],
+            DataType::F32 => |bytes| {
+                let share = |at: usize| f64::from(f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]));
+                of_linear([0, 4, 8].map(share))
+            },
+            DataType::I8 | DataType::I16 | DataType::U32 => {
+                return Err("colors that are not bytes, 16-bit numbers or floats".into());
+            }
+        };
+        Ok(self.elements(&accessor, "colors")?.map(|bytes| tinted(primitive, read(bytes))).collect())
+    }
+
+    /// Returns the colors of a primitive's vertices in its base color picture; empty if it has none that can be read.
+    fn picture_colors(&mut self, primitive: &Primitive) -> Result<Vec<Color>, String> {
+        let look = primitive.material().pbr_metallic_roughness();
+        let Some(info) = look.base_color_texture() else { return Ok(Vec::new()) };
+        let Some(accessor) = primitive.get(&Semantic::TexCoords(info.tex_coord())) else { return Ok(Vec::new()) };
+        let vertices = primitive.get(&Semantic::Positions).map_or(0, |positions| positions.count());
+        if accessor.count() != vertices {
+            return Err(format!("{} texture coordinates (allowed: {vertices}, one per position)", accessor.count()));
+        }
+        let read: fn(&[u8]) -> [f64; 2] = match (accessor.dimensions(), accessor.data_type()) {
+            (Dimensions::Vec2, DataType::F32) => |bytes| {
+                [0, 4].map(|at: usize| f64::from(f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])))
+            },
+            (Dimensions::Vec2, DataType::U16) => {
+                |bytes| [0, 2].map(|at: usize| f64::from(u16::from_le_bytes([bytes[at], bytes[at + 1]])) / 65535.0)
+            }
+            (Dimensions::Vec2, DataType::U8) => |bytes| [bytes[0], bytes[1]].map(|value| f64::from(value) / 255.0),
+            _ => return Err("texture coordinates that are not two floats, 16-bit numbers or bytes".into()),
+        };
+        self.read_picture(&info.texture().source());
+        let Some(Some(picture)) = self.pictures.get(&info.texture().source().index()) else { return Ok(Vec::new()) };
+        Ok(self.elements(&accessor, "texture coordinates")?.map(|bytes| tinted(primitive, picture.at(read(bytes)))).collect())
+    }
+
+    /// Reads a picture of the file, once. One that cannot be read leaves the vertices without colors.
+    fn read_picture(&mut self, image: &gltf::Image) {
+        if self.pictures.contains_key(&image.index()) || self.pictures.len() >= MAX_PICTURES {
+            return;
+        }
+        let picture = match image.source() {
+            gltf::image::Source::View { view, .. } => {
+                let buffer = self.buffers.get(view.buffer().index());
+                let end = view.offset().checked_add(view.length());
+                buffer.zip(end).and_then(|(buffer, end)| buffer.get(view.offset()..end)).and_then(Texture::read)
+            }
+            gltf::image::Source::Uri { uri, .. } => match uri.split_once(";base64,") {
+                Some((kind, text)) if kind.starts_with("data:") => {
+                    base64::engine::general_purpose::STANDARD.decode(text).ok().and_then(|bytes| Texture::read(&bytes))
+                }
+                _ => (self.load)(&decoded(uri)).ok().and_then(|bytes| Texture::read(&bytes)),
+            },
+        };
+        self.pictures.insert(image.index(), picture);
     }
 
     fn indices(&self, accessor: &Accessor, vertices: usize) -> Result<Vec<u32>, String> {

@@ -24,8 +24,12 @@ pub struct MeshNode {
     pub name: String,
     /// Element number from the `extras` of the node or of a node above it.
     pub element: Option<u16>,
+    /// Whether the node's triangles collide as they are, by its `extras`.
+    pub is_surface: bool,
     /// Triangles in the file's axes and units.
     pub mesh: Mesh,
+    /// Color of each vertex, linear; empty if the file has none.
+    pub colors: Vec<[u8; 3]>,
     /// Number of points and lines, which are ignored.
     pub ignored_primitives: usize,
 }

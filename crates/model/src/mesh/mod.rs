@@ -1,18 +1,21 @@
 //! Triangle meshes of bridge models: reads them from glTF, OBJ and PLY files, welds and splits them into connected parts, and turns the parts into
-//! convex solids. All lengths are in meters.
+//! shapes for collisions. All lengths are in meters.
 
 mod bsp;
-pub mod convex_parts;
 pub mod faces;
 pub mod gltf_reader;
 pub mod hull;
 pub mod mesh_file;
 mod obj_reader;
+pub mod part_shapes;
 pub mod plane_solid;
 mod ply_reader;
 pub mod reader;
+pub mod surface_mesh;
+mod texture;
 pub mod topology;
 pub mod vectors;
+pub mod vertex_colors;
 pub mod weld;
 
 use vectors::{Point, cross, dot, norm, sub};

@@ -1,28 +1,48 @@
-//! Reads the faces of Wavefront OBJ files: one part per object or group.
+//! Reads the faces of Wavefront OBJ files and the colors of their vertices: one part per object or group.
 
-use super::mesh_file::{MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex, clean_name};
+use super::mesh_file::{BufferLoader, MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex, clean_name};
+use super::texture::Texture;
+use super::vertex_colors::{Color, of_srgb};
 use super::{Mesh, vectors::Point};
+use std::path::Path;
 use tobj::LoadOptions;
 
-/// Reads an OBJ file. `file` is its name in messages. Materials have no effect on the geometry and are not read.
+/// Reads an OBJ file. `file` is its name in messages; `load` loads its materials and their textures. Colors come from the vertices, from the
+/// texture of the material (`map_Kd`), or from its color (`Kd`). A material file or texture that cannot be read leaves the parts without
+/// colors: it has no effect on the geometry.
 ///
 /// # Errors
 /// Returns what is wrong, with the file, the part, the value and what is allowed.
-pub fn read(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
+pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, String> {
     let problem = |words: &str| format!("{file}: {words}");
     check_file_size(bytes).map_err(|words| problem(&words))?;
-    let options = LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
-    let (models, _) = tobj::load_obj_buf(&mut &bytes[..], &options, |_| Ok(Default::default()))
+    // With a single index, each vertex has its own place in the texture.
+    let single_index = bytes.windows(4).any(|part| part == b"\nvt ");
+    let options =
+        LoadOptions { triangulate: true, single_index, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
+    let materials = |path: &Path| match load(&path.to_string_lossy()) {
+        Ok(text) => tobj::load_mtl_buf(&mut &text[..]),
+        Err(_) => Ok(Default::default()),
+    };
+    let (models, materials) = tobj::load_obj_buf(&mut &bytes[..], &options, materials)
         .map_err(|error| problem(&format!("not an OBJ file: {error}")))?;
+    let palette = Palette::new(&materials.unwrap_or_default(), load);
     let mut content = MeshFile::default();
     for (k, model) in models.iter().enumerate() {
         let name = clean_name(&model.name, k);
         let mesh = mesh(&model.mesh).map_err(|words| problem(&format!("object {name}: {words}")))?;
+        let colors = palette.colors(&model.mesh);
         // A change of the material within an object begins another model with the same name.
         match content.nodes.last_mut().filter(|node| node.name == name) {
-            Some(node) => node.mesh.append(&mesh),
+            Some(node) => {
+                let is_colored = !node.colors.is_empty() && !colors.is_empty();
+                node.mesh.append(&mesh);
+                if is_colored { node.colors.extend(colors) } else { node.colors.clear() }
+            }
             None if mesh.triangles.is_empty() => {}
-            None => content.nodes.push(MeshNode { name, element: None, mesh, ignored_primitives: 0 }),
+            None => {
+                content.nodes.push(MeshNode { name, element: None, is_surface: false, mesh, colors, ignored_primitives: 0 });
+            }
         }
     }
     let triangles: usize = content.nodes.iter().map(|node| node.mesh.triangles.len().max(node.mesh.vertices_m.len())).sum();
@@ -31,6 +51,49 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
         return Err(problem(&format!("{triangles} triangles or vertices in {nodes} objects (allowed: {limit})")));
     }
     if content.nodes.is_empty() { Err(problem("no triangles (allowed: at least one face)")) } else { Ok(content) }
+}
+
+/// Maximum number of materials that are used (estimate: several gigabytes if all have the largest textures).
+const MAX_MATERIALS: usize = 64;
+
+/// The looks of the materials of a file.
+struct Palette(Vec<Look>);
+
+enum Look {
+    Plain(Option<Color>),
+    Textured(Texture),
+}
+
+impl Palette {
+    fn new(materials: &[tobj::Material], load: BufferLoader) -> Self {
+        let look = |material: &tobj::Material| {
+            let texture = material.diffuse_texture.as_ref().and_then(|name| Texture::read(&load(texture_file(name)).ok()?));
+            texture.map_or_else(|| Look::Plain(material.diffuse.map(of_srgb)), Look::Textured)
+        };
+        Self(materials.iter().take(MAX_MATERIALS).map(look).collect())
+    }
+
+    /// Returns the colors of an object's vertices; empty if it has none.
+    fn colors(&self, mesh: &tobj::Mesh) -> Vec<Color> {
+        let count = mesh.positions.len() / 3;
+        let of_vertices = mesh.vertex_color.chunks_exact(3).map(|rgb| of_srgb([rgb[0], rgb[1], rgb[2]]));
+        if mesh.vertex_color.len() == mesh.positions.len() && count > 0 {
+            return of_vertices.collect();
+        }
+        match mesh.material_id.and_then(|id| self.0.get(id)) {
+            Some(Look::Textured(texture)) if mesh.texcoords.len() == 2 * count => {
+                // In OBJ files, v counts from the bottom of the picture.
+                mesh.texcoords.chunks_exact(2).map(|uv| texture.at([uv[0], 1.0 - uv[1]])).collect()
+            }
+            Some(Look::Plain(Some(color))) => vec![*color; count],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Returns the name of the file in the value of `map_Kd`, which may begin with options.
+fn texture_file(value: &str) -> &str {
+    if value.starts_with('-') { value.rsplit(' ').next().unwrap_or(value) } else { value }
 }
 
 fn mesh(model: &tobj::Mesh) -> Result<Mesh, String> {
@@ -50,9 +113,45 @@ mod tests {
     const TETRAHEDRA: &str = "mtllib away.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no pier 1\nusemtl a\nf 1 3 2\nf 1 2 4\nusemtl b\nf 2 3 4\nf 1 4 3\n\
          o deck\nf 1 3 2\nf 1/1 2/1 4/1\nf 2 3 4 1\nl 1 2\n";
 
+    fn none(_: &str) -> Result<Vec<u8>, String> {
+        Err("no file".to_owned())
+    }
+
+    /// Returns a picture of two by two pixels: red and green above blue and white.
+    fn picture() -> Vec<u8> {
+        let pixels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255]].concat();
+        let mut file = std::io::Cursor::new(Vec::new());
+        image::RgbImage::from_raw(2, 2, pixels).unwrap().write_to(&mut file, image::ImageFormat::Png).unwrap();
+        file.into_inner()
+    }
+
+    #[test]
+    fn exact_vertices_have_the_colors_of_their_material_and_its_texture() {
+        let text = "mtllib looks.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0.25 0.25\nvt 0.75 0.25\nvt 0.25 0.75\nvt 1.75 -0.25\no tiled\n\
+             usemtl tiled\nf 1/1 2/2 3/3\nf 2/2 4/4 3/3\no plain\nusemtl plain\nf 1/1 2/2 4/4\n";
+        let load = |name: &str| match name {
+            "looks.mtl" => Ok(b"newmtl tiled\nKd 1 1 1\nmap_Kd -bm 0.2 tiles.png\nnewmtl plain\nKd 0 0.7373 1\n".to_vec()),
+            "tiles.png" => Ok(picture()),
+            _ => Err("no file".to_owned()),
+        };
+        let content = read("a.obj", text.as_bytes(), &load).unwrap();
+        let color_at = |node: usize, vertex: [f64; 3]| {
+            let node = &content.nodes[node];
+            node.colors[node.mesh.vertices_m.iter().position(|other| *other == vertex).unwrap()]
+        };
+        assert_eq!(color_at(0, [0.0, 0.0, 0.0]), [0, 0, 255], "lower left");
+        assert_eq!(color_at(0, [1.0, 0.0, 0.0]), [255, 255, 255], "lower right");
+        assert_eq!(color_at(0, [0.0, 1.0, 0.0]), [255, 0, 0], "upper left");
+        assert_eq!(color_at(0, [1.0, 1.0, 0.0]), [0, 255, 0], "the picture repeats");
+        assert_eq!(content.nodes[1].colors, [[0, 128, 255]; 3]);
+        let without = read("a.obj", text.as_bytes(), &none).unwrap();
+        assert!(without.nodes[0].colors.is_empty());
+        assert_eq!(without.nodes[0].mesh.triangles.len(), 2);
+    }
+
     #[test]
     fn exact_objects_are_parts_and_materials_do_not_divide_them() {
-        let content = read("a.obj", TETRAHEDRA.replace("1/1 2/1 4/1", "1 2 4").as_bytes()).unwrap();
+        let content = read("a.obj", TETRAHEDRA.replace("1/1 2/1 4/1", "1 2 4").as_bytes(), &none).unwrap();
         let found: Vec<(&str, usize)> =
             content.nodes.iter().map(|node| (node.name.as_str(), node.mesh.triangles.len())).collect();
         assert_eq!(found, [("pier 1", 4), ("deck", 4)]);
@@ -61,13 +160,13 @@ mod tests {
 
     #[test]
     fn regress_bad_files_name_the_file_and_the_cause() {
-        let error = |text: &str| read("a.obj", text.as_bytes()).unwrap_err();
+        let error = |text: &str| read("a.obj", text.as_bytes(), &none).unwrap_err();
         assert_eq!(error("v 0 0 0\n"), "a.obj: no triangles (allowed: at least one face)");
         assert!(error("v 0 0 0\nf 1 2 3\n").contains("a.obj: not an OBJ file: face vertex index out of bounds"));
         assert!(error("v nan 0 0\nv 1 0 0\nv 0 1 0\no part\nf 1 2 3\n").contains("a.obj: object part: position 0 = [NaN"));
         assert!(error("v 0 x 0\n").starts_with("a.obj: not an OBJ file"));
         for length in 0..TETRAHEDRA.len() {
-            let _ = read("a.obj", &TETRAHEDRA.as_bytes()[..length]);
+            let _ = read("a.obj", &TETRAHEDRA.as_bytes()[..length], &none);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Reads the faces of PLY files, text and binary, as written by photogrammetry programs. A file has one part, which is named `mesh`.
 
 use super::mesh_file::{MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex};
+use super::vertex_colors::of_srgb;
 use super::{Mesh, vectors::Point};
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{PropertyAccess, PropertyAccessResult};
@@ -10,9 +11,16 @@ const NAME: &str = "mesh";
 /// Names of the list with the corners of a face.
 const INDEX_LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
+/// Names of the colors of a vertex. Those that begin with `diffuse_` are the same.
+const COLORS: [&str; 3] = ["red", "green", "blue"];
+
 /// A vertex while it is read.
 #[derive(Debug, Default)]
-struct Vertex(Point);
+struct Vertex {
+    place: Point,
+    /// Red, green and blue from 0 to 1, as on a screen.
+    color: [f64; 3],
+}
 
 /// A face while it is read.
 #[derive(Debug, Default)]
@@ -32,7 +40,13 @@ impl Vertex {
     fn set(&mut self, name: &str, value: f64) -> PropertyAccessResult {
         let axis = ["x", "y", "z"].iter().position(|axis| *axis == name);
         let Some(axis) = axis else { return PropertyAccessResult::Ignored };
-        self.0[axis] = value;
+        self.place[axis] = value;
+        PropertyAccessResult::Set
+    }
+
+    fn set_color(&mut self, name: &str, share: f64) -> PropertyAccessResult {
+        let Some(k) = color_index(name) else { return PropertyAccessResult::Ignored };
+        self.color[k] = share;
         PropertyAccessResult::Set
     }
 }
@@ -42,8 +56,16 @@ impl PropertyAccess for Vertex {
         Self::default()
     }
 
+    fn set_uchar(&mut self, name: &str, value: u8) -> PropertyAccessResult {
+        self.set_color(name, f64::from(value) / 255.0)
+    }
+
+    fn set_ushort(&mut self, name: &str, value: u16) -> PropertyAccessResult {
+        self.set_color(name, f64::from(value) / 65535.0)
+    }
+
     fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        self.set(name, f64::from(value))
+        if color_index(name).is_some() { self.set_color(name, f64::from(value)) } else { self.set(name, f64::from(value)) }
     }
 
     fn set_double(&mut self, name: &str, value: f64) -> PropertyAccessResult {
@@ -90,20 +112,35 @@ impl PropertyAccess for Polygon {
 pub fn read(file: &str, bytes: &[u8]) -> Result<MeshFile, String> {
     let problem = |words: &str| format!("{file}: {words}");
     check_file_size(bytes).map_err(|words| problem(&words))?;
-    let (vertices, polygons) = read_elements(bytes).map_err(|words| problem(&words))?;
+    let Elements { vertices, polygons, are_colored } = read_elements(bytes).map_err(|words| problem(&words))?;
     let mesh = mesh(&vertices, &polygons).map_err(|words| problem(&words))?;
     if mesh.triangles.is_empty() {
-        return Err(problem("no triangles (allowed: at least one face; a point cloud has no surface)"));
+        let words = "a point cloud has no surface; make a mesh of it first, for example by Poisson reconstruction in CloudCompare or MeshLab";
+        return Err(problem(&format!("no triangles (allowed: at least one face; {words})")));
     }
-    let node = MeshNode { name: NAME.to_owned(), element: None, mesh, ignored_primitives: 0 };
+    let colors = if are_colored { vertices.iter().map(|vertex| of_srgb(vertex.color)).collect() } else { Vec::new() };
+    let node = MeshNode { name: NAME.to_owned(), element: None, is_surface: false, mesh, colors, ignored_primitives: 0 };
     Ok(MeshFile { nodes: vec![node], skipped: Vec::new() })
 }
 
-fn read_elements(bytes: &[u8]) -> Result<(Vec<Vertex>, Vec<Polygon>), String> {
+/// Returns the position of a color in [`COLORS`]; `None` for other properties.
+fn color_index(name: &str) -> Option<usize> {
+    let short = name.strip_prefix("diffuse_").unwrap_or(name);
+    COLORS.iter().position(|color| *color == short)
+}
+
+#[derive(Default)]
+struct Elements {
+    vertices: Vec<Vertex>,
+    polygons: Vec<Polygon>,
+    are_colored: bool,
+}
+
+fn read_elements(bytes: &[u8]) -> Result<Elements, String> {
     let invalid = |error: &dyn std::fmt::Display| format!("not a PLY file: {error}");
     let mut reader = Reader::new(bytes);
     let header = Parser::<Vertex>::new().read_header(&mut reader).map_err(|error| invalid(&error))?;
-    let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
+    let mut found = Elements::default();
     for (name, element) in &header.elements {
         // Elements without properties take no bytes in a binary file, so its size would not limit their number.
         if element.properties.is_empty() {
@@ -114,12 +151,14 @@ fn read_elements(bytes: &[u8]) -> Result<(Vec<Vertex>, Vec<Polygon>), String> {
         }
         match name.as_str() {
             "vertex" => {
-                let found = Parser::<Vertex>::new().read_payload_for_element(&mut reader, element, &header);
-                vertices = found.map_err(|error| invalid(&error))?;
+                let vertices = Parser::<Vertex>::new().read_payload_for_element(&mut reader, element, &header);
+                found.vertices = vertices.map_err(|error| invalid(&error))?;
+                let named = |k: usize| element.properties.keys().any(|name| color_index(name) == Some(k));
+                found.are_colored = (0..COLORS.len()).all(named);
             }
             "face" => {
-                let found = Parser::<Polygon>::new().read_payload_for_element(&mut reader, element, &header);
-                polygons = found.map_err(|error| invalid(&error))?;
+                let polygons = Parser::<Polygon>::new().read_payload_for_element(&mut reader, element, &header);
+                found.polygons = polygons.map_err(|error| invalid(&error))?;
             }
             _ => {
                 let skipped = Parser::<Skipped>::new().read_payload_for_element(&mut reader, element, &header);
@@ -127,11 +166,11 @@ fn read_elements(bytes: &[u8]) -> Result<(Vec<Vertex>, Vec<Polygon>), String> {
             }
         }
     }
-    Ok((vertices, polygons))
+    Ok(found)
 }
 
 fn mesh(vertices: &[Vertex], polygons: &[Polygon]) -> Result<Mesh, String> {
-    vertices.iter().enumerate().try_for_each(|(k, vertex)| check_vertex(k, vertex.0))?;
+    vertices.iter().enumerate().try_for_each(|(k, vertex)| check_vertex(k, vertex.place))?;
     let mut triangles = Vec::with_capacity(polygons.len());
     for (number, Polygon(corners)) in polygons.iter().enumerate() {
         if let Some(index) = corners.iter().find(|k| !(0..vertices.len() as i64).contains(k)) {
@@ -143,7 +182,7 @@ fn mesh(vertices: &[Vertex], polygons: &[Polygon]) -> Result<Mesh, String> {
         let corner = |k: usize| corners[k] as u32;
         triangles.extend((2..corners.len()).map(|k| [corner(0), corner(k - 1), corner(k)]));
     }
-    Ok(Mesh { vertices_m: vertices.iter().map(|vertex| vertex.0).collect(), triangles })
+    Ok(Mesh { vertices_m: vertices.iter().map(|vertex| vertex.place).collect(), triangles })
 }
 
 #[cfg(test)]
@@ -159,6 +198,21 @@ mod tests {
         let content = read("scan.ply", format!("{HEADER}{DATA}").as_bytes()).unwrap();
         assert_eq!((content.nodes.len(), content.nodes[0].name.as_str()), (1, "mesh"));
         assert!((content.nodes[0].mesh.volume_m3() - 1.0 / 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn exact_colors_of_vertices_are_decoded_from_any_type() {
+        let plain = read("scan.ply", format!("{HEADER}{DATA}").as_bytes()).unwrap();
+        assert!(plain.nodes[0].colors.is_empty(), "red alone is no color");
+        for (kind, full, half) in [("uchar", "255", "188"), ("float", "1", "0.7373")] {
+            for prefix in ["", "diffuse_"] {
+                let names = ["red", "green", "blue"].map(|name| format!("property {kind} {prefix}{name}\n")).concat();
+                let header = HEADER.replace("property uchar red\n", &names);
+                let data = DATA.replace(" 9\n", &format!(" {full} {half} 0\n"));
+                let content = read("scan.ply", format!("{header}{data}").as_bytes()).unwrap();
+                assert_eq!(content.nodes[0].colors, [[255, 128, 0]; 4], "{kind}");
+            }
+        }
     }
 
     #[test]

@@ -30,14 +30,14 @@ impl ModelFormat {
     }
 }
 
-/// Reads a model. `file` is its name in messages; `load` loads the other files of a text glTF file.
+/// Reads a model. `file` is its name in messages; `load` loads the other files of a text glTF or OBJ file.
 ///
 /// # Errors
 /// Returns what is wrong, with the file, the value and what is allowed.
 pub fn read(format: ModelFormat, file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, String> {
     match format {
         ModelFormat::Gltf => gltf_reader::read(file, bytes, load),
-        ModelFormat::Obj => obj_reader::read(file, bytes),
+        ModelFormat::Obj => obj_reader::read(file, bytes, load),
         ModelFormat::Ply => ply_reader::read(file, bytes),
     }
 }

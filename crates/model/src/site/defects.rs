@@ -199,7 +199,11 @@ mod tests {
             })
             .collect();
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        Member { name: name.into(), element, solid: Solid { vertices_m, faces: faces.map(|f| f.to_vec()).to_vec() } }
+        Member {
+            name: name.into(),
+            element,
+            solid: Solid { vertices_m, faces: faces.map(|f| f.to_vec()).to_vec(), surface: None },
+        }
     }
 
     /// Creates a concrete wall with a steel girder in front of part of it. The task's path is 4 m south of the wall.

@@ -19,7 +19,9 @@ pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
     /// Maximum distance from a face at which a point counts as on the face, m.
     const FACE_TOLERANCE_M: f64 = 0.002;
     let mut best: Option<(f64, MemberFace)> = None;
-    for indices in &solid.faces {
+    // A surface can have a million faces, of which few are near the point.
+    let may_contain = |indices: &&Vec<u32>| solid.is_convex() || is_in_bounds(solid, indices, point_m, FACE_TOLERANCE_M);
+    for indices in solid.faces.iter().filter(may_contain) {
         let corners_m: Vec<Vec3<Enu>> = indices.iter().filter_map(|k| solid.vertices_m.get(*k as usize).copied()).collect();
         let normal = polygon_normal(&corners_m);
         let Some(corner) = corners_m.first() else { continue };
@@ -31,6 +33,16 @@ pub(super) fn face_at(solid: &Solid, point_m: Vec3<Enu>) -> Option<MemberFace> {
         }
     }
     best.map(|b| b.1)
+}
+
+/// Returns whether a point is in the bounding box of a face, or near it.
+fn is_in_bounds(solid: &Solid, face: &[u32], point_m: Vec3<Enu>, margin_m: f64) -> bool {
+    let corners = || face.iter().filter_map(|k| solid.vertices_m.get(*k as usize));
+    (0..3).all(|axis| {
+        let value = point_m.array()[axis];
+        corners().any(|corner| corner.array()[axis] <= value + margin_m)
+            && corners().any(|corner| corner.array()[axis] >= value - margin_m)
+    })
 }
 
 /// Returns all faces of a solid, each with the mean of its corners as its point.

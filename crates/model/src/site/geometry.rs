@@ -1,7 +1,8 @@
 //! Static geometry: bridge members, ground, water, landing pad. A bounding-volume tree (from parry, in f64) finds candidate
-//! members; [`Convex`] and [`HeightGrid`](super::heights::HeightGrid) compute the exact results.
+//! members; [`MemberShape`] and [`HeightGrid`](super::heights::HeightGrid) compute the exact results.
 
-use super::convex::{Convex, SurfacePoint};
+use super::convex::SurfacePoint;
+use super::member_shape::MemberShape;
 use super::query_types::{Contact, HullProbe, NearestPoint, ObjectId, RayHit, Surface};
 use super::terrain::Terrain;
 use crate::elements::Element;
@@ -28,12 +29,12 @@ const PAD_THICKNESS_M: f64 = 0.3;
 #[derive(Debug)]
 pub struct Geometry {
     members: Vec<Member>,
-    shapes: Vec<Convex>,
+    shapes: Vec<MemberShape>,
     tree: Bvh,
     /// Ground surface and water level.
     pub terrain: Terrain,
     pad: Member,
-    pad_shape: Convex,
+    pad_shape: MemberShape,
     pad_m: Vec3<Enu>,
     pad_half_m: f64,
 }
@@ -83,7 +84,7 @@ impl Geometry {
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let members: Vec<Member> = scenario.bridges.iter().flat_map(crate::scenario::Bridge::members).collect();
-        let shapes: Vec<Convex> = members.iter().map(|m| Convex::new(&m.solid)).collect();
+        let shapes: Vec<MemberShape> = members.iter().map(|m| MemberShape::new(&m.solid)).collect();
         let boxes: Vec<Aabb> = shapes
             .iter()
             .map(|s| {
@@ -94,7 +95,7 @@ impl Geometry {
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         let GroundTeam { pad_m, pad_half_m, .. } = scenario.ground_team;
         let pad = pad_slab(pad_m, pad_half_m);
-        let pad_shape = Convex::new(&pad.solid);
+        let pad_shape = MemberShape::new(&pad.solid);
         Self { members, shapes, tree, terrain: Terrain::new(scenario), pad, pad_shape, pad_m, pad_half_m }
     }
 
@@ -112,7 +113,7 @@ impl Geometry {
 
     /// Returns the collision shape of a member by its index; `None` if there is no such member.
     #[must_use]
-    pub fn shape(&self, member: usize) -> Option<&Convex> {
+    pub fn shape(&self, member: usize) -> Option<&MemberShape> {
         self.shapes.get(member)
     }
 
@@ -145,7 +146,7 @@ impl Geometry {
             if over.max_element() < 0.0 { over.max_element() } else { over.max(Vector::ZERO).length() }
         };
         let to_member = |leaf: u32, best_m: f64| {
-            let near = self.shapes[leaf as usize].nearest(p);
+            let near = self.shapes[leaf as usize].nearest_within(p, best_m)?;
             (near.distance_m < best_m).then_some(LeafHit { distance_m: near.distance_m, result: near })
         };
         let (leaf, found) = self.tree.find_best(limit, to_box, to_member)?;
@@ -264,14 +265,11 @@ impl Geometry {
             let (enter, leave) = box_interval(node, from, inverse);
             enter <= leave && enter <= length_m
         };
-        let end = origin + direction * length_m;
         let inside = |leaf: u32| {
-            let shape = &self.shapes[leaf as usize];
-            let (enter_m, _) = shape.ray(origin, direction, length_m)?;
-            let (leave_m, _) = shape.ray(end, -direction, length_m)?;
-            Some(Passage { member: leaf as usize, enter_m, leave_m: length_m - leave_m })
+            let through = self.shapes[leaf as usize].passages(origin, direction, length_m);
+            through.into_iter().map(move |(enter_m, leave_m)| Passage { member: leaf as usize, enter_m, leave_m })
         };
-        let mut passages: Vec<Passage> = self.tree.leaves(is_crossed).filter_map(inside).collect();
+        let mut passages: Vec<Passage> = self.tree.leaves(is_crossed).flat_map(inside).collect();
         passages.sort_by(|a, b| a.enter_m.total_cmp(&b.enter_m).then(a.member.cmp(&b.member)));
         passages
     }
@@ -355,7 +353,7 @@ fn pad_slab(center_m: Vec3<Enu>, half_m: f64) -> Member {
     builder.finish().swap_remove(0)
 }
 
-fn overlaps_pad(pad: &Convex, low: Vec3<Enu>, high: Vec3<Enu>) -> bool {
+fn overlaps_pad(pad: &MemberShape, low: Vec3<Enu>, high: Vec3<Enu>) -> bool {
     let (pad_low, pad_high) = pad.bounds();
     let apart = |k: usize| low.array()[k] > pad_high.array()[k] || high.array()[k] < pad_low.array()[k];
     !(0..3).any(apart)
@@ -391,28 +389,17 @@ fn probe_bounds(probe: &HullProbe, margin_m: f64) -> (Vec3<Enu>, Vec3<Enu>) {
     (pick(f64::min, -reach), pick(f64::max, reach))
 }
 
-/// Appends a probe's contacts with one convex shape. A ball has one contact. A capsule has contacts at both ends, and
-/// also between the ends if it lies across an edge.
+/// Appends a probe's contacts with one shape.
 fn add_shape_contacts(
     probe: &HullProbe,
     margin_m: f64,
-    shape: &Convex,
+    shape: &MemberShape,
     (surface, object): (Surface, ObjectId),
     out: &mut Vec<Contact>,
 ) {
-    let mut offer = |near: SurfacePoint, radius_m: f64| {
+    shape.contacts(probe, margin_m, |near, radius_m| {
         if near.distance_m - radius_m <= margin_m {
             out.push(contact(near, radius_m, surface, object));
         }
-    };
-    match *probe {
-        HullProbe::Ball { center_m, radius_m } => offer(shape.nearest(center_m), radius_m),
-        HullProbe::Capsule { a_m, b_m, radius_m } => {
-            let ends = [shape.nearest(a_m), shape.nearest(b_m)];
-            ends.into_iter().for_each(|near| offer(near, radius_m));
-            if let Some(near) = shape.interior_minimum(a_m, b_m, [&ends[0], &ends[1]], radius_m + margin_m) {
-                offer(near, radius_m);
-            }
-        }
-    }
+    });
 }

@@ -1,11 +1,14 @@
 //! Exports the collision geometry as binary glTF 2.0, and the parts of imported bridges in the same form: one named node per bridge
-//! member with its element number in `extras`, plus ground, water and landing pad. Positions are 32-bit floats (3e-5 m at 500 m). The
-//! axes follow the glTF convention: x east, y up, z south.
+//! member with its element number in `extras`, plus ground, water and landing pad. Meshes keep the colors of their vertices.
+//! Positions are 32-bit floats (3e-5 m at 500 m). The axes follow the glTF convention: x east, y up, z south.
 
 use super::Site;
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
-use crate::mesh::Mesh;
+use crate::mesh::gltf_reader::{MESH_SHAPE, SHAPE_KEY};
+use crate::mesh::part_shapes::PartShape;
+use crate::mesh::vertex_colors::Color;
+use crate::scenario::bridges::model::ModelPart;
 use gltf::binary::{Glb, Header};
 use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, Type};
 use gltf::json::buffer::{Buffer, Stride, Target, View};
@@ -18,8 +21,13 @@ use serde_json::{Value, json};
 use std::borrow::Cow;
 
 /// Material names and colors (red, green, blue), in the order of [`Surface`].
-const MATERIALS: [(&str, f32, f32, f32); 4] =
-    [("structure", 0.62, 0.60, 0.57), ("ground", 0.33, 0.40, 0.25), ("water", 0.16, 0.30, 0.38), ("pad", 0.85, 0.55, 0.10)];
+const MATERIALS: [(&str, f32, f32, f32); 5] = [
+    ("structure", 0.62, 0.60, 0.57),
+    ("ground", 0.33, 0.40, 0.25),
+    ("water", 0.16, 0.30, 0.38),
+    ("pad", 0.85, 0.55, 0.10),
+    ("colored", 1.0, 1.0, 1.0),
+];
 
 /// Materials by their position in the file.
 #[derive(Clone, Copy)]
@@ -28,6 +36,8 @@ enum Surface {
     Ground = 1,
     Water = 2,
     Pad = 3,
+    /// White, because viewers multiply the colors of vertices by that of the material.
+    Colored = 4,
 }
 
 /// Most bytes of the file besides the JSON text and the buffer: the header, two chunk headers, and their padding.
@@ -35,11 +45,16 @@ const FRAMING_BYTES: usize = 12 + 2 * 8 + 2 * 3;
 /// Size of a vertex in the buffer: three 32-bit floats.
 const VERTEX_BYTES: usize = 12;
 
-/// A binary glTF file under construction. All positions are in the first view of its only buffer, all indices in the second.
+/// Size of a color in the buffer: four bytes, as the alignment requires.
+const COLOR_BYTES: usize = 4;
+
+/// A binary glTF file under construction. All positions are in the first view of its only buffer, all indices in the second, and all colors
+/// in the third, if there are any.
 #[derive(Default)]
 struct GlbWriter {
     positions: Vec<u8>,
     indices: Vec<u8>,
+    colors: Vec<u8>,
     root: Root,
 }
 
@@ -52,7 +67,10 @@ pub fn glb(site: &Site) -> Result<Vec<u8>, gltf::Error> {
     let mut parts = GlbWriter::default();
     for member in site.members() {
         let (corners, triangles) = (&member.solid.vertices_m, member.solid.triangles());
-        parts.add(&member.name, corners, &triangles, Surface::Structure, &json!({ "element": member.element }));
+        parts.add(&member.name, corners, &triangles, Surface::Structure, &extras(member.element, member.solid.is_convex()));
+        if let Some(surface) = &member.solid.surface {
+            parts.color(&surface.colors);
+        }
     }
     let geometry = site.geometry();
     let (corners, triangles) = geometry.terrain.ground.triangles();
@@ -67,18 +85,29 @@ pub fn glb(site: &Site) -> Result<Vec<u8>, gltf::Error> {
     parts.finish()
 }
 
-/// Returns parts as a binary glTF file, each with its name, its element and its mesh, in axes with z up.
+/// Returns parts as a binary glTF file, each with its name, its element and its triangles, in axes with z up.
 ///
 /// # Errors
 ///
 /// The file would be longer than 4 GiB, the limit of the format.
-pub fn parts_glb<'a>(parts: impl Iterator<Item = (&'a str, Element, Mesh)>) -> Result<Vec<u8>, gltf::Error> {
+pub fn parts_glb<'a>(parts: impl Iterator<Item = &'a ModelPart>) -> Result<Vec<u8>, gltf::Error> {
     let mut file = GlbWriter::default();
-    for (name, element, mesh) in parts {
+    for ModelPart { name, element, shape } in parts {
+        let mesh = shape.mesh();
         let corners: Vec<Vec3<Enu>> = mesh.vertices_m.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
-        file.add(name, &corners, &mesh.triangles, Surface::Structure, &json!({ "element": element }));
+        let is_convex = matches!(shape, PartShape::Convex(_));
+        file.add(name, &corners, &mesh.triangles, Surface::Structure, &extras(*element, is_convex));
+        match shape {
+            PartShape::Convex(_) => {}
+            PartShape::Mesh(surface) => file.color(surface.colors()),
+        }
     }
     file.finish()
+}
+
+/// Returns the extras of a member's node.
+fn extras(element: Element, is_convex: bool) -> Value {
+    if is_convex { json!({ "element": element }) } else { json!({ "element": element, SHAPE_KEY: MESH_SHAPE }) }
 }
 
 /// Vertex indices of the two upward-facing triangles that form a square.
@@ -124,8 +153,23 @@ impl GlbWriter {
         });
     }
 
+    /// Gives the vertices of the last mesh their colors, if there are any.
+    fn color(&mut self, colors: &[Color]) {
+        if colors.is_empty() {
+            return;
+        }
+        let accessor =
+            Accessor { normalized: true, ..accessor((2, self.colors.len()), colors.len(), ComponentType::U8, Type::Vec4) };
+        let accessor = self.root.push(accessor);
+        self.colors.extend(colors.iter().flat_map(|[red, green, blue]| [*red, *green, *blue, u8::MAX]));
+        if let Some(primitive) = self.root.meshes.last_mut().and_then(|mesh| mesh.primitives.last_mut()) {
+            primitive.attributes.insert(Valid(Semantic::Colors(0)), accessor);
+            primitive.material = Some(Index::new(Surface::Colored as u32));
+        }
+    }
+
     fn finish(mut self) -> Result<Vec<u8>, gltf::Error> {
-        let (positions, indices) = (self.positions.len(), self.indices.len());
+        let (positions, indices, colors) = (self.positions.len(), self.indices.len(), self.colors.len());
         self.root.asset =
             Asset { generator: Some(concat!("spandrel ", env!("CARGO_PKG_VERSION")).to_owned()), ..Asset::default() };
         let nodes = (0..self.root.nodes.len() as u32).map(Index::new).collect();
@@ -133,7 +177,7 @@ impl GlbWriter {
         self.root.scene = Some(self.root.push(scene));
         self.root.materials = MATERIALS.iter().map(material).collect();
         let buffer = self.root.push(Buffer {
-            byte_length: (positions + indices).into(),
+            byte_length: (positions + indices + colors).into(),
             name: None,
             uri: None,
             extensions: None,
@@ -153,8 +197,11 @@ impl GlbWriter {
             view(Target::ArrayBuffer, 0, positions, Some(Stride(VERTEX_BYTES))),
             view(Target::ElementArrayBuffer, positions, indices, None),
         ];
+        if colors > 0 {
+            self.root.buffer_views.push(view(Target::ArrayBuffer, positions + indices, colors, Some(Stride(COLOR_BYTES))));
+        }
         let json = self.root.to_vec().map_err(gltf::Error::Deserialize)?;
-        let binary = [self.positions, self.indices].concat();
+        let binary = [self.positions, self.indices, self.colors].concat();
         if u32::try_from(FRAMING_BYTES + json.len() + binary.len()).is_err() {
             return Err(gltf::Error::Io(std::io::Error::other("the file would exceed 4 GiB, the limit of binary glTF")));
         }

@@ -25,7 +25,10 @@ fn depth_below((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -
 }
 
 /// Returns the points where segments a-b and c-d are closest.
-fn closest_points_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>, Vec3<Enu>)) -> (Vec3<Enu>, Vec3<Enu>) {
+pub(super) fn closest_points_of_segments(
+    (a, b): (Vec3<Enu>, Vec3<Enu>),
+    (c, d): (Vec3<Enu>, Vec3<Enu>),
+) -> (Vec3<Enu>, Vec3<Enu>) {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, uv, vv) = (u.norm_squared(), u.dot(v), v.norm_squared());
     let square = uu * vv - uv * uv;
@@ -35,6 +38,12 @@ fn closest_points_of_segments((a, b): (Vec3<Enu>, Vec3<Enu>), (c, d): (Vec3<Enu>
     let e = c + v * t;
     let s = if uu > 0.0 { (u.dot(e - a) / uu).clamp(0.0, 1.0) } else { 0.0 };
     (a + u * s, e)
+}
+
+/// Returns the point of segment a-b that is nearest to `p`.
+pub(super) fn nearest_on_segment(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>) -> Vec3<Enu> {
+    let edge = b - a;
+    a + edge * ((p - a).dot(edge) / edge.norm_squared()).clamp(0.0, 1.0)
 }
 
 /// Returns the point of triangle a-b-c that is nearest to `p`.

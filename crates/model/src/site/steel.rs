@@ -1,14 +1,16 @@
 //! Distortion of the Earth's magnetic field by the steel members of bridges.
 //!
-//! Each steel member stands for an infinitely permeable elliptic cylinder with the same half widths, in a uniform field across
-//! its axis. The field around it follows exactly from a conformal mapping. Estimates: members don't magnetize each other, the
-//! field along a member's axis and permanent magnetization have no effect, and the finite length scales the result.
+//! Each steel member, or each piece of one that is not a prism, stands for an infinitely permeable elliptic cylinder with the same half
+//! widths, in a uniform field across its axis. The field around it follows exactly from a conformal mapping. Estimates: members don't
+//! magnetize each other, the field along a member's axis and permanent magnetization have no effect, and the finite length scales the
+//! result.
 
+use super::boxes::OrientedBox;
+use super::steel_pieces::{prism, surface_pieces};
 use crate::elements::ElementMaterial;
 use crate::frames::{Enu, Vec3};
 use crate::math;
 use crate::scenario::bridges::Member;
-use crate::scenario::bridges::solid::Solid;
 use nalgebra::Complex;
 use std::collections::BTreeMap;
 
@@ -28,20 +30,20 @@ pub struct SteelField {
     cells: BTreeMap<[i32; 3], Vec<u32>>,
 }
 
-/// A member's axes, longest first, and its half extents along them.
+/// A cylinder in the box of a member or of a piece of it. The box's first axis is that of the cylinder.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct EllipticCylinder {
-    center_m: Vec3<Enu>,
-    axes: [Vec3<Enu>; 3],
-    half_m: [f64; 3],
-}
+struct EllipticCylinder(OrientedBox);
 
 impl SteelField {
     /// Collects the steel members. `factor` scales the distortion.
     #[must_use]
     pub fn new(members: &[Member], factor: f64) -> Self {
         let steel = members.iter().filter(|member| member.element.material() == ElementMaterial::Steel);
-        let cylinders: Vec<EllipticCylinder> = steel.filter_map(|member| EllipticCylinder::of(&member.solid)).collect();
+        let boxes = steel.flat_map(|member| match &member.solid.surface {
+            None => prism(&member.solid).into_iter().collect(),
+            Some(_) => surface_pieces(&member.solid),
+        });
+        let cylinders: Vec<EllipticCylinder> = boxes.map(EllipticCylinder).collect();
         let mut cells = BTreeMap::<_, Vec<u32>>::new();
         for (index, cylinder) in (0..).zip(&cylinders) {
             for cell in cylinder.cells() {
@@ -65,41 +67,27 @@ fn cell_of(position_m: Vec3<Enu>) -> [i32; 3] {
 }
 
 impl EllipticCylinder {
-    /// Returns the cylinder for a prism, whose longest edge is its axis; `None` without a volume.
-    fn of(solid: &Solid) -> Option<Self> {
-        let edges: Vec<Vec3<Enu>> = solid.faces.iter().flat_map(|face| face_edges(solid, face)).collect();
-        let axis = longest(edges.iter().copied())?.unit();
-        let side = longest(edges.iter().map(|edge| *edge - axis * edge.dot(axis)))?.unit();
-        let axes = [axis, side, axis.cross(side)];
-        let ranges = axes.map(|axis| math::range(solid.vertices_m.iter().map(|vertex| vertex.dot(axis))));
-        let half_m = ranges.map(|(low, high)| 0.5 * (high - low));
-        let middle = |sum: Vec3<Enu>, (axis, (low, high)): (Vec3<Enu>, (f64, f64))| sum + axis * (0.5 * (low + high));
-        let center_m = axes.into_iter().zip(ranges).fold(Vec3::zero(), middle);
-        half_m.into_iter().all(|half| half > 0.0).then_some(Self { center_m, axes, half_m })
-    }
-
     /// Returns the distance from the axis beyond which the distortion is negligible, m.
     fn range_m(&self) -> f64 {
         // Far away, the relative distortion is at most b (b + c) / (2 r²).
-        let [_, b, c] = self.half_m;
+        let [_, b, c] = self.0.half_m;
         let wide = b.max(c);
         (wide * (b + c) / (2.0 * MIN_DISTORTION)).sqrt()
     }
 
     /// Returns the cells that may contain points in range.
     fn cells(&self) -> impl Iterator<Item = [i32; 3]> + use<> {
-        let reach = [self.half_m[0], 0.0, 0.0].map(|half| half + self.range_m());
-        let extent = |k: usize| (0..3).map(|i| self.axes[i].array()[k].abs() * reach[i]).sum::<f64>();
+        let reach = [self.0.half_m[0], 0.0, 0.0].map(|half| half + self.range_m());
+        let extent = |k: usize| (0..3).map(|i| self.0.axes[i].array()[k].abs() * reach[i]).sum::<f64>();
         let extent = Vec3::new(extent(0), extent(1), extent(2));
-        let (low, high) = (cell_of(self.center_m - extent), cell_of(self.center_m + extent));
+        let (low, high) = (cell_of(self.0.center_m - extent), cell_of(self.0.center_m + extent));
         (low[0]..=high[0]).flat_map(move |x| (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z])))
     }
 
     fn distortion(&self, position_m: Vec3<Enu>, undisturbed: Vec3<Enu>) -> Vec3<Enu> {
-        let [axis, x, y] = self.axes;
-        let from_center = position_m - self.center_m;
+        let OrientedBox { center_m, axes: [axis, x, y], half_m: [half_length, b, c] } = self.0;
+        let from_center = position_m - center_m;
         let (along, at) = (from_center.dot(axis), Complex::new(from_center.dot(x), from_center.dot(y)));
-        let [half_length, b, c] = self.half_m;
         let across = Complex::new(undisturbed.dot(x), -undisturbed.dot(y));
         let added = plane_field(at, (b, c), across) - across;
         let share = length_share(along, math::hypot(at.re, at.im), half_length);
@@ -135,20 +123,11 @@ fn length_share(along_m: f64, distance_m: f64, half_length_m: f64) -> f64 {
     0.5 * (end(half_length_m - along_m) + end(half_length_m + along_m))
 }
 
-fn face_edges(solid: &Solid, face: &[u32]) -> Vec<Vec3<Enu>> {
-    let next = face.iter().skip(1).chain(face.first());
-    face.iter().zip(next).map(|(a, b)| solid.vertices_m[*b as usize] - solid.vertices_m[*a as usize]).collect()
-}
-
-fn longest(edges: impl Iterator<Item = Vec3<Enu>>) -> Option<Vec3<Enu>> {
-    edges.max_by(|a, b| a.norm().total_cmp(&b.norm())).filter(|edge| edge.norm() > 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::elements::Element;
-    use crate::scenario::bridges::solid::{MemberBuilder, Placement};
+    use crate::scenario::bridges::solid::{MemberBuilder, Placement, SolidSurface};
 
     /// Rounding tolerance, relative to the undisturbed field.
     const ROUNDING: f64 = 1e-12;
@@ -158,7 +137,7 @@ mod tests {
     /// A long steel pile of circular section, approximated by a square one of the same half width.
     fn pile(half_width_m: f64, half_length_m: f64) -> EllipticCylinder {
         let axes = [Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
-        EllipticCylinder { center_m: Vec3::zero(), axes, half_m: [half_length_m, half_width_m, half_width_m] }
+        EllipticCylinder(OrientedBox { center_m: Vec3::zero(), axes, half_m: [half_length_m, half_width_m, half_width_m] })
     }
 
     #[test]
@@ -213,6 +192,72 @@ mod tests {
         builder.add_rod("hanger", Element::from_number(148), [0.0, 4.0, -3.0], [0.0, 4.0, 6.0], 0.05, 8);
         builder.add_box("concrete", Element::from_number(110), [-15.0, 2.0, -1.0], [15.0, 2.5, -0.5]);
         builder.finish()
+    }
+
+    /// Returns the members with their triangles instead of their faces.
+    fn as_surfaces(members: &[Member]) -> Vec<Member> {
+        let surface = |member: &Member| {
+            let mut member = member.clone();
+            let triangles = member.solid.triangles();
+            member.solid.surface = Some(SolidSurface { triangles, is_closed: true, colors: Vec::new() });
+            member
+        };
+        members.iter().map(surface).collect()
+    }
+
+    #[test]
+    fn exact_surface_of_a_prism_distorts_like_the_prism() {
+        /// Differences of the corners from rounding, relative to the undisturbed field.
+        const TOLERANCE: f64 = 1e-6;
+        let undisturbed = Vec3::new(0.02, 0.2, -0.4);
+        let [prisms, surfaces] = [members(), as_surfaces(&members())].map(|members| SteelField::new(&members, 1.0));
+        for k in 0..200 {
+            let position_m = Vec3::new(f64::from(k % 20) - 7.0, f64::from(k % 7) - 5.0, 8.0 + 0.2 * f64::from(k % 13));
+            let [expected, found] = [&prisms, &surfaces].map(|field| field.distortion(position_m, undisturbed));
+            assert!((found - expected).norm() < TOLERANCE, "{expected:?} {found:?} at {position_m:?}");
+        }
+    }
+
+    /// Returns a surface of square bars between points in bridge axes.
+    fn bars(ends_m: &[[[f64; 3]; 2]]) -> (Vec<Member>, Member) {
+        let mut builder = MemberBuilder::new("test", Placement::new(Vec3::zero(), 30.0));
+        for (k, [a, b]) in ends_m.iter().enumerate() {
+            builder.add_rod(&k.to_string(), Element::from_number(120), *a, *b, 0.2, 4);
+        }
+        let bars = builder.finish();
+        let mut whole = bars[0].clone();
+        whole.solid.vertices_m.clear();
+        let mut triangles = Vec::new();
+        for bar in &bars {
+            let first = whole.solid.vertices_m.len() as u32;
+            whole.solid.vertices_m.extend(&bar.solid.vertices_m);
+            triangles.extend(bar.solid.triangles().iter().map(|triangle| triangle.map(|k| first + k)));
+        }
+        whole.solid.surface = Some(SolidSurface { triangles, is_closed: true, colors: Vec::new() });
+        (bars, whole)
+    }
+
+    #[test]
+    fn prop_truss_in_one_surface_distorts_about_as_much_as_its_bars() {
+        /// Least and largest ratio (estimate: pieces at the nodes contain several bars).
+        const RATIO: (f64, f64) = (0.8, 2.2);
+        let ends_m = [
+            [[-12.0, 0.0, 0.0], [12.0, 0.0, 0.0]],
+            [[-12.0, 0.0, 6.0], [12.0, 0.0, 6.0]],
+            [[-12.0, 0.0, 0.0], [-6.0, 0.0, 6.0]],
+            [[-6.0, 0.0, 6.0], [0.0, 0.0, 0.0]],
+            [[0.0, 0.0, 0.0], [6.0, 0.0, 6.0]],
+            [[6.0, 0.0, 6.0], [12.0, 0.0, 0.0]],
+        ];
+        let (bars, whole) = bars(&ends_m);
+        let [bars, whole] = [bars, vec![whole]].map(|members| SteelField::new(&members, 1.0));
+        let undisturbed = Vec3::new(0.02, 0.2, -0.4);
+        let place = Placement::new(Vec3::zero(), 30.0);
+        for local in [[0.0, 0.0, -1.5], [3.0, 1.5, 0.0], [-7.0, 0.0, 7.5], [6.0, -2.0, 5.0], [-12.0, 0.0, -2.0]] {
+            let [of_bars, found] = [&bars, &whole].map(|field| field.distortion(place.point(local), undisturbed).norm());
+            let ratio = found / of_bars;
+            assert!((RATIO.0..RATIO.1).contains(&ratio), "{ratio} at {local:?}");
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::random::RandomStream;
-use spandrel_model::site::convex::Convex;
+use spandrel_model::site::member_shape::MemberShape;
 use spandrel_model::site::{Site, gltf};
 use std::collections::BTreeMap;
 
@@ -87,7 +87,7 @@ fn val_exported_members_match_the_collision_solids() {
 }
 
 /// Checks that a ray toward a random point of an exported triangle hits the collision shape at that point.
-fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut RandomStream) {
+fn assert_on_surface(name: &str, shape: &MemberShape, t: &Triangle, random: &mut RandomStream) {
     let (mut a, mut b) = (random.uniform(), random.uniform());
     if a + b > 1.0 {
         (a, b) = (1.0 - a, 1.0 - b);
@@ -107,7 +107,7 @@ fn assert_on_surface(name: &str, shape: &Convex, t: &Triangle, random: &mut Rand
 }
 
 /// Checks that random rays hit the collision shape and the exported triangles at the same distance.
-fn assert_rays_agree(name: &str, shape: &Convex, node: &Node, random: &mut RandomStream) {
+fn assert_rays_agree(name: &str, shape: &MemberShape, node: &Node, random: &mut RandomStream) {
     let (low, high) = shape.bounds();
     for _ in 0..8 {
         let aim = Vec3::new(

@@ -2,7 +2,7 @@
 
 use spandrel_model::elements::ElementUnit;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::mesh::convex_parts::ConvexLimits;
+use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
@@ -30,7 +30,7 @@ fn imported_again(site: &Site) -> ImportedBridge {
         origin: ModelOrigin::Point([0.0; 3]),
         turn_deg: 0.0,
         default_element: None,
-        limits: ConvexLimits { tolerance_m: 0.01, resolution: 64 },
+        limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
     };
     let none = |_: &str| Err("no file".to_owned());
     let source =
@@ -41,9 +41,7 @@ fn imported_again(site: &Site) -> ImportedBridge {
 fn reimported(scenario: &Scenario, site: &Site) -> Site {
     let imported = imported_again(site);
     assert_eq!(imported.report.skipped, ["ground", "water", "pad"]);
-    assert!(
-        imported.report.parts.iter().all(|part| part.open_edges == 0 && part.convex_parts == 1 && part.dropped_triangles == 0)
-    );
+    assert!(imported.report.parts.iter().all(|part| part.open_edges == 0 && part.shapes == 1 && part.dropped_triangles == 0));
     let model = Model::read("bridge.glb", &imported.model, &ElementMap::default()).unwrap();
     let bridge = Bridge { name: "copy".into(), center_m: Vec3::zero(), heading_deg: 90.0, kind: BridgeKind::Model(model) };
     Site::without_defects(&Scenario { bridges: vec![bridge], ..scenario.clone() })

@@ -13,6 +13,7 @@ mod girder;
 mod ground;
 mod imported;
 mod masonry_arch;
+mod mesh_shapes;
 mod prestressed;
 mod site;
 mod truss;

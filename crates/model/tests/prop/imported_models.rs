@@ -6,17 +6,19 @@ use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
 use spandrel_model::mesh::Mesh;
-use spandrel_model::mesh::convex_parts::ConvexLimits;
 use spandrel_model::mesh::gltf_reader;
+use spandrel_model::mesh::part_shapes::{ConcaveShape, PartShape, ShapeLimits};
 use spandrel_model::mesh::reader::ModelFormat;
+use spandrel_model::mesh::surface_mesh::SurfaceMesh;
 use spandrel_model::mesh::vectors::Point;
 use spandrel_model::random::RandomStream;
 use spandrel_model::scenario::bridges::element_map::ElementMap;
-use spandrel_model::scenario::bridges::model::Model;
+use spandrel_model::scenario::bridges::model::{Model, ModelPart};
 use spandrel_model::scenario::{self, Scenario};
 use spandrel_model::site::bridge_import::{
     ImportError, ImportOptions, ImportSource, ImportedBridge, ModelOrigin, UpAxis, import,
 };
+use spandrel_model::site::gltf::parts_glb;
 
 /// Relative tolerance for volumes: 32-bit floats represent positions 100 m from the origin to 4e-6 m, and the shapes are at least 0.3 m
 /// thick.
@@ -86,7 +88,7 @@ fn options() -> ImportOptions {
         origin: ModelOrigin::Center,
         turn_deg: 0.0,
         default_element: Some(Element::RcDeck),
-        limits: ConvexLimits { tolerance_m: 0.01, resolution: 64 },
+        limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
     }
 }
 
@@ -152,7 +154,7 @@ fn prop_random_shapes_and_transforms_have_the_exact_volumes() {
     let model = model(&bridge);
     assert_eq!(model.parts().len(), SHAPES);
     for (part, expected) in model.parts().iter().zip(volumes) {
-        let volume = part.solid.mesh().volume_m3();
+        let volume = part.shape.mesh().volume_m3();
         assert!((volume / expected - 1.0).abs() < VOLUME_TOLERANCE, "{}: {volume} {expected}", part.name);
     }
     assert!(bridge.report.parts.iter().all(|part| part.open_edges == 0 && part.pieces == 1), "{:?}", bridge.report);
@@ -579,4 +581,59 @@ fn regress_checksum_covers_the_files_of_an_imported_bridge() {
         crc(model, elements, &text.replace("level = \"light\"", "level = \"calm\"")),
     ];
     assert!((0..others.len()).all(|k| !others[..k].contains(&others[k])), "{others:?}");
+}
+
+/// Returns a picture of two by one pixels: red, and half of the light.
+fn picture() -> Vec<u8> {
+    let mut file = std::io::Cursor::new(Vec::new());
+    let pixels = vec![255, 0, 0, 188, 188, 188];
+    image::RgbImage::from_raw(2, 1, pixels).unwrap().write_to(&mut file, image::ImageFormat::Png).unwrap();
+    file.into_inner()
+}
+
+#[test]
+fn exact_vertices_have_the_colors_of_their_own_or_of_the_picture() {
+    let mut text = ModelText::default();
+    let mesh = text.mesh(&[[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], &[0, 1, 2]);
+    let bytes = |values: &[f32]| values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>();
+    let places = bytes(&[0.25, 0.5, 0.75, 0.5, 1.25, 7.5]);
+    let places = text.accessor(&places, json!({ "componentType": 5126, "count": 3, "type": "VEC2" }));
+    let own = bytes(&[1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 2.0]);
+    let own = text.accessor(&own, json!({ "componentType": 5126, "count": 3, "type": "VEC3" }));
+    text.nodes.push(json!({ "name": "part", "mesh": mesh }));
+    let mut file = text.json();
+    let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(picture()));
+    file["images"] = json!([{ "uri": uri }]);
+    file["textures"] = json!([{ "source": 0 }]);
+    let look = json!({ "baseColorTexture": { "index": 0 }, "baseColorFactor": [0.5, 1.0, 1.0, 1.0] });
+    file["materials"] = json!([{ "pbrMetallicRoughness": look }]);
+    let primitive = &mut file["meshes"][mesh]["primitives"][0];
+    primitive["material"] = json!(0);
+    primitive["attributes"]["TEXCOORD_0"] = json!(places);
+    let read = |file: &Value| gltf_reader::read("m.gltf", file.to_string().as_bytes(), &|_| Err("no file".to_owned()));
+    let colors = |file: &Value| read(file).unwrap().nodes.swap_remove(0).colors;
+    assert_eq!(colors(&file), [[128, 0, 0], [64, 128, 128], [128, 0, 0]], "the picture repeats");
+    let mut unreadable = file.clone();
+    unreadable["images"][0]["uri"] = json!("away.png");
+    assert!(colors(&unreadable).is_empty());
+    file["meshes"][mesh]["primitives"][0]["attributes"]["COLOR_0"] = json!(own);
+    assert_eq!(colors(&file), [[128, 0, 0], [0, 128, 0], [0, 0, 255]]);
+    file["accessors"][own]["count"] = json!(2);
+    assert_eq!(read(&file).unwrap_err(), "m.gltf: node part: 2 colors (allowed: 3, one per position)");
+}
+
+#[test]
+fn exact_a_mesh_keeps_its_colors_in_the_file() {
+    let surface = |colors: &[[u8; 3]]| {
+        // A tent without a floor.
+        let vertices_m = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0], [2.0, 2.0, 3.0]];
+        let mesh = Mesh { vertices_m, triangles: vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]] };
+        let shape = PartShape::Mesh(SurfaceMesh::with_colors(&mesh, colors).unwrap());
+        ModelPart { name: "tent".into(), element: Element::RcDeck, shape }
+    };
+    for colors in [&[[9, 8, 7], [6, 5, 4], [3, 2, 1], [0, 255, 128], [1, 1, 1]][..], &[]] {
+        let part = surface(colors);
+        let file = parts_glb(std::iter::once(&part)).unwrap();
+        assert_eq!(Model::read("bridge.glb", &file, &ElementMap::default()).unwrap().parts(), [part]);
+    }
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 mod automatic;
+mod concave;
 mod emergencies;
 mod feel;
 mod heights;

@@ -16,7 +16,11 @@ pub struct QuantizedMesh {
     pub triangles: Vec<[u16; 3]>,
 }
 
-/// Converts the members to a triangle mesh. If it exceeds 65,535 vertices, the smallest members are skipped.
+/// Maximum number of vertices of a member (estimate: more than any of a parametric bridge, and few enough for several scanned ones).
+const MAX_MEMBER_VERTICES: usize = 10_000;
+
+/// Converts the members to a triangle mesh. Members with more than 10,000 vertices are shown coarser. If the mesh exceeds 65,535 vertices,
+/// the smallest members are skipped.
 #[must_use]
 pub fn mesh(members: &[Member]) -> QuantizedMesh {
     let size = |member: &Member| {
@@ -31,7 +35,7 @@ pub fn mesh(members: &[Member]) -> QuantizedMesh {
     let widest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
     let mut mesh = QuantizedMesh { origin_m: low, step_m: (widest / f64::from(u16::MAX)).max(0.01), ..QuantizedMesh::default() };
     for member in order {
-        let solid = &member.solid;
+        let solid = member.solid.coarse(MAX_MEMBER_VERTICES);
         if mesh.corners.len() + solid.vertices_m.len() > usize::from(u16::MAX) {
             break;
         }

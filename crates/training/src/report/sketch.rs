@@ -151,8 +151,12 @@ impl Sketcher {
     }
 }
 
+/// Maximum number of vertices of a member (estimate: the picture is small).
+const MAX_MEMBER_VERTICES: usize = 10_000;
+
 fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>, palette: &mut Palette) -> ShadedBody {
-    let v = &member.solid.vertices_m;
+    let solid = member.solid.coarse(MAX_MEMBER_VERTICES);
+    let v = &solid.vertices_m;
     let center_m = v.iter().fold(Vec3::zero(), |sum, x| sum + *x) / v.len().max(1) as f64;
     let steel = member.element.material() == ElementMaterial::Steel;
     let base = if steel { [0.50, 0.57, 0.60] } else { [0.74, 0.72, 0.68] };
@@ -160,7 +164,7 @@ fn structure(member: &spandrel_model::scenario::bridges::Member, sun: Vec3<Enu>,
     ShadedBody {
         center_m,
         radius_m: v.iter().map(|x| (*x - center_m).norm()).fold(0.0, f64::max),
-        facets: member.solid.triangles().into_iter().map(facet).collect(),
+        facets: solid.triangles().into_iter().map(facet).collect(),
     }
 }
 

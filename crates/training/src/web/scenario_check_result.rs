@@ -194,7 +194,7 @@ mod tests {
     use crate::web::layout::tests::HOSTILE_NAME;
     use spandrel_model::elements::Element;
     use spandrel_model::mesh::Mesh;
-    use spandrel_model::mesh::convex_parts::ConvexLimits;
+    use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
     use spandrel_model::mesh::reader::ModelFormat;
     use spandrel_model::scenario::bridges::element_map::ElementMap;
     use spandrel_model::scenario::edit::{Edit, apply};
@@ -222,7 +222,7 @@ mod tests {
             origin: ModelOrigin::Center,
             turn_deg: 0.0,
             default_element: None,
-            limits: ConvexLimits { tolerance_m: 0.01, resolution: 32 },
+            limits: ShapeLimits { tolerance_m: 0.01, concave: ConcaveShape::Mesh },
         };
         import(&ImportSource { file: "block.glb", format, bytes: &file, load: &none, elements }, &options).unwrap()
     }

@@ -43,6 +43,12 @@ impl<'a> LightBaker<'a> {
         (!buried).then(|| self.at(position_m, normal))
     }
 
+    /// Returns the same fractions for a point of a coarse mesh, which may be up to `deviation_m` inside or outside of the member.
+    pub fn near_surface(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>, deviation_m: f64) -> [f32; 2] {
+        let near = self.site.geometry().nearest_member(position_m, deviation_m);
+        self.at(near.map_or(position_m, |near| near.point_m), normal)
+    }
+
     /// Checks whether the point just above a face is inside another member and therefore not visible.
     pub fn is_inside(&self, position_m: Vec3<Enu>, normal: Vec3<Enu>) -> bool {
         let near = self.site.geometry().nearest_member(position_m + normal * INSIDE_TEST_HEIGHT_M, INSIDE_TEST_HEIGHT_M);

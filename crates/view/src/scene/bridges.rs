@@ -8,6 +8,7 @@ use spandrel_model::elements::{Element, ElementGroup, ElementMaterial};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::Member;
 use spandrel_model::scenario::{Bridge, Scenario};
+use std::collections::BTreeMap;
 
 /// Paint of the main steelwork, linear (a weathered green, as on many old suspension bridges; estimate).
 pub(super) const STEEL_PAINT: [u8; 3] = [38, 68, 56];
@@ -25,6 +26,8 @@ const WIRE_COLOR: [u8; 3] = [92, 94, 92];
 const STONE_COLOR: [u8; 3] = [122, 108, 86];
 /// Largest difference of a voussoir's brightness from the mean, as a share.
 const VOUSSOIR_CONTRAST: f64 = 0.16;
+/// Material of a mesh with its own colors: it has no pattern.
+const COLORED: Material = Material::Cloth;
 const WHITE: [u8; 3] = [255, 255, 255];
 /// Maximum width of a face with constant light across it, m.
 const MAX_NARROW_FACE_WIDTH_M: f64 = 0.8;
@@ -101,7 +104,7 @@ fn meshes<const N: usize>(scenario: &Scenario, bake: &LightBaker, quality: &Qual
     for bridge in &scenario.bridges {
         let axes = axes(bridge);
         for member in bridge.members() {
-            add(&mut meshes, &member, &axes, bake, (quality.light_cell_m, &thinned));
+            add(&mut meshes, &member, &axes, bake, (quality, &thinned));
         }
     }
     meshes
@@ -122,16 +125,22 @@ fn add(
     member: &Member,
     axes: &TextureAxes,
     bake: &LightBaker,
-    (light_cell_m, thinned): (f64, &[LightTolerance]),
+    (quality, thinned): (&Quality, &[LightTolerance]),
 ) {
+    let light_cell_m = quality.light_cell_m;
+    let solid = member.solid.coarse(quality.surface_vertices);
     let (material, paint) = material_and_paint(member.element);
     let voussoir = voussoir_tone(member);
     let tint = voussoir.map_or(paint, |tone| paint.map(|c| (f64::from(c) * tone) as u8));
-    for face in &member.solid.faces {
-        let corners: Vec<Vec3<Enu>> = face.iter().map(|k| member.solid.vertices_m[*k as usize]).collect();
+    let colors = solid.surface.as_ref().map(|surface| &surface.colors).filter(|colors| !colors.is_empty());
+    let mut samples: BTreeMap<LightCell, [f32; 2]> = BTreeMap::new();
+    for face in &solid.faces {
+        let corners: Vec<Vec3<Enu>> = face.iter().map(|k| solid.vertices_m[*k as usize]).collect();
         let normal = normal(&corners);
         let off = |thinned: &LightTolerance| thinned(member.element, normal);
-        if thinned.iter().all(|thinned| off(thinned).is_none()) || is_covered(&corners, normal, bake) {
+        // The parts of a bridge in triangles are whole members, so hardly any of their faces are covered.
+        let may_be_covered = solid.is_convex();
+        if thinned.iter().all(|thinned| off(thinned).is_none()) || may_be_covered && is_covered(&corners, normal, bake) {
             continue;
         }
         let carries_road = matches!(member.element.group(), ElementGroup::Deck | ElementGroup::ApproachSlab);
@@ -139,17 +148,41 @@ fn add(
         let look = FaceAppearance {
             element: member.element,
             normal,
-            material: if road { Material::Deck } else { material },
+            material: match (colors, road) {
+                (Some(_), _) => COLORED,
+                (None, true) => Material::Deck,
+                (None, false) => material,
+            },
             tint,
             smooth: material == Material::Cable && face.len() == 4,
             is_voussoir: voussoir.is_some(),
         };
         let wanted = meshes.iter_mut().zip(thinned).filter_map(|(mesh, thinned)| Some((mesh, off(thinned)?)));
-        match <[Vec3<Enu>; 4]>::try_from(corners.as_slice()) {
-            Ok(quad) => quad_face(wanted, member, &Quad(quad), &look, axes, bake, light_cell_m),
-            Err(_) => fan_face(wanted, &corners, &look, axes, bake),
+        let quad = <[Vec3<Enu>; 4]>::try_from(corners.as_slice()).ok().map(Quad);
+        let is_large = |quad: &Quad| quad.lengths_m().0.max(quad.lengths_m().1) > light_cell_m;
+        // Quadrilaterals in cells of light have a single color.
+        match quad.filter(|quad| solid.is_convex() || colors.is_none() && is_large(quad)) {
+            Some(quad) => quad_face(wanted, member, &quad, &look, axes, bake, light_cell_m),
+            None => {
+                let center_m = middle(&corners);
+                let light = if solid.is_convex() {
+                    bake.on_member(center_m, normal).unwrap_or([0.0, 0.0])
+                } else {
+                    let cell = light_cell(center_m, normal, light_cell_m);
+                    *samples.entry(cell).or_insert_with(|| bake.near_surface(center_m, normal, light_cell_m))
+                };
+                let tints: Vec<[u8; 3]> = face.iter().map(|k| colors.map_or(tint, |colors| colors[*k as usize])).collect();
+                fan_face(wanted, &corners, &look, axes, (light, &tints));
+            }
         }
     }
+}
+
+/// A cube of space and a range of directions, whose small triangles share a light sample: a scan has a million triangles.
+type LightCell = ([i32; 3], [i32; 3]);
+
+fn light_cell(middle_m: Vec3<Enu>, normal: Vec3<Enu>, size_m: f64) -> LightCell {
+    (middle_m.array().map(|value| (value / size_m).floor() as i32), normal.array().map(|value| (2.0 * value).round() as i32))
 }
 
 /// Returns the brightness of a voussoir, which differs from that of its neighbors; `None` for all other members. The pieces of a barrel are
@@ -244,12 +277,12 @@ fn fan_face<'a>(
     corners: &[Vec3<Enu>],
     look: &FaceAppearance,
     axes: &TextureAxes,
-    bake: &LightBaker,
+    (light, tints): ([f32; 2], &[[u8; 3]]),
 ) {
-    let light = bake.on_member(middle(corners), look.normal).unwrap_or([0.0, 0.0]);
     for (mesh, _) in wanted {
         let first = mesh.vertices.len() as u32;
-        mesh.vertices.extend(corners.iter().map(|c| corner(*c, look, axes, light)));
+        let tinted = |(c, [r, g, b]): (&Vec3<Enu>, &[u8; 3])| Vertex { tint: [*r, *g, *b, 255], ..corner(*c, look, axes, light) };
+        mesh.vertices.extend(corners.iter().zip(tints).map(tinted));
         for k in 2..corners.len() as u32 {
             mesh.indices.extend([first, first + k - 1, first + k]);
         }

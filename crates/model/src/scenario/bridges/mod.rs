@@ -42,7 +42,7 @@ pub use dimensions::{BridgeField, Inconsistency};
 pub use path::TaskPath;
 pub use quantity::ElementQuantity;
 pub use shape::BridgeShape;
-pub use solid::{Footing, Member, Solid};
+pub use solid::{Footing, Member, Solid, SolidSurface};
 
 /// A bridge of any type, with its position and heading.
 #[derive(Debug, Clone, PartialEq)]

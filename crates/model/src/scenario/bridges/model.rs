@@ -1,4 +1,4 @@
-//! A bridge whose members come from a file written by `spandrel import`: binary glTF with one node per convex part.
+//! A bridge whose members come from a file written by `spandrel import`: binary glTF with one node per part, convex or in triangles.
 
 use super::dimensions::Inconsistency;
 use super::element_map::ElementMap;
@@ -7,21 +7,24 @@ use super::quantity::ElementQuantity;
 use super::shape::BridgeShape;
 use super::solid::{Footing, LocalPoint, MemberBuilder};
 use crate::elements::{Element, ElementGroup};
-use crate::mesh::faces::ConvexPart;
+use crate::mesh::Mesh;
 use crate::mesh::gltf_reader;
 use crate::mesh::hull::read_solid;
 use crate::mesh::mesh_file::MeshNode;
+use crate::mesh::part_shapes::PartShape;
+use crate::mesh::surface_mesh::SurfaceMesh;
 use crate::mesh::vectors::bounds;
+use crate::mesh::vertex_colors::Color;
 use std::sync::Arc;
 
-/// Maximum size of the file, bytes (estimate: a million triangles, more than all members of a site should have).
-pub const MAX_MODEL_BYTES: usize = 64 * 1024 * 1024;
+/// Maximum size of the file, bytes (estimate: the five million triangles that an import reads, with shared vertices).
+pub const MAX_MODEL_BYTES: usize = 128 * 1024 * 1024;
 /// Maximum number of parts (estimate: the pictures of more members take minutes to prepare).
 pub const MAX_PARTS: usize = 20_000;
 /// Maximum distance of a part from the origin of the bridge axes, m.
 pub const MAX_REACH_M: f64 = 5_000.0;
 
-/// A bridge made of convex parts.
+/// A bridge made of the parts of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Model {
     parts: Arc<Vec<ModelPart>>,
@@ -29,7 +32,7 @@ pub struct Model {
     extent: ModelExtent,
 }
 
-/// A convex part in bridge axes.
+/// A part in bridge axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPart {
     /// Name, unique in the file.
@@ -37,7 +40,7 @@ pub struct ModelPart {
     /// Bridge element.
     pub element: Element,
     /// Shape in bridge axes.
-    pub solid: ConvexPart,
+    pub shape: PartShape,
 }
 
 /// Bounding boxes in bridge axes: lowest and highest corners, m.
@@ -55,7 +58,7 @@ impl ModelExtent {
     /// Returns the extent of parts.
     #[must_use]
     pub fn of(parts: &[ModelPart]) -> Self {
-        Self::around(parts.iter().map(|part| (part.element, &part.solid.corners_m[..])))
+        Self::around(parts.iter().map(|part| (part.element, part.shape.corners_m())))
     }
 
     /// Returns the extent of points, with the element to which they belong.
@@ -132,8 +135,11 @@ impl BridgeShape for Model {
     }
 
     fn build(&self, b: &mut MemberBuilder) {
-        for ModelPart { name, element, solid } in self.parts.iter() {
-            b.add_solid(name, *element, &solid.corners_m, solid.faces.clone());
+        for ModelPart { name, element, shape } in self.parts.iter() {
+            match shape {
+                PartShape::Convex(solid) => b.add_solid(name, *element, &solid.corners_m, solid.faces.clone()),
+                PartShape::Mesh(surface) => b.add_surface(name, *element, surface),
+            }
         }
     }
 
@@ -177,22 +183,33 @@ impl BridgeShape for Model {
     }
 }
 
-/// Converts a node to a part: welded, closed and convex.
+/// Converts a node to a part: welded, closed and convex, or its triangles as they are.
 fn model_part(node: &MeshNode, map: &ElementMap) -> Result<ModelPart, String> {
     let element = map.element_of(&node.name).or_else(|| node.element.map(Element::from_number));
     let element = element.ok_or("no element number (allowed: extras.element, or a pattern in the elements file)")?;
     let mut mesh = node.mesh.clone();
     for vertex in &mut mesh.vertices_m {
         *vertex = from_gltf_axes(*vertex);
-        if vertex.iter().any(|value| value.abs() > MAX_REACH_M) {
+        if !vertex.iter().all(|value| (-MAX_REACH_M..=MAX_REACH_M).contains(value)) {
             return Err(format!("corner {vertex:?} m (allowed: within {MAX_REACH_M} m of the origin)"));
         }
     }
-    let solid = read_solid(&mesh).map_err(|found| {
+    let shape = if node.is_surface { surface(&mesh, &node.colors)? } else { convex(&mesh)? };
+    Ok(ModelPart { name: node.name.clone(), element, shape })
+}
+
+fn surface(mesh: &Mesh, colors: &[Color]) -> Result<PartShape, String> {
+    let surface = SurfaceMesh::with_colors(mesh, colors).ok_or("no triangle has an area (allowed: at least one)")?;
+    Ok(PartShape::Mesh(surface))
+}
+
+fn convex(mesh: &Mesh) -> Result<PartShape, String> {
+    let solid = read_solid(mesh).map_err(|found| {
         let (pieces, open) = (found.len(), found.iter().map(|piece| piece.open_edges).sum::<usize>());
-        format!("{pieces} pieces, {open} open edges (allowed: one closed convex solid; `spandrel import` makes them)")
+        let allowed = "one closed convex solid, or extras.shape = \"mesh\"; `spandrel import` makes them";
+        format!("{pieces} pieces, {open} open edges (allowed: {allowed})")
     })?;
-    Ok(ModelPart { name: node.name.clone(), element, solid })
+    Ok(PartShape::Convex(solid))
 }
 
 /// Converts a point from glTF's axes (y up) to bridge axes: x stays, y is -z, and z is y.

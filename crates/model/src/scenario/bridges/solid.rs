@@ -1,11 +1,15 @@
-//! Builds bridge members from convex solids in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at
+//! Builds bridge members from solids in bridge axes: x along the deck, y left, z up, origin on the deck's upper surface at
 //! midspan. [`Placement`] converts them to site coordinates.
 
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
-use crate::mesh::fans;
+use crate::mesh::surface_mesh::SurfaceMesh;
 use crate::mesh::vectors::{cross, dot, norm, sub};
+use crate::mesh::vertex_colors::ColorsByPlace;
+use crate::mesh::weld::weld_within;
+use crate::mesh::{Mesh, fans};
+use std::borrow::Cow;
 
 /// A structural member of a bridge. Collision, rendering, defects and export all use the same solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,20 +22,73 @@ pub struct Member {
     pub solid: Solid,
 }
 
-/// A closed convex polyhedron.
+/// Factor of the distance between merged vertices from one attempt to the next, until few enough are left.
+const COARSENING: f64 = 1.4;
+
+/// A closed convex polyhedron, or the surface of a part of another shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
     /// Vertices in site coordinates, m.
     pub vertices_m: Vec<Vec3<Enu>>,
-    /// Planar faces: three or more vertex indices each, counterclockwise seen from outside.
+    /// Planar, convex faces: three or more vertex indices each, counterclockwise seen from outside.
     pub faces: Vec<Vec<u32>>,
+    /// Triangles, if the solid is not a convex polyhedron.
+    pub surface: Option<SolidSurface>,
+}
+
+/// The triangles of a solid of any shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SolidSurface {
+    /// Three vertex indices each, counterclockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Whether they enclose a volume. An open surface has no inside.
+    pub is_closed: bool,
+    /// Color of each vertex, linear; empty if they have none.
+    pub colors: Vec<[u8; 3]>,
 }
 
 impl Solid {
-    /// Returns the faces as triangle fans from each face's first vertex.
+    /// Returns the triangles: its own, or the faces of a convex polyhedron as triangle fans from each face's first vertex.
     #[must_use]
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        fans(self.faces.iter().map(Vec::as_slice))
+        match &self.surface {
+            Some(surface) => surface.triangles.clone(),
+            None => fans(self.faces.iter().map(Vec::as_slice)),
+        }
+    }
+
+    /// Returns the solid itself, or, if it has more than `max_vertices`, a coarser surface without those near each other.
+    #[must_use]
+    pub fn coarse(&self, max_vertices: usize) -> Cow<'_, Self> {
+        if self.vertices_m.len() <= max_vertices {
+            return Cow::Borrowed(self);
+        }
+        let mut mesh = Mesh { vertices_m: self.vertices_m.iter().map(|v| v.array()).collect(), triangles: self.triangles() };
+        let colors = self.surface.as_ref().filter(|surface| !surface.colors.is_empty());
+        let colors = colors.map(|surface| ColorsByPlace::new(&mesh.vertices_m, &surface.colors));
+        let area_m2: f64 = mesh.triangles.iter().map(|triangle| 0.5 * norm(mesh.area_vector(*triangle))).sum();
+        let mut spacing_m = (area_m2 / max_vertices.max(1) as f64).sqrt();
+        while mesh.vertices_m.len() > max_vertices && spacing_m > 0.0 {
+            mesh = weld_within(&mesh, spacing_m).mesh;
+            spacing_m *= COARSENING;
+        }
+        let surface = SolidSurface {
+            is_closed: self.surface.as_ref().is_none_or(|surface| surface.is_closed),
+            // Merged vertices keep the place of one of them.
+            colors: colors.map(|table| table.colors(&mesh.vertices_m)).unwrap_or_default(),
+            triangles: mesh.triangles,
+        };
+        Cow::Owned(Self {
+            vertices_m: mesh.vertices_m.iter().map(|v| Vec3::new(v[0], v[1], v[2])).collect(),
+            faces: surface.triangles.iter().map(|triangle| triangle.to_vec()).collect(),
+            surface: Some(surface),
+        })
+    }
+
+    /// Returns whether the solid is a convex polyhedron.
+    #[must_use]
+    pub const fn is_convex(&self) -> bool {
+        self.surface.is_none()
     }
 }
 
@@ -126,9 +183,21 @@ impl MemberBuilder {
 
     /// Adds a convex polyhedron. Faces list corners counterclockwise seen from outside.
     pub fn add_solid(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>) {
+        self.add(part, element, corners, faces, None);
+    }
+
+    /// Adds a part of any shape with its own triangles.
+    pub fn add_surface(&mut self, part: &str, element: Element, surface: &SurfaceMesh) {
+        let mesh = surface.mesh();
+        let (triangles, colors) = (mesh.triangles.clone(), surface.colors().to_vec());
+        let triangles = SolidSurface { triangles, is_closed: surface.is_closed(), colors };
+        self.add(part, element, &mesh.vertices_m, surface.faces().to_vec(), Some(triangles));
+    }
+
+    fn add(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>, surface: Option<SolidSurface>) {
         let vertices_m = corners.iter().map(|c| self.placement.point(*c)).collect();
         let name = format!("{}/{part}", self.bridge);
-        self.members.push(Member { name, element, solid: Solid { vertices_m, faces } });
+        self.members.push(Member { name, element, solid: Solid { vertices_m, faces, surface } });
     }
 
     /// Adds a box between two opposite corners.

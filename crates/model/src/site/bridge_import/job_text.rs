@@ -4,10 +4,15 @@
 //! the pad, crosses another one. Otherwise, a task's window would also contain the flight along others.
 
 use crate::elements::Element;
+use crate::frames::Vec3;
+use crate::mesh::part_shapes::PartShape;
 use crate::mesh::plane_solid::PlaneSolid;
+use crate::mesh::surface_mesh::SurfaceMesh;
 use crate::mesh::vectors::Point;
 use crate::scenario::MAX_TERRAIN_M;
 use crate::scenario::bridges::model::{ModelExtent, ModelPart};
+use crate::scenario::bridges::{Solid, SolidSurface};
+use crate::site::member_shape::MemberShape;
 use std::fmt::Write;
 
 /// Name of the file with the parts in the folder of an imported bridge.
@@ -144,8 +149,8 @@ fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Opt
     if z + center_up_m < MIN_HEIGHT_BELOW_DECK_M {
         return None;
     }
-    let solids: Vec<PlaneSolid> = parts.iter().map(|part| PlaneSolid::new(&part.solid)).collect();
-    let is_clear = |x: f64| solids.iter().all(|solid| solid.distance_m([x, y, z]) >= MIN_CLEARANCE_M);
+    let clearances: Vec<Clearance> = parts.iter().map(Clearance::of).collect();
+    let is_clear = |x: f64| !clearances.iter().any(|part| part.is_nearer([x, y, z], MIN_CLEARANCE_M));
     let steps = ((deck_high[0] - deck_low[0]) / STEP_M) as usize;
     let (mut best, mut first) = ((0, 0), None);
     for k in 0..=steps {
@@ -156,6 +161,36 @@ fn underside(parts: &[ModelPart], extent: &ModelExtent, center_up_m: f64) -> Opt
     }
     let ends = [best.1, best.0].map(|k| deck_low[0] + STEP_M * k as f64);
     (ends[0] - ends[1] >= MIN_LENGTH_M).then(|| [ends.map(|x| [x, y, z]), ends.map(|x| [x - AHEAD_M, y, bottom_z])])
+}
+
+/// A part to which distances are measured.
+enum Clearance {
+    Convex(PlaneSolid),
+    Any(MemberShape),
+}
+
+impl Clearance {
+    fn of(part: &ModelPart) -> Self {
+        match &part.shape {
+            PartShape::Convex(solid) => Self::Convex(PlaneSolid::new(solid)),
+            PartShape::Mesh(surface) => Self::Any(MemberShape::new(&surface_solid(surface))),
+        }
+    }
+
+    fn is_nearer(&self, p: Point, limit_m: f64) -> bool {
+        match self {
+            Self::Convex(solid) => solid.distance_m(p) < limit_m,
+            Self::Any(shape) => shape.nearest_within(Vec3::new(p[0], p[1], p[2]), limit_m).is_some(),
+        }
+    }
+}
+
+/// Returns a surface whose bridge axes are those of the site.
+fn surface_solid(surface: &SurfaceMesh) -> Solid {
+    let mesh = surface.mesh();
+    let triangles = SolidSurface { triangles: mesh.triangles.clone(), is_closed: surface.is_closed(), colors: Vec::new() };
+    let vertices_m = mesh.vertices_m.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+    Solid { vertices_m, faces: Vec::new(), surface: Some(triangles) }
 }
 
 fn shown([x, y, z]: Point) -> String {

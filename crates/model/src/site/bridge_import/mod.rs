@@ -1,4 +1,4 @@
-//! Imports a bridge from a 3D model: cleans its meshes, makes them convex, assigns elements, and writes the files of a job at the
+//! Imports a bridge from a 3D model: cleans its meshes, makes shapes of them, assigns elements, and writes the files of a job at the
 //! bridge. All functions work on bytes and text; the program reads and writes the files.
 
 mod element_suggestions;
@@ -8,13 +8,12 @@ mod part_report;
 
 use crate::elements::Element;
 use crate::math;
-use crate::mesh::convex_parts::{ConvexLimits, convex_parts};
-use crate::mesh::faces::ConvexPart;
-use crate::mesh::hull::sound;
 use crate::mesh::mesh_file::{BufferLoader, MeshNode};
+use crate::mesh::part_shapes::{PartShape, ShapeLimits, part_shapes};
 use crate::mesh::reader::{self, ModelFormat};
 use crate::mesh::topology::components;
 use crate::mesh::vectors::{Point, bounds, sub};
+use crate::mesh::vertex_colors::ColorsByPlace;
 use crate::mesh::weld::weld;
 use crate::scenario::bridges::element_map::{ElementMap, lower_case};
 use crate::scenario::bridges::model::{MAX_REACH_M, ModelExtent, ModelPart, from_gltf_axes};
@@ -28,7 +27,7 @@ pub use part_report::{ImportReport, PartReport};
 
 /// Minimum length of the longest side of a bridge, m (estimate: shorter ones have another unit).
 const MIN_LENGTH_M: f64 = 2.0;
-/// Maximum length of a node's name, characters (20 fewer than the readers' limit, for the numbers of its convex parts).
+/// Maximum length of a node's name, characters (20 fewer than the readers' limit, for the numbers of its shapes).
 const MAX_NAME_CHARS: usize = 80;
 
 /// Axis of the model that points up.
@@ -64,8 +63,8 @@ pub struct ImportOptions {
     pub turn_deg: f64,
     /// Element of the parts that have no other.
     pub default_element: Option<Element>,
-    /// Limits of the conversion to convex parts.
-    pub limits: ConvexLimits,
+    /// Limits of the conversion to shapes.
+    pub limits: ShapeLimits,
 }
 
 /// A file to import.
@@ -85,7 +84,7 @@ pub struct ImportSource<'a> {
 /// The files of an imported bridge, and what was found in the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportedBridge {
-    /// Convex parts as binary glTF.
+    /// Parts as binary glTF.
     pub model: Vec<u8>,
     /// Elements of the parts, as TOML.
     pub elements: String,
@@ -135,11 +134,11 @@ pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<Imported
     let mut rows = Vec::new();
     let mut parts = Vec::new();
     for (node, element) in content.nodes.iter().zip(elements) {
-        let (mut report, solids) = convert(node, element, options.limits);
-        if solids.len() > 1 {
+        let (mut report, shapes) = convert(node, element, options.limits);
+        if shapes.len() > 1 {
             report.name = prefix(&node.name, &mut names);
         }
-        parts.extend(named(&report.name, element, solids));
+        parts.extend(named(&report.name, element, shapes));
         rows.push(report);
     }
     if parts.is_empty() {
@@ -148,10 +147,10 @@ pub fn import(source: &ImportSource, options: &ImportOptions) -> Result<Imported
     move_to_origin(&mut parts, options);
     let made = parts.len();
     let parts: Vec<ModelPart> =
-        parts.into_iter().filter_map(|part| Some(ModelPart { solid: sound(part.solid)?, ..part })).collect();
+        parts.into_iter().filter_map(|part| Some(ModelPart { shape: part.shape.sound()?, ..part })).collect();
     let extent = ModelExtent::of(&parts);
     let report = ImportReport { parts: rows, lost_parts: made - parts.len(), skipped: content.skipped, extent };
-    let model = parts_glb(parts.iter().map(|part| (part.name.as_str(), part.element, part.solid.mesh())));
+    let model = parts_glb(parts.iter());
     let model = model.map_err(|error| ImportError::Invalid(format!("{}: {error}", source.file)))?;
     let elements = report.elements_toml(&parts);
     check_elements(source.file, &elements, &parts)?;
@@ -195,7 +194,7 @@ fn unique_names(nodes: &mut [MeshNode]) {
     }
 }
 
-/// Returns the name that a node with several convex parts gets, so that no other part has a name that begins with it and a slash:
+/// Returns the name that a node with several shapes gets, so that no other part has a name that begins with it and a slash:
 /// `girder-2` if there are nodes `girder` and `girder/01`. `names` are the names of all nodes in lower case.
 fn prefix(name: &str, names: &mut BTreeSet<String>) -> String {
     let is_free = |candidate: &str| {
@@ -271,33 +270,37 @@ fn check_reach(file: &str, nodes: &[MeshNode], elements: &[Element], options: &I
     job_text::check_reach(low, high).map_err(|words| ImportError::Invalid(format!("{file}: {words}")))
 }
 
-/// Cleans a node's mesh and converts it to convex solids.
-fn convert(node: &MeshNode, element: Element, limits: ConvexLimits) -> (PartReport, Vec<ConvexPart>) {
+/// Cleans a node's mesh and converts it to shapes.
+fn convert(node: &MeshNode, element: Element, limits: ShapeLimits) -> (PartReport, Vec<PartShape>) {
     let welded = weld(&node.mesh);
     let pieces = components(&welded.mesh);
     let mut report = PartReport::new(node, element, &welded, &pieces);
-    let mut solids = Vec::new();
+    let mut shapes = Vec::new();
+    let colors = (!node.colors.is_empty()).then(|| ColorsByPlace::new(&node.mesh.vertices_m, &node.colors));
     for piece in &pieces {
-        match convex_parts(piece, limits) {
-            Some(converted) => {
+        match part_shapes(piece, limits) {
+            Some(mut converted) => {
                 report.add(&converted);
-                solids.extend(converted.parts);
+                if let Some(colors) = &colors {
+                    converted.parts.iter_mut().for_each(|part| part.set_colors(colors));
+                }
+                shapes.extend(converted.parts);
             }
             None => report.flat_pieces += 1,
         }
     }
-    report.convex_parts = solids.len();
-    (report, solids)
+    report.shapes = shapes.len();
+    (report, shapes)
 }
 
-/// Names the convex parts of a node: a single one like the node, several with numbers.
-fn named(name: &str, element: Element, solids: Vec<ConvexPart>) -> Vec<ModelPart> {
-    let count = solids.len();
-    let part = |(k, solid): (usize, ConvexPart)| {
+/// Names the shapes of a node: a single one like the node, several with numbers.
+fn named(name: &str, element: Element, shapes: Vec<PartShape>) -> Vec<ModelPart> {
+    let count = shapes.len();
+    let part = |(k, shape): (usize, PartShape)| {
         let name = if count == 1 { name.to_owned() } else { format!("{name}/{:02}", k + 1) };
-        ModelPart { name, element, solid }
+        ModelPart { name, element, shape }
     };
-    solids.into_iter().enumerate().map(part).collect()
+    shapes.into_iter().enumerate().map(part).collect()
 }
 
 /// Returns the requested origin of the bridge axes: a point in the model with z up and x along the deck, m. `deck` is the bounding box of
@@ -312,7 +315,5 @@ fn origin((low, high): (Point, Point), options: &ImportOptions) -> Point {
 /// Moves the parts so that the origin of the bridge axes is at the requested point.
 fn move_to_origin(parts: &mut [ModelPart], options: &ImportOptions) {
     let origin = origin(ModelExtent::of(parts).deck, options);
-    for corner in parts.iter_mut().flat_map(|part| &mut part.solid.corners_m) {
-        *corner = sub(*corner, origin);
-    }
+    parts.iter_mut().for_each(|part| part.shape.move_corners(|corner| sub(corner, origin)));
 }

@@ -2,8 +2,8 @@
 
 use super::part_amounts::{self, PartBox};
 use crate::elements::{Element, ElementUnit};
-use crate::mesh::convex_parts::{ConvexParts, Method};
 use crate::mesh::mesh_file::MeshNode;
+use crate::mesh::part_shapes::{Method, PartShapes};
 use crate::mesh::topology::Component;
 use crate::mesh::weld::Welded;
 use crate::scenario::bridges::element_map::{matches, total_key};
@@ -32,11 +32,11 @@ pub struct PartReport {
     pub open_edges: usize,
     /// Number of holes that these edges surround.
     pub holes: usize,
-    /// Number of convex parts.
-    pub convex_parts: usize,
-    /// How the piece with the largest deviation became convex; `None` if no piece has a volume.
+    /// Number of shapes.
+    pub shapes: usize,
+    /// How the piece with the largest deviation, or else the first one, became shapes; `None` if no piece has a volume.
     pub method: Option<Method>,
-    /// Largest distance between the surfaces of the model and of the convex parts, m.
+    /// Largest distance between the surfaces of the model and of the shapes, m.
     pub deviation_m: f64,
     /// Length along x, y and z, m.
     pub size_m: [f64; 3],
@@ -49,7 +49,7 @@ pub struct PartReport {
 pub struct ImportReport {
     /// The parts, in file order.
     pub parts: Vec<PartReport>,
-    /// Number of convex parts that are too small for the precision of the file, and were left out.
+    /// Number of shapes that are too small for the precision of the file, and were left out.
     pub lost_parts: usize,
     /// Names of nodes that are no part of a bridge.
     pub skipped: Vec<String>,
@@ -70,7 +70,7 @@ impl PartReport {
             flat_pieces: 0,
             open_edges: pieces.iter().map(|piece| piece.open_edges).sum(),
             holes: pieces.iter().map(|piece| piece.holes).sum(),
-            convex_parts: 0,
+            shapes: 0,
             method: None,
             deviation_m: 0.0,
             size_m: [0, 1, 2].map(|k: usize| high[k] - low[k]),
@@ -78,7 +78,7 @@ impl PartReport {
         }
     }
 
-    pub(super) fn add(&mut self, converted: &ConvexParts) {
+    pub(super) fn add(&mut self, converted: &PartShapes) {
         if self.method.is_none() || converted.deviation_m > self.deviation_m {
             (self.method, self.deviation_m) = (Some(converted.method), converted.deviation_m);
         }
@@ -87,9 +87,9 @@ impl PartReport {
 
 impl ImportReport {
     /// Returns the text of the elements file: each part's own row if its name is unlike the others, or one row for all parts whose names
-    /// differ in numbers only. `convex` are the convex parts of all parts.
-    pub(super) fn elements_toml(&self, convex: &[ModelPart]) -> String {
-        let mut patterns = Patterns { convex, is_right: BTreeMap::new() };
+    /// differ in numbers only. `shapes` are the shapes of all parts.
+    pub(super) fn elements_toml(&self, shapes: &[ModelPart]) -> String {
+        let mut patterns = Patterns { shapes, is_right: BTreeMap::new() };
         let boxes = self.parts.iter().map(|part| PartBox { element: part.element, low_m: part.low_m, size_m: part.size_m });
         let amounts = part_amounts::amounts(&boxes.collect::<Vec<_>>());
         let mut groups: BTreeMap<(u16, String), f64> = BTreeMap::new();
@@ -108,10 +108,10 @@ impl ImportReport {
     }
 }
 
-/// Finds patterns for the names of convex parts.
+/// Finds patterns for the names of shapes.
 struct Patterns<'a> {
-    convex: &'a [ModelPart],
-    /// Whether all convex parts that a pattern matches have the element with this number.
+    shapes: &'a [ModelPart],
+    /// Whether all shapes that a pattern matches have the element with this number.
     is_right: BTreeMap<(u16, String), bool>,
 }
 
@@ -123,14 +123,14 @@ impl Patterns<'_> {
         if !stem.is_empty() && self.is_right(part.element, &similar) {
             return similar;
         }
-        // A part with several convex parts has numbers after its name. No other part has a name that begins so.
-        if part.convex_parts > 1 { format!("{}/*", part.name) } else { part.name.clone() }
+        // A part with several shapes has numbers after its name. No other part has a name that begins so.
+        if part.shapes > 1 { format!("{}/*", part.name) } else { part.name.clone() }
     }
 
     fn is_right(&mut self, element: Element, pattern: &str) -> bool {
-        let convex = self.convex;
+        let shapes = self.shapes;
         let is_own = |part: &ModelPart| part.element == element || !matches(pattern, &part.name);
-        *self.is_right.entry((element.number(), pattern.to_owned())).or_insert_with(|| convex.iter().all(is_own))
+        *self.is_right.entry((element.number(), pattern.to_owned())).or_insert_with(|| shapes.iter().all(is_own))
     }
 }
 

@@ -7,6 +7,7 @@ use crate::elements::{Element, ElementGroup, ElementMaterial};
 use crate::frames::{Enu, Vec3};
 use crate::scenario::Task;
 use crate::scenario::bridges::Member;
+use crate::site::defect_checks::EDGE_MARGIN_M;
 use crate::site::faces::{MemberFace, faces};
 
 /// Maximum gap between members of the same run, m (estimate: joints are wider).
@@ -260,7 +261,11 @@ fn reachable_surfaces(members: &[Member], tasks: &[&Task]) -> Vec<Surface> {
             continue;
         }
         let faces_path = |face: &MemberFace| near.iter().any(|p| (*p - face.point_m).dot(face.normal) > 0.0);
-        out.extend(faces(&member.solid).filter(faces_path).map(|face| Surface { member: k, face }));
+        // A scan has a million triangles that are too small for a defect.
+        let is_large = |face: &MemberFace| member.solid.is_convex() || face.edge_distance_m(face.point_m) > EDGE_MARGIN_M;
+        out.extend(
+            faces(&member.solid).filter(|face| is_large(face) && faces_path(face)).map(|face| Surface { member: k, face }),
+        );
     }
     out
 }

@@ -6,7 +6,8 @@ use super::plane_wake::{LENGTH_WIDTHS, PlaneWake, WakeAir};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::math;
-use crate::scenario::bridges::Member;
+use crate::scenario::bridges::{Member, Solid};
+use crate::site::plan_hull::hull;
 use crate::time::SimTime;
 
 /// Elements that stand free in the wind.
@@ -47,20 +48,20 @@ impl BluffBody {
     /// Returns the body of a column, tower or pier; `None` for other members.
     pub(super) fn of(member: &Member) -> Option<Self> {
         let is_support = STANDING.contains(&member.element);
-        let corners_m = member.solid.vertices_m.clone();
-        let range = |value: fn(&Vec3<Enu>) -> f64| math::range(corners_m.iter().map(value));
+        let range = |value: fn(&Vec3<Enu>) -> f64| math::range(member.solid.vertices_m.iter().map(value));
         let (east, north, up) = (range(|corner| corner.east()), range(|corner| corner.north()), range(|corner| corner.up()));
         let size_m = (east.1 - east.0).min(north.1 - north.0);
         let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
         let center_m = Vec3::<Enu>::new(middle(east), middle(north), middle(up));
         let is_large = size_m >= MIN_SIZE_M.0 && up.1 - up.0 >= MIN_SIZE_M.1;
         let to_corner_m = |corner: &Vec3<Enu>| (*corner - center_m).horizontal_norm();
-        let radius_m = corners_m.iter().map(to_corner_m).fold(0.0, f64::max);
-        let sides = member.solid.faces.len().saturating_sub(2);
+        let radius_m = member.solid.vertices_m.iter().map(to_corner_m).fold(0.0, f64::max);
+        // The number of triangles of a surface says nothing about its section.
+        let sides = if member.solid.is_convex() { member.solid.faces.len().saturating_sub(2) } else { 0 };
         let section = if sides >= MIN_ROUND_SIDES { Section::Round } else { Section::Sharp };
         let wake = PlaneWake { width_m: size_m, shedding: Shedding { drag: 0.0, strouhal: 0.0, regularity: 0.0 } };
         let body = Self {
-            corners_m,
+            corners_m: outer_corners_m(&member.solid),
             center_m,
             base_up_m: up.0,
             top_up_m: up.1,
@@ -141,4 +142,14 @@ impl BluffBody {
         let inside_m = (up_m - self.base_up_m).min(self.top_up_m - up_m);
         (2.0 * inside_m / self.wake.width_m + 0.5).clamp(0.0, 1.0)
     }
+}
+
+/// Returns the corners that determine the extent in every horizontal direction: all of a convex solid, and the outermost in plan view of a
+/// surface, which may have a million.
+fn outer_corners_m(solid: &Solid) -> Vec<Vec3<Enu>> {
+    if solid.is_convex() {
+        return solid.vertices_m.clone();
+    }
+    let plan: Vec<(f64, f64)> = solid.vertices_m.iter().map(|corner| (corner.east(), corner.north())).collect();
+    hull(&plan).into_iter().map(|(east_m, north_m)| Vec3::new(east_m, north_m, 0.0)).collect()
 }

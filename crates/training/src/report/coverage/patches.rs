@@ -144,7 +144,7 @@ mod tests {
         };
         let faces =
             vec![vec![0, 2, 3, 1], vec![4, 5, 7, 6], vec![0, 1, 5, 4], vec![2, 6, 7, 3], vec![0, 4, 6, 2], vec![1, 3, 7, 5]];
-        Solid { vertices_m: (0..8).map(corner).collect(), faces }
+        Solid { vertices_m: (0..8).map(corner).collect(), faces, surface: None }
     }
 
     #[test]
