@@ -326,6 +326,14 @@ fn full_screen_key<'a>(
     }
 }
 
+/// Builds the pipelines of the `adapt` shader.
+fn adapt(gpu: &Gpu, solid: &PipelineKey, input: &wgpu::BindGroupLayout) -> [wgpu::RenderPipeline; 2] {
+    let (module, layouts) = (module(gpu, "adapt"), [Some(input)]);
+    let key = full_screen_key(solid, (&module, &layouts), &[]);
+    ["measure", "fit"]
+        .map(|entry| build_pipeline(gpu, &PipelineKey { entries: ("vs", entry), target: Some(ADAPTATION_FORMAT), ..key }))
+}
+
 /// Builds the pipelines that convert radiance to a picture: for eyes, for a camera, and for a camera over a weak video link.
 fn develop(gpu: &Gpu, film: &PipelineKey) -> [wgpu::RenderPipeline; 3] {
     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]
@@ -392,10 +400,6 @@ impl Pipelines {
         };
         let blur = [("BLUR", f64::from(u8::from(quality.blur_taps > 1)))];
         let film = full_screen_key(&solid, (&film_module, &develop_layouts), &blur);
-        let (adapt_module, adapt_layouts) = (module(gpu, "adapt"), [Some(&layouts.sampled)]);
-        let adapt = full_screen_key(&solid, (&adapt_module, &adapt_layouts), &[]);
-        let adapt = ["measure", "fit"]
-            .map(|entry| build_pipeline(gpu, &PipelineKey { entries: ("vs", entry), target: Some(ADAPTATION_FORMAT), ..adapt }));
         Self {
             surfaces: surfaces(gpu, &shaded, quality, 0.0),
             surfaces_mirrored: surfaces(gpu, &mirrored, quality, 1.0),
@@ -406,7 +410,7 @@ impl Pipelines {
             sky: build_pipeline(gpu, &back),
             precipitation: build_pipeline(gpu, &PipelineKey { module: &falling, blend: over, ..back }),
             shadow: build_pipeline(gpu, &dark),
-            adapt,
+            adapt: adapt(gpu, &solid, &layouts.sampled),
             develop: develop(gpu, &film),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
             tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),

@@ -334,12 +334,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
 
 // Haze: distant objects fade into the horizon.
 fn haze(color: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
-    let clear = exp(-distance * g.scene.z);
-    if !DETAIL {
-        return mix(veil_radiance(v), color, clear);
-    }
-    let horizon = normalize(vec3<f32>(-v.x, -v.y, 0.04));
-    return mix(grayed(sky_radiance(horizon) * VEIL_SHARE), color, clear);
+    return mix(veil_radiance(v), color, exp(-distance * g.scene.z));
 }
 
 // Brightness of thick air relative to the sky at the horizon (sky.rs).
@@ -351,9 +346,12 @@ fn grayed(veil: vec3<f32>) -> vec3<f32> {
     return mix(veil, gray, min(g.scene.w, 1.0));
 }
 
-// Radiance of thick air in the view direction.
+// Radiance of thick air in the direction `v` toward the camera.
 fn veil_radiance(v: vec3<f32>) -> vec3<f32> {
-    return grayed(horizon_radiance(v) * VEIL_SHARE);
+    if !DETAIL {
+        return grayed(horizon_radiance(v) * VEIL_SHARE);
+    }
+    return grayed(sky_radiance(normalize(vec3<f32>(-v.x, -v.y, 0.04))) * VEIL_SHARE);
 }
 
 // Surface in rain and snow. Water in the pores of a matte surface halves its reflectance (Twomey et al. 1986); snow lies where the

@@ -81,7 +81,7 @@ mod tests {
     fn visible_from(rise_m: f64, all: &[(MoverModel, Instance)]) -> Vec<(MoverModel, Instance)> {
         let (eye, water_m) = (eye(rise_m), 0.0);
         let (projection, lake) = (eye.view_projection(ASPECT), may_be_visible_in_lake(&eye, ASPECT, water_m));
-        let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, breaking: 0, lake };
+        let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, breaking: 0, falling: false, lake };
         view.visible_objects(all, &[3.0; MoverModel::ALL.len()])
     }
 
