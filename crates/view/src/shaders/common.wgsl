@@ -233,6 +233,8 @@ struct Matter {
     light: vec2<f32>,
     // Fraction of direct sunlight that the surface's own relief does not block.
     sunlit: f32,
+    // Whether the surface shows no light ripples from the water.
+    still: bool,
 }
 
 fn ggx(n: vec3<f32>, v: vec3<f32>, l: vec3<f32>, f0: vec3<f32>, roughness: f32) -> vec3<f32> {
@@ -306,7 +308,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     }
     var bounce = m.light.y * g.sun.w;
     if DETAIL {
-        if n.z < -0.3 && bounce > 0.0 && p.z < g.scene.y + 60.0 {
+        if n.z < -0.3 && !m.still && bounce > 0.0 && p.z < g.scene.y + 60.0 {
             bounce *= 0.86 + 0.45 * caustics(p);
         }
     }

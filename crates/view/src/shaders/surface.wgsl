@@ -348,6 +348,7 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
             let tuft = fbm(in.p.xy * 3.0 + in.p.z * 2.3, f * 3.0);
             color *= 0.45 + 1.1 * tuft;
             roughness = 0.9;
+            (*m).still = true;
         }
         case 6u: { color *= 0.6 + 0.8 * fbm(in.uv * vec2<f32>(9.0, 2.0), f * 9.0); }
         case 7u: {
