@@ -218,9 +218,12 @@ fn main() {
     );
     let card = views.secondary.is_none();
     let (_, mut large_hz) = measure(&mut views, (1920, 1080), "low");
-    for preset in if card { &["medium", "high"][..] } else { &[] } {
+    for preset in if card { &["medium", "high", "ultra"][..] } else { &[] } {
         views = Views::on(views.studio.gpu, preset);
-        large_hz = measure(&mut views, (1920, 1080), preset).1;
+        let rate_hz = measure(&mut views, (1920, 1080), preset).1;
+        if *preset == "high" {
+            large_hz = rate_hz;
+        }
     }
     let kept = if card { large_hz >= MIN_GPU_FRAME_RATE_HZ } else { small.is_none_or(|cpu| cpu <= MAX_FRAME_CPU_TIME_S) };
     let verdict = if kept { "ok" } else { "MISSED" };

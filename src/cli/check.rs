@@ -135,7 +135,7 @@ fn check_vehicle(source: &SourceFile, findings: &mut Findings) {
 /// missing.
 const VEHICLE_KEYS: [&str; 10] =
     ["mass_kg", "inertia_kg_m2", "rotors", "drag", "hull", "battery", "limits", "sensors", "camera", "lamp"];
-const SCENARIO_KEYS: [&str; 18] = [
+const SCENARIO_KEYS: [&str; 19] = [
     "title",
     "briefing",
     "briefing_pictures",
@@ -151,6 +151,7 @@ const SCENARIO_KEYS: [&str; 18] = [
     "traffic",
     "wind",
     "light",
+    "weather",
     "rules",
     "scoring",
     "certification",

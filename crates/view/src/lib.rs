@@ -54,4 +54,5 @@ pub mod tiles;
 #[cfg(feature = "gpu")]
 pub mod video;
 pub mod video_link;
+pub mod visible_weather;
 pub mod visible_wind;

@@ -22,6 +22,7 @@ pub fn all() -> Vec<ShaderSource> {
         ("surface", include_str!("shaders/surface.wgsl")),
         ("defect", include_str!("shaders/defect.wgsl")),
         ("water", include_str!("shaders/water.wgsl")),
+        ("precipitation", include_str!("shaders/precipitation.wgsl")),
         ("sky", include_str!("shaders/sky.wgsl")),
     ];
     let mut sources: Vec<ShaderSource> =
@@ -30,8 +31,10 @@ pub fn all() -> Vec<ShaderSource> {
     sources.push(ShaderSource { name: "lean", text: lean });
     sources.push(ShaderSource { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
     sources.push(ShaderSource { name: "painter", text: include_str!("shaders/painter.wgsl").to_owned() });
-    let develop = include_str!("shaders/develop.wgsl");
-    sources.push(ShaderSource { name: "develop", text: develop.to_owned() });
+    let developing = |own: &str| format!("{}\n{own}", include_str!("shaders/brightness.wgsl"));
+    sources.push(ShaderSource { name: "adapt", text: developing(include_str!("shaders/adapt.wgsl")) });
+    let develop = developing(include_str!("shaders/develop.wgsl"));
+    sources.push(ShaderSource { name: "develop", text: develop.clone() });
     let sampled = develop.replace("texture_depth_2d;", "texture_depth_multisampled_2d;");
     sources.push(ShaderSource { name: DEVELOP_MULTISAMPLED, text: sampled });
     sources

@@ -4,6 +4,7 @@ use super::camera::PinholeCamera;
 use super::exposure::Exposure;
 use super::scene::{Instance, MoverModel};
 use super::sky::Sky;
+use super::visible_weather::VisibleWeather;
 use super::visible_wind::VisibleWind;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::math;
@@ -106,6 +107,8 @@ pub struct Shot {
     pub time_s: f64,
     /// Wind over the lake.
     pub wind: VisibleWind,
+    /// Fog, rain and snow.
+    pub weather: VisibleWeather,
     /// Models and instances of the moving objects.
     pub moving: Vec<(MoverModel, Instance)>,
 }

@@ -15,6 +15,8 @@ const CLOUD_COLOR: [f64; 3] = [0.97, 1.0, 1.05];
 /// with slight haze; estimate).
 const AIR_OPTICAL_DEPTH: [f64; 3] = [0.07, 0.12, 0.24];
 
+/// Brightness of thick air relative to the sky at the horizon (estimate; common.wgsl has the same number).
+const VEIL_SHARE: f64 = 0.85;
 /// Fraction of the shadows' blue tint that a camera's white balance removes (estimate).
 const WHITE_BALANCE_FRACTION: f64 = 0.55;
 
@@ -92,6 +94,14 @@ impl Sky {
             cloud,
             scale: day.sky_lux / luminance(sum),
         }
+    }
+
+    /// Returns π times the luminance of thick air in the direction of a ray, in lx: about that of the sky at the horizon (`veil_radiance`
+    /// in common.wgsl).
+    #[must_use]
+    pub fn veil_lux(&self, ray: Vec3<Enu>) -> f64 {
+        let level = Vec3::new(ray.east(), ray.north(), 0.0);
+        if level.norm() > 1e-9 { VEIL_SHARE * self.visible_lux(level.unit()) } else { VEIL_SHARE * self.sky_lux }
     }
 
     /// Returns π times the luminance in the given direction, in lx.

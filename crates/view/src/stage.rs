@@ -11,6 +11,7 @@ use super::path_guide::{GuidedView, PathAids, ring_items};
 use super::scene::{DronePose, Scene};
 use super::shot::{LampBeam, SensorResponse, Shot};
 use super::sky::Sky;
+use super::visible_weather::VisibleWeather;
 use super::visible_wind::VisibleWind;
 use spandrel_mavlink::contract::cue;
 use spandrel_mavlink::contract::guidance::Guidance;
@@ -207,28 +208,22 @@ impl Stage<'_> {
         finish: impl FnOnce(f64) -> SensorResponse,
     ) -> Shot {
         let sky = self.sky(at);
+        let weather = VisibleWeather::at(&self.scenario.weather, self.site, &eye);
+        let beam = lamp.and_then(|pose| LampBeam::of(&self.vehicle.lamp, pose));
+        let lamp = lamp.filter(|pose| pose.lamp_on).map(|pose| (&self.vehicle.lamp, pose));
+        let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
+        let metered_lux = meter(self.site, &eye, aspect, &Lighting { sky: &sky, weather: &weather, lamp, query_time: at });
         Shot {
             eye,
             size_px,
-            beam: lamp.and_then(|pose| LampBeam::of(&self.vehicle.lamp, pose)),
-            finish: finish(self.metered_luminance(&eye, lamp, &sky, (at, size_px))),
+            beam,
+            finish: finish(metered_lux),
             time_s: at.s(),
             wind: VisibleWind::at(&self.scenario.wind, at),
+            weather,
             moving: self.scene.moving(self.scenario, self.site, drone, at),
             sky,
         }
-    }
-
-    fn metered_luminance(
-        &self,
-        eye: &PinholeCamera,
-        lamp: Option<&CameraPose>,
-        sky: &Sky,
-        (at, size_px): (SimTime, (u32, u32)),
-    ) -> f64 {
-        let aspect = f64::from(size_px.0) / f64::from(size_px.1.max(1));
-        let lamp = lamp.filter(|pose| pose.lamp_on).map(|pose| (&self.vehicle.lamp, pose));
-        meter(self.site, eye, aspect, &Lighting { sky, lamp, query_time: at })
     }
 }
 

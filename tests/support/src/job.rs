@@ -86,6 +86,7 @@ pub fn scenario(tasks: Vec<Task>) -> Scenario {
             events: Vec::new(),
         },
         light: LightSpec { start_unix_s: 0, cloud_cover: 0.0, water_albedo: 0.1, ground_albedo: 0.2 },
+        weather: WeatherSpec::default(),
         hazards: HazardSpec::default(),
         rules: SessionRules {
             battery_temperature_c: 25.0,

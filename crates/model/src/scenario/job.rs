@@ -54,6 +54,8 @@ pub struct Scenario {
     pub wind: WindSpec,
     /// Sun, cloud cover and surface reflection.
     pub light: LightSpec,
+    /// Fog, rain and snow in the pictures.
+    pub weather: WeatherSpec,
     /// Session rules for crashes, battery and GNSS.
     pub rules: SessionRules,
     /// Effects of the bridges on the vehicle.
@@ -397,6 +399,28 @@ pub struct LightSpec {
     pub water_albedo: f64,
     /// Fraction of downward light reflected by ground and concrete, 0 to 1.
     pub ground_albedo: f64,
+}
+
+/// A job's fog, rain and snow. They appear only in the pictures: the scores, the light model, the physics and the sensors ignore them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WeatherSpec {
+    /// Visual range in fog or haze, without rain and snow, m.
+    pub visibility_m: f64,
+    /// Rain, mm/h.
+    pub rain_mm_h: f64,
+    /// Snowfall as water, mm/h.
+    pub snow_mm_h: f64,
+}
+
+impl Default for WeatherSpec {
+    fn default() -> Self {
+        Self { visibility_m: Self::CLEAR_VISIBILITY_M, rain_mm_h: 0.0, snow_mm_h: 0.0 }
+    }
+}
+
+impl WeatherSpec {
+    /// Visual range without fog, m (estimate: a slightly hazy day).
+    pub const CLEAR_VISIBILITY_M: f64 = 12_000.0;
 }
 
 /// Session rules for crashes, battery and GNSS.

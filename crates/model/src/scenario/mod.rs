@@ -32,7 +32,7 @@ pub use forms::{form_names, select_form};
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION, HazardSpec,
     INSPECTOR_EYE_HEIGHT_M, LightSpec, PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task,
-    TerrainSource, TerrainSpec, TrafficSpec, WindEvent, WindModel, WindSpec,
+    TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
 pub use read::{FORMAT, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};

@@ -108,6 +108,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
         traffic: traffic(r, root),
         wind: super::weather::read(r, root),
         light: light(r, root),
+        weather: super::weather::read_visible(r, root),
         rules: rules(r, root),
         hazards: hazards(r, root, siblings),
         feedback: feedback(r, root),

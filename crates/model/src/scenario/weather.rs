@@ -1,6 +1,6 @@
-//! Reads the wind settings and parses the start time.
+//! Reads the wind and the visible weather, and parses the start time.
 
-use super::job::{WindEvent, WindModel, WindSpec};
+use super::job::{WeatherSpec, WindEvent, WindModel, WindSpec};
 use crate::math::M_S_PER_MPH;
 use crate::time::SimTime;
 use crate::toml::{Reader, Section};
@@ -34,6 +34,17 @@ pub(super) fn read(r: &mut Reader, root: &mut Section) -> WindSpec {
     wind.events.sort_by_key(start_time);
     r.finish(&s);
     wind
+}
+
+pub(super) fn read_visible(r: &mut Reader, root: &mut Section) -> WeatherSpec {
+    let mut s = r.section(root, "weather");
+    let weather = WeatherSpec {
+        visibility_m: r.number(&mut s, "visibility_m", (50.0, 50_000.0), Some(WeatherSpec::CLEAR_VISIBILITY_M)),
+        rain_mm_h: r.number(&mut s, "rain_mm_h", (0.0, 100.0), Some(0.0)),
+        snow_mm_h: r.number(&mut s, "snow_mm_h", (0.0, 10.0), Some(0.0)),
+    };
+    r.finish(&s);
+    weather
 }
 
 fn start_time(event: &WindEvent) -> SimTime {

@@ -230,6 +230,7 @@ mod tests {
                 events: vec![],
             },
             light: LightSpec { start_unix_s: 1_718_884_800, cloud_cover, water_albedo: 0.08, ground_albedo: 0.2 },
+            weather: WeatherSpec::default(),
             rules,
             hazards: HazardSpec::default(),
             feedback,

@@ -18,6 +18,9 @@ briefing-calm = windstill
 briefing-sun = { $time } Sonnenzeit, Sonne { $height }° hoch
 briefing-no-sun = { $time } Sonnenzeit, keine Sonne
 briefing-clouds = zu { $share }% bewölkt
+briefing-visibility = Sichtweite { $distance } m
+briefing-rain = Regen { $rate } mm/h
+briefing-snow = Schnee { $rate } mm/h
 briefing-cars = { $count ->
         [one] { $count } Pkw
        *[other] { $count } Pkw

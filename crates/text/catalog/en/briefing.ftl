@@ -22,6 +22,9 @@ briefing-calm = calm
 briefing-sun = { $time } solar time, sun { $height }° high
 briefing-no-sun = { $time } solar time, no sun
 briefing-clouds = { $share }% clouds
+briefing-visibility = visual range { $distance } m
+briefing-rain = rain { $rate } mm/h
+briefing-snow = snow { $rate } mm/h
 briefing-cars = { $count ->
         [one] { $count } car
        *[other] { $count } cars

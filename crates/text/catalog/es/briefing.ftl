@@ -18,6 +18,9 @@ briefing-calm = en calma
 briefing-sun = { $time } hora solar, sol a { $height }°
 briefing-no-sun = { $time } hora solar, sin sol
 briefing-clouds = { $share }% de nubes
+briefing-visibility = alcance visual { $distance } m
+briefing-rain = lluvia { $rate } mm/h
+briefing-snow = nieve { $rate } mm/h
 briefing-cars = { $count ->
         [one] { $count } auto
        *[other] { $count } autos

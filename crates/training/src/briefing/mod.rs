@@ -11,7 +11,7 @@ pub use tasks::TaskBriefing;
 use crate::terms::scenario_title;
 use serde::Serialize;
 use spandrel_model::math;
-use spandrel_model::scenario::{BriefingPicture, Scenario, Task, WindModel};
+use spandrel_model::scenario::{BriefingPicture, Scenario, Task, WeatherSpec, WindModel};
 use spandrel_model::site::Site;
 use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle;
@@ -68,7 +68,7 @@ pub fn flight_conditions(scenario: &Scenario, vehicle: &Vehicle, site: &Site, la
         (text!(language, "briefing-aircraft"), vehicle.name.clone()),
         (text!(language, "briefing-wind"), wind_words(scenario, language)),
         (text!(language, "briefing-light"), light_words(scenario, site, language)),
-        (text!(language, "briefing-sky"), clouds_words(scenario, language)),
+        (text!(language, "briefing-sky"), sky_words(scenario, language)),
     ]
 }
 
@@ -139,8 +139,14 @@ fn light_words(scenario: &Scenario, site: &Site, language: Language) -> String {
     }
 }
 
-fn clouds_words(scenario: &Scenario, language: Language) -> String {
-    text!(language, "briefing-clouds", share = format!("{:.0}", 100.0 * scenario.light.cloud_cover))
+fn sky_words(scenario: &Scenario, language: Language) -> String {
+    let weather = &scenario.weather;
+    let clouds = text!(language, "briefing-clouds", share = format!("{:.0}", 100.0 * scenario.light.cloud_cover));
+    let is_foggy = weather.visibility_m < WeatherSpec::CLEAR_VISIBILITY_M;
+    let fog = is_foggy.then(|| text!(language, "briefing-visibility", distance = format!("{:.0}", weather.visibility_m)));
+    let rain = (weather.rain_mm_h > 0.0).then(|| text!(language, "briefing-rain", rate = weather.rain_mm_h.to_string()));
+    let snow = (weather.snow_mm_h > 0.0).then(|| text!(language, "briefing-snow", rate = weather.snow_mm_h.to_string()));
+    [Some(clouds), fog, rain, snow].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
 fn traffic_words(scenario: &Scenario, language: Language) -> String {

@@ -98,7 +98,12 @@ const LAYOUT: &[Layout] = &[
         ],
         tables: &[],
     },
-    Layout { id: "light", repeated: "", main: &["light.start_utc", "light.cloud_cover"], tables: &["light"] },
+    Layout {
+        id: "light",
+        repeated: "",
+        main: &["light.start_utc", "light.cloud_cover", "weather.visibility_m", "weather.rain_mm_h", "weather.snow_mm_h"],
+        tables: &["light", "weather"],
+    },
     Layout {
         id: "rules",
         repeated: "",

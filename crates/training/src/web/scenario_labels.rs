@@ -3,13 +3,14 @@
 use spandrel_text::{Language, text};
 
 /// Units at the end of keys, and their symbols.
-const UNITS: [(&str, &str); 14] = [
+const UNITS: [(&str, &str); 15] = [
     ("_m_s", "m/s"),
     ("_mph", "mph"),
     ("_deg", "°"),
     ("_pct", "%"),
     ("_min", "min"),
     ("_utc", "UTC"),
+    ("_mm_h", "mm/h"),
     ("_mm", "mm"),
     ("_px", "px"),
     ("_hz", "Hz"),
@@ -257,6 +258,9 @@ fn flight_label(language: Language, name: &str) -> Option<String> {
         "start" => text!(language, "editor-key-start"),
         "cloud_cover" => text!(language, "editor-key-cloud-cover"),
         "water_albedo" => text!(language, "editor-key-water-albedo"),
+        "visibility" => text!(language, "editor-key-visibility"),
+        "rain" => text!(language, "editor-key-rain"),
+        "snow" => text!(language, "editor-key-snow"),
         "ground_albedo" => text!(language, "editor-key-ground-albedo"),
         _ => return None,
     })

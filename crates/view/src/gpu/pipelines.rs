@@ -17,6 +17,8 @@ pub use painter::PainterPipelines;
 
 /// Format of radiance targets.
 pub const RADIANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Format of the targets of the `adapt` shader.
+pub const ADAPTATION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// Depth format: 1 at the near plane, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Format of rendered pictures; the shader encodes sRGB.
@@ -29,8 +31,8 @@ pub type MaterialPipelines = Vec<(MaterialGroup, wgpu::RenderPipeline)>;
 pub struct Pipelines {
     /// Layout of globals, shadow maps and their sampler.
     pub globals_layout: wgpu::BindGroupLayout,
-    /// Layout of the water reflection and its sampler.
-    pub water_layout: wgpu::BindGroupLayout,
+    /// Layout of a texture and its sampler: the water reflection, inputs of the `adapt` shader.
+    pub sampled_layout: wgpu::BindGroupLayout,
     /// Layout of the `develop` shader's inputs.
     pub develop_layout: wgpu::BindGroupLayout,
     /// Layout of a shadow map's projection.
@@ -53,10 +55,14 @@ pub struct Pipelines {
     pub water: [[wgpu::RenderPipeline; 2]; 2],
     /// Sky.
     pub sky: wgpu::RenderPipeline,
+    /// Drops and flakes.
+    pub precipitation: wgpu::RenderPipeline,
     /// Reflected sky.
     pub sky_mirrored: wgpu::RenderPipeline,
     /// Shadow map depth.
     pub shadow: wgpu::RenderPipeline,
+    /// Brightness of the picture's cells, then the base that local adaptation compresses.
+    pub adapt: [wgpu::RenderPipeline; 2],
     /// Conversion of radiance to a picture, for eyes, for a camera, and for a camera over a weak video link.
     pub develop: [wgpu::RenderPipeline; 3],
 }
@@ -202,7 +208,7 @@ fn module(gpu: &Gpu, name: &str) -> wgpu::ShaderModule {
 /// Bind group layouts.
 struct BindLayouts {
     globals: wgpu::BindGroupLayout,
-    water: wgpu::BindGroupLayout,
+    sampled: wgpu::BindGroupLayout,
     develop: wgpu::BindGroupLayout,
     map: wgpu::BindGroupLayout,
 }
@@ -228,8 +234,11 @@ impl BindLayouts {
         ];
         Self {
             globals: layout(gpu, &globals),
-            water: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
-            develop: layout(gpu, &[(fragment, UNIFORM), (fragment, filtered), (fragment, smooth), (fragment, depth)]),
+            sampled: layout(gpu, &[(fragment, filtered), (fragment, smooth)]),
+            develop: layout(
+                gpu,
+                &[(fragment, UNIFORM), (fragment, filtered), (fragment, smooth), (fragment, depth), (fragment, filtered)],
+            ),
             map: layout(gpu, &[(ShaderStages::VERTEX, UNIFORM)]),
         }
     }
@@ -248,14 +257,15 @@ fn sampler(gpu: &Gpu, address: wgpu::AddressMode, compare: Option<wgpu::CompareF
     })
 }
 
-/// Returns the override constants of a preset (common.wgsl).
-fn preset_constants(quality: &Quality) -> [(&'static str, f64); 5] {
+/// Returns the override constants of a preset, and of scenes with rain or snow (common.wgsl).
+fn preset_constants(quality: &Quality, weathered: bool) -> [(&'static str, f64); 6] {
     [
         ("CASCADES", f64::from(quality.cascades)),
         ("TAPS", f64::from(quality.shadow_taps)),
         ("LAMP_CASTS", f64::from(u8::from(quality.lamp_shadow))),
         ("MIRROR", f64::from(u8::from(quality.reflection > 0.0))),
         ("DETAIL", f64::from(u8::from(quality.smooth_noise))),
+        ("WEATHERED", f64::from(u8::from(weathered))),
     ]
 }
 
@@ -316,6 +326,14 @@ fn full_screen_key<'a>(
     }
 }
 
+/// Builds the pipelines of the `adapt` shader.
+fn adapt(gpu: &Gpu, solid: &PipelineKey, input: &wgpu::BindGroupLayout) -> [wgpu::RenderPipeline; 2] {
+    let (module, layouts) = (module(gpu, "adapt"), [Some(input)]);
+    let key = full_screen_key(solid, (&module, &layouts), &[]);
+    ["measure", "fit"]
+        .map(|entry| build_pipeline(gpu, &PipelineKey { entries: ("vs", entry), target: Some(ADAPTATION_FORMAT), ..key }))
+}
+
 /// Builds the pipelines that convert radiance to a picture: for eyes, for a camera, and for a camera over a weak video link.
 fn develop(gpu: &Gpu, film: &PipelineKey) -> [wgpu::RenderPipeline; 3] {
     [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]
@@ -328,18 +346,19 @@ fn defect(gpu: &Gpu, flat: &PipelineKey, code: u32) -> (u32, wgpu::RenderPipelin
 }
 
 impl Pipelines {
-    /// Compiles all pipelines.
-    pub fn new(gpu: &Gpu, quality: &Quality) -> Self {
+    /// Compiles all pipelines. `weathered`: whether rain or snow changes the surfaces.
+    pub fn new(gpu: &Gpu, quality: &Quality, weathered: bool) -> Self {
         let layouts = BindLayouts::new(gpu, quality);
-        let [surface, sky, patch, water, shadow] = ["surface", "sky", "defect", "water", "shadow"].map(|name| module(gpu, name));
+        let [surface, sky, falling, patch, water, shadow] =
+            ["surface", "sky", "precipitation", "defect", "water", "shadow"].map(|name| module(gpu, name));
         let film_module = module(gpu, if quality.samples > 1 { shaders::DEVELOP_MULTISAMPLED } else { "develop" });
         let (front, over) = (wgpu::FrontFace::Ccw, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING));
         let globals = [Some(&layouts.globals)];
         let (solid_buffers, patch_buffers, water_buffers) =
             ([Some(corners()), Some(copies())], [Some(patches())], [Some(corners())]);
         let (lake_layouts, map_layouts, develop_layouts) =
-            ([Some(&layouts.globals), Some(&layouts.water)], [Some(&layouts.map)], [Some(&layouts.develop)]);
-        let preset_constants = preset_constants(quality);
+            ([Some(&layouts.globals), Some(&layouts.sampled)], [Some(&layouts.map)], [Some(&layouts.develop)]);
+        let preset_constants = preset_constants(quality, weathered);
         let solid = PipelineKey {
             module: &surface,
             entries: ENTRY_POINTS,
@@ -389,13 +408,15 @@ impl Pipelines {
             water: lakes(gpu, &lake, quality),
             sky_mirrored: build_pipeline(gpu, &PipelineKey { samples: 1, ..back }),
             sky: build_pipeline(gpu, &back),
+            precipitation: build_pipeline(gpu, &PipelineKey { module: &falling, blend: over, ..back }),
             shadow: build_pipeline(gpu, &dark),
+            adapt: adapt(gpu, &solid, &layouts.sampled),
             develop: develop(gpu, &film),
             smooth: sampler(gpu, wgpu::AddressMode::ClampToEdge, None, false),
             tiled: sampler(gpu, wgpu::AddressMode::Repeat, None, quality.smooth_noise),
             compare: sampler(gpu, wgpu::AddressMode::ClampToEdge, Some(DEPTH_COMPARE), false),
             globals_layout: layouts.globals,
-            water_layout: layouts.water,
+            sampled_layout: layouts.sampled,
             develop_layout: layouts.develop,
             map_layout: layouts.map,
         }

@@ -19,6 +19,7 @@ use crate::scene::{DefectPatch, Instance, MoverModel, Scene};
 use crate::shadows::{self, ShadowMap};
 use crate::shot::Shot;
 use crate::tiles;
+use crate::visible_weather::LAYER_DISTANCES_M;
 use culling::ShotView;
 use spandrel_model::frames::{Enu, Vec3};
 use static_cells::{StaticCell, fixed};
@@ -73,7 +74,7 @@ impl Renderer {
     /// Uploads a scene.
     #[must_use]
     pub fn new(gpu: &Gpu, quality: Quality, scene: &Scene) -> Self {
-        let pipelines = Pipelines::new(gpu, &quality);
+        let pipelines = Pipelines::new(gpu, &quality, scene.is_weathered);
         let maps_texture = shadow_map_texture(gpu, &quality);
         let all = maps_texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
@@ -179,6 +180,12 @@ impl Renderer {
         self.counts = self.counts.and(lit);
         let develop = DevelopUniforms::new(shot, &self.quality);
         gpu.queue.write_buffer(&targets.develop_data, 0, bytemuck::bytes_of(&develop));
+        for (pipeline, (target, input)) in self.pipelines.adapt.iter().zip(&targets.adapt) {
+            let mut pass = begin(&mut encoder, target, None, None);
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, input, &[]);
+            pass.draw(0..3, 0..1);
+        }
         {
             let mut pass = begin(&mut encoder, target, None, None);
             let variant = usize::from(shot.finish.is_camera()) + usize::from(shot.finish.has_lost_blocks());
@@ -331,6 +338,11 @@ impl Renderer {
             let Some(Some(solid)) = self.models.get(*model as usize) else { continue };
             count(&mut counts, solid.triangles(), copies);
             solid.draw(&mut pass, copies);
+        }
+        if view.falling {
+            pass.set_pipeline(&self.pipelines.precipitation);
+            pass.draw(0..3, 0..LAYER_DISTANCES_M.len() as u32);
+            counts.draw_calls += 1;
         }
         counts
     }

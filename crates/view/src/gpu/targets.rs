@@ -2,9 +2,13 @@
 
 use super::device::Gpu;
 use super::pass::uniform;
-use super::pipelines::{DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
+use super::pipelines::{ADAPTATION_FORMAT, DEPTH_FORMAT, Pipelines, RADIANCE_FORMAT};
 use crate::ground_photo::GroundColors;
 use crate::quality::Quality;
+
+/// Cells of the longer side of a picture in which local adaptation measures brightness. A neighborhood has nine cells, a seventh of the
+/// picture (estimate: about the part of a picture that a person takes in at a glance).
+const ADAPTATION_CELLS: u32 = 64;
 
 /// Render targets and their bind groups.
 pub struct RenderTargets {
@@ -20,6 +24,8 @@ pub struct RenderTargets {
     pub mirror_depth: wgpu::TextureView,
     /// Bind group of the `water` shader.
     pub water: wgpu::BindGroup,
+    /// Targets of the passes of the `adapt` shader, each with the bind group of its input.
+    pub adapt: [(wgpu::TextureView, wgpu::BindGroup); 2],
     /// Bind group of the `develop` shader.
     pub develop: wgpu::BindGroup,
     /// Uniforms of the `develop` shader.
@@ -55,22 +61,32 @@ impl RenderTargets {
         let view = |view| wgpu::BindingResource::TextureView(view);
         let sampler = wgpu::BindingResource::Sampler(&pipelines.smooth);
         let entry = |binding: u32, resource| wgpu::BindGroupEntry { binding, resource };
-        let water = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("water"),
-            layout: &pipelines.water_layout,
-            entries: &[entry(0, view(&mirror)), entry(1, sampler.clone())],
-        });
+        let sampled = |texture| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipelines.sampled_layout,
+                entries: &[entry(0, view(texture)), entry(1, sampler.clone())],
+            })
+        };
+        let water = sampled(&mirror);
+        let radiance = resolved.as_ref().unwrap_or(&light);
+        let longer = f64::from(size.0.max(size.1).max(1));
+        let cells = |px: u32| (f64::from(px) / longer * f64::from(ADAPTATION_CELLS)).round() as u32;
+        let [measured, fitted] = [(); 2].map(|()| texture(gpu, (cells(size.0), cells(size.1)), ADAPTATION_FORMAT, 1));
         let develop = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("develop"),
             layout: &pipelines.develop_layout,
             entries: &[
                 entry(0, develop_data.as_entire_binding()),
-                entry(1, view(resolved.as_ref().unwrap_or(&light))),
-                entry(2, sampler),
+                entry(1, view(radiance)),
+                entry(2, sampler.clone()),
                 entry(3, view(&depth)),
+                entry(4, view(&fitted)),
             ],
         });
-        Self { light, resolved, depth, mirror, mirror_depth, water, develop, develop_data }
+        let (of_radiance, of_measured) = (sampled(radiance), sampled(&measured));
+        let adapt = [(measured, of_radiance), (fitted, of_measured)];
+        Self { light, resolved, depth, mirror, mirror_depth, water, adapt, develop, develop_data }
     }
 }
 

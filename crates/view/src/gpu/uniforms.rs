@@ -12,8 +12,6 @@ use spandrel_model::math;
 
 /// Maximum number of shadow maps in a shader.
 pub const MAX_SHADOW_MAPS: usize = 5;
-/// Haze extinction per meter (estimate: 12 km visual range; Koschmieder's 3.9 divided by the range).
-const HAZE_EXTINCTION_PER_M: f64 = 3.9 / 12_000.0;
 
 /// Distance after which the pattern of gusts repeats, m: the noise tile's cells (noise.rs) over those per meter (`GUST_CELLS_PER_M` in
 /// water.wgsl).
@@ -41,6 +39,8 @@ pub struct Globals {
     shadow_proj: [[[f32; 4]; 4]; MAX_SHADOW_MAPS],
     air: [f32; 4],
     trees: [f32; 4],
+    weather: [f32; 4],
+    open: [f32; 4],
 }
 
 /// Uniforms of the `DevelopUniforms` shader structure.
@@ -80,7 +80,7 @@ impl Globals {
         let projection = if mirrored { projection.after(&Matrix::mirror(water_m)) } else { projection };
         let (half_w, half_h) = shot.eye.half_extents(shot.aspect());
         let pixel_rad = 2.0 * half_w / f64::from(shot.size_px.0.max(1));
-        let sky = &shot.sky;
+        let (sky, weather) = (&shot.sky, &shot.weather);
         let (wind, towards, bend_m) = (shot.wind.speed_m_s(), shot.wind.waves_toward, shot.wind.tree_bend_m());
         // The pattern of gusts repeats, so that large displacements lose no digits.
         let drift = |of_m: f64| of_m.rem_euclid(GUST_PERIOD_M) as f32;
@@ -106,7 +106,7 @@ impl Globals {
             sun: with_w(sky.sun, sky.direct_lux),
             sun_rgb: color_with_w(sky.sun_rgb, sky.cloud),
             sky_rgb: color_with_w(sky.sky_rgb, sky.sky_lux),
-            scene: [sky.scale as f32, water_m as f32, HAZE_EXTINCTION_PER_M as f32, 0.0],
+            scene: [sky.scale as f32, water_m as f32, weather.extinction_per_m as f32, weather.fog_depth() as f32],
             lamp,
             lamp_dir,
             look: [(1.0 / shot.finish.exposure.white_lux) as f32, wind as f32, towards.0 as f32, towards.1 as f32],
@@ -116,6 +116,8 @@ impl Globals {
             shadow_proj,
             air: [drift(east_m), drift(north_m), shot.wind.gust_intensity as f32, shot.wind.breaking_share() as f32],
             trees: [bend_m.0 as f32, bend_m.1 as f32, tree_phase_rad(shot.time_s) as f32, 0.0],
+            weather: [weather.wetness(), weather.snow_cover(), weather.rain_mm_h, weather.snow_mm_h].map(|value| value as f32),
+            open: weather.open.map(|share| share as f32),
         }
     }
 }
@@ -137,7 +139,12 @@ impl DevelopUniforms {
         Self {
             reproject: reproject.unwrap_or(Matrix::mirror(0.0)).columns(),
             grain: [shot.finish.noise as f32, number as f32, taps as f32, shot.finish.vignette as f32],
-            size: [width as f32, height as f32, shot.finish.lost_blocks as f32, 0.0],
+            size: [
+                width as f32,
+                height as f32,
+                shot.finish.lost_blocks as f32,
+                shot.finish.exposure.max_brightening_stops() as f32,
+            ],
         }
     }
 }

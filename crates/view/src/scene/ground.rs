@@ -1,9 +1,8 @@
-//! Ground, surrounding mountains, the lake's surface, and the landing pad.
+//! Ground, the lake's surface, and the landing pad.
 
 use super::super::mesh::{Material, Mesh, Vertex, single};
 use super::bake::LightBaker;
 use spandrel_model::frames::{Enu, Vec3};
-use spandrel_model::math;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::Site;
 use spandrel_model::site::wakes::WakeField;
@@ -12,18 +11,6 @@ use spandrel_model::time::SimTime;
 
 /// Range around a member within which the light on the ground is baked, m.
 const BAKED_LIGHT_RANGE_M: f64 = 30.0;
-/// Radii of the mountain rings, as fractions of the field's half side. The mountains are decorative; no job extends
-/// that far.
-const MOUNTAIN_RINGS: [f64; 15] = [0.98, 1.0, 1.1, 1.25, 1.45, 1.7, 2.0, 2.4, 2.9, 3.5, 4.3, 5.4, 6.8, 8.6, 11.0];
-/// Vertices on each side of a ring.
-const RIM_SIDE_VERTICES: usize = 48;
-/// Depth below the ground where the mountains start inside the rim, m. Hides the gaps that would appear because the rim
-/// has fewer vertices than the ground.
-const RIM_OVERLAP_M: f64 = 8.0;
-/// Height of the mountains above the rim, m (estimate: a lake in a pre-alpine valley).
-const PEAK_HEIGHT_M: f64 = 620.0;
-/// Minimum height above the water for the rim to count as land, m.
-const LAND_HEIGHT_M: f64 = 45.0;
 /// Extent of the lake, m.
 const LAKE_EXTENT_M: f64 = 9_000.0;
 /// Height above the water at which the wind ripples it, m (estimate: between the waves' crests and the lowest eddies).
@@ -34,7 +21,9 @@ const MAX_WIND_SHARE: f64 = 1.3;
 /// Minimum depth that hides the lake bed, m.
 const OPAQUE_DEPTH_M: f64 = 30.0;
 
-fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], height_over_water_m: f64) -> Vertex {
+/// Returns a vertex of the ground. The red part of its tint is the share of the field, beyond which the shader grows the forest of the
+/// mountains.
+pub fn ground_vertex(p: Vec3<Enu>, normal: Vec3<Enu>, light: [f32; 2], height_over_water_m: f64) -> Vertex {
     Vertex {
         position: single(p),
         normal: single(normal),
@@ -76,7 +65,8 @@ fn mesh_of_triangles(corners: usize, triangles: impl Iterator<Item = [u32; 3]>, 
     mesh
 }
 
-fn vertex_normals(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
+/// Returns the mean normals of the triangles at each point.
+pub fn vertex_normals(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>> {
     let mut sums = vec![Vec3::zero(); points.len()];
     for [a, b, c] in triangles {
         let at = |k: &u32| points[*k as usize];
@@ -86,75 +76,6 @@ fn vertex_normals(points: &[Vec3<Enu>], triangles: &[[u32; 3]]) -> Vec<Vec3<Enu>
         }
     }
     sums.into_iter().map(Vec3::unit).collect()
-}
-
-/// Builds the mountains around the field, which rise from its rim. Where the lake reaches the rim, it continues between
-/// the mountains. `coarse` uses every second vertex of every second ring beyond the rim.
-pub fn mountains(scenario: &Scenario, site: &Site, coarse: bool) -> Mesh {
-    let half = 0.5 * scenario.terrain.size_m;
-    let water = scenario.terrain.water_level_m;
-    let every = if coarse { 2 } else { 1 };
-    let around = 4 * RIM_SIDE_VERTICES / every;
-    let last = MOUNTAIN_RINGS.len() - 1;
-    let rings: Vec<(usize, f64)> =
-        MOUNTAIN_RINGS.into_iter().enumerate().filter(|(ring, _)| !coarse || ring % 2 == 1 || [0, last].contains(ring)).collect();
-    let mut points = Vec::with_capacity(rings.len() * around);
-    for (ring, share) in &rings {
-        for k in 0..around {
-            let (x, y) = rim(k * every);
-            let edge = share.min(0.9995) * half;
-            let rim_up = site.geometry().terrain.ground.ground(x * edge, y * edge).0;
-            let (east, north) = (x * half * share, y * half * share);
-            let up = match ring {
-                0 => rim_up - RIM_OVERLAP_M,
-                1 => rim_up,
-                _ => slope_height_m(rim_up - water, *share, east, north) + water,
-            };
-            points.push(Vec3::new(east, north, up));
-        }
-    }
-    let mut triangles = Vec::new();
-    for ring in 0..rings.len() - 1 {
-        for k in 0..around {
-            let i = |ring: usize, k: usize| (ring * around + k % around) as u32;
-            // The rim is counterclockwise, so outward is to its right.
-            triangles.push([i(ring, k), i(ring + 1, k), i(ring + 1, k + 1)]);
-            triangles.push([i(ring, k), i(ring + 1, k + 1), i(ring, k + 1)]);
-        }
-    }
-    let normals = vertex_normals(&points, &triangles);
-    let vertices =
-        points.iter().zip(&normals).map(|(p, n)| ground_vertex(*p, *n, [0.6 + 0.4 * n.up() as f32, 0.02], p.up() - water));
-    Mesh { vertices: vertices.collect(), indices: triangles.into_iter().flatten().collect() }
-}
-
-/// Returns the k-th point on the square's rim, in -1..1, counterclockwise from the southwest.
-fn rim(k: usize) -> (f64, f64) {
-    let t = 2.0 * (k % RIM_SIDE_VERTICES) as f64 / RIM_SIDE_VERTICES as f64 - 1.0;
-    match k / RIM_SIDE_VERTICES {
-        0 => (t, -1.0),
-        1 => (1.0, t),
-        2 => (-t, 1.0),
-        _ => (-1.0, -t),
-    }
-}
-
-/// Returns the terrain's height above the water beyond the rim. The terrain starts at the rim's height and continues
-/// with ridges; the lake extends for some distance.
-fn slope_height_m(rim_height_m: f64, share: f64, east: f64, north: f64) -> f64 {
-    let ridges = 0.5
-        + 0.30 * math::sin(east / 610.0 + 1.7 * math::sin(north / 930.0)) * math::cos(north / 480.0 - 0.8)
-        + 0.20 * math::sin(east / 233.0 + 2.0) * math::sin(north / 271.0 + math::cos(east / 350.0));
-    // Blends between lake and land along the rim to avoid a vertical wall.
-    let wet = {
-        let t = ((LAND_HEIGHT_M - rim_height_m) / LAND_HEIGHT_M).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    };
-    let beyond = (share - math::lerp(1.0, 2.2, wet)).max(0.0) / 2.4;
-    // The slope starts gently and steepens, like the end of a valley.
-    let climb = 1.0 - math::exp(-beyond * beyond / (0.3 + beyond));
-    let far = PEAK_HEIGHT_M * climb * (0.35 + 0.9 * ridges);
-    rim_height_m * (1.0 - 0.4 * climb * (1.0 - wet)) + far
 }
 
 /// Builds the lake: inside the field, one vertex with depth per ground vertex; outside, a frame around the field.

@@ -8,6 +8,7 @@ mod drone;
 mod fields;
 mod ground;
 mod item;
+mod mountains;
 mod plants;
 mod props;
 mod sparse;
@@ -121,6 +122,8 @@ pub struct Scene {
     pub patches: Vec<DefectPatch>,
     /// Meshes in the order of [`MoverModel::ALL`].
     pub models: Vec<Mesh>,
+    /// Whether rain or snow changes the surfaces.
+    pub is_weathered: bool,
     /// Paths of the tasks.
     pub paths: PathGuide,
     /// Outlines of the site for the instruments.
@@ -165,13 +168,15 @@ impl Scene {
         let mut parts = bridges::parts(scenario, &bake, quality);
         report(LoadingStep::Ground);
         let ground_at = parts.len();
+        let mountain_step = if quality.sparse { mountains::SPARSE_STEP } else { 1 };
         parts.extend([
             SceneItem::here("ground", ground(&shown, bottom_m), true),
-            SceneItem { backdrop: true, ..SceneItem::here("mountains", ground::mountains(scenario, site, false), false) },
+            SceneItem { backdrop: true, ..SceneItem::here("mountains", mountains::mesh(scenario, site, mountain_step), false) },
             SceneItem::here("pad", ground::pad(site), false),
         ]);
         if quality.sparse {
-            let coarse = SceneItem::here("reflected mountains", ground::mountains(scenario, site, true), false);
+            let coarse =
+                SceneItem::here("reflected mountains", mountains::mesh(scenario, site, mountains::REFLECTED_STEP), false);
             parts[ground_at].visible_range = VisibleRange::DIRECT_ONLY;
             parts[ground_at + 1].visible_range = VisibleRange::DIRECT_ONLY;
             parts.push(SceneItem { backdrop: true, visible_range: VisibleRange::LAKE_ONLY, ..coarse });
@@ -194,6 +199,7 @@ impl Scene {
                 drone::propeller(vehicle),
                 drone::propeller_disk(vehicle),
             ],
+            is_weathered: scenario.weather.rain_mm_h > 0.0 || scenario.weather.snow_mm_h > 0.0,
             paths: PathGuide::new(scenario),
             outline: Arc::new(SiteOutline::new(scenario, site)),
             bounds_m: bounds(site),

@@ -82,7 +82,7 @@ fn generated(scenario: &Scenario, site: &Site, quality: &Quality) -> Vec<SceneIt
     } else {
         VisibleRange::EVERYWHERE
     };
-    let (spruce, fir) = (conifer(0.21, 5, quality.branches_per_whorl), conifer(0.15, 6, quality.branches_per_whorl));
+    let (spruce, fir) = (conifer(0.21, 3, quality.branches_per_whorl), conifer(0.15, 4, quality.branches_per_whorl));
     let copies = |name, mesh, instances, seen| SceneItem {
         name,
         mesh,
@@ -156,8 +156,8 @@ fn plant_instance(foot: Vec3<Enu>, size: f64, turn: f64) -> Instance {
 
 /// Builds a conifer of height 1: whorls of drooping branches with a ragged edge.
 fn conifer(radius: f64, whorls: u32, branches_per_whorl: u32) -> Mesh {
-    // Fewer branches per whorl also mean fewer whorls.
-    let whorls = if branches_per_whorl < 8 { whorls - 2 } else { whorls };
+    // More branches per whorl also mean more and lower whorls.
+    let (whorls, height) = if branches_per_whorl < 8 { (whorls, 0.34) } else { (4 * whorls, 0.17) };
     let mut mesh = Mesh::default();
     if branches_per_whorl < 8 {
         trunk(&mut mesh);
@@ -167,7 +167,7 @@ fn conifer(radius: f64, whorls: u32, branches_per_whorl: u32) -> Mesh {
     for whorl in 0..whorls {
         let share = f64::from(whorl) / f64::from(whorls);
         let low = 0.10 + 0.80 * share;
-        let high = (low + 0.34 * (1.0 - 0.45 * share)).min(1.0);
+        let high = (low + height * (1.0 - 0.45 * share)).min(1.0);
         let wide = radius * (1.0 - 0.82 * share);
         let rim = |k: u32| {
             let (s, c) = math::sin_cos(

@@ -17,6 +17,9 @@ override LAMP: bool = true;
 // Whether the pipeline draws highlights and reflections.
 override GLOSSY: bool = true;
 
+// Whether rain or snow changes the surfaces.
+override WEATHERED: bool = false;
+
 struct Globals {
     view_proj: mat4x4<f32>,
     // Camera position; time, s.
@@ -32,7 +35,7 @@ struct Globals {
     sun_rgb: vec4<f32>,
     // Color of the sky's light; horizontal illuminance of the sky.
     sky_rgb: vec4<f32>,
-    // Factor for the sky's relative radiance; water level; haze, 1/m.
+    // Factor for the sky's relative radiance; water level; extinction of the air, 1/m; optical depth of the fog up to the sky.
     scene: vec4<f32>,
     // Lamp: position, cosine of the half beam angle; direction, candela.
     lamp: vec4<f32>,
@@ -51,6 +54,10 @@ struct Globals {
     air: vec4<f32>,
     // Mean displacement of a tree's top, east and north, m; phase, rad.
     trees: vec4<f32>,
+    // Wetness and snow cover of open surfaces; rain and snow, mm/h.
+    weather: vec4<f32>,
+    // Share of the drops in each layer in front of the camera (precipitation.wgsl).
+    open: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> g: Globals;
@@ -226,6 +233,8 @@ struct Matter {
     light: vec2<f32>,
     // Fraction of direct sunlight that the surface's own relief does not block.
     sunlit: f32,
+    // Whether the surface shows no light ripples from the water.
+    still: bool,
 }
 
 fn ggx(n: vec3<f32>, v: vec3<f32>, l: vec3<f32>, f0: vec3<f32>, roughness: f32) -> vec3<f32> {
@@ -299,7 +308,7 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
     }
     var bounce = m.light.y * g.sun.w;
     if DETAIL {
-        if n.z < -0.3 && bounce > 0.0 && p.z < g.scene.y + 60.0 {
+        if n.z < -0.3 && !m.still && bounce > 0.0 && p.z < g.scene.y + 60.0 {
             bounce *= 0.86 + 0.45 * caustics(p);
         }
     }
@@ -327,12 +336,36 @@ fn shade(m: Matter, p: vec3<f32>) -> vec3<f32> {
 
 // Haze: distant objects fade into the horizon.
 fn haze(color: vec3<f32>, v: vec3<f32>, distance: f32) -> vec3<f32> {
-    let clear = exp(-distance * g.scene.z);
+    return mix(veil_radiance(v), color, exp(-distance * g.scene.z));
+}
+
+// Brightness of thick air relative to the sky at the horizon (sky.rs).
+const VEIL_SHARE: f32 = 0.85;
+
+// Fog scatters light so often that it loses the color and the glow of the sky behind it.
+fn grayed(veil: vec3<f32>) -> vec3<f32> {
+    let gray = dot(veil, vec3<f32>(0.2126, 0.7152, 0.0722)) * vec3<f32>(0.97, 1.0, 1.04);
+    return mix(veil, gray, min(g.scene.w, 1.0));
+}
+
+// Radiance of thick air in the direction `v` toward the camera.
+fn veil_radiance(v: vec3<f32>) -> vec3<f32> {
     if !DETAIL {
-        return mix(horizon_radiance(v) * 0.85, color, clear);
+        return grayed(horizon_radiance(v) * VEIL_SHARE);
     }
-    let horizon = normalize(vec3<f32>(-v.x, -v.y, 0.04));
-    return mix(sky_radiance(horizon) * 0.85, color, clear);
+    return grayed(sky_radiance(normalize(vec3<f32>(-v.x, -v.y, 0.04))) * VEIL_SHARE);
+}
+
+// Surface in rain and snow. Water in the pores of a matte surface halves its reflectance (Twomey et al. 1986); snow lies where the
+// surface is level. `open` is the share of the sky that the surface sees.
+fn weathered(albedo: vec3<f32>, up: f32, open: f32) -> vec3<f32> {
+    if !WEATHERED {
+        return albedo;
+    }
+    let exposed_to = smoothstep(0.25, 0.6, open) * (0.5 + 0.5 * smoothstep(-0.2, 0.4, up));
+    let wet = albedo * (1.0 - 0.5 * g.weather.x * exposed_to);
+    let snow = g.weather.y * smoothstep(0.55, 0.85, up) * smoothstep(0.4, 0.75, open);
+    return mix(wet, vec3<f32>(0.80, 0.82, 0.85), snow);
 }
 
 // Radiance of the sky just above the horizon in the view direction, a cheap approximation for haze. Powers model the

@@ -1,4 +1,4 @@
-// Converts radiance on the sensor to a picture: motion blur, noise, tone curve, vignette.
+// Converts radiance on the sensor to a picture: motion blur, noise, vignette, local adaptation, tone curve.
 
 // Whether the preset has motion blur.
 override BLUR: bool = true;
@@ -15,7 +15,7 @@ struct Develop {
     reproject: mat4x4<f32>,
     // Noise at mid-gray; picture number; motion blur samples; vignette.
     grain: vec4<f32>,
-    // Size of the picture; share of lost blocks; unused.
+    // Size of the picture; share of lost blocks; largest brightening of a part of the picture, stops.
     size: vec4<f32>,
 }
 
@@ -23,6 +23,15 @@ struct Develop {
 @group(0) @binding(1) var light: texture_2d<f32>;
 @group(0) @binding(2) var light_sampler: sampler;
 @group(0) @binding(3) var depth: texture_depth_2d;
+// Slope and offset of the base brightness (adapt.wgsl).
+@group(0) @binding(4) var adaptation: texture_2d<f32>;
+
+// Base brightness that stays, stops from white: the metered mean (exposure.rs, `METERING_TARGET`).
+const METERED_STOPS: f32 = -2.06;
+// Shares by which the base is compressed below and above the metered mean (estimates: the shares of both that remain show a soffit
+// and the sky behind it together, and a sunlit bridge still differs from its shadows by more than a stop).
+const SHADOW_COMPRESSION: f32 = 0.45;
+const HIGHLIGHT_COMPRESSION: f32 = 0.45;
 
 struct Fragment {
     @builtin(position) clip: vec4<f32>,
@@ -70,6 +79,14 @@ fn developed(x: vec3<f32>) -> vec3<f32> {
     return clamp(encoded(min(y, vec3<f32>(12.0))), vec3<f32>(0.0), vec3<f32>(1.0));
 }
 
+// Factor by which local adaptation brightens or darkens a part of the picture.
+fn adapted(color: vec3<f32>, uv: vec2<f32>) -> f32 {
+    let base = textureSampleLevel(adaptation, light_sampler, uv, 0.0).rg;
+    let above = base.x * brightness_stops(color) + base.y - METERED_STOPS;
+    let stops = min(-above * select(SHADOW_COMPRESSION, HIGHLIGHT_COMPRESSION, above > 0.0), d.size.w);
+    return exp2(stops);
+}
+
 @fragment
 fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let pixel = vec2<u32>(in.uv * d.size.xy);
@@ -108,5 +125,6 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         let noise = d.grain.x * (sqrt(brightness * 5.0) + 0.25);
         color += 0.2 * noise * (a + vec3<f32>(0.5, -0.2, -0.5) * c);
     }
-    return vec4<f32>(developed(max(color, vec3<f32>(0.0))), 1.0);
+    color = max(color, vec3<f32>(0.0));
+    return vec4<f32>(developed(color * adapted(color, in.uv)), 1.0);
 }

@@ -55,7 +55,7 @@ fn vs_lean(corner: Corner) -> Lean {
     let kept = clear * g.look.x;
     let indirect = v.light.x * g.sky_rgb.w * g.sky_rgb.xyz + v.light.y * g.sun.w * g.sun_rgb.xyz;
     let facing = max(dot(v.normal, g.sun.xyz), 0.0);
-    var veil = horizon_radiance(towards) * 0.85 * (1.0 - clear) * g.look.x;
+    var veil = veil_radiance(towards) * (1.0 - clear) * g.look.x;
     if GLOSSY {
         veil += kept * reflected(towards, v.normal, gloss(v.material), v.light, indirect);
     }
@@ -126,10 +126,9 @@ fn lean_ground(in: Fragment, broad: f32, m: ptr<function, Matter>) {
     color = mix(color, gravel, 1.0 - smoothstep(0.4, 1.9, over + 1.2 * (near - 0.5)));
     color = photographed(color, in.p.xy, tile.a);
     color *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
-    let forest = wild(in.p.xy) * smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
-    let wood = forest * smoothstep(0.38, 0.5, broad + 0.25 * (near - 0.5)) * (1.0 - 0.5 * steep);
-    color = mix(color, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + near), wood);
-    let snow = wild(in.p.xy) * smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
+    let wood = wooded(in.p.xy, over, in.tint.r, broad) * (1.0 - 0.4 * steep);
+    color = mix(color, forest_color(mix(near, broad, 0.5), broad), wood);
+    let snow = wild(in.p.xy) * smoothstep(560.0, 800.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
     (*m).albedo = mix(color, vec3<f32>(0.8, 0.82, 0.85), snow);
 }
 
@@ -160,6 +159,9 @@ fn fs_lean(lean: Lean) -> @location(0) vec4<f32> {
     } else if LOOK == 3u {
         simple(in, in.normal, max(length(dpdx(in.p)), length(dpdy(in.p))), &m);
     }
+    // The lean shader keeps no share of the sky; the light that arrives indirectly is nearly proportional to it.
+    let open = lean.light.g / max(lean.veil.w * g.look.x * g.sky_rgb.w, 1e-6);
+    m.albedo = weathered(m.albedo, lean.facing.z, open);
     let at = lean.spot.zw;
     let depth = lean.facing.w;
     let inside = max(abs(at.x - 0.5), abs(at.y - 0.5)) < 0.4925 && depth > 0.0 && depth < 1.0;

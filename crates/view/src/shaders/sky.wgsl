@@ -38,5 +38,9 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     // small angle is twice the difference between 1 and its cosine.
     let off = 2.0 - 2.0 * dot(d, g.sun.xyz);
     color += g.sun.w * g.sun_rgb.xyz * 40.0 * (1.0 - smoothstep(16e-6, 36e-6, off));
+    // Fog in front of the sky.
+    if g.scene.w > 0.0 {
+        color = mix(veil_radiance(-d), color, exp(-g.scene.w / max(d.z, 0.02)));
+    }
     return exposed(color);
 }

@@ -286,6 +286,19 @@ fn wild(at: vec2<f32>) -> f32 {
     return select(1.0, smoothstep(0.95, 0.995, max(abs(at.x), abs(at.y)) / max(g.size.z, 1.0)), g.size.z > 0.0);
 }
 
+// Share of forest beyond the field. `field` is the share of the field, `stand` slow noise.
+fn wooded(at: vec2<f32>, over: f32, field: f32, stand: f32) -> f32 {
+    let tree_line = 1.0 - smoothstep(330.0, 520.0, over + 260.0 * (stand - 0.5));
+    let pasture = smoothstep(0.30, 0.46, stand + 0.0016 * over);
+    return wild(at) * (1.0 - field) * smoothstep(4.0, 18.0, over) * tree_line * pasture;
+}
+
+// Crowns and the gaps between them; stands differ slightly in color.
+fn forest_color(canopy: f32, stand: f32) -> vec3<f32> {
+    let crowns = 0.35 + 1.3 * smoothstep(0.25, 0.75, canopy);
+    return mix(vec3<f32>(0.030, 0.044, 0.022), vec3<f32>(0.044, 0.056, 0.024), smoothstep(0.35, 0.65, stand)) * crowns;
+}
+
 fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     let at = in.p.xy;
     let over = in.aux;
@@ -311,11 +324,12 @@ fn ground(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
     color = photographed(color, at, fine_at);
     // Wet at the waterline.
     color *= mix(0.45, 1.0, smoothstep(-0.1, 0.5, over));
-    // Forest on distant slopes, and snow at high elevations.
-    let forest = wild(at) * smoothstep(25.0, 70.0, over) * (1.0 - smoothstep(260.0, 420.0, over + 120.0 * (broad - 0.5)));
-    let canopy = fine(at * 0.09, f * 0.09, near);
-    color = mix(color, vec3<f32>(0.028, 0.045, 0.022) * (0.5 + canopy), forest * smoothstep(0.38, 0.5, broad + 0.25 * (canopy - 0.5)) * (1.0 - 0.5 * steep));
-    let snow = wild(at) * smoothstep(480.0, 640.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
+    // The forest of the mountains: closed up to the tree line, with pastures at its lower edge.
+    let canopy = fbm(at * 0.14 + 5.0, f * 0.14);
+    let stand = fbm(at * 0.011, f * 0.011);
+    let wood = wooded(at, over, in.tint.r, stand) * (1.0 - 0.4 * steep);
+    color = mix(color, forest_color(canopy, stand), wood);
+    let snow = wild(at) * smoothstep(560.0, 800.0, over + 160.0 * (near - 0.5)) * (1.0 - 0.7 * steep);
     color = mix(color, vec3<f32>(0.8, 0.82, 0.85), snow);
     (*m).albedo = color;
     (*m).roughness = 0.95;
@@ -334,6 +348,7 @@ fn simple(in: Fragment, n: vec3<f32>, f: f32, m: ptr<function, Matter>) {
             let tuft = fbm(in.p.xy * 3.0 + in.p.z * 2.3, f * 3.0);
             color *= 0.45 + 1.1 * tuft;
             roughness = 0.9;
+            (*m).still = true;
         }
         case 6u: { color *= 0.6 + 0.8 * fbm(in.uv * vec2<f32>(9.0, 2.0), f * 9.0); }
         case 7u: {
@@ -407,6 +422,10 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         ground(in, n, f, &m);
     } else if LOOK == 3u {
         simple(in, n, f, &m);
+    }
+    m.albedo = weathered(m.albedo, n.z, m.light.x);
+    if WEATHERED {
+        m.roughness = mix(m.roughness, 0.35, 0.7 * g.weather.x * clamp(n.z, 0.0, 1.0) * smoothstep(0.4, 0.75, m.light.x) * (1.0 - g.weather.y));
     }
     let lit = exposed(shade(m, in.p));
     if LOOK == 3u {

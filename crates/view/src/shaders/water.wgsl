@@ -102,43 +102,38 @@ fn vs(v: Corner) -> Fragment {
     return out;
 }
 
-// Slope of a wave train.
-fn train(at: vec2<f32>, direction: vec2<f32>, length_m: f32, steep: f32, footprint: f32) -> vec2<f32> {
-    let k = 6.2832 / length_m;
-    // In deep water, the speed depends on the wavelength.
-    let phase = k * dot(at, direction) - sqrt(9.81 * k) * g.eye.w;
-    let shown = 1.0 - smoothstep(0.2, 0.5, footprint / length_m);
-    return direction * (steep * shown * cos(phase));
-}
-
-// Two slow noise values that bend the wave trains.
-fn bends(at: vec2<f32>) -> vec2<f32> {
+// Slopes of a layer of waves along and across `forward`, which travel with the deep-water speed of their length. Noise has waves of
+// many lengths in groups with short crests, as wind waves have; sums of sine waves look like stripes. Crests are twice as long as the
+// distance between them (estimate from the spread of 30 degrees of wind waves: Mitsuyasu et al. 1975).
+fn wave_layer(at: vec2<f32>, forward: vec2<f32>, length_m: f32, footprint: f32) -> vec2<f32> {
+    // A cell is half a wave.
+    let speed_m_s = sqrt(9.81 * length_m / (2.0 * PI));
+    let along = dot(at, forward) - speed_m_s * g.eye.w;
+    let across = dot(at, vec2<f32>(-forward.y, forward.x));
+    let q = vec2<f32>(along, 0.5 * across) * (2.0 / length_m);
     if DETAIL {
-        return vec2<f32>(noise(at * 0.13), noise(at * 0.13 + 50.0));
+        return textureSampleLevel(noise_map, noise_sampler, q / 16.0, log2(max(footprint * 64.0 / length_m, 1.0))).rg - 0.5;
     }
-    return textureSampleLevel(noise_map, noise_sampler, at * (0.13 / 16.0), 0.0).gr;
+    return textureSample(noise_map, noise_sampler, q / 16.0).rg - 0.5;
 }
 
-fn slope(at: vec2<f32>, footprint: f32, bend: vec2<f32>) -> vec2<f32> {
+// Slope of the waves from the sum of layers, and slow noise, 0 to 1.
+fn waves(at: vec2<f32>, footprint: f32) -> vec3<f32> {
     let wind = g.look.zw;
     let side = vec2<f32>(-wind.y, wind.x);
     let strength = wave_steepness(g.look.y);
-    // Slow noise bends the wave trains, so that no pattern repeats.
-    let bent = at + 1.3 * bend;
-    var s = train(bent, normalize(wind + 0.15 * side), 5.3, 0.5 * strength, footprint);
-    s += train(bent, normalize(wind - 0.45 * side), 2.9, 0.7 * strength, footprint);
-    s += train(bent, normalize(wind + 0.75 * side), 1.55, strength, footprint);
+    let second = vec2<f32>(0.82 * wind - 0.57 * side);
+    let long = wave_layer(at, wind, 6.3, footprint);
+    let short = wave_layer(at + 7.0, second, 2.3, footprint);
+    // Standard deviations of the noise make the layers as steep as the sum of all waves.
+    var s = strength * (wind * (4.0 * long.x) + side * (1.2 * long.y));
+    s += strength * (second * (4.5 * short.x) + vec2<f32>(-second.y, second.x) * (1.6 * short.y));
     if DETAIL {
-        s += train(bent, normalize(wind - 1.1 * side), 0.83, strength, footprint);
-        s += train(bent, normalize(wind + 0.35 * side), 0.41, strength, footprint);
+        let third = vec2<f32>(0.77 * wind + 0.64 * side);
+        let fine = wave_layer(at - 3.0, third, 0.71, footprint);
+        s += strength * (third * (4.0 * fine.x) + vec2<f32>(-third.y, third.x) * (1.5 * fine.y));
     }
-    let t = g.eye.w;
-    let shown = 1.0 - smoothstep(0.05, 0.3, footprint);
-    if DETAIL {
-        let q = bent * 4.3 - wind * t * 0.9;
-        s += shown * strength * 1.6 * (vec2<f32>(noise(q), noise(q + 31.7)) - 0.5);
-    }
-    return s;
+    return vec3<f32>(s, long.y + 0.5);
 }
 
 @fragment
@@ -152,8 +147,8 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
         local *= local_wind(fbm(gust_place(in.p.xy), f * GUST_CELLS_PER_M));
     }
     let gust = roughened(local);
-    let bend = bends(in.p.xy);
-    let s = slope(in.p.xy, f, bend) * gust;
+    let surge = waves(in.p.xy, f);
+    let s = surge.xy * gust;
     let n = normalize(vec3<f32>(-s, 1.0));
     let facing = clamp(dot(n, v), 0.02, 1.0);
     // Waves that are too small to resolve still blur and brighten the reflection.
@@ -186,7 +181,7 @@ fn fs(in: Fragment) -> @location(0) vec4<f32> {
     let path = max(in.depth, 0.0) * (1.0 + 0.6 / max(v.z, 0.12));
     let clear = exp(-path * 0.55);
     // A line of foam along the shore.
-    var wander = bend.x;
+    var wander = surge.z;
     if DETAIL {
         wander = noise(in.p.xy * 0.7);
     }

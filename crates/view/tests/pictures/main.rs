@@ -6,10 +6,12 @@
 mod compare;
 mod condition_states;
 mod contrast;
+mod exposure;
 mod flight_states;
 mod gallery;
 mod masks;
 mod pages;
 mod snapshots;
 mod video_link;
+mod weather;
 mod wind;

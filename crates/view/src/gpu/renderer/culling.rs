@@ -17,6 +17,8 @@ pub struct ShotView {
     pub lamp: usize,
     /// 1 if waves break, otherwise 0.
     pub breaking: usize,
+    /// Whether drops or flakes are in the picture.
+    pub falling: bool,
     /// Whether the lake may be visible in the picture.
     pub lake: bool,
 }
@@ -30,6 +32,7 @@ impl ShotView {
             eye_m: shot.eye.position_m,
             lamp: usize::from(shot.beam.is_some()),
             breaking: usize::from(shot.wind.breaking_share() > 0.0),
+            falling: shot.weather.falls_in_view(),
             lake: may_be_visible_in_lake(&shot.eye, shot.aspect(), water_m),
         }
     }
@@ -78,7 +81,7 @@ mod tests {
     fn visible_from(rise_m: f64, all: &[(MoverModel, Instance)]) -> Vec<(MoverModel, Instance)> {
         let (eye, water_m) = (eye(rise_m), 0.0);
         let (projection, lake) = (eye.view_projection(ASPECT), may_be_visible_in_lake(&eye, ASPECT, water_m));
-        let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, breaking: 0, lake };
+        let view = ShotView { projection, water_m, eye_m: eye.position_m, lamp: 0, breaking: 0, falling: false, lake };
         view.visible_objects(all, &[3.0; MoverModel::ALL.len()])
     }
 
