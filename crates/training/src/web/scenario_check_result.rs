@@ -194,9 +194,11 @@ mod tests {
     use crate::web::layout::tests::HOSTILE_NAME;
     use spandrel_model::elements::Element;
     use spandrel_model::mesh::Mesh;
-    use spandrel_model::mesh::part_shapes::{ConcaveShape, ShapeLimits};
+    use spandrel_model::mesh::part_shapes::{ConcaveShape, PartShape, ShapeLimits};
     use spandrel_model::mesh::reader::ModelFormat;
+    use spandrel_model::mesh::surface_mesh::SurfaceMesh;
     use spandrel_model::scenario::bridges::element_map::ElementMap;
+    use spandrel_model::scenario::bridges::model::ModelPart;
     use spandrel_model::scenario::edit::{Edit, apply};
     use spandrel_model::shipped::{PHANTOM2, PRACTICE};
     use spandrel_model::site::bridge_import::{ImportOptions, ImportSource, ImportedBridge, ModelOrigin, UpAxis, import};
@@ -212,7 +214,9 @@ mod tests {
     /// Returns an imported bridge: a block of 20 m.
     fn imported() -> ImportedBridge {
         let mesh = Mesh::of_box([-10.0, -3.0, -2.0], [10.0, 3.0, 2.0]);
-        let file = parts_glb(std::iter::once(("block", Element::RcSlab, mesh))).unwrap();
+        let shape = PartShape::Mesh(SurfaceMesh::with_colors(&mesh, &[]).unwrap());
+        let part = ModelPart { name: "block".into(), element: Element::RcSlab, shape };
+        let file = parts_glb(std::iter::once(&part)).unwrap();
         let none = |_: &str| Err("no file".to_owned());
         let (format, elements) = (ModelFormat::Gltf, ElementMap::default());
         let options = ImportOptions {
