@@ -75,8 +75,10 @@ pub struct LessonCoach {
     turned_rad: f64,
     /// Time since which the aircraft has been in the step's ring.
     held_since: Option<SimTime>,
-    /// Whether the aircraft has crossed the step's ring without stopping.
+    /// Whether the aircraft moves or has moved in the step's ring, in which it has to stop, since it entered the ring.
     passed: bool,
+    /// Longest time without moving since it entered the ring.
+    longest_hold: SimTime,
     /// Whether a picture of the step shows a defect.
     pictured: bool,
     /// Pitch of the camera when the step began.
@@ -84,7 +86,7 @@ pub struct LessonCoach {
     /// Highest progress in this step, and since when.
     best: (f64, SimTime),
     announced: Option<usize>,
-    way_said: Option<SimTime>,
+    way_sent_at: Option<SimTime>,
     remarked: Option<SimTime>,
 }
 
@@ -100,11 +102,12 @@ impl LessonCoach {
             turned_rad: 0.0,
             held_since: None,
             passed: false,
+            longest_hold: SimTime::ZERO,
             pictured: false,
             start_pitch_rad: None,
             best: (0.0, SimTime::ZERO),
             announced: None,
-            way_said: None,
+            way_sent_at: None,
             remarked: None,
         })
     }
@@ -155,9 +158,9 @@ impl LessonCoach {
             (self.announced, self.best.1) = (Some(self.current), input.time);
             texts.push(status.words());
         }
-        let is_due = self.way_said.is_none_or(|said| input.time - said >= WAY_INTERVAL);
+        let is_due = self.way_sent_at.is_none_or(|sent_at| input.time - sent_at >= WAY_INTERVAL);
         if let Some(words) = status.way_words().filter(|_| is_due) {
-            self.way_said = Some(input.time);
+            self.way_sent_at = Some(input.time);
             texts.push(words);
         }
         texts
@@ -182,8 +185,8 @@ impl LessonCoach {
         self.current += 1;
         self.begun = Some(input.time);
         self.turned_rad = 0.0;
-        (self.held_since, self.passed, self.pictured) = (None, false, false);
-        (self.start_pitch_rad, self.way_said, self.remarked) = (None, None, None);
+        (self.held_since, self.passed, self.longest_hold, self.pictured) = (None, false, SimTime::ZERO, false);
+        (self.start_pitch_rad, self.way_sent_at, self.remarked) = (None, None, None);
     }
 
     /// Returns a remark about a mistake in this step, and measures how long the aircraft has been in the step's ring.
@@ -226,22 +229,26 @@ impl LessonCoach {
     fn hold(&mut self, step: &LessonStep, place: &LessonPlace, input: &LessonInput) -> Option<String> {
         let stop = matches!(step, LessonStep::StopAt(_));
         let inside = (input.position_m - place.position_m).norm() <= place.radius_m;
-        if inside && stop && input.speed_m_s > STOPPED_M_S {
-            (self.held_since, self.passed) = (None, true);
-            return None;
-        }
-        if inside {
-            (self.held_since, self.passed) = (self.held_since.or(Some(input.time)), false);
+        if inside && !(stop && input.speed_m_s > STOPPED_M_S) {
+            self.held_since.get_or_insert(input.time);
             return None;
         }
         let held = self.held_since.take().map_or(SimTime::ZERO, |since| input.time - since);
-        if std::mem::take(&mut self.passed) {
-            return self.remark(input.time, "you flew through the ring: stop in it");
-        }
-        if held < REMARK_HOLD || self.progress(step, input) >= 1.0 {
+        self.longest_hold = self.longest_hold.max(held);
+        if inside {
+            self.passed = true;
             return None;
         }
-        self.remark(input.time, &format!("you left the ring: stay {:.0} s", place.duration.s()))
+        let (passed, held) = (std::mem::take(&mut self.passed), std::mem::take(&mut self.longest_hold));
+        if self.progress(step, input) >= 1.0 {
+            None
+        } else if held >= REMARK_HOLD {
+            self.remark(input.time, &format!("you left the ring: stay {:.0} s", place.duration.s()))
+        } else if passed {
+            self.remark(input.time, "you flew through the ring: stop in it")
+        } else {
+            None
+        }
     }
 
     /// Returns a remark, unless there was one just before.
@@ -414,7 +421,11 @@ mod tests {
         let said = coach.update(&beyond);
         assert_eq!(said, ["Lesson: you flew through the ring: stop in it", "Lesson: 1/1 5 m, behind you"]);
         coach.update(&at(21_000, 0.1));
-        assert_eq!(coach.update(&at(31_000, 0.1)), ["Lesson: all steps done"]);
+        coach.update(&at(23_000, 1.0));
+        let left = LessonInput { time: SimTime::from_ms(26_000), ..beyond };
+        assert_eq!(coach.update(&left), ["Lesson: you left the ring: stay 10 s"], "after 2 s without moving");
+        coach.update(&at(31_000, 0.1));
+        assert_eq!(coach.update(&at(41_000, 0.1)), ["Lesson: all steps done"]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::Mesh;
 use super::mesh_file::{
     BufferLoader, MAX_FILE_BYTES, MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex, clean_name,
 };
-use super::texture::Texture;
+use super::texture::Pictures;
 use super::vectors::Point;
 use super::vertex_colors::{Color, of_linear};
 use base64::Engine;
@@ -14,12 +14,9 @@ use gltf::mesh::Mode;
 use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
 use serde_json::Value;
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 /// Maximum depth of the tree of nodes (estimate: far more than any modeling program writes).
 const MAX_DEPTH: usize = 200;
-/// Maximum number of pictures that are used (estimate: several gigabytes if all have the largest size).
-const MAX_PICTURES: usize = 64;
 /// Size of the header of a binary file, and of each of its chunks, bytes.
 const GLB_HEADER_BYTES: usize = 12;
 /// Key in `extras` with the number of the bridge element.
@@ -47,8 +44,8 @@ struct Inherited {
 struct NodeReader<'a> {
     file: &'a str,
     load: BufferLoader<'a>,
-    /// Pictures by their number in the file; `None` for one that cannot be read.
-    pictures: BTreeMap<usize, Option<Texture>>,
+    /// Pictures by their number in the file.
+    pictures: Pictures<usize>,
     buffers: Vec<Cow<'a, [u8]>>,
     is_visited: Vec<bool>,
     triangles: usize,
@@ -75,7 +72,7 @@ pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, St
         Gltf { document: gltf::Document::from_json(gltf.document.into_json()).map_err(|e| problem(&e.to_string()))?, ..gltf };
     let buffers = read_buffers(&gltf, load).map_err(|words| problem(&words))?;
     let is_visited = vec![false; gltf.nodes().len()];
-    let (pictures, content) = (BTreeMap::new(), MeshFile::default());
+    let (pictures, content) = (Pictures::new(), MeshFile::default());
     let mut reader = NodeReader { file, load, pictures, buffers, is_visited, triangles: 0, vertices: 0, content };
     let root = Inherited { name: None, element: None, to_file: Affine::IDENTITY, depth: 0 };
     let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
@@ -328,29 +325,25 @@ impl NodeReader<'_> {
             _ => return Err("texture coordinates that are not two floats, 16-bit numbers or bytes".into()),
         };
         self.read_picture(&info.texture().source());
-        let Some(Some(picture)) = self.pictures.get(&info.texture().source().index()) else { return Ok(Vec::new()) };
+        let Some(picture) = self.pictures.get(&info.texture().source().index()) else { return Ok(Vec::new()) };
         Ok(self.elements(&accessor, "texture coordinates")?.map(|bytes| tinted(primitive, picture.at(read(bytes)))).collect())
     }
 
     /// Reads a picture of the file, once. One that cannot be read leaves the vertices without colors.
     fn read_picture(&mut self, image: &gltf::Image) {
-        if self.pictures.contains_key(&image.index()) || self.pictures.len() >= MAX_PICTURES {
-            return;
-        }
-        let picture = match image.source() {
+        let Self { pictures, buffers, load, .. } = self;
+        pictures.read(image.index(), || match image.source() {
             gltf::image::Source::View { view, .. } => {
-                let buffer = self.buffers.get(view.buffer().index());
-                let end = view.offset().checked_add(view.length());
-                buffer.zip(end).and_then(|(buffer, end)| buffer.get(view.offset()..end)).and_then(Texture::read)
+                let end = view.offset().checked_add(view.length())?;
+                buffers.get(view.buffer().index())?.get(view.offset()..end).map(Cow::Borrowed)
             }
             gltf::image::Source::Uri { uri, .. } => match uri.split_once(";base64,") {
                 Some((kind, text)) if kind.starts_with("data:") => {
-                    base64::engine::general_purpose::STANDARD.decode(text).ok().and_then(|bytes| Texture::read(&bytes))
+                    base64::engine::general_purpose::STANDARD.decode(text).ok().map(Cow::Owned)
                 }
-                _ => (self.load)(&decoded(uri)).ok().and_then(|bytes| Texture::read(&bytes)),
+                _ => load(&decoded(uri)).ok().map(Cow::Owned),
             },
-        };
-        self.pictures.insert(image.index(), picture);
+        });
     }
 
     fn indices(&self, accessor: &Accessor, vertices: usize) -> Result<Vec<u32>, String> {

@@ -1,9 +1,11 @@
 //! Reads the faces of Wavefront OBJ files and the colors of their vertices: one part per object or group.
 
 use super::mesh_file::{BufferLoader, MAX_NODES, MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check_vertex, clean_name};
-use super::texture::Texture;
+use super::texture::Pictures;
 use super::vertex_colors::{Color, of_srgb};
 use super::{Mesh, vectors::Point};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::path::Path;
 use tobj::LoadOptions;
 
@@ -26,7 +28,9 @@ pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, St
     };
     let (models, materials) = tobj::load_obj_buf(&mut &bytes[..], &options, materials)
         .map_err(|error| problem(&format!("not an OBJ file: {error}")))?;
-    let palette = Palette::new(&materials.unwrap_or_default(), load);
+    let used: BTreeSet<usize> = models.iter().filter_map(|model| model.mesh.material_id).collect();
+    let materials = materials.unwrap_or_default();
+    let palette = Palette::new(&materials, &used, load);
     let mut content = MeshFile::default();
     for (k, model) in models.iter().enumerate() {
         let name = clean_name(&model.name, k);
@@ -53,24 +57,19 @@ pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, St
     if content.nodes.is_empty() { Err(problem("no triangles (allowed: at least one face)")) } else { Ok(content) }
 }
 
-/// Maximum number of materials that are used (estimate: several gigabytes if all have the largest textures).
-const MAX_MATERIALS: usize = 64;
-
-/// The looks of the materials of a file.
-struct Palette(Vec<Look>);
-
-enum Look {
-    Plain(Option<Color>),
-    Textured(Texture),
+/// The materials of a file and their pictures.
+struct Palette<'a> {
+    materials: &'a [tobj::Material],
+    pictures: Pictures<&'a str>,
 }
 
-impl Palette {
-    fn new(materials: &[tobj::Material], load: BufferLoader) -> Self {
-        let look = |material: &tobj::Material| {
-            let texture = material.diffuse_texture.as_ref().and_then(|name| Texture::read(&load(texture_file(name)).ok()?));
-            texture.map_or_else(|| Look::Plain(material.diffuse.map(of_srgb)), Look::Textured)
-        };
-        Self(materials.iter().take(MAX_MATERIALS).map(look).collect())
+impl<'a> Palette<'a> {
+    fn new(materials: &'a [tobj::Material], used: &BTreeSet<usize>, load: BufferLoader) -> Self {
+        let mut pictures = Pictures::new();
+        for name in used.iter().filter_map(|id| materials.get(*id)?.diffuse_texture.as_deref()) {
+            pictures.read(name, || load(texture_file(name)).ok().map(Cow::Owned));
+        }
+        Self { materials, pictures }
     }
 
     /// Returns the colors of an object's vertices; empty if it has none.
@@ -80,13 +79,14 @@ impl Palette {
         if mesh.vertex_color.len() == mesh.positions.len() && count > 0 {
             return of_vertices.collect();
         }
-        match mesh.material_id.and_then(|id| self.0.get(id)) {
-            Some(Look::Textured(texture)) if mesh.texcoords.len() == 2 * count => {
+        let Some(material) = mesh.material_id.and_then(|id| self.materials.get(id)) else { return Vec::new() };
+        match (material.diffuse_texture.as_deref().and_then(|name| self.pictures.get(&name)), material.diffuse) {
+            (Some(picture), _) if mesh.texcoords.len() == 2 * count => {
                 // In OBJ files, v counts from the bottom of the picture.
-                mesh.texcoords.chunks_exact(2).map(|uv| texture.at([uv[0], 1.0 - uv[1]])).collect()
+                mesh.texcoords.chunks_exact(2).map(|uv| picture.at([uv[0], 1.0 - uv[1]])).collect()
             }
-            Some(Look::Plain(Some(color))) => vec![*color; count],
-            _ => Vec::new(),
+            (None, Some(color)) => vec![of_srgb(color); count],
+            (Some(_), _) | (None, None) => Vec::new(),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::mesh_file::{MAX_TRIANGLES, MeshFile, MeshNode, check_file_size, check
 use super::vertex_colors::of_srgb;
 use super::{Mesh, vectors::Point};
 use ply_rs_bw::parser::{Parser, Reader};
-use ply_rs_bw::ply::{PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{PropertyAccess, PropertyAccessResult, PropertyDef, PropertyType, ScalarType};
 
 /// Name of the only part.
 const NAME: &str = "mesh";
@@ -65,11 +65,11 @@ impl PropertyAccess for Vertex {
     }
 
     fn set_float(&mut self, name: &str, value: f32) -> PropertyAccessResult {
-        if color_index(name).is_some() { self.set_color(name, f64::from(value)) } else { self.set(name, f64::from(value)) }
+        self.set_double(name, f64::from(value))
     }
 
     fn set_double(&mut self, name: &str, value: f64) -> PropertyAccessResult {
-        self.set(name, value)
+        if color_index(name).is_some() { self.set_color(name, value) } else { self.set(name, value) }
     }
 }
 
@@ -129,6 +129,12 @@ fn color_index(name: &str) -> Option<usize> {
     COLORS.iter().position(|color| *color == short)
 }
 
+/// Returns whether colors of this type are read.
+fn is_color_type(kind: &PropertyType) -> bool {
+    let read = [ScalarType::UChar, ScalarType::UShort, ScalarType::Float, ScalarType::Double];
+    matches!(kind, PropertyType::Scalar(scalar) if read.contains(scalar))
+}
+
 #[derive(Default)]
 struct Elements {
     vertices: Vec<Vertex>,
@@ -153,7 +159,8 @@ fn read_elements(bytes: &[u8]) -> Result<Elements, String> {
             "vertex" => {
                 let vertices = Parser::<Vertex>::new().read_payload_for_element(&mut reader, element, &header);
                 found.vertices = vertices.map_err(|error| invalid(&error))?;
-                let named = |k: usize| element.properties.keys().any(|name| color_index(name) == Some(k));
+                let is_color = |property: &PropertyDef, k| color_index(&property.name) == Some(k) && is_color_type(&property.data_type);
+                let named = |k: usize| element.properties.values().any(|property| is_color(property, k));
                 found.are_colored = (0..COLORS.len()).all(named);
             }
             "face" => {
@@ -201,16 +208,17 @@ mod tests {
     }
 
     #[test]
-    fn exact_colors_of_vertices_are_decoded_from_any_type() {
+    fn exact_colors_of_vertices_are_decoded_from_the_usual_types() {
         let plain = read("scan.ply", format!("{HEADER}{DATA}").as_bytes()).unwrap();
         assert!(plain.nodes[0].colors.is_empty(), "red alone is no color");
-        for (kind, full, half) in [("uchar", "255", "188"), ("float", "1", "0.7373")] {
+        for (kind, full, half) in [("uchar", "255", "188"), ("float", "1", "0.7373"), ("double", "1", "0.7373"), ("int", "255", "188")] {
             for prefix in ["", "diffuse_"] {
                 let names = ["red", "green", "blue"].map(|name| format!("property {kind} {prefix}{name}\n")).concat();
                 let header = HEADER.replace("property uchar red\n", &names);
                 let data = DATA.replace(" 9\n", &format!(" {full} {half} 0\n"));
                 let content = read("scan.ply", format!("{header}{data}").as_bytes()).unwrap();
-                assert_eq!(content.nodes[0].colors, [[255, 128, 0]; 4], "{kind}");
+                let expected = if kind == "int" { Vec::new() } else { vec![[255, 128, 0]; 4] };
+                assert_eq!(content.nodes[0].colors, expected, "{kind}");
             }
         }
     }

@@ -165,12 +165,15 @@ impl MeshShape {
             Some((hit.time_of_impact, hit.feature == FeatureId::Face(1)))
         };
         let mut crossings: Vec<(f64, bool)> = self.mesh.bvh().leaves(is_crossed).filter_map(crossing).collect();
-        crossings.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // A ray through the edge between two triangles crosses both; one that touches an edge enters and leaves at one place.
+        let is_same_place = |a: &(f64, bool), b: &(f64, bool)| b.0 - a.0 <= DISTANCE_TOLERANCE_M;
+        let places = crossings.chunk_by(is_same_place).filter(|place| place.iter().all(|(_, leaves)| *leaves == place[0].1));
+        let crossings: Vec<(f64, bool)> = places.map(|place| place[0]).collect();
         let mut passages = Vec::new();
         let mut entered = crossings.first().filter(|(_, leaves)| *leaves).map(|_| 0.0);
         for (at_m, leaves) in crossings {
             match entered {
-                // A ray through the edge between two triangles crosses both.
                 Some(enter_m) if leaves => {
                     passages.push((enter_m, at_m));
                     entered = None;

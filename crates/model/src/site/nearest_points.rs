@@ -55,8 +55,7 @@ pub(super) fn nearest_on_triangle(p: Vec3<Enu>, a: Vec3<Enu>, b: Vec3<Enu>, c: V
         return foot;
     }
     let on = |from: Vec3<Enu>, to: Vec3<Enu>| {
-        let edge = to - from;
-        let q = from + edge * ((p - from).dot(edge) / edge.norm_squared()).clamp(0.0, 1.0);
+        let q = nearest_on_segment(p, from, to);
         ((p - q).norm_squared(), q)
     };
     let nearer = |a: (f64, Vec3<Enu>), b: (f64, Vec3<Enu>)| if b.0 < a.0 { b } else { a };

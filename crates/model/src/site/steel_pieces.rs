@@ -20,6 +20,8 @@ const MIN_THICKNESS_M: f64 = 0.002;
 const MAX_EDGE_M: f64 = 0.25;
 /// Number of triangles from which a surface is sampled (estimate: 1 s of work).
 const MAX_TRIANGLES: usize = 100_000;
+/// Number of triangles from which the remaining ones of a surface stay whole (estimate: a few seconds of work).
+const MAX_PARTS: usize = 10 * MAX_TRIANGLES;
 
 type Triangle = [Vec3<Enu>; 3];
 
@@ -56,7 +58,10 @@ pub(super) fn surface_pieces(solid: &Solid) -> Vec<OrientedBox> {
     let area_m2: f64 = sample.iter().map(area_m2).sum();
     let edge_m = MAX_EDGE_M.max((area_m2 / MAX_TRIANGLES as f64).sqrt());
     let mut triangles = Vec::new();
-    sample.into_iter().for_each(|triangle| divide(triangle, edge_m, &mut triangles));
+    for triangle in sample {
+        // Long slivers would divide into many more than their area says.
+        if triangles.len() < MAX_PARTS { divide(triangle, edge_m, &mut triangles) } else { triangles.push(triangle) }
+    }
     let mut pieces = Vec::new();
     halve(triangles, step as f64, &mut pieces);
     pieces
