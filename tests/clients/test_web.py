@@ -658,7 +658,9 @@ def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
         person = BrowserUser(browser, server, "client-test")
         page = person.page
         page.click("text=My flight")
-        for (size, scheme, locale), state in zip(LIVE_LOOKS[::-1], ["Vuelo en curso.", "Flug läuft.", "Flight in progress."]):
+        for size, scheme, locale in LIVE_LOOKS[::-1]:
+            catalog = (spandrel.ROOT / "crates/text/catalog" / locale[:2] / "live.ftl").read_text(encoding="utf-8")
+            state = re.search(r"^live-own-flying = (.+)$", catalog, re.MULTILINE).group(1)
             person.show_in(size, scheme, locale)
             picture.write_bytes(photograph)
             page.reload()
