@@ -54,6 +54,12 @@ def session_ids(sessions, trainee):
     return [path.name for path in sorted(folders, key=started)]
 
 
+def catalog_text(locale, file, name):
+    """Returns a text from the catalog of the language."""
+    catalog = (spandrel.ROOT / "crates/text/catalog" / locale[:2] / f"{file}.ftl").read_text(encoding="utf-8")
+    return re.search(rf"^{name} = (.+)$", catalog, re.MULTILINE).group(1)
+
+
 class BrowserUser:
     """A user with a browser that collects all problems on the pages."""
 
@@ -347,7 +353,7 @@ def test_report_of_another_version_is_regenerated(server, sessions):
 def test_two_sessions_can_be_compared(browser, server, sessions):
     """Both flights in one drawing with one slider, aligned as the instructor selects."""
     first, second = session_ids(sessions, "anna")
-    for size, scheme, locale, task_1 in [("desktop", "light", "en-GB", "start of task 1"), ("phone", "dark", "de-DE", "Beginn von Aufgabe 1")]:
+    for size, scheme, locale in [("desktop", "light", "en-GB"), ("phone", "dark", "de-DE")]:
         person = BrowserUser(browser, server, "anna", size, scheme, locale)
         page = person.page
         person.go(f"/sessions/{first}")
@@ -375,7 +381,7 @@ def test_two_sessions_can_be_compared(browser, server, sessions):
         page.keyboard.press("PageUp")
         assert page.get_attribute("#moment", "aria-valuetext") != text
         # Aligned at the start of the task, both are at its path at 0:00.
-        page.select_option("#line-up", label=task_1)
+        page.select_option("#line-up", label=catalog_text(locale, "compare", "compare-start-of-task").replace("{ $task }", "1"))
         assert page.inner_text("#moment-text") == "0:00"
         away = [float(text.split()[0]) for text in page.locator("[data-now=distance]").all_inner_texts()]
         assert max(away) <= 1.6, "the task starts within 1.5 m of its path, plus one step of the slider"
@@ -658,7 +664,8 @@ def test_trainee_sees_only_the_camera_of_their_own_flight(browser, tmp_path):
         person = BrowserUser(browser, server, "client-test")
         page = person.page
         page.click("text=My flight")
-        for (size, scheme, locale), state in zip(LIVE_LOOKS[::-1], ["Vuelo en curso.", "Flug läuft.", "Flight in progress."]):
+        for size, scheme, locale in LIVE_LOOKS[::-1]:
+            state = catalog_text(locale, "live", "live-own-flying")
             person.show_in(size, scheme, locale)
             picture.write_bytes(photograph)
             page.reload()
