@@ -31,7 +31,7 @@ pub fn all() -> Vec<ShaderSource> {
     sources.push(ShaderSource { name: "lean", text: lean });
     sources.push(ShaderSource { name: "shadow", text: include_str!("shaders/shadow.wgsl").to_owned() });
     sources.push(ShaderSource { name: "painter", text: include_str!("shaders/painter.wgsl").to_owned() });
-    let developing = |own: &str| format!("{}\n{own}", include_str!("shaders/brightness.wgsl"));
+    let developing = |own: &str| format!("{}\n{own}", include_str!("shaders/full_screen.wgsl"));
     sources.push(ShaderSource { name: "adapt", text: developing(include_str!("shaders/adapt.wgsl")) });
     let develop = developing(include_str!("shaders/develop.wgsl"));
     sources.push(ShaderSource { name: "develop", text: develop.clone() });

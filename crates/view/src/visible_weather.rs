@@ -1,4 +1,4 @@
-//! What a person sees of fog, rain and snow: objects that fade into the air, wet or white surfaces, and drops and flakes near the lens.
+//! Fog, rain and snow in pictures: objects that fade into the air, wet or white surfaces, and drops and flakes near the lens.
 //! A pure function of the scenario, the site and the camera. It changes nothing that is measured: collision geometry, light and
 //! visibility of defects don't know it.
 
@@ -15,7 +15,7 @@ const RAIN_ATTENUATION: (f64, f64) = (1.076, 0.67);
 /// Attenuation by dry snow: dB/km at 1 mm/h, and its exponent (ITU-R P.1814, section 4.3, at 550 nm).
 const SNOW_ATTENUATION: (f64, f64) = (5.526, 1.38);
 /// Decibels of a ratio of powers, per unit of its natural logarithm.
-const DECIBELS_PER_NEPER: f64 = 4.343;
+const DECIBELS_PER_E_FOLD: f64 = 4.343;
 /// Thickness of the fog above the water, m (estimate: radiation fog in a valley).
 const FOG_THICKNESS_M: f64 = 250.0;
 /// Rain and snow at which surfaces are entirely wet or white, mm/h (estimates).
@@ -89,7 +89,7 @@ impl VisibleWeather {
 }
 
 fn attenuation_per_m((at_1_mm_h, exponent): (f64, f64), rate_mm_h: f64) -> f64 {
-    at_1_mm_h * math::pow(rate_mm_h, exponent) / DECIBELS_PER_NEPER / 1_000.0
+    at_1_mm_h * math::pow(rate_mm_h, exponent) / DECIBELS_PER_E_FOLD / 1_000.0
 }
 
 /// Returns the share of a layer's left, middle and right that has no roof.
@@ -134,12 +134,12 @@ mod tests {
 
     #[test]
     fn val_rain_and_snow_shorten_the_visual_range_as_measured() {
-        // ITU-R P.1814, tables 3 and 5: rain of 25 mm/h attenuates by 9.3 dB/km; dry snow of 1 mm/h by 5.5 dB/km.
+        // ITU-R P.1814, tables 3 and 5: rain of 25 mm/h attenuates by 9.3 dB/km; dry snow of 2 mm/h by 5.54 × 2^1.38 = 14.4 dB/km.
         const TOLERANCE: f64 = 0.01;
         let clear = seen(WeatherSpec::default(), Vec3::new(0.0, 80.0, 20.0)).extinction_per_m;
-        for (rain_mm_h, snow_mm_h, db_per_km) in [(25.0, 0.0, 9.3), (0.0, 1.0, 5.526)] {
+        for (rain_mm_h, snow_mm_h, db_per_km) in [(25.0, 0.0, 9.3), (0.0, 2.0, 14.4)] {
             let spec = WeatherSpec { rain_mm_h, snow_mm_h, ..WeatherSpec::default() };
-            let found = (seen(spec, Vec3::new(0.0, 80.0, 20.0)).extinction_per_m - clear) * 1_000.0 * DECIBELS_PER_NEPER;
+            let found = (seen(spec, Vec3::new(0.0, 80.0, 20.0)).extinction_per_m - clear) * 1_000.0 * DECIBELS_PER_E_FOLD;
             assert!((found / db_per_km - 1.0).abs() < TOLERANCE, "{found} dB/km");
         }
     }

@@ -52,10 +52,15 @@ impl TerminalPrompt {
         Some(answer)
     }
 
+    /// Returns true if a person at a terminal can read a question and answer it.
+    pub fn can_ask(&self) -> bool {
+        self.is_open() && std::io::stdout().is_terminal()
+    }
+
     /// Returns whether the user has pressed Enter; `None` until then, and false at the end of the input.
     pub fn confirmation(&mut self) -> Option<bool> {
         match self.lines.get_or_insert_with(read_lines).try_recv() {
-            Ok(_) => Some(true),
+            Ok(line) => line.trim().is_empty().then_some(true),
             Err(TryRecvError::Disconnected) => Some(false),
             Err(TryRecvError::Empty) => None,
         }

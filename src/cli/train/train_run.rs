@@ -259,7 +259,7 @@ impl<'a> TrainRun<'a> {
         let (vehicle, language) = (files::vehicle(&choice.vehicle)?.vehicle, user_language());
         let briefing = Briefing::new(&scenario, &vehicle, &Site::without_defects(&scenario), language);
         println!("{}", briefing::text::render(&briefing, language));
-        if !self.prompt.is_open() {
+        if !self.prompt.can_ask() {
             return Ok(());
         }
         println!("{}", text!(language, "briefing-confirm"));

@@ -16,7 +16,7 @@ use std::borrow::Cow;
 
 /// Number of extreme points of a simplified hull: a hull of n points has at most 2 n triangles.
 const EXTREME_POINTS: usize = MAX_FACES / 2;
-/// Maximum number of planar faces of a part that is cut exactly; a part with more is approximated by voxels (estimate: 1 s of work).
+/// Maximum number of planar faces of a part that is cut exactly; a part with more keeps its triangles, or becomes voxels (estimate: 1 s of work).
 const MAX_EXACT_FACES: usize = 1_500;
 /// Maximum number of convex parts that replace one connected part.
 pub const MAX_PARTS: usize = 256;
@@ -29,7 +29,7 @@ const MAX_SAMPLES: usize = 20_000;
 /// Angle between two points of a spiral that covers a sphere evenly, rad.
 const GOLDEN_ANGLE_RAD: f64 = 2.399_963_229_728_653;
 
-/// How a part became convex.
+/// How the shapes of a part were made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// The part is convex: its own faces.
@@ -124,7 +124,7 @@ pub struct PartShapes {
     pub deviation_m: f64,
 }
 
-/// What becomes of a part that is not convex and cannot be cut into convex parts.
+/// Replacement of a part that is not convex and cannot be cut into convex parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ConcaveShape {
     /// Its own triangles.
@@ -141,7 +141,7 @@ pub enum ConcaveShape {
 pub struct ShapeLimits {
     /// Maximum deviation at which the hull replaces a part, m.
     pub tolerance_m: f64,
-    /// What becomes of parts that are neither convex nor cut.
+    /// Replacement of parts that are neither convex nor cut.
     pub concave: ConcaveShape,
 }
 

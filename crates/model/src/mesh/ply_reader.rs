@@ -159,7 +159,8 @@ fn read_elements(bytes: &[u8]) -> Result<Elements, String> {
             "vertex" => {
                 let vertices = Parser::<Vertex>::new().read_payload_for_element(&mut reader, element, &header);
                 found.vertices = vertices.map_err(|error| invalid(&error))?;
-                let is_color = |property: &PropertyDef, k| color_index(&property.name) == Some(k) && is_color_type(&property.data_type);
+                let is_color =
+                    |property: &PropertyDef, k| color_index(&property.name) == Some(k) && is_color_type(&property.data_type);
                 let named = |k: usize| element.properties.values().any(|property| is_color(property, k));
                 found.are_colored = (0..COLORS.len()).all(named);
             }
@@ -211,7 +212,9 @@ mod tests {
     fn exact_colors_of_vertices_are_decoded_from_the_usual_types() {
         let plain = read("scan.ply", format!("{HEADER}{DATA}").as_bytes()).unwrap();
         assert!(plain.nodes[0].colors.is_empty(), "red alone is no color");
-        for (kind, full, half) in [("uchar", "255", "188"), ("float", "1", "0.7373"), ("double", "1", "0.7373"), ("int", "255", "188")] {
+        for (kind, full, half) in
+            [("uchar", "255", "188"), ("float", "1", "0.7373"), ("double", "1", "0.7373"), ("int", "255", "188")]
+        {
             for prefix in ["", "diffuse_"] {
                 let names = ["red", "green", "blue"].map(|name| format!("property {kind} {prefix}{name}\n")).concat();
                 let header = HEADER.replace("property uchar red\n", &names);

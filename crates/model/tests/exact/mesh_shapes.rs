@@ -179,6 +179,14 @@ fn exact_a_ray_inside_starts_at_a_hit_however_far_the_surface_is() {
 }
 
 #[test]
+fn exact_a_ray_through_the_edge_of_two_inner_sides_stays_inside() {
+    // From the base into a wall, through the edge where the base's upper side meets the wall's inner one.
+    let (origin, direction) = (Vec3::new(5.0, 0.5, 0.2), Vec3::new(0.0, 1.0, 0.3).unit());
+    let [(enter_m, leave_m)] = Blocks::channel().shape().passages(origin, direction, 10.0)[..] else { panic!("not one passage") };
+    assert!(enter_m == 0.0 && (leave_m * direction.north() - 1.5).abs() < ROUNDING_TOLERANCE_M, "{enter_m} to {leave_m}");
+}
+
+#[test]
 fn exact_a_ball_touches_each_side_of_a_corner_once() {
     let channel = Blocks::channel().shape();
     // Above the middle of the base, where two triangles meet, it has one contact.

@@ -109,7 +109,7 @@ struct LiveState {
     truth: Option<Truth>,
     battery_pct: Option<f64>,
     contact: ContactKind,
-    /// The gravest contact since the last check for the session's end: one may be over before the next position arrives.
+    /// The most severe contact since the last check for the session's end: one may end before the next position arrives.
     touched: ContactKind,
     /// Whether the current contact is a soft touchdown on the pad.
     on_pad: bool,

@@ -121,4 +121,4 @@ briefing-check-places = Sichtverbindung: Ich behalte die Drohne im Blick. Dafür
     } auf dem Plan gehen.
 
 # At a terminal, below the briefing.
-briefing-confirm = Drücken Sie die Eingabetaste, um die Kontrolle des Einsatzorts zu bestätigen. Danach startet die Drohne.
+briefing-confirm = Drücken Sie die Eingabetaste, um die Kontrolle des Einsatzorts zu bestätigen. Danach beginnt der Flug.

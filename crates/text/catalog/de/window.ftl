@@ -139,6 +139,7 @@ window-result-more-unmet = { $count } weitere: siehe Bericht
 window-result-report = Bericht
 window-result-not-available = nicht vorhanden
 window-result-moment = Im Bericht zeigen
+window-result-moment-number = { $time } ({ $number } von { $count })
 window-result-open-report = Bericht öffnen
 window-result-open-questionnaire = Fragebogen öffnen
 window-result-fly-yourself = Selbst fliegen: { $job }

@@ -129,4 +129,4 @@ briefing-check-places = Line of sight: I keep the drone in sight. If necessary, 
     } on the plan.
 
 # At a terminal, below the briefing.
-briefing-confirm = Press Enter to confirm the site check. Then the drone starts.
+briefing-confirm = Press Enter to confirm the site check and begin the flight.

@@ -142,6 +142,7 @@ window-result-more-unmet = { $count } more: see the report
 window-result-report = report
 window-result-not-available = not available
 window-result-moment = Show in the report
+window-result-moment-number = { $time } ({ $number } of { $count })
 window-result-open-report = Open report
 window-result-open-questionnaire = Open questionnaire
 window-result-fly-yourself = Fly it yourself: { $job }

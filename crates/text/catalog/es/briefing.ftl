@@ -121,4 +121,4 @@ briefing-check-places = Línea de vista: mantengo el dron a la vista. Para ello 
     } del plano.
 
 # At a terminal, below the briefing.
-briefing-confirm = Pulse Intro para confirmar la revisión del sitio. Después se pone en marcha el dron.
+briefing-confirm = Pulse Intro para confirmar la revisión del sitio. Después comienza el vuelo.

@@ -139,6 +139,7 @@ window-result-more-unmet = { $count } más: vea el informe
 window-result-report = informe
 window-result-not-available = no disponible
 window-result-moment = Ver en el informe
+window-result-moment-number = { $time } ({ $number } de { $count })
 window-result-open-report = Abrir el informe
 window-result-open-questionnaire = Abrir el cuestionario
 window-result-fly-yourself = Volarlo usted: { $job }

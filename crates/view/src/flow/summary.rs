@@ -39,8 +39,10 @@ pub fn rows(ended: Option<&FlightSummary>, moment: usize, language: Language) ->
     if ended.is_some_and(|ended| ended.report.is_some()) {
         rows.push(MenuRow::button(MenuAction::Report, text!(language, "window-result-open-report")));
     }
-    if let Some(shown) = ended.and_then(|ended| ended.moments.get(moment)) {
-        let value = format!("{}: {}", moment + 1, shown.time);
+    let moments = ended.map_or(&[][..], |ended| &ended.moments);
+    if let Some(shown) = moments.get(moment) {
+        let (time, number) = (shown.time.as_str(), moment + 1);
+        let value = text!(language, "window-result-moment-number", time = time, number = number, count = moments.len());
         rows.push(MenuRow::choice(MenuAction::Moment, text!(language, "window-result-moment"), value));
     }
     if ended.is_some_and(|ended| is_openable(&ended.questionnaire)) {

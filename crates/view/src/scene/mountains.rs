@@ -27,7 +27,7 @@ const LAND_HEIGHT_M: f64 = 45.0;
 /// Musgrave, in Ebert et al. 2003, "Texturing and Modeling").
 const RIDGE_SPACING_M: f64 = 1_150.0;
 const RIDGE_OCTAVES: u32 = 5;
-/// Share of the field's color beyond the rim falls to zero within this distance, as a fraction of the field's half side.
+/// Distance beyond the rim within which the field's color fades out, as a fraction of the field's half side.
 const FIELD_FADE: f64 = 0.35;
 
 /// Builds the mountains around the field, which rise from its rim. Where the lake reaches the rim, it continues between
@@ -128,7 +128,7 @@ fn value_noise(x: f64, y: f64, octave: u32) -> f64 {
     math::lerp(low, high, along)
 }
 
-/// Returns the random number of a lattice point, 0 to 1; the same hash as `hash2` in common.wgsl.
+/// Returns the random number of a lattice point, 0 to 1; a hash like `hash2` in common.wgsl.
 fn lattice_value(column: i32, row: i32, octave: u32) -> f64 {
     let mut hash =
         (column as u32).wrapping_mul(0x8da6_b343) ^ (row as u32).wrapping_mul(0xd816_3841) ^ octave.wrapping_mul(0xcb1a_b31f);

@@ -11,20 +11,6 @@
 // between the contrast of stains and that of a soffit against the sky).
 const EDGE_VARIANCE: f32 = 1.0;
 
-struct Fragment {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) uv: vec2<f32>,
-}
-
-@vertex
-fn vs(@builtin(vertex_index) k: u32) -> Fragment {
-    let at = vec2<f32>(f32((k << 1u) & 2u), f32(k & 2u));
-    var out: Fragment;
-    out.clip = vec4<f32>(at * 2.0 - 1.0, 0.0, 1.0);
-    out.uv = vec2<f32>(at.x, 1.0 - at.y);
-    return out;
-}
-
 // Mean brightness of a cell and mean of its square, in stops from white.
 @fragment
 fn measure(in: Fragment) -> @location(0) vec4<f32> {

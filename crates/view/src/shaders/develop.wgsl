@@ -28,24 +28,9 @@ struct Develop {
 
 // Base brightness that stays, stops from white: the metered mean (exposure.rs, `METERING_TARGET`).
 const METERED_STOPS: f32 = -2.06;
-// Shares by which the base is compressed below and above the metered mean (estimates: the shares of both that remain show a soffit
-// and the sky behind it together, and a sunlit bridge still differs from its shadows by more than a stop).
-const SHADOW_COMPRESSION: f32 = 0.45;
-const HIGHLIGHT_COMPRESSION: f32 = 0.45;
-
-struct Fragment {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) uv: vec2<f32>,
-}
-
-@vertex
-fn vs(@builtin(vertex_index) k: u32) -> Fragment {
-    let at = vec2<f32>(f32((k << 1u) & 2u), f32(k & 2u));
-    var out: Fragment;
-    out.clip = vec4<f32>(at * 2.0 - 1.0, 0.0, 1.0);
-    out.uv = vec2<f32>(at.x, 1.0 - at.y);
-    return out;
-}
+// Share by which the base is compressed towards the metered mean (estimate: what remains shows a soffit and the sky behind it
+// together, and a sunlit bridge still differs from its shadows by more than a stop).
+const COMPRESSION: f32 = 0.45;
 
 // Four random numbers in 0..1, in steps of 1/255.
 fn random(p: vec2<u32>, k: u32) -> vec4<f32> {
@@ -83,7 +68,7 @@ fn developed(x: vec3<f32>) -> vec3<f32> {
 fn adapted(color: vec3<f32>, uv: vec2<f32>) -> f32 {
     let base = textureSampleLevel(adaptation, light_sampler, uv, 0.0).rg;
     let above = base.x * brightness_stops(color) + base.y - METERED_STOPS;
-    let stops = min(-above * select(SHADOW_COMPRESSION, HIGHLIGHT_COMPRESSION, above > 0.0), d.size.w);
+    let stops = min(-above * COMPRESSION, d.size.w);
     return exp2(stops);
 }
 

@@ -73,6 +73,14 @@ pub fn check_picture(name: &str, drawn: &Picture) -> Result<Difference, String> 
     check_picture_at(&reference_path(name), name, drawn)
 }
 
+/// Same as [`check_picture`], and also saves the picture in the folder in `SPANDREL_ALBUM`, if that is set.
+pub fn check_album_picture(name: &str, drawn: &Picture) -> Result<Difference, String> {
+    if let Some(album) = std::env::var_os("SPANDREL_ALBUM") {
+        save_in(Path::new(&album), &format!("{name}.png"), drawn);
+    }
+    check_picture(name, drawn)
+}
+
 /// Returns the path of a committed picture.
 pub fn reference_path(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))

@@ -47,6 +47,15 @@ pub struct SolidSurface {
     pub colors: Vec<[u8; 3]>,
 }
 
+impl SolidSurface {
+    /// Returns the triangles of a surface mesh, with its vertex indices.
+    #[must_use]
+    pub fn of(surface: &SurfaceMesh) -> Self {
+        let (triangles, colors) = (surface.mesh().triangles.clone(), surface.colors().to_vec());
+        Self { triangles, is_closed: surface.is_closed(), colors }
+    }
+}
+
 impl Solid {
     /// Returns the triangles: its own, or the faces of a convex polyhedron as triangle fans from each face's first vertex.
     #[must_use]
@@ -188,10 +197,8 @@ impl MemberBuilder {
 
     /// Adds a part of any shape with its own triangles.
     pub fn add_surface(&mut self, part: &str, element: Element, surface: &SurfaceMesh) {
-        let mesh = surface.mesh();
-        let (triangles, colors) = (mesh.triangles.clone(), surface.colors().to_vec());
-        let triangles = SolidSurface { triangles, is_closed: surface.is_closed(), colors };
-        self.add(part, element, &mesh.vertices_m, surface.faces().to_vec(), Some(triangles));
+        let triangles = SolidSurface::of(surface);
+        self.add(part, element, &surface.mesh().vertices_m, surface.faces().to_vec(), Some(triangles));
     }
 
     fn add(&mut self, part: &str, element: Element, corners: &[LocalPoint], faces: Vec<Vec<u32>>, surface: Option<SolidSurface>) {

@@ -187,10 +187,8 @@ impl Clearance {
 
 /// Returns a surface whose bridge axes are those of the site.
 fn surface_solid(surface: &SurfaceMesh) -> Solid {
-    let mesh = surface.mesh();
-    let triangles = SolidSurface { triangles: mesh.triangles.clone(), is_closed: surface.is_closed(), colors: Vec::new() };
-    let vertices_m = mesh.vertices_m.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
-    Solid { vertices_m, faces: Vec::new(), surface: Some(triangles) }
+    let vertices_m = surface.mesh().vertices_m.iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
+    Solid { vertices_m, faces: Vec::new(), surface: Some(SolidSurface::of(surface)) }
 }
 
 fn shown([x, y, z]: Point) -> String {
