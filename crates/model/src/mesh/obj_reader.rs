@@ -20,8 +20,7 @@ pub fn read(file: &str, bytes: &[u8], load: BufferLoader) -> Result<MeshFile, St
     check_file_size(bytes).map_err(|words| problem(&words))?;
     // With a single index, each vertex has its own place in the texture.
     let single_index = bytes.windows(4).any(|part| part == b"\nvt ");
-    let options =
-        LoadOptions { triangulate: true, single_index, ignore_points: true, ignore_lines: true, ..LoadOptions::default() };
+    let options = LoadOptions { triangulate: true, single_index, ignore_points: true, ignore_lines: true };
     let materials = |path: &Path| match load(&path.to_string_lossy()) {
         Ok(text) => tobj::load_mtl_buf(&mut &text[..]),
         Err(_) => Ok(Default::default()),

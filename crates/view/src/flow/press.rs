@@ -257,10 +257,7 @@ impl WindowFlow {
             MenuAction::FlyNext => self.fly_next(),
             MenuAction::WatchExpert => self.watch_expert(),
             MenuAction::ChooseOther => self.show_page(Page::Start),
-            MenuAction::Moment => {
-                let moment = self.moment;
-                self.open(|ended| ended.moments.get(moment).map(|moment| moment.address.clone()));
-            }
+            MenuAction::Moment => self.open_moment(),
             MenuAction::Report => self.open(|ended| ended.report.clone()),
             MenuAction::OpenQuestionnaire => self.open(|ended| Some(ended.questionnaire.clone())),
             MenuAction::Quit => {
@@ -268,6 +265,12 @@ impl WindowFlow {
                 self.out.push_back(WindowRequest::Close);
             }
         }
+    }
+
+    /// Opens the report at the selected moment.
+    fn open_moment(&mut self) {
+        let moment = self.moment;
+        self.open(|ended| ended.moments.get(moment).map(|moment| moment.address.clone()));
     }
 
     /// Chooses the recommended job as a practice session, and continues to the controller check or, after a flight, to the
