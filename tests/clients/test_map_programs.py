@@ -1,6 +1,7 @@
 """A map program finds the tiles of a job's site by their description (WMTS). GDAL reads both, as QGIS and other programs do."""
 
 import io
+import urllib.request
 
 import numpy
 import PIL.Image
@@ -23,7 +24,8 @@ def test_val_gdal_finds_the_map_of_a_site_at_its_place(tmp_path, monkeypatch):
     (tmp_path / "sessions").mkdir()
     server = webserver.Server(tmp_path / "sessions")
     try:
-        _, _, png = webserver.Browser(server.address).ask(f"/tiles/two-bridges/{ZOOM}/{COLUMN}/{ROW}.png")
+        with urllib.request.urlopen(f"{server.address}/tiles/two-bridges/{ZOOM}/{COLUMN}/{ROW}.png") as answer:
+            png = answer.read()
         with PIL.Image.open(io.BytesIO(png)) as picture:
             tile = numpy.asarray(picture.convert("RGB"), dtype=float)
         size_m = EQUATOR_M / 2**ZOOM
