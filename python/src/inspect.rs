@@ -5,6 +5,7 @@ use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::pose::Pose;
 use spandrel_model::scenario::Scenario;
 use spandrel_model::site::CameraPose;
+use spandrel_model::time::SimTime;
 use spandrel_model::vehicle::Vehicle as Aircraft;
 use spandrel_monitor::measures::attention::SiteSurvey;
 use spandrel_monitor::measures::coverage::FlownPath;
@@ -22,6 +23,8 @@ pub struct Inspect {
     viewing_directions: Vec<Vec<Vec3<Enu>>>,
     flown: Vec<FlownPath>,
     on: Option<usize>,
+    /// Time of the last evaluation.
+    evaluated_at: Option<SimTime>,
     found: BTreeSet<u32>,
     before: f64,
 }
@@ -39,7 +42,7 @@ impl Inspect {
         let paths = ReferencePaths::new(job);
         let flown = (0..paths.len()).map(|task| FlownPath::new(paths.path(task), paths.threshold_m(task))).collect();
         let viewing_directions = job.tasks.iter().map(|task| task.viewing_directions.clone()).collect();
-        Self { paths, viewing_directions, flown, on: None, found: BTreeSet::new(), before: 0.0 }
+        Self { paths, viewing_directions, flown, on: None, evaluated_at: None, found: BTreeSet::new(), before: 0.0 }
     }
 
     /// Returns the fraction of the total path length that has been flown.
@@ -106,8 +109,9 @@ impl Inspect {
         if let Some((task, _)) = on {
             self.on = Some(task);
         }
+        let elapsed = self.evaluated_at.replace(sim.now()).map_or(SimTime::ZERO, |before| sim.now() - before);
         for (task, flown) in self.flown.iter_mut().enumerate() {
-            flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)));
+            flown.add_frame(on.and_then(|(t, nearest)| (t == task).then_some(nearest.point)), elapsed);
         }
         let measures = [self.flown_fraction(), self.found_fraction(sim)];
         let sum = measures[0] + measures[1];
