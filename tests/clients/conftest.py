@@ -15,7 +15,8 @@ MEASURED = []
 # Files whose tests take longest (`--durations=0`). They begin first, so that no process is left alone with one of them at the end.
 LONG_FILES = (
     "test_web", "test_school", "test_report", "test_flow", "test_pymavlink", "test_web_editor", "test_faults", "test_web_instructor", "test_bad_radio",
-    "test_px4_flows", "test_simple_clients", "test_stations", "test_mavsdk", "test_flavors",
+    "test_px4_flows", "test_certification", "test_study", "test_simple_clients", "test_stations", "test_lesson_keys", "test_web_pictures", "test_mavsdk",
+    "test_mavsdk_bridges", "test_flavors",
 )
 
 
