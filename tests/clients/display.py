@@ -45,9 +45,13 @@ class Display:
         pixels = numpy.frombuffer(image.data, dtype=numpy.uint8).reshape(height, width, 4)
         return pixels[:, :, 2::-1].astype(int)
 
+    def windows(self):
+        """Returns the visible windows."""
+        return [w for w in self.root.query_tree().children if w.get_attributes().map_state == X.IsViewable]
+
     def focus(self):
         """Gives the keyboard focus to the only window, because there is no window manager."""
-        windows = [w for w in self.root.query_tree().children if w.get_attributes().map_state == X.IsViewable]
+        windows = self.windows()
         assert windows, "no window is open"
         windows[-1].set_input_focus(X.RevertToParent, X.CurrentTime)
         self.connection.sync()

@@ -95,6 +95,7 @@ def delays(screen, folder):
     """Returns the times for a key that changes the layout, and for a key that turns the aircraft, s."""
     process, _ = start(screen, folder, "train", "--ports", "ephemeral", "--web", "none", "--no-sound", "--scenario", "drill-hover")
     try:
+        spandrel.wait_for("the window", screen.windows, 300.0)
         # The briefing comes first; Enter confirms its site check.
         confirm = asking.Repeater(lambda: (screen.focus(), screen.tap("Return")))
         spandrel.wait_for("the flight", lambda: confirm.if_due() or "Take off, fly the tasks" in output(folder), 300.0)
