@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 
 import spandrel
 
@@ -23,15 +24,12 @@ def programs():
 class Postgres:
     """A server that starts on creation; `stop` and `start` simulate a restart of its machine."""
 
-    def __init__(self, folder):
-        self.home = pathlib.Path(folder)
-        self.home.mkdir()
+    def __init__(self):
+        # Not a folder of pytest: the server's user could not enter it, because every run of pytest closes the parent folder to other users.
+        self.home = pathlib.Path(tempfile.mkdtemp(prefix="postgres-"))
         self.data = self.home / "data"
         self.user = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
         if self.user:
-            # All parent folders must be accessible to the user.
-            for parent in self.home.parents[:-2]:
-                parent.chmod(parent.stat().st_mode | 0o055)
             os.chown(self.home, NOBODY, NOBODY)
         self.process = None
         self._run("initdb", "-D", self.data, "-U", "spandrel", "-A", "trust", "-E", "UTF8", "--no-locale", "--no-sync")
@@ -46,7 +44,7 @@ class Postgres:
 
     def start(self):
         """Starts the server and waits until it responds."""
-        with open(self.home.parent / "postgres.txt", "ab") as log:
+        with open(self.home / "server.txt", "ab") as log:
             self.process = subprocess.Popen(
                 [programs() / "postgres", "-D", self.data, "-k", self.home, "-c", "listen_addresses=", "-c", "fsync=off"],
                 cwd=self.home, stdin=subprocess.DEVNULL, stdout=log, stderr=log, **self.user,
@@ -58,6 +56,11 @@ class Postgres:
         """Stops the server with all its connections."""
         self._run("pg_ctl", "stop", "-D", self.data, "-m", "fast", "-s")
         self.process.wait()
+
+    def remove(self):
+        """Stops the server and deletes its data."""
+        self.stop()
+        shutil.rmtree(self.home)
 
     @property
     def url(self):

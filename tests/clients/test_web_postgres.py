@@ -12,11 +12,11 @@ import webserver
 
 
 @pytest.fixture(scope="module")
-def database(tmp_path_factory):
+def database():
     """A shared PostgreSQL for these tests."""
-    database = postgres.Postgres(tmp_path_factory.mktemp("centre") / "postgres")
+    database = postgres.Postgres()
     yield database
-    database.stop()
+    database.remove()
 
 
 @pytest.fixture(scope="module")
