@@ -1,6 +1,7 @@
 //! Measures the cost of rendering both views of a flight: frame time, triangles, and draw calls per frame, and startup
-//! time; then the frame rate of the whole window. Uses software rendering, like a machine without a graphics card. `SPANDREL_BENCH_DEVICE=best` uses the best
-//! available device and higher presets, and fails if a graphics card does not reach the target frame rate.
+//! time; then the frame rate of the whole window. Uses software rendering, like a machine without a graphics card.
+//! `SPANDREL_BENCH_DEVICE=best` uses the best available device and higher presets, and fails if a graphics card does not
+//! reach the target frame rate.
 
 #[path = "support/running.rs"]
 mod running;

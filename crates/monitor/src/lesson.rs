@@ -68,10 +68,17 @@ pub struct LessonCoach {
     steps: Vec<LessonStep>,
     /// Index of the current step.
     current: usize,
-    /// Time at which it began; `None` before the first input.
-    begun: Option<SimTime>,
-    /// Heading at the last input, and the angle turned since the step began, clockwise positive.
+    /// Heading at the last input.
     last_heading_rad: f64,
+    state: StepState,
+}
+
+/// State of the current step.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct StepState {
+    /// Time at which the step began; `None` before the first input.
+    begun: Option<SimTime>,
+    /// Angle turned since then, clockwise positive.
     turned_rad: f64,
     /// Time since which the aircraft has been in the step's ring.
     held_since: Option<SimTime>,
@@ -83,9 +90,9 @@ pub struct LessonCoach {
     pictured: bool,
     /// Pitch of the camera when the step began.
     start_pitch_rad: Option<f64>,
-    /// Highest progress in this step, and since when.
+    /// Highest progress, and since when.
     best: (f64, SimTime),
-    announced: Option<usize>,
+    announced: bool,
     way_sent_at: Option<SimTime>,
     remarked: Option<SimTime>,
 }
@@ -94,22 +101,8 @@ impl LessonCoach {
     /// Creates the state before the first step; `None` for a job that is not a lesson.
     #[must_use]
     pub fn new(steps: &[LessonStep]) -> Option<Self> {
-        (!steps.is_empty()).then(|| Self {
-            steps: steps.to_vec(),
-            current: 0,
-            begun: None,
-            last_heading_rad: 0.0,
-            turned_rad: 0.0,
-            held_since: None,
-            passed: false,
-            longest_hold: SimTime::ZERO,
-            pictured: false,
-            start_pitch_rad: None,
-            best: (0.0, SimTime::ZERO),
-            announced: None,
-            way_sent_at: None,
-            remarked: None,
-        })
+        let state = StepState::default();
+        (!steps.is_empty()).then(|| Self { steps: steps.to_vec(), current: 0, last_heading_rad: 0.0, state })
     }
 
     /// Returns the task that the trainee follows in this step, if it is one.
@@ -129,11 +122,11 @@ impl LessonCoach {
 
     /// Updates the lesson and returns the texts to send to the pilot.
     pub fn update(&mut self, input: &LessonInput) -> Vec<String> {
-        let begun = *self.begun.get_or_insert_with(|| {
+        let begun = *self.state.begun.get_or_insert_with(|| {
             self.last_heading_rad = input.heading_rad;
             input.time
         });
-        self.turned_rad += math::wrap_pi(input.heading_rad - self.last_heading_rad);
+        self.state.turned_rad += math::wrap_pi(input.heading_rad - self.last_heading_rad);
         self.last_heading_rad = input.heading_rad;
         let mut texts = Vec::new();
         if let Some(step) = self.steps.get(self.current).copied() {
@@ -149,18 +142,18 @@ impl LessonCoach {
     /// Returns the instruction of a new step or of one without progress, and the way to the step's place.
     fn instructions(&mut self, input: &LessonInput) -> Vec<String> {
         let status = self.status(input);
-        if status.progress > self.best.0 || self.announced != Some(self.current) {
-            self.best = (status.progress, input.time);
+        if status.progress > self.state.best.0 || !self.state.announced {
+            self.state.best = (status.progress, input.time);
         }
-        let is_stuck = !status.is_done() && input.time - self.best.1 >= REPETITION_INTERVAL;
+        let is_stuck = !status.is_done() && input.time - self.state.best.1 >= REPETITION_INTERVAL;
         let mut texts = Vec::new();
-        if self.announced != Some(self.current) || is_stuck {
-            (self.announced, self.best.1) = (Some(self.current), input.time);
+        if !self.state.announced || is_stuck {
+            (self.state.announced, self.state.best.1) = (true, input.time);
             texts.push(status.words());
         }
-        let is_due = self.way_sent_at.is_none_or(|sent_at| input.time - sent_at >= WAY_INTERVAL);
+        let is_due = self.state.way_sent_at.is_none_or(|sent_at| input.time - sent_at >= WAY_INTERVAL);
         if let Some(words) = status.way_words().filter(|_| is_due) {
-            self.way_sent_at = Some(input.time);
+            self.state.way_sent_at = Some(input.time);
             texts.push(words);
         }
         texts
@@ -173,7 +166,7 @@ impl LessonCoach {
         }
         match verdict {
             PictureVerdict::Shown => {
-                self.pictured = true;
+                self.state.pictured = true;
                 None
             }
             PictureVerdict::Missed(why) => Some(format!("{TEXT_PREFIX}{why}")),
@@ -183,10 +176,7 @@ impl LessonCoach {
 
     fn begin_next(&mut self, input: &LessonInput) {
         self.current += 1;
-        self.begun = Some(input.time);
-        self.turned_rad = 0.0;
-        (self.held_since, self.passed, self.longest_hold, self.pictured) = (None, false, SimTime::ZERO, false);
-        (self.start_pitch_rad, self.way_sent_at, self.remarked) = (None, None, None);
+        self.state = StepState { begun: Some(input.time), ..StepState::default() };
     }
 
     /// Returns a remark about a mistake in this step, and measures how long the aircraft has been in the step's ring.
@@ -195,7 +185,7 @@ impl LessonCoach {
             LessonStep::Land => self.landed_elsewhere(input),
             LessonStep::Arm => None,
             _ if !input.armed => self.remark(input.time, "the motors are off: arm them again"),
-            LessonStep::TiltCamera { pitch_rad } => self.tilted_wrong(*pitch_rad, input),
+            LessonStep::TiltCamera { pitch_rad } => self.tilted_wrong(step, *pitch_rad, input),
             LessonStep::Hover(place) | LessonStep::StopAt(place) => self.hold(step, place, input),
             LessonStep::TakeOff { .. }
             | LessonStep::Turn { .. }
@@ -214,10 +204,10 @@ impl LessonCoach {
         self.remark(input.time, &format!("you landed {distance_m:.0} m from the pad"))
     }
 
-    fn tilted_wrong(&mut self, pitch_rad: f64, input: &LessonInput) -> Option<String> {
-        let start_rad = *self.start_pitch_rad.get_or_insert(input.camera_pitch_rad);
+    fn tilted_wrong(&mut self, step: &LessonStep, pitch_rad: f64, input: &LessonInput) -> Option<String> {
+        let start_rad = *self.state.start_pitch_rad.get_or_insert(input.camera_pitch_rad);
         let turned_rad = (input.camera_pitch_rad - start_rad) * pitch_rad.signum();
-        let is_reached = self.progress(&LessonStep::TiltCamera { pitch_rad }, input) >= 1.0;
+        let is_reached = self.progress(step, input) >= 1.0;
         if is_reached || turned_rad > -WRONG_WAY_RAD {
             return None;
         }
@@ -230,16 +220,16 @@ impl LessonCoach {
         let stop = matches!(step, LessonStep::StopAt(_));
         let inside = (input.position_m - place.position_m).norm() <= place.radius_m;
         if inside && !(stop && input.speed_m_s > STOPPED_M_S) {
-            self.held_since.get_or_insert(input.time);
+            self.state.held_since.get_or_insert(input.time);
             return None;
         }
-        let held = self.held_since.take().map_or(SimTime::ZERO, |since| input.time - since);
-        self.longest_hold = self.longest_hold.max(held);
+        let held = self.state.held_since.take().map_or(SimTime::ZERO, |since| input.time - since);
+        self.state.longest_hold = self.state.longest_hold.max(held);
         if inside {
-            self.passed = true;
+            self.state.passed = true;
             return None;
         }
-        let (passed, held) = (std::mem::take(&mut self.passed), std::mem::take(&mut self.longest_hold));
+        let (passed, held) = (std::mem::take(&mut self.state.passed), std::mem::take(&mut self.state.longest_hold));
         if self.progress(step, input) >= 1.0 {
             None
         } else if held >= REMARK_HOLD {
@@ -253,10 +243,10 @@ impl LessonCoach {
 
     /// Returns a remark, unless there was one just before.
     fn remark(&mut self, now: SimTime, words: &str) -> Option<String> {
-        if self.remarked.is_some_and(|at| now - at < REMARK_INTERVAL) {
+        if self.state.remarked.is_some_and(|at| now - at < REMARK_INTERVAL) {
             return None;
         }
-        self.remarked = Some(now);
+        self.state.remarked = Some(now);
         Some(format!("{TEXT_PREFIX}{words}"))
     }
 
@@ -268,7 +258,7 @@ impl LessonCoach {
             LessonStep::Arm => yes(input.armed),
             LessonStep::TakeOff { height_m } => (input.position_m.up() - input.pad_m.up()) / height_m,
             LessonStep::Hover(place) | LessonStep::StopAt(place) => self.held_share(place, input.time),
-            LessonStep::Turn { angle_rad } => self.turned_rad.abs() / angle_rad,
+            LessonStep::Turn { angle_rad } => self.state.turned_rad.abs() / angle_rad,
             LessonStep::FlyPath { task } => match input.tasks.get(*task as usize - 1) {
                 Some((_, true)) => 1.0,
                 Some((share, false)) => share.min(0.99),
@@ -282,7 +272,7 @@ impl LessonCoach {
                 }
             }
             LessonStep::Lamp => yes(input.lamp),
-            LessonStep::Photograph => yes(self.pictured),
+            LessonStep::Photograph => yes(self.state.pictured),
             LessonStep::FlyHome => yes(is_home),
             // Not when the motors stop: the session may end before.
             LessonStep::Land => yes(is_home && input.on_ground),
@@ -291,8 +281,8 @@ impl LessonCoach {
     }
 
     fn held_share(&self, place: &LessonPlace, now: SimTime) -> f64 {
-        let held = self.held_since.map_or(SimTime::ZERO, |since| now - since);
-        match (self.held_since, place.duration.s()) {
+        let held = self.state.held_since.map_or(SimTime::ZERO, |since| now - since);
+        match (self.state.held_since, place.duration.s()) {
             (Some(_), duration_s) if duration_s <= 0.0 => 1.0,
             (_, duration_s) => held.s() / duration_s.max(1e-3),
         }

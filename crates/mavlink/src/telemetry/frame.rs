@@ -151,7 +151,7 @@ impl Flight {
     fn contact_in(&self, since: SimTime, time: SimTime) -> ContactKind {
         let changes = self.contact.between(since, time);
         let now = self.contact.at(time).unwrap_or_default();
-        changes.iter().map(|change| change.2).chain([now]).max_by_key(|contact| contact.severity()).unwrap_or_default()
+        changes.iter().map(|change| change.2).fold(now, ContactKind::more_severe)
     }
 
     /// Returns the times at which `hits` increased without a corresponding `contact` message, which indicates a lost

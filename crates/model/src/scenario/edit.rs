@@ -315,18 +315,24 @@ pub fn with_briefing_picture(text: &str, picture: &BriefingPicture) -> Result<St
 /// Returns the text with another name. Invalid TOML is returned unchanged.
 #[must_use]
 pub fn with_name(text: &str, name: &str) -> String {
-    let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
-    document["name"] = value(name);
-    document.to_string()
+    changed(text, |document| document["name"] = value(name))
 }
 
 /// Returns the text of a copy with another name, which its title shows, too. Invalid TOML is returned unchanged.
 #[must_use]
 pub fn copy(text: &str, name: &str) -> String {
-    let Ok(mut document) = with_name(text, name).parse::<DocumentMut>() else { return text.to_owned() };
-    if let Some(title) = document.get("title").and_then(|title| title.as_str()).map(|title| format!("{title} ({name})")) {
-        document["title"] = value(title);
-    }
+    changed(text, |document| {
+        document["name"] = value(name);
+        if let Some(title) = document.get("title").and_then(|title| title.as_str()).map(|title| format!("{title} ({name})")) {
+            document["title"] = value(title);
+        }
+    })
+}
+
+/// Returns the text after a change. Invalid TOML is returned unchanged.
+fn changed(text: &str, change: impl FnOnce(&mut DocumentMut)) -> String {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
+    change(&mut document);
     document.to_string()
 }
 

@@ -110,9 +110,7 @@ pub fn merge_crashes(crashes: &[Crash], apart_frames: f64) -> Vec<Crash> {
             Some(last) if ((crash.frame - last.last) as f64) < apart_frames => {
                 last.last = crash.last;
                 last.speed_m_s = last.speed_m_s.max(crash.speed_m_s);
-                if crash.with.severity() > last.with.severity() {
-                    last.with = crash.with;
-                }
+                last.with = last.with.more_severe(crash.with);
             }
             Some(_) | None => merged.push(*crash),
         }

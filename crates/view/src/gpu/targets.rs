@@ -7,7 +7,7 @@ use crate::ground_photo::GroundColors;
 use crate::quality::Quality;
 
 /// Cells of the longer side of a picture in which local adaptation measures brightness. A neighborhood has nine cells, a seventh of the
-/// picture (estimate: about the part of a picture that a person takes in at a glance).
+/// picture (estimate: roughly what a person sees sharply at a glance).
 const ADAPTATION_CELLS: u32 = 64;
 
 /// Render targets and their bind groups.
