@@ -3,7 +3,9 @@
 use crate::errors::{AppError, EXIT_CODES};
 use crate::io::addresses;
 use crate::io::clock::Stopwatch;
-use crate::io::controller::{self, CalibratedController, ControllerReading, EventSource, ProfileFolder, RawTerminal};
+use crate::io::controller::{
+    self, CalibratedController, ControllerReading, EventSource, PipedEvents, ProfileFolder, RawTerminal,
+};
 use crate::io::files;
 use crate::io::net::{NetEvent, SocketHub, SocketId};
 use crate::io::stop::StopRequest;
@@ -84,7 +86,8 @@ pub struct Args {
     /// Record the device's input, or the input of --replay, to this file
     #[arg(long, value_name = "FILE", conflicts_with = "keyboard")]
     record: Option<PathBuf>,
-    /// Replay recorded input instead of using a device, and exit at the end
+    /// Replay recorded input instead of using a device, and exit at the end; - reads the events from standard input, where another
+    /// program writes them while it flies
     #[arg(long, value_name = "FILE", conflicts_with = "device")]
     replay: Option<PathBuf>,
 }
@@ -183,6 +186,7 @@ fn pilot(args: &Args, profiles: &ProfileFolder) -> Result<StickSource, AppError>
         return Ok(StickSource::Keyboard { terminal, board: KeyboardState::new(keys) });
     }
     let source = match &args.replay {
+        Some(path) if path.as_os_str() == "-" => EventSource::Piped(PipedEvents::open()?),
         Some(path) => EventSource::Record(
             InputRecording::read(&path.display().to_string(), &files::read(path)?).map_err(AppError::invalid)?,
         ),

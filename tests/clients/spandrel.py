@@ -58,7 +58,7 @@ def end(process):
 class Flight:
     """A simulator and a monitor with unused ports, and the session that they write."""
 
-    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED, flavor="px4"):
+    def __init__(self, folder, scenario="two-bridges", seed=7, speed=SPEED, flavor="px4", gcs_port=0):
         self.sessions = pathlib.Path(folder) / "sessions"
         self.log = open(pathlib.Path(folder) / "log.txt", "w", encoding="utf-8")
         self.client_port = free_udp_port()
@@ -67,7 +67,7 @@ class Flight:
         common = ["--scenario", scenario, "--seed", str(seed)]
         self.sim = self._start(
             "sim", *common, "--flavor", flavor, "--speed", str(speed), "--gcs", f"127.0.0.1:{self.client_port}", "--sdk", "none",
-            "--gcs-port", "0", "--tcp-port", "none", "--payload-port", str(payload), "--monitor-port", str(monitor),
+            "--gcs-port", str(gcs_port), "--tcp-port", "none", "--payload-port", str(payload), "--monitor-port", str(monitor),
         )
         self.monitor = self._start(
             "monitor", "--scenario", scenario, "--sessions", str(self.sessions), "--port", str(monitor),

@@ -30,13 +30,13 @@ def screen(tmp_path):
     opened.close()
 
 
-def open_view(screen, tmp_path, *args):
+def open_view(screen, tmp_path, *args, environment=None):
     """Opens a window that covers the display and waits until it has rendered both views."""
     log = open(tmp_path / "view.txt", "w", encoding="utf-8")
     size = f"{screen.size[0]}x{screen.size[1]}"
     process = subprocess.Popen(
         [spandrel.COCKPIT, "view", "--scenario", "drill-hover", "--seed", "7", "--size", size, "--announce", *args],
-        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log, text=True, env=screen.environment(),
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log, text=True, env=screen.environment() | (environment or {}),
     )
     said = process.stdout.readline()
     assert said, (tmp_path / "view.txt").read_text(encoding="utf-8")

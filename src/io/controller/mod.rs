@@ -1,14 +1,16 @@
-//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the terminal's keyboard, and recordings.
+//! Sources of stick input: gamepads and transmitters (feature `gamepad`), the terminal's keyboard, recordings, and other programs.
 
 mod calibrated;
 mod device_error;
 #[cfg(feature = "gamepad")]
 mod gamepad;
+mod piped;
 mod profiles;
 mod terminal;
 
 pub use calibrated::{CalibratedController, ControllerReading};
 pub use device_error::DeviceError;
+pub use piped::PipedEvents;
 pub use profiles::{ProfileFolder, read as read_profile};
 pub use terminal::{RawTerminal, TerminalKey};
 
@@ -28,6 +30,8 @@ pub enum EventSource {
     Gamepad(Box<gamepad::Gamepad>),
     /// A recording of a device's input.
     Record(InputRecording),
+    /// Another program that plays the part of a device.
+    Piped(PipedEvents),
 }
 
 impl EventSource {
@@ -48,6 +52,7 @@ impl EventSource {
             #[cfg(feature = "gamepad")]
             Self::Gamepad(gamepad) => gamepad.device(),
             Self::Record(record) => &record.device,
+            Self::Piped(piped) => piped.device(),
         }
     }
 
@@ -57,15 +62,17 @@ impl EventSource {
             #[cfg(feature = "gamepad")]
             Self::Gamepad(gamepad) => gamepad.next(),
             Self::Record(record) => record.due(now),
+            Self::Piped(piped) => piped.next(),
         }
     }
 
-    /// Returns true at the end of a recording.
+    /// Returns true at the end of a recording, or of another program's input.
     pub fn is_over(&self) -> bool {
         match self {
             #[cfg(feature = "gamepad")]
             Self::Gamepad(_) => false,
             Self::Record(record) => record.is_over(),
+            Self::Piped(piped) => piped.is_over(),
         }
     }
 }

@@ -1,10 +1,18 @@
 //! Inputs of the sound thread.
 
-use spandrel_view::sound::{SoundInputs, SoundSettings};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use spandrel_view::sound::{SoundInputs, SoundSettings, SpokenWords};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Flight data that determines the sound, and the sound settings.
-pub type Inputs = (SoundInputs, SoundSettings);
+/// Inputs of the sound.
+#[derive(Debug, Clone)]
+pub struct Inputs {
+    /// Flight data that determines the sound.
+    pub flight: SoundInputs,
+    /// Sound settings.
+    pub settings: SoundSettings,
+    /// Words to speak; the output takes them.
+    pub words: Option<Arc<SpokenWords>>,
+}
 
 /// Locks the inputs, which are valid even if a thread has panicked while holding the lock.
 pub fn lock_inputs(heard: &Mutex<Inputs>) -> MutexGuard<'_, Inputs> {

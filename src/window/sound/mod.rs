@@ -21,14 +21,14 @@ pub struct AudioOutput {
 impl AudioOutput {
     /// Creates the output.
     pub fn new(sounds: SoundPreferences) -> Self {
-        let silent = SoundInputs { silent: true, ..SoundInputs::default() };
-        let inputs = Arc::new(Mutex::new((silent, sound_settings(sounds))));
+        let flight = SoundInputs { silent: true, ..SoundInputs::default() };
+        let inputs = Arc::new(Mutex::new(Inputs { flight, settings: sound_settings(sounds), words: None }));
         Self { on: sounds.on, started: false, inputs }
     }
 
     /// Changes the settings, and turns sound on or off.
     pub fn set_preferences(&mut self, sounds: SoundPreferences) {
-        lock_inputs(&self.inputs).1 = sound_settings(sounds);
+        lock_inputs(&self.inputs).settings = sound_settings(sounds);
         self.set_on(sounds.on);
     }
 
@@ -47,7 +47,7 @@ impl AudioOutput {
 
     /// Mutes the output until the inputs are updated again.
     pub fn silence(&self) {
-        lock_inputs(&self.inputs).0.silent = true;
+        lock_inputs(&self.inputs).flight.silent = true;
     }
 
     /// Updates the inputs for sound synthesis.
@@ -55,7 +55,7 @@ impl AudioOutput {
         if !self.on {
             return;
         }
-        lock_inputs(&self.inputs).0 = heard;
+        lock_inputs(&self.inputs).flight = heard;
         if !self.started {
             self.started = true;
             let heard = Arc::downgrade(&self.inputs);

@@ -52,9 +52,7 @@ pub fn play(heard: &Weak<Mutex<Inputs>>) {
             }
         }
         wait = wait.saturating_sub(1);
-        // A copy, because speaking starts a program.
-        let now = lock_inputs(&inputs).clone();
-        voice.update_inputs(&now);
+        voice.update(&inputs, device.is_some());
         drop(inputs);
         std::thread::sleep(CHECK_INTERVAL);
     }
@@ -101,13 +99,17 @@ impl SoundSource {
     /// Takes over the latest inputs, unless the window is just changing them: the device must not wait.
     fn update(&mut self) {
         let Some(inputs) = self.heard.upgrade() else { return };
-        let now = match inputs.try_lock() {
+        let mut now = match inputs.try_lock() {
             Ok(now) => now,
             Err(TryLockError::Poisoned(now)) => now.into_inner(),
             Err(TryLockError::WouldBlock) => return,
         };
-        self.sound.flight().set_settings(now.1);
-        self.sound.flight().set(now.0.clone());
+        let flight = self.sound.flight();
+        flight.set_settings(now.settings);
+        flight.set(now.flight.clone());
+        if let Some(words) = now.words.take() {
+            flight.say(words);
+        }
     }
 }
 

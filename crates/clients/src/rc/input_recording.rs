@@ -2,7 +2,8 @@
 //!
 //! The first line is `{"format":1,"device":NAME,"id":ID}`, followed by one line per event:
 //! `{"t_s":S,"axis":N,"value":V}`, `{"t_s":S,"button":N,"pressed":BOOL}`, `{"t_s":S,"lost":true}` or
-//! `{"t_s":S,"found":true}`. `t_s` is the time since the start and never decreases.
+//! `{"t_s":S,"found":true}`. `t_s` is the time since the start and never decreases. Another program can also write these lines
+//! while it flies ([`LiveInput`]).
 
 use super::{Device, DeviceEvent};
 use serde_json::{Value, json};
@@ -76,6 +77,35 @@ impl InputRecording {
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.events.is_empty()
+    }
+}
+
+/// Reads the lines of a recording one at a time, as another program writes them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LiveInput {
+    /// The device that the other program stands for.
+    pub device: Device,
+    file: String,
+    line: usize,
+}
+
+impl LiveInput {
+    /// Parses the first line. `file` is the name used in error messages.
+    ///
+    /// # Errors
+    /// Returns the file, line number, problem, and allowed values if the line is invalid.
+    pub fn begin(file: &str, first: &str) -> Result<Self, String> {
+        let device = device(first).map_err(|what| format!("{file}:1: {what}"))?;
+        Ok(Self { device, file: file.to_owned(), line: 1 })
+    }
+
+    /// Parses the next line. Its time has no effect, because the event happens now.
+    ///
+    /// # Errors
+    /// Returns the file, line number, problem, and allowed values if the line is invalid.
+    pub fn next(&mut self, text: &str) -> Result<DeviceEvent, String> {
+        self.line += 1;
+        event(text).map(|(_, event)| event).map_err(|what| format!("{}:{}: {what}", self.file, self.line))
     }
 }
 
@@ -162,5 +192,18 @@ mod tests {
             assert!(error.contains(told) && error.starts_with("r:"), "{error}");
         }
         assert!(InputRecording::read("r", "").is_err() && InputRecording::read("r", "{\"format\":2}").is_err());
+    }
+
+    #[test]
+    fn exact_live_lines_are_events_or_reported() {
+        let device = Device { name: "Pad".into(), id: "1:2".into() };
+        let mut live = LiveInput::begin("standard input", &head(&device)).unwrap();
+        assert_eq!(live.device, device);
+        let pressed = DeviceEvent::Button { button: 4, pressed: true };
+        assert_eq!(live.next(&line(SimTime::from_s(9.0), pressed)), Ok(pressed));
+        assert_eq!(live.next(&line(SimTime::ZERO, DeviceEvent::Lost)), Ok(DeviceEvent::Lost), "times have no order");
+        let error = live.next("{\"t_s\":0,\"axis\":1,\"value\":2}").unwrap_err();
+        assert_eq!(error, "standard input:4: value = 2 (allowed: -1 to 1)");
+        assert!(LiveInput::begin("standard input", "").unwrap_err().starts_with("standard input:1: "));
     }
 }

@@ -1,22 +1,26 @@
-//! Sound of a flight as samples: propellers from the rotor speeds, and warning tones. It has no side effects; the
-//! caller provides the time base.
+//! Sound of a flight as samples: propellers from the rotor speeds, warning tones, and spoken words. It has no side effects; the
+//! caller provides the time base and the words' samples.
 
 mod propellers;
 mod resampled;
 mod smoothing;
+mod speech;
 mod warnings;
 
 pub use resampled::ResampledSound;
 pub use smoothing::SAMPLE_RATE_HZ;
+pub use speech::SpokenWords;
 pub use warnings::{ActiveAlarms, spoken};
 
 use crate::hud::{DisplayStyle, StatusAlarm};
 use propellers::Propellers;
 use smoothing::SmoothedValue;
 use spandrel_mavlink::contract::cue::CueTexts;
+use speech::Speech;
+use std::sync::Arc;
 use warnings::WarningTones;
 
-/// Fraction of full scale available to each source; prevents clipping.
+/// Fraction of full scale available to each of the signals; prevents clipping.
 const PROPELLER_LEVEL: f64 = 0.5;
 const WARNING_LEVEL: f64 = 0.45;
 
@@ -76,6 +80,7 @@ pub struct FlightSound {
     inputs: SoundInputs,
     propellers: Propellers,
     warnings: WarningTones,
+    speech: Speech,
     volume: SmoothedValue,
 }
 
@@ -96,15 +101,20 @@ impl FlightSound {
         self.inputs = heard;
     }
 
+    /// Begins to speak words, instead of the previous ones.
+    pub fn say(&mut self, words: Arc<SpokenWords>) {
+        self.speech.say(words);
+    }
+
     /// Writes the next samples, each in [-1, 1].
     pub fn fill(&mut self, out: &mut [f32]) {
-        let Self { settings, inputs: heard, propellers, warnings, volume } = self;
+        let Self { settings, inputs: heard, propellers, warnings, speech, volume } = self;
         for sample in out {
             let loud = volume.follow(if heard.silent { 0.0 } else { settings.volume.clamp(0.0, 1.0) });
             let rotors: &[f64] = if settings.propellers { &heard.rotors_rad_s } else { &[] };
             let alarms = if settings.warnings { heard.alarms } else { ActiveAlarms::default() };
-            let mixed = PROPELLER_LEVEL * propellers.next(rotors, heard.distance_m) + WARNING_LEVEL * warnings.next(alarms);
-            *sample = (loud * mixed) as f32;
+            let signals = PROPELLER_LEVEL * propellers.next(rotors, heard.distance_m) + WARNING_LEVEL * warnings.next(alarms);
+            *sample = (loud * speech.mix(signals)) as f32;
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Tests of frequencies, levels, silence, and absence of clicks.
 
 use super::propellers::BLADES_PER_PROPELLER;
-use super::{ActiveAlarms, FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings};
+use super::speech::SPEECH_LEVEL;
+use super::{ActiveAlarms, FlightSound, ResampledSound, SAMPLE_RATE_HZ, SoundInputs, SoundSettings, SpokenWords};
 use crate::hud::{DisplayStyle, DisplayUnits, GnssStatus, Hud, HudColor, StatusAlarm, StatusAlarms, tests as hud_tests};
 use spandrel_mavlink::contract::cue::{self, CueTexts};
 use spandrel_mavlink::contract::hazards::RadioMargins;
@@ -9,6 +10,7 @@ use spandrel_model::math;
 use spandrel_model::radio::RadioWay;
 use spandrel_model::random::RandomStream;
 use spandrel_text::Language;
+use std::sync::Arc;
 
 fn cues(cues: i32) -> ActiveAlarms {
     ActiveAlarms { cues, ..ActiveAlarms::default() }
@@ -272,4 +274,59 @@ fn exact_without_a_link_only_its_alarm_sounds() {
         super::spoken(status(StatusAlarm::ControlWeak), both, &texts, DisplayStyle::default()).as_deref(),
         Some("Too fast: 4.92 meters per second, limit 4.47 meters per second"),
     );
+}
+
+/// Returns a tone as words: its rate is that of Debian's espeak-ng voices.
+fn tone_words(hz: f64, seconds: f64) -> SpokenWords {
+    let rate_hz = 22_050;
+    let samples = (0..(seconds * f64::from(rate_hz)) as usize)
+        .map(|k| math::sin(math::TAU * hz * k as f64 / f64::from(rate_hz)) as f32)
+        .collect();
+    SpokenWords::new(samples, rate_hz)
+}
+
+#[test]
+fn exact_words_keep_their_pitch_and_duration_and_stand_out() {
+    let mut sound = FlightSound::new(only(true, true));
+    let rad_s = 120.0 * math::TAU;
+    let blades_hz = BLADES_PER_PROPELLER * 120.0;
+    let alone = amplitude(&render_sound(&mut sound, sound_inputs(rad_s, 1.0, 0), 1.0), blades_hz);
+    let words = Arc::new(tone_words(1_000.0, 2.5));
+    let spoken = Arc::downgrade(&words);
+    sound.say(words);
+    // The first second is not rendered, so that the levels have settled.
+    let samples = render_sound(&mut sound, sound_inputs(rad_s, 1.0, 0), 1.0);
+    assert!((amplitude(&samples, 1_000.0) - SPEECH_LEVEL).abs() < 0.02, "{}", amplitude(&samples, 1_000.0));
+    assert!(
+        (amplitude(&samples, blades_hz) / alone - (1.0 - SPEECH_LEVEL)).abs() < 0.01,
+        "the propellers are quieter behind the words"
+    );
+    assert!(spoken.upgrade().is_some(), "half a second is left");
+    let after = render_sound(&mut sound, sound_inputs(rad_s, 1.0, 0), 1.0);
+    assert!(spoken.upgrade().is_none(), "whoever waits for the end of the words learns of it");
+    assert!(amplitude(&after, 1_000.0) < 1e-3 && (amplitude(&after, blades_hz) / alone - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn exact_muted_words_are_silent_but_end_in_time() {
+    let mut sound = FlightSound::new(only(true, true));
+    let words = Arc::new(tone_words(1_000.0, 1.5));
+    let spoken = Arc::downgrade(&words);
+    sound.say(words);
+    let samples = render_sound(&mut sound, SoundInputs { silent: true, ..SoundInputs::default() }, 1.0);
+    assert!(samples.iter().all(|sample| *sample == 0.0));
+    assert!(spoken.upgrade().is_none());
+}
+
+#[test]
+fn exact_words_over_the_loudest_signals_do_not_clip() {
+    let mut sound = FlightSound::new(only(true, true));
+    sound.set(sound_inputs(2_000.0, 0.5, cue::CRASH));
+    let mut settled = vec![0.0_f32; SAMPLE_RATE_HZ as usize];
+    sound.fill(&mut settled);
+    sound.say(Arc::new(SpokenWords::new(vec![1.0; SAMPLE_RATE_HZ as usize], SAMPLE_RATE_HZ)));
+    let mut out = vec![0.0_f32; SAMPLE_RATE_HZ as usize];
+    sound.fill(&mut out);
+    let loudest = out.iter().fold(0.0_f32, |loudest, sample| loudest.max(sample.abs()));
+    assert!((0.65..=1.0).contains(&loudest), "{loudest}");
 }
