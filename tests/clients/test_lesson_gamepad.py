@@ -1,6 +1,7 @@
 """The lesson `first-flight` with a gamepad: `spandrel rc` flies the vehicle with the raw events of a device, which this test plays, and with the
 device's profile."""
 
+import contextlib
 import json
 import subprocess
 
@@ -13,10 +14,12 @@ from stick_client import Client
 DEVICE, IDENTITY = "Test pad", "045e:028e"
 # Raw numbers of the axes on Linux.
 LEFT_HORIZONTAL, LEFT_VERTICAL, RIGHT_HORIZONTAL, RIGHT_VERTICAL = 196608, 196609, 196611, 196612
+# Deflection of a stick that is pushed; a key deflects it by 0.5.
+PUSHED = 0.55
 # Axis and raw value of a stick in each direction, in mode 2. As on real gamepads, up is negative.
 DIRECTIONS = {
-    "forward": (RIGHT_VERTICAL, -1.0), "back": (RIGHT_VERTICAL, 1.0), "right": (RIGHT_HORIZONTAL, 1.0), "left": (RIGHT_HORIZONTAL, -1.0),
-    "up": (LEFT_VERTICAL, -1.0), "down": (LEFT_VERTICAL, 1.0), "clockwise": (LEFT_HORIZONTAL, 1.0), "counterclockwise": (LEFT_HORIZONTAL, -1.0),
+    "forward": (RIGHT_VERTICAL, -PUSHED), "back": (RIGHT_VERTICAL, PUSHED), "right": (RIGHT_HORIZONTAL, PUSHED), "left": (RIGHT_HORIZONTAL, -PUSHED),
+    "up": (LEFT_VERTICAL, -PUSHED), "down": (LEFT_VERTICAL, PUSHED), "clockwise": (LEFT_HORIZONTAL, PUSHED), "counterclockwise": (LEFT_HORIZONTAL, -PUSHED),
 }
 ACTIONS = ["arm", "disarm", "take_off", "land", "lamp", "snapshot", "gimbal_up", "gimbal_down"]
 # Wall seconds before a button without an effect is pressed again.
@@ -35,13 +38,11 @@ class Gamepad:
     """`spandrel rc` with a device whose events are written to its standard input."""
 
     def __init__(self, folder, vehicle_port):
-        profiles = folder / "profiles"
-        profiles.mkdir()
-        (profiles / "test-pad.toml").write_text(profile(), encoding="utf-8")
+        (folder / "pad.toml").write_text(profile(), encoding="utf-8")
         self.held = set()
         self.log = open(folder / "rc.txt", "w", encoding="utf-8")
         self.process = subprocess.Popen(
-            [spandrel.PROGRAM, "rc", "--replay", "-", "--profiles", str(profiles), "--connect", f"127.0.0.1:{vehicle_port}"],
+            [spandrel.PROGRAM, "rc", "--replay", "-", "--profile", str(folder / "pad.toml"), "--connect", f"127.0.0.1:{vehicle_port}"],
             stdin=subprocess.PIPE, stdout=self.log, stderr=self.log, text=True,
         )
         self.write({"format": 1, "device": DEVICE, "id": IDENTITY})
@@ -69,7 +70,9 @@ class Gamepad:
 
     def close(self):
         """Closes the device's input, which ends the program. Returns its exit code."""
-        self.process.stdin.close()
+        # A program that has ended already is reported by its exit code.
+        with contextlib.suppress(BrokenPipeError):
+            self.process.stdin.close()
         code = self.process.wait(timeout=spandrel.FLIGHT_LIMIT_S)
         self.log.close()
         return code
@@ -79,7 +82,7 @@ class Gamepad:
 def test_wire_the_lesson_is_done_with_a_gamepad(tmp_path):
     """All steps are done with sticks and buttons, and mistakes are remarked. An invalid event is reported and has no effect."""
     gcs_port = spandrel.free_udp_port()
-    flight = spandrel.Flight(tmp_path, scenario="first-flight", speed=4, gcs_port=gcs_port)
+    flight = spandrel.Flight(tmp_path, scenario="first-flight", speed=2, gcs_port=gcs_port)
     pad = Gamepad(tmp_path, gcs_port)
     try:
         pilot = LessonPilot(pad, Client(flight.client_port, scenario="first-flight"), AGAIN_S)
