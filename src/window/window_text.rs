@@ -25,10 +25,7 @@ pub struct WindowText {
 pub fn waiting(scene: &SceneLoading, heard: bool, listener: &TelemetryListener, language: Language) -> String {
     match scene {
         SceneLoading::Ready(_) => String::new(),
-        SceneLoading::Building(step, _) => {
-            let (what, pct) = (step.title(language), step.progress_pct());
-            text!(language, "window-flight-loading", what = what, pct = pct)
-        }
+        SceneLoading::Building(step, _) => step.words(language),
         SceneLoading::Waiting if heard => text!(language, "window-flight-waiting-seed"),
         SceneLoading::Waiting => {
             text!(language, "window-flight-waiting-vehicle", address = listener.vehicle().to_string())

@@ -12,7 +12,7 @@ use spandrel_view::hud;
 use spandrel_view::masks::LabelMask;
 use spandrel_view::picture::Picture;
 use spandrel_view::quality::Quality;
-use spandrel_view::scene::Scene;
+use spandrel_view::scene::{LoadingStep, Scene};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::Stage;
 
@@ -42,12 +42,30 @@ pub struct SceneDrawing {
 impl SceneDrawing {
     /// Opens a device and builds the site, which takes several seconds.
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
+        let progress = ProgressLog::start("loading scene");
+        let drawing = Self::new_in_steps(scenario, vehicle, seed, (quality, at), &|_| {});
+        progress.finish();
+        drawing
+    }
+
+    /// Builds the site like [`Self::new`], and reports each step before it begins.
+    ///
+    /// # Errors
+    /// Returns an error if there is no graphics device.
+    pub fn new_in_steps(
+        scenario: &Scenario,
+        vehicle: &Vehicle,
+        seed: u64,
+        (quality, at): (Quality, SimTime),
+        report: &dyn Fn(LoadingStep),
+    ) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
         tracing::info!("rendering with {}", gpu.name);
-        let progress = ProgressLog::start("loading scene");
-        let drawing = Self::on(gpu, scenario, vehicle, seed, (quality, at));
-        progress.finish();
-        Ok(drawing)
+        report(LoadingStep::Site);
+        let site = Site::build(scenario, seed);
+        let scene = Scene::build_in_steps(scenario, &site, vehicle, (&quality, at), report);
+        report(LoadingStep::Upload);
+        Ok(Self { gpu, site, scene, quality })
     }
 
     /// Builds the site for a device that is already open.

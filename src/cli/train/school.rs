@@ -4,7 +4,7 @@
 mod classroom;
 
 use spandrel_text::{Language, text};
-use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest, ToWindow};
+use spandrel_view::flow::pipe::{SchoolRequest, ToWindow};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread::JoinHandle;
@@ -20,7 +20,7 @@ pub struct SchoolRoom {
 /// Channels to the thread.
 struct RoundThread {
     requests: Option<Sender<SchoolRequest>>,
-    pages: Receiver<Result<SchoolPage, String>>,
+    messages: Receiver<Result<ToWindow, String>>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -60,29 +60,29 @@ impl SchoolRoom {
 
     /// Returns the next message for the window.
     pub fn poll(&mut self) -> Option<ToWindow> {
-        let message = match self.round.as_ref()?.pages.try_recv() {
-            Ok(Ok(page)) => return Some(ToWindow::School(page)),
+        let failure = match self.round.as_ref()?.messages.try_recv() {
+            Ok(Ok(message)) => return Some(message),
             Err(TryRecvError::Empty) => return None,
             Ok(Err(error)) => text!(self.language, "window-school-failed-because", error = error),
             Err(TryRecvError::Disconnected) => text!(self.language, "window-school-failed"),
         };
         self.round = None;
-        Some(ToWindow::Refused { words: message })
+        Some(ToWindow::Refused { words: failure })
     }
 }
 
 impl RoundThread {
     fn start(sessions: PathBuf, trainee: String, language: Language) -> Self {
         let (request_sender, requests) = channel();
-        let (page_sender, pages) = channel();
+        let (message_sender, messages) = channel();
         let thread = std::thread::spawn(move || {
-            if let Err(error) = teach((&sessions, &trainee, language), &requests, &page_sender) {
+            if let Err(error) = teach((&sessions, &trainee, language), &requests, &message_sender) {
                 tracing::warn!("defect school: {error}");
                 // The user may have left the school.
-                let _ = page_sender.send(Err(error));
+                let _ = message_sender.send(Err(error));
             }
         });
-        Self { requests: Some(request_sender), pages, thread: Some(thread) }
+        Self { requests: Some(request_sender), messages, thread: Some(thread) }
     }
 }
 
@@ -90,13 +90,13 @@ impl RoundThread {
 fn teach(
     (sessions, trainee, language): (&Path, &str, Language),
     requests: &Receiver<SchoolRequest>,
-    pages: &Sender<Result<SchoolPage, String>>,
+    messages: &Sender<Result<ToWindow, String>>,
 ) -> Result<(), String> {
     #[cfg(feature = "view")]
-    return classroom::run((sessions, trainee, language), requests, pages).map_err(|error| error.to_string());
+    return classroom::run((sessions, trainee, language), requests, messages).map_err(|error| error.to_string());
     #[cfg(not(feature = "view"))]
     {
-        let _ = (sessions, trainee, requests, pages);
+        let _ = (sessions, trainee, requests, messages);
         Err(text!(language, "window-train-no-window"))
     }
 }

@@ -82,6 +82,7 @@ impl WindowProcess {
             | ToWindow::Briefing
             | ToWindow::Paused { .. }
             | ToWindow::Refused { .. }
+            | ToWindow::Loading { .. }
             | ToWindow::School(_)
             | ToWindow::Ghost(_) => {}
         }

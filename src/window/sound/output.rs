@@ -1,7 +1,7 @@
 //! Plays samples on the default audio device: PulseAudio or PipeWire if one of them is running, otherwise the system's own
 //! interface.
 
-use super::inputs::{Inputs, lock_inputs};
+use super::inputs::Inputs;
 use super::speech::SpeechVoice;
 use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{BufferSize, ErrorKind, FromSample, SampleFormat, SizedSample, Stream, StreamConfig, SupportedBufferSize};

@@ -66,6 +66,8 @@ pub struct WindowFlow {
     names: KeyNames,
     /// The operation in progress.
     waiting_for: PendingOperation,
+    /// What is loading meanwhile, if it is known.
+    loading: Option<String>,
     /// Whether an instructor has ordered the selected flight.
     ordered: bool,
     /// Layout of the views.
@@ -121,6 +123,7 @@ impl WindowFlow {
             tutorial_done: BTreeSet::new(),
             names: KeyNames::default(),
             waiting_for: PendingOperation::Simulator,
+            loading: None,
             ordered: false,
             arrangement: ViewLayout::default(),
             before_map: ViewLayout::default(),
@@ -388,6 +391,7 @@ impl WindowFlow {
                 self.show_page(Page::School);
             }
             ToWindow::School(_) => {}
+            ToWindow::Loading { words } => self.loading = Some(words),
         }
     }
 

@@ -386,6 +386,11 @@ pub enum ToWindow {
     Ghost(GhostFlight),
     /// The flight has ended.
     Ended(FlightSummary),
+    /// What is loading for the page that the window waits for, and the share that is done.
+    Loading {
+        /// Words for the user.
+        words: String,
+    },
     /// The defect school's page.
     School(SchoolPage),
 }

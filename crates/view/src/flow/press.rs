@@ -314,7 +314,7 @@ impl WindowFlow {
     }
 
     fn wait(&mut self, awaited: PendingOperation) {
-        self.waiting_for = awaited;
+        (self.waiting_for, self.loading) = (awaited, None);
         self.show_page(Page::Waiting);
     }
 

@@ -64,7 +64,7 @@ impl WindowFlow {
             Page::Keys { .. } => self.draw_keys(&mut pen, &rows),
             Page::Briefing => match self.chosen_job().filter(|_| self.is_briefing_current()) {
                 Some(job) => briefing::page(&mut pen, (job, self.job_drawings.get(&job.name)), &rows, self.focus),
-                None => waiting(&mut pen, &text!(self.language(), "window-waiting-briefing")),
+                None => waiting(&mut pen, &text!(self.language(), "window-waiting-briefing"), None),
             },
             Page::Results => summary::page(&mut pen, self.ended.as_ref(), &rows, self.focus),
             Page::School => {
@@ -72,8 +72,8 @@ impl WindowFlow {
                     school::page(&mut pen, shown, &rows, self.focus);
                 }
             }
-            Page::Waiting => waiting(&mut pen, &self.waiting_for.title(self.language())),
-            Page::Opening | Page::Flight => waiting(&mut pen, "Spandrel"),
+            Page::Waiting => waiting(&mut pen, &self.waiting_for.title(self.language()), self.loading.as_deref()),
+            Page::Opening | Page::Flight => waiting(&mut pen, "Spandrel", None),
         }
         pen.done()
     }
@@ -216,7 +216,14 @@ fn draw_notice(pen: &mut PageWriter, words: &str) {
     }
 }
 
-fn waiting(pen: &mut PageWriter, words: &str) {
-    let size = fitted(words, TITLE_SIZE, pen.width - 0.08);
-    pen.text((0.5 * pen.width, 0.45 * pen.height), TextAlign::Center, size, HudColor::White, words);
+/// Draws what the window waits for, and what is loading meanwhile.
+fn waiting(pen: &mut PageWriter, words: &str, loading: Option<&str>) {
+    let mut line = |y: f64, size: f64, words: &str| {
+        let size = fitted(words, size, pen.width - 0.08);
+        pen.text((0.5 * pen.width, y * pen.height), TextAlign::Center, size, HudColor::White, words);
+    };
+    line(0.45, TITLE_SIZE, words);
+    if let Some(words) = loading {
+        line(0.55, TEXT_SIZE, words);
+    }
 }

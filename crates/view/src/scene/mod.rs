@@ -83,8 +83,7 @@ pub enum LoadingStep {
 impl LoadingStep {
     /// Returns how much of the work is done before this step, %. Lighting the bridges takes nine tenths of the time on the
     /// processor (the paper's job at quality `low`); the graphics device's share is an estimate.
-    #[must_use]
-    pub fn progress_pct(self) -> u32 {
+    fn progress_pct(self) -> u32 {
         match self {
             Self::Site => 0,
             Self::Bridges => 3,
@@ -95,9 +94,13 @@ impl LoadingStep {
         }
     }
 
-    /// Returns what the step loads.
+    /// Returns what is loading, and the share of the work that is done.
     #[must_use]
-    pub fn title(self, language: Language) -> String {
+    pub fn words(self, language: Language) -> String {
+        text!(language, "window-flight-loading", what = self.title(language), pct = self.progress_pct())
+    }
+
+    fn title(self, language: Language) -> String {
         match self {
             Self::Site => text!(language, "window-flight-loading-site"),
             Self::Bridges => text!(language, "window-flight-loading-bridges"),

@@ -22,6 +22,8 @@ use std::path::Path;
 
 /// Size of one language's view in a committed picture, px.
 const VIEW_PX: (u32, u32) = (480, 360);
+/// Sizes of a square and a wide view of each state, which are committed in one language, in turn.
+const OTHER_PX: [(&str, (u32, u32)); 2] = [("square", (360, 360)), ("wide", (720, 300))];
 
 fn guidance(step: GuidanceStep, (distance_m, bearing_deg, up_m): (f64, f64, f64)) -> Guidance {
     Guidance {
@@ -122,7 +124,7 @@ fn regress_flight_states_look_as_committed_in_every_language() {
     let moment = studio.moment(at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5), false, Vec3::new(0.5, 0.0, 0.0));
     let album = std::env::var_os("SPANDREL_ALBUM");
     let mut problems = Vec::new();
-    for (name, change) in STATES {
+    for (number, (name, change)) in STATES.into_iter().enumerate() {
         let displays = Language::ALL.map(|language| display(&studio, language, change));
         let mut view = |hud: &Hud, size_px: (u32, u32)| {
             let shot = studio.stage().camera(&moment, size_px);
@@ -130,6 +132,10 @@ fn regress_flight_states_look_as_committed_in_every_language() {
         };
         let views = displays.each_ref().map(|hud| view(hud, VIEW_PX));
         problems.extend(check_picture(&format!("flight-{name}"), &side_by_side(&views)).err());
+        let hud = &displays[number % displays.len()];
+        for (shape, size_px) in OTHER_PX {
+            problems.extend(check_picture(&format!("flight-{name}-{shape}"), &view(hud, size_px)).err());
+        }
         for (hud, size_px) in album.iter().flat_map(|_| displays.iter().flat_map(|hud| ALBUM_PX.map(|size_px| (hud, size_px)))) {
             let file = format!("flight-{name}-{}-{}x{}.png", hud.style.language.tag(), size_px.0, size_px.1);
             save_in(Path::new(album.as_deref().unwrap()), &file, &view(hud, size_px));

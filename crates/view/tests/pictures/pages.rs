@@ -4,16 +4,17 @@
 use super::compare::{check_picture, save_in};
 use spandrel_model::site::Site;
 use spandrel_model::{scenario, shipped};
-use spandrel_text::Language;
+use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{
     AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightMoment, FlightOptions, FlightStarted, FlightSummary, FlownBy,
     JobBriefing, JobOffer, NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
 };
-use spandrel_view::flow::{KeyFunction, KeyPress, Page, SettingsStatus, WindowFlow};
+use spandrel_view::flow::{ControllerStatus, KeyFunction, KeyPress, Page, PictureSource, SettingsStatus, WindowFlow};
 use spandrel_view::gpu::{Gpu, Overlay, PageImage, PageTextures, picture_texture, read};
 use spandrel_view::hud::{DisplayStyle, JobDrawing};
 use spandrel_view::path_guide::PathAids;
 use spandrel_view::picture::Picture;
+use spandrel_view::scene::LoadingStep;
 use std::net::SocketAddr;
 use std::path::Path;
 
@@ -218,11 +219,47 @@ fn pages(language: Language) -> Vec<(String, WindowFlow)> {
     let mut results = flight(Purpose::Practice);
     results.handle_message(ToWindow::Ended(ended()));
     pages.push(("results".to_owned(), results));
-    let mut school = on_page(language, |page| page == Page::Waiting);
-    school.handle_message(ToWindow::School(question()));
-    assert_eq!(school.page(), Page::School);
-    pages.push(("school".to_owned(), school));
+    let mut scoring = flight(Purpose::Assessment);
+    scoring.pause();
+    scoring.press(KeyPress::Row(1));
+    assert_eq!(scoring.page(), Page::Waiting);
+    pages.push(("waiting-scoring".to_owned(), scoring));
+    pages.push(("calibrating".to_owned(), calibrating(language)));
+    pages.extend(school(language));
     pages
+}
+
+/// Returns the calibration of a controller, with the axes that it has found.
+fn calibrating(language: Language) -> WindowFlow {
+    let mut flow = on_page(language, |page| page == Page::Controls);
+    flow.update_controls(ControllerStatus {
+        device: Some("Test pad".into()),
+        axes: vec![(0, 0.2, (-1.0, 1.0)), (1, -0.6, (-0.8, 0.9)), (3, 0.0, (0.0, 0.3)), (4, 0.9, (-1.0, 1.0))],
+        wizard: Some(text!(language, "keys-wizard-push-left-vertical")),
+        ..ControllerStatus::default()
+    });
+    assert_eq!(flow.page(), Page::Calibrating);
+    flow
+}
+
+/// Returns the pages of the defect school: loading, a question and its verdict.
+fn school(language: Language) -> Vec<(String, WindowFlow)> {
+    let mut loading = on_page(language, |page| page == Page::Waiting);
+    loading.handle_message(ToWindow::Loading { words: LoadingStep::Ground.words(language) });
+    let shown = |page: SchoolPage| {
+        let mut flow = loading.clone();
+        flow.handle_message(ToWindow::School(page));
+        assert_eq!(flow.page(), Page::School);
+        flow
+    };
+    let picture = Some("320x240".to_owned());
+    let lines = vec!["Wrong: this is not abrasion.".into(), "Spall: a hollow with a sharp edge.".into()];
+    let verdict = SchoolPage { picture: picture.clone(), lines, answers: Vec::new(), right: Some(false), ..question() };
+    vec![
+        ("school".to_owned(), shown(SchoolPage { picture, ..question() })),
+        ("school-verdict".to_owned(), shown(verdict)),
+        ("waiting-school".to_owned(), loading),
+    ]
 }
 
 /// Returns the briefing with the instructor's pictures, scrolled to its end.
@@ -260,6 +297,11 @@ fn drawn(gpu: &Gpu, overlay: &mut Overlay, flow: &WindowFlow, size_px: (u32, u32
     let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let sheet = flow.sheet(f64::from(size_px.0) / f64::from(size_px.1));
     let mut textures = PageTextures::default();
+    for picture in &sheet.pictures {
+        if let (PictureSource::Job(name), Some(picture)) = (&picture.source, corners("320x180")) {
+            textures.add_job(name.clone(), PageImage::new(&picture));
+        }
+    }
     for path in textures.missing_files(&sheet) {
         let picture = corners(&path).map(|picture| PageImage::new(&picture));
         textures.add_file(path, picture);

@@ -16,8 +16,9 @@ use spandrel_training::school::{
     school_scenario,
 };
 use spandrel_view::camera::PinholeCamera;
-use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest};
+use spandrel_view::flow::pipe::{SchoolPage, SchoolRequest, ToWindow};
 use spandrel_view::quality::Quality;
+use spandrel_view::scene::LoadingStep;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
@@ -37,7 +38,7 @@ const US_PER_S: u64 = 1_000_000;
 pub fn run(
     (sessions, trainee, language): (&Path, &str, Language),
     requests: &Receiver<SchoolRequest>,
-    pages: &Sender<Result<SchoolPage, String>>,
+    messages: &Sender<Result<ToWindow, String>>,
 ) -> Result<(), AppError> {
     trainee.parse::<TraineeId>().map_err(AppError::invalid)?;
     let mut record = school_record::find(sessions, trainee)?.unwrap_or_default();
@@ -47,16 +48,17 @@ pub fn run(
     let scenario = school_scenario(&files::scenario(JOB)?.scenario, seed);
     let vehicle = files::vehicle(AIRCRAFT)?.vehicle;
     let quality = Quality::by_name(QUALITY).ok_or_else(|| AppError::failed(format!("no quality preset {QUALITY}")))?;
-    let drawing = SceneDrawing::new(&scenario, &vehicle, seed, quality, SimTime::ZERO)?;
+    // The window has gone if a message cannot be sent.
+    let report = |step: LoadingStep| drop(messages.send(Ok(ToWindow::Loading { words: step.words(language) })));
+    let drawing = SceneDrawing::new_in_steps(&scenario, &vehicle, seed, (quality, SimTime::ZERO), &report)?;
     let round = Round::new(&record, gallery(drawing.site(), &vehicle, seed), seed, unix_s());
     let folder = PictureFolder::create(sessions)?;
     school_record::create(sessions, trainee)?;
     let mut studio = Studio { scenario: &scenario, vehicle: &vehicle, drawing: &drawing, renderer: drawing.scene_renderer() };
     let mut lesson = Lesson { round, record, sessions, trainee, folder, number: 0, picture: None, language };
-    // The window has gone if a page cannot be sent.
     let mut page = Some(lesson.ask(&mut studio)?);
     while let Some(shown) = page.take() {
-        if pages.send(Ok(shown)).is_err() {
+        if messages.send(Ok(ToWindow::School(shown))).is_err() {
             return Ok(());
         }
         while page.is_none() {
