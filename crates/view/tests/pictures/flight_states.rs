@@ -23,7 +23,7 @@ use std::path::Path;
 /// Size of one language's view in a committed picture, px.
 const VIEW_PX: (u32, u32) = (480, 360);
 /// Sizes of a square and a wide view of each state, which are committed in one language, in turn.
-const OTHER_PX: [(&str, (u32, u32)); 2] = [("square", (360, 360)), ("wide", (720, 300))];
+const OTHER_PX: [(&str, (u32, u32)); 2] = [("square", (480, 480)), ("wide", (860, 360))];
 
 fn guidance(step: GuidanceStep, (distance_m, bearing_deg, up_m): (f64, f64, f64)) -> Guidance {
     Guidance {

@@ -7,9 +7,11 @@ use spandrel_model::{scenario, shipped};
 use spandrel_text::{Language, text};
 use spandrel_view::flow::pipe::{
     AircraftOffer, BriefingImage, FinalScore, FlightChoice, FlightMoment, FlightOptions, FlightStarted, FlightSummary, FlownBy,
-    JobBriefing, JobOffer, NextJob, Purpose, SchoolPage, ToWindow, TraineeSummary,
+    FromWindow, JobBriefing, JobOffer, NextJob, Purpose, SchoolPage, SchoolRequest, ToWindow, TraineeSummary,
 };
-use spandrel_view::flow::{ControllerStatus, KeyFunction, KeyPress, Page, PictureSource, SettingsStatus, WindowFlow};
+use spandrel_view::flow::{
+    ControllerStatus, KeyFunction, KeyPress, Page, PictureSource, SettingsStatus, WindowFlow, WindowRequest,
+};
 use spandrel_view::gpu::{Gpu, Overlay, PageImage, PageTextures, picture_texture, read};
 use spandrel_view::hud::{DisplayStyle, JobDrawing};
 use spandrel_view::path_guide::PathAids;
@@ -242,9 +244,22 @@ fn calibrating(language: Language) -> WindowFlow {
     flow
 }
 
+/// Returns whether the window asks for a round of the defect school.
+fn begins_school(mut flow: WindowFlow) -> bool {
+    std::iter::from_fn(|| flow.poll())
+        .any(|request| matches!(request, WindowRequest::Send(FromWindow::School(SchoolRequest::Begin(_)))))
+}
+
 /// Returns the pages of the defect school: loading, a question and its verdict.
 fn school(language: Language) -> Vec<(String, WindowFlow)> {
-    let mut loading = on_page(language, |page| page == Page::Waiting);
+    let mut loading = (0..ROWS)
+        .map(|row| {
+            let mut flow = started(language);
+            flow.press(KeyPress::Row(row));
+            flow
+        })
+        .find(|flow| begins_school(flow.clone()))
+        .unwrap();
     loading.handle_message(ToWindow::Loading { words: LoadingStep::Ground.words(language) });
     let shown = |page: SchoolPage| {
         let mut flow = loading.clone();
