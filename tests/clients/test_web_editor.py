@@ -77,6 +77,8 @@ def drawing_point(page, drawing, place):
 
 def click_drawing(page, drawing, place):
     """Clicks a place on a drawing."""
+    # Without animated scrolling, the place stays where it is.
+    page.emulate_media(reduced_motion="reduce")
     page.locator(f"[data-drawing='{drawing}'] svg").scroll_into_view_if_needed()
     page.mouse.click(*drawing_point(page, drawing, place))
 

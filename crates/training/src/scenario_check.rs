@@ -548,7 +548,11 @@ mod tests {
         let tiny = PlacedDefect { length_m: 0.0002, width_m: 0.0001, ..own };
         let (line, found) = findings(&tiny);
         assert_eq!((found.problems, found.warnings.len()), (vec![], 1));
-        assert!(found.warnings[0].starts_with(&format!("practice.toml:{line}: defect 1 cannot be photographed")), "{found:?}");
+        assert!(
+            found.warnings[0].starts_with(&format!("practice.toml:{line}: defect 1 cannot be photographed")),
+            "{:?}",
+            found.warnings
+        );
     }
 
     #[test]

@@ -201,28 +201,24 @@ mod tests {
         DefectShape { kind, condition_state: 3, length_m, width_m, turn_rad: 0.0 }
     }
 
-    /// Returns the middle of the largest face of a bridge's members that points in a direction and a defect fits on, with the member.
-    fn target(site: &Site, bridge: &str, toward: Vec3<Enu>) -> SurfaceTarget {
-        let prefix = format!("{bridge}/");
-        let faces = site
-            .members()
-            .iter()
-            .filter(|member| member.name.starts_with(&prefix) && member.element.permitted_defects().contains(&CRACK))
-            .flat_map(|member| super::super::faces::faces(&member.solid).collect::<Vec<_>>());
-        let facing = faces.filter(|face| face.normal.dot(toward) > 0.99 && face.edge_distance_m(face.point_m) > 0.3);
-        let largest = facing.max_by(|a, b| a.edge_distance_m(a.point_m).total_cmp(&b.edge_distance_m(b.point_m)));
-        SurfaceTarget::Line { through_m: largest.unwrap().point_m, direction: toward * -1.0 }
+    /// Returns a target in the middle of a face that points in a direction: the one nearest to midspan among the members whose names
+    /// begin so.
+    fn target(site: &Site, members: &str, toward: Vec3<Enu>) -> SurfaceTarget {
+        let own = site.members().iter().filter(|member| member.name.starts_with(members));
+        let faces = own.flat_map(|member| super::super::faces::faces(&member.solid).collect::<Vec<_>>());
+        let facing = faces.filter(|face| face.normal.dot(toward) > 0.99);
+        let nearest = facing.min_by(|a, b| a.point_m.east().abs().total_cmp(&b.point_m.east().abs()));
+        SurfaceTarget::Line { through_m: nearest.unwrap().point_m, direction: toward * -1.0 }
     }
 
     #[test]
     fn exact_a_line_of_sight_ends_on_the_side_that_faces_the_viewer() {
         let (scenario, site) = job();
-        let view = ParallelView::side(&scenario.bridges[1]);
-        for toward in [view.toward_viewer(), view.toward_viewer() * -1.0, Vec3::new(0.0, 0.0, -1.0)] {
-            let placed = site.place_defect(&shape(CRACK, 0.4, 0.002), target(&site, "suspension", toward), Some("suspension"));
-            let placed = placed.unwrap();
+        let south = ParallelView::side(&scenario.bridges[0]).toward_viewer();
+        for (members, toward) in [("arch/rib", south), ("arch/rib", south * -1.0), ("arch/slab", Vec3::new(0.0, 0.0, -1.0))] {
+            let placed = site.place_defect(&shape(CRACK, 0.4, 0.002), target(&site, members, toward), Some("arch")).unwrap();
             assert!(placed.normal.dot(toward) > 0.9, "{placed:?}");
-            assert!(placed.member.starts_with("suspension/") && placed.line && placed.id == 0);
+            assert!(placed.member.starts_with(members) && placed.line && placed.id == 0);
             assert_eq!(site.misplacement(&placed), None);
             assert!((placed.along.norm() - 1.0).abs() < 1e-5 && placed.along.dot(placed.normal).abs() < 1e-5, "{placed:?}");
         }
@@ -232,7 +228,7 @@ mod tests {
     fn exact_a_point_means_the_nearest_surface_and_a_turn_rotates_the_defect_on_it() {
         let (_, site) = job();
         let toward = Vec3::new(0.0, 0.0, -1.0);
-        let SurfaceTarget::Line { through_m, .. } = target(&site, "arch", toward) else { panic!() };
+        let SurfaceTarget::Line { through_m, .. } = target(&site, "arch/slab", toward) else { panic!() };
         let near = SurfaceTarget::Near(through_m + toward * 0.3);
         let placed = site.place_defect(&shape(CRACK, 0.4, 0.002), near, None).unwrap();
         assert!((placed.position_m - through_m).norm() < 1e-3 && placed.normal.up() < -0.99, "{placed:?}");
@@ -247,7 +243,7 @@ mod tests {
     fn exact_places_where_the_defect_cannot_be_have_a_reason() {
         let (_, site) = job();
         let place = |shape: DefectShape, target| site.place_defect(&shape, target, Some("arch")).unwrap_err();
-        let below = target(&site, "arch", Vec3::new(0.0, 0.0, -1.0));
+        let below = target(&site, "arch/slab", Vec3::new(0.0, 0.0, -1.0));
         assert!(matches!(place(shape(CORROSION, 0.3, 0.1), below), Misplacement::NotPermitted(_)));
         assert_eq!(place(shape(SPALL, 40.0, 30.0), below), Misplacement::TooLarge);
         let aside = SurfaceTarget::Line { through_m: Vec3::new(4_000.0, 0.0, 0.0), direction: Vec3::new(0.0, 0.0, 1.0) };

@@ -70,6 +70,8 @@ problem-obstacle-truck = das Fahrzeug
 
 problem-allowed-text = Text
 problem-allowed-texts = Liste von Texten
+problem-allowed-whole = eine ganze Zahl
+problem-allowed-even = eine gerade Zahl
 problem-allowed-table = eine Tabelle
 problem-allowed-tables = eine Liste von Tabellen
 problem-allowed-name = 1 bis { $most } Zeichen: a-z, 0-9 und -
@@ -115,6 +117,7 @@ problem-allowed-path-length = höchstens { $most } m Bahn
 problem-allowed-stand-off = mindestens 4, oder too_close_m höchstens { $most }
 problem-allowed-spacing = mindestens { $least } bei diesem size_m
 problem-allowed-kinds = { $bridge }: { $kinds }
+problem-allowed-kinds-here = bei dieser Brücke: { $kinds }
 problem-allowed-member = ein Teil einer Brücke
 problem-allowed-on-member = auf der Oberfläche des Brückenteils
 problem-allowed-free-surface = auf einer freien Fläche einer Brücke

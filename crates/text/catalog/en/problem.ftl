@@ -75,6 +75,8 @@ problem-obstacle-truck = the truck
 # Allowed values.
 problem-allowed-text = text
 problem-allowed-texts = list of texts
+problem-allowed-whole = a whole number
+problem-allowed-even = an even number
 problem-allowed-table = a table
 problem-allowed-tables = an array of tables
 problem-allowed-name = 1 to { $most } characters: a-z, 0-9 and -
@@ -120,6 +122,7 @@ problem-allowed-path-length = at most { $most } m of path
 problem-allowed-stand-off = at least 4, or too_close_m at most { $most }
 problem-allowed-spacing = at least { $least } for this size_m
 problem-allowed-kinds = for { $bridge }: { $kinds }
+problem-allowed-kinds-here = for this bridge: { $kinds }
 problem-allowed-member = a member of a bridge
 problem-allowed-on-member = on the surface of the member
 problem-allowed-free-surface = on a free surface of a bridge

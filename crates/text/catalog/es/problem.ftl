@@ -70,6 +70,8 @@ problem-obstacle-truck = el vehículo
 
 problem-allowed-text = texto
 problem-allowed-texts = lista de textos
+problem-allowed-whole = un número entero
+problem-allowed-even = un número par
 problem-allowed-table = una tabla
 problem-allowed-tables = una lista de tablas
 problem-allowed-name = de 1 a { $most } caracteres: a-z, 0-9 y -
@@ -115,6 +117,7 @@ problem-allowed-path-length = { $most } m de trayectoria como máximo
 problem-allowed-stand-off = 4 como mínimo, o too_close_m { $most } como máximo
 problem-allowed-spacing = { $least } como mínimo con este size_m
 problem-allowed-kinds = { $bridge }: { $kinds }
+problem-allowed-kinds-here = en este puente: { $kinds }
 problem-allowed-member = una pieza de un puente
 problem-allowed-on-member = en la superficie de la pieza
 problem-allowed-free-surface = en una superficie libre de un puente

@@ -373,7 +373,7 @@ mod tests {
         let only_numbers = text.replace("member = \"", "member = \"7\" # ");
         check_translated(&format!("<main>{}", panel(Language::Pseudo, &only_numbers).into_string()), &[]);
         let german = list(Language::German, PRACTICE).unwrap().into_string();
-        assert!(german.contains("Gesetzte Schäden (0)") && german.contains("zufällig"), "{german}");
+        assert!(german.contains("Platzierte Schäden (0)") && german.contains("zufällig"), "{german}");
         assert!(list(Language::German, "a = ").is_none());
     }
 }

@@ -1,7 +1,7 @@
 //! Problems of scenario files in the language of a page. The readers of the model state them in English, in fixed sentences with
 //! values; keys and values stay as they are in the file.
 
-use super::key_texts::allowed_words;
+use super::key_texts::translated_allowed;
 use spandrel_model::toml::{Problem, SYNTAX};
 use spandrel_text::{Language, Sentence, SentenceTable, text};
 use std::sync::LazyLock;
@@ -95,11 +95,13 @@ static OBSTACLES: LazyLock<SentenceTable> = LazyLock::new(|| {
     ])
 });
 
-/// Allowed values that are not those of a documented key ([`allowed_words`]). Those with more words come first.
+/// Allowed values that are not those of a documented key ([`translated_allowed`]). Those with more words come first.
 static ALLOWED: LazyLock<SentenceTable> = LazyLock::new(|| {
     SentenceTable::new([
         Sentence::new(0, |l, _| text!(l, "problem-allowed-text")),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-texts")),
+        Sentence::new(0, |l, _| text!(l, "problem-allowed-whole")),
+        Sentence::new(0, |l, _| text!(l, "problem-allowed-even")),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-table")),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-tables")),
         Sentence::new(1, |l, v| text!(l, "problem-allowed-name", most = v[0])),
@@ -144,7 +146,13 @@ static ALLOWED: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(1, |l, v| text!(l, "problem-allowed-path-length", most = v[0])),
         Sentence::new(1, |l, v| text!(l, "problem-allowed-stand-off", most = v[0])),
         Sentence::new(1, |l, v| text!(l, "problem-allowed-spacing", least = v[0])),
-        Sentence::new(2, |l, v| text!(l, "problem-allowed-kinds", bridge = v[0], kinds = v[1])),
+        Sentence::new(2, |l, v| {
+            if l == Language::English {
+                return text!(l, "problem-allowed-kinds", bridge = v[0], kinds = v[1]);
+            }
+            // The type of the bridge is stated in English.
+            text!(l, "problem-allowed-kinds-here", kinds = v[1])
+        }),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-member")),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-on-member")),
         Sentence::new(0, |l, _| text!(l, "problem-allowed-free-surface")),
@@ -177,15 +185,26 @@ impl ProblemWords {
         if problem.key == SYNTAX {
             return Self { language, text: text!(language, "problem-syntax", words = problem.message.as_str()) };
         }
-        let (known, message) = match translated(&MESSAGES, language, &problem.message) {
-            Some(message) => (language, message),
-            None => (Language::English, problem.message.clone()),
-        };
+        Self::translated(language, problem).unwrap_or_else(|| Self::english(problem))
+    }
+
+    /// Returns the words in a language; `None` if the catalog does not have them.
+    fn translated(language: Language, problem: &Problem) -> Option<Self> {
+        let message = translated(&MESSAGES, language, &problem.message)?;
         if problem.allowed.is_empty() {
-            return Self { language: known, text: message };
+            return Some(Self { language, text: message });
         }
-        let allowed = translated(&ALLOWED, known, &problem.allowed).unwrap_or_else(|| allowed_words(known, &problem.allowed));
-        Self { language: known, text: text!(known, "problem-with-allowed", problem = message, allowed = allowed) }
+        let allowed = allowed_in(language, &problem.allowed)?;
+        Some(Self { language, text: text!(language, "problem-with-allowed", problem = message, allowed = allowed) })
+    }
+
+    fn english(problem: &Problem) -> Self {
+        let (language, message, allowed) = (Language::English, problem.message.as_str(), problem.allowed.as_str());
+        let text = match allowed {
+            "" => message.to_owned(),
+            _ => text!(language, "problem-with-allowed", problem = message, allowed = allowed),
+        };
+        Self { language, text }
     }
 
     /// Returns the tag of the language if it is not that of the page.
@@ -198,6 +217,13 @@ impl ProblemWords {
 /// Returns an English text in a language; `None` if it is none of the sentences.
 fn translated(table: &SentenceTable, language: Language, english: &str) -> Option<String> {
     if language == Language::English { Some(english.to_owned()) } else { table.translate(english, language) }
+}
+
+/// Returns the allowed values in a language. Keywords and keys stay; `None` for other words that the catalog does not have.
+fn allowed_in(language: Language, english: &str) -> Option<String> {
+    let is_list_of_words = || english.split(", ").all(|word| !word.contains(' '));
+    let known = translated(&ALLOWED, language, english).or_else(|| translated_allowed(language, english));
+    known.or_else(|| is_list_of_words().then(|| english.to_owned()))
 }
 
 /// Returns the message in a message.
@@ -240,6 +266,11 @@ mod tests {
         assert!(english == own || english == problem.message || problem.key == SYNTAX, "{english}");
         for language in [Language::German, Language::Spanish] {
             let words = ProblemWords::new(language, problem);
+            if words.language == Language::English {
+                // Only the reasons for dimensions that do not fit together are in English.
+                assert_eq!((problem.message.as_str(), words.text), ("inconsistent with other values", english.clone()));
+                continue;
+            }
             assert_eq!(words.language, language, "{problem:?}");
             assert_ne!(words.text, english);
             let untranslated = |mark: &str| words.text.contains(mark);
