@@ -229,7 +229,7 @@ def test_wire_instructor_places_defects_on_the_drawings(browser, server, session
     anna = BrowserUser(browser, server, "anna")
     anna.go("/scenarios/with-defects")
     assert anna.page.locator("dt:text-is('Defects to find') + dd").text_content().strip() == "3"
-    assert anna.page.locator("svg.map").count() >= 3 and anna.page.locator(".placed-defect").count() == 0
+    assert anna.page.locator("svg.map").count() >= 1 and anna.page.locator(".placed-defect").count() == 0
     assert ida.wrong == [] and anna.wrong == []
 
 

@@ -329,8 +329,10 @@ preview.addEventListener("click", (event) => {
   const svg = event.target.closest(placing?.anywhere ? "[data-drawing] svg" : "[data-plan] svg");
   if (placing === null || svg === null) return;
   const { set, button } = placing;
+  // Clearing the words moves the drawing.
+  const sight = lineOfSight(svg, event);
   stopPlacing();
-  set(lineOfSight(svg, event), svg.closest("[data-drawing]").dataset.drawing);
+  set(sight, svg.closest("[data-drawing]").dataset.drawing);
   button.focus();
 });
 
