@@ -222,7 +222,7 @@ fn shape_fields(language: Language) -> Markup {
             @for (id, label) in numbers {
                 div.field { label for=(id) { (label) } input id=(id) inputmode="decimal" autocomplete="off" aria-describedby="place-size-note"; }
             }
-            div.field {
+            div.field.whole-row {
                 label for="place-surface" { (text!(language, "placing-surface")) }
                 select id="place-surface" {
                     option value="front" { (text!(language, "placing-surface-front")) }
