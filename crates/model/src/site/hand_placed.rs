@@ -169,8 +169,8 @@ impl Site {
             clearance_m: &clearance,
             water_up_m: scenario.terrain.water_level_m,
         };
-        let with_path = scenario.tasks.iter().filter(|task| !task.path_m.is_empty());
-        with_path.into_iter().any(|task| find_view(defect, task, &context).is_some())
+        let mut with_path = scenario.tasks.iter().filter(|task| !task.path_m.is_empty());
+        with_path.any(|task| find_view(defect, task, &context).is_some())
     }
 }
 
