@@ -220,7 +220,7 @@ fn summary_text(cohort: &Cohort) -> String {
     }
     let contradictions = &cohort.self_rating.contradictions;
     for one in contradictions.iter().take(MAX_CONTRADICTIONS) {
-        let _ = writeln!(out, "{}: {}", one.trainee, one.words);
+        let _ = writeln!(out, "{}: {}", one.trainee, one.kind.words(Language::English));
     }
     if contradictions.len() > MAX_CONTRADICTIONS {
         let _ = writeln!(

@@ -16,6 +16,7 @@ use spandrel_model::scenario::values::ScenarioValues;
 use spandrel_text::{Language, text};
 use spandrel_training::scenario_check::CheckOptions;
 use spandrel_training::web::layout::Notice;
+use spandrel_training::web::placed_defects::{self, DefectOrder};
 use spandrel_training::web::scenario_check_result::{CheckedScenario, check_text};
 use spandrel_training::web::scenario_editor::{self as pages, EditorPage};
 use spandrel_training::web::scenarios::ScenarioEntry;
@@ -84,11 +85,31 @@ pub fn check(state: &ServerState, request: &WebRequest) -> HandlerResult {
         Ok(edited) => (edited, None),
         Err(words) => (text, Some(text!(language, "editor-not-changed", reason = words))),
     };
-    let checked = CheckedScenario { rejected, ..checked(state, text, begun, language)? };
+    let (text, placement) = match request.form_field("defect") {
+        Some(json) if rejected.is_none() => place_defect(state, text, json, language)?,
+        Some(_) | None => (text, None),
+    };
+    let checked = CheckedScenario { rejected, placement, ..checked(state, text, begun, language)? };
     if request.expects_json {
         return Ok(WebResponse::json(&checked.json(language, request.form_field("shape").unwrap_or_default())));
     }
     respond_with_editor(request, &checked.text, (None, false), Some(&checked))
+}
+
+/// Places a defect. Returns the text, which is unchanged if the defect can't be there, and the words for the page.
+fn place_defect(
+    state: &ServerState,
+    text: String,
+    json: &str,
+    language: Language,
+) -> Result<(String, Option<Result<String, String>>), WebError> {
+    let order = DefectOrder::parse(json).map_err(WebError::BadRequest)?;
+    let siblings = |name: &str| read_from_folder(&state.scenarios, name);
+    Ok(match placed_defects::place(&text, &siblings, &order, language) {
+        Ok((edited, _)) if edited.len() > MAX_SCENARIO_BYTES => (text, Some(Err(text!(language, "editor-too-large")))),
+        Ok((edited, words)) => (edited, Some(Ok(words))),
+        Err(reason) => (text, Some(Err(reason))),
+    })
 }
 
 fn checked(state: &ServerState, text: String, begun: Stopwatch, language: Language) -> Result<CheckedScenario, WebError> {

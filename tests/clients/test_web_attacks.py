@@ -145,6 +145,8 @@ def test_script_in_any_field_is_escaped(server, sessions):
         ("/rubric", "/rubric", {"rubric": EVIL}),
         ("/scenarios", "/scenario-editor/check", {"text": f"title = '{EVIL}'", "opened": EVIL, "version": EVIL}),
         ("/scenarios", "/scenario-editor/check", {"text": EVIL, "edits": json.dumps([{"set": EVIL, "text": EVIL}])}),
+        ("/scenarios", "/scenario-editor/check", {"text": EVIL, "defect": EVIL}),
+        ("/scenarios", "/scenario-editor/check", {"text": EVIL, "defect": json.dumps({"kind": 1130, "condition_state": 3, "length_m": EVIL, "width_mm": EVIL, "turn_deg": EVIL, "place": {"near": [EVIL] * 3}})}),
         ("/scenarios", "/scenario-editor/save", {"text": EVIL, "opened": EVIL, "version": EVIL, "save_as": "yes", "new_name": EVIL}),
         ("/stations", "/stations", {"station": EVIL, "trainee": EVIL, "scenario": EVIL, "purpose": EVIL}),
         ("/stations", "/stations", {"station": EVIL, "trainee": "anna", "scenario": "drill-hover", "purpose": "practice"}),

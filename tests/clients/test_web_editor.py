@@ -2,6 +2,7 @@
 
 import json
 import re
+import tomllib
 
 import pytest
 from playwright.sync_api import expect
@@ -10,6 +11,9 @@ import spandrel
 import webserver
 from test_web import LOOKS, BrowserUser, browser  # noqa: F401 (`browser` is a fixture)
 
+# Places in `practice` (east, north, up, m): under the deck of the suspension bridge, and inside the rib of the arch bridge.
+UNDERSIDE = (10.0, 150.0, 13.8)
+RIB = (8.75, 0.0, 28.7)
 PRACTICE = (spandrel.ROOT / "scenarios" / "practice.toml").read_text(encoding="utf-8")
 
 
@@ -56,6 +60,32 @@ def plan_point(page, east, north):
         }""",
         [east, north],
     )
+
+
+def drawing_point(page, drawing, place):
+    """Returns the point of the window at a place (east, north, up) on a drawing: the site plan, or the side view of a bridge."""
+    return page.locator(f"[data-drawing='{drawing}'] svg").evaluate(
+        """(svg, [east, north, up]) => {
+          const [m0, m1, m2, m3, m4, m5, m6, m7] = svg.querySelector("[data-matrix]").dataset.matrix.split(" ").map(Number);
+          const [x, y] = [m0 * east + m1 * north + m2 * up + m3, m4 * east + m5 * north + m6 * up + m7];
+          const at = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM());
+          return [at.x, at.y];
+        }""",
+        place,
+    )
+
+
+def click_drawing(page, drawing, place):
+    """Clicks a place on a drawing."""
+    # Without animated scrolling, the place stays where it is.
+    page.emulate_media(reduced_motion="reduce")
+    page.locator(f"[data-drawing='{drawing}'] svg").scroll_into_view_if_needed()
+    page.mouse.click(*drawing_point(page, drawing, place))
+
+
+def placed_defects(page):
+    """Returns the defects that the text of the editor places."""
+    return tomllib.loads(page.input_value("#text"))["defects"].get("placed", [])
 
 
 def test_wire_instructor_makes_a_job_from_practice(browser, server, sessions):
@@ -133,6 +163,119 @@ def test_wire_instructor_makes_a_job_from_practice(browser, server, sessions):
     assert ida.wrong == []
 
 
+def test_wire_instructor_places_defects_on_the_drawings(browser, server, sessions):
+    upload(server, "with-defects")
+    ida = BrowserUser(browser, server, "ida")
+    page = ida.page
+    ida.go("/scenarios/with-defects/edit")
+    wait_until_checked(page)
+    marks = page.locator("#preview .placed-defect")
+    expect(marks).to_have_count(0)
+    page.click("#placer > summary")
+    expect(page.locator("#placed-list")).to_contain_text("None. The defects are placed at random.")
+    # The fields show the typical size of the chosen defect.
+    expect(page.locator("#place-length")).to_have_attribute("placeholder", "0.95")
+    page.select_option("#place-state", "3")
+    expect(page.locator("#place-width")).to_have_attribute("placeholder", "2.14")
+    # A crack in the underside of the deck of the suspension bridge, by a click on the plan. Escape ends the choice of the place.
+    page.fill("#place-length", "0.5")
+    page.select_option("#place-surface", "back")
+    page.click("#place-on-drawing")
+    expect(page.locator("#placed-result")).to_contain_text("Click the site plan or a side view")
+    page.keyboard.press("Escape")
+    expect(page.locator("#placed-result")).to_be_empty()
+    page.click("#place-on-drawing")
+    click_drawing(page, "", UNDERSIDE)
+    expect(page.locator("#placed-result")).to_contain_text("Defect 1 was placed on suspension/")
+    assert page.evaluate("document.activeElement.id") == "place-on-drawing"
+    [crack] = placed_defects(page)
+    assert (crack["kind"], crack["condition_state"], crack["length_m"], crack["line"]) == (1130, 3, 0.5, True)
+    assert crack["normal"][2] < -0.99 and all(abs(crack["position_m"][k] - UNDERSIDE[k]) < 1 for k in (0, 1)), crack
+    # The plan and the side view of its bridge show it.
+    expect(marks).to_have_count(2)
+    expect(page.locator("[data-drawing='arch'] .placed-defect")).to_have_count(0)
+    wait_until_checked(page)
+    # One on the outer side of each rib of the arch bridge, by clicks on its side view.
+    normals = []
+    for surface in ("front", "back"):
+        page.select_option("#place-kind", label="delamination or spall")
+        page.fill("#place-length", "0.2")
+        page.select_option("#place-surface", surface)
+        page.click("#place-on-drawing")
+        click_drawing(page, "arch", RIB)
+        expect(page.locator("#placed-result")).to_contain_text(f"Defect {len(normals) + 2} was placed on arch/")
+        normals.append(placed_defects(page)[-1]["normal"])
+    assert sum(a * b for a, b in zip(*normals)) < -0.99, normals
+    # What is impossible has a reason, and changes nothing.
+    page.select_option("#place-kind", label="corrosion")
+    page.click("#place-on-drawing")
+    click_drawing(page, "arch", RIB)
+    expect(page.locator("#placed-result")).to_contain_text("Not placed: 'corrosion' does not occur on this element")
+    page.fill("#place-length", "60")
+    page.click("#place-at-coordinates")
+    expect(page.locator("#placed-result")).to_contain_text("Not placed: Length (m): not a number from 0.0001 to 50")
+    assert len(placed_defects(page)) == 3
+    ida.save_screenshot("editor-placed")
+    ida.check()
+    # The defects are in the file, and trainees' pages show their number but not where they are.
+    page.click("button:text-is('Save')")
+    page.wait_for_url("**/scenarios/with-defects/edit?saved=yes")
+    file = stored(sessions, "with-defects")
+    assert file.read_text(encoding="utf-8").startswith(PRACTICE.splitlines()[0]), "the comment of the shipped file remains"
+    found = json.loads(spandrel.run("check", str(file), "--json"))
+    assert found["problems"] == [], found
+    exported = json.loads(spandrel.run("export", str(file), "--scenario", "-"))
+    assert [round(value, 3) for value in exported["defects"][0]["position_enu_m"]] == [round(value, 3) for value in crack["position_m"]]
+    anna = BrowserUser(browser, server, "anna")
+    anna.go("/scenarios/with-defects")
+    assert anna.page.locator("dt:text-is('Defects to find') + dd").text_content().strip() == "3"
+    assert anna.page.locator("svg.map").count() >= 1 and anna.page.locator(".placed-defect").count() == 0
+    assert ida.wrong == [] and anna.wrong == []
+
+
+def test_wire_defects_are_placed_and_removed_with_the_keyboard(browser, server):
+    ida = BrowserUser(browser, server, "ida", locale="de-DE")
+    page = ida.page
+    ida.go("/scenarios/new?from=practice&name=by-hand")
+    wait_until_checked(page, "Keine Probleme")
+    page.focus("#placer > summary")
+    page.keyboard.press("Enter")
+    expect(page.locator("#placer > summary")).to_contain_text("Schäden platzieren")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "place-kind"
+    for number, east in enumerate((UNDERSIDE[0], UNDERSIDE[0] + 3), start=1):
+        for k, value in enumerate((east, *UNDERSIDE[1:])):
+            page.focus(f"#place-at-{k}")
+            page.keyboard.press("Control+A")
+            page.keyboard.type(f"{value:.2f}".replace(".", ","))
+        page.keyboard.press("Tab")
+        assert page.evaluate("document.activeElement.id") == "place-at-coordinates"
+        page.keyboard.press("Enter")
+        expect(page.locator("#placed-result")).to_contain_text(f"Schaden {number} wurde auf suspension/")
+        assert page.evaluate("document.activeElement.id") == "place-at-coordinates"
+    assert [defect["id"] for defect in placed_defects(page)] == [1, 2]
+    # An undo of the first one: its button has a name of its own.
+    remove = page.get_by_role("button", name="Schaden 1 entfernen")
+    remove.focus()
+    page.keyboard.press("Enter")
+    expect(page.locator("#placed-list li")).to_have_count(1)
+    expect(page.locator("#placed-head")).to_be_focused()
+    assert [defect["id"] for defect in placed_defects(page)] == [2]
+    # Far from every bridge, and while the scenario has a problem.
+    page.fill("#place-at-2", "900")
+    page.click("#place-at-coordinates")
+    expect(page.locator("#placed-result")).to_contain_text("Nicht platziert: Die nächste Fläche einer Brücke ist")
+    open_section(page, "wind")
+    page.fill("#field-wind-from_deg", "400")
+    problem = page.locator("#field-wind-from_deg-problem")
+    expect(problem).to_have_text("außerhalb des Bereichs (zulässig: 0 bis 360)")
+    expect(problem).to_have_attribute("lang", "de")
+    expect(page.locator("#findings .problems")).to_contain_text("wind.from_deg = 400: außerhalb des Bereichs")
+    page.click("#place-at-coordinates")
+    expect(page.locator("#placed-result")).to_contain_text("Das Szenario hat Probleme")
+    ida.check()
+
+
 def check_in_every_size_and_theme(person, name):
     for size, scheme, _ in LOOKS:
         # The page is not loaded again, because it would lose its state: it keeps its language.
@@ -151,6 +294,7 @@ def test_wire_editor_passes_axe_in_every_size_and_theme(browser, server):
     open_section(ida.page, "wind")
     ida.page.fill("#field-wind-from_deg", "north")
     wait_until_checked(ida.page, "1 problem")
+    expect(ida.page.locator("#placer")).to_be_visible()
     check_in_every_size_and_theme(ida, "editor-all")
 
 

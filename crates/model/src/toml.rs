@@ -40,6 +40,9 @@ impl fmt::Display for Problem {
     }
 }
 
+/// Key of the problem of a text that is not valid TOML. Its message is the parser's.
+pub const SYNTAX: &str = "syntax";
+
 /// Maximum number of problems to display, about one screenful; the rest are only counted.
 const MAX_DISPLAYED_PROBLEMS: usize = 50;
 
@@ -136,7 +139,7 @@ impl<'a> Reader<'a> {
             Ok(document) => Some(document),
             Err(error) => {
                 let line = error.span().map_or(1, |span| self.line_at(span.start));
-                self.add_problem_at(line, "syntax", "", "TOML 1.0", error.message());
+                self.add_problem_at(line, SYNTAX, "", "TOML 1.0", error.message());
                 None
             }
         }

@@ -25,6 +25,7 @@ static TEXTS: LazyLock<SentenceTable> = LazyLock::new(|| {
         Sentence::new(0, |l, _| text!(l, "certification-unmet-hit")),
         Sentence::new(0, |l, _| text!(l, "certification-unmet-landing")),
         Sentence::new(2, |l, v| text!(l, "certification-unmet-battery", battery = v[0], needed = v[1])),
+        Sentence::new(1, |l, v| text!(l, "certification-unmet-one-contact", limit = v[0])),
         Sentence::new(2, |l, v| text!(l, "certification-unmet-contacts", contacts = v[0], limit = v[1])),
         Sentence::new(2, |l, v| text!(l, "certification-unmet-contact-speed", speed = v[0], limit = v[1])),
         Sentence::new(2, |l, v| text!(l, "terms-picture-of-defect", defect = v[0], reason = reason(v[1], l))),

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "test code")]
 
 use fluent_syntax::ast::Entry;
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, Value, message, text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use variables::variables;
@@ -97,4 +97,53 @@ fn exact_names_begin_with_the_name_of_their_file() {
 fn exact_pseudo_language_changes_texts() {
     let pseudo = text!(Language::Pseudo, "common-language-name");
     assert!(!pseudo.is_ascii() && pseudo.chars().count() > "English".len(), "{pseudo}");
+}
+
+/// Messages with a number, and the word that they must have with the number 1, in English, German and Spanish.
+const SINGULAR: &[(&str, &[&str], [&str; 3])] = &[
+    ("advice-no-pictures", &["count"], ["the defect;", "keinen Schaden", "del defecto;"]),
+    ("advice-none-found", &["all"], ["the defect;", "den Schaden nicht", "el defecto;"]),
+    ("advice-moving-pictures", &["count", "taken"], ["your only picture", "Ihr einziges Bild", "su única foto"]),
+    ("advice-picture-poor", &["count", "found"], ["the defect that", "dem gefundenen Schaden", "del defecto que"]),
+    ("certification-job-contacts", &["contacts"], ["1 contact,", "höchstens 1", "1 contacto,"]),
+    ("cohort-certified", &["certified", "sessions"], ["1 of 1 session.", "1 von 1 Sitzung.", "1 de 1 sesión."]),
+    ("cohort-answers-first", &["count"], ["1 answer)", "1 Antwort)", "1 respuesta)"]),
+    ("cohort-limit-imprecise", &["count"], ["1 trainee;", "1 Trainees;", "1 alumno;"]),
+    ("editor-traffic-text", &["cars", "trucks", "pedestrians"], ["1 car, 1 truck, 1 pedestrian", "Pkw: 1", "autos: 1"]),
+    ("editor-rules-summary", &["rules", "drills", "of"], ["1 rule, criteria for 1 drill.", "Regeln: 1", "Reglas: 1"]),
+    ("live-gnss-now", &["satellites"], ["1 satellite", "1 Satellit", "1 satélite"]),
+    ("live-gnss-lost", &["satellites"], ["1 satellite", "1 Satellit", "1 satélite"]),
+    ("plan-tasks-over", &["over", "all"], ["1 of 1 task", "1 von 1 Aufgabe", "1 de 1 tarea"]),
+    ("plan-drill-done", &["counted"], ["the last session met", "die letzte Sitzung erfüllte", "la última sesión cumplió"]),
+    (
+        "report-explain-defects",
+        &["found", "placed", "hits", "taken"],
+        ["1 defect found; 1 of 1 picture", "1 Bild zeigte ", "1 foto mostró"],
+    ),
+    ("report-explain-skipped", &["skipped", "tasks"], ["1 of 1 task ", "1 von 1 Aufgabe ", "1 tarea no iniciada"]),
+    ("report-defects-count", &["found", "placed"], ["1 defect was", "1 Schaden wurde ", "Se encontró 1"]),
+    (
+        "sessions-defects-caption",
+        &["found", "placed", "hits", "pictures"],
+        ["1 of 1 picture ", "1 Bild zeigte ", "1 foto mostró"],
+    ),
+    ("sessions-standing-up", &["points"], ["1 point up", "1 Punkt mehr", "1 punto más"]),
+    ("sessions-standing-down", &["points"], ["1 point down", "1 Punkt weniger", "1 punto menos"]),
+    ("web-password-length", &["length"], ["1 character ", "1 Zeichen", "1 carácter "]),
+    ("web-settings-erased", &["sessions", "folders"], ["1 session and 1 folder.", "Sitzungen: 1", "borradas: 1"]),
+    ("window-result-lesson-steps", &["done", "steps"], ["1 of 1 step ", "1 von 1 Schritt ", "1 de 1 paso "]),
+    ("window-train-lesson-progress", &["done", "steps"], ["1 of 1 step ", "1 von 1 Schritt ", "1 de 1 paso "]),
+];
+
+#[test]
+fn exact_one_is_singular_in_every_language() {
+    for (id, counted, expected) in SINGULAR {
+        let all = &files(Language::English).into_values().find_map(|messages| messages.get(*id).cloned()).unwrap();
+        for (language, expected) in Language::ALL.into_iter().zip(expected) {
+            let value = |name: &String| if counted.contains(&name.as_str()) { Value::from(1) } else { Value::from("x") };
+            let variables: Vec<(&str, Value<'_>)> = all.iter().map(|name| (name.as_str(), value(name))).collect();
+            let shown = message(language, id, &variables);
+            assert!(shown.contains(expected), "{id}, {}: {shown}", language.tag());
+        }
+    }
 }

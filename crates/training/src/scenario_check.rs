@@ -3,9 +3,11 @@
 //! scenario editor show the results.
 
 use crate::path_overlap;
+use spandrel_model::elements::Element;
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::bridges::ElementQuantity;
-use spandrel_model::scenario::{self, BatteryModel, Bridge, Scenario, SiblingLoader, Task, places};
+use spandrel_model::scenario::{self, BatteryModel, Bridge, PlacedDefect, Scenario, SiblingLoader, Task, places};
+use spandrel_model::site::hand_placed::Misplacement;
 use spandrel_model::site::walkable::MAX_HEIGHT_ERROR_M;
 use spandrel_model::site::{Site, defects};
 use spandrel_model::toml::Problem;
@@ -63,6 +65,7 @@ impl ScenarioText<'_> {
 /// requirements for certification.
 pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
     findings.problems.extend(site_problems(source, scenario, options));
+    findings.warnings.extend(placed_defect_warnings(source, scenario, options));
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
     findings.warnings.extend(repeated_paths(source, scenario));
     findings.warnings.extend(path_overlap::warnings(source.file, scenario));
@@ -142,10 +145,10 @@ fn certification_notes(source: &ScenarioText<'_>, scenario: &Scenario, aircraft:
     let path_m: f64 = scenario.tasks.iter().map(Task::length_m).sum();
     let needed_min = job_time::job_needed_s(scenario) / 60.0;
     let path = format!("{needed_min:.1} min for {path_m:.0} m of path");
-    if scenario.defects.count == 0 {
+    if scenario.defects.number() == 0 {
         notes.push(format!("time that the job needs: {path}"));
     } else {
-        notes.push(format!("time that the job needs: {path} and {}", count(scenario.defects.count, "defect")));
+        notes.push(format!("time that the job needs: {path} and {}", count(scenario.defects.number(), "defect")));
         let finest_mm = image_quality::best_gsd_mm(&aircraft.camera, pictures::shortest_stand_off_m(scenario));
         let crack_mm = finest_mm / scenario.certification.gsd_per_line_width;
         notes.push(format!(
@@ -171,14 +174,76 @@ fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &Check
     let mut problems = clearance_problems(source, scenario, &site, options);
     if (options.may_continue)() {
         problems.extend(place_problems(source, scenario, &site));
+        problems.extend(placed_defect_problems(source, scenario, &site));
     }
     problems
+}
+
+/// Heading of the table of a defect that the file places.
+const PLACED_TABLES: [&str; 1] = ["[[defects.placed]]"];
+
+/// Returns the problems of the defects that the file places: they must be on a surface of their member, and possible there.
+fn placed_defect_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site) -> Vec<Problem> {
+    let lines = table_line_numbers(source.text, &PLACED_TABLES);
+    let one = |(k, defect): (usize, &PlacedDefect)| {
+        let (key, value, allowed, message) = misplacement_words(defect, site.misplacement(defect)?);
+        Some(Problem {
+            file: source.file.to_owned(),
+            line: lines.get(k).copied().unwrap_or(1),
+            key: format!("defects.placed.{k}.{key}"),
+            location: format!("defects.placed[{k}].{key}"),
+            value,
+            allowed,
+            message: message.to_owned(),
+        })
+    };
+    scenario.defects.placed.iter().flatten().enumerate().filter_map(one).collect()
+}
+
+/// Returns key, value, allowed values and message for a defect in a wrong place.
+fn misplacement_words(defect: &PlacedDefect, wrong: Misplacement) -> (&'static str, String, String, &'static str) {
+    let number = |element: Element| element.number().to_string();
+    match wrong {
+        Misplacement::UnknownMember => ("member", defect.member.clone(), "a member of a bridge".to_owned(), "unknown member"),
+        Misplacement::OtherElement(element) => {
+            ("element", number(defect.element), number(element), "not the element of the member")
+        }
+        Misplacement::NotPermitted(element) => {
+            let kinds: Vec<String> = element.permitted_defects().iter().map(ToString::to_string).collect();
+            ("kind", defect.kind.to_string(), kinds.join(", "), "does not occur on this element")
+        }
+        Misplacement::OffSurface(distance_m) => {
+            ("position_m", format!("{distance_m:.2} m away"), "on the surface of the member".to_owned(), "not on a surface")
+        }
+        Misplacement::NoBridge | Misplacement::TooLarge | Misplacement::Covered => {
+            ("position_m", String::new(), "on a free surface of a bridge".to_owned(), "no room for the defect")
+        }
+    }
+}
+
+/// Returns a warning for each defect that the file places where no task's path allows a picture of it, and one if the file also has
+/// forms, which have no effect on placed defects.
+fn placed_defect_warnings(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<String> {
+    let Some(placed) = scenario.defects.placed.as_deref().filter(|placed| !placed.is_empty()) else { return Vec::new() };
+    let Some(site) = built_site(scenario, options) else { return Vec::new() };
+    let lines = table_line_numbers(source.text, &PLACED_TABLES);
+    let seen = |defect: &PlacedDefect| site.misplacement(defect).is_some() || site.can_be_photographed(scenario, defect);
+    let hidden = placed.iter().enumerate().take_while(|_| (options.may_continue)()).filter(|(_, defect)| !seen(defect));
+    let hidden = hidden.map(|(k, defect)| {
+        let line = lines.get(k).copied().unwrap_or(1);
+        format!(
+            "{}:{line}: defect {} cannot be photographed from within the threshold of any task: move it or a task's path, or make it larger",
+            source.file, defect.id
+        )
+    });
+    let forms = scenario.form.is_some().then(|| format!("{}: the placed defects are the same in all forms", source.file));
+    hidden.chain(forms).collect()
 }
 
 fn clearance_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
     let aircraft = options.aircraft;
     let needed_m = 0.5 * aircraft.hull.tip_to_tip_m + MIN_CLEARANCE_M;
-    let lines: Vec<usize> = task_line_numbers(source.text);
+    let lines = table_line_numbers(source.text, &TASK_TABLES);
     let tight = |(k, task): (usize, &Task)| {
         let (at_m, near) = site.min_path_clearance(task, needed_m)?;
         let (clearance_m, object) = (near.distance_m, site.object_name(near.object));
@@ -300,11 +365,14 @@ fn missing_defects_warning(source: &ScenarioText<'_>, scenario: &Scenario, optio
     })
 }
 
-/// Returns the line number of each task's table.
-fn task_line_numbers(text: &str) -> Vec<usize> {
+/// Headings of the table of a task.
+const TASK_TABLES: [&str; 2] = ["[[task]]", "[[tasks]]"];
+
+/// Returns the line number of each table with one of these headings.
+fn table_line_numbers(text: &str, headings: &[&str]) -> Vec<usize> {
     let heads = text.lines().enumerate().filter(|(_, line)| {
         let line: String = line.chars().filter(|c| !c.is_whitespace()).collect();
-        line.starts_with("[[task]]") || line.starts_with("[[tasks]]")
+        headings.iter().any(|heading| line.starts_with(heading))
     });
     heads.map(|(k, _)| k + 1).collect()
 }
@@ -350,7 +418,7 @@ mod tests {
 
     #[test]
     fn exact_task_lines_are_found() {
-        assert_eq!(task_line_numbers("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n"), [2, 4]);
+        assert_eq!(table_line_numbers("a = 1\n[[tasks]]\nx = 2\n [[ tasks ]]\n[wind]\n", &TASK_TABLES), [2, 4]);
     }
 
     #[test]
@@ -453,6 +521,41 @@ mod tests {
     }
 
     #[test]
+    fn exact_placed_defects_must_be_on_their_member_and_in_sight_of_a_task() {
+        let base = shipped_text("practice");
+        let scenario = scenario::read("practice.toml", &base, &|_| Err("none".into())).unwrap();
+        let own = Site::build(&scenario, 3).defects()[0].clone();
+        let findings = |defect: &PlacedDefect| {
+            let (text, _) = scenario::edit::with_placed_defect(&base, defect).unwrap();
+            let line = text.lines().position(|line| line == "[[defects.placed]]").unwrap() + 1;
+            (line, scenario_findings("practice", &text, &aircraft()))
+        };
+        let (_, fine) = findings(&own);
+        assert_eq!((fine.problems, fine.warnings), (vec![], vec![]));
+        assert!(fine.notes.iter().any(|note| note.ends_with("and 1 defect")), "{:?}", fine.notes);
+        let problem = |defect: PlacedDefect| {
+            let (line, found) = findings(&defect);
+            let [problem] = found.problems.as_slice() else { panic!("{found:?}") };
+            assert_eq!(problem.line, line);
+            (problem.location.clone(), problem.message.clone())
+        };
+        let at = |key: &str, words: &str| (format!("defects.placed[0].{key}"), words.to_owned());
+        assert_eq!(problem(PlacedDefect { member: "arch/x".into(), ..own.clone() }), at("member", "unknown member"));
+        let other = PlacedDefect { element: Element::TimberDeck, ..own.clone() };
+        assert_eq!(problem(other), at("element", "not the element of the member"));
+        let moved = PlacedDefect { position_m: own.position_m + own.normal, ..own.clone() };
+        assert_eq!(problem(moved), at("position_m", "not on a surface"));
+        let tiny = PlacedDefect { length_m: 0.0002, width_m: 0.0001, ..own };
+        let (line, found) = findings(&tiny);
+        assert_eq!((found.problems, found.warnings.len()), (vec![], 1));
+        assert!(
+            found.warnings[0].starts_with(&format!("practice.toml:{line}: defect 1 cannot be photographed")),
+            "{:?}",
+            found.warnings
+        );
+    }
+
+    #[test]
     fn exact_low_clearance_is_reported_with_the_position() {
         let mut aircraft = aircraft();
         aircraft.hull.tip_to_tip_m = 30.0;
@@ -535,7 +638,7 @@ mod tests {
         assert_eq!(problems(fits_m - TOLERANCE_M), []);
         let refused = problems(fits_m + 2.0 * TOLERANCE_M);
         assert_eq!(refused.len(), 1);
-        assert_eq!(task_line_numbers(&text), [refused[0].line]);
+        assert_eq!(table_line_numbers(&text, &TASK_TABLES), [refused[0].line]);
         // The clearance at the reported point matches the reported clearance.
         let number = |after: &str| {
             let rest = refused[0].message.split(after).nth(1).unwrap();

@@ -66,8 +66,8 @@ impl SessionStanding {
 
     fn change_words(&self, language: Language) -> Option<String> {
         let change = self.change?;
-        let said = match points(change.abs()) {
-            points if points == "0" => text!(language, "sessions-standing-same"),
+        let said = match points(change.abs()).parse::<u64>().unwrap_or_default() {
+            0 => text!(language, "sessions-standing-same"),
             points if change > 0.0 => text!(language, "sessions-standing-up", points = points),
             points => text!(language, "sessions-standing-down", points = points),
         };

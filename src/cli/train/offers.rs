@@ -392,8 +392,8 @@ fn contents_summary(scenario: &Scenario, language: Language) -> String {
     if !scenario.bridges.is_empty() {
         parts.push(text!(language, "window-train-bridges", count = scenario.bridges.len()));
     }
-    if scenario.defects.count > 0 {
-        parts.push(text!(language, "window-train-defects", count = scenario.defects.count));
+    if scenario.defects.number() > 0 {
+        parts.push(text!(language, "window-train-defects", count = scenario.defects.number()));
     }
     parts.join(", ")
 }

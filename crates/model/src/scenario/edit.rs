@@ -1,11 +1,15 @@
 //! Edits the text of a scenario and keeps its comments, its order and the spelling of all other values.
 
 use super::briefing_pictures::{self, BriefingPicture};
+use super::job::PlacedDefect;
+use super::resolve::{NONE_PLACED, PLACED, defect_entries};
 use super::toml_text::{shown, typed};
 use super::values::{KIND_KEYS, ScenarioValues, describe};
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
+/// Table of the defects.
+const DEFECTS: &str = "defects";
 /// Key of a bridge's type, which determines which table with dimensions the bridge has.
 const BRIDGE_TYPE_KEY: &str = "type";
 /// Distance between a new bridge and the one before it, m to the north.
@@ -312,6 +316,24 @@ pub fn with_briefing_picture(text: &str, picture: &BriefingPicture) -> Result<St
     Ok(document.to_string())
 }
 
+/// Returns the text with one more placed defect, and its ID: the number after the largest one in the text. The ID of `defect` has no
+/// effect.
+///
+/// # Errors
+/// Returns a message if the text is not valid TOML, or `defects.placed` is not a repeated table.
+pub fn with_placed_defect(text: &str, defect: &PlacedDefect) -> Result<(String, u32), String> {
+    let mut document = parse(text)?;
+    let values = ScenarioValues::read(text).unwrap_or_default();
+    let location = format!("{DEFECTS}.{PLACED}");
+    let ids = (0..values.count(&location)).filter_map(|k| values.get(&format!("{location}[{k}].id"))?.parse::<u32>().ok());
+    let id = ids.max().unwrap_or(0).saturating_add(1);
+    if let Some(defects) = document.get_mut(DEFECTS).and_then(Item::as_table_like_mut) {
+        defects.remove(NONE_PLACED);
+    }
+    push(&mut document, &location, defect_entries(&PlacedDefect { id, ..defect.clone() }))?;
+    Ok((document.to_string(), id))
+}
+
 /// Returns the text with another name. Invalid TOML is returned unchanged.
 #[must_use]
 pub fn with_name(text: &str, name: &str) -> String {
@@ -339,6 +361,9 @@ fn changed(text: &str, change: impl FnOnce(&mut DocumentMut)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::defect_codes::CRACK;
+    use crate::elements::Element;
+    use crate::frames::Vec3;
     use crate::shipped::{PRACTICE, TWO_BRIDGES};
 
     fn set(location: &str, text: &str) -> Edit {
@@ -434,6 +459,42 @@ mod tests {
         assert_eq!(ScenarioValues::read(&edited).unwrap().count("briefing_pictures"), 2, "{edited}");
         assert!(with_briefing_picture("a = ", &picture("b.png")).is_err());
         assert!(with_briefing_picture("briefing_pictures = 3\n", &picture("b.png")).is_err());
+    }
+
+    #[test]
+    fn exact_placed_defects_are_added_and_removed_and_everything_else_remains() {
+        let defect = PlacedDefect {
+            id: 77,
+            element: Element::RcArch,
+            member: "arch/rib-left/07".into(),
+            kind: CRACK,
+            condition_state: 3,
+            position_m: Vec3::new(1.5, -2.0, 30.25),
+            normal: Vec3::new(0.0, 0.0, -1.0),
+            along: Vec3::new(1.0, 0.0, 0.0),
+            length_m: 0.8,
+            width_m: 0.002,
+            line: true,
+            cause: None,
+            stain: None,
+        };
+        let (one, first) = with_placed_defect(PRACTICE, &defect).unwrap();
+        let (two, second) = with_placed_defect(&one, &defect).unwrap();
+        assert_eq!((first, second, problems(&two)), (1, 2, vec![]));
+        let read = super::super::read("job.toml", &two, &|_| Err(String::new())).unwrap();
+        let expected = [1, 2].map(|id| PlacedDefect { id, ..defect.clone() });
+        assert_eq!((read.defects.placed.as_deref(), read.defects.number()), (Some(&expected[..]), 2));
+        let kept = |text: &str| text.lines().filter(|line| !one.contains(line)).count();
+        assert_eq!((kept(PRACTICE), one.matches("[[defects.placed]]").count()), (0, 1), "{one}");
+        let remove = |k: usize| Edit::Remove { location: format!("defects.placed[{k}]") };
+        let (again, third) = with_placed_defect(&apply(&two, &[remove(0)]).unwrap(), &defect).unwrap();
+        assert_eq!((third, problems(&again)), (3, vec![]), "numbers are not used twice");
+        assert_eq!(apply(&two, &[remove(1), remove(0)]).unwrap(), PRACTICE);
+        assert!(apply(&two, &[remove(2)]).is_err() && with_placed_defect("a = ", &defect).is_err());
+        let none = PRACTICE.replace("[defects]\n", "[defects]\nnone_placed = true\n");
+        assert!(!with_placed_defect(&none, &defect).unwrap().0.contains("none_placed"));
+        let twice = two.replace("id = 2\n", "id = 1\n");
+        assert_eq!(problems(&twice), [("defects.placed[1].id".into(), "duplicate number".into())]);
     }
 
     #[test]

@@ -264,7 +264,7 @@ pub struct StandOff {
     pub toward_surface: Vec<Vec3<Enu>>,
 }
 
-/// Settings for random defects, or the placed defects of a resolved file.
+/// Settings for random defects, or the defects that the file places.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DefectSpec {
     /// Number of defects to place.
@@ -284,8 +284,17 @@ pub struct DefectSpec {
     pub mean_detection: Option<f64>,
     /// Number of cracks and other lines among the defects; `None` to leave it to chance.
     pub line_count: Option<usize>,
-    /// Placed defects of a resolved file. If set, no random defects are drawn.
+    /// Defects that the file places: those of a session in its resolved file, or those that an instructor chose. If set, no random
+    /// defects are drawn.
     pub placed: Option<Vec<PlacedDefect>>,
+}
+
+impl DefectSpec {
+    /// Returns the number of defects to find: those that the file places, or the number to place at random.
+    #[must_use]
+    pub fn number(&self) -> usize {
+        self.placed.as_ref().map_or(self.count, Vec::len)
+    }
 }
 
 /// One defect on a surface.

@@ -35,8 +35,9 @@ pub use job::{
     TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
-pub use read::{FORMAT, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};
-pub use resolve::{resolve, select_variant, variant_names, variant_with_crc};
+pub use point::MAX_COORDINATE_M;
+pub use read::{FORMAT, MAX_DEFECTS, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};
+pub use resolve::{LENGTH_RANGE_M, WIDTH_RANGE_M, resolve, select_variant, variant_names, variant_with_crc};
 pub use siblings::SiblingLoader;
 pub use stain_patch::{StainPatch, downhill};
 pub use terrain::MAX_TERRAIN_M;

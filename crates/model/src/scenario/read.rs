@@ -26,6 +26,8 @@ use std::sync::Arc;
 pub const FORMAT: i64 = 1;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MAX_BRIDGES: usize = 16;
+/// Maximum number of defects of a job (estimate: more than anybody finds in one flight).
+pub const MAX_DEFECTS: usize = 200;
 /// Maximum length of a paragraph of the briefing, characters (estimate: longer ones belong in a document of their own).
 const MAX_BRIEFING_CHARS: usize = 1_000;
 
@@ -89,7 +91,7 @@ fn read_scenario(r: &mut Reader, root: &mut Section, siblings: SiblingLoader) ->
     let tasks = super::tasks::read(r, root, &bridges);
     let mut defects = defects(r, root);
     let form = super::forms::read(r, root, &mut defects);
-    let lesson = super::lesson::read(r, root, (tasks.len(), super::tasks::MAX_TASKS), defects.count > 0);
+    let lesson = super::lesson::read(r, root, (tasks.len(), super::tasks::MAX_TASKS), defects.number() > 0);
     let mut scenario = Scenario {
         name,
         title,
@@ -268,14 +270,14 @@ fn defects(r: &mut Reader, root: &mut Section) -> DefectSpec {
     let elements: Vec<i64> = with_defects.map(|element| i64::from(element.number())).collect();
     let kinds: Vec<i64> = defect_codes::ALL.iter().copied().map(i64::from).collect();
     let defects = DefectSpec {
-        count: r.integer(&mut s, "count", (0, 200), Some(10)) as usize,
+        count: r.integer(&mut s, "count", (0, MAX_DEFECTS as i64), Some(10)) as usize,
         placement: r.keyword(&mut s, "placement", &DefectPlacement::WORDS, Some(0)),
         size_factor: r.number(&mut s, "size_factor", (0.2, 5.0), Some(1.0)),
         elements: r.integers_among(&mut s, "elements", &elements).into_iter().map(|i| Element::from_number(i as u16)).collect(),
         kinds: r.integers_among(&mut s, "kinds", &kinds).into_iter().map(|i| i as u32).collect(),
         seed: r.optional_integer(&mut s, "seed", (0, i64::from(i32::MAX))).map(|seed| seed as u64),
         mean_detection: r.optional_number(&mut s, "detection_pct", super::forms::DETECTION_RANGE_PCT).map(|pct| pct / 100.0),
-        line_count: r.optional_integer(&mut s, "lines", (0, 200)).map(|lines| lines as usize),
+        line_count: r.optional_integer(&mut s, "lines", (0, MAX_DEFECTS as i64)).map(|lines| lines as usize),
         placed: super::resolve::read_placed_defects(r, &mut s),
     };
     if let Some(lines) = defects.line_count.filter(|lines| *lines > defects.count) {

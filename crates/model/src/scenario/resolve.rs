@@ -10,8 +10,16 @@ use super::{briefing_pictures, difficulty, forms, terrain};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
 use crate::toml::{Reader, Section};
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
+/// Key of the placed defects.
+pub(super) const PLACED: &str = "placed";
+/// Key that states that a session has no defects.
+pub(super) const NONE_PLACED: &str = "none_placed";
+/// Range of a placed defect's length, m.
+pub const LENGTH_RANGE_M: (f64, f64) = (1e-4, 50.0);
+/// Range of a placed defect's width, m.
+pub const WIDTH_RANGE_M: (f64, f64) = (1e-6, 50.0);
 /// Tolerance for the length of unit vectors that are rounded to three decimals.
 const UNIT_TOLERANCE: f64 = 2e-3;
 
@@ -28,46 +36,53 @@ pub fn resolve(text: &str, seed: u64, placed: &[PlacedDefect]) -> String {
     }
     let defects = document.entry("defects").or_insert_with(|| Item::Table(Table::new()));
     if let Some(defects) = defects.as_table_like_mut() {
-        defects.insert("none_placed", value(placed.is_empty()));
-        defects.remove("placed");
+        defects.insert(NONE_PLACED, value(placed.is_empty()));
+        defects.remove(PLACED);
         if !placed.is_empty() {
-            defects.insert("placed", Item::ArrayOfTables(tables));
+            defects.insert(PLACED, Item::ArrayOfTables(tables));
         }
     }
     document.to_string()
 }
 
 fn defect_table(defect: &PlacedDefect) -> Table {
-    let list = |v: Vec3<Enu>| value(v.array().into_iter().collect::<Array>());
-    let mut t = Table::new();
-    t["id"] = value(i64::from(defect.id));
-    t["element"] = value(i64::from(defect.element.number()));
-    t["member"] = value(&defect.member);
-    t["kind"] = value(i64::from(defect.kind));
-    t["condition_state"] = value(i64::from(defect.condition_state));
-    t["position_m"] = list(defect.position_m);
-    t["normal"] = list(defect.normal);
-    t["along"] = list(defect.along);
-    t["length_m"] = value(defect.length_m);
-    t["width_m"] = value(defect.width_m);
-    t["line"] = value(defect.line);
-    if let Some(cause) = defect.cause {
-        t["cause"] = value(cause.keyword());
-    }
+    defect_entries(defect).into_iter().map(|(key, entry)| (key, Item::Value(entry))).collect()
+}
+
+/// Returns the keys and values of a defect's table.
+pub(super) fn defect_entries(defect: &PlacedDefect) -> Vec<(&'static str, Value)> {
+    let list = |v: Vec3<Enu>| Value::from(v.array().into_iter().collect::<Array>());
+    let mut entries = vec![
+        ("id", Value::from(i64::from(defect.id))),
+        ("element", Value::from(i64::from(defect.element.number()))),
+        ("member", Value::from(&defect.member)),
+        ("kind", Value::from(i64::from(defect.kind))),
+        ("condition_state", Value::from(i64::from(defect.condition_state))),
+        ("position_m", list(defect.position_m)),
+        ("normal", list(defect.normal)),
+        ("along", list(defect.along)),
+        ("length_m", Value::from(defect.length_m)),
+        ("width_m", Value::from(defect.width_m)),
+        ("line", Value::from(defect.line)),
+    ];
+    entries.extend(defect.cause.map(|cause| ("cause", Value::from(cause.keyword()))));
     if let Some(stain) = defect.stain {
-        t["stain"] = value(stain.substance.keyword());
-        t["stain_m"] = value(stain.length_m);
+        entries.extend([("stain", Value::from(stain.substance.keyword())), ("stain_m", Value::from(stain.length_m))]);
     }
-    t
+    entries
 }
 
 /// Reads the placed defects of a resolved file; `None` for a source file.
 pub(super) fn read_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec<PlacedDefect>> {
-    let none_placed = r.boolean(s, "none_placed", false);
+    let none_placed = r.boolean(s, NONE_PLACED, false);
     let mut out = Vec::new();
-    for mut t in r.sections(s, "placed") {
-        out.push(read_placed_defect(r, &mut t));
+    for mut t in r.sections(s, PLACED) {
+        let defect = read_placed_defect(r, &mut t);
+        if t.has("id") && out.iter().any(|other: &PlacedDefect| other.id == defect.id) {
+            r.add_problem(&t, "id", &defect.id.to_string(), "a unique number", "duplicate number");
+        }
         r.finish(&t);
+        out.push(defect);
     }
     (none_placed || !out.is_empty()).then_some(out)
 }
@@ -90,8 +105,8 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
         position_m: point(r, t, "position_m", None),
         normal: unit(r, t, "normal"),
         along: unit(r, t, "along"),
-        length_m: r.number(t, "length_m", (1e-4, 50.0), None),
-        width_m: r.number(t, "width_m", (1e-6, 50.0), None),
+        length_m: r.number(t, "length_m", LENGTH_RANGE_M, None),
+        width_m: r.number(t, "width_m", WIDTH_RANGE_M, None),
         line: r.boolean(t, "line", false),
         cause: r.keyword(t, "cause", &DefectCause::words(), Some(0)),
         stain: read_stain(r, t),
@@ -118,8 +133,8 @@ pub fn crc(text: &str) -> u32 {
     forms::state_selected_form(document.as_table_mut());
     difficulty::remove_standard_level(&mut document);
     if let Some(defects) = document.get_mut("defects").and_then(Item::as_table_like_mut) {
-        defects.remove("placed");
-        defects.remove("none_placed");
+        defects.remove(PLACED);
+        defects.remove(NONE_PLACED);
     }
     crc32fast::hash(canonical_form(document.as_item()).as_bytes())
 }

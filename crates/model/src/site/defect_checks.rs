@@ -48,13 +48,13 @@ pub(super) fn fits_in_face(defect: &PlacedDefect, face: &MemberFace, margin_m: f
 
 /// Returns true if no other member covers the defect or touches its surroundings up to a margin, m. Rays from slightly above the center
 /// and the ends of the defect must hit this member first.
-pub(super) fn is_exposed(defect: &PlacedDefect, object: u32, context: &PlacementContext, margin_m: f64) -> bool {
+pub(super) fn is_exposed(defect: &PlacedDefect, object: u32, cast: RayCast, margin_m: f64) -> bool {
     let mut points = end_points(defect, margin_m).to_vec();
     points.push(defect.position_m);
     points.iter().all(|p| {
         let above = *p + defect.normal * MIN_FREE_DEPTH_M;
-        let room_up = (context.cast)(*p + defect.normal * 0.005, defect.normal, MIN_FREE_DEPTH_M).is_none();
-        let back = (context.cast)(above, -defect.normal, MIN_FREE_DEPTH_M + 0.01);
+        let room_up = cast(*p + defect.normal * 0.005, defect.normal, MIN_FREE_DEPTH_M).is_none();
+        let back = cast(above, -defect.normal, MIN_FREE_DEPTH_M + 0.01);
         room_up && back.is_some_and(|h| h.object.0 == object && (h.distance_m - MIN_FREE_DEPTH_M).abs() < 0.002)
     })
 }

@@ -138,7 +138,7 @@ fn try_place(
     let apart = others.iter().all(|o| (o.position_m - defect.position_m).norm() >= separation);
     (apart
         && fits_in_face(&defect, &face, EDGE_MARGIN_M)
-        && is_exposed(&defect, hit.object.0, context, EDGE_MARGIN_M)
+        && is_exposed(&defect, hit.object.0, context.cast, EDGE_MARGIN_M)
         && find_view(&defect, task, context).is_some())
     .then_some(defect)
 }
@@ -155,7 +155,7 @@ fn choose_code((settings, slot): (&DefectSpec, &Slot), element: Element, draw: f
 
 /// Returns the direction of a defect's longest dimension. Stains run down walls; corrosion, exposed reinforcement and connection
 /// defects follow the member; all others have a random angle.
-fn defect_direction(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
+pub(super) fn defect_direction(kind: u32, face: &MemberFace, roll_rad: f64) -> Vec3<Enu> {
     let down = Vec3::new(0.0, 0.0, -1.0);
     let downhill = down - face.normal * face.normal.dot(down);
     let long = face.long_axis();

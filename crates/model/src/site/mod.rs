@@ -18,6 +18,7 @@ pub mod dynamics;
 mod faces;
 pub mod geometry;
 pub mod gltf;
+pub mod hand_placed;
 pub mod heights;
 pub mod inspector_path;
 pub mod inspector_walks;

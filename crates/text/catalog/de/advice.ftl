@@ -151,7 +151,10 @@ advice-picture-failed = { $count ->
        *[other] Beheben Sie das vor der Aufnahme
     }.
 advice-picture-poor =
-    Bei { $count } der { $found } gefundenen Schäden ist Ihr Bild { $why ->
+    { $found ->
+        [one] Bei dem gefundenen Schaden
+       *[other] Bei { $count } der { $found } gefundenen Schäden
+    } ist Ihr Bild { $why ->
         [blur] durch Bewegung unscharf
         [coarse] zu gering aufgelöst
         [oblique] zu schräg aufgenommen
@@ -163,12 +166,26 @@ advice-picture-poor =
        *[other] Lesen Sie im Bericht, was bei jedem Bild fehlt
     }.
 advice-no-pictures = Sie haben keinen Schaden fotografiert (vorhanden: { $count }); die beste Gelegenheit war bei { $at }: Fotografieren Sie jeden Schaden.
-advice-none-found = Sie haben keinen der { $all } Schäden{ $place ->
+advice-none-found =
+    Sie haben { $all ->
+        [one] den Schaden
+       *[other] keinen der { $all } Schäden
+    }{ $place ->
         [task] {" "}bei Aufgabe { $tasks }
         [tasks] {" "}bei den Aufgaben { $tasks }
        *[none] {""}
-    } fotografiert; bei { $at } waren Sie einem Blick auf Schaden { $defect } am nächsten: Suchen Sie jede Aufgabe bis zum Ende ab.
-advice-moving-pictures = { $count } Ihrer { $taken } Bilder haben Sie in der Bewegung aufgenommen, zuerst bei { $at }: Halten Sie vor jedem Bild an.
+    } { $all ->
+        [one] nicht fotografiert
+       *[other] fotografiert
+    }; bei { $at } waren Sie einem Blick auf Schaden { $defect } am nächsten: Suchen Sie jede Aufgabe bis zum Ende ab.
+advice-moving-pictures =
+    { $taken ->
+        [one] Ihr einziges Bild haben Sie in der Bewegung aufgenommen, bei
+       *[other] { $count ->
+            [one] Eines
+           *[other] { $count }
+        } Ihrer { $taken } Bilder haben Sie in der Bewegung aufgenommen, zuerst bei
+    } { $at }: Halten Sie vor jedem Bild an.
 advice-pictures-of-nothing = { $taken ->
         [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen
        *[other] Auf { $count } Ihrer { $taken } Bilder ist kein neuer Schaden zu sehen, { $count ->

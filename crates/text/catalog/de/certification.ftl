@@ -38,6 +38,7 @@ certification-unmet-task-part = Aufgabe { $task } nicht erledigt: { $share }% de
 certification-unmet-task-not-attempted = Aufgabe { $task } nicht begonnen
 certification-unmet-landing = nicht am Landeplatz gelandet
 certification-unmet-battery = { $battery } Akku bei der Landung, { $needed }% nötig
+certification-unmet-one-contact = Berührungen: 1, höchstens { $limit } erlaubt
 certification-unmet-contacts = Berührungen: { $contacts }, höchstens { $limit } erlaubt
 certification-unmet-contact-speed = Berührung mit { $speed }, höchstens { $limit } erlaubt
 certification-unmet-score = { $score } { $value }, { $needed } nötig

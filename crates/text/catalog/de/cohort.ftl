@@ -10,7 +10,11 @@ cohort-summary =
         [one] { $sessions } Sitzung
        *[other] { $sessions } Sitzungen
     } mit { $scenarios }.
-cohort-certified = Zertifiziert: { $certified } von { $sessions } Sitzungen.
+cohort-certified =
+    Zertifiziert: { $certified } von { $sessions ->
+        [one] { $sessions } Sitzung
+       *[other] { $sessions } Sitzungen
+    }.
 cohort-group =
     { $trainees ->
         [one] { $trainees } Trainee flog
@@ -37,7 +41,11 @@ cohort-answer-agree = stimme zu
 cohort-answer-neutral = neutral
 cohort-answer-disagree = stimme nicht zu
 cohort-answer-strongly-disagree = stimme gar nicht zu
-cohort-answers-first = Alle ersten Sitzungen (bis zu { $count } Antworten)
+cohort-answers-first =
+    Alle ersten Sitzungen (bis zu { $count ->
+        [one] { $count } Antwort
+       *[other] { $count } Antworten
+    })
 cohort-answers-first-title = Antworten aus allen ersten Sitzungen
 cohort-answers-later = Trainees mit wiederholten Sitzungen: Wiederholung { $repetition }
 cohort-answers-later-title = Antworten zu Wiederholung { $repetition }
@@ -154,6 +162,10 @@ cohort-column-crashes-to = bis
 cohort-pooled-rating = Gesamtwertung (% des Höchstwerts) nach Selbsteinschätzung (5 ist am besten)
 cohort-pooled-rating-title = Gemessene Wertung nach Selbsteinschätzung
 cohort-pooled-rating-caption = gemessene Wertung nach Selbsteinschätzung (%)
+cohort-contradiction-rated-too-high = bewertete die eigene Leistung mit { $own } von 5, liegt aber mit { $measured } % im untersten Viertel
+cohort-contradiction-rated-too-low = bewertete die eigene Leistung mit { $own } von 5, liegt aber mit { $measured } % im obersten Viertel
+cohort-contradiction-slow = spürte keinen Zeitdruck, flog aber { $minutes } min und gehört damit zum langsamsten Viertel
+cohort-contradiction-fast = spürte Zeitdruck, flog aber nur { $minutes } min und gehört damit zum schnellsten Viertel
 cohort-pooled-contradictions =
     { $count ->
         [one] { $count } Widerspruch steht in contradictions.csv.

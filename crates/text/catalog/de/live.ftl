@@ -17,9 +17,21 @@ live-wind = Wind an der Drohne
 live-wind-now = { $speed } m/s aus { $direction }°
 live-wind-calm = { $speed } m/s
 live-gnss = GNSS
-live-gnss-now = { $satellites } Satelliten
-live-gnss-dilution = { $satellites } Satelliten, HDOP { $dilution }
-live-gnss-lost = Keine Position, { $satellites } Satelliten
+live-gnss-now =
+    { $satellites ->
+        [one] { $satellites } Satellit
+       *[other] { $satellites } Satelliten
+    }
+live-gnss-dilution =
+    { $satellites ->
+        [one] { $satellites } Satellit
+       *[other] { $satellites } Satelliten
+    }, HDOP { $dilution }
+live-gnss-lost =
+    Keine Position, { $satellites ->
+        [one] { $satellites } Satellit
+       *[other] { $satellites } Satelliten
+    }
 live-compass = Kompass
 live-compass-now = Abweichung { $degrees }°
 live-radio = Funkreserve

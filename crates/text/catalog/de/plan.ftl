@@ -89,7 +89,11 @@ plan-job-unfinished = Keine einzelne Schwäche sticht hervor, aber der Auftrag w
 plan-drill-open = Diese Übung ist noch nicht abgeschlossen: { $progress }.
 plan-latest-incomplete = Die letzte Sitzung zählt, obwohl sie nicht vollständig ist ({ $completion }). Sie wird nicht mit anderen Sitzungen verglichen.
 
-plan-tasks-over = { $over } von { $all } Aufgaben
+plan-tasks-over =
+    { $over } von { $all ->
+        [one] { $all } Aufgabe
+       *[other] { $all } Aufgaben
+    }
 plan-degrees = { $value } Grad
 plan-per-minute = { $value }-mal pro Minute
 plan-mainly-sideways = vor allem seitlich
@@ -100,7 +104,11 @@ plan-missed-defect = Schaden { $defect } ({ $kind }, Zustandsstufe { $state })
 plan-more-defects = { $count } weitere
 plan-and = { $first } und { $last }
 
-plan-drill-done = abgeschlossen: { $met } der letzten { $counted } Sitzungen erfüllten das Kriterium ({ $criterion })
+plan-drill-done =
+    abgeschlossen: { $counted ->
+        [one] die letzte Sitzung erfüllte
+       *[other] { $met } der letzten { $counted } Sitzungen erfüllten
+    } das Kriterium ({ $criterion })
 plan-drill-not-at-standard = noch keine Sitzung auf der Standardstufe; abgeschlossen nach { $needed } von { $of } mit erfülltem Kriterium ({ $criterion })
 plan-drill-not-flown = noch nicht geflogen; abgeschlossen nach { $needed } von { $of } Sitzungen mit erfülltem Kriterium ({ $criterion })
 plan-drill-one-session = { $met } von 1 Sitzung erfüllte das Kriterium; abgeschlossen nach { $needed } von { $of } ({ $criterion })

@@ -125,10 +125,24 @@ report-explain-contacts =
     }
 report-explain-grave = Person oder Fahrzeug getroffen: 0 Punkte
 report-explain-no-defects = keine Schäden in diesem Auftrag
-report-explain-defects = { $found } von { $placed } Schäden gefunden; { $hits } von { $taken } Bildern zeigten einen neuen Schaden
+report-explain-defects =
+    { $found } von { $placed ->
+        [one] { $placed } Schaden
+       *[other] { $placed } Schäden
+    } gefunden; { $hits } von { $taken ->
+        [one] { $taken } Bild
+       *[other] { $taken } Bildern
+    } { $hits ->
+        [one] zeigte
+       *[other] zeigten
+    } einen neuen Schaden
 report-explain-no-tasks = keine Aufgaben in diesem Auftrag
 report-explain-none-attempted = keine Aufgabe begonnen (die TASBID-Formel ergibt 50 Punkte)
-report-explain-skipped = { $skipped } von { $tasks } Aufgaben nicht begonnen
+report-explain-skipped =
+    { $skipped } von { $tasks ->
+        [one] { $tasks } Aufgabe
+       *[other] { $tasks } Aufgaben
+    } nicht begonnen
 report-explain-lowest = geringster Anteil auf der Bahn: { $share }% (Aufgabe { $task }); { $speeding } s zu schnell
 
 ## Do better
@@ -211,7 +225,14 @@ report-column-min-clearance = kleinster Abstand zum Bauwerk (m)
 ## Defects
 
 report-defects-none = Dieser Auftrag hat keine Schäden.
-report-defects-count = { $found } von { $placed } Schäden wurden gefunden.
+report-defects-count =
+    { $found } von { $placed ->
+        [one] { $placed } Schaden
+       *[other] { $placed } Schäden
+    } { $found ->
+        [one] wurde
+       *[other] wurden
+    } gefunden.
 report-defects-found = gefunden
 report-defects-missed = nicht gefunden
 report-defects-missed-head = Nicht gefundene Schäden

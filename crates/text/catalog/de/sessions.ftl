@@ -45,8 +45,16 @@ sessions-picture = Bild { $number }
 sessions-standing-best = Dies ist die persönliche Bestleistung bei diesem Auftrag.
 sessions-standing-other = Persönliche Bestleistung bei diesem Auftrag: { $best } von { $most }.
 sessions-standing-same = Änderung seit dem letzten Mal: keine.
-sessions-standing-up = Änderung seit dem letzten Mal: { $points } Punkte mehr.
-sessions-standing-down = Änderung seit dem letzten Mal: { $points } Punkte weniger.
+sessions-standing-up =
+    Änderung seit dem letzten Mal: { $points ->
+        [one] { $points } Punkt
+       *[other] { $points } Punkte
+    } mehr.
+sessions-standing-down =
+    Änderung seit dem letzten Mal: { $points ->
+        [one] { $points } Punkt
+       *[other] { $points } Punkte
+    } weniger.
 sessions-standing-forms = Verglichen werden die Sitzungen mit den gleich schwierigen Varianten { $forms }.
 sessions-report = Bericht öffnen
 sessions-questions-answer = Fragebogen beantworten
@@ -83,7 +91,14 @@ sessions-crashes-outside =
        *[other] { $count } Kollisionen außerhalb der Aufgaben.
     }
 sessions-unknown = unbekannt
-sessions-defects-caption = { $found } von { $placed } gefunden; { $hits } von { $pictures } Bildern zeigten einen neuen Schaden
+sessions-defects-caption =
+    { $found } von { $placed } gefunden; { $hits } von { $pictures ->
+        [one] { $pictures } Bild
+       *[other] { $pictures } Bildern
+    } { $hits ->
+        [one] zeigte
+       *[other] zeigten
+    } einen neuen Schaden
 sessions-defect = Schaden
 sessions-found = Gefunden
 sessions-why-not = Warum das beste Bild nicht zählte

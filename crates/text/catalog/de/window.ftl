@@ -128,7 +128,11 @@ window-paused-no-restart = Ein Bewertungsflug kann nicht neu gestartet werden.
 ## Result
 
 window-result-lesson-done = Lektion abgeschlossen
-window-result-lesson-steps = { $done } von { $steps } Schritten der Lektion erledigt
+window-result-lesson-steps =
+    { $done } von { $steps ->
+        [one] { $steps } Schritt
+       *[other] { $steps } Schritten
+    } der Lektion erledigt
 window-result-title = Flug beendet
 window-result-part = { $why }. Die Wertung gilt für den geflogenen Teil.
 window-result-advice = Das nächste Mal besser
@@ -278,7 +282,11 @@ window-train-defects =
         [one] { $count } Schaden
        *[other] { $count } Schäden
     }
-window-train-lesson-progress = { $done } von { $steps } Schritten der Lektion.
+window-train-lesson-progress =
+    { $done } von { $steps ->
+        [one] { $steps } Schritt
+       *[other] { $steps } Schritten
+    } der Lektion.
 window-train-not-in-assessment = Im Bewertungsflug nicht möglich.
 window-train-in-flight = Ein Flug läuft: Beenden Sie ihn zuerst.
 window-train-no-window = Dieses Programm wurde ohne das Fenster gebaut

@@ -155,7 +155,11 @@ advice-picture-failed = Your { $count ->
         [thin] move closer
        *[other] correct this before the picture
     }.
-advice-picture-poor = Your pictures of { $count } of the { $found } defects that you found are { $why ->
+advice-picture-poor =
+    { $found ->
+        [one] Your pictures of the defect that you found
+       *[other] Your pictures of { $count } of the { $found } defects that you found
+    } are { $why ->
         [blur] blurred by motion
         [coarse] too coarse
         [oblique] taken at too flat an angle
@@ -166,13 +170,25 @@ advice-picture-poor = Your pictures of { $count } of the { $found } defects that
         [oblique] point the nose straight at the surface
        *[other] check what the report says about each one
     }.
-advice-no-pictures = You took no picture of the { $count } defects; your best chance was at { $at }: photograph every defect.
-advice-none-found = You photographed none of the { $all } defects{ $place ->
+advice-no-pictures =
+    { $count ->
+        [one] You took no picture of the defect
+       *[other] You took no picture of the { $count } defects
+    }; your best chance was at { $at }: photograph every defect.
+advice-none-found =
+    { $all ->
+        [one] You did not photograph the defect
+       *[other] You photographed none of the { $all } defects
+    }{ $place ->
         [task] {" "}of task { $tasks }
         [tasks] {" "}of tasks { $tasks }
        *[none] {""}
     }; at { $at } you were nearest to a view of defect { $defect }: search every task to its end.
-advice-moving-pictures = You took { $count } of { $taken } pictures in motion, first at { $at }: stop before every picture.
+advice-moving-pictures =
+    { $taken ->
+        [one] You took your only picture in motion,
+       *[other] You took { $count } of { $taken } pictures in motion, first
+    } at { $at }: stop before every picture.
 advice-pictures-of-nothing = { $taken ->
         [one] Your only picture, at { $at }, shows no new defect
        *[other] { $count } of your { $taken } pictures { $count ->

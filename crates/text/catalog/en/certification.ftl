@@ -44,6 +44,7 @@ certification-unmet-task-part = task { $task } not done: { $share }% of its path
 certification-unmet-task-not-attempted = task { $task } not attempted
 certification-unmet-landing = not landed at home
 certification-unmet-battery = { $battery } battery at landing, { $needed }% needed
+certification-unmet-one-contact = 1 contact, at most { $limit } allowed
 certification-unmet-contacts = { $contacts } contacts, at most { $limit } allowed
 certification-unmet-contact-speed = contact at { $speed }, at most { $limit } allowed
 certification-unmet-score = { $score } { $value }, { $needed } needed
@@ -59,7 +60,14 @@ certification-picture-too-fine = too fine for this camera
 certification-job-tasks = every task flown over at least { $share }% of its path
 certification-job-landing = landed at home with at least { $battery }% battery, no person or vehicle hit
 certification-job-aids = no freezes and no rewinds, which are aids of practice
-certification-job-contacts = at most { $contacts } contacts, none faster than { $speed } m/s
+certification-job-contacts =
+    { $contacts ->
+        [one] at most { $contacts } contact
+       *[other] at most { $contacts } contacts
+    }, { $contacts ->
+        [one] not
+       *[other] none
+    } faster than { $speed } m/s
 certification-job-scores = coverage-weighted conformity at least { $conformity }, flight precision { $precision }, impact-weighted safety { $safety }, detection accuracy { $accuracy }
 certification-job-scores-without-defects = coverage-weighted conformity at least { $conformity }, flight precision { $precision }, impact-weighted safety { $safety }
 certification-job-pictures = pictures with at most { $resolution } mm/px ({ $width } of the width for a crack), { $blur } px of motion blur and { $incidence } deg of incidence

@@ -10,7 +10,11 @@ cohort-summary =
         [one] { $sessions } session
        *[other] { $sessions } sessions
     } of { $scenarios }.
-cohort-certified = Certified: { $certified } of { $sessions } sessions.
+cohort-certified =
+    Certified: { $certified } of { $sessions ->
+        [one] { $sessions } session
+       *[other] { $sessions } sessions
+    }.
 cohort-group =
     { $trainees ->
         [one] { $trainees } trainee
@@ -37,7 +41,11 @@ cohort-answer-agree = agree
 cohort-answer-neutral = neutral
 cohort-answer-disagree = disagree
 cohort-answer-strongly-disagree = strongly disagree
-cohort-answers-first = All first sessions (up to { $count } answers)
+cohort-answers-first =
+    All first sessions (up to { $count ->
+        [one] { $count } answer
+       *[other] { $count } answers
+    })
 cohort-answers-first-title = Answers from all first sessions
 cohort-answers-later = Trainees with repeat sessions: repetition { $repetition }
 cohort-answers-later-title = Answers for repetition { $repetition }
@@ -158,6 +166,11 @@ cohort-column-crashes-to = to
 cohort-pooled-rating = Overall score (% of maximum) by self-rating (5 is best)
 cohort-pooled-rating-title = Measured score by self-rating
 cohort-pooled-rating-caption = measured score by self-rating (%)
+# Predicates of sentences about a trainee.
+cohort-contradiction-rated-too-high = rated their own performance { $own } of 5 but scored { $measured }%, which is in the bottom quarter
+cohort-contradiction-rated-too-low = rated their own performance { $own } of 5 but scored { $measured }%, which is in the top quarter
+cohort-contradiction-slow = felt no time pressure but flew for { $minutes } min, which is in the slowest quarter
+cohort-contradiction-fast = felt time pressure but flew for { $minutes } min, which is in the fastest quarter
 cohort-pooled-contradictions =
     { $count ->
         [one] { $count } contradiction is listed in contradictions.csv.
@@ -218,7 +231,11 @@ cohort-limit-few-pairs =
         [one] 1 trainee
        *[other] { $count } trainees
     } flew { $repetitions } times; with fewer than { $recommended }, a paired test can miss medium effects
-cohort-limit-imprecise = the reliability of the measures is based on { $count } trainees; with fewer than { $recommended }, it is imprecise
+cohort-limit-imprecise =
+    the reliability of the measures is based on { $count ->
+        [one] { $count } trainee
+       *[other] { $count } trainees
+    }; with fewer than { $recommended }, it is imprecise
 cohort-limit-no-reliability = no reliability of { $measure }: it has the same value in all sessions of these trainees
 cohort-limit-no-comparison = { $score }, repetition { $later } vs. { $earlier }: no test possible: { $reason }
 cohort-limit-no-homogeneity = { $score }: cannot compare the group with the other trainees: { $reason }

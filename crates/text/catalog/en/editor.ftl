@@ -24,7 +24,17 @@ editor-bridges = Bridges
 editor-tasks = Tasks
 editor-defects-to-find = Defects to find
 editor-traffic = Traffic
-editor-traffic-text = { $cars } cars, { $trucks } trucks, { $pedestrians } pedestrians
+editor-traffic-text =
+    { $cars ->
+        [one] { $cars } car
+       *[other] { $cars } cars
+    }, { $trucks ->
+        [one] { $trucks } truck
+       *[other] { $trucks } trucks
+    }, { $pedestrians ->
+        [one] { $pedestrians } pedestrian
+       *[other] { $pedestrians } pedestrians
+    }
 editor-wind = Wind
 editor-wind-text = { $speed } m/s from { $from }°
 editor-speed-limit = Speed limit
@@ -78,7 +88,17 @@ editor-rules-no-staircase = Difficulty does not adapt.
 editor-rules-staircase = Difficulty adapts: { $up } harder after a session that met the criterion, { $down } easier after any other.
 editor-rules-own = The rules determine which scenarios the training plans on this server recommend. This server uses its own rules.
 editor-rules-shipped = The rules determine which scenarios the training plans on this server recommend. This server uses the shipped rules.
-editor-rules-summary = { $rules } rules, criteria for { $drills } drills. A drill is done after { $needed } of { $of } sessions at its criterion.
+editor-rules-summary =
+    { $rules ->
+        [one] { $rules } rule
+       *[other] { $rules } rules
+    }, criteria for { $drills ->
+        [one] { $drills } drill
+       *[other] { $drills } drills
+    }. A drill is done after { $needed } of { $of ->
+        [one] { $of } session
+       *[other] { $of } sessions
+    } at its criterion.
 editor-rules-toml = Rules (TOML)
 editor-rules-upload = Upload
 editor-rules-reset = Shipped rules
@@ -100,7 +120,7 @@ editor-discard = Discard changes
 editor-back = Back
 editor-new-name = New name
 editor-save-as = Save as
-editor-file-note = The form changes this text and keeps its comments. Lessons, forms, difficulty levels and placed defects have no form: edit them here.
+editor-file-note = The form changes this text and keeps its comments. Lessons, forms and difficulty levels have no form: edit them here.
 editor-scenario-toml = Scenario (TOML)
 editor-preview = Preview
 editor-stale = The drawings show the last valid version.

@@ -21,9 +21,21 @@ live-wind = Wind at the drone
 live-wind-now = { $speed } m/s from { $direction }°
 live-wind-calm = { $speed } m/s
 live-gnss = GNSS
-live-gnss-now = { $satellites } satellites
-live-gnss-dilution = { $satellites } satellites, HDOP { $dilution }
-live-gnss-lost = No position, { $satellites } satellites
+live-gnss-now =
+    { $satellites ->
+        [one] { $satellites } satellite
+       *[other] { $satellites } satellites
+    }
+live-gnss-dilution =
+    { $satellites ->
+        [one] { $satellites } satellite
+       *[other] { $satellites } satellites
+    }, HDOP { $dilution }
+live-gnss-lost =
+    No position, { $satellites ->
+        [one] { $satellites } satellite
+       *[other] { $satellites } satellites
+    }
 live-compass = Compass
 live-compass-now = off by { $degrees }°
 live-radio = Radio margin

@@ -33,13 +33,13 @@ plan-reason-beside-the-interlayer-path = { $task }: passed { $value } of the pat
 plan-reason-beside-the-pier-circle = { $task }: passed { $value } of the path without being on it. Practice circling while turning.
 plan-reason-poor-altitude-hold = { $task }: while off the path, { $value } too high or too low on average. Practice holding altitude.
 plan-reason-crashes-in-several-tasks = Crashes in { $task }. Practice keeping your distance from the structure.
-plan-reason-crashes-along-the-slab = { $task }: { $value } crashes. Practice keeping your distance while flying a straight line.
-plan-reason-crashes-under-the-arch = { $task }: { $value } crashes. Practice the curve under the arch.
-plan-reason-crashes-in-the-interlayer = { $task }: { $value } crashes. Practice flying in tight spaces.
-plan-reason-crashes-at-the-pier = { $task }: { $value } crashes. Practice circling close to the water.
-plan-reason-crashes-between-the-tasks = { $value } crashes into a bridge on the way between tasks. Practice transits: climb clear first, then cross.
-plan-reason-crashes-into-ground = { $value } crashes into the ground outside the tasks. Practice leaving the pad and returning.
-plan-reason-crashes-into-water = { $value } crashes into the water. Practice holding altitude.
+plan-reason-crashes-along-the-slab = Crashes in { $task }: { $value }. Practice keeping your distance while flying a straight line.
+plan-reason-crashes-under-the-arch = Crashes in { $task }: { $value }. Practice the curve under the arch.
+plan-reason-crashes-in-the-interlayer = Crashes in { $task }: { $value }. Practice flying in tight spaces.
+plan-reason-crashes-at-the-pier = Crashes in { $task }: { $value }. Practice circling close to the water.
+plan-reason-crashes-between-the-tasks = Crashes into a bridge on the way between tasks: { $value }. Practice transits: climb clear first, then cross.
+plan-reason-crashes-into-ground = Crashes into the ground outside the tasks: { $value }. Practice leaving the pad and returning.
+plan-reason-crashes-into-water = Crashes into the water: { $value }. Practice holding altitude.
 plan-reason-several-tasks-not-attempted = { $task } were not flown. The practice job is shorter: fly every task to its end.
 plan-reason-several-paths-partly-flown = In { $task }, a fifth or more of the path was not flown. The practice job is shorter: fly every path to its end.
 plan-reason-slab-not-attempted = { $task } was not flown. Start with its drill, a straight line along a surface.
@@ -53,7 +53,7 @@ plan-reason-pier-partly-flown = { $task }: { $value } of the path was not flown.
 plan-reason-lamp-off = { $task }: the lamp was off for { $value } of the time. Switch it on in the shade.
 plan-reason-poor-framing-in-several-tasks = In { $task }, the camera pointed away from the surface. Practice keeping the surface in the frame.
 plan-reason-poor-framing = { $task }: the camera pointed away from the surface by { $value } beyond the tolerance. Practice keeping the surface in the frame.
-plan-reason-crashes-at-a-member = { $task }: { $value } crashes. Practice keeping your distance from the member.
+plan-reason-crashes-at-a-member = Crashes in { $task }: { $value }. Practice keeping your distance from the member.
 plan-reason-beside-a-member-path = { $task }: passed { $value } of the path without being on it. Practice following the member.
 plan-reason-off-a-member-path = { $task }: off the path for { $value } of the time, { $axis }. Practice following the member.
 plan-reason-too-fast-along-a-member = { $task }: over the speed limit for { $value } of the time, up to { $fastest }. Practice flying at a slow, steady speed.
@@ -93,7 +93,11 @@ plan-drill-open = This drill is not done yet: { $progress }.
 plan-latest-incomplete = The latest session counts although it is not complete ({ $completion }). It is not compared with other sessions.
 
 # Values in the reasons.
-plan-tasks-over = { $over } of { $all } tasks
+plan-tasks-over =
+    { $over } of { $all ->
+        [one] { $all } task
+       *[other] { $all } tasks
+    }
 plan-degrees = { $value } degrees
 plan-per-minute = { $value } per minute
 plan-mainly-sideways = mainly sideways
@@ -105,7 +109,11 @@ plan-more-defects = { $count } more
 plan-and = { $first } and { $last }
 
 # Progress on a drill, with its criterion.
-plan-drill-done = done: { $met } of the last { $counted } sessions met the criterion ({ $criterion })
+plan-drill-done =
+    done: { $counted ->
+        [one] the last session met
+       *[other] { $met } of the last { $counted } sessions met
+    } the criterion ({ $criterion })
 plan-drill-not-at-standard = no session at the standard level yet; done after { $needed } of { $of } at the criterion ({ $criterion })
 plan-drill-not-flown = not flown yet; done after { $needed } of { $of } sessions at the criterion ({ $criterion })
 plan-drill-one-session = { $met } of 1 session met the criterion; done after { $needed } of { $of } ({ $criterion })

@@ -125,10 +125,21 @@ report-explain-contacts =
     }
 report-explain-grave = a person or vehicle was hit: 0 points
 report-explain-no-defects = no defects in this job
-report-explain-defects = { $found } of { $placed } defects found; { $hits } of { $taken } pictures showed a new defect
+report-explain-defects =
+    { $found } of { $placed ->
+        [one] { $placed } defect
+       *[other] { $placed } defects
+    } found; { $hits } of { $taken ->
+        [one] { $taken } picture
+       *[other] { $taken } pictures
+    } showed a new defect
 report-explain-no-tasks = no tasks in this job
 report-explain-none-attempted = no tasks attempted (the TASBID formula gives 50 points)
-report-explain-skipped = { $skipped } of { $tasks } tasks not attempted
+report-explain-skipped =
+    { $skipped } of { $tasks ->
+        [one] { $tasks } task
+       *[other] { $tasks } tasks
+    } not attempted
 report-explain-lowest = lowest on-path share: { $share }% (task { $task }); speeding for { $speeding } s
 
 ## Do better
@@ -211,7 +222,14 @@ report-column-min-clearance = minimum clearance (m)
 ## Defects
 
 report-defects-none = This job has no defects.
-report-defects-count = { $found } of { $placed } defects were found.
+report-defects-count =
+    { $found } of { $placed ->
+        [one] { $placed } defect
+       *[other] { $placed } defects
+    } { $found ->
+        [one] was
+       *[other] were
+    } found.
 report-defects-found = found
 report-defects-missed = missed
 report-defects-missed-head = Missed defects

@@ -51,8 +51,16 @@ sessions-picture = Picture { $number }
 sessions-standing-best = This is the personal best on this job.
 sessions-standing-other = Personal best on this job: { $best } of { $most }.
 sessions-standing-same = Change since last time: none.
-sessions-standing-up = Change since last time: { $points } points up.
-sessions-standing-down = Change since last time: { $points } points down.
+sessions-standing-up =
+    Change since last time: { $points ->
+        [one] { $points } point
+       *[other] { $points } points
+    } up.
+sessions-standing-down =
+    Change since last time: { $points ->
+        [one] { $points } point
+       *[other] { $points } points
+    } down.
 sessions-standing-forms = Compared are the sessions on the equally difficult forms { $forms }.
 sessions-report = Open the report
 sessions-questions-answer = Answer the questionnaire
@@ -89,7 +97,11 @@ sessions-crashes-outside =
        *[other] { $count } crashes outside the tasks.
     }
 sessions-unknown = unknown
-sessions-defects-caption = { $found } of { $placed } found; { $hits } of { $pictures } pictures showed a new defect
+sessions-defects-caption =
+    { $found } of { $placed } found; { $hits } of { $pictures ->
+        [one] { $pictures } picture
+       *[other] { $pictures } pictures
+    } showed a new defect
 sessions-defect = Defect
 sessions-found = Found
 sessions-why-not = Why the best picture did not count

@@ -50,7 +50,11 @@ web-account-changed-elsewhere = your password was changed elsewhere: log in agai
 web-account-data = My data
 web-account-progress = My progress and plan
 web-account-download = Download all my data
-web-password-length = the password has { $length } characters (allowed: { $least } to { $most })
+web-password-length =
+    the password has { $length ->
+        [one] { $length } character
+       *[other] { $length } characters
+    } (allowed: { $least } to { $most })
 web-password-weak = the password is too easy to guess; use several unrelated words
 web-password-weak-because = the password is too easy to guess ({ $reason }); use several unrelated words
 web-password-rows = Straight rows of keys are easy to guess.
@@ -92,7 +96,14 @@ web-settings-erase-days = Erase sessions and session folders older than this (da
 web-settings-erase-sure = I understand that this cannot be undone
 web-settings-erase = Erase
 web-settings-can-log-in = { $name } can now log in as { $role }.
-web-settings-erased = Erased { $sessions } sessions and { $folders } folders.
+web-settings-erased =
+    Erased { $sessions ->
+        [one] { $sessions } session
+       *[other] { $sessions } sessions
+    } and { $folders ->
+        [one] { $folders } folder
+       *[other] { $folders } folders
+    }.
 web-settings-first-administrator = the first user with a password must be an administrator: from then on, everyone must log in, and only administrators can add users
 web-settings-lock-out-role = you would lock yourself out: ask another administrator to change your role
 web-settings-lock-out = you would lock yourself out

@@ -131,7 +131,11 @@ window-paused-no-restart = An assessment cannot be restarted.
 ## Result
 
 window-result-lesson-done = Lesson done
-window-result-lesson-steps = { $done } of { $steps } steps of the lesson done
+window-result-lesson-steps =
+    { $done } of { $steps ->
+        [one] { $steps } step
+       *[other] { $steps } steps
+    } of the lesson done
 window-result-title = Flight ended
 window-result-part = { $why }. The scores cover the part you flew.
 window-result-advice = Do better next time
@@ -284,7 +288,11 @@ window-train-defects =
         [one] { $count } defect
        *[other] { $count } defects
     }
-window-train-lesson-progress = { $done } of { $steps } steps of the lesson.
+window-train-lesson-progress =
+    { $done } of { $steps ->
+        [one] { $steps } step
+       *[other] { $steps } steps
+    } of the lesson.
 window-train-not-in-assessment = Not available in an assessment.
 window-train-in-flight = A flight is in progress: end it first.
 window-train-no-window = this program was built without the window

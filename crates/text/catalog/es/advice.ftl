@@ -149,7 +149,11 @@ advice-picture-failed = { $count ->
         [thin] acérquese
        *[other] corríjalo antes de tomar la foto
     }.
-advice-picture-poor = Sus fotos de { $count } de los { $found } defectos que encontró { $why ->
+advice-picture-poor =
+    { $found ->
+        [one] Sus fotos del defecto que encontró
+       *[other] Sus fotos de { $count } de los { $found } defectos que encontró
+    } { $why ->
         [blur] están movidas
         [coarse] tienen muy poca resolución
         [oblique] se tomaron en un ángulo demasiado oblicuo
@@ -160,13 +164,25 @@ advice-picture-poor = Sus fotos de { $count } de los { $found } defectos que enc
         [oblique] apunte la nariz de frente a la superficie
        *[other] consulte lo que el informe dice de cada una
     }.
-advice-no-pictures = No tomó ninguna foto de los { $count } defectos; su mejor oportunidad fue a los { $at }: fotografíe cada defecto.
-advice-none-found = No fotografió ninguno de los { $all } defectos{ $place ->
+advice-no-pictures =
+    { $count ->
+        [one] No tomó ninguna foto del defecto
+       *[other] No tomó ninguna foto de los { $count } defectos
+    }; su mejor oportunidad fue a los { $at }: fotografíe cada defecto.
+advice-none-found =
+    { $all ->
+        [one] No fotografió el defecto
+       *[other] No fotografió ninguno de los { $all } defectos
+    }{ $place ->
         [task] {" "}de la tarea { $tasks }
         [tasks] {" "}de las tareas { $tasks }
        *[none] {""}
     }; a los { $at } estuvo más cerca de ver el defecto { $defect }: busque en cada tarea hasta el final.
-advice-moving-pictures = Tomó { $count } de { $taken } fotos en movimiento, la primera a los { $at }: deténgase antes de cada foto.
+advice-moving-pictures =
+    { $taken ->
+        [one] Tomó su única foto en movimiento,
+       *[other] Tomó { $count } de { $taken } fotos en movimiento, la primera
+    } a los { $at }: deténgase antes de cada foto.
 advice-pictures-of-nothing = { $taken ->
         [one] Su única foto, a los { $at }, no muestra ningún defecto nuevo
        *[other] { $count } de sus { $taken } fotos { $count ->

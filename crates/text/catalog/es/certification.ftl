@@ -38,6 +38,7 @@ certification-unmet-task-part = tarea { $task } no terminada: { $share }% de su 
 certification-unmet-task-not-attempted = tarea { $task } no iniciada
 certification-unmet-landing = no se aterrizó en la base
 certification-unmet-battery = { $battery } de batería al aterrizar, se requiere { $needed }%
+certification-unmet-one-contact = 1 contacto, se permiten como máximo { $limit }
 certification-unmet-contacts = { $contacts } contactos, se permiten como máximo { $limit }
 certification-unmet-contact-speed = contacto a { $speed }, se permite como máximo { $limit }
 certification-unmet-score = { $score } { $value }, se requiere { $needed }
@@ -51,7 +52,11 @@ certification-picture-too-fine = demasiado fino para esta cámara
 certification-job-tasks = cada tarea recorrida en al menos { $share }% de su trayectoria
 certification-job-landing = aterrizaje en la base con al menos { $battery }% de batería, sin colisiones con personas ni vehículos
 certification-job-aids = sin congelar ni rebobinar, que son ayudas de práctica
-certification-job-contacts = como máximo { $contacts } contactos, ninguno a más de { $speed } m/s
+certification-job-contacts =
+    { $contacts ->
+        [one] como máximo { $contacts } contacto, no
+       *[other] como máximo { $contacts } contactos, ninguno
+    } a más de { $speed } m/s
 certification-job-scores = conformidad ponderada por cobertura de al menos { $conformity }, precisión de vuelo { $precision }, seguridad ponderada por impacto { $safety }, exactitud de detección { $accuracy }
 certification-job-scores-without-defects = conformidad ponderada por cobertura de al menos { $conformity }, precisión de vuelo { $precision }, seguridad ponderada por impacto { $safety }
 certification-job-pictures = fotos con un máximo de { $resolution } mm/px ({ $width } del ancho en una fisura), { $blur } px de desenfoque por movimiento y { $incidence }° de incidencia

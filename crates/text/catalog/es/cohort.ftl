@@ -10,7 +10,11 @@ cohort-summary =
         [one] { $sessions } sesión
        *[other] { $sessions } sesiones
     } de { $scenarios }.
-cohort-certified = Certificadas: { $certified } de { $sessions } sesiones.
+cohort-certified =
+    Certificadas: { $certified } de { $sessions ->
+        [one] { $sessions } sesión
+       *[other] { $sessions } sesiones
+    }.
 cohort-group =
     { $trainees ->
         [one] { $trainees } alumno voló
@@ -37,7 +41,11 @@ cohort-answer-agree = de acuerdo
 cohort-answer-neutral = neutral
 cohort-answer-disagree = en desacuerdo
 cohort-answer-strongly-disagree = totalmente en desacuerdo
-cohort-answers-first = Todas las primeras sesiones (hasta { $count } respuestas)
+cohort-answers-first =
+    Todas las primeras sesiones (hasta { $count ->
+        [one] { $count } respuesta
+       *[other] { $count } respuestas
+    })
 cohort-answers-first-title = Respuestas de todas las primeras sesiones
 cohort-answers-later = Alumnos con sesiones repetidas: repetición { $repetition }
 cohort-answers-later-title = Respuestas de la repetición { $repetition }
@@ -158,6 +166,10 @@ cohort-column-crashes-to = a
 cohort-pooled-rating = Puntuación total (% del máximo) por autoevaluación (5 es lo mejor)
 cohort-pooled-rating-title = Puntuación medida por autoevaluación
 cohort-pooled-rating-caption = puntuación medida por autoevaluación (%)
+cohort-contradiction-rated-too-high = valoró su propio desempeño con { $own } de 5, pero obtuvo el { $measured } %, en el cuarto inferior
+cohort-contradiction-rated-too-low = valoró su propio desempeño con { $own } de 5, pero obtuvo el { $measured } %, en el cuarto superior
+cohort-contradiction-slow = no sintió presión de tiempo, pero voló { $minutes } min, en el cuarto más lento
+cohort-contradiction-fast = sintió presión de tiempo, pero voló solo { $minutes } min, en el cuarto más rápido
 cohort-pooled-contradictions =
     { $count ->
         [one] { $count } contradicción figura en contradictions.csv.
@@ -218,7 +230,11 @@ cohort-limit-few-pairs =
         [one] 1 alumno voló
        *[other] { $count } alumnos volaron
     } { $repetitions } veces; con menos de { $recommended }, una prueba pareada puede pasar por alto efectos medianos
-cohort-limit-imprecise = la fiabilidad de las medidas se basa en { $count } alumnos; con menos de { $recommended } es imprecisa
+cohort-limit-imprecise =
+    la fiabilidad de las medidas se basa en { $count ->
+        [one] { $count } alumno
+       *[other] { $count } alumnos
+    }; con menos de { $recommended } es imprecisa
 cohort-limit-no-reliability = sin fiabilidad de { $measure }: tiene el mismo valor en todas las sesiones de estos alumnos
 cohort-limit-no-comparison = { $score }, repetición { $later } frente a { $earlier }: no es posible ninguna prueba: { $reason }
 cohort-limit-no-homogeneity = { $score }: no se puede comparar el grupo con los demás alumnos: { $reason }

@@ -17,9 +17,21 @@ live-wind = Viento en el dron
 live-wind-now = { $speed } m/s desde { $direction }°
 live-wind-calm = { $speed } m/s
 live-gnss = GNSS
-live-gnss-now = { $satellites } satélites
-live-gnss-dilution = { $satellites } satélites, HDOP { $dilution }
-live-gnss-lost = Sin posición, { $satellites } satélites
+live-gnss-now =
+    { $satellites ->
+        [one] { $satellites } satélite
+       *[other] { $satellites } satélites
+    }
+live-gnss-dilution =
+    { $satellites ->
+        [one] { $satellites } satélite
+       *[other] { $satellites } satélites
+    }, HDOP { $dilution }
+live-gnss-lost =
+    Sin posición, { $satellites ->
+        [one] { $satellites } satélite
+       *[other] { $satellites } satélites
+    }
 live-compass = Brújula
 live-compass-now = desviada { $degrees }°
 live-radio = Margen de radio

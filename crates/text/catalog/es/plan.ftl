@@ -89,7 +89,11 @@ plan-job-unfinished = No destaca ninguna debilidad, pero el trabajo no se termin
 plan-drill-open = Este ejercicio aún no está terminado: { $progress }.
 plan-latest-incomplete = La última sesión cuenta aunque no está completa ({ $completion }). No se compara con otras sesiones.
 
-plan-tasks-over = { $over } de { $all } tareas
+plan-tasks-over =
+    { $over } de { $all ->
+        [one] { $all } tarea
+       *[other] { $all } tareas
+    }
 plan-degrees = { $value } grados
 plan-per-minute = { $value } veces por minuto
 plan-mainly-sideways = sobre todo hacia los lados
@@ -100,7 +104,11 @@ plan-missed-defect = defecto { $defect } ({ $kind }, estado de condición { $sta
 plan-more-defects = { $count } más
 plan-and = { $first } y { $last }
 
-plan-drill-done = terminado: { $met } de las últimas { $counted } sesiones cumplieron el criterio ({ $criterion })
+plan-drill-done =
+    terminado: { $counted ->
+        [one] la última sesión cumplió
+       *[other] { $met } de las últimas { $counted } sesiones cumplieron
+    } el criterio ({ $criterion })
 plan-drill-not-at-standard = aún no hay sesiones en el nivel estándar; se termina con { $needed } de { $of } que cumplan el criterio ({ $criterion })
 plan-drill-not-flown = aún no volado; se termina con { $needed } de { $of } sesiones que cumplan el criterio ({ $criterion })
 plan-drill-one-session = { $met } de 1 sesión cumplió el criterio; se termina con { $needed } de { $of } ({ $criterion })

@@ -125,10 +125,30 @@ report-explain-contacts =
     }
 report-explain-grave = colisión con una persona o un vehículo: 0 puntos
 report-explain-no-defects = este trabajo no tiene defectos
-report-explain-defects = { $found } de { $placed } defectos encontrados; { $hits } de { $taken } fotos mostraron un defecto nuevo
+report-explain-defects =
+    { $found } de { $placed ->
+        [one] { $placed } defecto
+       *[other] { $placed } defectos
+    } { $found ->
+        [one] encontrado
+       *[other] encontrados
+    }; { $hits } de { $taken ->
+        [one] { $taken } foto
+       *[other] { $taken } fotos
+    } { $hits ->
+        [one] mostró
+       *[other] mostraron
+    } un defecto nuevo
 report-explain-no-tasks = este trabajo no tiene tareas
 report-explain-none-attempted = ninguna tarea iniciada (la fórmula TASBID da 50 puntos)
-report-explain-skipped = { $skipped } de { $tasks } tareas no iniciadas
+report-explain-skipped =
+    { $skipped } de { $tasks ->
+        [one] { $tasks } tarea
+       *[other] { $tasks } tareas
+    } { $skipped ->
+        [one] no iniciada
+       *[other] no iniciadas
+    }
 report-explain-lowest = menor porcentaje en la trayectoria: { $share }% (tarea { $task }); exceso de velocidad durante { $speeding } s
 
 ## Do better
@@ -211,7 +231,14 @@ report-column-min-clearance = separación mínima (m)
 ## Defects
 
 report-defects-none = Este trabajo no tiene defectos.
-report-defects-count = Se encontraron { $found } de { $placed } defectos.
+report-defects-count =
+    { $found ->
+        [one] Se encontró
+       *[other] Se encontraron
+    } { $found } de { $placed ->
+        [one] { $placed } defecto
+       *[other] { $placed } defectos
+    }.
 report-defects-found = encontrado
 report-defects-missed = omitido
 report-defects-missed-head = Defectos omitidos

@@ -45,8 +45,16 @@ sessions-picture = Foto { $number }
 sessions-standing-best = Esta es la mejor puntuación personal en este trabajo.
 sessions-standing-other = Mejor puntuación personal en este trabajo: { $best } de { $most }.
 sessions-standing-same = Cambio desde la última vez: ninguno.
-sessions-standing-up = Cambio desde la última vez: { $points } puntos más.
-sessions-standing-down = Cambio desde la última vez: { $points } puntos menos.
+sessions-standing-up =
+    Cambio desde la última vez: { $points ->
+        [one] { $points } punto
+       *[other] { $points } puntos
+    } más.
+sessions-standing-down =
+    Cambio desde la última vez: { $points ->
+        [one] { $points } punto
+       *[other] { $points } puntos
+    } menos.
 sessions-standing-forms = Se comparan las sesiones con las variantes { $forms }, de igual dificultad.
 sessions-report = Abrir el informe
 sessions-questions-answer = Responder el cuestionario
@@ -83,7 +91,14 @@ sessions-crashes-outside =
        *[other] { $count } colisiones fuera de las tareas.
     }
 sessions-unknown = desconocido
-sessions-defects-caption = { $found } de { $placed } encontrados; { $hits } de { $pictures } fotos mostraron un defecto nuevo
+sessions-defects-caption =
+    { $found } de { $placed } encontrados; { $hits } de { $pictures ->
+        [one] { $pictures } foto
+       *[other] { $pictures } fotos
+    } { $hits ->
+        [one] mostró
+       *[other] mostraron
+    } un defecto nuevo
 sessions-defect = Defecto
 sessions-found = Encontrado
 sessions-why-not = Por qué la mejor foto no contó

@@ -44,7 +44,11 @@ web-account-changed-elsewhere = Su contraseña se cambió en otro lugar: inicie 
 web-account-data = Mis datos
 web-account-progress = Mi progreso y plan
 web-account-download = Descargar todos mis datos
-web-password-length = La contraseña tiene { $length } caracteres (permitido: de { $least } a { $most }).
+web-password-length =
+    La contraseña tiene { $length ->
+        [one] { $length } carácter
+       *[other] { $length } caracteres
+    } (permitido: de { $least } a { $most }).
 web-password-weak = La contraseña es demasiado fácil de adivinar; use varias palabras sin relación entre sí.
 web-password-weak-because = La contraseña es demasiado fácil de adivinar ({ $reason }); use varias palabras sin relación entre sí.
 web-password-rows = Las filas de teclas son fáciles de adivinar.

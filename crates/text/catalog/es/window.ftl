@@ -128,7 +128,14 @@ window-paused-no-restart = Una evaluación no se puede reiniciar.
 ## Result
 
 window-result-lesson-done = Lección terminada
-window-result-lesson-steps = { $done } de { $steps } pasos de la lección terminados
+window-result-lesson-steps =
+    { $done } de { $steps ->
+        [one] { $steps } paso
+       *[other] { $steps } pasos
+    } de la lección { $done ->
+        [one] terminado
+       *[other] terminados
+    }
 window-result-title = Vuelo terminado
 window-result-part = { $why }. La puntuación corresponde a la parte que voló.
 window-result-advice = Qué mejorar la próxima vez
@@ -278,7 +285,11 @@ window-train-defects =
         [one] { $count } defecto
        *[other] { $count } defectos
     }
-window-train-lesson-progress = { $done } de { $steps } pasos de la lección.
+window-train-lesson-progress =
+    { $done } de { $steps ->
+        [one] { $steps } paso
+       *[other] { $steps } pasos
+    } de la lección.
 window-train-not-in-assessment = No disponible en una evaluación.
 window-train-in-flight = Hay un vuelo en curso: termínelo primero.
 window-train-no-window = este programa se compiló sin la ventana

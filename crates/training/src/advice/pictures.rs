@@ -75,14 +75,14 @@ pub(super) fn poor(scan: &FlightScan<'_>, lacked: &str) -> Option<Sentence> {
         "incidence" => "oblique",
         _ => "other",
     };
-    let (count, found, at) = (count.to_string(), found.to_string(), clock(scan.t_s(frame)));
+    let at = clock(scan.t_s(frame));
     Some((text!(scan.language, "advice-picture-poor", count = count, found = found, why = why, at = at), frame))
 }
 
 pub(super) fn none_taken(scan: &FlightScan<'_>) -> Option<Sentence> {
     let (missed, _) = counts(scan, |_| true);
     let chance = best_chance(scan, |_| true)?;
-    let (count, at) = (missed.len().to_string(), clock(chance.t_s));
+    let (count, at) = (missed.len(), clock(chance.t_s));
     let words = text!(scan.language, "advice-no-pictures", count = count, at = at);
     Some((words, scan.frame_at(chance.t_s)))
 }
@@ -93,7 +93,7 @@ pub(super) fn none_found(scan: &FlightScan<'_>, ids: &[u32]) -> Option<Sentence>
     let missed: Vec<u32> = scan.evidence.record.defects.iter().filter(at_task).map(|defect| defect.id).collect();
     let chance = best_chance(scan, |id| missed.contains(&id))?;
     let Place { kind, tasks } = Place::of(scan, ids);
-    let (all, defect, at) = (missed.len().to_string(), chance.id.to_string(), clock(chance.t_s));
+    let (all, defect, at) = (missed.len(), chance.id.to_string(), clock(chance.t_s));
     let words = text!(scan.language, "advice-none-found", all = all, place = kind, tasks = tasks, defect = defect, at = at);
     Some((words, scan.frame_at(chance.t_s)))
 }
@@ -103,7 +103,7 @@ pub(super) fn in_motion(scan: &FlightScan<'_>) -> Option<Sentence> {
     let taken: Vec<usize> = (0..scan.frames().len()).filter(|frame| scan.frames()[*frame].snapshot).collect();
     let moving: Vec<usize> = taken.iter().copied().filter(|frame| is_in_motion(&scan.frames()[*frame])).collect();
     let first = *moving.first()?;
-    let (count, taken, at) = (moving.len().to_string(), taken.len().to_string(), clock(scan.t_s(first)));
+    let (count, taken, at) = (moving.len(), taken.len(), clock(scan.t_s(first)));
     Some((text!(scan.language, "advice-moving-pictures", count = count, taken = taken, at = at), first))
 }
 

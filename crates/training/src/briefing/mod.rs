@@ -109,7 +109,7 @@ fn speed_words(scenario: &Scenario, language: Language) -> String {
 }
 
 fn defects_words(scenario: &Scenario, language: Language) -> String {
-    match scenario.defects.count {
+    match scenario.defects.number() {
         0 => text!(language, "briefing-no-defects"),
         count => text!(language, "briefing-defects-to-find", count = count.to_string()),
     }
@@ -160,7 +160,7 @@ fn traffic_words(scenario: &Scenario, language: Language) -> String {
 fn counts(scenario: &Scenario, language: Language) -> Vec<String> {
     let mut lines =
         vec![text!(language, "briefing-conformity"), text!(language, "briefing-efficiency"), text!(language, "briefing-safety")];
-    if scenario.defects.count > 0 {
+    if scenario.defects.number() > 0 {
         lines.push(text!(language, "briefing-accuracy"));
     }
     let requirements = requirements::describe(scenario, language);

@@ -1,5 +1,6 @@
 //! A cohort's questionnaire answers: answer counts per question and a comparison with measured scores.
 
+use super::contradiction::{Contradiction, ContradictionKind};
 use super::reliability::{MeasureReliability, reliability_of};
 use super::samples::{FLIGHT_TIME, OVERALL, SessionsByTrainee};
 use crate::questionnaire::{InspectionPhase, OverallItem, PhaseAspect, QuestionnaireItem, STRONGLY_AGREE, STRONGLY_DISAGREE};
@@ -54,15 +55,6 @@ pub struct SelfRatingPair {
     pub self_rating: f64,
     /// Overall score, % of the maximum.
     pub measured_pct: f64,
-}
-
-/// A contradiction between a trainee's answers and measurements.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Contradiction {
-    /// Trainee's pseudonym.
-    pub trainee: String,
-    /// Description for the report.
-    pub words: String,
 }
 
 pub fn likert(first_sessions: &[&SessionRecord], group: &SessionsByTrainee<'_>, repetitions: usize) -> Vec<AnswerDistribution> {
@@ -156,14 +148,14 @@ fn contradictions(
     if let Some((low, high)) = ends(people.iter().map(|pair| pair.measured_pct).collect(), score_margin) {
         for pair in people {
             let (own, measured) = (pair.self_rating, pair.measured_pct);
-            let words = if own >= MIN_GOOD_SELF_RATING && measured < low {
-                format!("rated their own performance {own:.1} of 5 but scored {measured:.0}%, which is in the bottom quarter")
+            let kind = if own >= MIN_GOOD_SELF_RATING && measured < low {
+                ContradictionKind::RatedTooHigh { own, measured_pct: measured }
             } else if own < MIN_GOOD_SELF_RATING && measured > high {
-                format!("rated their own performance {own:.1} of 5 but scored {measured:.0}%, which is in the top quarter")
+                ContradictionKind::RatedTooLow { own, measured_pct: measured }
             } else {
                 continue;
             };
-            found.push(Contradiction { trainee: pair.trainee.clone(), words });
+            found.push(Contradiction { trainee: pair.trainee.clone(), kind });
         }
     }
     let time_margin = error(FLIGHT_TIME).unwrap_or_default().max(PRINTED_TIME_S);
@@ -173,15 +165,15 @@ fn contradictions(
     if let Some((quick, slow)) = ends(landed.iter().map(|record| record.seconds).collect(), time_margin) {
         for record in landed {
             let Some(answer) = answer_value(record, QuestionnaireItem::Overall(OverallItem::TimePressure)) else { continue };
-            let minutes = record.seconds / 60.0;
-            let words = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {
-                format!("felt no time pressure but flew for {minutes:.1} min, which is in the slowest quarter")
+            let time_s = record.seconds;
+            let kind = if answer <= MAX_AGREEING_ANSWER && record.seconds > slow {
+                ContradictionKind::SlowWithoutPressure { time_s }
             } else if answer > MAX_AGREEING_ANSWER + 1 && record.seconds < quick {
-                format!("felt time pressure but flew for {minutes:.1} min, which is in the fastest quarter")
+                ContradictionKind::FastUnderPressure { time_s }
             } else {
                 continue;
             };
-            found.push(Contradiction { trainee: record.trainee.clone(), words });
+            found.push(Contradiction { trainee: record.trainee.clone(), kind });
         }
     }
     found

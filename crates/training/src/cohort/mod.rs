@@ -5,6 +5,7 @@
 mod answers;
 mod causal;
 pub mod columns;
+mod contradiction;
 mod details;
 mod learning;
 mod limitation;
@@ -15,8 +16,9 @@ mod samples;
 mod scores;
 mod tables;
 
-pub use answers::{AnswerDistribution, Contradiction, SelfRating, SelfRatingPair};
+pub use answers::{AnswerDistribution, SelfRating, SelfRatingPair};
 pub use causal::{IndirectEffect, MediationModel};
+pub use contradiction::{Contradiction, ContradictionKind};
 pub use details::{TaskDetail, crash_key};
 pub use learning::GroupCurve;
 pub use limitation::Limitation;

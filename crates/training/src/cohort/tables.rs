@@ -266,7 +266,8 @@ fn self_rating(cohort: &Cohort) -> String {
 
 fn contradictions(cohort: &Cohort) -> String {
     let found = cohort.self_rating.contradictions.iter();
-    CsvWriter::new(&["trainee", "words"]).rows(found.map(|one| vec![text(&one.trainee), text(&one.words)]))
+    CsvWriter::new(&["trainee", "words"])
+        .rows(found.map(|one| vec![text(&one.trainee), text(&one.kind.words(Language::English))]))
 }
 
 fn causal(cohort: &Cohort) -> String {

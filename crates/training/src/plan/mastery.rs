@@ -42,7 +42,7 @@ impl DrillProgress {
         let [met, counted, needed, of] = [self.met, self.counted, self.needed, self.of].map(|count| count.to_string());
         let criterion = self.criterion.as_str();
         match (self.done, self.counted) {
-            (true, _) => text!(language, "plan-drill-done", met = met, counted = counted, criterion = criterion),
+            (true, _) => text!(language, "plan-drill-done", met = met, counted = self.counted, criterion = criterion),
             (false, 0) if self.sessions > 0 => {
                 text!(language, "plan-drill-not-at-standard", needed = needed, of = of, criterion = criterion)
             }

@@ -44,7 +44,7 @@ fn values(finding: &Finding<'_>, language: Language) -> ReasonValues {
     ReasonValues {
         task: match finding.task {
             Some(task) => task_title(&finding.record.scenario, &task.name, language),
-            None => text!(language, "plan-tasks-over", over = over.to_string(), all = all.to_string()),
+            None => text!(language, "plan-tasks-over", over = over, all = all),
         },
         value: displayed_value(rule.measure, finding.value, rule.limit, language),
         axis: finding.task.map_or_else(String::new, |task| deviation_direction(task, language)),

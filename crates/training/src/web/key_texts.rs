@@ -57,7 +57,12 @@ static VALUES: LazyLock<SentenceTable> = LazyLock::new(|| {
 /// Returns the allowed values of a key. Words of the file format stay.
 #[must_use]
 pub fn allowed_words(language: Language, allowed: &str) -> String {
-    VALUES.translate(allowed, language).unwrap_or_else(|| allowed.to_owned())
+    translated_allowed(language, allowed).unwrap_or_else(|| allowed.to_owned())
+}
+
+/// Returns the allowed values of a key; `None` if they contain no words, or none that are in the catalog.
+pub(super) fn translated_allowed(language: Language, allowed: &str) -> Option<String> {
+    VALUES.translate(allowed, language)
 }
 
 /// Returns the default of a key. Values and words of the file format stay.

@@ -5,7 +5,7 @@ use spandrel_mavlink::dialect::MavMessage;
 use spandrel_mavlink::telemetry::GnssReport;
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
-use spandrel_text::{Language, text};
+use spandrel_text::{Language, Value, text};
 
 /// Dilution of precision of GPS_RAW_INT that means that it is unknown.
 const UNKNOWN_DILUTION: u16 = u16::MAX;
@@ -63,7 +63,7 @@ impl HazardState {
     /// Returns the satellites and the dilution of precision, or that there is no position.
     pub(super) fn gnss(&self, language: Language) -> Option<String> {
         let (report, dilution) = self.gnss?;
-        let satellites = report.satellites.map_or_else(|| "?".to_owned(), |count| count.to_string());
+        let satellites: Value = report.satellites.map_or_else(|| "?".into(), |count| count.into());
         Some(match dilution.filter(|_| report.has_fix) {
             _ if !report.has_fix => text!(language, "live-gnss-lost", satellites = satellites),
             Some(dilution) => {

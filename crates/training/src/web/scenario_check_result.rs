@@ -1,8 +1,10 @@
 //! Checks the text in the scenario editor: applies the edits, lists all problems and draws the preview.
 
+use super::placed_defects;
+use super::problem_words::ProblemWords;
 use super::scenario_fields::{fields, input_texts};
 use super::scenario_form::ScenarioForm;
-use crate::report::plots::job::{editor_plan, job_side, job_south};
+use crate::report::plots::job::{editor_plan, editor_side, job_south};
 use crate::report::plots::site_picture::site_picture;
 use crate::scenario_check::{CheckOptions, Findings, ScenarioText, check_forms, check_levels, check_scenario};
 use maud::{Markup, html};
@@ -24,6 +26,8 @@ pub struct CheckedScenario {
     pub preview: Option<Markup>,
     /// Message about an edit that could not be applied.
     pub rejected: Option<String>,
+    /// Words about a defect that was placed, or the reason why it was not; `None` if there was none to place.
+    pub placement: Option<Result<String, String>>,
 }
 
 /// Checks a text. `file` is the name in messages; `siblings` loads the files that the scenario refers to.
@@ -55,7 +59,7 @@ pub fn check_text(
         findings.warnings.push(text!(language, "editor-check-too-long", file = file));
     }
     let form = ScenarioForm::read(&text);
-    CheckedScenario { text, form, findings, preview, rejected: None }
+    CheckedScenario { text, form, findings, preview, rejected: None, placement: None }
 }
 
 fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) -> Option<Markup> {
@@ -69,13 +73,13 @@ fn preview(scenario: &Scenario, options: &CheckOptions<'_>, language: Language) 
     let sides = scenario.bridges.iter().take_while(|_| (options.may_continue)());
     Some(html! {
         figure { (site_picture(scenario, &site, language)) figcaption { (text!(language, "editor-picture-caption")) } }
-        figure data-plan { (editor_plan(scenario, &site, language)) figcaption { (text!(language, "editor-plan-caption")) } }
+        figure data-plan data-drawing { (editor_plan(scenario, &site, language)) figcaption { (text!(language, "editor-plan-caption")) } }
         @if scenario.bridges.is_empty() {
             figure.wide { (scroll(&south, &job_south(scenario, &site, language))) figcaption { (south) } }
         }
         @for bridge in sides {
-            figure.wide {
-                (scroll(&side(&bridge.name), &job_side(scenario, &site, bridge, language)))
+            figure.wide data-drawing=(bridge.name) {
+                (scroll(&side(&bridge.name), &editor_side(scenario, &site, bridge, language)))
                 figcaption { (side(&bridge.name)) }
             }
         }
@@ -91,7 +95,7 @@ impl CheckedScenario {
     #[must_use]
     pub fn json(&self, language: Language, shape: &str) -> Value {
         let (shown, _) = split_displayed(&self.findings.problems);
-        let problems: Vec<Value> = shown.iter().map(|problem| self.problem_json(problem)).collect();
+        let problems: Vec<Value> = shown.iter().map(|problem| self.problem_json(language, problem)).collect();
         let own_shape = self.form.as_ref().map(form_shape);
         let fresh = self.form.as_ref().filter(|_| own_shape.as_deref() != Some(shape));
         json!({
@@ -106,10 +110,13 @@ impl CheckedScenario {
             "values": self.form.as_ref().map(input_texts),
             "preview": self.preview.as_ref().map(|preview| preview.clone().into_string()),
             "rejected": self.rejected,
+            "placed": placed_defects::list(language, &self.text).map(Markup::into_string),
+            "placement": self.placement.as_ref().map(|placement| placement_json(language, placement)),
         })
     }
 
-    fn problem_json(&self, problem: &Problem) -> Value {
+    fn problem_json(&self, language: Language, problem: &Problem) -> Value {
+        let words = ProblemWords::new(language, problem);
         let element = self.form.as_ref().and_then(|form| form.element_for(problem));
         json!({
             "line": problem.line,
@@ -117,7 +124,8 @@ impl CheckedScenario {
             "value": problem.value,
             "allowed": problem.allowed,
             "message": problem.message,
-            "text": beside_field(problem),
+            "text": words.text,
+            "lang": words.language.tag(),
             "element": element,
         })
     }
@@ -135,7 +143,7 @@ impl CheckedScenario {
         }
     }
 
-    /// Renders the lists of problems, warnings and notes, which are in English like all messages about files.
+    /// Renders the lists of problems, warnings and notes. Warnings and notes are in English, like those of `spandrel check`.
     #[must_use]
     pub fn findings_list(&self, language: Language) -> Markup {
         let Findings { problems, warnings, notes } = &self.findings;
@@ -158,24 +166,23 @@ impl CheckedScenario {
 
     fn listed(&self, language: Language, problem: &Problem) -> Markup {
         let element = self.form.as_ref().and_then(|form| form.element_for(problem));
+        let words = ProblemWords::new(language, problem);
         html! {
             @match element {
                 Some(element) => a href={ "#" (element) } data-element=(element) { code { (problem.location) } },
                 None => code { (problem.location) },
             }
             @if !problem.value.is_empty() { " = " (problem.value) }
-            ": " span lang="en" { (beside_field(problem)) } " "
+            ": " span lang=[words.own_tag(language)] { (words.text) } " "
             button.line type="button" data-line=(problem.line) { (text!(language, "editor-line", line = problem.line)) }
         }
     }
 }
 
-/// Returns the words beside a field: what is wrong and what is allowed.
-fn beside_field(problem: &Problem) -> String {
-    if problem.allowed.is_empty() {
-        problem.message.clone()
-    } else {
-        format!("{} (allowed: {})", problem.message, problem.allowed)
+fn placement_json(language: Language, placement: &Result<String, String>) -> Value {
+    match placement {
+        Ok(words) => json!({ "done": true, "text": words }),
+        Err(reason) => json!({ "done": false, "text": text!(language, "placing-not-placed", reason = reason.as_str()) }),
     }
 }
 
@@ -338,7 +345,7 @@ mod tests {
         let wrong = checked(&text, &|| true);
         assert_eq!(wrong.status(Language::German), "1 Problem.");
         let list = wrong.findings_list(Language::German).into_string();
-        assert!(list.contains("<span lang=\"en\">out of range (allowed: 0 to 360)</span>") && list.contains(">Zeile "), "{list}");
+        assert!(list.contains("<span>außerhalb des Bereichs (zulässig: 0 bis 360)</span>") && list.contains(">Zeile "), "{list}");
         assert_eq!(checked(PRACTICE, &|| true).status(Language::Spanish), "Sin problemas.");
         let stopped = checked(PRACTICE, &|| false);
         assert_eq!(stopped.status(Language::English), "No problems, 1 warning.");

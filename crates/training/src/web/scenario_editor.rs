@@ -3,6 +3,7 @@
 use super::access::Visitor;
 use super::assets::EDITOR_NAME;
 use super::layout::{Notice, page_with_script, script_texts, token};
+use super::placed_defects;
 use super::scenario_check_result::{CheckedScenario, form_shape};
 use super::scenario_fields::fields;
 use super::scenario_form::ScenarioForm;
@@ -52,7 +53,7 @@ pub fn editor_page(visitor: &Visitor, about: &EditorPage<'_>) -> Markup {
                     fieldset.plain id="fields" hidden aria-label=(text!(language, "editor-form")) { @if let Some(form) = &form { (fields(language, form)) } }
                     (file(language, about.text))
                 }
-                (preview(language, about.checked))
+                (preview(language, about))
             }
         }
     };
@@ -67,6 +68,7 @@ fn texts(language: Language) -> String {
         ("not_checked", text!(language, "editor-script-not-checked", reason = "{reason}")),
         ("no_plan", text!(language, "editor-script-no-plan")),
         ("place", text!(language, "editor-script-place")),
+        ("place_defect", text!(language, "placing-script-click")),
         ("downloaded", text!(language, "editor-script-downloaded", status = "{status}")),
     ])
 }
@@ -113,13 +115,14 @@ fn file(language: Language, text: &str) -> Markup {
     }
 }
 
-fn preview(language: Language, checked: Option<&CheckedScenario>) -> Markup {
+fn preview(language: Language, about: &EditorPage<'_>) -> Markup {
     html! {
         section.editor-preview aria-labelledby="preview-head" {
             h2 id="preview-head" { (text!(language, "editor-preview")) }
             p.message.warn id="stale" hidden { (text!(language, "editor-stale")) }
+            (placed_defects::panel(language, about.text))
             div id="preview" {
-                @match checked.and_then(|checked| checked.preview.as_ref()) {
+                @match about.checked.and_then(|checked| checked.preview.as_ref()) {
                     Some(drawings) => (drawings),
                     None => p.note { (text!(language, "editor-no-preview")) },
                 }

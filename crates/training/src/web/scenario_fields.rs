@@ -59,7 +59,7 @@ fn form_section(language: Language, section: &FormSection) -> Markup {
     html! {
         details.form-section id=(id) {
             summary data-check=(check_this(language)) { h2 { (heading) } }
-            p.field-problem id={ (id) "-problem" } lang="en" {}
+            p.field-problem id={ (id) "-problem" } {}
             (all(language, &section.main, &section.more, &id))
             @for (k, group) in section.groups.iter().enumerate() { (field_group(language, group, k, count)) }
             @if section.id == "pictures" { p.note { (text!(language, "editor-pictures-note")) } }
@@ -105,7 +105,7 @@ fn field_group(language: Language, group: &FieldGroup, k: usize, count: usize) -
     html! {
         details.group id=(id) {
             summary data-check=(check_this(language)) { (number) " · " (name) }
-            p.field-problem id={ (id) "-problem" } lang="en" {}
+            p.field-problem id={ (id) "-problem" } {}
             (all(language, &group.main, &group.more, &id))
             p.row {
                 @if can_move && k > 0 {
@@ -201,7 +201,7 @@ fn notes(language: Language, field: &Field, id: &str) -> Markup {
     let (own_language, meaning) = meaning(language, field.description);
     let own_tag = Some(own_language.tag()).filter(|_| own_language != language);
     html! {
-        p.field-problem id={ (id) "-problem" } lang="en" {}
+        p.field-problem id={ (id) "-problem" } {}
         p.note id={ (id) "-note" } {
             span lang=[own_tag] { (with_code(&meaning)) }
             span.allowed {

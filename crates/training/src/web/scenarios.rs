@@ -87,7 +87,7 @@ fn facts(language: Language, scenario: &Scenario) -> Markup {
         dl.facts {
             dt { (text!(language, "editor-bridges")) } dd { (scenario.bridges.len()) }
             dt { (text!(language, "editor-tasks")) } dd { (scenario.tasks.len()) }
-            dt { (text!(language, "editor-defects-to-find")) } dd { (scenario.defects.count) }
+            dt { (text!(language, "editor-defects-to-find")) } dd { (scenario.defects.number()) }
             dt { (text!(language, "editor-traffic")) } dd { (text!(language, "editor-traffic-text", cars = cars, trucks = trucks, pedestrians = pedestrians)) }
             dt { (text!(language, "editor-wind")) } dd { (text!(language, "editor-wind-text", speed = speed, from = from)) }
             dt { (text!(language, "editor-speed-limit")) } dd { (scoring.speed_limit_unit.format_limit(scoring.speed_limit_m_s)) }

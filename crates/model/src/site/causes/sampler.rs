@@ -168,7 +168,7 @@ impl Sampler<'_> {
         let apart = self.placed.iter().all(|other| (other.position_m - defect.position_m).norm() >= separation);
         let fits = apart
             && fits_in_face(&defect, &surface.face.at(defect.position_m), place.margin_m)
-            && is_exposed(&defect, surface.member as u32, self.context, place.margin_m)
+            && is_exposed(&defect, surface.member as u32, self.context.cast, place.margin_m)
             && find_view(&defect, task, self.context).is_some();
         fits.then(|| PlacedDefect { stain: self.stain(place, &defect, stain_draw), ..defect })
     }

@@ -44,7 +44,7 @@ impl JobTime {
 #[must_use]
 pub fn job_needed_s(scenario: &Scenario) -> f64 {
     let path_length_m = scenario.tasks.iter().map(Task::length_m).sum();
-    needed_s(scenario, path_length_m, scenario.defects.count)
+    needed_s(scenario, path_length_m, scenario.defects.number())
 }
 
 /// Returns the time in seconds that a job needs: path length over the inspection speed, plus the times

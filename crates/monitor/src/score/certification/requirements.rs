@@ -220,7 +220,12 @@ pub fn unmet(inputs: &CertificationInputs<'_>, requirements: &[Requirement]) -> 
     }
     if let Some(contacts) = open("contacts") {
         let (count, limit) = (contacts.reached_text(english), format_limit(contacts.limit));
-        unmet.push(text!(english, "certification-unmet-contacts", contacts = count, limit = limit));
+        // The sentence is stored, and later recognized by its words.
+        unmet.push(if count == "1" {
+            text!(english, "certification-unmet-one-contact", limit = limit)
+        } else {
+            text!(english, "certification-unmet-contacts", contacts = count, limit = limit)
+        });
     }
     if let Some(speed) = open("contact_speed") {
         let (reached, limit) = (speed.reached_text(english), speed.with_unit(format_limit(speed.limit), english));
@@ -249,10 +254,10 @@ pub fn describe(scenario: &Scenario, language: Language) -> Vec<String> {
         text!(language, "certification-job-tasks", share = share),
         text!(language, "certification-job-landing", battery = limit(params.min_battery_pct)),
         text!(language, "certification-job-aids"),
-        text!(language, "certification-job-contacts", contacts = params.max_contacts.to_string(), speed = speed),
+        text!(language, "certification-job-contacts", contacts = params.max_contacts, speed = speed),
     ];
     let [conformity, precision, safety] = [params.min_conformity, params.min_precision, params.min_safety].map(limit);
-    if scenario.defects.count == 0 {
+    if scenario.defects.number() == 0 {
         lines.push(text!(
             language,
             "certification-job-scores-without-defects",

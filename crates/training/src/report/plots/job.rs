@@ -4,6 +4,7 @@ use super::backdrop::{ground, lake};
 use super::map::{extent, near_bridge_data, north, pad, places, reference_paths, scale, structure, task_numbers};
 use super::plot_map::PlotMap;
 use super::{coord, svg_figure};
+use crate::terms::defect_title;
 use maud::{Markup, html};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::scenario::{Bridge, Scenario};
@@ -26,7 +27,7 @@ pub fn job_plan(scenario: &Scenario, site: &Site, language: Language) -> Markup 
     plan(scenario, site, &map, &html! {}, language)
 }
 
-/// Draws the plan view for the scenario editor: with a margin, the inspector and the truck.
+/// Draws the plan view for the scenario editor: with a margin, the inspector, the truck and the defects that the scenario places.
 #[must_use]
 pub fn editor_plan(scenario: &Scenario, site: &Site, language: Language) -> Markup {
     let team = &scenario.ground_team;
@@ -42,6 +43,7 @@ pub fn editor_plan(scenario: &Scenario, site: &Site, language: Language) -> Mark
         g.crew transform=(place(map.at(team.inspector_m))) { circle r="4" {} text.tick x="-2" y="20" { (text!(language, "plot-inspector")) } }
         g.crew transform=(place(map.at(team.truck_m))) { path d="M-7 -4H7V4H-7Z" {} text.tick x="-7" y="-10" { (text!(language, "plot-truck")) } }
         g.crew transform=(place(map.at(team.pad_m))) { text.tick x="11" y="4" { (text!(language, "plot-pad")) } }
+        (defect_marks(scenario, &map, None, language))
     };
     plan(scenario, site, &map, &marks, language)
 }
@@ -70,6 +72,35 @@ fn plan(scenario: &Scenario, site: &Site, map: &PlotMap, marks: &Markup, languag
 /// Draws the side view of one bridge.
 #[must_use]
 pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge, language: Language) -> Markup {
+    side(scenario, site, bridge, (&side_map(scenario, site, bridge), &html! {}), language)
+}
+
+/// Draws the side view of one bridge for the scenario editor: with the defects that the scenario places on it.
+#[must_use]
+pub fn editor_side(scenario: &Scenario, site: &Site, bridge: &Bridge, language: Language) -> Markup {
+    let map = side_map(scenario, site, bridge);
+    let marks = defect_marks(scenario, &map, Some(bridge), language);
+    side(scenario, site, bridge, (&map, &marks), language)
+}
+
+/// Draws the defects that the scenario places, on one bridge or on all.
+fn defect_marks(scenario: &Scenario, map: &PlotMap, bridge: Option<&Bridge>, language: Language) -> Markup {
+    let prefix = bridge.map(|bridge| format!("{}/", bridge.name)).unwrap_or_default();
+    let placed = scenario.defects.placed.iter().flatten().filter(|defect| defect.member.starts_with(&prefix));
+    html! {
+        @for defect in placed {
+            @let (x, y) = map.at(defect.position_m);
+            @let kind = defect_title(defect.kind, language);
+            g.placed-defect transform={ "translate(" (coord(x)) " " (coord(y)) ")" } {
+                title { (text!(language, "placing-mark", number = defect.id, kind = kind, state = defect.condition_state)) }
+                circle r="8" {}
+                text.mark y="4" text-anchor="middle" { (defect.id) }
+            }
+        }
+    }
+}
+
+fn side_map(scenario: &Scenario, site: &Site, bridge: &Bridge) -> PlotMap {
     let view = ParallelView::side(bridge);
     let water_m = scenario.terrain.water_level_m;
     let prefix = format!("{}/", bridge.name);
@@ -83,19 +114,24 @@ pub fn job_side(scenario: &Scenario, site: &Site, bridge: &Bridge, language: Lan
         points.push(Vec3::new(end.east(), end.north(), water_m - 4.0));
         points.push(Vec3::new(end.east(), end.north(), top_m + TOP_MARGIN_M));
     }
-    let map = PlotMap::around(view, &points);
+    PlotMap::around(view, &points)
+}
+
+fn side(scenario: &Scenario, site: &Site, bridge: &Bridge, (map, marks): (&PlotMap, &Markup), language: Language) -> Markup {
+    let prefix = format!("{}/", bridge.name);
     let title = text!(language, "plot-job-side", bridge = bridge.name.as_str());
     svg_figure(
         map.size,
         &title,
         "map",
         &html! {
-            (ground(scenario, site, &map, bridge))
-            (structure(site, &map, Some(&prefix)))
-            (reference_paths(scenario, &map, Some(&bridge.name), language))
-            (task_numbers(scenario, &map, Some(&bridge.name)))
-            (drone(&map, Some(bridge)))
-            (scale(&map))
+            (ground(scenario, site, map, bridge))
+            (structure(site, map, Some(&prefix)))
+            (reference_paths(scenario, map, Some(&bridge.name), language))
+            (task_numbers(scenario, map, Some(&bridge.name)))
+            (marks)
+            (drone(map, Some(bridge)))
+            (scale(map))
         },
     )
 }
@@ -144,6 +180,25 @@ mod tests {
         let scenario = read("job.toml", text, &|_| Err("none".into())).unwrap();
         let site = Site::build(&scenario, 1);
         (scenario, site)
+    }
+
+    /// Trainees see the drawings without these marks.
+    #[test]
+    fn exact_only_the_drawings_of_the_editor_show_placed_defects() {
+        let base = include_str!("../../../../../scenarios/two-bridges.toml");
+        let (scenario, site) = job(base);
+        let defect = site.defects()[0].clone();
+        let (text, _) = spandrel_model::scenario::edit::with_placed_defect(base, &defect).unwrap();
+        let (scenario, site) = (job(&text).0, Site::without_defects(&scenario));
+        let marks = |drawing: Markup| drawing.into_string().matches("class=\"placed-defect\"").count();
+        let language = Language::English;
+        assert_eq!(marks(editor_plan(&scenario, &site, language)), 1);
+        assert_eq!(marks(job_plan(&scenario, &site, language)), 0);
+        for bridge in &scenario.bridges {
+            let is_own = defect.member.starts_with(&format!("{}/", bridge.name));
+            assert_eq!(marks(editor_side(&scenario, &site, bridge, language)), usize::from(is_own), "{}", bridge.name);
+            assert_eq!(marks(job_side(&scenario, &site, bridge, language)), 0);
+        }
     }
 
     #[test]

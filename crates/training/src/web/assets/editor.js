@@ -12,6 +12,10 @@ const findings = document.getElementById("findings");
 const preview = document.getElementById("preview");
 const stale = document.getElementById("stale");
 const placingStatus = document.getElementById("placing");
+const placer = document.getElementById("placer");
+const placerFields = document.getElementById("placer-fields");
+const placedList = document.getElementById("placed-list");
+const placedResult = document.getElementById("placed-result");
 const texts = JSON.parse(editor.dataset.texts);
 
 // Text of the saved file; null if it was never saved.
@@ -25,7 +29,12 @@ let timer = null;
 let checking = null;
 let checkedText = null;
 let leaving = false;
-// Location of the position that the next click on the plan sets.
+// List of placed defects that the page shows.
+let shownPlaced = null;
+// Defect to place that the server has not answered yet.
+let defect = null;
+// What the next click on a drawing does: whether any drawing or only the plan takes it, the function for it, the words meanwhile and
+// the element that shows them, and the button that gets the focus.
 let placing = null;
 // Position of the caret in a field of a form that was replaced.
 let caret = null;
@@ -49,14 +58,16 @@ function checkNow() {
   checking ??= checkAll().finally(() => {
     checking = null;
     fields.inert = false;
+    placedList.inert = false;
   });
   return checking;
 }
 
 async function checkAll() {
-  while (edits.length > 0 || area.value !== checkedText) {
-    const sent = { text: area.value, edits, typed };
+  while (edits.length > 0 || defect !== null || area.value !== checkedText) {
+    const sent = { text: area.value, edits, typed, defect };
     edits = [];
+    defect = null;
     typed = new Map();
     try {
       const answer = await ask(sent);
@@ -64,7 +75,10 @@ async function checkAll() {
       if (area.value === sent.text) {
         show(answer, sent);
         if (answer.rejected !== null) return false;
-      } else edits = [...sent.edits, ...edits];
+      } else {
+        edits = [...sent.edits, ...edits];
+        defect ??= sent.defect;
+      }
     } catch (error) {
       console.error(error);
       // Fields keep their values. A change of the form's structure is repeated with its button.
@@ -77,8 +91,9 @@ async function checkAll() {
   return true;
 }
 
-async function ask({ text, edits: list }) {
+async function ask({ text, edits: list, defect: order }) {
   const body = new URLSearchParams({ token: form.elements.token.value, opened: form.elements.opened.value, text, edits: JSON.stringify(list), shape });
+  if (order !== null) body.append("defect", JSON.stringify(order));
   const answer = await fetch("/scenario-editor/check", { method: "POST", body, headers: { Accept: "application/json" }, redirect: "manual" });
   if (!answer.ok) {
     const words = answer.status ? texts.not_checked_status.replace("{status}", answer.status) : texts.not_checked_login;
@@ -95,6 +110,7 @@ function show(answer, sent) {
   if (area.value !== answer.text) area.value = answer.text;
   checkedText = area.value;
   fields.disabled = answer.values === null;
+  showPlaced(answer);
   if (answer.form !== null) replaceForm(answer);
   if (answer.values !== null) showValues(answer.values);
   if (caret !== null) caret.input.setSelectionRange(caret.start, caret.end);
@@ -110,6 +126,7 @@ function show(answer, sent) {
   if (focusNext !== null && sent.edits.includes(focusNext.edit)) {
     // Nothing inert takes the focus.
     fields.inert = false;
+    placedList.inert = false;
     focusNext.move();
     focusNext = null;
   }
@@ -136,6 +153,15 @@ function showValues(values) {
   }
 }
 
+function showPlaced({ placed, placement }) {
+  placerFields.disabled = placed === null;
+  if (placed !== null && placed !== shownPlaced) placedList.innerHTML = placed;
+  shownPlaced = placed ?? shownPlaced;
+  if (placement === null) return;
+  placedResult.classList.toggle("field-problem", !placement.done);
+  say(placedResult, placement.text);
+}
+
 function setValue(input, value) {
   if (input instanceof HTMLSelectElement && ![...input.options].some((option) => option.value === value)) input.add(new Option(value, value));
   input.value = value;
@@ -143,11 +169,12 @@ function setValue(input, value) {
 
 function showProblems(problems) {
   const texts = new Map();
-  for (const { element, text } of problems) if (element !== null) texts.set(element, [...(texts.get(element) ?? []), text]);
+  for (const { element, ...words } of problems) if (element !== null) texts.set(element, [...(texts.get(element) ?? []), words]);
   for (const slot of fields.querySelectorAll(".field-problem")) {
     const id = slot.id.slice(0, -"-problem".length);
     const words = texts.get(id);
-    say(slot, words ? words.join("; ") : "");
+    say(slot, words ? words.map(({ text }) => text).join("; ") : "");
+    if (words) slot.lang = words[0].lang;
     for (const input of [document.getElementById(id), ...fields.querySelectorAll(`[id^="${CSS.escape(id)}-part-"]`)]) {
       if (!input?.dataset.field) continue;
       if (words) input.setAttribute("aria-invalid", "true");
@@ -188,16 +215,20 @@ area.addEventListener("input", checkSoon);
 fields.addEventListener("click", ({ target }) => {
   const button = target.closest("button");
   if (button === null) return;
-  if (button.dataset.place !== undefined) startPlacing(button);
-  if (button.dataset.edit !== undefined) {
-    const edit = JSON.parse(button.dataset.edit);
-    edits.push(edit);
-    focusNext = { edit, move: focusAfter(edit, button) };
-    // The other fields' places in the file change with the answer.
-    fields.inert = true;
-    checkNow();
-  }
+  if (button.dataset.place !== undefined) startPlacing({ button, set: (point) => setPosition(button, point), words: texts.place, status: placingStatus });
+  if (button.dataset.edit !== undefined) editWith(button, (edit) => focusAfter(edit, button));
 });
+
+/** Sends the edit of a button. `next` returns the function that moves the focus after the answer. */
+function editWith(button, next) {
+  const edit = JSON.parse(button.dataset.edit);
+  edits.push(edit);
+  focusNext = { edit, move: next(edit) };
+  // The other fields' places in the file change with the answer.
+  fields.inert = true;
+  placedList.inert = true;
+  checkNow();
+}
 
 /** Returns a function that moves the focus to what the edit changed. */
 function focusAfter(edit, button) {
@@ -248,38 +279,60 @@ function showLine(line) {
 
 // ---- Placing ----
 
-function startPlacing(button) {
-  placing = { location: button.dataset.place, button };
+function startPlacing(next) {
   const plan = preview.querySelector("[data-plan]");
   if (plan === null) {
-    placing = null;
-    say(placingStatus, texts.no_plan);
+    say(next.status, texts.no_plan);
     return;
   }
-  preview.classList.add("placing");
+  stopPlacing();
+  placing = next;
+  preview.classList.add(placing.anywhere ? "placing-defect" : "placing");
   plan.scrollIntoView({ block: "nearest" });
-  say(placingStatus, texts.place);
+  say(placing.status, placing.words);
 }
 
 function stopPlacing() {
+  if (placing !== null) say(placing.status, "");
   placing = null;
-  preview.classList.remove("placing");
-  say(placingStatus, "");
+  preview.classList.remove("placing", "placing-defect");
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+/** Returns the line of sight at a click on a parallel projection: a point of it, m, and the unit vector away from the viewer. */
+function lineOfSight(svg, event) {
+  const matrix = svg.querySelector("[data-matrix]").dataset.matrix.split(" ").map(Number);
+  const [right, down] = [matrix.slice(0, 3), matrix.slice(4, 7)];
+  const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+  // Both rows have the same length and are perpendicular.
+  const square = dot(right, right);
+  const [x, y] = [(at.x - matrix[3]) / square, (at.y - matrix[7]) / square];
+  const away = cross(right, down);
+  const length = Math.hypot(...away);
+  return { through_m: right.map((value, k) => value * x + down[k] * y), direction: away.map((value) => value / length) };
+}
+
+/** Sets east and north of a field to a point on the plan. */
+function setPosition(button, { through_m: point }) {
+  const parts = [...button.closest("fieldset").querySelectorAll("[data-part]")];
+  point.slice(0, 2).forEach((value, k) => {
+    parts[k].value = String(Math.round(10 * value) / 10);
+    typed.set(parts[k].id, parts[k].value);
+  });
+  if (parts[2].value.trim() === "") parts[2].value = "0";
+  change(parts[2]);
 }
 
 preview.addEventListener("click", (event) => {
-  const svg = event.target.closest("[data-plan] svg");
+  const svg = event.target.closest(placing?.anywhere ? "[data-drawing] svg" : "[data-plan] svg");
   if (placing === null || svg === null) return;
-  const [m0, m1, , m3, m4, m5, , m7] = svg.querySelector("[data-matrix]").dataset.matrix.split(" ").map(Number);
-  const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-  const [x, y, determinant] = [at.x - m3, at.y - m7, m0 * m5 - m1 * m4];
-  const places = [(x * m5 - y * m1) / determinant, (y * m0 - x * m4) / determinant].map((value) => String(Math.round(10 * value) / 10));
-  const parts = [...placing.button.closest("fieldset").querySelectorAll("[data-part]")];
-  places.forEach((value, k) => { parts[k].value = value; typed.set(parts[k].id, value); });
-  if (parts[2].value.trim() === "") parts[2].value = "0";
-  const { button } = placing;
+  const { set, button } = placing;
+  // Clearing the words moves the drawing.
+  const sight = lineOfSight(svg, event);
   stopPlacing();
-  change(parts[2]);
+  set(sight, svg.closest("[data-drawing]").dataset.drawing);
   button.focus();
 });
 
@@ -287,16 +340,68 @@ document.addEventListener("keydown", (event) => {
   if (event.key === "Escape" && placing !== null) stopPlacing();
 });
 
+// ---- Defects ----
+
+const choice = (id) => document.getElementById(id).value;
+
+/** Sends a defect with the chosen kind and size. */
+function placeDefect(place) {
+  defect = {
+    kind: Number(choice("place-kind")),
+    condition_state: Number(choice("place-state")),
+    length_m: choice("place-length"),
+    width_mm: choice("place-width"),
+    turn_deg: choice("place-turn"),
+    place,
+  };
+  say(placedResult, "");
+  checkNow();
+}
+
+document.getElementById("place-on-drawing").addEventListener("click", ({ currentTarget: button }) => {
+  placedResult.classList.remove("field-problem");
+  startPlacing({
+    button,
+    anywhere: true,
+    words: texts.place_defect,
+    status: placedResult,
+    set: ({ through_m, direction }, bridge) => {
+      const sign = choice("place-surface") === "back" ? -1 : 1;
+      placeDefect({ line: { through_m, direction: direction.map((value) => sign * value), bridge: bridge || null } });
+    },
+  });
+});
+
+document.getElementById("place-at-coordinates").addEventListener("click", () => {
+  placeDefect({ near: [0, 1, 2].map((k) => choice(`place-at-${k}`)) });
+});
+
+placedList.addEventListener("click", ({ target }) => {
+  const button = target.closest("[data-edit]");
+  if (button === null) return;
+  say(placedResult, "");
+  editWith(button, () => () => document.getElementById("placed-head").focus());
+});
+
+/** Shows the typical size in the empty fields. */
+function showTypicalSize() {
+  const [length, width] = JSON.parse(placer.dataset.typical)[choice("place-kind")][choice("place-state")];
+  document.getElementById("place-length").placeholder = length;
+  document.getElementById("place-width").placeholder = width;
+  document.getElementById("place-turn").placeholder = "0";
+}
+for (const id of ["place-kind", "place-state"]) document.getElementById(id).addEventListener("change", showTypicalSize);
+
 // ---- Saving and leaving ----
 
-const isUnsaved = () => saved === null || area.value !== saved || edits.length > 0;
+const isUnsaved = () => saved === null || area.value !== saved || edits.length > 0 || defect !== null;
 
 form.addEventListener("submit", (event) => {
   const { submitter } = event;
   if (submitter?.id === "download") {
     event.preventDefault();
     download();
-  } else if (edits.length > 0 || checking !== null) {
+  } else if (edits.length > 0 || defect !== null || checking !== null) {
     event.preventDefault();
     checkNow().then((done) => { if (done) form.requestSubmit(submitter); });
   } else {
@@ -325,6 +430,8 @@ addEventListener("beforeunload", (event) => {
 
 for (const element of document.querySelectorAll("[data-without-script]")) element.hidden = true;
 fields.hidden = false;
+placer.hidden = false;
+showTypicalSize();
 file.open = fields.childElementCount === 0;
 fields.querySelector("details")?.setAttribute("open", "");
 checkNow();

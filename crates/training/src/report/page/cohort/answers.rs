@@ -74,7 +74,7 @@ pub fn self_rating(cohort: &Cohort, language: Language) -> Markup {
             p { (text!(language, "cohort-self-rating-correlation", correlation = formatting::number(overall.r, 2), trainees = overall.n)) }
         }
         @if lists_individuals(cohort) {
-            @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.words) } } } }
+            @if !rating.contradictions.is_empty() { ul { @for one in &rating.contradictions { li { b { (one.trainee) } ": " (one.kind.words(language)) } } } }
             (folded(language, |language| self_rating_table(cohort, language)))
         } @else { (pooled::self_rating(cohort, language)) }
     }

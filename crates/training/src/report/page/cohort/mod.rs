@@ -189,7 +189,7 @@ mod tests {
             assert!(page.contains(words), "{words}");
         }
         let page = super::cohort(&of(IncompletePolicy::Exclude), Language::German);
-        assert!(page.contains("Zertifiziert: 1 von 1 Sitzungen.") && page.contains(">Vollständigkeit<"), "{page}");
+        assert!(page.contains("Zertifiziert: 1 von 1 Sitzung.") && page.contains(">Vollständigkeit<"), "{page}");
         assert!(!page.contains("mitgezählt"));
     }
 
