@@ -126,7 +126,7 @@ report-walk-before = zu Standort { $place } vor dem Abheben
 ## Air around the bridges
 
 report-air-title = Luft um die Brücken
-report-air-about = Die mittlere Luftströmung im Modell des Flugs, ohne Böen. Wirbel hinter Pfeilern und Überbauten sind gemittelt und zählen als Turbulenz.
+report-air-about = Die mittlere Luftströmung im Modell des Flugs, ohne Böen. Wirbel hinter Pfeilern und Überbauten sind gemittelt und zählen als Turbulenz. Farben und Pfeile zeigen die Geschwindigkeit in der Zeichenebene.
 report-air-wind = Um die Brücke „{ $bridge }“ wehte der freie Wind in 6 m Höhe mit { $speed } m/s aus { $from }°.
 report-air-level = Brücke „{ $bridge }“ von oben, { $height } m über dem Wasser: mittlere Höhe (Median) des Flugs an dieser Brücke
 report-air-across = Brücke „{ $bridge }“ quer zum Überbau, { $station } m von der Mitte in Richtung { $toward }°, Blick in Richtung { $heading }°

@@ -126,7 +126,7 @@ report-walk-before = to place { $place } before lift-off
 ## Air around the bridges
 
 report-air-title = Air around the bridges
-report-air-about = The mean air in the flight's own model, without gusts. Vortices behind piers and decks are averaged and count as turbulence.
+report-air-about = The mean air in the flight's own model, without gusts. Vortices behind piers and decks are averaged and count as turbulence. Colors and arrows: the speed in the plane of the drawing.
 report-air-wind = Around bridge '{ $bridge }', the free wind blew with { $speed } m/s from { $from }° at a height of 6 m.
 report-air-level = Bridge '{ $bridge }' from above, { $height } m above the water: the median height of the flight there
 report-air-across = Bridge '{ $bridge }' across the deck, { $station } m from its middle toward { $toward }°, looking toward { $heading }°

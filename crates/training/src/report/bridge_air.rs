@@ -48,8 +48,7 @@ impl<'a> BridgeAir<'a> {
         let along_m = station_m(review, bridge, &flown_m)?;
         let level = AirSection::new(AirPlane::Level, up_m, bridge, &flown_m, &mut air);
         let across = AirSection::new(AirPlane::Across, along_m, bridge, &flown_m, &mut air);
-        let speeds = level.samples().chain(across.samples()).map(|air| air.velocity_m_s.norm());
-        let speeds = SpeedScale::up_to(speeds.fold(0.0, f64::max));
+        let speeds = SpeedScale::up_to(level.speed_range_m_s().1.max(across.speed_range_m_s().1));
         Some(Self { bridge, wind: air.wind(), level, across, along_m, speeds })
     }
 }

@@ -11,7 +11,7 @@ use maud::{Markup, html};
 use spandrel_text::{Language, text};
 
 /// CSS classes of the speeds, slowest first.
-const SPEED_CLASSES: [&str; CLASSES] = ["air-0", "air-1", "air-2", "air-3", "air-4", "air-5"];
+const SPEED_CLASSES: [&str; CLASSES] = ["air-0", "air-1", "air-2", "air-3", "air-4", "air-5", "air-6", "air-7"];
 
 /// Renders the air around each bridge that was flown; empty if the bridges don't disturb the wind.
 pub fn figures(review: &Review) -> Markup {
@@ -74,7 +74,7 @@ fn bearing(degrees: f64) -> String {
 
 /// Returns a figure's caption with the range of the speeds, for screen readers.
 fn described(section: &AirSection, caption: &str, language: Language) -> String {
-    let (slowest, fastest) = spandrel_model::math::range(section.samples().map(|air| air.velocity_m_s.norm()));
+    let (slowest, fastest) = section.speed_range_m_s();
     let [slowest, fastest] = [slowest, fastest].map(|speed| formatting::number(speed, 1));
     text!(language, "plot-air", caption = caption, slowest = slowest, fastest = fastest)
 }
@@ -85,7 +85,7 @@ fn speed_legend(air: &BridgeAir, language: Language) -> Markup {
         let [low, high] = [low, high].map(|limit| formatting::number(limit, air.speeds.digits()));
         (*css, text!(language, "plot-legend-air-speed", low = low, high = high))
     };
-    let fastest = air.level.samples().chain(air.across.samples()).map(|air| air.velocity_m_s.norm()).fold(0.0, f64::max);
+    let fastest = air.level.speed_range_m_s().1.max(air.across.speed_range_m_s().1);
     let used = air.speeds.class(fastest) + 1;
     legend(&SPEED_CLASSES.iter().enumerate().take(used).map(entry).collect::<Vec<_>>())
 }

@@ -1,4 +1,4 @@
-//! The mean air around a bridge in a plane: its speed as color, its direction as arrows, and where the bridge makes it turbulent, with the
+//! The mean air around a bridge in a plane: its speed in the plane as color, its direction as arrows, and where the bridge makes it turbulent, with the
 //! structure that the plane cuts, the flown path, and the places where the air was disturbed most.
 
 use super::colors::plain_color;
@@ -19,9 +19,9 @@ use spandrel_model::site::section_cut::{SectionCut, section_cut};
 use spandrel_text::{Language, text};
 
 /// Side of a colored square, in drawing units.
-const CELL: f64 = 9.0;
+const CELL: f64 = 7.2;
 /// Number of squares between two arrows, and between two marks of turbulence, in both directions.
-const ARROW_CELLS: usize = 4;
+const ARROW_CELLS: usize = 5;
 const TURBULENCE_CELLS: usize = 2;
 /// Length of an arrow at the highest speed of the scale, relative to the distance between two arrows.
 const ARROW_SHARE: f64 = 0.9;
@@ -33,8 +33,11 @@ pub const TURBULENCE_LEVELS: [f64; 2] = [0.1, 0.2];
 const TURBULENCE_MARK: f64 = 2.2;
 /// Distance from the plane within which the path is drawn with a strong line, m: above and below a level plane, and along the bridge.
 const NEAR_PLANE_M: [f64; 2] = [5.0, 10.0];
-/// Margins around the flown path and the deck, m, and smallest extent along the bridge, m.
+/// Overlap of the squares, which hides the seams between them, in drawing units.
+const OVERLAP: f64 = 0.4;
+/// Margins around the flown path and the deck, m, largest distance beside the deck, m, and smallest extent along the bridge, m.
 const MARGIN_M: f64 = 12.0;
+const MAX_BESIDE_M: f64 = 30.0;
 const MIN_LENGTH_M: f64 = 40.0;
 /// Margin above the flown path or the deck, and below the surface, in an upright plane, m.
 const UPRIGHT_MARGIN_M: (f64, f64) = (6.0, 2.0);
@@ -122,9 +125,17 @@ impl AirSection {
         Some(air.sample(point_m))
     }
 
-    /// Returns the air of all squares.
-    pub fn samples(&self) -> impl Iterator<Item = &AirSample> {
-        self.cells.iter().flatten().flatten()
+    /// Returns the speed of the air in the plane, m/s.
+    #[must_use]
+    pub fn speed_m_s(&self, air: &AirSample) -> f64 {
+        let (right_m_s, up_m_s) = self.map.view.at(air.velocity_m_s);
+        math::hypot(right_m_s, up_m_s)
+    }
+
+    /// Returns the lowest and highest speed in the plane, m/s.
+    #[must_use]
+    pub fn speed_range_m_s(&self) -> (f64, f64) {
+        math::range(self.cells.iter().flatten().flatten().map(|air| self.speed_m_s(air)))
     }
 
     /// Returns every `step`-th square in both directions, from the middle of the first one.
@@ -143,10 +154,16 @@ impl AirSection {
         self.spaced(ARROW_CELLS)
     }
 
+    /// Returns the length of an arrow at the highest speed of the scale, in drawing units.
+    #[must_use]
+    pub fn longest_arrow(&self) -> f64 {
+        ARROW_SHARE * ARROW_CELLS as f64 * self.cell.0
+    }
+
     /// Returns an arrow's extent in the drawing, right and down.
     #[must_use]
     pub fn extent(&self, arrow: &AirArrow, speeds: SpeedScale) -> (f64, f64) {
-        let length = ARROW_SHARE * ARROW_CELLS as f64 * self.cell.0 / speeds.top_m_s();
+        let length = self.longest_arrow() / speeds.top_m_s();
         let (right_m_s, up_m_s) = self.map.view.at(arrow.air.velocity_m_s);
         (right_m_s * length, -up_m_s * length)
     }
@@ -162,12 +179,19 @@ impl AirSection {
         self.distance_m(position_m) <= if self.plane == AirPlane::Level { level_m } else { across_m }
     }
 
+    /// Returns whether a position is in the colored part of the drawing.
+    fn contains(&self, position_m: Vec3<Enu>) -> bool {
+        let ([(left, top), (right, bottom)], (x, y)) = (self.corners, self.map.at(position_m));
+        (left..=right).contains(&x) && (top..=bottom).contains(&y)
+    }
+
     /// Draws the section.
     #[must_use]
     pub fn drawing(&self, review: &Review, bridge: &Bridge, speeds: SpeedScale, title: &str) -> Markup {
         let is_near_bridge = is_near_bridge(bridge);
-        let is_strong = |frame: &Frame| is_near_bridge(frame) && self.is_near(frame.position_m);
-        let is_faint = |frame: &Frame| is_near_bridge(frame) && !self.is_near(frame.position_m);
+        let is_shown = |frame: &Frame| is_near_bridge(frame) && self.contains(frame.position_m);
+        let is_strong = |frame: &Frame| is_shown(frame) && self.is_near(frame.position_m);
+        let is_faint = |frame: &Frame| is_shown(frame) && !self.is_near(frame.position_m);
         let strong = plain_color(review, &self.map, &is_strong);
         let body = html! {
             (self.colors(speeds))
@@ -188,13 +212,13 @@ impl AirSection {
 
     /// Draws the speeds: runs of squares of one class as rectangles.
     fn colors(&self, speeds: SpeedScale) -> Markup {
-        let class = |cell: &Option<AirSample>| cell.map_or(CLASSES, |air| speeds.class(air.velocity_m_s.norm()));
+        let class = |cell: &Option<AirSample>| cell.map_or(CLASSES, |air| speeds.class(self.speed_m_s(&air)));
         let mut paths = vec![String::new(); CLASSES + 1];
         for (row, cells) in self.cells.iter().enumerate() {
             let mut from = 0;
             for run in cells.chunk_by(|a, b| class(a) == class(b)) {
                 let (x, y) = self.middle(row, from);
-                let (width, height) = (run.len() as f64 * self.cell.0, self.cell.1);
+                let (width, height) = (run.len() as f64 * self.cell.0 + OVERLAP, self.cell.1 + OVERLAP);
                 let [x, y] = [x - 0.5 * self.cell.0, y - 0.5 * self.cell.1].map(coord);
                 let [width, height] = [width, height].map(coord);
                 paths[class(&run[0])].push_str(&format!("M{x} {y}h{width}v{height}h-{width}z"));
@@ -290,7 +314,7 @@ impl AirSection {
         let is_shown = |place: &DisturbedPlace| {
             let own =
                 place.zone.and_then(|zone| review.scenario.bridges.get(zone.bridge)).is_some_and(|own| own.name == bridge.name);
-            own && (self.plane == AirPlane::Level || self.is_near(place.position_m))
+            own && self.contains(place.position_m) && (self.plane == AirPlane::Level || self.is_near(place.position_m))
         };
         let title = |number: usize, place: &DisturbedPlace| {
             let (moment, speed) = (formatting::clock(place.at_s), formatting::number(place.added_m_s.norm(), 1));
@@ -327,7 +351,8 @@ impl AirSection {
 fn level_plane(up_m: f64, bridge: &Bridge, flown_m: &[Vec3<Enu>]) -> (ParallelView, Vec3<Enu>, [Vec3<Enu>; 2]) {
     let placement = bridge.placement();
     let (right, up) = (placement.direction([1.0, 0.0, 0.0]), placement.direction([0.0, 1.0, 0.0]));
-    let (from_m, to_m) = math::range(flown_m.iter().map(|at| placement.local(*at)[0]));
+    let is_beside = |local: &[f64; 3]| local[1].abs() <= 0.5 * bridge.deck_width_m() + MAX_BESIDE_M;
+    let (from_m, to_m) = math::range(flown_m.iter().map(|at| placement.local(*at)).filter(is_beside).map(|local| local[0]));
     let lacking_m = (0.5 * (MIN_LENGTH_M - (to_m - from_m + 2.0 * MARGIN_M))).max(0.0);
     let (low_m, high_m) = beside_deck(bridge, flown_m);
     let z_m = up_m - bridge.center_m.up();
@@ -359,5 +384,6 @@ fn beside_deck(bridge: &Bridge, flown_m: &[Vec3<Enu>]) -> (f64, f64) {
     let placement = bridge.placement();
     let half_m = 0.5 * bridge.deck_width_m();
     let (low_m, high_m) = math::range(flown_m.iter().map(|at| placement.local(*at)[1]).chain([-half_m, half_m]));
-    (low_m - MARGIN_M, high_m + MARGIN_M)
+    let most_m = half_m + MAX_BESIDE_M;
+    ((low_m - MARGIN_M).max(-most_m), (high_m + MARGIN_M).min(most_m))
 }

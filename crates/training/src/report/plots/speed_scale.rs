@@ -3,7 +3,7 @@
 use super::ticks;
 
 /// Number of classes.
-pub const CLASSES: usize = 6;
+pub const CLASSES: usize = 8;
 
 /// A scale of speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn exact_scales_have_round_classes_that_contain_the_highest_speed() {
         for (max_m_s, step_m_s, digits) in
-            [(1.3, 0.5, 1), (2.9, 0.5, 1), (5.9, 1.0, 0), (6.1, 2.0, 0), (0.5, 0.1, 1), (11.9, 2.0, 0)]
+            [(1.3, 0.2, 1), (2.9, 0.5, 1), (7.9, 1.0, 0), (8.1, 2.0, 0), (0.5, 0.1, 1), (0.3, 0.05, 2)]
         {
             let scale = SpeedScale::up_to(max_m_s);
             assert!((scale.limits_m_s(0).1 - step_m_s).abs() < 1e-12 && scale.top_m_s() >= max_m_s, "{max_m_s}: {scale:?}");
@@ -61,6 +61,6 @@ mod tests {
             let (low, high) = scale.limits_m_s(class);
             assert!((low..=high).contains(&max_m_s), "{max_m_s}: {low} {high}");
         }
-        assert_eq!([0.0, 0.49, 0.5, 9.0].map(|speed| SpeedScale::up_to(2.9).class(speed)), [0, 0, 1, 5]);
+        assert_eq!([0.0, 0.49, 0.5, 9.0].map(|speed| SpeedScale::up_to(2.9).class(speed)), [0, 0, 1, 7]);
     }
 }
