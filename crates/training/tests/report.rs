@@ -3,13 +3,19 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use spandrel_mavlink::codec::Encoder;
-use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins};
-use spandrel_mavlink::dialect::{GLOBAL_POSITION_INT_DATA, GPS_RAW_INT_DATA, GpsFixType, MavMessage, WIND_COV_DATA};
+use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins, WaterSensors};
+use spandrel_mavlink::dialect::{
+    BATTERY_STATUS_DATA, GLOBAL_POSITION_INT_DATA, GPS_RAW_INT_DATA, GpsFixType, MavMessage, WIND_COV_DATA,
+};
 use spandrel_mavlink::instructor_note;
 use spandrel_mavlink::telemetry::Frame;
+use spandrel_model::frames::Vec3;
 use spandrel_model::radio::RadioWay;
-use spandrel_model::scenario::{Scenario, SelectedForm};
+use spandrel_model::scenario::{BatteryModel, Scenario, SelectedForm, WindModel};
 use spandrel_model::site::visibility::MAX_INCIDENCE_RAD;
+use spandrel_model::site::wakes::WakeField;
+use spandrel_model::site::wind::WindField;
+use spandrel_model::time::SimTime;
 use spandrel_monitor::assess_log;
 use spandrel_monitor::sidecar::{MONITOR_COMPONENT_ID, build_site};
 use spandrel_testkit::inspection::{phantom, record_inspection, two_bridges};
@@ -18,10 +24,15 @@ use spandrel_text::Language;
 use spandrel_training::cohort::{MeasureReliability, Selection, cohort};
 use spandrel_training::marks::{TimelineMark, marks_key};
 use spandrel_training::record::IncompletePolicy;
+use spandrel_training::report::bridge_air::BridgeAir;
 use spandrel_training::report::coverage::{REQUIRED_GSD_M, SurfaceOutcome};
+use spandrel_training::report::disturbed_air::DisturbedAir;
 use spandrel_training::report::feedback::KINDS;
+use spandrel_training::report::formatting;
 use spandrel_training::report::navigation_errors::NavigationErrors;
+use spandrel_training::report::plots::air_section::AirPlane;
 use spandrel_training::report::radio_losses::RadioLosses;
+use spandrel_training::report::water_losses::WaterLosses;
 use spandrel_training::report::{Jpeg, Review, SessionMetadata, page};
 use spandrel_training::standing::SessionStanding;
 use spandrel_training::terms::job_title;
@@ -151,7 +162,7 @@ fn exact_report_says_how_wrong_the_drones_own_position_was_and_when_gnss_was_los
 fn with_radio(mut tape: Tape, share: f64, video_db: f64, losses: u32) -> Tape {
     let rest = tape.datagrams.split_off((share * tape.datagrams.len() as f64) as usize);
     let radio = RadioMargins { control_db: video_db + 20.0, video_db, way: RadioWay::AroundEdge, losses };
-    tape.send(&HazardReport { compass_rad: None, radio: Some(radio) }.message(0));
+    tape.send(&HazardReport { radio: Some(radio), ..HazardReport::default() }.message(0));
     tape.send(&MavMessage::WIND_COV(WIND_COV_DATA { time_usec: u64::MAX, wind_y: 4.5, ..WIND_COV_DATA::default() }));
     tape.datagrams.extend(rest);
     tape
@@ -174,6 +185,156 @@ fn exact_report_says_when_the_radio_was_weak_and_draws_the_wind() {
     assert!(!pages[0].contains("Video link") && !pages[0].contains("Control link"));
     let has_chart = |page: &str| (page.contains("id=\"chart-wind\""), page.contains("wind from (deg)"));
     assert_eq!((has_chart(&pages[0]), has_chart(&pages[1])), ((false, false), (true, true)));
+}
+
+/// Inserts a message after a share of a tape.
+fn with_message(mut tape: Tape, share: f64, message: &MavMessage) -> Tape {
+    let rest = tape.datagrams.split_off((share * tape.datagrams.len() as f64) as usize);
+    tape.send(message);
+    tape.datagrams.extend(rest);
+    tape
+}
+
+#[test]
+fn exact_report_says_when_and_where_the_bridges_disturbed_the_air() {
+    let (tape, job) = (record_inspection(&two_bridges(), 240.0, 9), two_bridges());
+    let plain = review(&tape, &job);
+    assert_eq!(plain.air, DisturbedAir::default(), "older vehicles don't report the air");
+    // The reports are inserted from the end, so that the shares hold.
+    let added = [(0.8, 0.2), (0.7, 1.5), (0.6, 4.0), (0.5, 0.3)];
+    let flown = added.iter().fold(tape, |tape, (share, east_m_s)| {
+        let wake_m_s = Some(Vec3::new(0.0, -*east_m_s, 0.0));
+        with_message(tape, *share, &HazardReport { wake_m_s, ..HazardReport::default() }.message(0))
+    });
+    let flown = review(&flown, &job);
+    assert_eq!((&flown.assessment, &flown.frames), (&plain.assessment, &plain.frames), "scores do not depend on reports");
+    let air = &flown.air;
+    // A report counts for at most 1.5 s, and those below half a meter per second don't.
+    assert!((air.time.total_s - 3.0).abs() < 1e-9 && (air.time.longest_s - 1.5).abs() < 1e-9, "{:?}", air.time);
+    assert_eq!(air.places.iter().map(|place| place.added_m_s.east()).collect::<Vec<_>>(), [-4.0, -1.5]);
+    let strongest = air.places[0];
+    let frame = flown.frames.iter().find(|frame| frame.time.s() - flown.frames[0].time.s() >= strongest.at_s - 1e-9).unwrap();
+    assert_eq!(frame.position_m, strongest.position_m);
+    let words = strongest.zone.unwrap().words(&job, Language::English);
+    let [plain, page] = [&plain, &flown].map(page::session);
+    let moment = formatting::clock(strongest.at_s);
+    let expected = format!("It was strongest at {moment}, {words}: 4.0 m/s off the free wind.");
+    assert!(page.contains("for 0:03; longest for 0:02") && page.contains(&expected), "{expected}");
+    assert!(!plain.contains("off the free wind") && page.contains("class=\"air-place\""));
+    let list = page.split("class=\"air-places\"").nth(1).unwrap().split("</ol>").next().unwrap();
+    assert_eq!(list.matches("class=\"moment-link\"").count(), 2, "{list}");
+}
+
+#[test]
+fn exact_air_in_the_drawings_is_that_of_the_flights_model() {
+    let review = short_review();
+    let (job, site) = (&review.scenario, &review.site);
+    assert!(job.hazards.wakes && review.site.members().len() > 10);
+    let mut drawn = 0;
+    for air in job.bridges.iter().filter_map(|bridge| BridgeAir::of(review, bridge)) {
+        let mut wakes = WakeField::averaged(site.members(), &job.bridges);
+        let mut disturbed = 0;
+        for section in [&air.level, &air.across] {
+            for arrow in section.arrows() {
+                let at = arrow.position_m;
+                let surface_up_m = site.ground_up_m(at.east(), at.north()).max(job.terrain.water_level_m);
+                let mut wind = WindField::new(&job.wind, 1);
+                wind.set_over_ground(surface_up_m > job.terrain.water_level_m);
+                // The job's only event is a gust, which the mean excludes: it is over at this time.
+                let free = wind.mean_velocity(SimTime::from_s(1.0), (at.up() - surface_up_m).max(0.3));
+                wakes.advance(free, SimTime::ZERO);
+                // An arrow at the water's edge stands for the air just above the surface.
+                if at.up() < surface_up_m {
+                    continue;
+                }
+                let expected = wakes.air(at, surface_up_m);
+                assert!((arrow.air.velocity_m_s - (free + expected.velocity_m_s).enu()).norm() < 1e-9, "{arrow:?}");
+                assert!((arrow.air.turbulence_m_s - expected.turbulence_m_s).abs() < 1e-9, "{arrow:?}");
+                disturbed += usize::from(expected.velocity_m_s.norm() > 0.1);
+                let (right, down) = section.extent(&arrow, air.speeds);
+                // The same length for the same speed, in the direction of the air.
+                let (scale, speed_m_s) = (air.speeds.top_m_s() / section.longest_arrow(), section.speed_m_s(&arrow.air));
+                assert!(((right * right + down * down).sqrt() * scale - speed_m_s).abs() < 1e-9, "{arrow:?}");
+                let (upward_m_s, is_upright) = (arrow.air.velocity_m_s.up(), section.plane == AirPlane::Across);
+                assert!(!is_upright || (-down * scale - upward_m_s).abs() < 1e-9, "{arrow:?}");
+            }
+        }
+        assert!(disturbed > 20, "{}: {disturbed}", air.bridge.name);
+        drawn += 1;
+    }
+    assert!(drawn > 0, "the flight is near no bridge");
+    let page = page::session(review);
+    assert_eq!(page.matches("<path class=\"air-arrows\" d=\"M1 7").count(), drawn, "one legend for each bridge");
+    assert_eq!(page.matches("<path class=\"air-arrows\"").count(), 3 * drawn);
+    let start = page.find("Air around the bridges").unwrap();
+    let bytes = page[start..].find("id=\"model\"").or_else(|| page[start..].find("class=\"strips\"")).unwrap();
+    println!("{drawn} bridges, {bytes} bytes");
+    assert!(bytes < 120_000 * drawn, "{bytes}");
+}
+
+#[test]
+fn exact_report_has_no_air_without_wind_or_wakes() {
+    let changes: [fn(&mut Scenario); 3] =
+        [|job| job.wind.speed_m_s = 0.0, |job| job.hazards.wakes = false, |job| job.wind.model = WindModel::Paper];
+    for change in changes {
+        let mut job = two_bridges();
+        change(&mut job);
+        let review = review(&record_inspection(&job, 200.0, 9), &job);
+        assert!(job.bridges.iter().all(|bridge| BridgeAir::of(&review, bridge).is_none()));
+        assert!(!page::session(&review).contains("Air around the bridges"));
+    }
+}
+
+#[test]
+fn exact_report_says_how_sensors_failed_over_water() {
+    let (tape, job) = (record_inspection(&two_bridges(), 240.0, 9), two_bridges());
+    let report = |flow_lost, ranges, lost_ranges| {
+        let water = Some(WaterSensors { flow_lost, ranges, lost_ranges });
+        HazardReport { water, ..HazardReport::default() }.message(0)
+    };
+    let over = [(0.9, report(false, 130, 61)), (0.6, report(true, 90, 40)), (0.5, report(true, 30, 11))];
+    let flown = review(&over.iter().fold(tape, |tape, (share, message)| with_message(tape, *share, message)), &job);
+    let WaterLosses { flow_lost, ranges, lost_ranges } = flown.water;
+    assert!((flow_lost.total_s - 3.0).abs() < 1e-9 && (ranges, lost_ranges) == (130, 61), "{:?}", flown.water);
+    let page = page::session(&flown);
+    assert!(page.contains("No optical flow over water for 0:03"), "time without flow");
+    assert!(page.contains("The range finder below failed at 61 of 130 readings over water."));
+    assert!(!page::session(short_review()).contains("over water for") && short_review().water == WaterLosses::default());
+}
+
+#[test]
+fn exact_report_says_what_a_cold_battery_cost() {
+    let (tape, mut job) = (record_inspection(&two_bridges(), 240.0, 9), two_bridges());
+    (job.rules.battery, job.rules.battery_temperature_c) = (BatteryModel::Physical, -5.0);
+    let report = |cell_mv: u16, current_ca| {
+        let mut voltages = [u16::MAX; 10];
+        voltages[..3].fill(cell_mv);
+        let battery_remaining = 80;
+        MavMessage::BATTERY_STATUS(BATTERY_STATUS_DATA {
+            voltages,
+            current_battery: current_ca,
+            battery_remaining,
+            ..Default::default()
+        })
+    };
+    let tape = with_message(with_message(tape, 0.6, &report(3500, 2000)), 0.5, &report(3800, 800));
+    let flown = review(&tape, &job);
+    let cold = flown.cold_battery.unwrap();
+    let battery = &phantom().battery;
+    let (present, warm) = (battery.resistance_ohm(-5.0), battery.internal_resistance_ohm);
+    // The power of both reports at 25 °C, by the definition of the model: P = (OCV - I R) I.
+    let warm_current = |voltage_v: f64, current_a: f64| {
+        let open_v = voltage_v + present * current_a;
+        (open_v - (open_v * open_v - 4.0 * warm * voltage_v * current_a).sqrt()) / (2.0 * warm)
+    };
+    let warm_a = [warm_current(10.5, 20.0), warm_current(11.4, 8.0)];
+    assert!((cold.extra_charge - (28.0 / (warm_a[0] + warm_a[1]) - 1.0)).abs() < 1e-6 && cold.extra_charge > 0.01, "{cold:?}");
+    let missing_v = 10.5 * 20.0 / warm_a[0] - 10.5;
+    assert!((cold.missing_v - missing_v).abs() < 1e-6 && (cold.voltage_v - 10.5).abs() < 1e-9, "{cold:?} {missing_v}");
+    let expected = format!("Cold battery (-5 °C): up to {missing_v:.1} V less than at 25 °C");
+    assert!(page::session(&flown).contains(&expected), "{expected}");
+    job.rules.battery = BatteryModel::Paper;
+    assert_eq!(review(&tape, &job).cold_battery, None, "the paper's battery knows no cold");
 }
 
 #[test]

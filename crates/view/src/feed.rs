@@ -288,7 +288,7 @@ mod tests {
         let now = SimTime::from_ms(5_000);
         let mut feed = Feed::default();
         assert_eq!(feed.video_margin_db(now), None);
-        let report = HazardReport { compass_rad: None, radio: Some(radio) };
+        let report = HazardReport { radio: Some(radio), ..HazardReport::default() };
         feed.handle_datagram(&Encoder::new(1, 1).encode(&report.message(5_000_000)), now);
         assert_eq!(feed.video_margin_db(now + hazards::TIMEOUT), Some(-1.5));
         assert_eq!(feed.video_margin_db(now + hazards::TIMEOUT + SimTime::from_ms(1)), None);

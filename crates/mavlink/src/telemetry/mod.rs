@@ -13,6 +13,6 @@ pub mod timeline;
 pub mod tlog;
 
 pub use frame::Frame;
-pub use navigation::{GnssReport, Navigation, NavigationReader};
+pub use navigation::{BatteryReport, GnssReport, Navigation, NavigationReader};
 pub use sample::Sample;
 pub use timeline::{Flight, Timeline};

@@ -1,5 +1,5 @@
-//! The autopilot's position and heading estimates, its GNSS fix, the wind, and the simulator's report on hazards, which are exported and
-//! shown, never used for scoring.
+//! The autopilot's position and heading estimates, its GNSS fix, the wind, the battery's voltage and current, and the simulator's report on
+//! hazards, which are exported and shown, never used for scoring.
 
 use super::frame::MAX_INTERPOLATED_GAP;
 use super::log_stream::TelemetryLog;
@@ -8,7 +8,10 @@ use super::signal::Signal;
 use super::{Flight, Timeline};
 use crate::contract::SIMULATOR_COMPONENT;
 use crate::contract::hazards::HazardReport;
-use crate::dialect::{DEBUG_FLOAT_ARRAY_DATA, GLOBAL_POSITION_INT_DATA, GPS_RAW_INT_DATA, GpsFixType, MavMessage, WIND_COV_DATA};
+use crate::dialect::{
+    BATTERY_STATUS_DATA, DEBUG_FLOAT_ARRAY_DATA, GLOBAL_POSITION_INT_DATA, GPS_RAW_INT_DATA, GpsFixType, MavMessage,
+    WIND_COV_DATA,
+};
 use mavlink::{MavlinkVersion, MessageData};
 use spandrel_model::frames::{Enu, Ned, Vec3};
 use spandrel_model::geodesy::{Geo, LocalPlane};
@@ -46,7 +49,26 @@ impl GnssReport {
     }
 }
 
-/// Wind, estimated position and heading, GNSS fix and hazards during one flight.
+/// Voltage and current of the battery.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BatteryReport {
+    /// Voltage of the pack, V.
+    pub voltage_v: f64,
+    /// Current drawn, A.
+    pub current_a: f64,
+}
+
+impl BatteryReport {
+    /// Reads a message; `None` if it is about another battery, or if voltage or current are unknown or 0.
+    #[must_use]
+    pub fn of(wire: &BATTERY_STATUS_DATA) -> Option<Self> {
+        let cells_mv = wire.voltages.iter().filter(|cell_mv| **cell_mv != u16::MAX).map(|cell_mv| f64::from(*cell_mv));
+        let report = Self { voltage_v: cells_mv.sum::<f64>() * 1e-3, current_a: f64::from(wire.current_battery) * 0.01 };
+        (wire.id == 0 && report.voltage_v > 0.0 && report.current_a > 0.0).then_some(report)
+    }
+}
+
+/// Wind, estimated position and heading, GNSS fix, battery and hazards during one flight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Navigation {
     estimate_m: Signal<Vec3<Enu>>,
@@ -55,6 +77,7 @@ pub struct Navigation {
     /// True wind, which the simulator reports behind an external autopilot.
     simulator_wind_m_s: Signal<Vec3<Enu>>,
     gnss: Signal<GnssReport>,
+    battery: Signal<BatteryReport>,
     hazards: Signal<HazardReport>,
 }
 
@@ -94,6 +117,12 @@ impl Navigation {
     #[must_use]
     pub fn gnss(&self) -> &Signal<GnssReport> {
         &self.gnss
+    }
+
+    /// Returns the reports of the battery.
+    #[must_use]
+    pub fn battery(&self) -> &Signal<BatteryReport> {
+        &self.battery
     }
 
     /// Returns the reports on hazards.
@@ -141,12 +170,12 @@ impl NavigationReader {
     }
 
     /// Processes a frame after `timeline` has processed it. Ignores all messages except GLOBAL_POSITION_INT and GPS_RAW_INT from the
-    /// vehicle's autopilot, WIND_COV, and reports on hazards.
+    /// vehicle's autopilot, WIND_COV, BATTERY_STATUS, and reports on hazards.
     pub fn take(&mut self, frame: &[u8], timeline: &Timeline) {
         let Some(header) = FrameHeader::peek(frame) else { return };
         let wanted = match header.message_id {
             GLOBAL_POSITION_INT_DATA::ID | GPS_RAW_INT_DATA::ID => header.sender.1 == AUTOPILOT_COMPONENT_ID,
-            DEBUG_FLOAT_ARRAY_DATA::ID | WIND_COV_DATA::ID => {
+            DEBUG_FLOAT_ARRAY_DATA::ID | WIND_COV_DATA::ID | BATTERY_STATUS_DATA::ID => {
                 matches!(header.sender.1, AUTOPILOT_COMPONENT_ID | SIMULATOR_COMPONENT)
             }
             _ => false,
@@ -170,6 +199,8 @@ impl NavigationReader {
             let is_true = header.sender.1 == SIMULATOR_COMPONENT;
             let reports = if is_true { &mut epoch.simulator_wind_m_s } else { &mut epoch.wind_m_s };
             reports.push(time(own, newest), order, wind_m_s);
+        } else if let Some(report) = battery(&header, payload) {
+            epoch.battery.push(newest, order, report);
         } else if let Some(report) = hazards(&header, payload) {
             epoch.hazards.push(newest, order, report);
         }
@@ -184,6 +215,7 @@ impl NavigationReader {
         navigation.gnss.sort();
         navigation.wind_m_s.sort();
         navigation.simulator_wind_m_s.sort();
+        navigation.battery.sort();
         navigation.hazards.sort();
         navigation
     }
@@ -213,6 +245,13 @@ fn gnss(header: &FrameHeader, payload: &[u8]) -> Option<GnssReport> {
         return None;
     }
     GPS_RAW_INT_DATA::deser(MavlinkVersion::V2, payload).ok().map(|wire| GnssReport::of(&wire))
+}
+
+fn battery(header: &FrameHeader, payload: &[u8]) -> Option<BatteryReport> {
+    if header.message_id != BATTERY_STATUS_DATA::ID {
+        return None;
+    }
+    BATTERY_STATUS_DATA::deser(MavlinkVersion::V2, payload).ok().and_then(|wire| BatteryReport::of(&wire))
 }
 
 fn hazards(header: &FrameHeader, payload: &[u8]) -> Option<HazardReport> {

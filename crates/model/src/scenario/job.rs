@@ -80,6 +80,12 @@ impl Scenario {
         let level = || self.difficulty.as_ref().filter(|one| one.level != one.standard).map(|one| one.level.to_string());
         form.or_else(level).map_or_else(|| self.name.clone(), |variant| format!("{}@{variant}", self.name))
     }
+
+    /// Returns whether the bridges disturb the wind.
+    #[must_use]
+    pub fn has_wakes(&self) -> bool {
+        self.hazards.wakes && self.wind.model == WindModel::Physical
+    }
 }
 
 /// Height grid and water level settings.
@@ -453,6 +459,17 @@ pub struct SessionRules {
     pub respawn_after: SimTime,
     /// Response to the sticks in position mode at the start.
     pub stick_response: StickResponse,
+}
+
+/// Battery temperature below which a battery counts as cold, °C (makers of batteries recommend to warm them up below 15 °C).
+const COLD_BATTERY_C: f64 = 15.0;
+
+impl SessionRules {
+    /// Returns whether the battery is so cold that its voltage sags notably. In the paper's model, the temperature has no effect.
+    #[must_use]
+    pub fn has_cold_battery(&self) -> bool {
+        self.battery == BatteryModel::Physical && self.battery_temperature_c < COLD_BATTERY_C
+    }
 }
 
 /// Effects of the bridges on the vehicle that a job can switch on.

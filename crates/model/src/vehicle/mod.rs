@@ -2,6 +2,7 @@
 //! each number has a source or is marked as an estimate (vehicle-params/README.md, which a test compares with this code).
 
 mod aerodynamics;
+mod cold_battery;
 mod control_authority;
 mod read;
 
@@ -9,6 +10,7 @@ pub use aerodynamics::{
     Aerodynamics, AirDensity, MAX_TRANSLATIONAL_LIFT, SEA_LEVEL_AIR_DENSITY_KG_M3, SurfaceEffects, standard_density_kg_m3,
     standard_temperature_ratio,
 };
+pub use cold_battery::BATTERY_REFERENCE_C;
 pub use read::{FORMAT, read, read_with_keys};
 
 use crate::frames::{Frd, Vec3};

@@ -12,9 +12,6 @@ use spandrel_model::math;
 use spandrel_model::scenario::BatteryModel;
 use spandrel_model::vehicle::{AirDensity, BatterySpec, Lamp, Rotor, RotorModel, SurfaceEffects, Vehicle};
 
-/// Temperature for which aircraft files state the battery's resistance, °C (estimate: data sheets use 20 to 25 °C).
-const BATTERY_REFERENCE_C: f64 = 25.0;
-
 /// Step for which the decay of the rotor speeds is computed in advance, s.
 const USUAL_STEP_S: f64 = 1e-3;
 
@@ -91,15 +88,10 @@ impl AirframeModel {
         }
     }
 
-    /// Returns the model with a battery at a temperature, °C. The aircraft file's resistance is that at 25 °C. It grows with cold by an
-    /// Arrhenius law, R = 1.1e-6 exp(3131 K / T) (measured with packs of two lithium polymer cells), and so the voltage sags.
+    /// Returns the model with a battery at a temperature, °C.
     #[must_use]
     pub fn with_battery_at(mut self, temperature_c: f64) -> Self {
-        const ACTIVATION_K: f64 = 3131.0;
-        const ZERO_CELSIUS_K: f64 = 273.15;
-        let kelvin = |celsius: f64| celsius + ZERO_CELSIUS_K;
-        self.battery.internal_resistance_ohm *=
-            math::exp(ACTIVATION_K * (1.0 / kelvin(temperature_c) - 1.0 / kelvin(BATTERY_REFERENCE_C)));
+        self.battery.internal_resistance_ohm = self.battery.resistance_ohm(temperature_c);
         self
     }
 

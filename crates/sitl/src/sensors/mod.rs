@@ -19,6 +19,7 @@ pub use surroundings::{FlatGround, Surroundings};
 
 use crate::physics::{MAX_ROTORS, PhysicsState, RigidState};
 use rangefinder::RangeReadings;
+use spandrel_mavlink::contract::hazards::WaterSensors;
 use spandrel_model::frames::{Frd, Ned, Vec3};
 use spandrel_model::geodesy::Geo;
 use spandrel_model::math;
@@ -77,6 +78,7 @@ pub struct Sensors {
     flow: flow::OpticalFlow,
     water: Option<water::WaterSurface>,
     below: water::Below,
+    over_water: WaterSensors,
     lamp: Lamp,
     nearest_m: f64,
     ambient_lux: f64,
@@ -140,6 +142,7 @@ impl Sensors {
             flow: flow::OpticalFlow::new(spec, seed),
             water: water.then(|| water::WaterSurface::new(seed)),
             below: water::Below::Solid,
+            over_water: WaterSensors::default(),
             lamp: vehicle.lamp,
             nearest_m: f64::INFINITY,
             ambient_lux: 0.0,
@@ -150,6 +153,12 @@ impl Sensors {
     #[must_use]
     pub fn compass_error_rad(&self, position_m: Vec3<Ned>) -> f64 {
         self.magnetometer.direction_error_rad(position_m)
+    }
+
+    /// Returns what water does to the optical flow and the range finder that looks down; `None` if the job does not simulate it.
+    #[must_use]
+    pub fn over_water(&self) -> Option<WaterSensors> {
+        self.water.as_ref().map(|_| self.over_water)
     }
 
     /// Integrates the inertial sensors. Call it after every physics step, so that they capture all motion between two
@@ -181,6 +190,8 @@ impl Sensors {
         if let Some(mut ranges) = self.ranges.read(rigid, site, now) {
             if let Some(water) = &mut self.water {
                 self.below = water.look_down(position_m, &mut ranges.down_m, site);
+                self.over_water.ranges += u32::from(self.below != water::Below::Solid);
+                self.over_water.lost_ranges += u32::from(self.below != water::Below::Solid && ranges.down_m.is_infinite());
             }
             out.range_down_m = Some(ranges.down_m);
             out.range_up_m = Some(ranges.up_m);
@@ -197,6 +208,8 @@ impl Sensors {
             let lux = self.ambient_lux + self.lamp_lux(truth.lamp_on);
             let surface_m_s = self.surface_velocity_m_s(rigid.velocity_m_s - truth.air_velocity_m_s);
             out.flow = self.flow.read(rigid.velocity_m_s - surface_m_s, rigid.attitude.yaw_rad(), self.nearest_m, lux);
+            let is_light = lux >= flow::MIN_ILLUMINANCE_LUX;
+            self.over_water.flow_lost = self.below == water::Below::FarWater && out.flow.is_none() && is_light;
         }
         if self.power_due.fire(now) {
             out.battery = Some(truth.battery);

@@ -7,6 +7,7 @@ use crate::physics::{Actuators, PowerLoad};
 use crate::sensors::{BatteryReading, Readings, SensorInputs};
 use sha2::Digest;
 use spandrel_model::frames::Vec3;
+use spandrel_model::site::mean_air::MIN_AIR_HEIGHT_M;
 use spandrel_model::time::SimTime;
 use std::sync::Arc;
 
@@ -43,8 +44,10 @@ impl Sim {
             self.hazards.radio = Some(shadow.truth());
             self.set_radio_loss();
         }
-        if self.config.scenario.hazards.compass && self.hazards_due.fire(now) {
-            self.hazards.compass_rad = Some(self.sensors.compass_error_rad(position_m));
+        if self.hazards_due.fire(now) {
+            let compass = self.config.scenario.hazards.compass;
+            self.hazards.compass_rad = compass.then(|| self.sensors.compass_error_rad(position_m));
+            self.hazards.water = self.sensors.over_water();
         }
     }
 
@@ -57,10 +60,11 @@ impl Sim {
             self.wind.set_over_ground(ground_up_m > water_up_m);
             self.air.density_kg_m3 = self.model.air_density_kg_m3(self.config.scenario.origin.altitude_m + up);
             let surface_up_m = ground_up_m.max(water_up_m);
-            let height_m = (up - surface_up_m).max(0.3);
+            let height_m = (up - surface_up_m).max(MIN_AIR_HEIGHT_M);
             self.wind.update(now, height_m, self.state.rigid.velocity_m_s);
             if let Some(wakes) = &mut self.wakes {
                 wakes.sample(&self.state.rigid, self.wind.mean_velocity(now, height_m), surface_up_m, now);
+                self.hazards.wake_m_s = Some(wakes.strongest_m_s());
             }
         }
         self.air.velocity_m_s = self.wind.air_velocity(now);

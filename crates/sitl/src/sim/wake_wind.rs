@@ -2,12 +2,15 @@
 
 use crate::physics::{MAX_ROTORS, RigidState};
 use spandrel_model::frames::{Frd, Ned, Vec3};
+use spandrel_model::scenario::Scenario;
 use spandrel_model::scenario::bridges::Member;
-use spandrel_model::scenario::{Scenario, WindModel};
 use spandrel_model::site::wakes::{LocalAir, WakeField, WakeGusts};
 use spandrel_model::site::wind::SAMPLE_PERIOD;
-use spandrel_model::time::SimTime;
+use spandrel_model::time::{Schedule, SimTime};
 use spandrel_model::vehicle::Rotor;
+
+/// Rate at which the strongest added wind is reported, Hz: that of the message.
+const REPORT_RATE_HZ: f64 = 2.0;
 
 /// Added velocities at one time, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +25,29 @@ impl AddedWind {
     const NONE: Self = Self { center_m_s: Vec3::zero(), rotors_m_s: [Vec3::zero(); MAX_ROTORS] };
 }
 
+/// The largest velocity that wakes added at the center of the aircraft in each interval between two reports.
+#[derive(Debug, Clone, PartialEq)]
+struct StrongestWind {
+    due: Schedule,
+    present_m_s: Vec3<Ned>,
+    last_m_s: Vec3<Ned>,
+}
+
+impl StrongestWind {
+    fn new() -> Self {
+        Self { due: Schedule::new(SimTime::ZERO, REPORT_RATE_HZ), present_m_s: Vec3::zero(), last_m_s: Vec3::zero() }
+    }
+
+    fn include(&mut self, added_m_s: Vec3<Ned>, now: SimTime) {
+        if added_m_s.norm() > self.present_m_s.norm() {
+            self.present_m_s = added_m_s;
+        }
+        if self.due.fire(now) {
+            self.last_m_s = std::mem::replace(&mut self.present_m_s, Vec3::zero());
+        }
+    }
+}
+
 /// The wakes of a site, sampled as the wind is, with linear interpolation between samples.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct WakeWind {
@@ -33,13 +59,13 @@ pub(super) struct WakeWind {
     sampled_at: SimTime,
     previous: AddedWind,
     current: AddedWind,
+    strongest: StrongestWind,
 }
 
 impl WakeWind {
     /// Returns `None` if the job has no wakes.
     pub(super) fn of(scenario: &Scenario, members: &[Member], rotors: &[Rotor], seed: u64) -> Option<Self> {
-        let is_on = scenario.hazards.wakes && scenario.wind.model == WindModel::Physical;
-        is_on.then(|| Self {
+        scenario.has_wakes().then(|| Self {
             field: WakeField::new(members, &scenario.bridges, seed),
             gusts: WakeGusts::new(rotors.iter().map(|rotor| rotor.position_m.norm()).collect(), seed),
             hubs: rotors.iter().map(|rotor| rotor.position_m).collect(),
@@ -47,6 +73,7 @@ impl WakeWind {
             sampled_at: SimTime::ZERO,
             previous: AddedWind::NONE,
             current: AddedWind::NONE,
+            strongest: StrongestWind::new(),
         })
     }
 
@@ -61,7 +88,13 @@ impl WakeWind {
         }
         self.previous = self.current;
         self.current = self.added(&center, &rotors, rigid, mean_m_s);
+        self.strongest.include(self.current.center_m_s, now);
         self.sampled_at = now;
+    }
+
+    /// Returns the largest velocity that wakes added at the center of mass in the last complete half second, m/s.
+    pub(super) fn strongest_m_s(&self) -> Vec3<Ned> {
+        self.strongest.last_m_s
     }
 
     /// Adds the gusts to the mean air at the center and the rotors.
@@ -163,6 +196,26 @@ mod tests {
         wakes.sample(&level_at(edge), Vec3::new(0.0, WIND_M_S, 0.0), 0.0, SimTime::from_ms(10));
         let (half, whole) = (wakes.at(SimTime::from_ms(15)).center_m_s, wakes.at(SimTime::from_ms(20)).center_m_s);
         assert!((half * 2.0 - whole).norm() < 1e-12 && whole.norm() > 0.0, "{half:?} {whole:?}");
+    }
+
+    #[test]
+    fn exact_strongest_wind_is_that_of_the_last_complete_half_second() {
+        let (wakes, edge) = behind_a_pier("wakes = true");
+        let mut wakes = wakes.unwrap();
+        let mut strongest = vec![Vec3::<Ned>::zero()];
+        for k in 0..200_i64 {
+            wakes.sample(&level_at(edge), Vec3::new(0.0, WIND_M_S, 0.0), 0.0, SimTime::from_ms(10 * k));
+            let added = wakes.current.center_m_s;
+            let last = strongest.last_mut().unwrap();
+            if added.norm() > last.norm() {
+                *last = added;
+            }
+            if k % 50 == 0 {
+                strongest.push(Vec3::zero());
+            }
+            assert_eq!(wakes.strongest_m_s(), strongest[strongest.len() - 2], "{k}");
+        }
+        assert!(strongest.len() == 5 && strongest[..4].iter().all(|added| added.norm() > 0.0), "{strongest:?}");
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! Flight into the radio shadow of a bridge: first the video, then control is lost, and the aircraft's failsafe takes over.
 
 use spandrel_mavlink::codec::Decoder;
-use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins};
+use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins, WaterSensors};
 use spandrel_mavlink::contract::radio_status::dbm_of_value;
 use spandrel_mavlink::dialect::{MavCmd, MavMessage};
 use spandrel_model::frames::{Enu, Vec3};
 use spandrel_model::radio::RadioWay;
+use spandrel_model::scenario::read;
 use spandrel_model::shipped;
 use spandrel_model::time::SimTime;
 use spandrel_sitl::endpoint::{LinkId, LinkKind};
@@ -16,6 +17,8 @@ const PAYLOAD: LinkId = LinkId(2);
 /// In front of the arch bridge, and behind it, each in sight of the inspector above the deck, m.
 const BEFORE_M: Vec3<Enu> = Vec3::new(-46.9, 30.0, 52.0);
 const BEHIND_M: Vec3<Enu> = Vec3::new(-46.9, -16.0, 48.0);
+/// Above the lake, between the bridges and in reach of the range finder, m.
+const OVER_WATER_M: Vec3<Enu> = Vec3::new(0.0, 75.0, 6.0);
 /// Height at which the deck and the arch are between inspector and aircraft, m.
 const SHADOW_UP_M: f64 = 26.0;
 /// Margin below which data is lost, dB.
@@ -112,11 +115,47 @@ fn flight_radio_status_reports_the_control_signal_to_ground_stations() {
 
 #[test]
 fn regress_jobs_without_the_hazard_send_nothing_about_it() {
-    for hazards in ["", "radio = false", "wakes = true\nsky = true"] {
+    for hazards in ["", "radio = false", "sky = true"] {
         let flight = Flight::begin(hazards);
         assert!(flight.vehicle.received.iter().all(|frame| frame.component_id != 68), "{hazards}");
         assert!(flight.payload.iter().all(|message| HazardReport::of(message).is_none()), "{hazards}");
     }
+}
+
+#[test]
+fn flight_wakes_are_reported_where_the_bridge_disturbs_the_wind() {
+    let mut flight = Flight::begin("wakes = true");
+    let added = |flight: &mut Flight| -> Vec<f64> {
+        let messages = std::mem::take(&mut flight.payload);
+        messages.iter().filter_map(|message| Some(HazardReport::of(message)?.wake_m_s?.norm())).collect()
+    };
+    let free = added(&mut flight);
+    assert!(free.len() > 40 && free.iter().all(|speed_m_s| *speed_m_s == 0.0), "above the bridges: {free:?}");
+    flight.fly_to(BEFORE_M, 15.0);
+    let job = read("two-bridges.toml", shipped::TWO_BRIDGES, &|_| Err("none".into())).unwrap();
+    let bridge = &job.bridges[0];
+    // In the lee of the deck: the wind blows from the southwest, and the bridge's left side is in the north.
+    let (low, high) = bridge.fascia_z_m();
+    flight.fly_to(bridge.placement().point([0.0, 0.5 * bridge.deck_width_m() + 4.0, 0.5 * (low + high)]), 30.0);
+    let disturbed = added(&mut flight);
+    assert!(disturbed.iter().any(|speed_m_s| *speed_m_s > 0.3), "{disturbed:?}");
+}
+
+#[test]
+fn flight_flow_and_ranges_over_water_are_counted() {
+    let mut flight = Flight::begin("water = true");
+    let sensors = |flight: &Flight| -> Vec<WaterSensors> {
+        flight.payload.iter().filter_map(|message| HazardReport::of(message)?.water).collect()
+    };
+    assert_eq!(sensors(&flight).last(), Some(&WaterSensors::default()), "the pad is on land");
+    flight.fly_to(OVER_WATER_M, 30.0);
+    flight.run(10.0);
+    let over = sensors(&flight);
+    let [earlier, last] = [over[over.len() - 11], over[over.len() - 1]];
+    assert!(last.flow_lost && earlier.flow_lost, "{earlier:?} {last:?}");
+    // The range finder's 20 readings per second for 5 s, of which half are lost: three standard deviations are 15.
+    let (ranges, lost) = (last.ranges - earlier.ranges, last.lost_ranges - earlier.lost_ranges);
+    assert!((95..=105).contains(&ranges) && (35..=65).contains(&lost), "{ranges} {lost}");
 }
 
 #[test]

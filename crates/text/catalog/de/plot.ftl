@@ -39,6 +39,14 @@ plot-legend-far = nichts in der Nähe
 plot-legend-over = über { $limit } m
 plot-legend-range = { $low } bis { $high } m
 plot-legend-under = unter { $limit } m
+plot-air = { $caption }. Mittlere Geschwindigkeit der Luft in der Ebene: { $slowest } bis { $fastest } m/s
+plot-air-place = { $number }: { $speed } m/s Abweichung vom freien Wind bei { $moment }
+plot-legend-air-speed = { $low } bis { $high } m/s
+plot-legend-air-arrow = Richtung und Geschwindigkeit in der Ebene
+plot-legend-air-turbulence = Turbulenz ab { $share }% des freien Winds
+plot-legend-air-flown = nahe der Ebene geflogen
+plot-legend-air-flown-far = darüber oder darunter geflogen
+plot-legend-air-deck = Ränder des Überbaus
 
 ## Statistics
 

@@ -62,6 +62,10 @@ report-column-clearance = Abstand zum Bauwerk (m)
 report-column-battery = Akku (%)
 report-column-wind = Wind (m/s)
 report-column-wind-from = Wind aus (Grad)
+report-column-number = Nummer
+report-column-place = Ort
+report-column-added-air = Abweichung vom freien Wind (m/s)
+report-column-added-updraft = davon aufwärts (m/s)
 report-column-east = Ost (m)
 report-column-north = Nord (m)
 report-column-height = Höhe (m)
@@ -103,9 +107,32 @@ report-control-lost =
         [one] Steuerverbindung einmal verloren.
        *[other] Steuerverbindung { $count }-mal verloren.
     }
+report-air-disturbed = Für { $total } in Luft, die eine Brücke stört (mindestens { $least } m/s Abweichung vom freien Wind), davon am längsten für { $longest } ab { $from }.
+report-air-strongest = Am stärksten war die Störung bei { $at } { $place }: { $speed } m/s Abweichung vom freien Wind.
+report-place-under = unter dem Überbau der Brücke „{ $bridge }“
+report-place-above = über dem Überbau der Brücke „{ $bridge }“
+report-place-beside = neben der Brücke „{ $bridge }“
+report-flow-lost = Für { $total } kein optischer Fluss über Wasser, davon am längsten für { $longest } ab { $from }.
+report-ranges-lost =
+    { $count ->
+        [one] Der Entfernungsmesser nach unten versagte bei seiner einzigen Messung über Wasser.
+       *[other] Der Entfernungsmesser nach unten versagte bei { $lost } von { $count } Messungen über Wasser.
+    }
+report-cold-battery = Kalter Akku ({ $temperature } °C): bis zu { $missing } V weniger als bei 25 °C (bei { $at }, mit noch { $voltage } V) und { $share }% mehr Ladung verbraucht.
 report-walks = Wege des Prüfers: { $walks }.
 report-walk = zu Standort { $place } ab { $moment }
 report-walk-before = zu Standort { $place } vor dem Abheben
+
+## Air around the bridges
+
+report-air-title = Luft um die Brücken
+report-air-about = Die mittlere Luftströmung im Modell des Flugs, ohne Böen. Wirbel hinter Pfeilern und Überbauten sind gemittelt und zählen als Turbulenz. Farben und Pfeile zeigen die Geschwindigkeit in der Zeichenebene.
+report-air-wind = Um die Brücke „{ $bridge }“ wehte der freie Wind in 6 m Höhe mit { $speed } m/s aus { $from }°.
+report-air-level = Brücke „{ $bridge }“ von oben, { $height } m über dem Wasser: mittlere Höhe (Median) des Flugs an dieser Brücke
+report-air-across = Brücke „{ $bridge }“ quer zum Überbau, { $station } m von der Mitte in Richtung { $toward }°, Blick in Richtung { $heading }°
+report-air-places = Wo die Brücken die Luft um die Drohne am stärksten störten (Nummern in den Zeichnungen):
+report-air-off = { $speed } m/s Abweichung vom freien Wind
+report-air-caption = am stärksten gestörte Luft
 
 ## Scores
 

@@ -39,6 +39,14 @@ plot-legend-far = nothing nearby
 plot-legend-over = over { $limit } m
 plot-legend-range = { $low } to { $high } m
 plot-legend-under = under { $limit } m
+plot-air = { $caption }. Mean speed of the air in the plane: { $slowest } to { $fastest } m/s
+plot-air-place = { $number }: { $speed } m/s off the free wind at { $moment }
+plot-legend-air-speed = { $low } to { $high } m/s
+plot-legend-air-arrow = direction and speed in the plane
+plot-legend-air-turbulence = turbulence from { $share }% of the free wind
+plot-legend-air-flown = flown near the plane
+plot-legend-air-flown-far = flown above or below it
+plot-legend-air-deck = edges of the deck
 
 ## Statistics
 

@@ -39,6 +39,14 @@ plot-legend-far = nada cerca
 plot-legend-over = más de { $limit } m
 plot-legend-range = { $low } a { $high } m
 plot-legend-under = menos de { $limit } m
+plot-air = { $caption }. Velocidad media del aire en el plano: de { $slowest } a { $fastest } m/s
+plot-air-place = { $number }: { $speed } m/s de diferencia con el viento libre en { $moment }
+plot-legend-air-speed = { $low } a { $high } m/s
+plot-legend-air-arrow = dirección y velocidad en el plano
+plot-legend-air-turbulence = turbulencia desde el { $share }% del viento libre
+plot-legend-air-flown = volado cerca del plano
+plot-legend-air-flown-far = volado por encima o por debajo
+plot-legend-air-deck = bordes del tablero
 
 ## Statistics
 

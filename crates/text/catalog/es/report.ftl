@@ -62,6 +62,10 @@ report-column-clearance = separación (m)
 report-column-battery = batería (%)
 report-column-wind = viento (m/s)
 report-column-wind-from = viento desde (grados)
+report-column-number = número
+report-column-place = lugar
+report-column-added-air = diferencia con el viento libre (m/s)
+report-column-added-updraft = de ella hacia arriba (m/s)
 report-column-east = este (m)
 report-column-north = norte (m)
 report-column-height = altura (m)
@@ -103,9 +107,32 @@ report-control-lost =
         [one] Enlace de control perdido una vez.
        *[other] Enlace de control perdido { $count } veces.
     }
+report-air-disturbed = En aire perturbado por un puente (al menos { $least } m/s de diferencia con el viento libre) durante { $total }; lo más largo, { $longest }, desde { $from }.
+report-air-strongest = La perturbación fue máxima en { $at }, { $place }: { $speed } m/s de diferencia con el viento libre.
+report-place-under = bajo el tablero del puente «{ $bridge }»
+report-place-above = sobre el tablero del puente «{ $bridge }»
+report-place-beside = junto al puente «{ $bridge }»
+report-flow-lost = Sin flujo óptico sobre el agua durante { $total }; lo más largo, { $longest }, desde { $from }.
+report-ranges-lost =
+    { $count ->
+        [one] El telémetro inferior falló en su única lectura sobre el agua.
+       *[other] El telémetro inferior falló en { $lost } de { $count } lecturas sobre el agua.
+    }
+report-cold-battery = Batería fría ({ $temperature } °C): hasta { $missing } V menos que a 25 °C (en { $at }, con { $voltage } V restantes) y un { $share }% más de carga consumida.
 report-walks = Recorridos del inspector: { $walks }.
 report-walk = al punto { $place } desde { $moment }
 report-walk-before = al punto { $place } antes del despegue
+
+## Air around the bridges
+
+report-air-title = Aire alrededor de los puentes
+report-air-about = El aire medio en el modelo del vuelo, sin ráfagas. Los vórtices detrás de pilas y tableros están promediados y cuentan como turbulencia. Los colores y las flechas muestran la velocidad en el plano del dibujo.
+report-air-wind = Alrededor del puente «{ $bridge }», el viento libre soplaba a { $speed } m/s desde { $from }° a 6 m de altura.
+report-air-level = Puente «{ $bridge }» desde arriba, a { $height } m sobre el agua: altura mediana del vuelo en ese puente
+report-air-across = Puente «{ $bridge }» en sección transversal, a { $station } m de su centro hacia { $toward }°, mirando hacia { $heading }°
+report-air-places = Dónde los puentes perturbaron más el aire alrededor del dron (números en los dibujos):
+report-air-off = { $speed } m/s de diferencia con el viento libre
+report-air-caption = aire más perturbado
 
 ## Scores
 

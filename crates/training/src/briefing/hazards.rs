@@ -1,7 +1,7 @@
 //! Hazards of a job, derived from its scenario and site.
 
 use super::tasks::TaskBriefing;
-use spandrel_model::scenario::{AfterCrash, BatteryModel, Scenario, WindModel, WindSpec};
+use spandrel_model::scenario::{AfterCrash, Scenario, WindModel, WindSpec};
 use spandrel_model::site::Site;
 use spandrel_text::{Language, text};
 
@@ -9,8 +9,6 @@ use spandrel_text::{Language, text};
 const NOTABLE_WIND_M_S: f64 = 4.0;
 /// Constant force of the paper's wind model from which the briefing warns, N (its "gentle" level).
 const NOTABLE_FORCE_N: f64 = 3.0;
-/// Battery temperature below which the briefing warns, °C (makers of batteries recommend to warm them up below 15 °C).
-const COLD_BATTERY_C: f64 = 15.0;
 /// Clearance below which a path counts as confined, m (estimate: about two aircraft widths on each side).
 const CONFINED_CLEARANCE_M: f64 = 2.5;
 
@@ -40,7 +38,7 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     } else if scenario.rules.gnss_shadow {
         lines.push(text!(language, "briefing-satellites"));
     }
-    if scenario.hazards.wakes && scenario.wind.model == WindModel::Physical {
+    if scenario.has_wakes() {
         lines.push(text!(language, "briefing-wakes"));
     }
     if scenario.hazards.compass {
@@ -49,7 +47,7 @@ pub(super) fn hazards(scenario: &Scenario, site: &Site, tasks: &[TaskBriefing], 
     if scenario.hazards.radio {
         lines.push(text!(language, "briefing-radio"));
     }
-    if scenario.rules.battery == BatteryModel::Physical && scenario.rules.battery_temperature_c < COLD_BATTERY_C {
+    if scenario.rules.has_cold_battery() {
         let temperature = format!("{:.0}", scenario.rules.battery_temperature_c);
         lines.push(text!(language, "briefing-cold-battery", temperature = temperature));
     }

@@ -5,9 +5,13 @@
 //! [`page::series`], all of which escape it.
 
 pub mod assets;
+pub mod bridge_air;
+pub mod bridge_zone;
+pub mod cold_battery;
 mod context;
 pub mod coverage;
 pub mod defects;
+pub mod disturbed_air;
 pub mod feedback;
 pub mod formatting;
 pub mod interval_total;
@@ -22,6 +26,7 @@ pub mod scorm;
 pub mod sketch;
 pub mod table;
 pub mod task_proximity;
+pub mod water_losses;
 
 pub use context::ReviewContext;
 
@@ -127,6 +132,12 @@ pub struct Review {
     pub navigation: navigation_errors::NavigationErrors,
     /// Time with a poor video link, and losses of control.
     pub radio: radio_losses::RadioLosses,
+    /// Time in air that the bridges disturbed, and where they did most.
+    pub air: disturbed_air::DisturbedAir,
+    /// Failures of optical flow and range finder over water.
+    pub water: water_losses::WaterLosses,
+    /// Costs of a cold battery; `None` if it was not cold.
+    pub cold_battery: Option<cold_battery::ColdBattery>,
     /// Wind at the drone in each frame, m/s; `None` where the vehicle did not report it.
     pub wind_m_s: Vec<Option<Vec3<Enu>>>,
     /// Time out of the inspector's sight.
@@ -169,6 +180,9 @@ impl Review {
         let scored = ScoredFlight { scene, metadata: &metadata, assessed_session: &assessed_session };
         let (next, advice) = scored.plan_and_advice(&defects);
         let radio = radio_losses::RadioLosses::measure(frames, &navigation);
+        let air = disturbed_air::DisturbedAir::measure(scenario, frames, &navigation);
+        let water = water_losses::WaterLosses::measure(frames, &navigation);
+        let cold_battery = cold_battery::ColdBattery::measure(scenario, &vehicle.battery, frames, &navigation);
         let wind_m_s = frames.iter().map(|frame| navigation.wind_m_s(frame.time)).collect();
         let navigation = navigation_errors::NavigationErrors::measure(&flight, frames, &navigation);
         let out_of_sight = line_of_sight::out_of_sight(&site, frames);
@@ -183,6 +197,9 @@ impl Review {
             advice,
             navigation,
             radio,
+            air,
+            water,
+            cold_battery,
             wind_m_s,
             out_of_sight,
             link,
@@ -224,6 +241,18 @@ impl Review {
         let wind_m_s = self.wind_m_s.get(frame).copied().flatten()?;
         let from_deg = math::bearing_deg(-wind_m_s.east(), -wind_m_s.north());
         Some((wind_m_s.horizontal_norm(), from_deg))
+    }
+
+    /// Returns what the job's hazards did in this flight, as sentences.
+    #[must_use]
+    pub fn hazard_sentences(&self, language: Language) -> Vec<String> {
+        let battery = self.cold_battery.map(|battery| battery.sentence(language));
+        let mut lines = self.navigation.sentences(language);
+        lines.extend(self.radio.sentences(language));
+        lines.extend(self.air.sentences(&self.scenario, language));
+        lines.extend(self.water.sentences(language));
+        lines.extend(battery);
+        lines
     }
 
     /// Returns the time of a frame in seconds since lift-off.

@@ -3,7 +3,7 @@
 
 use super::formatting;
 use super::interval_total::IntervalTotal;
-use spandrel_mavlink::telemetry::{Flight, Frame, GnssReport, Navigation};
+use spandrel_mavlink::telemetry::{Flight, Frame, Navigation};
 use spandrel_model::math;
 use spandrel_model::time::SimTime;
 use spandrel_text::{Language, text};
@@ -56,7 +56,7 @@ impl NavigationErrors {
         let (Some(first), Some(last)) = (frames.first(), frames.last()) else { return Self::default() };
         let reports = navigation.gnss().between(first.time, last.time);
         let mut found = Self {
-            gnss_lost: time_without_fix(reports, first.time, last.time),
+            gnss_lost: IntervalTotal::of_reports(reports, (first.time, last.time), MAX_REPORT_AGE_S, |report| !report.has_fix),
             fewest_satellites: reports.iter().filter_map(|report| report.2.satellites).min(),
             ..Self::default()
         };
@@ -108,14 +108,4 @@ impl NavigationErrors {
         }
         lines
     }
-}
-
-/// Sums the time without a fix. A report counts until the next one, but not for longer than its largest age.
-fn time_without_fix(reports: &[(SimTime, i64, GnssReport)], from: SimTime, to: SimTime) -> IntervalTotal {
-    let interval = |(k, (time, _, report)): (usize, &(SimTime, i64, GnssReport))| {
-        let until = reports.get(k + 1).map_or(to, |next| next.0);
-        let (at_s, lasted_s) = ((*time - from).s(), (until - *time).s().min(MAX_REPORT_AGE_S));
-        (at_s, at_s + lasted_s, !report.has_fix)
-    };
-    IntervalTotal::of(reports.iter().enumerate().map(interval))
 }

@@ -4,11 +4,10 @@ use super::formatting;
 use super::interval_total::IntervalTotal;
 use spandrel_mavlink::contract::hazards::HazardReport;
 use spandrel_mavlink::telemetry::{Frame, Navigation};
-use spandrel_model::time::SimTime;
 use spandrel_text::{Language, text};
 
-/// Longest time for which a report counts, s (estimate: two per second, of which some may be lost).
-const MAX_REPORT_AGE_S: f64 = 1.5;
+/// Longest time for which a report on hazards counts, s (estimate: two per second, of which some may be lost).
+pub(super) const MAX_REPORT_AGE_S: f64 = 1.5;
 /// Margin below which the video counts as poor, dB: less than half of its data arrives.
 const POOR_VIDEO_DB: f64 = 0.0;
 
@@ -29,7 +28,9 @@ impl RadioLosses {
         let reports = navigation.hazards().between(first.time, last.time);
         let losses = |report: HazardReport| report.radio.map_or(0, |radio| radio.losses);
         let [before, after] = [first.time, last.time].map(|time| navigation.hazards().at(time).map_or(0, losses));
-        Self { video_poor: time_with_poor_video(reports, first.time, last.time), control_losses: after.saturating_sub(before) }
+        let is_poor = |report: &HazardReport| report.radio.is_some_and(|radio| radio.video_db < POOR_VIDEO_DB);
+        let video_poor = IntervalTotal::of_reports(reports, (first.time, last.time), MAX_REPORT_AGE_S, is_poor);
+        Self { video_poor, control_losses: after.saturating_sub(before) }
     }
 
     /// Returns what is worth mentioning, as sentences.
@@ -43,14 +44,4 @@ impl RadioLosses {
         ];
         lines.into_iter().flatten().collect()
     }
-}
-
-/// Sums the time with poor video. A report counts until the next one, but not for longer than its largest age.
-fn time_with_poor_video(reports: &[(SimTime, i64, HazardReport)], from: SimTime, to: SimTime) -> IntervalTotal {
-    let interval = |(k, (time, _, report)): (usize, &(SimTime, i64, HazardReport))| {
-        let until = reports.get(k + 1).map_or(to, |next| next.0);
-        let (at_s, lasted_s) = ((*time - from).s(), (until - *time).s().min(MAX_REPORT_AGE_S));
-        (at_s, at_s + lasted_s, report.radio.is_some_and(|radio| radio.video_db < POOR_VIDEO_DB))
-    };
-    IntervalTotal::of(reports.iter().enumerate().map(interval))
 }

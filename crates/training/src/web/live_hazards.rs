@@ -149,7 +149,7 @@ mod tests {
     fn exact_reports_of_compass_and_radio_expire() {
         let mut state = HazardState::default();
         let radio = RadioMargins { control_db: 12.4, video_db: -3.6, way: RadioWay::AroundEdge, losses: 0 };
-        let report = HazardReport { compass_rad: Some(-0.2), radio: Some(radio) };
+        let report = HazardReport { compass_rad: Some(-0.2), radio: Some(radio), ..HazardReport::default() };
         let now = SimTime::from_ms(10_000);
         state.handle(&report.message(10_000_000), 1, now);
         let at = now + hazards::TIMEOUT;

@@ -123,7 +123,7 @@ impl Lee {
     fn new(scenario: &Scenario, site: &Site) -> Option<Self> {
         let velocity = velocity_at(&scenario.wind, SimTime::ZERO);
         let speed_m_s = velocity.norm();
-        if !scenario.hazards.wakes || speed_m_s <= MIN_WIND_M_S {
+        if !scenario.has_wakes() || speed_m_s <= MIN_WIND_M_S {
             return None;
         }
         // The phase of the vortices has no effect on the mean wind.

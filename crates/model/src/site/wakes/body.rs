@@ -1,7 +1,7 @@
 //! Vertical bodies that stand free in the wind: piers, towers and columns.
 
 use super::air::Stream;
-use super::cylinders::{Section, Shedding};
+use super::cylinders::{Section, Shedding, Vortices};
 use super::plane_wake::{LENGTH_WIDTHS, PlaneWake, WakeAir};
 use crate::elements::Element;
 use crate::frames::{Enu, Vec3};
@@ -80,7 +80,7 @@ impl BluffBody {
     }
 
     /// Turns the wake into a wind, and advances its vortices by one time step.
-    pub(super) fn advance(&mut self, wind: &Stream, step: SimTime) {
+    pub(super) fn advance(&mut self, wind: &Stream, vortices: Vortices, step: SimTime) {
         // The speed of the wind changes with the aircraft's height, its direction seldom.
         let has_turned = (self.facing.0 - wind.along).norm_squared() > SAME_DIRECTION;
         if has_turned {
@@ -89,7 +89,8 @@ impl BluffBody {
         // The shedding of sharp sections does not depend on the speed of the wind.
         if has_turned || self.section == Section::Round {
             let (_, length_m, width_m) = self.facing;
-            self.wake = PlaneWake { width_m, shedding: Shedding::of(self.section, length_m, width_m, wind.speed_m_s) };
+            let shedding = vortices.of(Shedding::of(self.section, length_m, width_m, wind.speed_m_s));
+            self.wake = PlaneWake { width_m, shedding };
         }
         self.phase_rad = self.wake.next_phase_rad(self.phase_rad, wind.speed_m_s, step);
     }

@@ -37,6 +37,25 @@ pub(super) struct Shedding {
     pub(super) regularity: f64,
 }
 
+/// What becomes of the vortices that a body sheds regularly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Vortices {
+    /// They make the air sway.
+    Passing,
+    /// The air is the mean over their passage, and they add to the turbulence.
+    Averaged,
+}
+
+impl Vortices {
+    /// Returns the shedding of a body with these vortices.
+    pub(super) fn of(self, shedding: Shedding) -> Shedding {
+        match self {
+            Self::Passing => shedding,
+            Self::Averaged => Shedding { regularity: 0.0, ..shedding },
+        }
+    }
+}
+
 impl Shedding {
     /// Returns the values of a section with a length along the wind, a width across it (m), and a wind speed (m/s).
     pub(super) fn of(section: Section, length_m: f64, width_m: f64, speed_m_s: f64) -> Self {

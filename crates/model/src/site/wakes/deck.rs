@@ -8,7 +8,7 @@
 //! cylinder (ERCOFTAC UFR 2-15). The wind along the bridge is not affected.
 
 use super::air::{MIN_WIND_M_S, Stream};
-use super::cylinders::{Section, Shedding};
+use super::cylinders::{Section, Shedding, Vortices};
 use super::plane_wake::{LENGTH_WIDTHS, PlaneWake, WakeAir, smooth, squared};
 use crate::frames::{Enu, Vec3};
 use crate::math;
@@ -96,11 +96,11 @@ impl Deck {
     }
 
     /// Turns the flow into a wind, and advances the vortices of the wake by one time step.
-    pub(super) fn advance(&mut self, wind: &Stream, step: SimTime) {
+    pub(super) fn advance(&mut self, wind: &Stream, vortices: Vortices, step: SimTime) {
         let left = self.placement.direction([0.0, 1.0, 0.0]);
         let component = wind.along.dot(left) * wind.speed_m_s;
         let (sign, speed_m_s) = (component.signum(), component.abs());
-        let shedding = Shedding::of(Section::Sharp, 2.0 * self.half_width_m, self.depth_m, speed_m_s);
+        let shedding = vortices.of(Shedding::of(Section::Sharp, 2.0 * self.half_width_m, self.depth_m, speed_m_s));
         let wake = PlaneWake { width_m: self.depth_m, shedding };
         self.phase_rad = wake.next_phase_rad(self.phase_rad, speed_m_s, step);
         self.crossing = (speed_m_s >= MIN_WIND_M_S).then_some(Crossing { sign, along: left * sign, speed_m_s, wake });
@@ -245,7 +245,7 @@ mod tests {
         let center_m = Vec3::new(0.0, 0.0, 20.0);
         let bridge = Bridge { name: "test".into(), center_m, heading_deg: 90.0, kind };
         let mut deck = Deck::of(&bridge, 0.0);
-        deck.advance(&north_wind(), SimTime::ZERO);
+        deck.advance(&north_wind(), Vortices::Passing, SimTime::ZERO);
         (bridge, deck)
     }
 
@@ -355,7 +355,7 @@ mod tests {
         let beyond_m = 0.5 * bridge.deck_length_m() + 0.1;
         assert_eq!(deck.at(Vec3::new(beyond_m, 0.0, 22.0), 0.0), None);
         let along = Stream { along: Vec3::new(1.0, 0.0, 0.0), left: Vec3::new(0.0, 1.0, 0.0), speed_m_s: WIND_M_S };
-        deck.advance(&along, SimTime::ZERO);
+        deck.advance(&along, Vortices::Passing, SimTime::ZERO);
         assert_eq!(deck.at(Vec3::new(0.0, 0.0, 22.0), 0.0), None);
     }
 

@@ -19,6 +19,7 @@ use crate::time::SimTime;
 pub use air::LocalAir;
 use air::Stream;
 use body::BluffBody;
+use cylinders::Vortices;
 use deck::{Deck, DeckAir};
 pub use gusts::WakeGusts;
 use plane_wake::squared;
@@ -35,6 +36,7 @@ const ROUNDING_M: f64 = 1e-3;
 pub struct WakeField {
     bodies: Vec<BluffBody>,
     decks: Vec<Deck>,
+    vortices: Vortices,
     wind: Option<Stream>,
 }
 
@@ -66,7 +68,15 @@ impl WakeField {
         let mut phase_rad = || stream.uniform() * math::TAU;
         let bodies = members.iter().filter_map(BluffBody::of).map(|body| body.with_phase(phase_rad())).collect();
         let decks = bridges.iter().map(|bridge| Deck::of(bridge, phase_rad())).collect();
-        Self { bodies, decks, wind: None }
+        Self { bodies, decks, vortices: Vortices::Passing, wind: None }
+    }
+
+    /// Collects the bodies and decks for the mean over the passage of the vortices. Regular vortices add to the turbulence.
+    #[must_use]
+    pub fn averaged(members: &[Member], bridges: &[Bridge]) -> Self {
+        /// The mean does not depend on the phases.
+        const ANY_SEED: u64 = 0;
+        Self { vortices: Vortices::Averaged, ..Self::new(members, bridges, ANY_SEED) }
     }
 
     /// Turns the wakes into a wind, and advances their vortices by one time step.
@@ -74,10 +84,10 @@ impl WakeField {
         self.wind = Stream::of(wind_m_s);
         let Some(wind) = &self.wind else { return };
         for body in &mut self.bodies {
-            body.advance(wind, step);
+            body.advance(wind, self.vortices, step);
         }
         for deck in &mut self.decks {
-            deck.advance(wind, step);
+            deck.advance(wind, self.vortices, step);
         }
     }
 
@@ -247,6 +257,40 @@ mod tests {
                 let along = (wind + here).dot(wind) / (WIND_M_S * WIND_M_S);
                 assert!(along >= 1.0 - MAX_DEFICIT - 1e-9, "{here:?} at {at:?}");
             }
+        }
+    }
+
+    #[test]
+    fn exact_averaged_field_is_the_mean_over_the_vortices_and_keeps_their_energy() {
+        // Steps of a thousandth of the period: the mean of a sampled cosine is exact.
+        const STEPS: usize = 1000;
+        let period_s = WIDTH_M / (SQUARE_STROUHAL * WIND_M_S);
+        let step = SimTime::from_s(period_s / STEPS as f64);
+        let places = [(4.0, 0.5), (7.0, -1.0), (20.0, 2.0)].map(|(east_m, north_m)| Vec3::new(east_m, north_m, 10.0));
+        let mut field = pier(wind());
+        let (mut sums, mut squares) = ([Vec3::<Ned>::zero(); 3], [0.0; 3]);
+        for _ in 0..STEPS {
+            field.advance(wind(), step);
+            for (k, place) in places.iter().enumerate() {
+                let velocity = field.air(*place, 0.0).velocity_m_s;
+                sums[k] += velocity;
+                squares[k] += squared(velocity.north());
+            }
+        }
+        let averaged = {
+            let mut averaged = WakeField { vortices: Vortices::Averaged, ..field.clone() };
+            // A change of the direction makes the bodies determine their wakes anew.
+            averaged.advance(Vec3::new(WIND_M_S, 0.0, 0.0), SimTime::ZERO);
+            averaged.advance(wind(), SimTime::ZERO);
+            averaged
+        };
+        for (k, place) in places.iter().enumerate() {
+            let (passing, mean) = (field.air(*place, 0.0), averaged.air(*place, 0.0));
+            let error_m_s = (sums[k] / STEPS as f64 - mean.velocity_m_s).norm();
+            assert!(error_m_s < 1e-3 * WIND_M_S && mean.velocity_m_s.north().abs() < 1e-12, "{place:?}: {error_m_s}");
+            let variance = squared(passing.turbulence_m_s) + squares[k] / STEPS as f64;
+            assert!((mean.turbulence_m_s / variance.sqrt() - 1.0).abs() < 1e-3, "{place:?}: {mean:?} {variance}");
+            assert!(mean.turbulence_m_s > passing.turbulence_m_s, "{place:?}");
         }
     }
 

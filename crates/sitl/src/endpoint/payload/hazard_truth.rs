@@ -1,6 +1,7 @@
 //! State of a job's hazards at the aircraft.
 
-use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins};
+use spandrel_mavlink::contract::hazards::{HazardReport, RadioMargins, WaterSensors};
+use spandrel_model::frames::{Ned, Vec3};
 
 /// True state of the radio links between the pilot and the aircraft.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,13 +21,18 @@ pub struct HazardTruth {
     pub compass_rad: Option<f64>,
     /// Radio links; `None` if the job does not simulate them.
     pub radio: Option<RadioTruth>,
+    /// Largest velocity that wakes added to the wind in the last half second, m/s; `None` if the job does not simulate wakes.
+    pub wake_m_s: Option<Vec3<Ned>>,
+    /// Sensors that look down on water; `None` if the job does not simulate it.
+    pub water: Option<WaterSensors>,
 }
 
 impl HazardTruth {
     /// Returns the state as it is sent; `None` if there is nothing to send.
     #[must_use]
     pub fn report(&self) -> Option<HazardReport> {
-        let report = HazardReport { compass_rad: self.compass_rad, radio: self.radio.map(|radio| radio.margins) };
+        let Self { compass_rad, radio, wake_m_s, water } = *self;
+        let report = HazardReport { compass_rad, radio: radio.map(|radio| radio.margins), wake_m_s, water };
         (report != HazardReport::default()).then_some(report)
     }
 }

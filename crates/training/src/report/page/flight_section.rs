@@ -1,7 +1,7 @@
 //! The flight on the site, its timeline and charts, linked by a slider.
 
 use super::figure::{SLOT, figure, filled, legend, scrolling};
-use super::moment;
+use super::{air, moment};
 use crate::marks::TimelineMark;
 use crate::report::feedback::{CueEpisode, KINDS};
 use crate::report::plots::timeline::{TimelineRow, strips};
@@ -44,6 +44,7 @@ pub fn section(review: &Review) -> Markup {
         (video(review))
         (marks_legend(language))
         (drawings(review))
+        (air::figures(review))
         (figure(&text!(language, "report-flight-timeline"), &html! {
             (legend(&timeline_legend(language)))
             (scrolling(&text!(language, "report-flight-timeline-region"), &timeline))

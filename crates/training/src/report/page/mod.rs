@@ -1,6 +1,7 @@
 //! The report page, section by section. User-provided text is escaped by maud; data for the page's script is escaped by
 //! [`series`].
 
+mod air;
 mod briefing;
 mod certification;
 pub mod cohort;

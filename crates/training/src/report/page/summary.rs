@@ -37,8 +37,7 @@ pub fn header(review: &Review) -> Markup {
                 }
                 p { (text!(language, "report-flight-time", duration = duration, end = reason)) @if telemetry.missing_frames > 0 { " " (telemetry_summary(review)) } }
                 @if let Some(aids) = review.assessment.practice_aids.words(language) { p { (text!(language, "report-practice-aids", aids = aids)) } }
-                @for words in review.navigation.sentences(language) { p { (words) } }
-                @for words in review.radio.sentences(language) { p { (words) } }
+                @for words in review.hazard_sentences(language) { p { (words) } }
                 @if let Some(words) = out_of_sight_sentence(review.out_of_sight, language) { p { (words) } }
                 @if let Some(words) = walks_sentence(&review.site, &review.frames, language) { p { (words) } }
             }

@@ -89,7 +89,7 @@ pub(super) fn near_bridge_data(bridge: &Bridge) -> String {
 }
 
 /// Returns a function that decides whether a frame belongs in this bridge's side view.
-pub(super) fn is_near_bridge(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
+pub(in crate::report) fn is_near_bridge(bridge: &Bridge) -> impl Fn(&Frame) -> bool + use<> {
     let (view, center_m) = (ParallelView::side(bridge), bridge.center_m);
     let (axis, towards) = (view.right, view.toward_viewer());
     let half_m = 0.5 * bridge.deck_length_m() + 25.0;

@@ -1,6 +1,7 @@
 //! Figures in SVG, one file per figure. Colors are CSS classes so that they can differ between light mode, dark mode
 //! and print. Coordinates are in drawing units. For each figure, the report has a table with the data.
 
+pub mod air_section;
 mod backdrop;
 pub mod bars;
 pub mod boxes;
@@ -17,6 +18,7 @@ pub mod path_diagram;
 pub mod plot_map;
 pub mod radar;
 pub mod site_picture;
+pub mod speed_scale;
 pub mod timeline;
 
 use maud::{Markup, html};

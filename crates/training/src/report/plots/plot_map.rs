@@ -53,6 +53,11 @@ impl PlotMap {
         ((right_m - self.corner_m.0) * self.scale, (self.corner_m.1 - up_m) * self.scale)
     }
 
+    /// Returns the projected coordinates of a place in the drawing, m right and up.
+    pub(super) fn view_from_drawing(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        (self.corner_m.0 + x / self.scale, self.corner_m.1 - y / self.scale)
+    }
+
     /// Returns the projection matrix for the page's script: x = m0 e + m1 n + m2 u + m3, y = m4 e + m5 n + m6 u + m7.
     #[must_use]
     pub fn matrix(&self) -> String {
