@@ -82,9 +82,11 @@ class Gamepad:
 def test_wire_the_lesson_is_done_with_a_gamepad(tmp_path):
     """All steps are done with sticks and buttons, and mistakes are remarked. An invalid event is reported and has no effect."""
     gcs_port = spandrel.free_udp_port()
-    flight = spandrel.Flight(tmp_path, scenario="first-flight", speed=2, gcs_port=gcs_port)
-    pad = Gamepad(tmp_path, gcs_port)
-    try:
+    with contextlib.ExitStack() as stack:
+        flight = spandrel.Flight(tmp_path, scenario="first-flight", speed=2, gcs_port=gcs_port)
+        stack.callback(flight.close)
+        pad = Gamepad(tmp_path, gcs_port)
+        stack.callback(pad.close)
         pilot = LessonPilot(pad, Client(flight.client_port, scenario="first-flight"), AGAIN_S)
         pad.write({"t_s": 0, "axis": LEFT_VERTICAL, "value": -2.0})
         do_the_first_steps(pilot)
@@ -93,9 +95,7 @@ def test_wire_the_lesson_is_done_with_a_gamepad(tmp_path):
         lines = (flight.session() / "events.jsonl").read_text(encoding="utf-8").splitlines()
         steps = [event["done"] for event in map(json.loads, lines) if event.get("event") == "lesson_step"]
         assert steps == list(range(1, 12)), steps
-    finally:
         code = pad.close()
-        flight.close()
     told = (tmp_path / "rc.txt").read_text(encoding="utf-8")
     assert code == 0, told
     assert "standard input:6: value = -2.0 (allowed: -1 to 1); the line has no effect" in told, told

@@ -187,7 +187,7 @@ def test_color_choice_applies_to_all_drawings(browser, session):
     shown = "nodes => nodes.filter(node => getComputedStyle(node).display !== 'none').length"
     for chosen in ("by-speed", "by-clearance", "by-path"):
         page.check(f"#{chosen}")
-        drawings = page.locator("#flight svg.map").count()
+        drawings = page.locator("#flight svg.map:has(.flown)").count()
         assert drawings >= 4
         assert page.eval_on_selector_all(f"#flight .flown.{chosen}", shown) == drawings
         assert page.eval_on_selector_all("#flight .flown", shown) == drawings

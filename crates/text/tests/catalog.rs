@@ -108,7 +108,7 @@ const SINGULAR: &[(&str, &[&str], [&str; 3])] = &[
     ("certification-job-contacts", &["contacts"], ["1 contact,", "höchstens 1", "1 contacto,"]),
     ("cohort-certified", &["certified", "sessions"], ["1 of 1 session.", "1 von 1 Sitzung.", "1 de 1 sesión."]),
     ("cohort-answers-first", &["count"], ["1 answer)", "1 Antwort)", "1 respuesta)"]),
-    ("cohort-limit-imprecise", &["count"], ["1 trainee;", "1 Trainees;", "1 alumno;"]),
+    ("cohort-limit-imprecise", &["count"], ["1 trainee;", "1 Trainee;", "1 alumno;"]),
     ("editor-traffic-text", &["cars", "trucks", "pedestrians"], ["1 car, 1 truck, 1 pedestrian", "Pkw: 1", "autos: 1"]),
     ("editor-rules-summary", &["rules", "drills", "of"], ["1 rule, criteria for 1 drill.", "Regeln: 1", "Reglas: 1"]),
     ("live-gnss-now", &["satellites"], ["1 satellite", "1 Satellit", "1 satélite"]),

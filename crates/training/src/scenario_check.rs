@@ -83,7 +83,7 @@ pub fn check_forms(source: &ScenarioText<'_>, requested: Option<&str>, options: 
         let Some(job) = source.read(&scenario::select_form(source.text, form)) else { return };
         let site = Site::build(&job, 0);
         let (defects, detection) = (site.defects(), site.predicted_detection(&job.tasks, &defects::REFERENCE_CAMERA));
-        if defects.len() < job.defects.count {
+        if job.defects.placed.is_none() && defects.len() < job.defects.count {
             findings.warnings.push(format!(
                 "{}: form {form}: only {} of {} defects could be placed: choose another defect_seed or detection_pct",
                 source.file,
@@ -213,7 +213,7 @@ fn misplacement_words(defect: &PlacedDefect, wrong: Misplacement) -> (&'static s
             ("kind", defect.kind.to_string(), kinds.join(", "), "does not occur on this element")
         }
         Misplacement::OffSurface(distance_m) => {
-            ("position_m", format!("{distance_m:.2} m away"), "on the surface of the member".to_owned(), "not on a surface")
+            ("position_m", format!("{distance_m:.2} m"), "on the surface of the member".to_owned(), "not on a surface")
         }
         Misplacement::NoBridge | Misplacement::TooLarge | Misplacement::Covered => {
             ("position_m", String::new(), "on a free surface of a bridge".to_owned(), "no room for the defect")

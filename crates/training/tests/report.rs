@@ -218,9 +218,9 @@ fn exact_report_says_when_and_where_the_bridges_disturbed_the_air() {
     let words = strongest.zone.unwrap().words(&job, Language::English);
     let [plain, page] = [&plain, &flown].map(page::session);
     let moment = formatting::clock(strongest.at_s);
-    let expected = format!("It was strongest at {moment}, {words}: 4.0 m/s off the free wind.");
+    let expected = format!("It was strongest at {moment}, {words}: 4.0 m/s different from the undisturbed wind.");
     assert!(page.contains("for 0:03; longest for 0:02") && page.contains(&expected), "{expected}");
-    assert!(!plain.contains("off the free wind") && page.contains("class=\"air-place\""));
+    assert!(!plain.contains("different from the undisturbed wind") && page.contains("class=\"air-place\""));
     let list = page.split("class=\"air-places\"").nth(1).unwrap().split("</ol>").next().unwrap();
     assert_eq!(list.matches("class=\"moment-link\"").count(), 2, "{list}");
 }
@@ -298,7 +298,7 @@ fn exact_report_says_how_sensors_failed_over_water() {
     assert!((flow_lost.total_s - 3.0).abs() < 1e-9 && (ranges, lost_ranges) == (130, 61), "{:?}", flown.water);
     let page = page::session(&flown);
     assert!(page.contains("No optical flow over water for 0:03"), "time without flow");
-    assert!(page.contains("The range finder below failed at 61 of 130 readings over water."));
+    assert!(page.contains("The downward range finder failed in 61 of 130 readings over water."));
     assert!(!page::session(short_review()).contains("over water for") && short_review().water == WaterLosses::default());
 }
 

@@ -111,7 +111,7 @@ fn val_only_poor_interlayer_flights_are_found_in_the_plan() {
         let found: Vec<_> = plan.steps.iter().flat_map(|step| &step.reasons).filter(|one| about_the_task(&one.rule)).collect();
         assert_eq!(!found.is_empty(), !holds, "{}: {task:?}", record.id);
         if !holds {
-            assert!(found.iter().all(|reason| reason.words.starts_with(&task.name)));
+            assert!(found.iter().all(|reason| reason.words.contains(&task.name)));
             sent += 1;
         } else {
             spared += 1;

@@ -43,9 +43,9 @@ impl SceneDrawing {
     /// Opens a device and builds the site, which takes several seconds.
     pub fn new(scenario: &Scenario, vehicle: &Vehicle, seed: u64, quality: Quality, at: SimTime) -> Result<Self, AppError> {
         let progress = ProgressLog::start("loading scene");
-        let drawing = Self::new_in_steps(scenario, vehicle, seed, (quality, at), &|_| {});
+        let drawing = Self::new_in_steps(scenario, vehicle, seed, (quality, at), &|_| {})?;
         progress.finish();
-        drawing
+        Ok(drawing)
     }
 
     /// Builds the site like [`Self::new`], and reports each step before it begins.
@@ -61,17 +61,26 @@ impl SceneDrawing {
     ) -> Result<Self, AppError> {
         let gpu = Gpu::open()?;
         tracing::info!("rendering with {}", gpu.name);
-        report(LoadingStep::Site);
-        let site = Site::build(scenario, seed);
-        let scene = Scene::build_in_steps(scenario, &site, vehicle, (&quality, at), report);
-        report(LoadingStep::Upload);
-        Ok(Self { gpu, site, scene, quality })
+        Ok(Self::build(gpu, scenario, vehicle, seed, (quality, at), report))
     }
 
     /// Builds the site for a device that is already open.
     pub fn on(gpu: Gpu, scenario: &Scenario, vehicle: &Vehicle, seed: u64, (quality, at): (Quality, SimTime)) -> Self {
+        Self::build(gpu, scenario, vehicle, seed, (quality, at), &|_| {})
+    }
+
+    fn build(
+        gpu: Gpu,
+        scenario: &Scenario,
+        vehicle: &Vehicle,
+        seed: u64,
+        (quality, at): (Quality, SimTime),
+        report: &dyn Fn(LoadingStep),
+    ) -> Self {
+        report(LoadingStep::Site);
         let site = Site::build(scenario, seed);
-        let scene = Scene::build(scenario, &site, vehicle, &quality, at);
+        let scene = Scene::build_in_steps(scenario, &site, vehicle, (&quality, at), report);
+        report(LoadingStep::Upload);
         Self { gpu, site, scene, quality }
     }
 

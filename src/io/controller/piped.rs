@@ -57,9 +57,9 @@ impl PipedEvents {
 
 /// Sends the events of all lines until standard input ends. Invalid lines are reported; the flight continues.
 fn send_events(input: StdinLock, mut live: LiveInput, events: &Sender<DeviceEvent>) {
-    for line in input.lines() {
-        let read = line.map_err(|error| format!("{NAME}: {error}")).and_then(|line| live.next(&line));
-        match read {
+    for line in input.split(b'\n') {
+        let Ok(bytes) = line.inspect_err(|error| tracing::warn!("{NAME}: {error}")) else { return };
+        match live.next(&String::from_utf8_lossy(&bytes)) {
             Ok(event) if events.send(event).is_err() => return,
             Ok(_) => {}
             Err(error) => tracing::warn!("{error}; the line has no effect"),

@@ -20,7 +20,7 @@ const fn voice(language: Language) -> &'static str {
     }
 }
 
-/// What happens to the last words.
+/// Progress of the last words.
 #[derive(Debug)]
 enum Progress {
     /// They are being synthesized.
@@ -34,6 +34,8 @@ enum Progress {
 /// Speaks new warnings, one at a time.
 #[derive(Debug, Default)]
 pub struct SpeechVoice {
+    /// True once the synthesizer has failed.
+    has_failed: bool,
     /// True once no program for speech was found.
     is_missing: bool,
     alarms: ActiveAlarms,
@@ -45,7 +47,7 @@ impl SpeechVoice {
     /// are discarded, because they would be late when there is one.
     pub fn update(&mut self, inputs: &Mutex<Inputs>, has_device: bool) {
         let mut now = lock_inputs(inputs);
-        self.progress = self.progress.take().and_then(|progress| Self::advance(progress, &mut now));
+        self.progress = self.progress.take().and_then(|progress| self.advance(progress, &mut now));
         if !has_device {
             now.words = None;
         }
@@ -55,7 +57,8 @@ impl SpeechVoice {
         // Starting a program takes longer than the output can wait.
         drop(now);
         if let (Some(words), true, None, false) = (words, speech, &self.progress, self.is_missing) {
-            self.progress = synthesize(&words, language).or_else(|| play(&words, language));
+            let synthesis = if self.has_failed { None } else { synthesize(&words, language) };
+            self.progress = synthesis.or_else(|| play(&words, language));
             self.is_missing = self.progress.is_none();
             if self.is_missing {
                 tracing::warn!(
@@ -66,10 +69,15 @@ impl SpeechVoice {
     }
 
     /// Hands finished words to the output. Returns `None` after they have been spoken.
-    fn advance(progress: Progress, now: &mut Inputs) -> Option<Progress> {
+    fn advance(&mut self, progress: Progress, now: &mut Inputs) -> Option<Progress> {
         match progress {
             Progress::Synthesis(thread) if thread.is_finished() => {
-                let words = Arc::new(thread.join().ok()??);
+                let Some(words) = thread.join().ok().flatten() else {
+                    self.has_failed = true;
+                    tracing::warn!("{SYNTHESIZER} cannot speak: run it in a terminal to see why");
+                    return None;
+                };
+                let words = Arc::new(words);
                 let playback = Progress::Playback(Arc::downgrade(&words));
                 now.words = Some(words);
                 Some(playback)

@@ -32,6 +32,9 @@ pub struct RadioMargins {
     pub losses: u32,
 }
 
+/// Counters restart at this number, so that a 32-bit float holds them exactly.
+const COUNTER_RANGE: u32 = 1_000_000;
+
 /// Value that marks the presence of the wake and the water, which older vehicles don't report: their message ends before, with zeros.
 const HAS_AIR_AND_WATER: f32 = 1.0;
 
@@ -76,8 +79,8 @@ impl HazardReport {
             optional(self.wake_m_s.map(|added| added.east())),
             optional(self.wake_m_s.map(|added| added.down())),
             optional(self.water.map(|water| f64::from(u8::from(water.flow_lost)))),
-            optional(self.water.map(|water| f64::from(water.ranges))),
-            optional(self.water.map(|water| f64::from(water.lost_ranges))),
+            optional(self.water.map(|water| f64::from(water.ranges % COUNTER_RANGE))),
+            optional(self.water.map(|water| f64::from(water.lost_ranges % COUNTER_RANGE))),
         ];
         float_array::message(NAME, time_us, values)
     }

@@ -2,7 +2,7 @@
 
 use super::briefing_pictures::{self, BriefingPicture};
 use super::job::PlacedDefect;
-use super::resolve::{NONE_PLACED, PLACED, defect_entries};
+use super::resolve::{MAX_DEFECT_ID, NONE_PLACED, PLACED, defect_entries};
 use super::toml_text::{shown, typed};
 use super::values::{KIND_KEYS, ScenarioValues, describe};
 use std::collections::BTreeSet;
@@ -316,8 +316,8 @@ pub fn with_briefing_picture(text: &str, picture: &BriefingPicture) -> Result<St
     Ok(document.to_string())
 }
 
-/// Returns the text with one more placed defect, and its ID: the number after the largest one in the text. The ID of `defect` has no
-/// effect.
+/// Returns the text with one more placed defect, and its ID: the number after the largest one in the text, or else the smallest one
+/// that is free. The ID of `defect` has no effect.
 ///
 /// # Errors
 /// Returns a message if the text is not valid TOML, or `defects.placed` is not a repeated table.
@@ -326,7 +326,9 @@ pub fn with_placed_defect(text: &str, defect: &PlacedDefect) -> Result<(String, 
     let values = ScenarioValues::read(text).unwrap_or_default();
     let location = format!("{DEFECTS}.{PLACED}");
     let ids = (0..values.count(&location)).filter_map(|k| values.get(&format!("{location}[{k}].id"))?.parse::<u32>().ok());
-    let id = ids.max().unwrap_or(0).saturating_add(1);
+    let used: BTreeSet<u32> = ids.collect();
+    let next = used.last().map_or(1, |largest| largest.saturating_add(1));
+    let id = if next <= MAX_DEFECT_ID { next } else { (1..next).find(|id| !used.contains(id)).unwrap_or(next) };
     if let Some(defects) = document.get_mut(DEFECTS).and_then(Item::as_table_like_mut) {
         defects.remove(NONE_PLACED);
     }

@@ -5,6 +5,7 @@ use super::bridges::model::Model;
 use super::defect_cause::{DefectCause, Stain, StainSubstance};
 use super::job::PlacedDefect;
 use super::point::point;
+use super::read::MAX_DEFECTS;
 use super::siblings::SiblingLoader;
 use super::{briefing_pictures, difficulty, forms, terrain};
 use crate::elements::Element;
@@ -16,6 +17,8 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 pub(super) const PLACED: &str = "placed";
 /// Key that states that a session has no defects.
 pub(super) const NONE_PLACED: &str = "none_placed";
+/// Largest ID of a placed defect.
+pub(super) const MAX_DEFECT_ID: u32 = 10_000;
 /// Range of a placed defect's length, m.
 pub const LENGTH_RANGE_M: (f64, f64) = (1e-4, 50.0);
 /// Range of a placed defect's width, m.
@@ -84,6 +87,9 @@ pub(super) fn read_placed_defects(r: &mut Reader, s: &mut Section) -> Option<Vec
         r.finish(&t);
         out.push(defect);
     }
+    if out.len() > MAX_DEFECTS {
+        r.add_problem(s, PLACED, &out.len().to_string(), &format!("at most {MAX_DEFECTS} [[defects.{PLACED}]]"), "too many");
+    }
     (none_placed || !out.is_empty()).then_some(out)
 }
 
@@ -97,7 +103,7 @@ fn read_placed_defect(r: &mut Reader, t: &mut Section) -> PlacedDefect {
         v
     };
     PlacedDefect {
-        id: r.integer(t, "id", (1, 10_000), None) as u32,
+        id: r.integer(t, "id", (1, i64::from(MAX_DEFECT_ID)), None) as u32,
         element: Element::from_number(r.integer(t, "element", (1, 999), None) as u16),
         member: r.text(t, "member", None),
         kind: r.integer(t, "kind", (1000, 9999), None) as u32,

@@ -119,9 +119,12 @@ impl Site {
         match target {
             SurfaceTarget::Line { through_m, direction } => {
                 let from_m = through_m - direction * SIGHT_REACH_M;
-                let passages = self.geometry().passages(from_m, direction, 2.0 * SIGHT_REACH_M);
-                let first = passages.into_iter().find(|passage| is_own(passage.member)).ok_or(Misplacement::NoBridge)?;
-                Ok((first.member, from_m + direction * first.enter_m))
+                // Rays also hit open meshes, such as scans, which have no inside.
+                let hit =
+                    |index: usize| Some((index, self.geometry().shape(index)?.ray(from_m, direction, 2.0 * SIGHT_REACH_M)?.0));
+                let hits = (0..self.members().len()).filter(|index| is_own(*index)).filter_map(hit);
+                let (index, distance_m) = hits.min_by(|a, b| a.1.total_cmp(&b.1)).ok_or(Misplacement::NoBridge)?;
+                Ok((index, from_m + direction * distance_m))
             }
             SurfaceTarget::Near(point_m) => {
                 let shapes = (0..self.members().len()).filter(|index| is_own(*index));

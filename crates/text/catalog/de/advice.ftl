@@ -184,7 +184,10 @@ advice-moving-pictures =
        *[other] { $count ->
             [one] Eines
            *[other] { $count }
-        } Ihrer { $taken } Bilder haben Sie in der Bewegung aufgenommen, zuerst bei
+        } Ihrer { $taken } Bilder haben Sie in der Bewegung aufgenommen, { $count ->
+            [one] bei
+           *[other] zuerst bei
+        }
     } { $at }: Halten Sie vor jedem Bild an.
 advice-pictures-of-nothing = { $taken ->
         [one] Auf Ihrem einzigen Bild, bei { $at }, ist kein neuer Schaden zu sehen

@@ -162,8 +162,8 @@ cohort-column-crashes-to = bis
 cohort-pooled-rating = Gesamtwertung (% des Höchstwerts) nach Selbsteinschätzung (5 ist am besten)
 cohort-pooled-rating-title = Gemessene Wertung nach Selbsteinschätzung
 cohort-pooled-rating-caption = gemessene Wertung nach Selbsteinschätzung (%)
-cohort-contradiction-rated-too-high = bewertete die eigene Leistung mit { $own } von 5, liegt aber mit { $measured } % im untersten Viertel
-cohort-contradiction-rated-too-low = bewertete die eigene Leistung mit { $own } von 5, liegt aber mit { $measured } % im obersten Viertel
+cohort-contradiction-rated-too-high = bewertete die eigene Leistung mit { $own } von 5, liegt aber mit { $measured }% im untersten Viertel
+cohort-contradiction-rated-too-low = bewertete die eigene Leistung mit { $own } von 5, liegt aber mit { $measured }% im obersten Viertel
 cohort-contradiction-slow = spürte keinen Zeitdruck, flog aber { $minutes } min und gehört damit zum langsamsten Viertel
 cohort-contradiction-fast = spürte Zeitdruck, flog aber nur { $minutes } min und gehört damit zum schnellsten Viertel
 cohort-pooled-contradictions =
@@ -226,7 +226,11 @@ cohort-limit-few-pairs =
         [one] 1 Trainee ist
        *[other] { $count } Trainees sind
     } { $repetitions }-mal geflogen; bei weniger als { $recommended } kann ein gepaarter Test mittlere Effekte übersehen
-cohort-limit-imprecise = Die Zuverlässigkeit der Messgrößen beruht auf { $count } Trainees; bei weniger als { $recommended } ist sie ungenau
+cohort-limit-imprecise =
+    Die Zuverlässigkeit der Messgrößen beruht auf { $count ->
+        [one] { $count } Trainee
+       *[other] { $count } Trainees
+    }; bei weniger als { $recommended } ist sie ungenau
 cohort-limit-no-reliability = Keine Zuverlässigkeit für { $measure }: In allen Sitzungen dieser Trainees ist der Wert gleich
 cohort-limit-no-comparison = { $score }, Wiederholung { $later } und { $earlier }: kein Test möglich: { $reason }
 cohort-limit-no-homogeneity = { $score }: Die Gruppe lässt sich nicht mit den übrigen Trainees vergleichen: { $reason }

@@ -186,9 +186,12 @@ advice-none-found =
     }; at { $at } you were nearest to a view of defect { $defect }: search every task to its end.
 advice-moving-pictures =
     { $taken ->
-        [one] You took your only picture in motion,
-       *[other] You took { $count } of { $taken } pictures in motion, first
-    } at { $at }: stop before every picture.
+        [one] You took your only picture in motion, at
+       *[other] You took { $count } of { $taken } pictures in motion, { $count ->
+            [one] at
+           *[other] first at
+        }
+    } { $at }: stop before every picture.
 advice-pictures-of-nothing = { $taken ->
         [one] Your only picture, at { $at }, shows no new defect
        *[other] { $count } of your { $taken } pictures { $count ->

@@ -10,7 +10,7 @@ placing-state-4 = 4: severe
 placing-length = Length (m)
 placing-width = Width (mm)
 placing-turn = Rotation (°)
-placing-size-note = Without a size, the defect gets a typical one for its condition state. The rotation is counterclockwise, seen from outside.
+placing-size-note = If you leave the size empty, the defect gets a typical size for its condition state. The rotation is counterclockwise, seen from outside.
 placing-surface = Surface
 placing-surface-front = Facing the viewer: top in the plan, near side in a side view
 placing-surface-back = Facing away: underside in the plan, far side in a side view
@@ -23,7 +23,7 @@ placing-none = None. The defects are placed at random.
 placing-entry = { $number }: { $kind }, condition state { $state }, { $member }
 placing-remove = Remove defect { $number }
 placing-mark = Defect { $number }: { $kind }, condition state { $state }
-placing-script-click = Click the site plan or a side view, or press Escape.
+placing-script-click = Click the site plan or a side view. Press Escape to cancel.
 placing-done = Defect { $number } was placed on { $member } ({ $element }).
 
 # Reasons why a defect was not placed.

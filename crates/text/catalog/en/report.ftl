@@ -64,8 +64,8 @@ report-column-wind = wind (m/s)
 report-column-wind-from = wind from (deg)
 report-column-number = number
 report-column-place = place
-report-column-added-air = off the free wind (m/s)
-report-column-added-updraft = of that upward (m/s)
+report-column-added-air = difference from the undisturbed wind (m/s)
+report-column-added-updraft = upward part (m/s)
 report-column-east = east (m)
 report-column-north = north (m)
 report-column-height = height (m)
@@ -107,18 +107,18 @@ report-control-lost =
         [one] Control link lost once.
        *[other] Control link lost { $count } times.
     }
-report-air-disturbed = Air disturbed by a bridge (at least { $least } m/s off the free wind) for { $total }; longest for { $longest }, from { $from }.
-report-air-strongest = It was strongest at { $at }, { $place }: { $speed } m/s off the free wind.
+report-air-disturbed = Air disturbed by a bridge (at least { $least } m/s different from the undisturbed wind) for { $total }; longest for { $longest }, from { $from }.
+report-air-strongest = It was strongest at { $at }, { $place }: { $speed } m/s different from the undisturbed wind.
 report-place-under = under the deck of bridge '{ $bridge }'
 report-place-above = above the deck of bridge '{ $bridge }'
 report-place-beside = beside bridge '{ $bridge }'
 report-flow-lost = No optical flow over water for { $total }; longest for { $longest }, from { $from }.
 report-ranges-lost =
     { $count ->
-        [one] The range finder below failed at its only reading over water.
-       *[other] The range finder below failed at { $lost } of { $count } readings over water.
+        [one] The downward range finder failed in its only reading over water.
+       *[other] The downward range finder failed in { $lost } of { $count } readings over water.
     }
-report-cold-battery = Cold battery ({ $temperature } °C): up to { $missing } V less than at 25 °C (at { $at }, with { $voltage } V left), and { $share }% more charge used.
+report-cold-battery = Cold battery ({ $temperature } °C): up to { $missing } V less than at 25 °C (at { $at }, leaving { $voltage } V), and { $share }% more charge used.
 report-walks = Walks of the inspector: { $walks }.
 report-walk = to place { $place } at { $moment }
 report-walk-before = to place { $place } before lift-off
@@ -126,12 +126,12 @@ report-walk-before = to place { $place } before lift-off
 ## Air around the bridges
 
 report-air-title = Air around the bridges
-report-air-about = The mean air in the flight's own model, without gusts. Vortices behind piers and decks are averaged and count as turbulence. Colors and arrows: the speed in the plane of the drawing.
-report-air-wind = Around bridge '{ $bridge }', the free wind blew with { $speed } m/s from { $from }° at a height of 6 m.
+report-air-about = The mean airflow in the simulator's wind model, without gusts. Vortices behind piers and decks are averaged and count as turbulence. Colors and arrows show the speed in the plane of the drawing.
+report-air-wind = Around bridge '{ $bridge }', the undisturbed wind blew at { $speed } m/s from { $from }° at a height of 6 m.
 report-air-level = Bridge '{ $bridge }' from above, { $height } m above the water: the median height of the flight there
 report-air-across = Bridge '{ $bridge }' across the deck, { $station } m from its middle toward { $toward }°, looking toward { $heading }°
 report-air-places = Where the bridges disturbed the air around the drone most (numbers in the drawings):
-report-air-off = { $speed } m/s off the free wind
+report-air-off = { $speed } m/s different from the undisturbed wind
 report-air-caption = most disturbed air
 
 ## Scores

@@ -180,9 +180,12 @@ advice-none-found =
     }; a los { $at } estuvo más cerca de ver el defecto { $defect }: busque en cada tarea hasta el final.
 advice-moving-pictures =
     { $taken ->
-        [one] Tomó su única foto en movimiento,
-       *[other] Tomó { $count } de { $taken } fotos en movimiento, la primera
-    } a los { $at }: deténgase antes de cada foto.
+        [one] Tomó su única foto en movimiento, a los
+       *[other] Tomó { $count } de { $taken } fotos en movimiento, { $count ->
+            [one] a los
+           *[other] la primera a los
+        }
+    } { $at }: deténgase antes de cada foto.
 advice-pictures-of-nothing = { $taken ->
         [one] Su única foto, a los { $at }, no muestra ningún defecto nuevo
        *[other] { $count } de sus { $taken } fotos { $count ->

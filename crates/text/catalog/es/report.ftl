@@ -65,7 +65,7 @@ report-column-wind-from = viento desde (grados)
 report-column-number = número
 report-column-place = lugar
 report-column-added-air = diferencia con el viento libre (m/s)
-report-column-added-updraft = de ella hacia arriba (m/s)
+report-column-added-updraft = componente ascendente (m/s)
 report-column-east = este (m)
 report-column-north = norte (m)
 report-column-height = altura (m)
@@ -126,7 +126,7 @@ report-walk-before = al punto { $place } antes del despegue
 ## Air around the bridges
 
 report-air-title = Aire alrededor de los puentes
-report-air-about = El aire medio en el modelo del vuelo, sin ráfagas. Los vórtices detrás de pilas y tableros están promediados y cuentan como turbulencia. Los colores y las flechas muestran la velocidad en el plano del dibujo.
+report-air-about = El flujo medio del aire en el modelo de viento del simulador, sin ráfagas. Los vórtices detrás de pilas y tableros están promediados y cuentan como turbulencia. Los colores y las flechas muestran la velocidad en el plano del dibujo.
 report-air-wind = Alrededor del puente «{ $bridge }», el viento libre soplaba a { $speed } m/s desde { $from }° a 6 m de altura.
 report-air-level = Puente «{ $bridge }» desde arriba, a { $height } m sobre el agua: altura mediana del vuelo en ese puente
 report-air-across = Puente «{ $bridge }» en sección transversal, a { $station } m de su centro hacia { $toward }°, mirando hacia { $heading }°

@@ -8,7 +8,7 @@ use spandrel_text::{Language, text};
 pub struct Contradiction {
     /// Trainee's pseudonym.
     pub trainee: String,
-    /// What contradicts each other.
+    /// Statement and measurement that contradict each other.
     #[serde(rename = "words")]
     pub kind: ContradictionKind,
 }

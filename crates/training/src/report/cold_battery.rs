@@ -1,4 +1,4 @@
-//! What a cold battery cost a flight: the charge and the voltage that a warm one would have kept, from the voltage and the current that the
+//! Cost of a cold battery in a flight: the charge and the voltage that a warm one would have kept, from the voltage and the current that the
 //! vehicle reported.
 
 use super::formatting;

@@ -1,4 +1,4 @@
-//! When and where the bridges disturbed the air around the aircraft, as the vehicle reported it.
+//! Times and places at which the bridges disturbed the air around the aircraft, as the vehicle reported it.
 
 use super::bridge_zone::BridgeZone;
 use super::formatting;

@@ -1,4 +1,4 @@
-//! For how long optical flow, and how often the range finder that looks down, failed over water, as the vehicle reported it.
+//! Losses of optical flow and of the range finder that looks down over water, as the vehicle reported them.
 
 use super::formatting;
 use super::interval_total::IntervalTotal;

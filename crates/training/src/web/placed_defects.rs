@@ -106,8 +106,11 @@ impl DefectOrder {
 
 /// Returns a typed number; `None` if the text is empty.
 fn number(language: Language, field: &str, typed: &str, (low, high): (f64, f64)) -> Result<Option<f64>, String> {
-    // German and Spanish texts have decimal commas.
-    let typed = typed.trim().replace(',', ".");
+    let typed = match language {
+        Language::English | Language::Pseudo => typed.trim().to_owned(),
+        // These have decimal commas.
+        Language::German | Language::Spanish => typed.trim().replace(',', "."),
+    };
     if typed.is_empty() {
         return Ok(None);
     }

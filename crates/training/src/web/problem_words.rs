@@ -174,7 +174,7 @@ static ALLOWED: LazyLock<SentenceTable> = LazyLock::new(|| {
 pub struct ProblemWords {
     /// Language of the words.
     pub language: Language,
-    /// What is wrong, and what is allowed.
+    /// The problem, and the allowed values.
     pub text: String,
 }
 

@@ -65,6 +65,7 @@ fn texts(language: Language) -> String {
     script_texts([
         ("not_checked_status", text!(language, "editor-script-not-checked-status", status = "{status}")),
         ("not_checked_login", text!(language, "editor-script-not-checked-login")),
+        ("not_placed", text!(language, "placing-not-placed", reason = "{reason}")),
         ("not_checked", text!(language, "editor-script-not-checked", reason = "{reason}")),
         ("no_plan", text!(language, "editor-script-no-plan")),
         ("place", text!(language, "editor-script-place")),

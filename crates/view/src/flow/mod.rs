@@ -66,7 +66,7 @@ pub struct WindowFlow {
     names: KeyNames,
     /// The operation in progress.
     waiting_for: PendingOperation,
-    /// What is loading meanwhile, if it is known.
+    /// Words for what is loading meanwhile, if it is known.
     loading: Option<String>,
     /// Whether an instructor has ordered the selected flight.
     ordered: bool,

@@ -386,7 +386,7 @@ pub enum ToWindow {
     Ghost(GhostFlight),
     /// The flight has ended.
     Ended(FlightSummary),
-    /// What is loading for the page that the window waits for, and the share that is done.
+    /// Part that is loading for the page that the window waits for, and the share that is done.
     Loading {
         /// Words for the user.
         words: String,

@@ -37,7 +37,7 @@ pub(super) struct Shedding {
     pub(super) regularity: f64,
 }
 
-/// What becomes of the vortices that a body sheds regularly.
+/// Treatment of the vortices that a body sheds regularly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Vortices {
     /// They make the air sway.

@@ -352,7 +352,11 @@ fn level_plane(up_m: f64, bridge: &Bridge, flown_m: &[Vec3<Enu>]) -> (ParallelVi
     let placement = bridge.placement();
     let (right, up) = (placement.direction([1.0, 0.0, 0.0]), placement.direction([0.0, 1.0, 0.0]));
     let is_beside = |local: &[f64; 3]| local[1].abs() <= 0.5 * bridge.deck_width_m() + MAX_BESIDE_M;
-    let (from_m, to_m) = math::range(flown_m.iter().map(|at| placement.local(*at)).filter(is_beside).map(|local| local[0]));
+    let local = || flown_m.iter().map(|at| placement.local(*at));
+    // Farther beside, a flight near the bridge leaves the drawing, but still determines its length.
+    let beside = local().filter(is_beside).map(|local| local[0]);
+    let (from_m, to_m) =
+        if local().any(|local| is_beside(&local)) { math::range(beside) } else { math::range(local().map(|local| local[0])) };
     let lacking_m = (0.5 * (MIN_LENGTH_M - (to_m - from_m + 2.0 * MARGIN_M))).max(0.0);
     let (low_m, high_m) = beside_deck(bridge, flown_m);
     let z_m = up_m - bridge.center_m.up();

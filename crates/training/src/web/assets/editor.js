@@ -31,9 +31,9 @@ let checkedText = null;
 let leaving = false;
 // List of placed defects that the page shows.
 let shownPlaced = null;
-// Defect to place that the server has not answered yet.
-let defect = null;
-// What the next click on a drawing does: whether any drawing or only the plan takes it, the function for it, the words meanwhile and
+// Defects to place that have not been sent yet, one for each request.
+let defects = [];
+// Purpose of the next click on a drawing: whether any drawing or only the plan takes it, the function for it, the words meanwhile and
 // the element that shows them, and the button that gets the focus.
 let placing = null;
 // Position of the caret in a field of a form that was replaced.
@@ -64,20 +64,22 @@ function checkNow() {
 }
 
 async function checkAll() {
-  while (edits.length > 0 || defect !== null || area.value !== checkedText) {
-    const sent = { text: area.value, edits, typed, defect };
+  while (edits.length > 0 || defects.length > 0 || area.value !== checkedText) {
+    const sent = { text: area.value, edits, typed, defect: defects.shift() ?? null };
     edits = [];
-    defect = null;
     typed = new Map();
     try {
       const answer = await ask(sent);
       // Text typed in the meantime stays; the edits apply to it next.
       if (area.value === sent.text) {
         show(answer, sent);
-        if (answer.rejected !== null) return false;
+        if (answer.rejected !== null) {
+          notPlaced(sent, answer.rejected);
+          return false;
+        }
       } else {
         edits = [...sent.edits, ...edits];
-        defect ??= sent.defect;
+        if (sent.defect !== null) defects.unshift(sent.defect);
       }
     } catch (error) {
       console.error(error);
@@ -85,10 +87,19 @@ async function checkAll() {
       edits = [...sent.edits, ...edits].filter((edit) => edit.set !== undefined);
       focusNext = null;
       say(status, error.words ?? texts.not_checked.replace("{reason}", error.message));
+      notPlaced(sent, status.textContent);
       return false;
     }
   }
   return true;
+}
+
+/** Says why a defect of a request was not placed. The orders after it may depend on it. */
+function notPlaced(sent, reason) {
+  if (sent.defect === null) return;
+  defects = [];
+  placedResult.classList.add("field-problem");
+  say(placedResult, texts.not_placed.replace("{reason}", reason));
 }
 
 async function ask({ text, edits: list, defect: order }) {
@@ -167,14 +178,20 @@ function setValue(input, value) {
   input.value = value;
 }
 
+/** Shows texts in a row, each in its own language. */
+function sayEach(slot, words) {
+  if (slot.textContent === words.map(({ text }) => text).join("; ")) return;
+  const spans = words.map(({ text, lang }) => Object.assign(document.createElement("span"), { textContent: text, lang }));
+  slot.replaceChildren(...spans.flatMap((span, k) => (k === 0 ? [span] : ["; ", span])));
+}
+
 function showProblems(problems) {
   const texts = new Map();
   for (const { element, ...words } of problems) if (element !== null) texts.set(element, [...(texts.get(element) ?? []), words]);
   for (const slot of fields.querySelectorAll(".field-problem")) {
     const id = slot.id.slice(0, -"-problem".length);
     const words = texts.get(id);
-    say(slot, words ? words.map(({ text }) => text).join("; ") : "");
-    if (words) slot.lang = words[0].lang;
+    sayEach(slot, words ?? []);
     for (const input of [document.getElementById(id), ...fields.querySelectorAll(`[id^="${CSS.escape(id)}-part-"]`)]) {
       if (!input?.dataset.field) continue;
       if (words) input.setAttribute("aria-invalid", "true");
@@ -346,14 +363,14 @@ const choice = (id) => document.getElementById(id).value;
 
 /** Sends a defect with the chosen kind and size. */
 function placeDefect(place) {
-  defect = {
+  defects.push({
     kind: Number(choice("place-kind")),
     condition_state: Number(choice("place-state")),
     length_m: choice("place-length"),
     width_mm: choice("place-width"),
     turn_deg: choice("place-turn"),
     place,
-  };
+  });
   say(placedResult, "");
   checkNow();
 }
@@ -394,14 +411,14 @@ for (const id of ["place-kind", "place-state"]) document.getElementById(id).addE
 
 // ---- Saving and leaving ----
 
-const isUnsaved = () => saved === null || area.value !== saved || edits.length > 0 || defect !== null;
+const isUnsaved = () => saved === null || area.value !== saved || edits.length > 0 || defects.length > 0;
 
 form.addEventListener("submit", (event) => {
   const { submitter } = event;
   if (submitter?.id === "download") {
     event.preventDefault();
     download();
-  } else if (edits.length > 0 || defect !== null || checking !== null) {
+  } else if (isPending()) {
     event.preventDefault();
     checkNow().then((done) => { if (done) form.requestSubmit(submitter); });
   } else {
@@ -409,8 +426,10 @@ form.addEventListener("submit", (event) => {
   }
 });
 
+const isPending = () => edits.length > 0 || defects.length > 0 || checking !== null;
+
 async function download() {
-  if (edits.length > 0 && !(await checkNow())) say(status, texts.downloaded.replace("{status}", status.textContent));
+  if (isPending() && !(await checkNow())) say(status, texts.downloaded.replace("{status}", status.textContent));
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([area.value], { type: "application/toml" }));
   link.download = `${document.getElementById("field-name")?.value || "scenario"}.toml`;
