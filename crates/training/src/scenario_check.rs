@@ -605,6 +605,17 @@ mod tests {
     }
 
     #[test]
+    fn exact_forms_of_a_job_with_placed_defects_lack_none() {
+        let job = scenario::read("a.toml", shipped::PILOT_STUDY, &|_| Err("none".into())).unwrap();
+        let site = Site::build(&job, 0);
+        let (text, _) = spandrel_model::scenario::edit::with_placed_defect(shipped::PILOT_STUDY, &site.defects()[0]).unwrap();
+        let findings = found("pilot-study", &text, &aircraft(), |source, options, findings| {
+            check_forms(source, Some("A"), options, findings);
+        });
+        assert_eq!((findings.warnings, findings.notes.len()), (Vec::new(), 1));
+    }
+
+    #[test]
     fn exact_no_step_begins_after_the_limit() {
         let aircraft = aircraft();
         let options = CheckOptions { aircraft: &aircraft, may_continue: &|| false };

@@ -497,6 +497,11 @@ mod tests {
         assert!(!with_placed_defect(&none, &defect).unwrap().0.contains("none_placed"));
         let twice = two.replace("id = 2\n", "id = 1\n");
         assert_eq!(problems(&twice), [("defects.placed[1].id".into(), "duplicate number".into())]);
+        let last = one.replace("id = 1\n", "id = 10000\n");
+        assert_eq!(with_placed_defect(&last, &defect).unwrap().1, 1, "the largest number is in use");
+        let full =
+            (0..=super::super::MAX_DEFECTS).fold(PRACTICE.to_owned(), |text, _| with_placed_defect(&text, &defect).unwrap().0);
+        assert_eq!(problems(&full), [("defects.placed".into(), "too many".into())]);
     }
 
     #[test]

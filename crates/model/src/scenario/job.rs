@@ -17,6 +17,9 @@ use crate::stick_response::StickResponse;
 use crate::time::SimTime;
 use std::sync::Arc;
 
+/// Maximum number of defects of a job (estimate: more than anybody finds in one flight).
+pub const MAX_DEFECTS: usize = 200;
+
 /// A job: the content of a scenario file, parsed and validated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario {

@@ -31,12 +31,12 @@ pub use difficulty::{level_count, select_level};
 pub use forms::{form_names, select_form};
 pub use job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HOLD_DURATION, HazardSpec,
-    INSPECTOR_EYE_HEIGHT_M, LightSpec, PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff, Task,
-    TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
+    INSPECTOR_EYE_HEIGHT_M, LightSpec, MAX_DEFECTS, PlacedDefect, Scenario, ScoringParams, SelectedForm, SessionRules, StandOff,
+    Task, TerrainSource, TerrainSpec, TrafficSpec, WeatherSpec, WindEvent, WindModel, WindSpec,
 };
 pub use lesson::{LessonPlace, LessonStep};
 pub use point::MAX_COORDINATE_M;
-pub use read::{FORMAT, MAX_DEFECTS, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};
+pub use read::{FORMAT, MAX_NAME_CHARS, is_name, is_name_char, read, read_with_keys};
 pub use resolve::{LENGTH_RANGE_M, WIDTH_RANGE_M, resolve, select_variant, variant_names, variant_with_crc};
 pub use siblings::SiblingLoader;
 pub use stain_patch::{StainPatch, downhill};

@@ -6,7 +6,7 @@ use super::bridges::{Bridge, BridgeKind, BridgeType};
 use super::defect_cause::DefectPlacement;
 use super::job::{
     AfterCrash, BatteryModel, DefectSpec, Difficulty, FeedbackThresholds, GroundTeam, GuidancePolicy, HazardSpec, LightSpec,
-    Scenario, ScoringParams, SessionRules, TrafficSpec,
+    MAX_DEFECTS, Scenario, ScoringParams, SessionRules, TrafficSpec,
 };
 use super::point::point;
 use super::siblings::{SiblingLoader, sibling_text};
@@ -26,8 +26,6 @@ use std::sync::Arc;
 pub const FORMAT: i64 = 1;
 /// Maximum number of bridges per site (estimate: far more than one flight can reach).
 const MAX_BRIDGES: usize = 16;
-/// Maximum number of defects of a job (estimate: more than anybody finds in one flight).
-pub const MAX_DEFECTS: usize = 200;
 /// Maximum length of a paragraph of the briefing, characters (estimate: longer ones belong in a document of their own).
 const MAX_BRIEFING_CHARS: usize = 1_000;
 

@@ -3,9 +3,8 @@
 
 use super::bridges::model::Model;
 use super::defect_cause::{DefectCause, Stain, StainSubstance};
-use super::job::PlacedDefect;
+use super::job::{MAX_DEFECTS, PlacedDefect};
 use super::point::point;
-use super::read::MAX_DEFECTS;
 use super::siblings::SiblingLoader;
 use super::{briefing_pictures, difficulty, forms, terrain};
 use crate::elements::Element;

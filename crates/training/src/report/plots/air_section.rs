@@ -391,3 +391,21 @@ fn beside_deck(bridge: &Bridge, flown_m: &[Vec3<Enu>]) -> (f64, f64) {
     let most_m = half_m + MAX_BESIDE_M;
     ((low_m - MARGIN_M).max(-most_m), (high_m + MARGIN_M).min(most_m))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spandrel_model::{scenario, shipped};
+
+    #[test]
+    fn exact_a_hover_far_beside_a_bridge_still_has_a_level_plane() {
+        let job = scenario::read("two-bridges.toml", shipped::TWO_BRIDGES, &|_| Err("none".into())).unwrap();
+        for bridge in &job.bridges {
+            let far_m = 0.5 * bridge.deck_width_m() + MAX_BESIDE_M + 5.0;
+            let hover_m = bridge.placement().point([3.0, far_m, 0.0]);
+            let (_, _, corners_m) = level_plane(hover_m.up(), bridge, &[hover_m; 3]);
+            let [from, to] = corners_m.map(|corner| bridge.placement().local(corner));
+            assert!((to[0] - from[0] - MIN_LENGTH_M).abs() < 1e-9 && from[0] < 3.0 && 3.0 < to[0], "{from:?} {to:?}");
+        }
+    }
+}
