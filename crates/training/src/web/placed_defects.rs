@@ -302,7 +302,7 @@ mod tests {
 
     #[test]
     fn exact_an_order_becomes_an_entry_of_the_scenario() {
-        let (text, words) = placed(&order(CRACK, "0,5", "2")).unwrap();
+        let (text, words) = placed(&order(CRACK, "0.5", "2")).unwrap();
         let scenario = scenario::read("job.toml", &text, NO_FILES).unwrap();
         let [defect] = scenario.defects.placed.as_deref().unwrap() else { panic!("{text}") };
         assert_eq!((defect.id, defect.kind, defect.condition_state, defect.line), (1, CRACK, 3, true));
@@ -322,6 +322,8 @@ mod tests {
         let reason = |order: DefectOrder| placed(&order).unwrap_err();
         assert_eq!(reason(order(CRACK, "x", "")), "Length (m): not a number from 0.0001 to 50.");
         assert_eq!(reason(order(CRACK, "51", "")), "Length (m): not a number from 0.0001 to 50.");
+        assert_eq!(reason(order(CRACK, "0,5", "")), "Length (m): not a number from 0.0001 to 50.");
+        assert_eq!(order(CRACK, "0,5", "2").shape(Language::German).unwrap().length_m, 0.5, "a decimal comma");
         assert_eq!(reason(order(CRACK, "0.1", "200")), "the width is larger than the length.");
         assert_eq!(reason(order(CRACK, "0.5", "0.4")), "with this size, the condition state is 2.");
         assert_eq!(
