@@ -269,7 +269,7 @@ def test_wire_defects_are_placed_and_removed_with_the_keyboard(browser, server):
     page.fill("#field-wind-from_deg", "400")
     problem = page.locator("#field-wind-from_deg-problem")
     expect(problem).to_have_text("außerhalb des Bereichs (zulässig: 0 bis 360)")
-    expect(problem).to_have_attribute("lang", "de")
+    expect(problem.locator("span")).to_have_attribute("lang", "de")
     expect(page.locator("#findings .problems")).to_contain_text("wind.from_deg = 400: außerhalb des Bereichs")
     page.click("#place-at-coordinates")
     expect(page.locator("#placed-result")).to_contain_text("Das Szenario hat Probleme")
