@@ -64,8 +64,10 @@ impl ScenarioText<'_> {
 /// Checks a valid scenario: clearance along its paths, placement of its defects, the quantities of its bridges' elements, and the
 /// requirements for certification.
 pub fn check_scenario(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>, findings: &mut Findings) {
-    findings.problems.extend(site_problems(source, scenario, options));
-    findings.warnings.extend(placed_defect_warnings(source, scenario, options));
+    if let Some(site) = built_site(scenario, options) {
+        findings.problems.extend(site_problems(source, scenario, &site, options));
+        findings.warnings.extend(placed_defect_warnings(source, scenario, &site, options));
+    }
     findings.warnings.extend(missing_defects_warning(source, scenario, options));
     findings.warnings.extend(repeated_paths(source, scenario));
     findings.warnings.extend(path_overlap::warnings(source.file, scenario));
@@ -168,13 +170,13 @@ fn built_site(scenario: &Scenario, options: &CheckOptions<'_>) -> Option<Site> {
     (options.may_continue)().then(|| Site::without_defects(scenario))
 }
 
-/// Returns the problems that only the built site shows: of the tasks' paths and of the inspector's places.
-fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<Problem> {
-    let Some(site) = built_site(scenario, options) else { return Vec::new() };
-    let mut problems = clearance_problems(source, scenario, &site, options);
+/// Returns the problems that only the built site shows: of the tasks' paths, of the inspector's places and of the defects that the file
+/// places.
+fn site_problems(source: &ScenarioText<'_>, scenario: &Scenario, site: &Site, options: &CheckOptions<'_>) -> Vec<Problem> {
+    let mut problems = clearance_problems(source, scenario, site, options);
     if (options.may_continue)() {
-        problems.extend(place_problems(source, scenario, &site));
-        problems.extend(placed_defect_problems(source, scenario, &site));
+        problems.extend(place_problems(source, scenario, site));
+        problems.extend(placed_defect_problems(source, scenario, site));
     }
     problems
 }
@@ -223,9 +225,15 @@ fn misplacement_words(defect: &PlacedDefect, wrong: Misplacement) -> (&'static s
 
 /// Returns a warning for each defect that the file places where no task's path allows a picture of it, and one if the file also has
 /// forms, which have no effect on placed defects.
-fn placed_defect_warnings(source: &ScenarioText<'_>, scenario: &Scenario, options: &CheckOptions<'_>) -> Vec<String> {
-    let Some(placed) = scenario.defects.placed.as_deref().filter(|placed| !placed.is_empty()) else { return Vec::new() };
-    let Some(site) = built_site(scenario, options) else { return Vec::new() };
+fn placed_defect_warnings(
+    source: &ScenarioText<'_>,
+    scenario: &Scenario,
+    site: &Site,
+    options: &CheckOptions<'_>,
+) -> Vec<String> {
+    let Some(placed) = scenario.defects.placed.as_deref().filter(|placed| !placed.is_empty() && (options.may_continue)()) else {
+        return Vec::new();
+    };
     let lines = table_line_numbers(source.text, &PLACED_TABLES);
     let seen = |defect: &PlacedDefect| site.misplacement(defect).is_some() || site.can_be_photographed(scenario, defect);
     let hidden = placed.iter().enumerate().take_while(|_| (options.may_continue)()).filter(|(_, defect)| !seen(defect));
@@ -608,7 +616,7 @@ mod tests {
     fn exact_forms_of_a_job_with_placed_defects_lack_none() {
         let job = scenario::read("a.toml", shipped::PILOT_STUDY, &|_| Err("none".into())).unwrap();
         let site = Site::build(&job, 0);
-        let (text, _) = spandrel_model::scenario::edit::with_placed_defect(shipped::PILOT_STUDY, &site.defects()[0]).unwrap();
+        let (text, _) = scenario::edit::with_placed_defect(shipped::PILOT_STUDY, &site.defects()[0]).unwrap();
         let findings = found("pilot-study", &text, &aircraft(), |source, options, findings| {
             check_forms(source, Some("A"), options, findings);
         });
