@@ -1,7 +1,7 @@
 //! A flight in the window: receives its telemetry and loads its scene.
 
 use super::listener::TelemetryListener;
-use super::panes::{PaneContent, RenderJob, ViewOptions, ViewPanes};
+use super::panes::{PaneContent, RenderJob, ViewFrame, ViewOptions, ViewPanes};
 use super::screen::WindowSurface;
 use crate::errors::AppError;
 use crate::io::log_file::LogFile;
@@ -243,7 +243,23 @@ impl FlightView {
             let live = self.listener.live();
             (live.feed().clone(), if is_map_large { live.flown_path().clone() } else { FlownPath::default() })
         };
-        panes.draw(screen, places, now, (&feed, flown), options)
+        panes.draw(&ViewFrame { screen, places, now, feed: &feed, options }, flown)
+    }
+
+    /// Begins the camera's next picture where a second device renders it.
+    ///
+    /// # Errors
+    /// Returns an error if a device fails.
+    pub fn begin_camera(
+        &mut self,
+        screen: &WindowSurface,
+        places: &[ViewRect],
+        now: Option<&LiveMoment>,
+        options: &ViewOptions,
+    ) -> Result<(), AppError> {
+        let (SceneLoading::Ready(panes), Some(now)) = (&mut self.scene, now) else { return Ok(()) };
+        let feed = self.listener.live().feed().clone();
+        panes.begin_camera(&ViewFrame { screen, places, now, feed: &feed, options })
     }
 
     /// Returns both views, once the scene is ready.

@@ -212,11 +212,7 @@ impl Cockpit {
         let step_s = started.saturating_sub(self.last_frame_at).as_secs_f64();
         self.last_frame_at = started;
         let stands = self.flow.is_paused();
-        let mut now = self.threads.flight.as_ref().and_then(FlightView::now);
-        if let (Some(now), true) = (&mut now, stands) {
-            // While the simulation is paused, no telemetry arrives, but the link is not lost.
-            now.hud.telemetry_age_s = 0.0;
-        }
+        let now = self.threads.flight.as_ref().and_then(|flight| shown_moment(flight, stands));
         if let Some(screen) = &self.screen {
             let quality = self.quality(screen);
             if let Some(flight) = &mut self.threads.flight {
@@ -250,7 +246,9 @@ impl Cockpit {
             style: self.flow.style(),
         };
         let (Some(screen), Some(flight)) = (&mut self.screen, &mut self.threads.flight) else { return Ok(()) };
-        let shown = flight.draw(screen, &self.flow.arrangement.view_rects(shape), now.as_ref(), &options)?;
+        let places = self.flow.arrangement.view_rects(shape);
+        let shown = flight.draw(screen, &places, now.as_ref(), &options)?;
+        flight.begin_camera(screen, &places, shown_moment(flight, stands).as_ref(), &options)?;
         let size = screen.window.inner_size();
         let sheet = self.flow.sheet(f64::from(size.width.max(1)) / f64::from(size.height.max(1)));
         let text_scale = self.flow.style().text_scale;
@@ -384,6 +382,15 @@ impl Cockpit {
         self.stop.request();
         Ok(())
     }
+}
+
+/// Returns the current state of a flight. While the simulation is paused, no telemetry arrives, but the link is not lost.
+fn shown_moment(flight: &FlightView, is_paused: bool) -> Option<LiveMoment> {
+    let mut now = flight.now()?;
+    if is_paused {
+        now.hud.telemetry_age_s = 0.0;
+    }
+    Some(now)
 }
 
 /// Paints a page on top of the window.

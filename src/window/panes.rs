@@ -26,7 +26,7 @@ use spandrel_view::quality::Quality;
 use spandrel_view::scene::{LoadingStep, Scene};
 use spandrel_view::shot::Shot;
 use spandrel_view::stage::{self, SceneMoment, Stage};
-use spandrel_view::video_link::{ReceivedFrame, VideoReceiver};
+use spandrel_view::video_link::VideoReceiver;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -80,6 +80,8 @@ pub struct ViewPanes {
     /// Second device for the camera's view, if the window's own device is a software renderer.
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
+    /// The camera's picture that the second device renders.
+    begun: Option<BegunView>,
     /// The second device's last image.
     last_image: Option<Picture>,
     /// Exposure meters for the inspector's view and the camera's view.
@@ -103,6 +105,42 @@ pub struct ViewOptions<'a> {
     pub control_names: ControlNames<'a>,
     /// Language, units and text size.
     pub style: DisplayStyle,
+}
+
+/// What a frame of the views shows, and where.
+#[derive(Clone, Copy)]
+pub struct ViewFrame<'a> {
+    /// The window.
+    pub screen: &'a WindowSurface,
+    /// Views in their stacking order.
+    pub places: &'a [ViewRect],
+    /// State of the flight.
+    pub now: &'a LiveMoment,
+    /// Telemetry of the flight.
+    pub feed: &'a Feed,
+    /// The user's view settings.
+    pub options: &'a ViewOptions<'a>,
+}
+
+impl ViewFrame<'_> {
+    /// Returns a view's place, if it is shown.
+    fn place(&self, which: ViewKind) -> Option<ViewRect> {
+        self.places.iter().find(|view_rect| view_rect.which == which).copied()
+    }
+
+    /// Returns a view's picture size in px for its place.
+    fn size_px(&self, view_rect: &ViewRect) -> (u32, u32) {
+        let window = self.screen.window.inner_size();
+        let on_screen = (view_rect.width * f64::from(window.width), view_rect.height * f64::from(window.height));
+        render_size_px(on_screen, self.screen.gpu.software.then_some(SOFTWARE_VIEW_PIXELS))
+    }
+}
+
+/// A view that a second device renders.
+struct BegunView {
+    view_rect: ViewRect,
+    size_px: (u32, u32),
+    items: Vec<DrawItem>,
 }
 
 /// A view to show.
@@ -129,6 +167,7 @@ impl ViewPanes {
             secondary: aside,
             job,
             panes: BTreeMap::new(),
+            begun: None,
             last_image: None,
             exposure_meters: Default::default(),
             video: VideoReceiver::default(),
@@ -145,25 +184,65 @@ impl ViewPanes {
         self.job.site.inspector().at(now.moment.at)
     }
 
-    /// Renders both views.
+    /// Renders both views. With a second device, the camera's picture is the one that [`Self::begin_camera`] has begun.
     ///
     /// # Errors
     /// Returns an error if a device fails.
-    pub fn draw(
-        &mut self,
-        screen: &WindowSurface,
-        places: &[ViewRect],
-        now: &LiveMoment,
-        (feed, flown): (&Feed, FlownPath),
-        options: &ViewOptions,
-    ) -> Result<Vec<PaneContent>, AppError> {
+    pub fn draw(&mut self, frame: &ViewFrame, flown: FlownPath) -> Result<Vec<PaneContent>, AppError> {
+        let mut display = self.display(frame);
+        display.flown = flown;
+        let mut shown = Vec::new();
+        if let Some(view_rect) = frame.place(ViewKind::Map) {
+            let items = hud::large_map(&display, &self.job.scene.outline, logical_size_px(frame.screen, &view_rect));
+            shown.push(PaneContent { view_rect, picture: None, items });
+        }
+        if let Some(view_rect) = frame.place(ViewKind::Instruments) {
+            let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(frame.screen, &view_rect));
+            shown.push(PaneContent { view_rect, picture: None, items });
+        }
+        if let Some(view_rect) = frame.place(ViewKind::Inspector) {
+            let (shot, items) = self.inspector_shot(frame, &view_rect, &display);
+            shown.push(self.draw_here(frame.screen, view_rect, &shot, items));
+        }
+        if let Some(view_rect) = self.camera_place(frame) {
+            hide_small_map(&mut display, frame);
+            let content = if self.secondary.is_some() {
+                self.finish_camera(frame, view_rect, &display)?
+            } else {
+                let (shot, items) = self.camera_shot(frame, &view_rect, &display);
+                self.draw_here(frame.screen, view_rect, &shot, items)
+            };
+            shown.push(content);
+        }
+        // Restores the stacking order of the views.
+        shown.sort_by_key(|view| frame.places.iter().position(|view_rect| view_rect.which == view.view_rect.which));
+        Ok(shown)
+    }
+
+    /// Begins the camera's next picture on the second device, if there is one. The device renders it while the window shows
+    /// the last pictures and draws the inspector's next view, so that the processor's cores are never idle.
+    ///
+    /// # Errors
+    /// Returns an error if a device fails.
+    pub fn begin_camera(&mut self, frame: &ViewFrame) -> Result<(), AppError> {
+        let (Some(view_rect), None, true) = (self.camera_place(frame), &self.begun, self.secondary.is_some()) else {
+            return Ok(());
+        };
+        let mut display = self.display(frame);
+        hide_small_map(&mut display, frame);
+        self.begun = Some(self.start_camera(frame, view_rect, &display)?);
+        Ok(())
+    }
+
+    /// Returns the state of the displays.
+    fn display(&mut self, frame: &ViewFrame) -> Hud {
+        let (now, options) = (frame.now, frame.options);
         if !self.job.site.has_changes(&now.site_changes) {
             self.job.site = self.job.site.with_changes(now.site_changes.clone());
         }
-        let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (feed, false), options.map);
+        let mut display = stage::display(&self.job.stage(), &now.moment, &now.hud, (frame.feed, false), options.map);
         display.style = options.style;
         display.ghost = options.ghost;
-        display.flown = flown;
         let language = options.style.language;
         if let Some(lesson) = &mut display.lesson {
             lesson.how = how_to(lesson.status.task, language, &options.control_names);
@@ -171,54 +250,49 @@ impl ViewPanes {
         if let Some(guidance) = &display.guidance {
             display.guidance_how = step_how_to(guidance.step, language, &options.control_names);
         }
-        let video = self.video.receive(&now.moment, feed.video_margin_db(now.moment.at));
-        let mut shown = Vec::new();
-        if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Map) {
-            let items = hud::large_map(&display, &self.job.scene.outline, logical_size_px(screen, view_rect));
-            shown.push(PaneContent { view_rect: *view_rect, picture: None, items });
-            // The other views need no map of their own.
-            display.tracks = Vec::new();
-        }
-        if let Some(view_rect) = places.iter().find(|view_rect| view_rect.which == ViewKind::Instruments) {
-            let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(screen, view_rect));
-            shown.push(PaneContent { view_rect: *view_rect, picture: None, items });
-            // The instruments include a map.
-            display.tracks = Vec::new();
-        }
-        // Start the camera's view first, because the second device renders it while this device renders the other view.
-        let mut order: Vec<&ViewRect> =
-            places.iter().filter(|view_rect| !matches!(view_rect.which, ViewKind::Instruments | ViewKind::Map)).collect();
-        order.sort_by_key(|view_rect| view_rect.which != ViewKind::Camera);
-        let mut begun = false;
-        for view_rect in order {
-            let view_rect = self.fit_view(screen, *view_rect);
-            let (shot, items) = self.render(screen, &view_rect, (&now.moment, &video), &display, options);
-            let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
-            shown.push(PaneContent { view_rect, picture: Some(pane.picture.clone()), items });
-            match &self.secondary {
-                Some(aside) if view_rect.which == ViewKind::Camera => {
-                    aside.start(shot)?;
-                    begun = true;
-                }
-                _ => self.renderer.draw(&screen.gpu, &shot, &pane.texture),
-            }
-        }
-        if begun {
-            self.copy_secondary_image(screen)?;
-        }
-        // Restores the stacking order of the views.
-        shown.sort_by_key(|view| places.iter().position(|view_rect| view_rect.which == view.view_rect.which));
-        Ok(shown)
+        display
     }
 
-    fn copy_secondary_image(&mut self, screen: &WindowSurface) -> Result<(), AppError> {
-        let Some(aside) = &self.secondary else { return Ok(()) };
-        let (picture, _) = aside.picture()?;
-        if let Some(pane) = self.panes.get(&(ViewKind::Camera as u8)) {
-            fill(&screen.gpu, &pane.whole, &picture);
+    /// Draws a view on the window's device.
+    fn draw_here(&mut self, screen: &WindowSurface, view_rect: ViewRect, shot: &Shot, items: Vec<DrawItem>) -> PaneContent {
+        let pane = pane(&mut self.panes, screen, view_rect.which, shot.size_px);
+        self.renderer.draw(&screen.gpu, shot, &pane.texture);
+        PaneContent { view_rect, picture: Some(pane.picture.clone()), items }
+    }
+
+    /// Starts the camera's picture on the second device.
+    fn start_camera(&mut self, frame: &ViewFrame, view_rect: ViewRect, display: &Hud) -> Result<BegunView, AppError> {
+        let (shot, items) = self.camera_shot(frame, &view_rect, display);
+        let begun = BegunView { view_rect, size_px: shot.size_px, items };
+        if let Some(secondary) = &self.secondary {
+            secondary.start(shot)?;
         }
-        self.last_image = Some(picture);
-        Ok(())
+        Ok(begun)
+    }
+
+    /// Waits for the camera's picture from the second device. A picture that was begun for another layout is discarded.
+    fn finish_camera(&mut self, frame: &ViewFrame, view_rect: ViewRect, display: &Hud) -> Result<PaneContent, AppError> {
+        let mut begun = self.begun.take();
+        if begun.as_ref().is_some_and(|begun| begun.view_rect != view_rect || begun.size_px != frame.size_px(&view_rect)) {
+            self.secondary_picture()?;
+            begun = None;
+        }
+        let BegunView { view_rect, size_px, items } = match begun {
+            Some(begun) => begun,
+            None => self.start_camera(frame, view_rect, display)?,
+        };
+        let picture = self.secondary_picture()?;
+        let pane = pane(&mut self.panes, frame.screen, ViewKind::Camera, size_px);
+        if let Some(picture) = &picture {
+            fill(&frame.screen.gpu, &pane.whole, picture);
+        }
+        let content = PaneContent { view_rect, picture: Some(pane.picture.clone()), items };
+        self.last_image = picture;
+        Ok(content)
+    }
+
+    fn secondary_picture(&self) -> Result<Option<Picture>, AppError> {
+        Ok(self.secondary.as_ref().map(SecondaryRenderer::picture).transpose()?.map(|(picture, _)| picture))
     }
 
     /// Returns the camera's last image, without the head-up display.
@@ -229,53 +303,49 @@ impl ViewPanes {
         Ok(self.panes.get(&(ViewKind::Camera as u8)).map(|pane| read(&screen.gpu, &pane.whole)).transpose()?)
     }
 
-    /// Returns a view's rectangle. The camera's view has its sensor's aspect ratio.
-    fn fit_view(&self, screen: &WindowSurface, view_rect: ViewRect) -> ViewRect {
-        let window = screen.window.inner_size();
-        match view_rect.which {
-            ViewKind::Inspector | ViewKind::Instruments | ViewKind::Map => view_rect,
-            ViewKind::Camera => {
-                let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
-                view_rect.fit_aspect(self.job.vehicle.camera.aspect(), shape)
-            }
-        }
+    /// Returns the rectangle of the camera's view, which has its sensor's aspect ratio.
+    fn camera_place(&self, frame: &ViewFrame) -> Option<ViewRect> {
+        let window = frame.screen.window.inner_size();
+        let shape = f64::from(window.width.max(1)) / f64::from(window.height.max(1));
+        frame.place(ViewKind::Camera).map(|view_rect| view_rect.fit_aspect(self.job.vehicle.camera.aspect(), shape))
     }
 
-    /// Returns a view's shot and overlay.
-    fn render(
-        &mut self,
-        screen: &WindowSurface,
-        view_rect: &ViewRect,
-        (moment, video): (&SceneMoment, &ReceivedFrame),
-        display: &Hud,
-        options: &ViewOptions,
-    ) -> (Shot, Vec<DrawItem>) {
-        let window = screen.window.inner_size();
-        let on_screen = (view_rect.width * f64::from(window.width), view_rect.height * f64::from(window.height));
-        let size_px = render_size_px(on_screen, screen.gpu.software.then_some(SOFTWARE_VIEW_PIXELS));
-        let (stage, [eyes, film]) = (self.job.stage(), &mut self.exposure_meters);
-        // A lesson explains the ribbon and the gates.
-        let aids =
-            if display.lesson.is_some() && options.path_aids != PathAids::None { PathAids::Full } else { options.path_aids };
-        match view_rect.which {
-            ViewKind::Inspector | ViewKind::Instruments | ViewKind::Map => {
-                let shot = stage.inspector_view(&options.inspector_camera, moment, size_px, eyes);
-                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
-                items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
-                items.extend(stage.ghost_items(&shot, options.ghost));
-                items.extend(stage.drone_marker(&shot, moment, options.style));
-                (shot, items)
-            }
-            ViewKind::Camera => {
-                let moment = &video.moment;
-                let shot = stage.camera_frame(moment, size_px, film).with_lost_blocks(video.lost_blocks);
-                let mut items = stage.path_items(&shot, moment, display.guidance.as_ref(), aids);
-                items.extend(stage.lesson_items(&shot, display.lesson.as_ref()));
-                items.extend(stage.ghost_items(&shot, options.ghost));
-                items.extend(hud::layout_px(display, logical_size_px(screen, view_rect)));
-                (shot, items)
-            }
-        }
+    /// Returns the inspector's shot and overlay.
+    fn inspector_shot(&mut self, frame: &ViewFrame, view_rect: &ViewRect, display: &Hud) -> (Shot, Vec<DrawItem>) {
+        let (stage, moment, options) = (self.job.stage(), &frame.now.moment, frame.options);
+        let meter = &mut self.exposure_meters[0];
+        let shot = stage.inspector_view(&options.inspector_camera, moment, frame.size_px(view_rect), meter);
+        let mut items = overlay_items(&stage, &shot, moment, display, options);
+        items.extend(stage.drone_marker(&shot, moment, options.style));
+        (shot, items)
+    }
+
+    /// Returns the camera's shot and overlay.
+    fn camera_shot(&mut self, frame: &ViewFrame, view_rect: &ViewRect, display: &Hud) -> (Shot, Vec<DrawItem>) {
+        let now = &frame.now.moment;
+        let video = self.video.receive(now, frame.feed.video_margin_db(now.at));
+        let (stage, moment, meter) = (self.job.stage(), &video.moment, &mut self.exposure_meters[1]);
+        let shot = stage.camera_frame(moment, frame.size_px(view_rect), meter).with_lost_blocks(video.lost_blocks);
+        let mut items = overlay_items(&stage, &shot, moment, display, frame.options);
+        items.extend(hud::layout_px(display, logical_size_px(frame.screen, view_rect)));
+        (shot, items)
+    }
+}
+
+/// Returns the overlay of both views: the path, the lesson's targets, and the ghost.
+fn overlay_items(stage: &Stage, shot: &Shot, moment: &SceneMoment, display: &Hud, options: &ViewOptions) -> Vec<DrawItem> {
+    // A lesson explains the ribbon and the gates.
+    let aids = if display.lesson.is_some() && options.path_aids != PathAids::None { PathAids::Full } else { options.path_aids };
+    let mut items = stage.path_items(shot, moment, display.guidance.as_ref(), aids);
+    items.extend(stage.lesson_items(shot, display.lesson.as_ref()));
+    items.extend(stage.ghost_items(shot, options.ghost));
+    items
+}
+
+/// Removes the small map from the camera's view if another view contains a map.
+fn hide_small_map(display: &mut Hud, frame: &ViewFrame) {
+    if [ViewKind::Instruments, ViewKind::Map].into_iter().any(|which| frame.place(which).is_some()) {
+        display.tracks = Vec::new();
     }
 }
 
