@@ -270,29 +270,22 @@ impl ViewPanes {
         Ok(begun)
     }
 
-    /// Waits for the camera's picture from the second device. A picture that was begun for another layout is discarded.
+    /// Waits for the camera's picture from the second device. A picture that was begun for another layout is scaled, with the overlay
+    /// of the new layout.
     fn finish_camera(&mut self, frame: &ViewFrame, view_rect: ViewRect, display: &Hud) -> Result<PaneContent, AppError> {
-        let mut begun = self.begun.take();
-        if begun.as_ref().is_some_and(|begun| begun.view_rect != view_rect || begun.size_px != frame.size_px(&view_rect)) {
-            self.secondary_picture()?;
-            begun = None;
-        }
-        let BegunView { view_rect, size_px, items } = match begun {
+        let begun = match self.begun.take() {
             Some(begun) => begun,
             None => self.start_camera(frame, view_rect, display)?,
         };
-        let picture = self.secondary_picture()?;
-        let pane = pane(&mut self.panes, frame.screen, ViewKind::Camera, size_px);
+        let items = if begun.view_rect == view_rect { begun.items } else { self.camera_shot(frame, &view_rect, display).1 };
+        let picture = self.secondary.as_ref().map(SecondaryRenderer::picture).transpose()?.map(|(picture, _)| picture);
+        let pane = pane(&mut self.panes, frame.screen, ViewKind::Camera, begun.size_px);
         if let Some(picture) = &picture {
             fill(&frame.screen.gpu, &pane.whole, picture);
         }
         let content = PaneContent { view_rect, picture: Some(pane.picture.clone()), items };
         self.last_image = picture;
         Ok(content)
-    }
-
-    fn secondary_picture(&self) -> Result<Option<Picture>, AppError> {
-        Ok(self.secondary.as_ref().map(SecondaryRenderer::picture).transpose()?.map(|(picture, _)| picture))
     }
 
     /// Returns the camera's last image, without the head-up display.
