@@ -195,17 +195,20 @@ impl ViewPanes {
         if let Some(view_rect) = frame.place(ViewKind::Map) {
             let items = hud::large_map(&display, &self.job.scene.outline, logical_size_px(frame.screen, &view_rect));
             shown.push(PaneContent { view_rect, picture: None, items });
+            // The other views need no map of their own.
+            display.tracks = Vec::new();
         }
         if let Some(view_rect) = frame.place(ViewKind::Instruments) {
             let items = hud::instruments(&display, &self.job.scene.outline, logical_size_px(frame.screen, &view_rect));
             shown.push(PaneContent { view_rect, picture: None, items });
+            // The instruments include a map.
+            display.tracks = Vec::new();
         }
         if let Some(view_rect) = frame.place(ViewKind::Inspector) {
             let (shot, items) = self.inspector_shot(frame, &view_rect, &display);
             shown.push(self.draw_here(frame.screen, view_rect, &shot, items));
         }
         if let Some(view_rect) = self.camera_place(frame) {
-            hide_small_map(&mut display, frame);
             let content = if self.secondary.is_some() {
                 self.finish_camera(frame, view_rect, &display)?
             } else {
@@ -229,7 +232,10 @@ impl ViewPanes {
             return Ok(());
         };
         let mut display = self.display(frame);
-        hide_small_map(&mut display, frame);
+        if [ViewKind::Instruments, ViewKind::Map].into_iter().any(|which| frame.place(which).is_some()) {
+            // They include a map.
+            display.tracks = Vec::new();
+        }
         self.begun = Some(self.start_camera(frame, view_rect, &display)?);
         Ok(())
     }
@@ -333,13 +339,6 @@ fn overlay_items(stage: &Stage, shot: &Shot, moment: &SceneMoment, display: &Hud
     items.extend(stage.lesson_items(shot, display.lesson.as_ref()));
     items.extend(stage.ghost_items(shot, options.ghost));
     items
-}
-
-/// Removes the small map from the camera's view if another view contains a map.
-fn hide_small_map(display: &mut Hud, frame: &ViewFrame) {
-    if [ViewKind::Instruments, ViewKind::Map].into_iter().any(|which| frame.place(which).is_some()) {
-        display.tracks = Vec::new();
-    }
 }
 
 /// Returns a view's size in px at standard pixel density: text keeps its normal size on the screen, so displays with a larger

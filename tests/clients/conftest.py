@@ -12,11 +12,13 @@ import webserver
 MEASURED = []
 
 
-# Files whose tests take longest (`--durations=0`). They begin first, so that no process is left alone with one of them at the end.
+# Files whose tests take longest (`--durations=0`). They begin first, so that no process is left alone with one of them at the end. Windows are beside
+# clients that mostly wait; browsers and renderings come after them.
 LONG_FILES = (
-    "test_web", "test_school", "test_report", "test_flow", "test_pymavlink", "test_web_editor", "test_faults", "test_web_instructor", "test_bad_radio",
-    "test_px4_flows", "test_certification", "test_study", "test_simple_clients", "test_stations", "test_lesson_keys", "test_web_pictures", "test_mavsdk",
-    "test_mavsdk_bridges", "test_flavors",
+    "test_flow", "test_pymavlink", "test_lesson_gamepad", "test_bad_radio", "test_mavsdk", "test_simple_clients", "test_practice", "test_school",
+    "test_px4_flows", "test_mavsdk_bridges", "test_flavors", "test_lesson", "test_settings", "test_stations", "test_speech", "test_live_camera", "test_view",
+    "test_stream", "test_lesson_keys", "test_faults", "test_report", "test_web", "test_certification", "test_dataset", "test_training", "test_study",
+    "test_web_editor", "test_web_instructor", "test_video", "test_web_pictures", "test_web_attacks",
 )
 
 

@@ -43,7 +43,8 @@ class Display:
         width, height = self.size
         image = self.root.get_image(0, 0, width, height, X.ZPixmap, 0xFFFFFFFF)
         pixels = numpy.frombuffer(image.data, dtype=numpy.uint8).reshape(height, width, 4)
-        return pixels[:, :, 2::-1].astype(int)
+        # Differences of two photographs fit, and large arrays would take time that the window needs.
+        return pixels[:, :, 2::-1].astype(numpy.int16)
 
     def windows(self):
         """Returns the visible windows."""
@@ -77,4 +78,7 @@ class Display:
 
 def pixels_of(photograph, color, tolerance=3):
     """Returns the rows and columns of the pixels with a color."""
-    return numpy.argwhere(numpy.abs(photograph - numpy.array(color)).max(axis=2) <= tolerance)
+    near = numpy.ones(photograph.shape[:2], dtype=bool)
+    for channel, value in enumerate(color):
+        near &= numpy.abs(photograph[:, :, channel] - value) <= tolerance
+    return numpy.argwhere(near)

@@ -95,12 +95,16 @@ class Flight:
         self.log.close()
 
 
-def wait_for(what, predicate, limit_s=FLIGHT_LIMIT_S):
+# Pause between two looks at a window, s: a look takes processor time that the window's frames need.
+LOOK_PAUSE_S = 0.1
+
+
+def wait_for(what, predicate, limit_s=FLIGHT_LIMIT_S, pause_s=0.01):
     """Polls until the predicate returns a truthy value; the limit only prevents a broken run from hanging."""
     end = time.monotonic() + limit_s
     while time.monotonic() < end:
         value = predicate()
         if value:
             return value
-        time.sleep(0.01)
+        time.sleep(pause_s)
     raise AssertionError(f"timed out waiting for: {what}")

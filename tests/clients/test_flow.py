@@ -99,7 +99,7 @@ class Training:
                 self.screen.tap(key)
             return []
 
-        (photograph,) = spandrel.wait_for(name, look, LIMIT_S)
+        (photograph,) = spandrel.wait_for(name, look, LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         self.save_screenshot(name, photograph)
         return photograph
 
@@ -292,7 +292,7 @@ def test_wire_an_expert_flies_while_the_trainee_watches(screen, tmp_path):
         # Below the recommendation: job, aircraft, purpose, controller check, expert. Another aircraft is chosen on the way.
         for key in (DOWN, DOWN, RIGHT, DOWN, DOWN, DOWN):
             screen.tap(key)
-        spandrel.wait_for("the focus on the expert", lambda: focus(screen.photograph())[1] > focus(moved)[1] + 0.2, LIMIT_S)
+        spandrel.wait_for("the focus on the expert", lambda: focus(screen.photograph())[1] > focus(moved)[1] + 0.2, LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         training.wait_for_screenshot("expert-flies", in_flight, ENTER)
         training.wait_for_screenshot("expert-over", lambda photograph: is_page(photograph) and count(photograph, BLUE) > 200)
         (session,) = folders(training)
@@ -406,7 +406,7 @@ def test_wire_invalid_lines_are_reported_once_without_closing_the_window(screen,
         assert json.loads(window.stdout.readline()) == {"is": "ready"}
         window.stdin.write(b"rubbish\n\xff\xfe\n{}\n" + json.dumps(OFFERS).encode() + b"\n")
         window.stdin.flush()
-        spandrel.wait_for("the start page", lambda: is_page(screen.photograph()), LIMIT_S)
+        spandrel.wait_for("the start page", lambda: is_page(screen.photograph()), LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         window.stdin.close()
         assert window.wait(timeout=LIMIT_S) == 0
     finally:

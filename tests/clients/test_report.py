@@ -112,8 +112,8 @@ def test_report_opens_without_errors_or_requests(browser, session, size, scheme)
     assert wrong == []
 
 
-def test_links_move_the_slider_to_their_moment(browser, session):
-    page, wrong = open_page(browser, session / "report.html")
+def test_links_move_the_slider_to_their_moment(flat_browser, session):
+    page, wrong = open_page(flat_browser, session / "report.html")
     link = page.locator("#better a.moment-link").first
     link.click()
     assert link.inner_text() == f"Show {page.inner_text('#moment-text')}"
@@ -128,8 +128,8 @@ def test_links_move_the_slider_to_their_moment(browser, session):
 
 
 @pytest.mark.parametrize("size", list(SIZES))
-def test_first_screen_says_what_to_do_better(browser, session, size):
-    page, _ = open_page(browser, session / "report.html", size)
+def test_first_screen_says_what_to_do_better(flat_browser, session, size):
+    page, _ = open_page(flat_browser, session / "report.html", size)
     width, height = SIZES[size]
     points = page.locator("ol.advice > li")
     assert 1 <= points.count() <= 3
@@ -137,8 +137,8 @@ def test_first_screen_says_what_to_do_better(browser, session, size):
     assert box["x"] + box["width"] <= width and box["y"] + box["height"] <= height, box
 
 
-def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
-    page, wrong = open_page(browser, session / "report.html")
+def test_slider_moves_the_drone_in_all_drawings_and_charts(flat_browser, session):
+    page, wrong = open_page(flat_browser, session / "report.html")
     most = int(page.get_attribute("#moment", "max"))
     assert most > 1000
 
@@ -164,9 +164,9 @@ def test_slider_moves_the_drone_in_all_drawings_and_charts(browser, session):
     assert wrong == []
 
 
-def test_marker_matches_the_recorded_position(browser, session):
+def test_marker_matches_the_recorded_position(flat_browser, session):
     """Compares the marker on the plan with the frames that `export` writes, using the drawing's own matrix."""
-    page, _ = open_page(browser, session / "report.html")
+    page, _ = open_page(flat_browser, session / "report.html")
     rows = spandrel.run("export", str(session), "--frames", "-").splitlines()
     head = rows[0].split(",")
     index = 500
@@ -214,8 +214,8 @@ def test_model_opens_rotates_and_follows_the_slider(browser, session):
     assert wrong == []
 
 
-def test_data_behind_a_figure_can_be_downloaded(browser, session, tmp_path):
-    page, wrong = open_page(browser, session / "report.html")
+def test_data_behind_a_figure_can_be_downloaded(flat_browser, session, tmp_path):
+    page, wrong = open_page(flat_browser, session / "report.html")
     page.click("#tasks summary >> nth=0")
     with page.expect_download() as download:
         page.click("#tasks details[open] a[download]")
@@ -274,8 +274,8 @@ def test_regress_offline_pages_pass_axe_and_look_as_committed(flat_browser, sess
     assert not differ, "\n".join(differ)
 
 
-def test_every_figure_has_its_data_table(browser, session):
-    page, _ = open_page(browser, session / "report.html")
+def test_every_figure_has_its_data_table(flat_browser, session):
+    page, _ = open_page(flat_browser, session / "report.html")
     for section in page.query_selector_all("main > section"):
         name = section.get_attribute("id")
         if name == "better":
@@ -283,12 +283,12 @@ def test_every_figure_has_its_data_table(browser, session):
         assert section.query_selector("table") and section.query_selector("a[download]"), name
 
 
-def test_report_works_without_scripts_and_prints(browser, session, tmp_path):
-    page = browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
+def test_report_works_without_scripts_and_prints(flat_browser, session, tmp_path):
+    page = flat_browser.new_context(java_script_enabled=False, viewport={"width": 1280, "height": 900}).new_page()
     page.goto((session / "report.html").as_uri())
     assert page.locator("#flight svg.map").count() >= 4
     assert not page.is_visible("#moment") and not page.is_visible("#print"), "controls without a function must be hidden"
-    page, wrong = open_page(browser, session / "report.html", scheme="dark")
+    page, wrong = open_page(flat_browser, session / "report.html", scheme="dark")
     page.evaluate("() => { window.print = () => { window.prints = (window.prints || 0) + 1; }; }")
     page.click("#print")
     assert page.evaluate("window.prints") == 1

@@ -105,7 +105,7 @@ def test_wire_an_invalid_settings_file_is_reported_and_kept(screen, tmp_path):  
         window.stdin.write(json.dumps(OFFERS).encode() + b"\n")
         window.stdin.flush()
         # A message covers the lower edge of the page.
-        spandrel.wait_for("the start page", lambda: count(screen.photograph()[:200], NIGHT) > 100_000, LIMIT_S)
+        spandrel.wait_for("the start page", lambda: count(screen.photograph()[:200], NIGHT) > 100_000, LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         window.stdin.close()
         assert window.wait(timeout=LIMIT_S) == 0
     finally:

@@ -86,10 +86,11 @@ def test_wire_a_warning_is_spoken(screen, speakers, tmp_path):  # noqa: F811
     try:
         window, _ = open_view(screen, tmp_path, "--connect", f"127.0.0.1:{payload}", "--keys", str(keys), environment=speakers.environment())
         asking.connect(watcher)
-        spandrel.wait_for("a picture of the flight", lambda: screenshot_with_hud(screen), DRAW_LIMIT_S)
+        spandrel.wait_for("a picture of the flight", lambda: screenshot_with_hud(screen), DRAW_LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         assert len(recorded()) == 0, "there is nothing to say yet"
         spandrel.end(sim)
-        spandrel.wait_for("the words", lambda: likeness(recorded(), synthesized(WORDS)) > MIN_CORRELATION, SPEECH_LIMIT_S)
+        words = synthesized(WORDS)
+        spandrel.wait_for("the words", lambda: likeness(recorded(), words) > MIN_CORRELATION, SPEECH_LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         assert likeness(recorded(), synthesized("Too fast")) < MIN_CORRELATION, "other words must differ"
     finally:
         for process in filter(None, (window, sim)):

@@ -174,7 +174,7 @@ def test_flight_ordered_at_a_station_with_a_window_waits_for_the_briefing(server
         assert status == 303, text
 
     def wait_for_state(words):
-        spandrel.wait_for(words, lambda: words in desk.ask("/stations/now")[2], LIMIT_S)
+        spandrel.wait_for(words, lambda: words in desk.ask("/stations/now")[2], LIMIT_S, pause_s=0.2)
 
     try:
         start = training.wait_for_screenshot("start", is_start_page)

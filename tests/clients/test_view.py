@@ -61,7 +61,7 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
             "--profiles", str(tmp_path),
         )
         assert told["quality"] == "low" and (told["width"], told["height"]) == screen.size, told
-        (photograph,) = spandrel.wait_for("a screenshot with the HUD", lambda: screenshot_with_hud(screen), DRAW_LIMIT_S)
+        (photograph,) = spandrel.wait_for("a screenshot with the HUD", lambda: screenshot_with_hud(screen), DRAW_LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         height, width, _ = photograph.shape
         left, right = photograph[:, : width // 2], photograph[:, width // 2 :]
         assert brightness_deviation(left) > 10 and brightness_deviation(right) > 10, "no view may be blank"
@@ -84,9 +84,9 @@ def test_wire_window_shows_both_views_and_flies_with_keys(screen, tmp_path):
             again.if_due()
             return len(display.pixels_of(profile_of(screen.photograph()), YELLOW)) == 0
 
-        spandrel.wait_for("map and profile are hidden", hidden, DRAW_LIMIT_S)
+        spandrel.wait_for("map and profile are hidden", hidden, DRAW_LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
         screen.tap("Tab")
-        spandrel.wait_for("the camera view is the inset", lambda: camera_view_is_inset(screen), DRAW_LIMIT_S)
+        spandrel.wait_for("the camera view is the inset", lambda: camera_view_is_inset(screen), DRAW_LIMIT_S, pause_s=spandrel.LOOK_PAUSE_S)
 
         link = asking.connect(watcher)
         spandrel.wait_for("the vehicle is ready to arm", lambda: is_armable(link), DRAW_LIMIT_S)
