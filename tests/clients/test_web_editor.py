@@ -443,6 +443,14 @@ def test_wire_instructor_adds_and_removes_pictures_of_the_briefing(browser, serv
     assert anna.page.locator("#pictures figcaption").all_inner_texts() == ["The gate, seen from the road", "Begin at this pier"]
     anna.check()
     anna.save_screenshot("briefing-pictures")
+    anna.page.evaluate("() => { window.print = () => { window.prints = (window.prints || 0) + 1; }; }")
+    anna.page.click("#print")
+    assert anna.page.evaluate("window.prints") == 1
+    printed = anna.page.pdf(format="A4", print_background=True)
+    assert printed.startswith(b"%PDF") and printed.count(b"/Subtype /Image") >= 2, "the print must contain both pictures"
+    anna.page.emulate_media(media="print")
+    assert not anna.page.is_visible("#print") and not anna.page.is_visible("header.bar nav") and anna.page.is_visible("#check")
+    anna.page.emulate_media(media="screen")
     anna.go("/scenarios/with-pictures")
     assert anna.page.locator("#pictures").count() == 0
     # The editor shows both, and a copy has files of its own.

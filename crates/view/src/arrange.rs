@@ -92,6 +92,8 @@ const MAX_INSPECTOR_SHARE: f64 = 0.55;
 /// speed readout and left of the other readouts.
 const STATUS_TEXT_TOP: f64 = 0.145;
 const STATUS_TEXT_WIDTH: f64 = 0.6;
+/// Aspect ratio of the narrowest window whose camera view has room for the status text between the parts of the HUD.
+const MIN_STATUS_TEXT_ASPECT: f64 = 1.5;
 /// Largest share of the inspector's view for larger status text, below the button.
 const LARGE_TEXT_HEIGHT: f64 = 0.7;
 /// Height of the button in the inspector's view above its middle, relative to the window.
@@ -209,8 +211,8 @@ impl ViewLayout {
         }
     }
 
-    /// Returns the position of the status text in the window, which never overlaps the HUD warnings. With larger text, it is in
-    /// the inspector's view, because the HUD then fills the camera view. Beside the large map, it always is.
+    /// Returns the position of the status text in the window, which never overlaps the HUD. With larger text and in narrow windows, it
+    /// is in the inspector's view, because the HUD then fills the camera view. Beside the large map, it always is.
     #[must_use]
     pub fn words(self, shape: WindowShape, text_scale: TextScale) -> TextAnchor {
         let in_inspector = |inspector: ViewRect| TextAnchor {
@@ -221,7 +223,7 @@ impl ViewLayout {
             extends_down: false,
         };
         match self {
-            Self::Camera if text_scale != TextScale::Normal => {
+            Self::Camera if text_scale != TextScale::Normal || shape.window < MIN_STATUS_TEXT_ASPECT => {
                 let [_, inspector, _] = shape.with_instruments();
                 in_inspector(inspector)
             }

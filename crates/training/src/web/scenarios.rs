@@ -1,7 +1,8 @@
 //! Scenario list, scenario page and upload, and import of recorded flights.
 
 use super::access::{AccessLevel, Visitor};
-use super::layout::{ELEMENT, Notice, message, page, section, table, token, with_element};
+use super::assets::BRIEFING_NAME;
+use super::layout::{ELEMENT, Notice, message, page, page_with_script, section, table, token, with_element};
 use crate::briefing::Briefing;
 use crate::plan::level_settings;
 use crate::report::formatting;
@@ -210,9 +211,15 @@ pub fn briefing_page(
     (scenario, site): (&Scenario, &Site),
     pictures: &[Option<String>],
 ) -> Markup {
-    let contents = briefing_contents(briefing, (scenario, site), pictures, visitor.language);
-    let body = html! { p.lead { (briefing.title) } (contents) };
-    page(visitor, "/scenarios", &text!(visitor.language, "editor-briefing-title", name = briefing.job.as_str()), &body)
+    let language = visitor.language;
+    let body = html! {
+        p.lead { (briefing.title) }
+        // Works only with scripts, which show it.
+        button type="button" id="print" hidden { (text!(language, "report-print")) }
+        (briefing_contents(briefing, (scenario, site), pictures, language))
+    };
+    let title = text!(language, "editor-briefing-title", name = briefing.job.as_str());
+    page_with_script(visitor, "/scenarios", &title, Some(BRIEFING_NAME), &body)
 }
 
 /// Reason why a recording was not imported.

@@ -14,20 +14,23 @@ use spandrel_model::scenario::{DefectCause, PlacedDefect, Scenario, Stain, Stain
 use spandrel_model::time::SimTime;
 use spandrel_testkit::studio::{Studio, at, masonry_job, sunny_job};
 use spandrel_view::picture::Picture;
+use spandrel_view::scene::DefectPatch;
 use spandrel_view::scene::defects::{patch, stain_patch};
 use std::path::Path;
 
 /// Size of each picture, px.
 const PICTURE_PX: (u32, u32) = (300, 225);
 /// Condition states in a row.
-const STATES: [u8; 3] = [2, 3, 4];
+pub(super) const STATES: [u8; 3] = [2, 3, 4];
+/// Size of the defects in a row, between the smallest and the largest of their condition state.
+const MEDIUM: f64 = 0.5;
 /// Distance of the camera, m.
 const DISTANCE_M: f64 = 1.6;
 
 /// One row of the series.
-struct Series {
-    name: &'static str,
-    kind: u32,
+pub(super) struct Series {
+    pub(super) name: &'static str,
+    pub(super) kind: u32,
     /// Whether the kind is drawn as a pattern of cracks.
     is_map: bool,
     cause: DefectCause,
@@ -36,7 +39,7 @@ struct Series {
     down: bool,
     sight: (Vec3<Enu>, Vec3<Enu>),
     /// Width of the surface in the pictures, m.
-    width_m: f64,
+    pub(super) width_m: f64,
 }
 
 /// Returns a line of sight to the underside of the arch bridge's deck.
@@ -57,7 +60,7 @@ fn series((name, kind, cause): (&'static str, u32, DefectCause), sight: (Vec3<En
 }
 
 /// Returns the rows at the two bridges of steel and concrete.
-fn all_series() -> Vec<Series> {
+pub(super) fn all_series() -> Vec<Series> {
     let row = |name, kind, cause, width_m| {
         let sight = if kind < SPALL { girder_sight_line() } else { wall_sight_line() };
         series((name, kind, cause), sight, width_m)
@@ -81,7 +84,7 @@ fn all_series() -> Vec<Series> {
 }
 
 /// Returns the rows at the masonry arch bridge.
-fn masonry_series() -> Vec<Series> {
+pub(super) fn masonry_series() -> Vec<Series> {
     let row = |name, kind, cause, width_m| series((name, kind, cause), masonry_sight_line(kind), width_m);
     vec![row("mortar-breakdown", MORTAR, DefectCause::WaterLine, 1.9), row("split-stone", SPLIT_STONE, DefectCause::Frost, 1.0)]
 }
@@ -94,16 +97,17 @@ fn ranges(series: &Series, state: u8) -> SizeRanges {
     }
 }
 
-/// Returns a defect of medium size for its condition state where the line of sight hits the bridge.
-fn defect(studio: &Studio, series: &Series, condition_state: u8) -> PlacedDefect {
+/// Returns a defect where the line of sight hits the bridge. `share` is its size between the smallest (0) and the largest (1) of its
+/// condition state.
+pub(super) fn defect(studio: &Studio, series: &Series, condition_state: u8, share: f64) -> PlacedDefect {
     let (from, to) = series.sight;
     let ray = (to - from).unit();
     let hit = studio.site.ray(from, ray, 200.0, SimTime::ZERO).unwrap();
     let member = &studio.site.members()[hit.object.0 as usize];
     let level = if hit.normal.up() < -0.8 { at(0.0, 1.0, 0.0) } else { at(0.0, 0.0, 1.0).cross(hit.normal).unit() };
     let sizes = ranges(series, condition_state);
-    let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
-    let length_m = middle(sizes.length_m);
+    let between = |(low, high): (f64, f64)| low + share * (high - low);
+    let length_m = between(sizes.length_m);
     let line = is_line(series.kind) && !series.is_map;
     let stain = series.stain.map(|substance| Stain {
         substance,
@@ -123,28 +127,36 @@ fn defect(studio: &Studio, series: &Series, condition_state: u8) -> PlacedDefect
         normal: hit.normal,
         along: if series.down { level.cross(hit.normal).unit() } else { level },
         length_m,
-        width_m: middle(sizes.width) * if line { 1.0 } else { length_m },
+        width_m: between(sizes.width) * if line { 1.0 } else { length_m },
         line,
         cause: Some(series.cause),
         stain,
     }
 }
 
-/// Returns a picture of a defect with its stain, slightly from the side and from below; an underside is lit by the lamp.
-fn draw(studio: &mut Studio, series: &Series, defect: &PlacedDefect) -> Picture {
+/// Returns the drawings of a defect and its stain.
+pub(super) fn patches(studio: &Studio, defect: &PlacedDefect) -> Vec<DefectPatch> {
     let bundle = spandrel_model::site::light::ray_bundle(64);
     let cast = |o, d, max_m| studio.site.geometry().ray(o, d, max_m);
     let sun = studio.site.light().daylight(studio.at).sun;
     let (sky, bounced) = studio.site.light().indirect_fractions(defect.position_m, defect.normal, sun, &bundle, &cast);
     let light = [sky as f32, bounced as f32];
-    let patches: Vec<_> = stain_patch(defect, light).into_iter().chain([patch(defect, light)]).collect();
+    stain_patch(defect, light).into_iter().chain([patch(defect, light)]).collect()
+}
+
+/// Returns a picture of the place of a defect with these drawings, slightly from the side and from below; an underside is lit by the lamp.
+pub(super) fn draw(
+    studio: &mut Studio,
+    series: &Series,
+    (defect, patches): (&PlacedDefect, &[DefectPatch]),
+    size_px: (u32, u32),
+) -> Picture {
     let (gpu, renderer) = studio.renderer();
-    renderer.set_patches(gpu, &patches);
+    renderer.set_patches(gpu, patches);
     let aside = if defect.normal.up() < -0.8 { at(1.0, 0.0, 0.0) } else { at(0.0, 0.0, 1.0).cross(defect.normal).unit() };
     let out = (defect.normal + aside * 0.2 - at(0.0, 0.0, 0.1)).unit();
     let hfov_deg = 2.0 * math::atan(0.5 * series.width_m / DISTANCE_M).to_degrees();
-    let shot =
-        studio.seen(defect.position_m + out * DISTANCE_M, defect.position_m, hfov_deg, defect.normal.up() < -0.8, PICTURE_PX);
+    let shot = studio.seen(defect.position_m + out * DISTANCE_M, defect.position_m, hfov_deg, defect.normal.up() < -0.8, size_px);
     studio.draw(&shot)
 }
 
@@ -165,8 +177,9 @@ fn assert_states_differ_and_match(job: Scenario, rows: Vec<Series>) {
     let mut errors = Vec::new();
     for series in rows {
         let row = STATES.map(|state| {
-            let defect = defect(&studio, &series, state);
-            draw(&mut studio, &series, &defect)
+            let defect = defect(&studio, &series, state, MEDIUM);
+            let patches = patches(&studio, &defect);
+            draw(&mut studio, &series, (&defect, &patches), PICTURE_PX)
         });
         for pair in row.windows(2) {
             let found = difference(&pair[0], &pair[1]).unwrap();

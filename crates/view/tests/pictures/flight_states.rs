@@ -20,10 +20,9 @@ use spandrel_view::hud::lesson_words::how_to;
 use spandrel_view::hud::{self, DisplayStyle, Hud, LessonDisplay, MapPath, Obstacles};
 use std::path::Path;
 
-/// Size of one language's view in a committed picture, px.
+/// Sizes of one language's view in the committed pictures, px.
+const VIEWS_PX: [(&str, (u32, u32)); 3] = [("", VIEW_PX), ("-square", (480, 480)), ("-wide", (860, 360))];
 const VIEW_PX: (u32, u32) = (480, 360);
-/// Sizes of a square and a wide view of each state, which are committed in one language, in turn.
-const OTHER_PX: [(&str, (u32, u32)); 2] = [("square", (480, 480)), ("wide", (860, 360))];
 
 fn guidance(step: GuidanceStep, (distance_m, bearing_deg, up_m): (f64, f64, f64)) -> Guidance {
     Guidance {
@@ -124,17 +123,15 @@ fn regress_flight_states_look_as_committed_in_every_language() {
     let moment = studio.moment(at(-30.0, -9.0, 33.0), at(-30.0, 0.0, 32.5), false, Vec3::new(0.5, 0.0, 0.0));
     let album = std::env::var_os("SPANDREL_ALBUM");
     let mut problems = Vec::new();
-    for (number, (name, change)) in STATES.into_iter().enumerate() {
+    for (name, change) in STATES {
         let displays = Language::ALL.map(|language| display(&studio, language, change));
         let mut view = |hud: &Hud, size_px: (u32, u32)| {
             let shot = studio.stage().camera(&moment, size_px);
             studio.draw_with(&shot, &hud::layout_px(hud, (f64::from(size_px.0), f64::from(size_px.1))))
         };
-        let views = displays.each_ref().map(|hud| view(hud, VIEW_PX));
-        problems.extend(check_picture(&format!("flight-{name}"), &side_by_side(&views)).err());
-        let hud = &displays[number % displays.len()];
-        for (shape, size_px) in OTHER_PX {
-            problems.extend(check_picture(&format!("flight-{name}-{shape}"), &view(hud, size_px)).err());
+        for (shape, size_px) in VIEWS_PX {
+            let views = displays.each_ref().map(|hud| view(hud, size_px));
+            problems.extend(check_picture(&format!("flight-{name}{shape}"), &side_by_side(&views)).err());
         }
         for (hud, size_px) in album.iter().flat_map(|_| displays.iter().flat_map(|hud| ALBUM_PX.map(|size_px| (hud, size_px)))) {
             let file = format!("flight-{name}-{}-{}x{}.png", hud.style.language.tag(), size_px.0, size_px.1);

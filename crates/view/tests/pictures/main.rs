@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "test code")]
 #![allow(missing_docs, reason = "test code")]
 
+mod close_ups;
 mod compare;
 mod condition_states;
 mod contrast;

@@ -20,11 +20,9 @@ use spandrel_view::scene::LoadingStep;
 use std::net::SocketAddr;
 use std::path::Path;
 
-/// Sizes of the committed pictures, small, because there are many: the shape of most displays in every language, a square window in
-/// every language, and a very wide window in one language for each page, in turn.
-const COMMITTED_PX: (u32, u32) = (400, 226);
-const SQUARE_PX: (u32, u32) = (240, 240);
-const WIDE_PX: (u32, u32) = (420, 180);
+/// Sizes of the committed pictures, small, because there are many: the shape of most displays, a square window, and a very wide one.
+const COMMITTED_PX: [((u32, u32), &str); 3] = [(USUAL_PX, ""), ((240, 240), "-square"), ((420, 180), "-wide")];
+const USUAL_PX: (u32, u32) = (400, 226);
 /// Sizes of the album's pictures.
 pub(super) const ALBUM_PX: [(u32, u32); 4] = [(1280, 720), (1920, 1080), (3840, 2160), (900, 900)];
 /// Functions whose keys the pages mention.
@@ -293,7 +291,7 @@ fn pictured(language: Language) -> WindowFlow {
     flow.handle_message(ToWindow::Offers(options));
     flow.press(KeyPress::Enter);
     assert_eq!(flow.page(), Page::Briefing);
-    flow.scroll(100.0, f64::from(COMMITTED_PX.0) / f64::from(COMMITTED_PX.1));
+    flow.scroll(100.0, f64::from(USUAL_PX.0) / f64::from(USUAL_PX.1));
     flow
 }
 
@@ -331,13 +329,10 @@ fn regress_pages_look_as_committed_in_every_language_and_shape() {
     let mut overlay = Overlay::new(&gpu);
     let album = std::env::var_os("SPANDREL_ALBUM");
     let mut problems = Vec::new();
-    for (turn, language) in Language::ALL.into_iter().enumerate() {
-        for (number, (name, flow)) in pages(language).into_iter().enumerate() {
+    for language in Language::ALL {
+        for (name, flow) in pages(language) {
             let name = format!("page-{name}-{}", language.tag());
-            let is_wide_due = number % Language::ALL.len() == turn;
-            let shapes =
-                [(COMMITTED_PX, ""), (SQUARE_PX, "-square")].into_iter().chain(is_wide_due.then_some((WIDE_PX, "-wide")));
-            for (size_px, shape) in shapes {
+            for (size_px, shape) in COMMITTED_PX {
                 let picture = drawn(&gpu, &mut overlay, &flow, size_px);
                 problems.extend(check_picture(&format!("{name}{shape}"), &picture).err());
             }
