@@ -80,7 +80,7 @@ pub struct ViewPanes {
     /// Second device for the camera's view, if the window's own device is a software renderer.
     secondary: Option<SecondaryRenderer>,
     panes: BTreeMap<u8, ViewPane>,
-    /// The camera's picture that the second device renders.
+    /// The camera picture that the second device is rendering.
     begun: Option<BegunView>,
     /// The second device's last image.
     last_image: Option<Picture>,
@@ -107,7 +107,7 @@ pub struct ViewOptions<'a> {
     pub style: DisplayStyle,
 }
 
-/// What a frame of the views shows, and where.
+/// Inputs for rendering one frame of the views.
 #[derive(Clone, Copy)]
 pub struct ViewFrame<'a> {
     /// The window.
@@ -136,7 +136,7 @@ impl ViewFrame<'_> {
     }
 }
 
-/// A view that a second device renders.
+/// A view that the second device is rendering.
 struct BegunView {
     view_rect: ViewRect,
     size_px: (u32, u32),
@@ -222,8 +222,8 @@ impl ViewPanes {
         Ok(shown)
     }
 
-    /// Begins the camera's next picture on the second device, if there is one. The device renders it while the window shows
-    /// the last pictures and draws the inspector's next view, so that the processor's cores are never idle.
+    /// Starts rendering the camera's next picture on the second device, if there is one. The device renders it while the window shows
+    /// the last pictures and draws the inspector's next view, which keeps all cores busy.
     ///
     /// # Errors
     /// Returns an error if a device fails.
