@@ -20,8 +20,8 @@ const LONGEST_APPROACH: u64 = 500;
 
 /// When and how often the drone touches the surface.
 pub struct BumpPlan {
-    /// Tasks in which it does.
-    pub tasks: &'static [u32],
+    /// Condition under which it does.
+    pub condition: fn(&Hands) -> bool,
     /// Stick messages between two approaches.
     pub period: u64,
     /// Touches in each approach.
@@ -71,9 +71,7 @@ pub fn bump(hands: &mut Hands, axes: [f64; 4], plan: &BumpPlan) -> [f64; 4] {
 
 fn step(hands: &mut Hands, plan: &BumpPlan) {
     let (now, touching) = (hands.stick_messages, hands.drone.touching);
-    let is_due = plan.tasks.iter().any(|task| hands.flies_task(*task))
-        && now >= hands.bumps.waiting_since + plan.period
-        && hands.bumps.total < plan.total;
+    let is_due = (plan.condition)(hands) && now >= hands.bumps.waiting_since + plan.period && hands.bumps.total < plan.total;
     let bumps = &mut hands.bumps;
     let wait = |bumps: &mut Bumps| *bumps = Bumps { waiting_since: now, total: bumps.total, ..Bumps::default() };
     match bumps.phase {

@@ -57,7 +57,8 @@ const PUMPING_THROTTLE: i16 = 550;
 /// Stick messages after which the pilot comes home: 21 min, when 15% of the battery are left.
 const LATE_RETURN: u64 = 21 * 60 * STICK_RATE_HZ;
 /// The pilot bumps into the slab every 25 s.
-const BUMPS: BumpPlan = BumpPlan { tasks: &[SLAB], period: 25 * STICK_RATE_HZ, touches: 1, total: u32::MAX };
+const BUMPS: BumpPlan =
+    BumpPlan { condition: |hands| hands.flies_task(SLAB), period: 25 * STICK_RATE_HZ, touches: 1, total: u32::MAX };
 /// The jerky pilot moves the sticks once in this many stick messages: 1 s.
 const JERK: usize = 50;
 
@@ -224,10 +225,10 @@ pub const FURTHER: &[Unseen] = &[
             drills: &["drill-hover", "drill-framing"],
             also: &["drill-search"],
             tamper: |hands, message| {
-                delay_picture(hands, message, MOVING_ON)
-                    .into_iter()
-                    .map(|message| move_on_before_picture(hands, message))
-                    .collect()
+                before_picture(hands, message, MOVING_ON, |sticks| MANUAL_CONTROL_DATA {
+                    y: (FULL_STICK * MOVING_ON_STICK) as i16,
+                    ..sticks
+                })
             },
             ..NO_WEAKNESS
         },
@@ -242,7 +243,7 @@ pub const FURTHER: &[Unseen] = &[
             belief: see_surfaces_askew,
             ..NO_WEAKNESS
         },
-        action: action("defects whose pictures are too oblique", oblique, 1.0),
+        action: action("defects whose pictures are too oblique", |r| with_reason(r, "oblique"), 1.0),
     },
     Unseen {
         weakness: Weakness {
@@ -359,7 +360,7 @@ fn wander(job: &mut Scenario, kind: TaskKind) {
 }
 
 /// Returns a vector turned about a unit vector at right angles to it.
-fn turned(vector: Vec3<Enu>, about: Vec3<Enu>, angle_rad: f64) -> Vec3<Enu> {
+pub fn turned(vector: Vec3<Enu>, about: Vec3<Enu>, angle_rad: f64) -> Vec3<Enu> {
     let (sin, cos) = math::sin_cos(angle_rad);
     vector * cos + about.cross(vector) * sin
 }
@@ -371,14 +372,19 @@ fn see_surfaces_askew(job: &mut Scenario) {
     }
 }
 
-/// Moves the drone sideways while a picture is owed.
-fn move_on_before_picture(hands: &Hands, message: MavMessage) -> MavMessage {
-    match message {
-        MavMessage::MANUAL_CONTROL(sticks) if !hands.owed.is_empty() => {
-            MavMessage::MANUAL_CONTROL(MANUAL_CONTROL_DATA { y: (FULL_STICK * MOVING_ON_STICK) as i16, ..sticks })
-        }
+/// Holds back each picture for a number of stick messages, and changes the sticks until it is taken.
+pub fn before_picture(
+    hands: &mut Hands,
+    message: MavMessage,
+    by: u64,
+    change: fn(MANUAL_CONTROL_DATA) -> MANUAL_CONTROL_DATA,
+) -> Vec<MavMessage> {
+    let sent = delay_picture(hands, message, by);
+    let changed = sent.into_iter().map(|message| match message {
+        MavMessage::MANUAL_CONTROL(sticks) if !hands.owed.is_empty() => MavMessage::MANUAL_CONTROL(change(sticks)),
         other => other,
-    }
+    });
+    changed.collect()
 }
 
 fn switches_on(message: &MavMessage) -> bool {
@@ -411,11 +417,11 @@ fn move_in_jerks(hands: &mut Hands, axes: [f64; 4]) -> [f64; 4] {
     first
 }
 
-fn technique(record: &SessionRecord, id: u32) -> TaskTechnique {
+pub fn technique(record: &SessionRecord, id: u32) -> TaskTechnique {
     task(record, id).technique.unwrap()
 }
 
-fn framing_deg(record: &SessionRecord, id: u32) -> f64 {
+pub fn framing_deg(record: &SessionRecord, id: u32) -> f64 {
     technique(record, id).rms_framing_deg.unwrap()
 }
 
@@ -429,7 +435,8 @@ fn moving_pictures(record: &SessionRecord) -> f64 {
     record.technique.unwrap().moving_pictures.unwrap()
 }
 
-fn oblique(record: &SessionRecord) -> f64 {
+/// Returns the number of defects whose best picture lacks quality for a reason with these words.
+pub fn with_reason(record: &SessionRecord, words: &str) -> f64 {
     let reasons = record.defects.iter().map(|defect| defect.lacked.iter().chain(&defect.shortfalls));
-    reasons.filter(|of_one| of_one.clone().any(|reason| reason.contains("oblique"))).count() as f64
+    reasons.filter(|of_one| of_one.clone().any(|reason| reason.contains(words))).count() as f64
 }

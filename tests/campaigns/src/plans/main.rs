@@ -6,12 +6,14 @@ mod bumps;
 mod certification;
 mod flight;
 mod flights;
+mod fourth;
 mod further;
 mod table;
 mod unseen;
 mod weaknesses;
 
 use certification::{CERTIFICATION_FAULTS, CertificationTable};
+use fourth::FOURTH;
 use further::FURTHER;
 use spandrel_training::plan::{DEFAULT_RULES, PlanRules, read_rules};
 use table::{Flown, PlanTable, fly_job};
@@ -25,6 +27,8 @@ const SEED: u64 = 301;
 const UNSEEN_SEED: u64 = 401;
 /// First seed of the third set of faults.
 const FURTHER_SEED: u64 = 501;
+/// First seed of the fourth set of faults.
+const FOURTH_SEED: u64 = 701;
 
 /// Bounds on the plans of a set of flights.
 struct RequiredShares {
@@ -72,6 +76,12 @@ fn flight_plans_recommend_the_drill_for_further_faults() {
     println!("{}", plans_for_faults_of_another_author(FURTHER, FURTHER_SEED));
 }
 
+/// A fourth set, which covers the whole job evenly. The shares are measured, but not required.
+#[test]
+fn flight_plans_recommend_the_drill_for_a_fourth_set_of_faults() {
+    println!("{}", plans_for_faults_of_another_author(FOURTH, FOURTH_SEED));
+}
+
 fn plans_for_faults_of_another_author(faults: &'static [Unseen], first_seed: u64) -> PlanTable {
     let (rules, seeds) = (rules(), seeds(first_seed));
     let flown = fly_faults(faults, &seeds);
@@ -90,6 +100,12 @@ fn flight_unseen_faults_have_an_effect() {
 #[ignore = "the test of the plans flies the same flights and requires the same"]
 fn flight_further_faults_have_an_effect() {
     require_effects_of(FURTHER, FURTHER_SEED);
+}
+
+#[test]
+#[ignore = "the test of the plans flies the same flights and requires the same"]
+fn flight_fourth_set_of_faults_has_an_effect() {
+    require_effects_of(FOURTH, FOURTH_SEED);
 }
 
 fn require_effects_of(faults: &'static [Unseen], first_seed: u64) {

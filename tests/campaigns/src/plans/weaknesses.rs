@@ -45,7 +45,7 @@ const OVERLOOKED: u64 = 4;
 const MODERATE_YAW_NOISE: f64 = 1.2;
 /// A pilot who bumps into the bridge touches it three times every 18 s at 50 Hz in the interlayer, and 22 times in all. There, a contact
 /// takes the drone less than the threshold away from the path, so that the precision suffers little.
-const BUMPS: BumpPlan = BumpPlan { tasks: &[3], period: 900, touches: 3, total: 22 };
+const BUMPS: BumpPlan = BumpPlan { condition: |hands| hands.flies_task(3), period: 900, touches: 3, total: 22 };
 
 /// Motion of the drone, which some hands react to.
 #[derive(Debug, Clone, Copy)]
@@ -133,6 +133,16 @@ impl Hands {
         self.status == "landing"
     }
 
+    /// Returns whether the pilot flies between the tasks, to the first one or home.
+    pub fn in_transit(&self) -> bool {
+        self.status == "in transit"
+    }
+
+    /// Returns the height above the ground beside the landing pad, m.
+    pub fn height_m(&self) -> f64 {
+        self.drone.position_m.up() - self.pilot_m.up()
+    }
+
     /// Returns whether the pilot flies any task.
     pub fn in_task(&self) -> bool {
         self.status.starts_with("task ")
@@ -155,9 +165,19 @@ pub fn untouched(_: &mut Hands, message: MavMessage) -> Vec<MavMessage> {
 
 /// Changes the sticks while the pilot flies a task.
 pub fn with_sticks(hands: &mut Hands, message: MavMessage, change: fn(&mut Hands, [f64; 4]) -> [f64; 4]) -> Vec<MavMessage> {
+    with_sticks_while(hands, message, Hands::in_task, change)
+}
+
+/// Changes the sticks while a condition holds.
+pub fn with_sticks_while(
+    hands: &mut Hands,
+    message: MavMessage,
+    condition: fn(&Hands) -> bool,
+    change: fn(&mut Hands, [f64; 4]) -> [f64; 4],
+) -> Vec<MavMessage> {
     let MavMessage::MANUAL_CONTROL(sticks) = message else { return vec![message] };
     hands.stick_messages += 1;
-    if !hands.in_task() {
+    if !condition(hands) {
         return vec![MavMessage::MANUAL_CONTROL(sticks)];
     }
     let axes = [sticks.x, sticks.y, 2 * (sticks.z - 500), sticks.r].map(|axis| f64::from(axis) / FULL_STICK);
