@@ -25,12 +25,13 @@ const CREEP: f64 = 0.05;
 const TILT_RAD: f64 = 75.0 * math::PI / 180.0;
 /// The pilot drifts north from under the arch, by 7 m at the far end.
 const ASIDE: f64 = 0.075;
-/// The rushing pilot moves the sticks under the arch this many times as far. The drone then flies 5.7 m/s instead of 2.1 m/s; the
+/// The rushing pilot moves the sticks under the arch this many times as far. The drone reaches 7 to 8 m/s; the
 /// limit is 4.5 m/s.
 const RUSHING_FACTOR: f64 = 7.0;
 /// Distance from the middle of the arch bridge at which the pilot passes the gap outside, m: 4 m beside the deck.
 const OUTSIDE_GAP_M: f64 = 8.8;
-/// In the gap, the pilot pushes the stick to the left and to the right by this deflection, every 4 s: about 1.5 m to either side.
+/// In the gap, the pilot pushes the stick to the left and to the right by this deflection, every 4 s, and at times leaves
+/// the path, whose threshold is 1.75 m.
 const SWAY_STICK: f64 = 0.2;
 const SWAY_PERIOD: u64 = 4 * STICK_RATE_HZ;
 /// The pilot rises by 4.5 m on the side of the pier that is away from the pad.
